@@ -1,0 +1,57 @@
+# tabor_module(<name> SOURCES ... [DEPENDS modules...] [PUBLIC targets...] [PRIVATE targets...])
+#
+# One static library per folder of src/tabor. A module links the modules it names and nothing else,
+# so that the layer table of docs/architecture.md also holds at link time.
+function(tabor_module name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PUBLIC;PRIVATE" ${ARGN})
+  set(target tabor_${name})
+  if(ARG_SOURCES)
+    add_library(${target} STATIC ${ARG_SOURCES})
+    set(scope PUBLIC)
+    target_compile_options(${target} PRIVATE ${TABOR_COMPILE_OPTIONS})
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_link_libraries(${target} PRIVATE ${ARG_PRIVATE})
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(tabor::${name} ALIAS ${target})
+  set_property(GLOBAL APPEND PROPERTY TABOR_MODULES ${target})
+  target_compile_features(${target} ${scope} cxx_std_20)
+  target_include_directories(${target} ${scope}
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  list(TRANSFORM ARG_DEPENDS PREPEND tabor::)
+  target_link_libraries(${target} ${scope} ${ARG_DEPENDS} ${ARG_PUBLIC})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+endfunction()
+
+# tabor_test(<name> SOURCES ... LINK targets... [LABEL fast|slow])
+function(tabor_test name)
+  cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LINK" ${ARGN})
+  if(NOT ARG_LABEL)
+    set(ARG_LABEL fast)
+  endif()
+  add_executable(${name} ${ARG_SOURCES})
+  target_compile_options(${name} PRIVATE ${TABOR_COMPILE_OPTIONS})
+  target_compile_definitions(${name} PRIVATE
+    TABOR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TABOR_SHARED_SCANS="${PROJECT_SOURCE_DIR}/../shared/scans")
+  target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gmock_main)
+  gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} DISCOVERY_TIMEOUT 60)
+endfunction()
+
+set(TABOR_COMPILE_OPTIONS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  # gcc 12 reports its own AVX-512 intrinsics as uninitialised (gcc bug 105593).
+  list(APPEND TABOR_COMPILE_OPTIONS -Wno-maybe-uninitialized)
+endif()
+if(TABOR_WERROR)
+  list(APPEND TABOR_COMPILE_OPTIONS -Werror)
+endif()
+# No -ffast-math anywhere: NaN marks holes. -ffp-contract=off keeps results the same on every target.
+add_compile_options(-ffp-contract=off)
+if(TABOR_NATIVE)
+  add_compile_options(-march=native)
+endif()

@@ -1,0 +1,92 @@
+// The only file that knows OpenMP.
+#include "tabor/core/parallel.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <vector>
+
+namespace tabor {
+namespace {
+
+int requested_threads = 0;
+
+/// Runs body(0..n_blocks-1) on all threads; the first exception is rethrown after the loop, since
+/// OpenMP lets none escape from a parallel region.
+void for_each_block(Index n_blocks, const std::function<void(Index)>& body) {
+  if (n_blocks <= 1 || thread_count() == 1 || omp_in_parallel() != 0) {
+    for (Index block = 0; block < n_blocks; ++block) {
+      body(block);
+    }
+    return;
+  }
+  std::exception_ptr first_error;
+  std::mutex error_mutex;
+#pragma omp parallel for schedule(dynamic, 1) num_threads(thread_count())
+  for (Index block = 0; block < n_blocks; ++block) {
+    try {
+      body(block);
+    } catch (...) {
+      const std::lock_guard lock(error_mutex);
+      if (!first_error) {
+        first_error = std::current_exception();
+      }
+    }
+  }
+  if (first_error) {
+    std::rethrow_exception(first_error);
+  }
+}
+
+Index count_blocks(Index n, Index block) { return (n + block - 1) / block; }
+
+/// partial(begin, end) of every kBlock-sized block of [0, n), in block order.
+std::vector<double> block_values(Index n, const std::function<double(Index, Index)>& partial) {
+  std::vector<double> values(static_cast<std::size_t>(count_blocks(n, kBlock)));
+  for_each_block(static_cast<Index>(values.size()), [&](Index block) {
+    const Index begin = block * kBlock;
+    values[static_cast<std::size_t>(block)] = partial(begin, std::min(n, begin + kBlock));
+  });
+  return values;
+}
+
+}  // namespace
+
+void set_thread_count(int n) { requested_threads = std::max(0, n); }
+
+int thread_count() { return requested_threads > 0 ? requested_threads : omp_get_max_threads(); }
+
+void parallel_for(Index n, Index block, const std::function<void(Index, Index)>& body) {
+  for_each_block(count_blocks(n, block), [&](Index k) {
+    const Index begin = k * block;
+    body(begin, std::min(n, begin + block));
+  });
+}
+
+double deterministic_sum(Index n, const std::function<double(Index, Index)>& partial) {
+  double total = 0;
+  for (const double value : block_values(n, partial)) {
+    total += value;
+  }
+  return total;
+}
+
+double parallel_max(Index n, const std::function<double(Index, Index)>& partial) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const double value : block_values(n, partial)) {
+    largest = std::max(largest, value);
+  }
+  return largest;
+}
+
+double sum(const Field& field) {
+  const double* values = field.data();
+  return deterministic_sum(field.size(), [values](Index begin, Index end) {
+    return Eigen::Map<const Eigen::ArrayXd>(values + begin, end - begin).sum();
+  });
+}
+
+}  // namespace tabor

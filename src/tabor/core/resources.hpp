@@ -1,0 +1,25 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+
+namespace tabor {
+
+/// Largest resident memory of this process so far [bytes].
+std::size_t peak_memory_bytes();
+
+/// Memory this process could still take without swapping [bytes]; 0 if the system does not say.
+std::size_t available_memory_bytes();
+
+/// Seconds since construction (wall clock).
+class Stopwatch {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace tabor

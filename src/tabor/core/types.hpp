@@ -1,0 +1,32 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace tabor {
+
+using Index = Eigen::Index;
+
+/// A map sampled on a Grid: shape (ny, nx), row 0 is the top row, x (columns) is the fast axis and
+/// the sliding direction.
+using Field = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using FieldF = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// True where a pixel is selected (a hole, a contact pixel, ...); same layout as Field.
+using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// A cell-centred regular grid: nx * ny pixels cover lx * ly [m], extent = n * spacing.
+struct Grid {
+  Index nx = 0;
+  Index ny = 0;
+  double lx = 0;  ///< [m]
+  double ly = 0;  ///< [m]
+
+  double dx() const { return lx / static_cast<double>(nx); }
+  double dy() const { return ly / static_cast<double>(ny); }
+  double pixel_area() const { return dx() * dy(); }
+  double area() const { return lx * ly; }
+  Index size() const { return nx * ny; }
+  bool operator==(const Grid&) const = default;
+};
+
+}  // namespace tabor

@@ -1,0 +1,245 @@
+#include "tabor/core/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+
+namespace tabor {
+namespace {
+
+struct Unit {
+  std::string_view name;
+  double factor;
+  Dimension dimension;
+  bool takes_prefix;
+};
+
+constexpr double kDegree = 3.14159265358979323846 / 180;
+
+constexpr std::array kUnits{
+    Unit{"m", 1, {1, 0, 0, 0}, true},         Unit{"g", 1e-3, {0, 1, 0, 0}, true},
+    Unit{"s", 1, {0, 0, 1, 0}, true},         Unit{"K", 1, {0, 0, 0, 1}, true},
+    Unit{"Pa", 1, {-1, 1, -2, 0}, true},      Unit{"N", 1, {1, 1, -2, 0}, true},
+    Unit{"J", 1, {2, 1, -2, 0}, true},        Unit{"W", 1, {2, 1, -3, 0}, true},
+    Unit{"Hz", 1, {0, 0, -1, 0}, true},       Unit{"l", 1e-3, {3, 0, 0, 0}, true},
+    Unit{"L", 1e-3, {3, 0, 0, 0}, true},      Unit{"bar", 1e5, {-1, 1, -2, 0}, true},
+    Unit{"P", 0.1, {-1, 1, -1, 0}, true},     Unit{"St", 1e-4, {2, 0, -1, 0}, true},
+    Unit{"Å", 1e-10, {1, 0, 0, 0}, false},    Unit{"A", 1e-10, {1, 0, 0, 0}, false},
+    Unit{"Ang", 1e-10, {1, 0, 0, 0}, false},  Unit{"micron", 1e-6, {1, 0, 0, 0}, false},
+    Unit{"in", 0.0254, {1, 0, 0, 0}, false},  Unit{"inch", 0.0254, {1, 0, 0, 0}, false},
+    Unit{"min", 60, {0, 0, 1, 0}, false},     Unit{"h", 3600, {0, 0, 1, 0}, false},
+    Unit{"rad", 1, {0, 0, 0, 0}, false},      Unit{"deg", kDegree, {0, 0, 0, 0}, false},
+    Unit{"%", 0.01, {0, 0, 0, 0}, false},     Unit{"1", 1, {0, 0, 0, 0}, false},
+};
+
+struct Prefix {
+  std::string_view name;
+  double factor;
+};
+
+constexpr std::array kPrefixes{
+    Prefix{"f", 1e-15}, Prefix{"p", 1e-12},       Prefix{"n", 1e-9},        Prefix{"u", 1e-6},
+    Prefix{"µ", 1e-6},  Prefix{"\u03bc", 1e-6},   Prefix{"\xb5", 1e-6},     Prefix{"m", 1e-3},
+    Prefix{"c", 1e-2},  Prefix{"d", 1e-1},        Prefix{"k", 1e3},         Prefix{"M", 1e6},
+    Prefix{"G", 1e9},   Prefix{"T", 1e12},
+};
+
+/// Dimension names people read in messages, with the unit they usually write.
+struct NamedDimension {
+  Dimension dimension;
+  std::string_view usual_unit;
+};
+
+constexpr std::array kNamed{
+    NamedDimension{dimension::length, "um"},
+    NamedDimension{dimension::wavevector, "1/um"},
+    NamedDimension{dimension::pressure, "MPa"},
+    NamedDimension{dimension::areal_density, "g/m^2"},
+    NamedDimension{dimension::density, "kg/m^3"},
+    NamedDimension{dimension::speed, "mm/s"},
+    NamedDimension{dimension::viscosity, "Pa*s"},
+    NamedDimension{dimension::per_pressure, "1/Pa"},
+    NamedDimension{dimension::force, "N"},
+    NamedDimension{dimension::mass, "g"},
+    NamedDimension{dimension::time, "s"},
+    NamedDimension{dimension::temperature, "K"},
+};
+
+Dimension scaled(Dimension d, int power) {
+  return {d.metre * power, d.kilogram * power, d.second * power, d.kelvin * power};
+}
+
+Dimension added(Dimension a, Dimension b) {
+  return {a.metre + b.metre, a.kilogram + b.kilogram, a.second + b.second, a.kelvin + b.kelvin};
+}
+
+/// One unit name, with or without a prefix, without a power.
+std::optional<Quantity> find_unit(std::string_view name) {
+  for (const Unit& unit : kUnits) {
+    if (name == unit.name) {
+      return Quantity{unit.factor, unit.dimension};
+    }
+  }
+  for (const Prefix& prefix : kPrefixes) {
+    if (!name.starts_with(prefix.name)) {
+      continue;
+    }
+    const std::string_view stem = name.substr(prefix.name.size());
+    for (const Unit& unit : kUnits) {
+      if (unit.takes_prefix && stem == unit.name) {
+        return Quantity{prefix.factor * unit.factor, unit.dimension};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+/// "m^2", "m2", "s^-1", "m²": a unit and its integer power.
+std::optional<Quantity> find_power(std::string_view factor) {
+  int power = 1;
+  std::string_view name = factor;
+  if (name.ends_with("²") || name.ends_with("³")) {
+    power = name.ends_with("²") ? 2 : 3;
+    name.remove_suffix(std::string_view("²").size());
+  } else if (const std::size_t digits = name.find_first_of("^-0123456789");
+             digits != std::string_view::npos && digits > 0) {
+    const std::string_view exponent = name.substr(digits + (name[digits] == '^' ? 1 : 0));
+    const auto [end, error] =
+        std::from_chars(exponent.data(), exponent.data() + exponent.size(), power);
+    if (error != std::errc{} || end != exponent.data() + exponent.size()) {
+      return std::nullopt;
+    }
+    name = name.substr(0, digits);
+  }
+  const auto unit = find_unit(name);
+  if (!unit) {
+    return std::nullopt;
+  }
+  return Quantity{std::pow(unit->value, power), scaled(unit->dimension, power)};
+}
+
+/// "g/m^2", "Pa s", "Pa*s", "1/Pa", "kg m^-3": factors left to right, one '/' inverts what follows it
+/// directly. On failure `culprit` holds the factor that is not a unit.
+std::optional<Quantity> find_expression(std::string_view expression, std::string& culprit) {
+  Quantity result{1, {}};
+  int sign = 1;
+  std::size_t begin = 0;
+  while (begin < expression.size()) {
+    const std::size_t end = std::min(expression.find_first_of(" */", begin), expression.size());
+    const std::string_view factor = expression.substr(begin, end - begin);
+    if (!factor.empty()) {
+      const auto unit = find_power(factor);
+      if (!unit) {
+        culprit = std::string(factor);
+        return std::nullopt;
+      }
+      result.value = sign > 0 ? result.value * unit->value : result.value / unit->value;
+      result.dimension = added(result.dimension, scaled(unit->dimension, sign));
+      sign = 1;
+    }
+    if (end < expression.size() && expression[end] == '/') {
+      sign = -1;
+    }
+    begin = end + 1;
+  }
+  return result;
+}
+
+/// Splits "7e6Pa" into the longest number at its start and the rest.
+std::optional<double> take_number(std::string_view& text) {
+  if (text.starts_with('+')) {
+    text.remove_prefix(1);
+  }
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{}) {
+    return std::nullopt;
+  }
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return value;
+}
+
+}  // namespace
+
+Quantity parse_quantity(std::string_view text) {
+  std::string_view rest = trim(text);
+  const auto number = take_number(rest);
+  if (!number || !std::isfinite(*number)) {
+    throw InputError(fmt::format("'{}' does not start with a finite number", text));
+  }
+  std::string culprit;
+  const auto unit = find_expression(trim(rest), culprit);
+  if (!unit) {
+    throw InputError(fmt::format("'{}': unknown unit '{}'", text, culprit));
+  }
+  return {*number * unit->value, unit->dimension};
+}
+
+double parse_si(std::string_view text, Dimension expected, std::string_view name) {
+  Quantity quantity;
+  try {
+    quantity = parse_quantity(text);
+  } catch (const InputError& error) {
+    throw InputError(std::string(name), error.what(),
+                     "a value like " + std::string(name) + " 1" + usual_unit(expected), "");
+  }
+  if (quantity.dimension == expected) {
+    return quantity.value;
+  }
+  if (quantity.dimension == dimension::none) {
+    throw InputError(std::string(name), fmt::format("'{}' without a unit", trim(text)), "",
+                     fmt::format("write it with its unit, for example {} {}{}", name, trim(text),
+                                 usual_unit(expected)));
+  }
+  throw InputError(std::string(name), fmt::format("'{}', whose unit does not fit", trim(text)),
+                   expected == dimension::none ? std::string("a plain number")
+                                               : "a unit such as " + usual_unit(expected),
+                   "");
+}
+
+std::vector<double> parse_si_list(std::string_view text, Dimension expected,
+                                  std::string_view name) {
+  std::vector<double> values;
+  for (const std::string& part : split(text, ',')) {
+    values.push_back(parse_si(part, expected, name));
+  }
+  return values;
+}
+
+std::optional<double> unit_factor(std::string_view unit, Dimension expected) {
+  std::string culprit;
+  const auto found = find_expression(trim(unit), culprit);
+  if (!found || found->dimension != expected) {
+    return std::nullopt;
+  }
+  return found->value;
+}
+
+std::string format_si(double value, std::string_view si_unit, int significant_digits) {
+  constexpr std::array<std::string_view, 9> prefixes{"f", "p", "n", "µ", "m", "", "k", "M", "G"};
+  constexpr int plain = 5;
+  int step = 0;
+  if (value != 0 && std::isfinite(value)) {
+    step = static_cast<int>(std::floor(std::log10(std::abs(value)) / 3 + 1e-12));
+    step = std::clamp(step, -plain, static_cast<int>(prefixes.size()) - 1 - plain);
+  }
+  return fmt::format("{:.{}g} {}{}", value * std::pow(1000.0, -step), significant_digits,
+                     prefixes[static_cast<std::size_t>(step + plain)], si_unit);
+}
+
+std::string usual_unit(Dimension dimension) {
+  for (const NamedDimension& named : kNamed) {
+    if (named.dimension == dimension) {
+      return std::string(named.usual_unit);
+    }
+  }
+  return "";
+}
+
+}  // namespace tabor

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tabor {
+
+/// Exponents of the SI base units a quantity is made of.
+struct Dimension {
+  int metre = 0;
+  int kilogram = 0;
+  int second = 0;
+  int kelvin = 0;
+  bool operator==(const Dimension&) const = default;
+};
+
+namespace dimension {
+inline constexpr Dimension none{};
+inline constexpr Dimension length{1, 0, 0, 0};
+inline constexpr Dimension wavevector{-1, 0, 0, 0};
+inline constexpr Dimension pressure{-1, 1, -2, 0};
+inline constexpr Dimension areal_density{-2, 1, 0, 0};
+inline constexpr Dimension density{-3, 1, 0, 0};
+inline constexpr Dimension speed{1, 0, -1, 0};
+inline constexpr Dimension viscosity{-1, 1, -1, 0};
+inline constexpr Dimension per_pressure{1, -1, 2, 0};
+inline constexpr Dimension force{1, 1, -2, 0};
+inline constexpr Dimension mass{0, 1, 0, 0};
+inline constexpr Dimension time{0, 0, 1, 0};
+inline constexpr Dimension temperature{0, 0, 0, 1};
+}  // namespace dimension
+
+struct Quantity {
+  double value = 0;  ///< SI
+  Dimension dimension;
+};
+
+/// "0.45 g/m^2", "7MPa", "1.5e-8 1/Pa", "0.1 Pa s", "5 mm/s", "0.33" -> SI value and dimension.
+/// Throws InputError naming the part that was not understood.
+Quantity parse_quantity(std::string_view text);
+
+/// The SI value of `text`, which must have the expected dimension. `name` is the option or key the
+/// text came from, e.g. "--pressure"; the message shows the corrected form ("--pressure 7MPa").
+double parse_si(std::string_view text, Dimension expected, std::string_view name);
+
+/// Comma-separated values, each with its own unit ("2MPa,7MPa"); throws on an empty list.
+std::vector<double> parse_si_list(std::string_view text, Dimension expected, std::string_view name);
+
+/// Factor that turns a number in `unit` ("um", "µm", "nm", "Å", "mm", "m", ...) into SI, if `unit`
+/// is known and has that dimension. For readers of instrument files.
+std::optional<double> unit_factor(std::string_view unit, Dimension expected);
+
+/// Engineering form for people: format_si(6.7e-7, "m") = "670 nm", format_si(7e6, "Pa") = "7 MPa".
+std::string format_si(double value, std::string_view si_unit, int significant_digits = 4);
+
+/// A unit that values of this dimension are usually given in, for messages ("MPa", "um", "g/m^2").
+std::string usual_unit(Dimension dimension);
+
+}  // namespace tabor
