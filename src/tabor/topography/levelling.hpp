@@ -1,0 +1,40 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "tabor/topography/topography.hpp"
+
+namespace tabor::topography {
+
+/// The form that levelling removes: a polynomial of total degree 0 to 4 in x and y
+/// (poly2 has the six terms 1, x, y, x^2, xy, y^2). `none` leaves the heights alone.
+enum class Form { none, mean, plane, poly2, poly3, poly4 };
+
+/// "plane" -> Form::plane; nullopt if there is no such form.
+std::optional<Form> form_from(std::string_view name);
+std::string_view name_of(Form form);
+
+/// A least-squares polynomial in products of Legendre polynomials P_i(u) P_j(v), i + j <= degree,
+/// with u, v in [-1, 1] over the scan. That basis is nearly orthogonal, so that the normal
+/// equations are well conditioned at any scan size and unit.
+struct FormFit {
+  static constexpr int kMaxTerms = 15;
+  int degree = 0;
+  std::array<double, kMaxTerms> coefficients{};  ///< [m], by rising degree, x first
+  Index n_valid = 0;                             ///< points the fit used
+
+  int n_terms() const { return (degree + 1) * (degree + 2) / 2; }
+};
+
+/// Fits the form to all valid points. Throws InputError when they do not determine it.
+FormFit fit_form(const Field& height, int degree);
+
+/// height minus the fitted form; holes stay holes.
+Field remove_form(const Field& height, const FormFit& fit);
+
+/// F-operator (ISO 25178-3): the topography without its form, with a line in the history.
+Topography level(Topography topography, Form form);
+
+}  // namespace tabor::topography

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tabor/topography/topography.hpp"
+
+namespace tabor::topography {
+
+/// Normalisation of a power spectral density; q = 2 pi / wavelength throughout.
+/// jacobs (Jacobs, Junge & Pastewka 2017): <z^2> = (1/pi) int_0^inf C1D dq = (2 pi)^-2 int C2D d^2q
+/// persson: <z^2> = int_-inf^inf C1D dq = int C2D d^2q, i.e. C1D / (2 pi), C2D / (4 pi^2)
+/// gwyddion: C1D as persson (W1); radial W(q) = 2 pi q C2D(persson), <z^2> = int_0^inf W dq [m^3]
+enum class PsdConvention { jacobs, persson, gwyddion };
+enum class PsdWindow { none, hann };
+
+std::optional<PsdConvention> psd_convention_from(std::string_view name);
+std::optional<PsdWindow> psd_window_from(std::string_view name);
+std::string_view name_of(PsdConvention convention);
+std::string_view name_of(PsdWindow window);
+
+struct PsdOptions {
+  PsdConvention convention = PsdConvention::jacobs;
+  std::optional<PsdWindow> window;  ///< default: none for a periodic surface, else hann
+  std::optional<double> fit_q_min;  ///< [rad/m], default: found roll-off or 4 bins from zero
+  std::optional<double> fit_q_max;  ///< [rad/m], default: half the Nyquist wavevector
+};
+
+/// Least-squares slope of log density against log q, over logarithmically spaced bins.
+struct HurstFit {
+  double hurst = 0;           ///< H of C1D ~ q^-(1+2H), C2D ~ q^-(2+2H); NaN if fewer than 3 bins
+  double standard_error = 0;  ///< of hurst, from the scatter about the line
+  double q_min = 0;           ///< [rad/m], range used
+  double q_max = 0;
+  int n_bins = 0;
+};
+
+/// One density over q > 0; the q = 0 bin (the mean) is left out.
+struct Spectrum {
+  std::vector<double> q;        ///< [rad/m], rising
+  std::vector<double> density;  ///< in `unit`, the convention's
+  std::string unit;             ///< "m^3" or "m^4"
+  HurstFit hurst;
+  double rms_height = 0;  ///< [m], from the density alone
+  double rms_slope = 0;   ///< 1D: of profiles along that axis, spectral derivative
+};
+
+struct PowerSpectra {
+  PsdConvention convention = PsdConvention::jacobs;
+  PsdWindow window = PsdWindow::none;
+  Spectrum x;              ///< C1D of rows, averaged over rows
+  Spectrum y;              ///< C1D of columns, averaged over columns
+  Spectrum radial;         ///< C2D averaged over rings of width 2 pi / max(lx, ly)
+  double rms_height = 0;   ///< [m], from the full two-dimensional sum (after windowing)
+  double rms_slope = 0;    ///< areal, spectral derivative, from the two-dimensional sum
+  double window_gain = 1;  ///< variance after windowing / before, of this realisation
+};
+
+/// Spectra of the heights about their mean. Level before (the window does not replace it). Throws
+/// InputError when there are holes, naming `--fill harmonic`.
+PowerSpectra power_spectra(const Topography& topography, const PsdOptions& options = {});
+
+/// Fits H to a density that falls as q^-(offset + 2 H); offset 1 for C1D, 2 for C2D.
+HurstFit fit_hurst(const std::vector<double>& q, const std::vector<double>& density, double offset,
+                   double q_min, double q_max);
+
+}  // namespace tabor::topography
