@@ -14,7 +14,8 @@ int thread_count();
 /// Blocks are the same whatever the thread count; loops of a single block run serially.
 void parallel_for(Index n, Index block, const std::function<void(Index begin, Index end)>& body);
 
-/// Sum of partial(begin, end) over fixed blocks, added in block order: same bits for any thread count.
+/// Sum of partial(begin, end) over fixed blocks, added in block order: same bits for any thread
+/// count.
 double deterministic_sum(Index n, const std::function<double(Index begin, Index end)>& partial);
 
 /// Largest partial(begin, end) over blocks; -infinity for n = 0.

@@ -23,19 +23,19 @@ struct Unit {
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
 constexpr std::array kUnits{
-    Unit{"m", 1, {1, 0, 0, 0}, true},         Unit{"g", 1e-3, {0, 1, 0, 0}, true},
-    Unit{"s", 1, {0, 0, 1, 0}, true},         Unit{"K", 1, {0, 0, 0, 1}, true},
-    Unit{"Pa", 1, {-1, 1, -2, 0}, true},      Unit{"N", 1, {1, 1, -2, 0}, true},
-    Unit{"J", 1, {2, 1, -2, 0}, true},        Unit{"W", 1, {2, 1, -3, 0}, true},
-    Unit{"Hz", 1, {0, 0, -1, 0}, true},       Unit{"l", 1e-3, {3, 0, 0, 0}, true},
-    Unit{"L", 1e-3, {3, 0, 0, 0}, true},      Unit{"bar", 1e5, {-1, 1, -2, 0}, true},
-    Unit{"P", 0.1, {-1, 1, -1, 0}, true},     Unit{"St", 1e-4, {2, 0, -1, 0}, true},
-    Unit{"Å", 1e-10, {1, 0, 0, 0}, false},    Unit{"A", 1e-10, {1, 0, 0, 0}, false},
-    Unit{"Ang", 1e-10, {1, 0, 0, 0}, false},  Unit{"micron", 1e-6, {1, 0, 0, 0}, false},
-    Unit{"in", 0.0254, {1, 0, 0, 0}, false},  Unit{"inch", 0.0254, {1, 0, 0, 0}, false},
-    Unit{"min", 60, {0, 0, 1, 0}, false},     Unit{"h", 3600, {0, 0, 1, 0}, false},
-    Unit{"rad", 1, {0, 0, 0, 0}, false},      Unit{"deg", kDegree, {0, 0, 0, 0}, false},
-    Unit{"%", 0.01, {0, 0, 0, 0}, false},     Unit{"1", 1, {0, 0, 0, 0}, false},
+    Unit{"m", 1, {1, 0, 0, 0}, true},        Unit{"g", 1e-3, {0, 1, 0, 0}, true},
+    Unit{"s", 1, {0, 0, 1, 0}, true},        Unit{"K", 1, {0, 0, 0, 1}, true},
+    Unit{"Pa", 1, {-1, 1, -2, 0}, true},     Unit{"N", 1, {1, 1, -2, 0}, true},
+    Unit{"J", 1, {2, 1, -2, 0}, true},       Unit{"W", 1, {2, 1, -3, 0}, true},
+    Unit{"Hz", 1, {0, 0, -1, 0}, true},      Unit{"l", 1e-3, {3, 0, 0, 0}, true},
+    Unit{"L", 1e-3, {3, 0, 0, 0}, true},     Unit{"bar", 1e5, {-1, 1, -2, 0}, true},
+    Unit{"P", 0.1, {-1, 1, -1, 0}, true},    Unit{"St", 1e-4, {2, 0, -1, 0}, true},
+    Unit{"Å", 1e-10, {1, 0, 0, 0}, false},   Unit{"A", 1e-10, {1, 0, 0, 0}, false},
+    Unit{"Ang", 1e-10, {1, 0, 0, 0}, false}, Unit{"micron", 1e-6, {1, 0, 0, 0}, false},
+    Unit{"in", 0.0254, {1, 0, 0, 0}, false}, Unit{"inch", 0.0254, {1, 0, 0, 0}, false},
+    Unit{"min", 60, {0, 0, 1, 0}, false},    Unit{"h", 3600, {0, 0, 1, 0}, false},
+    Unit{"rad", 1, {0, 0, 0, 0}, false},     Unit{"deg", kDegree, {0, 0, 0, 0}, false},
+    Unit{"%", 0.01, {0, 0, 0, 0}, false},    Unit{"1", 1, {0, 0, 0, 0}, false},
 };
 
 struct Prefix {
@@ -44,9 +44,9 @@ struct Prefix {
 };
 
 constexpr std::array kPrefixes{
-    Prefix{"f", 1e-15}, Prefix{"p", 1e-12},       Prefix{"n", 1e-9},        Prefix{"u", 1e-6},
-    Prefix{"µ", 1e-6},  Prefix{"\u03bc", 1e-6},   Prefix{"\xb5", 1e-6},     Prefix{"m", 1e-3},
-    Prefix{"c", 1e-2},  Prefix{"d", 1e-1},        Prefix{"k", 1e3},         Prefix{"M", 1e6},
+    Prefix{"f", 1e-15}, Prefix{"p", 1e-12},     Prefix{"n", 1e-9},    Prefix{"u", 1e-6},
+    Prefix{"µ", 1e-6},  Prefix{"\u03bc", 1e-6}, Prefix{"\xb5", 1e-6}, Prefix{"m", 1e-3},
+    Prefix{"c", 1e-2},  Prefix{"d", 1e-1},      Prefix{"k", 1e3},     Prefix{"M", 1e6},
     Prefix{"G", 1e9},   Prefix{"T", 1e12},
 };
 
@@ -57,18 +57,12 @@ struct NamedDimension {
 };
 
 constexpr std::array kNamed{
-    NamedDimension{dimension::length, "um"},
-    NamedDimension{dimension::wavevector, "1/um"},
-    NamedDimension{dimension::pressure, "MPa"},
-    NamedDimension{dimension::areal_density, "g/m^2"},
-    NamedDimension{dimension::density, "kg/m^3"},
-    NamedDimension{dimension::speed, "mm/s"},
-    NamedDimension{dimension::viscosity, "Pa*s"},
-    NamedDimension{dimension::per_pressure, "1/Pa"},
-    NamedDimension{dimension::force, "N"},
-    NamedDimension{dimension::mass, "g"},
-    NamedDimension{dimension::time, "s"},
-    NamedDimension{dimension::temperature, "K"},
+    NamedDimension{dimension::length, "um"},      NamedDimension{dimension::wavevector, "1/um"},
+    NamedDimension{dimension::pressure, "MPa"},   NamedDimension{dimension::areal_density, "g/m^2"},
+    NamedDimension{dimension::density, "kg/m^3"}, NamedDimension{dimension::speed, "mm/s"},
+    NamedDimension{dimension::viscosity, "Pa*s"}, NamedDimension{dimension::per_pressure, "1/Pa"},
+    NamedDimension{dimension::force, "N"},        NamedDimension{dimension::mass, "g"},
+    NamedDimension{dimension::time, "s"},         NamedDimension{dimension::temperature, "K"},
 };
 
 Dimension scaled(Dimension d, int power) {
@@ -124,8 +118,8 @@ std::optional<Quantity> find_power(std::string_view factor) {
   return Quantity{std::pow(unit->value, power), scaled(unit->dimension, power)};
 }
 
-/// "g/m^2", "Pa s", "Pa*s", "1/Pa", "kg m^-3": factors left to right, one '/' inverts what follows it
-/// directly. On failure `culprit` holds the factor that is not a unit.
+/// "g/m^2", "Pa s", "Pa*s", "1/Pa", "kg m^-3": factors left to right, one '/' inverts what follows
+/// it directly. On failure `culprit` holds the factor that is not a unit.
 std::optional<Quantity> find_expression(std::string_view expression, std::string& culprit) {
   Quantity result{1, {}};
   int sign = 1;

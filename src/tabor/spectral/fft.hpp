@@ -1,0 +1,90 @@
+#pragma once
+
+#include <complex>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "tabor/core/types.hpp"
+
+namespace tabor::spectral {
+
+/// Smallest n' >= n whose prime factors are 2, 3, 5 and 7 only: such sizes transform fastest.
+Index good_fft_size(Index n);
+
+/// Largest prime factor of n (1 for n = 1).
+Index largest_prime_factor(Index n);
+
+/// Angular wavevector [rad/m] of frequency index k of n samples over `length` [m]: 2 pi k / length
+/// for k <= n/2, 2 pi (k - n) / length above.
+double wavevector(Index k, Index n, double length);
+
+/// Fills values[ky], ky = 0 .. ny/2, with the factor of frequency (kx, ky); the factor of (kx, -ky)
+/// is the same. Called from several threads.
+template <typename Real>
+using Multiplier = std::function<void(Index kx, std::span<Real> values)>;
+
+/// Two-dimensional FFT of real maps of shape (ny, nx) to half spectra of shape (ny, nx/2 + 1).
+///
+/// Rows and columns are transformed one by one with the same one-dimensional plans, so that the
+/// result has the same bits for any thread count. The forward transform is not normalised; the
+/// inverse divides by nx * ny. Real is float or double. Cheap to construct; safe to use from
+/// several threads once constructed.
+template <typename Real>
+class RealFft2d {
+ public:
+  using Complex = std::complex<Real>;
+
+  RealFft2d(Index ny, Index nx);
+  ~RealFft2d();
+  RealFft2d(RealFft2d&&) noexcept;
+  RealFft2d& operator=(RealFft2d&&) noexcept;
+
+  Index ny() const;
+  Index nx() const;
+  Index spectrum_columns() const { return nx() / 2 + 1; }
+
+  void forward(const Real* map, Complex* spectrum) const;
+  void inverse(Complex* spectrum, Real* map) const;  ///< overwrites the spectrum
+
+ private:
+  struct Plans;
+  std::unique_ptr<Plans> plans_;
+};
+
+/// Convolution of maps by a real, ky-symmetric spectral multiplier, in one sweep over the columns:
+/// out = F^-1 [ multiplier F [in] ]. With padding, the map is the top left (ny, nx) corner of a
+/// zero map of shape (2 ny, 2 nx), of which the same corner is returned: a non-periodic
+/// convolution. Scratch memory is (nx/2 + 1) * ny complex values (twice that with padding).
+template <typename Real>
+class Convolution {
+ public:
+  enum class Padding { none, zero };
+
+  Convolution(Index ny, Index nx, Padding padding = Padding::none);
+  ~Convolution();
+  Convolution(Convolution&&) noexcept;
+  Convolution& operator=(Convolution&&) noexcept;
+
+  /// in and out have shape (ny, nx) and may be the same. Not safe for concurrent calls.
+  void apply(const Real* in, const Multiplier<Real>& multiplier, Real* out);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// One-dimensional transform of every row: spectrum of shape (ny, nx/2 + 1), not normalised.
+void forward_rows(
+    const Field& map,
+    Eigen::Array<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& spectrum);
+
+/// FFTW's measured plans: faster transforms, once measured. Loading makes every later plan use
+/// them; plans without stored wisdom are estimated, so that two runs with the same file give the
+/// same bits.
+void load_wisdom(const std::filesystem::path& file);
+/// Measures plans for maps of this shape (seconds to minutes) and stores everything known.
+void measure_wisdom(Index ny, Index nx, const std::filesystem::path& file);
+
+}  // namespace tabor::spectral
