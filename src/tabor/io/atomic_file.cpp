@@ -1,0 +1,157 @@
+#include "tabor/io/atomic_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+#include <utility>
+
+#include "tabor/core/error.hpp"
+
+namespace tabor::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kSuffix = ".tabor-tmp";
+
+[[noreturn]] void fail(const fs::path& file, const std::string& action, int error) {
+  throw OutputError(file.string() + ": cannot " + action + ": " + std::strerror(error));
+}
+
+/// A file descriptor that closes itself.
+class Descriptor {
+ public:
+  Descriptor(const fs::path& path, int flags) : value_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  ~Descriptor() {
+    if (value_ >= 0) {
+      ::close(value_);
+    }
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int value() const { return value_; }
+  bool is_open() const { return value_ >= 0; }
+  /// close() may report a delayed write error, so it is asked for it once.
+  bool close() { return ::close(std::exchange(value_, -1)) == 0; }
+
+ private:
+  int value_;
+};
+
+/// Unique in this process and, by the process number, on this machine.
+fs::path temporary_name(const fs::path& file) {
+  static std::atomic<unsigned> counter{0};
+  const std::string unique = std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  return file.parent_path() / ("." + file.filename().string() + "." + unique + std::string(kSuffix));
+}
+
+void write_all(int descriptor, std::span<const std::byte> bytes, const fs::path& file) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) {
+      continue;
+    }
+    if (written < 0) {
+      fail(file, "write", errno);
+    }
+    bytes = bytes.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+}  // namespace
+
+TemporaryFile::TemporaryFile(fs::path file)
+    : file_(std::move(file)), temporary_(temporary_name(file_)) {
+  const Descriptor descriptor(temporary_, O_WRONLY | O_CREAT | O_EXCL);
+  if (!descriptor.is_open()) {
+    fail(file_, "write", errno);
+  }
+  if (fs::is_directory(file_)) {
+    ::unlink(temporary_.c_str());
+    fail(file_, "write", EISDIR);
+  }
+}
+
+TemporaryFile::~TemporaryFile() {
+  if (!temporary_.empty()) {
+    ::unlink(temporary_.c_str());
+  }
+}
+
+void TemporaryFile::commit() {
+  Descriptor descriptor(temporary_, O_RDONLY);
+  if (!descriptor.is_open() || ::fsync(descriptor.value()) != 0 || !descriptor.close()) {
+    fail(file_, "write", errno);
+  }
+  if (::rename(temporary_.c_str(), file_.c_str()) != 0) {
+    fail(file_, "write", errno);
+  }
+  temporary_.clear();
+  // The new name itself lives in the folder. A folder that cannot be synchronised (some network
+  // file systems) is no reason to call a written file lost.
+  const fs::path folder = file_.parent_path();
+  const Descriptor directory(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY);
+  if (directory.is_open()) {
+    ::fsync(directory.value());
+  }
+}
+
+bool is_temporary_name(const fs::path& file) {
+  const std::string name = file.filename().string();
+  return name.starts_with('.') && name.ends_with(kSuffix);
+}
+
+void write_file(const fs::path& file, std::span<const std::byte> bytes) {
+  TemporaryFile temporary(file);
+  {
+    Descriptor descriptor(temporary.path(), O_WRONLY | O_TRUNC);
+    if (!descriptor.is_open()) {
+      fail(file, "write", errno);
+    }
+    write_all(descriptor.value(), bytes, file);
+    if (!descriptor.close()) {
+      fail(file, "write", errno);
+    }
+  }
+  temporary.commit();
+}
+
+void write_file(const fs::path& file, std::string_view text) {
+  write_file(file, std::as_bytes(std::span(text.data(), text.size())));
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder, error)) {
+    fail(folder, "make the folder", error ? error.value() : ENOTDIR);
+  }
+}
+
+std::string read_text(const fs::path& file, std::size_t max_bytes) {
+  std::error_code error;
+  if (fs::is_directory(file, error)) {
+    throw InputError(file.string() + ": got a folder; expected a file");
+  }
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) {
+    throw InputError(file.string() + ": cannot be read: " + std::strerror(errno));
+  }
+  std::string text;
+  char block[1 << 16];
+  while (stream.read(block, sizeof block) || stream.gcount() > 0) {
+    text.append(block, static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > max_bytes) {
+      throw InputError(file.string(), "more than " + std::to_string(max_bytes) + " bytes",
+                       "a small text file", "");
+    }
+  }
+  return text;
+}
+
+}  // namespace tabor::io

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace tabor::io {
+
+/// A name beside `file` to write to; commit() makes it `file` in one step, so that nobody ever sees
+/// half a file. Without commit() the destructor removes what was written. The folder of `file` must
+/// exist and be writable: OutputError otherwise, already from the constructor.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(std::filesystem::path file);
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+  const std::filesystem::path& path() const { return temporary_; }  ///< to be written to, closed
+  const std::filesystem::path& final_path() const { return file_; }
+
+  /// Forces the bytes to the disk, then renames. Throws OutputError.
+  void commit();
+
+ private:
+  std::filesystem::path file_;
+  std::filesystem::path temporary_;
+};
+
+/// True for the names TemporaryFile makes: what a killed program leaves behind.
+bool is_temporary_name(const std::filesystem::path& file);
+
+/// Replaces `file` by these bytes, or leaves it as it was and throws OutputError.
+void write_file(const std::filesystem::path& file, std::span<const std::byte> bytes);
+void write_file(const std::filesystem::path& file, std::string_view text);
+
+/// Makes a folder and its parents; OutputError if that cannot be.
+void make_folder(const std::filesystem::path& folder);
+
+/// All bytes of a text file of at most `max_bytes`; InputError otherwise.
+std::string read_text(const std::filesystem::path& file, std::size_t max_bytes = 64u << 20);
+
+}  // namespace tabor::io

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tabor/core/types.hpp"
+
+namespace tabor::io {
+
+/// A map of small integers (holes, contact states), same layout as Field.
+using ByteMap = Eigen::Array<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+enum class Precision { float64, float32 };
+
+/// Writes one HDF5 file under a temporary name; commit() gives it its own. Without commit() nothing
+/// stays. Paths are absolute inside the file ("/surface/height"); missing groups are made. Maps are
+/// chunked, shuffled and compressed. Throws OutputError (full disk, unwritable folder). Objects of
+/// this and the next class may live on different threads.
+class Hdf5Writer {
+ public:
+  explicit Hdf5Writer(const std::filesystem::path& file);
+  ~Hdf5Writer();
+  Hdf5Writer(Hdf5Writer&&) noexcept;
+  Hdf5Writer& operator=(Hdf5Writer&&) = delete;
+
+  void commit();
+
+  void group(const std::string& path);
+  void write(const std::string& path, const Field& map, Precision precision = Precision::float64);
+  void write(const std::string& path, const ByteMap& map);
+  void write(const std::string& path, const std::vector<double>& values);
+  void write(const std::string& path, const std::vector<std::int64_t>& values);
+  void write(const std::string& path, const std::vector<std::string>& values);
+
+  /// Attribute of the group or dataset at `path` ("/" for the file); replaces an older one.
+  void attribute(const std::string& path, const std::string& name, double value);
+  void attribute(const std::string& path, const std::string& name, std::int64_t value);
+  void attribute(const std::string& path, const std::string& name, const std::string& value);
+  void attribute(const std::string& path, const std::string& name,
+                 const std::vector<std::string>& values);
+  void attribute(const std::string& path, const std::string& name, int value) {
+    attribute(path, name, static_cast<std::int64_t>(value));
+  }
+  void attribute(const std::string& path, const std::string& name, const char* value) {
+    attribute(path, name, std::string(value));
+  }
+  void attribute(const std::string& path, const std::string& name, bool value) = delete;
+
+  /// `units` and `long_name` of a dataset.
+  void describe(const std::string& path, const std::string& units, const std::string& long_name);
+
+  /// Writes cell-centre coordinates `x` and `y` [m] of a grid into a group, as dimension scales.
+  void axes(const std::string& group, const Grid& grid);
+  /// Attaches the scales `y`, `x` of the map's own group.
+  void attach_axes(const std::string& map);
+  /// Makes the group NeXus NXdata with this default signal over (y, x).
+  void nxdata(const std::string& group, const std::string& signal);
+
+  /// A link at `path` to `target` inside `file` (relative to this file's folder). It may dangle.
+  void external_link(const std::string& path, const std::string& file, const std::string& target);
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+/// Reads an HDF5 file. Throws InputError (file, object, what to do) for everything that is absent, of
+/// another kind, damaged, or larger than its own bytes can hold.
+class Hdf5Reader {
+ public:
+  explicit Hdf5Reader(const std::filesystem::path& file);
+  ~Hdf5Reader();
+  Hdf5Reader(Hdf5Reader&&) noexcept;
+  Hdf5Reader& operator=(Hdf5Reader&&) = delete;
+
+  bool exists(const std::string& path) const;
+  /// Names of the links in a group, sorted by bytes; dangling external links included.
+  std::vector<std::string> children(const std::string& group) const;
+  /// True for a dataset, false for a group.
+  bool is_dataset(const std::string& path) const;
+  std::vector<Index> shape(const std::string& path) const;
+
+  Field field(const std::string& path) const;  ///< any numeric two-dimensional dataset
+  ByteMap bytes(const std::string& path) const;
+  std::vector<double> numbers(const std::string& path) const;  ///< one-dimensional
+  std::vector<std::int64_t> integers(const std::string& path) const;
+  std::vector<std::string> texts(const std::string& path) const;
+
+  bool has_attribute(const std::string& path, const std::string& name) const;
+  std::vector<std::string> attribute_names(const std::string& path) const;
+  double number(const std::string& path, const std::string& name) const;
+  std::int64_t integer(const std::string& path, const std::string& name) const;
+  std::string text(const std::string& path, const std::string& name) const;
+  std::vector<std::string> attribute_texts(const std::string& path, const std::string& name) const;
+
+ private:
+  struct File;
+  std::unique_ptr<File> file_;
+};
+
+/// True if the file begins like HDF5 (at offset 0).
+bool is_hdf5(const std::filesystem::path& file);
+
+}  // namespace tabor::io

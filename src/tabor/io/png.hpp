@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "tabor/core/types.hpp"
+
+namespace tabor::io {
+
+/// 8-bit picture, rows from the top, `channels` values per pixel.
+struct Picture {
+  Index nx = 0;
+  Index ny = 0;
+  int channels = 1;  ///< 1 = grey, 3 = red green blue
+  std::vector<std::uint8_t> values;
+};
+
+/// Throws OutputError.
+void write_png(const Picture& picture, const std::filesystem::path& file);
+
+/// Grey values of a PNG with 1 to 16 bits per sample, as counts (no scaling). A colour picture is
+/// refused: colours are no heights. Throws InputError.
+struct GreyImage {
+  Field counts;      ///< (ny, nx)
+  int bits = 8;      ///< per sample, as in the file
+};
+GreyImage read_png(const std::filesystem::path& file);
+
+}  // namespace tabor::io

@@ -1,0 +1,240 @@
+// The only file that knows toml++.
+#include "tabor/io/toml.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+#include <toml++/toml.h>
+#include <utility>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/io/atomic_file.hpp"
+
+namespace tabor::io {
+
+struct Config::Table {
+  std::string name;
+  std::string prefix;  ///< dotted path of this table in its file, "" at the top
+  toml::table values;
+};
+
+namespace {
+
+std::string kind_of(const toml::node& node) {
+  switch (node.type()) {
+    case toml::node_type::table:
+      return "a table";
+    case toml::node_type::array:
+      return "an array";
+    case toml::node_type::string:
+      return "the text \"" + node.as_string()->get() + "\"";
+    case toml::node_type::integer:
+      return fmt::format("the number {}", node.as_integer()->get());
+    case toml::node_type::floating_point:
+      return fmt::format("the number {}", node.as_floating_point()->get());
+    case toml::node_type::boolean:
+      return node.as_boolean()->get() ? "true" : "false";
+    default:
+      return "a date or time";
+  }
+}
+
+[[noreturn]] void wrong(const std::string& place, const toml::node& node,
+                        const std::string& expected) {
+  throw InputError(place, kind_of(node), expected, "");
+}
+
+double to_quantity(const toml::node& node, Dimension expected, const std::string& place,
+                   std::string_view key) {
+  if (const auto* text = node.as_string()) {
+    return parse_si(text->get(), expected, place);
+  }
+  const auto number = node.value<double>();
+  if (!number || node.is_boolean()) {
+    wrong(place, node, "a number with a unit, such as \"1 " + usual_unit(expected) + "\"");
+  }
+  if (expected != dimension::none) {
+    throw InputError(place, fmt::format("{} without a unit", *number), "a number with a unit",
+                     fmt::format("write {} = \"{} {}\"", split(key, '.').back(), *number,
+                                 usual_unit(expected)));
+  }
+  return *number;
+}
+
+/// Collects "scan[].file" of every leaf with the node that holds it.
+void collect_leaves(const toml::table& table, const std::string& prefix,
+                    std::vector<std::pair<std::string, const toml::node*>>& leaves) {
+  for (const auto& [key, node] : table) {
+    const std::string path = prefix + std::string(key.str());
+    if (const auto* inner = node.as_table()) {
+      collect_leaves(*inner, path + ".", leaves);
+    } else if (node.is_array_of_tables()) {
+      for (const auto& element : *node.as_array()) {
+        collect_leaves(*element.as_table(), path + "[].", leaves);
+      }
+    } else {
+      leaves.emplace_back(path, &node);
+    }
+  }
+}
+
+toml::table parse_table(std::string_view text, const std::string& name) {
+  try {
+    return toml::parse(text, name);
+  } catch (const toml::parse_error& error) {
+    throw InputError(
+        fmt::format("{}:{}: {}", name, error.source().begin.line, error.description()));
+  }
+}
+
+const toml::node& find(const toml::table& values, std::string_view key, const std::string& place) {
+  const toml::node* node = values.at_path(key).node();
+  if (node == nullptr) {
+    throw InputError(place + " is missing");
+  }
+  return *node;
+}
+
+}  // namespace
+
+Config::Config(std::shared_ptr<const Table> table) : table_(std::move(table)) {}
+
+Config Config::read(const std::filesystem::path& file) {
+  return parse(read_text(file), file.string());
+}
+
+Config Config::parse(std::string_view text, const std::string& name) {
+  return Config(std::make_shared<Table>(Table{name, "", parse_table(text, name)}));
+}
+
+const std::string& Config::name() const { return table_->name; }
+
+bool Config::has(std::string_view key) const {
+  return table_->values.at_path(key).node() != nullptr;
+}
+
+std::string Config::place(std::string_view key) const {
+  const toml::node* node = table_->values.at_path(key).node();
+  const std::string where =
+      node != nullptr && node->source().begin.line > 0
+          ? fmt::format("{}:{}", table_->name, node->source().begin.line)
+          : table_->name;
+  return where + ": " + table_->prefix + std::string(key);
+}
+
+std::string Config::text(std::string_view key) const {
+  const toml::node& node = find(table_->values, key, place(key));
+  if (!node.is_string()) {
+    wrong(place(key), node, "text in quotes");
+  }
+  return node.as_string()->get();
+}
+
+double Config::number(std::string_view key) const { return quantity(key, dimension::none); }
+
+std::int64_t Config::integer(std::string_view key) const {
+  const toml::node& node = find(table_->values, key, place(key));
+  if (!node.is_integer()) {
+    wrong(place(key), node, "a whole number");
+  }
+  return node.as_integer()->get();
+}
+
+bool Config::flag(std::string_view key) const {
+  const toml::node& node = find(table_->values, key, place(key));
+  if (!node.is_boolean()) {
+    wrong(place(key), node, "true or false");
+  }
+  return node.as_boolean()->get();
+}
+
+std::vector<std::string> Config::texts(std::string_view key) const {
+  const toml::node& node = find(table_->values, key, place(key));
+  if (!node.is_array()) {
+    return {text(key)};
+  }
+  std::vector<std::string> values;
+  for (const auto& element : *node.as_array()) {
+    if (!element.is_string()) {
+      wrong(place(key), element, "an array of texts in quotes");
+    }
+    values.push_back(element.as_string()->get());
+  }
+  return values;
+}
+
+double Config::quantity(std::string_view key, Dimension expected) const {
+  return to_quantity(find(table_->values, key, place(key)), expected, place(key), key);
+}
+
+std::vector<double> Config::quantities(std::string_view key, Dimension expected) const {
+  const toml::node& node = find(table_->values, key, place(key));
+  if (!node.is_array()) {
+    return {quantity(key, expected)};
+  }
+  std::vector<double> values;
+  for (const auto& element : *node.as_array()) {
+    values.push_back(to_quantity(element, expected, place(key), key));
+  }
+  if (values.empty()) {
+    throw InputError(place(key), "an empty array", "at least one value", "");
+  }
+  return values;
+}
+
+std::vector<Config> Config::tables(std::string_view key) const {
+  const toml::node* node = table_->values.at_path(key).node();
+  std::vector<Config> result;
+  if (node == nullptr) {
+    return result;
+  }
+  if (!node->is_array_of_tables()) {
+    wrong(place(key), *node, fmt::format("tables that begin with [[{}]]", key));
+  }
+  for (const auto& element : *node->as_array()) {
+    result.push_back(Config(std::make_shared<Table>(
+        Table{table_->name, table_->prefix + std::string(key) + ".", *element.as_table()})));
+  }
+  return result;
+}
+
+void Config::reject_unknown(const std::vector<std::string>& known) const {
+  std::vector<std::pair<std::string, const toml::node*>> leaves;
+  collect_leaves(table_->values, "", leaves);
+  for (const auto& [path, node] : leaves) {
+    if (std::find(known.begin(), known.end(), path) == known.end()) {
+      throw InputError(fmt::format("{}:{}: unknown key '{}{}'{}", table_->name,
+                                   node->source().begin.line, table_->prefix, path,
+                                   suggestion(path, known)));
+    }
+  }
+}
+
+std::string Config::to_text() const {
+  std::ostringstream stream;
+  stream << table_->values;
+  return stream.str();
+}
+
+Config Config::with(std::string_view key, std::string_view value) const {
+  auto changed = std::make_shared<Table>(*table_);
+  std::vector<std::string> steps = split(key, '.');
+  toml::table* table = &changed->values;
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) {
+    table->insert(steps[i], toml::table{});
+    table = (*table)[steps[i]].as_table();
+    if (table == nullptr) {
+      throw InputError(place(key) + ": '" + steps[i] + "' is a value, not a table");
+    }
+  }
+  try {
+    toml::table parsed = toml::parse("value = " + std::string(value));
+    table->insert_or_assign(steps.back(), *parsed["value"].node());
+  } catch (const toml::parse_error&) {
+    table->insert_or_assign(steps.back(), std::string(value));
+  }
+  return Config(std::move(changed));
+}
+
+}  // namespace tabor::io
