@@ -26,7 +26,8 @@ constexpr std::string_view kSuffix = ".tabor-tmp";
 /// A file descriptor that closes itself.
 class Descriptor {
  public:
-  Descriptor(const fs::path& path, int flags) : value_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  Descriptor(const fs::path& path, int flags)
+      : value_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
   ~Descriptor() {
     if (value_ >= 0) {
       ::close(value_);
@@ -47,7 +48,8 @@ class Descriptor {
 fs::path temporary_name(const fs::path& file) {
   static std::atomic<unsigned> counter{0};
   const std::string unique = std::to_string(::getpid()) + "-" + std::to_string(counter++);
-  return file.parent_path() / ("." + file.filename().string() + "." + unique + std::string(kSuffix));
+  return file.parent_path() /
+         ("." + file.filename().string() + "." + unique + std::string(kSuffix));
 }
 
 void write_all(int descriptor, std::span<const std::byte> bytes, const fs::path& file) {

@@ -151,13 +151,16 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
   return table;
 }
 
-CsvTable read_csv(const std::filesystem::path& file) { return parse_csv(read_text(file), file.string()); }
+CsvTable read_csv(const std::filesystem::path& file) {
+  return parse_csv(read_text(file), file.string());
+}
 
 std::string csv_line(const std::vector<std::string>& cells) {
   std::string line;
   for (const std::string& cell : cells) {
     line += line.empty() && &cell == &cells.front() ? "" : ",";
-    if (cell.find_first_of(",\"\r\n") == std::string::npos && trim(cell) == cell && !cell.starts_with('#')) {
+    if (cell.find_first_of(",\"\r\n") == std::string::npos && trim(cell) == cell &&
+        !cell.starts_with('#')) {
       line += cell;
       continue;
     }
@@ -170,6 +173,8 @@ std::string csv_line(const std::vector<std::string>& cells) {
   return line + "\n";
 }
 
-std::string csv_number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+std::string csv_number(double value) {
+  return std::isfinite(value) ? fmt::format("{}", value) : "";
+}
 
 }  // namespace tabor::io

@@ -68,8 +68,8 @@ class Hdf5Writer {
   std::unique_ptr<File> file_;
 };
 
-/// Reads an HDF5 file. Throws InputError (file, object, what to do) for everything that is absent, of
-/// another kind, damaged, or larger than its own bytes can hold.
+/// Reads an HDF5 file. Throws InputError (file, object, what to do) for everything that is absent,
+/// of another kind, damaged, or larger than its own bytes can hold.
 class Hdf5Reader {
  public:
   explicit Hdf5Reader(const std::filesystem::path& file);

@@ -12,8 +12,8 @@ using Json = nlohmann::ordered_json;
 /// JSON has no NaN and no infinity: they become null.
 Json number(double value);
 
-/// The object as text: dump() throws on text that is not UTF-8 (a file name may hold anything), this
-/// replaces such bytes. indent < 0 gives one line.
+/// The object as text: dump() throws on text that is not UTF-8 (a file name may hold anything),
+/// this replaces such bytes. indent < 0 gives one line.
 std::string to_text(const Json& json, int indent = 2);
 
 /// Parses a file; InputError with the place of the mistake.

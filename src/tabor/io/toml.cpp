@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <sstream>
+#include <algorithm>
+
 #include <toml++/toml.h>
+#include <sstream>
 #include <utility>
 
 #include "tabor/core/error.hpp"
@@ -55,9 +57,9 @@ double to_quantity(const toml::node& node, Dimension expected, const std::string
     wrong(place, node, "a number with a unit, such as \"1 " + usual_unit(expected) + "\"");
   }
   if (expected != dimension::none) {
-    throw InputError(place, fmt::format("{} without a unit", *number), "a number with a unit",
-                     fmt::format("write {} = \"{} {}\"", split(key, '.').back(), *number,
-                                 usual_unit(expected)));
+    throw InputError(
+        place, fmt::format("{} without a unit", *number), "a number with a unit",
+        fmt::format("write {} = \"{} {}\"", split(key, '.').back(), *number, usual_unit(expected)));
   }
   return *number;
 }
@@ -116,10 +118,9 @@ bool Config::has(std::string_view key) const {
 
 std::string Config::place(std::string_view key) const {
   const toml::node* node = table_->values.at_path(key).node();
-  const std::string where =
-      node != nullptr && node->source().begin.line > 0
-          ? fmt::format("{}:{}", table_->name, node->source().begin.line)
-          : table_->name;
+  const std::string where = node != nullptr && node->source().begin.line > 0
+                                ? fmt::format("{}:{}", table_->name, node->source().begin.line)
+                                : table_->name;
   return where + ": " + table_->prefix + std::string(key);
 }
 

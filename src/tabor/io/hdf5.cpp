@@ -1,0 +1,633 @@
+// The only file that knows HDF5.
+#include "tabor/io/hdf5.hpp"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+#include <hdf5_hl.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <functional>
+#include <mutex>
+#include <utility>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/resources.hpp"
+#include "tabor/io/atomic_file.hpp"
+
+namespace tabor::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Distributed HDF5 libraries are mostly not thread-safe, so one thread at a time is inside. Also
+/// keeps the library from printing its own error stack: what fails is said by an exception.
+class Session {
+ public:
+  Session() : lock_(mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+ private:
+  static std::recursive_mutex& mutex() {
+    static std::recursive_mutex instance;
+    return instance;
+  }
+  std::lock_guard<std::recursive_mutex> lock_;
+};
+
+/// An HDF5 identifier that closes itself; negative means the call that made it failed.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  ~Handle() { reset(); }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(Handle&&) = delete;
+
+  operator hid_t() const { return id_; }
+  bool valid() const { return id_ >= 0; }
+  bool reset() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+Handle text_type() {
+  Handle type(H5Tcopy(H5T_C_S1), &H5Tclose);
+  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  return type;
+}
+
+Handle simple_space(const std::vector<hsize_t>& shape) {
+  return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), &H5Sclose};
+}
+
+Handle scalar_space() { return {H5Screate(H5S_SCALAR), &H5Sclose}; }
+
+Handle file_access() {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
+  // Files get their name only when they are complete, so nobody needs a lock on them; and network
+  // file systems without locks would refuse to open them.
+  H5Pset_file_locking(access, false, true);
+  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  return access;
+}
+
+Handle link_creation() {
+  Handle creation(H5Pcreate(H5P_LINK_CREATE), &H5Pclose);
+  H5Pset_create_intermediate_group(creation, 1);
+  H5Pset_char_encoding(creation, H5T_CSET_UTF8);
+  return creation;
+}
+
+/// Chunked, shuffled and compressed for maps; the same bytes for the same content (no time stamps).
+Handle dataset_creation(const std::vector<hsize_t>& shape, bool compressed) {
+  Handle creation(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
+  H5Pset_obj_track_times(creation, false);
+  if (compressed && std::all_of(shape.begin(), shape.end(), [](hsize_t n) { return n > 0; })) {
+    // A band of rows, so that one line across a map touches few chunks; about 0.5 MB of doubles.
+    const std::array<hsize_t, 2> chunk{std::min<hsize_t>(shape[0], 64),
+                                       std::min<hsize_t>(shape[1], 1024)};
+    H5Pset_chunk(creation, 2, chunk.data());
+    H5Pset_shuffle(creation);
+    H5Pset_deflate(creation, 4);
+  }
+  return creation;
+}
+
+std::vector<hsize_t> shape_of(hid_t space) {
+  const int rank = H5Sget_simple_extent_ndims(space);
+  std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(rank, 0)));
+  if (rank > 0) {
+    H5Sget_simple_extent_dims(space, shape.data(), nullptr);
+  }
+  return shape;
+}
+
+/// Number of elements, or nullopt-like maximum when the product does not fit.
+std::uint64_t count_of(const std::vector<hsize_t>& shape) {
+  std::uint64_t count = 1;
+  for (const hsize_t n : shape) {
+    if (__builtin_mul_overflow(count, static_cast<std::uint64_t>(n), &count)) {
+      return UINT64_MAX;
+    }
+  }
+  return count;
+}
+
+std::vector<const char*> c_strings(const std::vector<std::string>& values) {
+  std::vector<const char*> pointers;
+  pointers.reserve(values.size() + 1);
+  for (const std::string& value : values) {
+    pointers.push_back(value.c_str());
+  }
+  pointers.push_back(nullptr);  // so that data() of an empty list is a valid address
+  return pointers;
+}
+
+}  // namespace
+
+// ---------------------------------------------------------------- writing
+
+struct Hdf5Writer::File {
+  explicit File(const fs::path& name) : temporary(name), id(create(temporary.path()), &H5Fclose) {
+    if (!id.valid()) {
+      fail("");
+    }
+  }
+
+  static hid_t create(const fs::path& path) {
+    const Session session;
+    const Handle access = file_access();
+    return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  }
+
+  [[noreturn]] void fail(const std::string& path) const {
+    throw OutputError(temporary.final_path().string() + ": cannot write" +
+                      (path.empty() ? "" : " " + path) + " (disk full or not writable?)");
+  }
+
+  void check(bool done, const std::string& path) const {
+    if (!done) {
+      fail(path);
+    }
+  }
+
+  void write(const std::string& path, hid_t file_type, hid_t memory_type,
+             const std::vector<hsize_t>& shape, const void* data) {
+    const Session session;
+    const Handle space = simple_space(shape);
+    const Handle links = link_creation();
+    const Handle creation = dataset_creation(shape, shape.size() == 2);
+    Handle dataset(H5Dcreate2(id, path.c_str(), file_type, space, links, creation, H5P_DEFAULT),
+                   &H5Dclose);
+    check(dataset.valid(), path);
+    if (count_of(shape) > 0) {
+      check(H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, path);
+    }
+    check(dataset.reset(), path);
+  }
+
+  void attribute(const std::string& path, const std::string& name, hid_t type, const Handle& space,
+                 const void* data) {
+    const Handle object(H5Oopen(id, path.c_str(), H5P_DEFAULT), &H5Oclose);
+    check(object.valid(), path);
+    if (H5Aexists(object, name.c_str()) > 0) {
+      H5Adelete(object, name.c_str());
+    }
+    Handle made(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), &H5Aclose);
+    check(made.valid() && H5Awrite(made, type, data) >= 0 && made.reset(), path + "@" + name);
+  }
+
+  TemporaryFile temporary;
+  Handle id;
+};
+
+Hdf5Writer::Hdf5Writer(const fs::path& file) : file_(std::make_unique<File>(file)) {}
+
+Hdf5Writer::Hdf5Writer(Hdf5Writer&&) noexcept = default;
+
+Hdf5Writer::~Hdf5Writer() {
+  const Session session;
+  file_.reset();
+}
+
+void Hdf5Writer::commit() {
+  const Session session;
+  file_->check(H5Fflush(file_->id, H5F_SCOPE_GLOBAL) >= 0 && file_->id.reset(), "");
+  file_->temporary.commit();
+}
+
+void Hdf5Writer::group(const std::string& path) {
+  const Session session;
+  const Handle links = link_creation();
+  const Handle made(H5Gcreate2(file_->id, path.c_str(), links, H5P_DEFAULT, H5P_DEFAULT),
+                    &H5Gclose);
+  file_->check(made.valid(), path);
+}
+
+void Hdf5Writer::write(const std::string& path, const Field& map, Precision precision) {
+  const hid_t type = precision == Precision::float32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
+  file_->write(path, type, H5T_NATIVE_DOUBLE,
+               {static_cast<hsize_t>(map.rows()), static_cast<hsize_t>(map.cols())}, map.data());
+}
+
+void Hdf5Writer::write(const std::string& path, const ByteMap& map) {
+  file_->write(path, H5T_STD_U8LE, H5T_NATIVE_UINT8,
+               {static_cast<hsize_t>(map.rows()), static_cast<hsize_t>(map.cols())}, map.data());
+}
+
+void Hdf5Writer::write(const std::string& path, const std::vector<double>& values) {
+  file_->write(path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, {values.size()}, values.data());
+}
+
+void Hdf5Writer::write(const std::string& path, const std::vector<std::int64_t>& values) {
+  file_->write(path, H5T_STD_I64LE, H5T_NATIVE_INT64, {values.size()}, values.data());
+}
+
+void Hdf5Writer::write(const std::string& path, const std::vector<std::string>& values) {
+  const Session session;
+  const Handle type = text_type();
+  file_->write(path, type, type, {values.size()}, c_strings(values).data());
+}
+
+void Hdf5Writer::attribute(const std::string& path, const std::string& name, double value) {
+  const Session session;
+  file_->attribute(path, name, H5T_NATIVE_DOUBLE, scalar_space(), &value);
+}
+
+void Hdf5Writer::attribute(const std::string& path, const std::string& name, std::int64_t value) {
+  const Session session;
+  file_->attribute(path, name, H5T_NATIVE_INT64, scalar_space(), &value);
+}
+
+void Hdf5Writer::attribute(const std::string& path, const std::string& name,
+                           const std::string& value) {
+  const Session session;
+  const char* pointer = value.c_str();
+  file_->attribute(path, name, text_type(), scalar_space(), &pointer);
+}
+
+void Hdf5Writer::attribute(const std::string& path, const std::string& name,
+                           const std::vector<std::string>& values) {
+  const Session session;
+  file_->attribute(path, name, text_type(), simple_space({values.size()}),
+                   c_strings(values).data());
+}
+
+void Hdf5Writer::describe(const std::string& path, const std::string& units,
+                          const std::string& long_name) {
+  attribute(path, "units", units);
+  attribute(path, "long_name", long_name);
+}
+
+void Hdf5Writer::axes(const std::string& group, const Grid& grid) {
+  const Session session;
+  for (const bool along_x : {true, false}) {
+    const Index n = along_x ? grid.nx : grid.ny;
+    const double spacing = along_x ? grid.dx() : grid.dy();
+    const std::string name = along_x ? "x" : "y";
+    const Eigen::ArrayXd centres = (Eigen::ArrayXd::LinSpaced(n, 0, double(n - 1)) + 0.5) * spacing;
+    const std::string path = group + "/" + name;
+    write(path, std::vector<double>(centres.begin(), centres.end()));
+    const Handle scale(H5Dopen2(file_->id, path.c_str(), H5P_DEFAULT), &H5Dclose);
+    file_->check(scale.valid() && H5DSset_scale(scale, name.c_str()) >= 0, path);
+    describe(path, "m", along_x ? "x, sliding direction" : "y, downwards");
+  }
+}
+
+void Hdf5Writer::attach_axes(const std::string& map) {
+  const Session session;
+  const std::string group = map.substr(0, map.rfind('/'));
+  const Handle dataset(H5Dopen2(file_->id, map.c_str(), H5P_DEFAULT), &H5Dclose);
+  for (const unsigned dimension : {0u, 1u}) {
+    const std::string path = group + (dimension == 0 ? "/y" : "/x");
+    const Handle scale(H5Dopen2(file_->id, path.c_str(), H5P_DEFAULT), &H5Dclose);
+    file_->check(
+        dataset.valid() && scale.valid() && H5DSattach_scale(dataset, scale, dimension) >= 0, map);
+  }
+}
+
+void Hdf5Writer::nxdata(const std::string& group, const std::string& signal) {
+  attribute(group, "NX_class", "NXdata");
+  attribute(group, "signal", signal);
+  attribute(group, "axes", std::vector<std::string>{"y", "x"});
+}
+
+void Hdf5Writer::external_link(const std::string& path, const std::string& file,
+                               const std::string& target) {
+  const Session session;
+  const Handle links = link_creation();
+  file_->check(H5Lcreate_external(file.c_str(), target.c_str(), file_->id, path.c_str(), links,
+                                  H5P_DEFAULT) >= 0,
+               path);
+}
+
+// ---------------------------------------------------------------- reading
+
+namespace {
+
+/// What a dataset or attribute says about itself.
+struct Described {
+  Handle type;
+  Handle space;
+  std::vector<hsize_t> shape;
+  std::uint64_t count;
+  H5T_class_t kind;
+};
+
+Described describe(Handle type, Handle space) {
+  std::vector<hsize_t> shape = space.valid() ? shape_of(space) : std::vector<hsize_t>{};
+  const std::uint64_t count = count_of(shape);
+  const H5T_class_t kind = type.valid() ? H5Tget_class(type) : H5T_NO_CLASS;
+  return {std::move(type), std::move(space), std::move(shape), count, kind};
+}
+
+bool is_number(H5T_class_t kind) { return kind == H5T_INTEGER || kind == H5T_FLOAT; }
+
+}  // namespace
+
+struct Hdf5Reader::File {
+  explicit File(const fs::path& file) : name(file), id(open(file), &H5Fclose) {
+    if (!id.valid()) {
+      throw InputError(name.string() + (is_hdf5(file) ? ": damaged or incomplete HDF5 file"
+                                                      : ": cannot be read as HDF5"));
+    }
+  }
+
+  static hid_t open(const fs::path& file) {
+    const Session session;
+    const Handle access = file_access();
+    return H5Fopen(file.c_str(), H5F_ACC_RDONLY, access);
+  }
+
+  [[noreturn]] void fail(const std::string& path, const std::string& problem) const {
+    throw InputError(name.string() + ": " + path + " " + problem);
+  }
+
+  /// True if every link on the way exists and leads somewhere.
+  bool exists(const std::string& path) const {
+    for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+      const std::string part = path.substr(0, end);
+      if (part != "/" && (H5Lexists(id, part.c_str(), H5P_DEFAULT) <= 0 ||
+                          H5Oexists_by_name(id, part.c_str(), H5P_DEFAULT) <= 0)) {
+        return false;
+      }
+      if (end == std::string::npos) {
+        return true;
+      }
+    }
+  }
+
+  Handle open_dataset(const std::string& path) const {
+    if (!exists(path)) {
+      fail(path, "is missing");
+    }
+    Handle dataset(H5Dopen2(id, path.c_str(), H5P_DEFAULT), &H5Dclose);
+    if (!dataset.valid()) {
+      fail(path, "is not a readable dataset");
+    }
+    return dataset;
+  }
+
+  Handle open_attribute(const std::string& path, const std::string& attribute) const {
+    Handle opened(H5Aopen_by_name(id, path.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+                  &H5Aclose);
+    if (!opened.valid()) {
+      fail(path, "has no attribute " + attribute);
+    }
+    return opened;
+  }
+
+  /// Refuses sizes that the file's own bytes cannot hold, before memory is asked for.
+  void check_size(hid_t dataset, const Described& what, const std::string& path,
+                  std::uint64_t bytes_per_value) const {
+    // Deflate shrinks at most 1032 : 1 (zlib technical note), no other common filter does better.
+    constexpr std::uint64_t largest_ratio = 1100;
+    const Handle file(H5Iget_file_id(dataset), &H5Fclose);
+    hsize_t file_bytes = 0;
+    H5Fget_filesize(file, &file_bytes);
+    const std::uint64_t stored = std::min<std::uint64_t>(H5Dget_storage_size(dataset), file_bytes);
+    const std::uint64_t limit =
+        stored * largest_ratio / std::max<std::size_t>(H5Tget_size(what.type), 1);
+    if (what.count > limit) {
+      fail(path, fmt::format("claims {} values but the file holds {} bytes of it",
+                             fmt::join(what.shape, " x "), stored));
+    }
+    const std::uint64_t available = available_memory_bytes();
+    if (available > 0 && what.count > available / bytes_per_value) {
+      fail(path, fmt::format("needs {} bytes of memory, {} are free", what.count * bytes_per_value,
+                             available));
+    }
+  }
+
+  template <typename Value>
+  void read_numbers(const std::string& path, std::size_t rank, hid_t memory_type,
+                    const std::function<Value*(const std::vector<hsize_t>&)>& allocate) const {
+    const Session session;
+    const Handle dataset = open_dataset(path);
+    const Described what =
+        describe(Handle(H5Dget_type(dataset), &H5Tclose), Handle(H5Dget_space(dataset), &H5Sclose));
+    if (!is_number(what.kind) || what.shape.size() != rank) {
+      fail(path, fmt::format("is not a {}-dimensional dataset of numbers", rank));
+    }
+    check_size(dataset, what, path, sizeof(Value));
+    Value* destination = allocate(what.shape);
+    if (what.count > 0 &&
+        H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, destination) < 0) {
+      fail(path, "is damaged");
+    }
+  }
+
+  template <typename Value>
+  std::vector<Value> read_vector(const std::string& path, hid_t memory_type) const {
+    std::vector<Value> values;
+    read_numbers<Value>(path, 1, memory_type, [&values](const std::vector<hsize_t>& shape) {
+      values.resize(shape[0]);
+      return values.data();
+    });
+    return values;
+  }
+
+  template <typename Map>
+  Map read_map(const std::string& path, hid_t memory_type) const {
+    Map map;
+    read_numbers<typename Map::Scalar>(
+        path, 2, memory_type, [&map](const std::vector<hsize_t>& shape) {
+          map.resize(static_cast<Index>(shape[0]), static_cast<Index>(shape[1]));
+          return map.data();
+        });
+    return map;
+  }
+
+  /// Strings of either kind HDF5 knows. `read` is H5Dread or H5Aread bound to its object.
+  std::vector<std::string> read_texts(const Described& what, const std::string& path,
+                                      const std::function<herr_t(hid_t, void*)>& read) const {
+    if (what.kind != H5T_STRING || what.shape.size() > 1 || what.count > (1u << 24)) {
+      fail(path, "is not text");
+    }
+    std::vector<std::string> values;
+    if (what.count == 0) {
+      return values;
+    }
+    if (H5Tis_variable_str(what.type) > 0) {
+      std::vector<char*> pointers(what.count, nullptr);
+      const Handle memory_type(H5Tcopy(what.type), &H5Tclose);
+      if (read(memory_type, pointers.data()) < 0) {
+        fail(path, "is damaged");
+      }
+      for (const char* pointer : pointers) {
+        values.emplace_back(pointer == nullptr ? "" : pointer);
+      }
+      H5Dvlen_reclaim(memory_type, what.space, H5P_DEFAULT, pointers.data());
+      return values;
+    }
+    const std::size_t size = H5Tget_size(what.type);
+    if (size > (1u << 20) || what.count * size > (1u << 28)) {
+      fail(path, "is too long a text");
+    }
+    std::vector<char> block(what.count * size);
+    if (read(what.type, block.data()) < 0) {
+      fail(path, "is damaged");
+    }
+    for (std::size_t i = 0; i < what.count; ++i) {
+      const char* begin = block.data() + i * size;
+      values.emplace_back(begin, std::find(begin, begin + size, '\0'));
+    }
+    return values;
+  }
+
+  template <typename Value>
+  Value read_attribute(const std::string& path, const std::string& attribute,
+                       hid_t memory_type) const {
+    const Session session;
+    const Handle opened = open_attribute(path, attribute);
+    const Described what =
+        describe(Handle(H5Aget_type(opened), &H5Tclose), Handle(H5Aget_space(opened), &H5Sclose));
+    Value value{};
+    if (!is_number(what.kind) || what.count != 1 || H5Aread(opened, memory_type, &value) < 0) {
+      fail(path + "@" + attribute, "is not a number");
+    }
+    return value;
+  }
+
+  fs::path name;
+  Handle id;
+};
+
+Hdf5Reader::Hdf5Reader(const fs::path& file) : file_(std::make_unique<File>(file)) {}
+
+Hdf5Reader::Hdf5Reader(Hdf5Reader&&) noexcept = default;
+
+Hdf5Reader::~Hdf5Reader() {
+  const Session session;
+  file_.reset();
+}
+
+bool Hdf5Reader::exists(const std::string& path) const {
+  const Session session;
+  return file_->exists(path);
+}
+
+std::vector<std::string> Hdf5Reader::children(const std::string& group) const {
+  const Session session;
+  const Handle opened(H5Gopen2(file_->id, group.c_str(), H5P_DEFAULT), &H5Gclose);
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* data) -> herr_t {
+    auto& list = *static_cast<std::vector<std::string>*>(data);
+    list.emplace_back(name);
+    return list.size() < (1u << 20) ? 0 : -1;
+  };
+  if (!opened.valid() ||
+      H5Literate(opened, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, collect, &names) < 0) {
+    file_->fail(group, "is not a readable group");
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+bool Hdf5Reader::is_dataset(const std::string& path) const {
+  const Session session;
+  const Handle object(H5Oopen(file_->id, path.c_str(), H5P_DEFAULT), &H5Oclose);
+  if (!object.valid()) {
+    file_->fail(path, "is missing");
+  }
+  return H5Iget_type(object) == H5I_DATASET;
+}
+
+std::vector<Index> Hdf5Reader::shape(const std::string& path) const {
+  const Session session;
+  const Handle dataset = file_->open_dataset(path);
+  const Handle space(H5Dget_space(dataset), &H5Sclose);
+  std::vector<Index> shape;
+  for (const hsize_t n : shape_of(space)) {
+    shape.push_back(static_cast<Index>(n));
+  }
+  return shape;
+}
+
+Field Hdf5Reader::field(const std::string& path) const {
+  return file_->read_map<Field>(path, H5T_NATIVE_DOUBLE);
+}
+
+ByteMap Hdf5Reader::bytes(const std::string& path) const {
+  return file_->read_map<ByteMap>(path, H5T_NATIVE_UINT8);
+}
+
+std::vector<double> Hdf5Reader::numbers(const std::string& path) const {
+  return file_->read_vector<double>(path, H5T_NATIVE_DOUBLE);
+}
+
+std::vector<std::int64_t> Hdf5Reader::integers(const std::string& path) const {
+  return file_->read_vector<std::int64_t>(path, H5T_NATIVE_INT64);
+}
+
+std::vector<std::string> Hdf5Reader::texts(const std::string& path) const {
+  const Session session;
+  const Handle dataset = file_->open_dataset(path);
+  const Described what =
+      describe(Handle(H5Dget_type(dataset), &H5Tclose), Handle(H5Dget_space(dataset), &H5Sclose));
+  file_->check_size(dataset, what, path, sizeof(std::string));
+  return file_->read_texts(what, path, [&](hid_t type, void* data) {
+    return H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data);
+  });
+}
+
+bool Hdf5Reader::has_attribute(const std::string& path, const std::string& name) const {
+  const Session session;
+  return file_->exists(path) &&
+         H5Aexists_by_name(file_->id, path.c_str(), name.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::vector<std::string> Hdf5Reader::attribute_names(const std::string& path) const {
+  const Session session;
+  const Handle object(H5Oopen(file_->id, path.c_str(), H5P_DEFAULT), &H5Oclose);
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5A_info_t*, void* data) -> herr_t {
+    static_cast<std::vector<std::string>*>(data)->emplace_back(name);
+    return 0;
+  };
+  if (!object.valid() ||
+      H5Aiterate2(object, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, collect, &names) < 0) {
+    file_->fail(path, "is missing or damaged");
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+double Hdf5Reader::number(const std::string& path, const std::string& name) const {
+  return file_->read_attribute<double>(path, name, H5T_NATIVE_DOUBLE);
+}
+
+std::int64_t Hdf5Reader::integer(const std::string& path, const std::string& name) const {
+  return file_->read_attribute<std::int64_t>(path, name, H5T_NATIVE_INT64);
+}
+
+std::vector<std::string> Hdf5Reader::attribute_texts(const std::string& path,
+                                                     const std::string& name) const {
+  const Session session;
+  const Handle opened = file_->open_attribute(path, name);
+  const Described what =
+      describe(Handle(H5Aget_type(opened), &H5Tclose), Handle(H5Aget_space(opened), &H5Sclose));
+  return file_->read_texts(what, path + "@" + name,
+                           [&](hid_t type, void* data) { return H5Aread(opened, type, data); });
+}
+
+std::string Hdf5Reader::text(const std::string& path, const std::string& name) const {
+  const std::vector<std::string> values = attribute_texts(path, name);
+  if (values.size() != 1) {
+    file_->fail(path + "@" + name, "is not one text");
+  }
+  return values.front();
+}
+
+bool is_hdf5(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::array<char, 8> begin{};
+  stream.read(begin.data(), begin.size());
+  return std::string_view(begin.data(), begin.size()) == std::string_view("\x89HDF\r\n\x1a\n", 8);
+}
+
+}  // namespace tabor::io
