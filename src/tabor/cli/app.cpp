@@ -1,0 +1,121 @@
+#include "tabor/cli/app.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <ostream>
+
+#include "tabor/cli/exit_code.hpp"
+#include "tabor/cli/help.hpp"
+#include "tabor/cli/interrupt.hpp"
+#include "tabor/cli/verb.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/parallel.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/core/version.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+const Verb& find_verb(const std::string& name) {
+  std::vector<std::string> names;
+  for (const Verb& verb : verbs()) {
+    if (verb.name == name) return verb;
+    names.push_back(verb.name);
+  }
+  if (name.starts_with('-')) {
+    throw UsageError(
+        fmt::format("'{}' before the verb; options follow it: tabor VERB {}", name, name));
+  }
+  throw UsageError(
+      fmt::format("unknown verb '{}'{}; see 'tabor --help'", name, suggestion(name, names)));
+}
+
+bool asks_for_help(const Words& words) {
+  return std::any_of(words.begin(), words.end(),
+                     [](const std::string& word) { return word == "--help" || word == "-h"; });
+}
+
+// The words as a shell would need them, so that a result file's command can be pasted.
+std::string quoted(const Words& words) {
+  std::string line = "tabor";
+  for (const std::string& word : words) {
+    const bool plain =
+        !word.empty() && word.find_first_of(" \t\n'\"\\$&;()<>|*?`#~") == Words::value_type::npos;
+    line += plain ? " " + word : " '" + word + "'";
+  }
+  return line;
+}
+
+void check_written(std::ostream& out) {
+  out.flush();
+  if (!out) throw OutputError("standard output: cannot be written (is the disk full?)");
+}
+
+int run_verb(const Verb& verb, const Words& words, Context& context, ProgressStyle style) {
+  OptionSet set;
+  const Action action = verb.declare(set);
+  declare_common(set, context);
+  parse(set, verb.name, words);
+  set_thread_count(static_cast<int>(std::min<std::uint64_t>(context.threads, 4096)));
+  ProgressPrinter progress(context.err, context.quiet ? ProgressStyle::none : style);
+  context.progress = &progress;
+  const int code = action(context);
+  check_written(context.out);
+  return code;
+}
+
+int dispatch(const Words& args, std::ostream& out, std::ostream& err, ProgressStyle style) {
+  if (args.empty()) {
+    err << overview();
+    return kUsage;
+  }
+  const Words words(args.begin() + 1, args.end());
+  if (args.front() == "--version") {
+    out << "tabor " << kVersion << '\n';
+  } else if (args.front() == "--help" || args.front() == "-h" ||
+             (args.front() == "help" && words.empty())) {
+    out << overview();
+  } else if (args.front() == "help") {
+    out << help_of(find_verb(words.front()));
+  } else if (const Verb& verb = find_verb(args.front()); asks_for_help(words)) {
+    out << help_of(verb);
+  } else {
+    Context context{.out = out, .err = err, .command_line = quoted(args)};
+    return run_verb(verb, words, context, style);
+  }
+  check_written(out);
+  return kDone;
+}
+
+// libgomp reads OMP_WAIT_POLICY before main(); spinning idle threads slow everything else down, so
+// the program starts itself once more with the policy set. A failure only costs that comfort.
+void let_idle_threads_sleep(char** argv) {
+  if (std::getenv("OMP_WAIT_POLICY") != nullptr) return;
+  setenv("OMP_WAIT_POLICY", "passive", 1);
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (!error) execv(self.c_str(), argv);
+}
+
+}  // namespace
+
+int run(const std::vector<std::string>& args, std::ostream& out, std::ostream& err,
+        ProgressStyle style) {
+  return guarded(err, [&] { return dispatch(args, out, err, style); });
+}
+
+int run(int argc, char** argv) {
+  let_idle_threads_sleep(argv);
+  catch_interrupts();
+  return run(Words(argv + 1, argv + argc), std::cout, std::cerr, progress_style_of_stderr(false));
+}
+
+}  // namespace tabor::cli

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "tabor/cli/progress.hpp"
+
+namespace tabor::cli {
+
+/// The whole program without its process: args are the words after the program name. Writes results
+/// to `out`, everything else to `err`, and returns the exit code. Never throws.
+int run(const std::vector<std::string>& args, std::ostream& out, std::ostream& err,
+        ProgressStyle style = ProgressStyle::none);
+
+/// The program: sets up the process (idle threads sleep, Ctrl-C is caught) and runs. May replace
+/// the process image once, see app.cpp.
+int run(int argc, char** argv);
+
+}  // namespace tabor::cli

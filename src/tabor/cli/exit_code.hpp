@@ -1,0 +1,23 @@
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+
+namespace tabor::cli {
+
+/// What the process returns to the shell.
+enum ExitCode : int {
+  kDone = 0,
+  kInternal = 1,       ///< a bug of ours
+  kUsage = 2,          ///< the command line is wrong
+  kInput = 3,          ///< input cannot be read or makes no sense
+  kNotConverged = 4,   ///< finished, but a result is not converged
+  kOutput = 5,         ///< a result cannot be written
+  kInterrupted = 130,  ///< Ctrl-C; what was finished is kept
+};
+
+/// Runs `body` and turns every exception into one line on `err` and its exit code. The only place
+/// that knows which error is which number.
+int guarded(std::ostream& err, const std::function<int()>& body);
+
+}  // namespace tabor::cli

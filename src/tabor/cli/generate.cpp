@@ -1,0 +1,276 @@
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+
+#include "tabor/cli/result.hpp"
+#include "tabor/cli/table.hpp"
+#include "tabor/cli/verbs.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/topography/parameters.hpp"
+#include "tabor/topography/synthesis.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+using topography::Topography;
+
+/// The numbers given on the command line. A recipe takes those it knows; whatever is left at the
+/// end does not belong to the kind asked for and is refused.
+class Given {
+ public:
+  void set(const std::string& flag, double value) { values_[flag] = value; }
+
+  std::optional<double> take(const std::string& flag) {
+    const auto node = values_.extract(flag);
+    return node ? std::optional(node.mapped()) : std::nullopt;
+  }
+
+  double take_or(const std::string& flag, double fallback) { return take(flag).value_or(fallback); }
+
+  double need(const std::string& kind, const std::string& flag) {
+    if (const auto value = take(flag)) return *value;
+    throw UsageError(fmt::format("tabor generate {}: {} is missing", kind, flag));
+  }
+
+  void refuse_rest(const std::string& kind) const {
+    if (values_.empty()) return;
+    throw UsageError(fmt::format("tabor generate {}: {} does not belong to this kind", kind,
+                                 values_.begin()->first));
+  }
+
+ private:
+  std::map<std::string, double> values_;
+};
+
+struct Request {
+  std::string kind;
+  std::string output;
+  std::string pixels = "512";
+  std::string pixel = "0.67um";
+  std::string stage = "before";
+  bool not_periodic = false;
+  bool random_amplitudes = false;
+  Given given;
+};
+
+Index whole_pixels(const std::string& text) {
+  const std::optional<double> n = parse_number(text);
+  if (!n || *n < 1 || *n > 1e6 || *n != static_cast<double>(static_cast<Index>(*n))) {
+    throw UsageError(
+        fmt::format("--pixels: got '{}'; expected numbers of pixels such as 512,256", text));
+  }
+  return static_cast<Index>(*n);
+}
+
+Grid grid_of(const Request& request) {
+  const std::vector<std::string> counts = split(request.pixels, ',');
+  const std::vector<double> pixel = parse_si_list(request.pixel, dimension::length, "--pixel");
+  if (counts.size() > 2 || pixel.size() > 2 || pixel.front() <= 0 || pixel.back() <= 0) {
+    throw UsageError("--pixels and --pixel take one positive value or two (x,y)");
+  }
+  const Index nx = whole_pixels(counts.front());
+  const Index ny = whole_pixels(counts.back());
+  return {nx, ny, static_cast<double>(nx) * pixel.front(), static_cast<double>(ny) * pixel.back()};
+}
+
+Topography make_self_affine(Request& request, std::uint64_t seed) {
+  Given& given = request.given;
+  topography::SelfAffine recipe;
+  recipe.grid = grid_of(request);
+  recipe.hurst = given.take_or("--hurst", recipe.hurst);
+  recipe.rms_height = given.take("--rms-height");
+  recipe.rms_slope = given.take("--rms-slope");
+  recipe.roll_off_wavelength = given.take_or("--roll-off", 0);
+  recipe.long_cutoff_wavelength = given.take_or("--long-cutoff", 0);
+  recipe.short_cutoff_wavelength = given.take_or("--short-cutoff", 0);
+  recipe.stretch = given.take_or("--stretch", 1);
+  recipe.random_amplitudes = request.random_amplitudes;
+  recipe.seed = seed;
+  if (recipe.rms_height.has_value() == recipe.rms_slope.has_value()) {
+    throw UsageError("tabor generate self-affine: give either --rms-height or --rms-slope");
+  }
+  return topography::self_affine(recipe);
+}
+
+Topography make_edt(Request& request, std::uint64_t seed) {
+  topography::Edt recipe{.grid = grid_of(request)};
+  recipe.mean_abs_height = request.given.take_or("--mean-height", recipe.mean_abs_height);
+  recipe.hurst = request.given.take_or("--hurst", recipe.hurst);
+  recipe.stage =
+      request.stage == "after" ? topography::EdtStage::after : topography::EdtStage::before;
+  recipe.periodic = !request.not_periodic;
+  recipe.seed = seed;
+  return topography::edt(recipe);
+}
+
+Topography make_ground(Request& request, std::uint64_t seed) {
+  topography::Ground recipe{.grid = grid_of(request)};
+  recipe.rms_height = request.given.take_or("--rms-height", recipe.rms_height);
+  recipe.hurst = request.given.take_or("--hurst", recipe.hurst);
+  recipe.groove_spacing = request.given.take_or("--groove-spacing", recipe.groove_spacing);
+  recipe.groove_length = request.given.take_or("--groove-length", recipe.groove_length);
+  recipe.seed = seed;
+  return topography::ground(recipe);
+}
+
+Topography make_sinusoid(Request& request, std::uint64_t) {
+  topography::Sinusoid recipe{.grid = grid_of(request)};
+  recipe.amplitude = request.given.need("sinusoid", "--amplitude");
+  recipe.wavelength_x = request.given.take_or("--wavelength-x", 0);
+  recipe.wavelength_y = request.given.take_or("--wavelength-y", 0);
+  return topography::sinusoid(recipe);
+}
+
+Topography make_sphere(Request& request, std::uint64_t) {
+  return topography::sphere(
+      {.grid = grid_of(request), .radius = request.given.need("sphere", "--radius")});
+}
+
+Topography make_bump(Request& request, std::uint64_t) {
+  return topography::bump({.grid = grid_of(request),
+                           .height = request.given.need("bump", "--height"),
+                           .radius = request.given.need("bump", "--radius")});
+}
+
+using Maker = Topography (*)(Request&, std::uint64_t);
+
+const std::map<std::string, Maker>& makers() {
+  static const std::map<std::string, Maker> table = {
+      {"self-affine", make_self_affine}, {"edt", make_edt},       {"ground", make_ground},
+      {"sinusoid", make_sinusoid},       {"sphere", make_sphere}, {"bump", make_bump}};
+  return table;
+}
+
+Topography make(Request& request, std::uint64_t seed) {
+  const auto maker = makers().find(request.kind);
+  if (maker == makers().end()) {
+    std::vector<std::string> kinds;
+    for (const auto& [kind, unused] : makers()) kinds.push_back(kind);
+    throw UsageError(fmt::format("tabor generate: unknown kind '{}'{}", request.kind,
+                                 suggestion(request.kind, kinds)));
+  }
+  Topography surface = maker->second(request, seed);
+  request.given.refuse_rest(request.kind);
+  return surface;
+}
+
+int generate(Request request, Context& context) {
+  check_can_write(request.output);
+  const Topography surface = make(request, context.seed);
+  topography::write(surface, request.output);
+  const double rms = topography::rms_height(surface);
+  const double slope = topography::rms_slope(surface);
+  io::Json object = json_head(context);
+  object.update({{"output", request.output},
+                 {"kind", request.kind},
+                 {"recipe", surface.source},
+                 {"seed", context.seed},
+                 {"nx", surface.grid.nx},
+                 {"ny", surface.grid.ny},
+                 {"pixel_x_m", surface.grid.dx()},
+                 {"pixel_y_m", surface.grid.dy()},
+                 {"periodic", surface.periodic},
+                 {"height_rms_m", io::number(rms)},
+                 {"rms_slope", io::number(slope)}});
+  Facts facts;
+  facts.fact("written", request.output);
+  facts.fact("recipe", surface.source);
+  facts.fact("pixels", fmt::format("{} x {} of {} x {}", surface.grid.nx, surface.grid.ny,
+                                   si(surface.grid.dx(), "m"), si(surface.grid.dy(), "m")));
+  facts.fact("rms height", si(rms, "m"));
+  facts.fact("rms slope", plain(slope));
+  return finish(context, object, facts.text());
+}
+
+void length(OptionSet& set, Given& given, const std::string& flag, const std::string& help) {
+  set.add({.flag = flag,
+           .placeholder = "LENGTH",
+           .help = help,
+           .assign = [&given, flag](const std::string& text) {
+             given.set(flag, parse_si(text, dimension::length, flag));
+           }});
+}
+
+void ratio(OptionSet& set, Given& given, const std::string& flag, const std::string& help) {
+  set.add({.flag = flag,
+           .placeholder = "X",
+           .help = help,
+           .assign = [&given, flag](const std::string& text) {
+             given.set(flag, parse_si(text, dimension::none, flag));
+           }});
+}
+
+void word(OptionSet& set, const std::string& flag, const std::string& placeholder,
+          const std::string& help, std::string& target) {
+  set.add({.flag = flag,
+           .placeholder = placeholder,
+           .help = help,
+           .assign = [&target](const std::string& text) { target = text; }});
+}
+
+void declare_rough(OptionSet& set, Request& request) {
+  Given& given = request.given;
+  set.group("self-affine, edt, ground");
+  ratio(set, given, "--hurst", "Hurst exponent [0.8, edt 0.75, ground 0.7]");
+  length(set, given, "--rms-height", "self-affine, ground: rms height [ground 0.3um]");
+  ratio(set, given, "--rms-slope", "self-affine: rms slope, instead of the rms height");
+  length(set, given, "--roll-off", "self-affine: the spectrum is flat above this wavelength");
+  length(set, given, "--long-cutoff", "self-affine: no waves above this wavelength");
+  length(set, given, "--short-cutoff", "self-affine: no waves below this wavelength [2 pixels]");
+  ratio(set, given, "--stretch", "self-affine: features this much longer along x [1]");
+  set.toggle("--random-amplitudes", "self-affine: Gaussian amplitudes, not random phases only",
+             request.random_amplitudes);
+  length(set, given, "--mean-height", "edt: mean absolute height Sa before sliding [0.9um]");
+  set.choice("--stage", {"before", "after"}, "edt: before or after sliding [before]",
+             request.stage);
+  set.toggle("--not-periodic", "edt: a cut-out instead of a tile", request.not_periodic);
+  length(set, given, "--groove-spacing", "ground: roll-off wavelength across the grooves [20um]");
+  length(set, given, "--groove-length", "ground: length of the grooves along x [400um]");
+}
+
+void declare_smooth(OptionSet& set, Request& request) {
+  set.group("sinusoid, sphere, bump");
+  length(set, request.given, "--amplitude", "sinusoid: amplitude");
+  length(set, request.given, "--wavelength-x", "sinusoid: wavelength along x [constant along x]");
+  length(set, request.given, "--wavelength-y", "sinusoid: wavelength along y [constant along y]");
+  length(set, request.given, "--radius", "sphere, bump: radius");
+  length(set, request.given, "--height", "bump: height");
+}
+
+void declare_options(OptionSet& set, Request& request) {
+  set.group("Surface");
+  set.positional("KIND", "self-affine, edt, ground, sinusoid, sphere or bump", request.kind);
+  set.add({.flag = "--output",
+           .short_flag = "-o",
+           .placeholder = "OUT",
+           .help = "the file to write; its extension is the format",
+           .assign = [&request](const std::string& text) { request.output = text; }})
+      .required = true;
+  word(set, "--pixels", "NX[,NY]", "number of pixels [512]", request.pixels);
+  word(set, "--pixel", "DX[,DY]", "pixel size [0.67um]", request.pixel);
+  declare_rough(set, request);
+  declare_smooth(set, request);
+}
+
+}  // namespace
+
+Verb generate_verb() {
+  return {
+      .name = "generate",
+      .arguments = "KIND -o OUT [options]",
+      .summary = "make a surface: self-affine, edt, ground, sinusoid, sphere, bump",
+      .details = "",
+      .examples = {"tabor generate edt -o edt.x3p --pixels 256 --seed 7",
+                   "tabor generate self-affine -o rough.h5 --pixels 256 --rms-slope 0.1 --hurst "
+                   "0.8 --short-cutoff 4um"},
+      .declare = [](OptionSet& set) -> Action {
+        const auto request = std::make_shared<Request>();
+        declare_options(set, *request);
+        return [request](Context& context) { return generate(*request, context); };
+      }};
+}
+
+}  // namespace tabor::cli

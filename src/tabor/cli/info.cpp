@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "tabor/cli/result.hpp"
+#include "tabor/cli/table.hpp"
+#include "tabor/cli/verbs.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/topography/parameters.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+using topography::FileInfo;
+using topography::Topography;
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+struct Heights {
+  double min = kNone;  ///< [m]
+  double max = kNone;
+  double rms = kNone;
+  double quantum = kNone;
+};
+
+// The step of heights that are whole multiples of one: the smallest difference between distinct
+// heights, if all differences of a sample are multiples of it within rounding. NaN if they are not.
+double height_quantum(const Field& height) {
+  constexpr Index kSample = 200000;
+  std::vector<double> values;
+  const Index stride = std::max<Index>(1, height.size() / kSample);
+  for (Index i = 0; i < height.size(); i += stride) {
+    if (std::isfinite(height.data()[i])) values.push_back(height.data()[i]);
+  }
+  std::sort(values.begin(), values.end());
+  if (values.empty()) return kNone;
+  const double range = values.back() - values.front();
+  double step = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double difference = values[i] - values[i - 1];
+    if (difference > 1e-9 * range) step = std::min(step, difference);
+  }
+  // More levels than this cannot be told from continuous heights by a sample of this size.
+  if (!std::isfinite(step) || range / step > 65536) return kNone;
+  step = range / std::round(range / step);
+  const bool regular = std::all_of(values.begin(), values.end(), [&](double value) {
+    const double level = (value - values.front()) / step;
+    return std::abs(level - std::round(level)) < 0.05;
+  });
+  return regular ? step : kNone;
+}
+
+Heights heights_of(const Topography& surface) {
+  Heights heights;
+  const Index n = surface.height.size();
+  if (topography::count_holes(surface) == n) return heights;
+  heights.min = std::numeric_limits<double>::infinity();
+  heights.max = -heights.min;
+  for (Index i = 0; i < n; ++i) {
+    const double z = surface.height.data()[i];
+    if (!std::isfinite(z)) continue;
+    heights.min = std::min(heights.min, z);
+    heights.max = std::max(heights.max, z);
+  }
+  heights.rms = topography::rms_height(surface);
+  heights.quantum = height_quantum(surface.height);
+  return heights;
+}
+
+io::Json channels_of(const FileInfo& file) {
+  io::Json channels = io::Json::array();
+  for (const topography::Channel& channel : file.channels) {
+    channels.push_back({{"index", channel.index},
+                        {"name", channel.name},
+                        {"unit", channel.unit},
+                        {"is_height", channel.is_height}});
+  }
+  return channels;
+}
+
+io::Json json_of(const Context& context, const Scan& scan, const FileInfo& file,
+                 const Heights& heights) {
+  const Topography& surface = scan.surface;
+  const Grid& grid = surface.grid;
+  const auto missing = topography::count_holes(surface);
+  io::Json object = json_head(context);
+  object["scan"] = {{"path", scan.path}, {"sha256", scan.sha256}};
+  object.update(
+      {{"file", scan.path},
+       {"format", file.format},
+       {"instrument", surface.instrument},
+       {"channels", channels_of(file)},
+       {"channel", surface.channel},
+       {"nx", grid.nx},
+       {"ny", grid.ny},
+       {"pixel_x_m", grid.dx()},
+       {"pixel_y_m", grid.dy()},
+       {"size_x_m", grid.lx},
+       {"size_y_m", grid.ly},
+       {"periodic", surface.periodic},
+       {"missing_pixels", missing},
+       {"missing_fraction", static_cast<double>(missing) / static_cast<double>(grid.size())},
+       {"height_min_m", io::number(heights.min)},
+       {"height_max_m", io::number(heights.max)},
+       {"height_rms_m", io::number(heights.rms)},
+       {"height_quantum_m", io::number(heights.quantum)},
+       {"metadata", surface.metadata},
+       {"doubts", surface.doubts}});
+  return object;
+}
+
+std::string text_of(const Scan& scan, const FileInfo& file, const Heights& heights) {
+  const Topography& surface = scan.surface;
+  const Grid& grid = surface.grid;
+  const auto missing = topography::count_holes(surface);
+  Facts facts;
+  facts.fact("file", scan.path);
+  facts.fact("format", file.format);
+  facts.fact("instrument", surface.instrument);
+  for (const topography::Channel& channel : file.channels) {
+    facts.fact(fmt::format("channel {}", channel.index),
+               fmt::format("{} [{}]{}", channel.name, channel.unit.empty() ? "?" : channel.unit,
+                           channel.is_height ? "" : ", not a height"));
+  }
+  facts.fact("pixels", fmt::format("{} x {}", grid.nx, grid.ny));
+  facts.fact("pixel", si(grid.dx(), "m") + " x " + si(grid.dy(), "m"));
+  facts.fact("size", si(grid.lx, "m") + " x " + si(grid.ly, "m"));
+  facts.fact("periodic", surface.periodic ? "yes" : "no");
+  facts.fact("missing", missing == 0 ? "none"
+                                     : fmt::format("{} pixels ({})", missing,
+                                                   percent(static_cast<double>(missing) /
+                                                           static_cast<double>(grid.size()))));
+  facts.fact("heights", si(heights.min, "m") + " to " + si(heights.max, "m"));
+  facts.fact("rms height", si(heights.rms, "m") + " about the mean");
+  if (!std::isnan(heights.quantum)) facts.fact("height step", si(heights.quantum, "m"));
+  for (const std::string& doubt : surface.doubts) facts.fact("doubt", doubt);
+  return facts.text();
+}
+
+int show(const ScanRequest& request, Context& context) {
+  const FileInfo file = topography::inspect(request.file, request.read);
+  const Scan scan = load_scan(request, context);
+  const Heights heights = heights_of(scan.surface);
+  // Doubts have a key and lines of their own here.
+  context.warnings.clear();
+  return finish(context, json_of(context, scan, file, heights), text_of(scan, file, heights));
+}
+
+}  // namespace
+
+Verb info_verb() {
+  return {.name = "info",
+          .arguments = "SCAN [options]",
+          .summary = "what a scan file holds: format, channels, size, unit, holes, heights, doubts",
+          .details = "",
+          .examples = {"tabor info surfaces/edt_before.x3p",
+                       "tabor info surfaces/edt_before.x3p --json"},
+          .declare = [](OptionSet& set) -> Action {
+            const auto request = std::make_shared<ScanRequest>();
+            declare_scan(set, *request, false);
+            return [request](Context& context) { return show(*request, context); };
+          }};
+}
+
+}  // namespace tabor::cli

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tabor/core/units.hpp"
+
+namespace tabor::cli {
+
+/// One option as declared by a verb: everything help, docs/options.md and the parser need.
+struct Option {
+  std::string flag;              ///< "--pressure", or "SCAN" for a positional argument
+  std::string short_flag = {};   ///< "-o", mostly ""
+  std::string placeholder = {};  ///< "P[,P2,...]", "" for a switch
+  std::string help = {};
+  std::string group = {};
+  bool required = false;
+  bool repeatable = false;
+  std::function<void(const std::string&)> assign = {};  ///< throws InputError or UsageError
+
+  bool is_positional() const { return flag.front() != '-'; }
+  bool is_switch() const { return !is_positional() && placeholder.empty(); }
+};
+
+/// The options of one verb. Every declaration binds a variable, whose value at that moment is the
+/// default; parse() assigns the given values in the order of the command line.
+class OptionSet {
+ public:
+  /// Heading of the options declared from here on.
+  void group(const std::string& title) { group_ = title; }
+
+  Option& add(Option option);
+  Option& positional(const std::string& name, const std::string& help, std::string& target);
+  Option& positionals(const std::string& name, const std::string& help,
+                      std::vector<std::string>& target);
+  Option& toggle(const std::string& flag, const std::string& help, bool& target);
+  Option& text(const std::string& flag, const std::string& placeholder, const std::string& help,
+               std::optional<std::string>& target);
+  Option& choice(const std::string& flag, const std::vector<std::string>& words,
+                 const std::string& help, std::string& target);
+  Option& count(const std::string& flag, const std::string& help, std::uint64_t& target);
+  Option& number(const std::string& flag, const std::string& placeholder, const std::string& help,
+                 double& target);
+  Option& number(const std::string& flag, const std::string& placeholder, const std::string& help,
+                 std::optional<double>& target);
+  Option& quantity(const std::string& flag, const std::string& placeholder, const std::string& help,
+                   Dimension dimension, double& target);
+  Option& quantity(const std::string& flag, const std::string& placeholder, const std::string& help,
+                   Dimension dimension, std::optional<double>& target);
+  Option& quantities(const std::string& flag, const std::string& placeholder,
+                     const std::string& help, Dimension dimension, std::vector<double>& target);
+
+  const std::vector<Option>& options() const { return options_; }
+
+ private:
+  std::vector<Option> options_;
+  std::string group_ = "Options";
+};
+
+/// Assigns the words of the command line. Throws UsageError: an unknown option (naming the nearest
+/// match), a missing or surplus word, a value that is not what the option takes.
+void parse(const OptionSet& set, const std::string& verb, const std::vector<std::string>& words);
+
+}  // namespace tabor::cli

@@ -1,0 +1,108 @@
+// The one file that knows CLI11. It only tells options, values and positional words apart; what a
+// value means is the business of the Option that takes it.
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <map>
+
+#include "tabor/cli/options.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+using Declared = std::map<const CLI::Option*, const Option*>;
+
+Declared declare(CLI::App& app, const OptionSet& set) {
+  Declared declared;
+  for (const Option& option : set.options()) {
+    const std::string names =
+        option.short_flag.empty() ? option.flag : option.short_flag + "," + option.flag;
+    CLI::Option* added = option.is_switch() ? app.add_flag(names) : app.add_option(names);
+    // Values of a repeated option are all taken here and told apart in assign_in_order(), where
+    // an option that makes no sense twice can be refused by name.
+    added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
+    if (option.is_positional() && option.repeatable) added->expected(0, -1);
+    declared[added] = &option;
+  }
+  return declared;
+}
+
+std::vector<std::string> flags_of(const OptionSet& set) {
+  std::vector<std::string> flags = {"--help"};
+  for (const Option& option : set.options()) {
+    if (!option.is_positional()) flags.push_back(option.flag);
+  }
+  return flags;
+}
+
+void refuse_unknown_words(const CLI::App& app, const OptionSet& set, const std::string& verb) {
+  const std::vector<std::string> unknown = app.remaining();
+  if (unknown.empty()) return;
+  const auto dashed = std::find_if(unknown.begin(), unknown.end(),
+                                   [](const std::string& word) { return word.starts_with('-'); });
+  if (dashed == unknown.end()) {
+    throw UsageError(fmt::format("tabor {}: unexpected word '{}'; see 'tabor {} --help'", verb,
+                                 unknown.front(), verb));
+  }
+  const std::string flag = dashed->substr(0, dashed->find('='));
+  throw UsageError(fmt::format("tabor {}: unknown option '{}'{}; see 'tabor {} --help'", verb, flag,
+                               suggestion(flag, flags_of(set)), verb));
+}
+
+void require_all(const Declared& declared, const OptionSet& set, const std::string& verb) {
+  for (const Option& option : set.options()) {
+    if (!option.required) continue;
+    for (const auto& [parsed, wanted] : declared) {
+      if (wanted != &option || parsed->count() > 0) continue;
+      const std::string form =
+          option.placeholder.empty() ? option.flag : option.flag + " " + option.placeholder;
+      throw UsageError(fmt::format("tabor {}: {} is missing ({}); see 'tabor {} --help'", verb,
+                                   form, option.help, verb));
+    }
+  }
+}
+
+void assign(const Option& option, const std::string& value) {
+  try {
+    option.assign(value);
+  } catch (const InputError& error) {
+    throw UsageError(error.what());
+  }
+}
+
+// Treatment steps act in the order given, so values are assigned in the order of the command line
+// and not, as CLI11 would, in the order of declaration.
+void assign_in_order(CLI::App& app, const Declared& declared, const std::string& verb) {
+  std::map<const CLI::Option*, std::size_t> taken;
+  for (const CLI::Option* parsed : app.parse_order()) {
+    const Option& option = *declared.at(parsed);
+    const std::size_t position = taken[parsed]++;
+    if (position > 0 && !option.repeatable) {
+      throw UsageError(fmt::format("tabor {}: {} is given more than once", verb, option.flag));
+    }
+    if (position < parsed->results().size()) assign(option, parsed->results()[position]);
+  }
+}
+
+}  // namespace
+
+void parse(const OptionSet& set, const std::string& verb, const std::vector<std::string>& words) {
+  CLI::App app;
+  app.set_help_flag();  // --help is answered before parsing
+  app.allow_extras();
+  const Declared declared = declare(app, set);
+  try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(fmt::format("tabor {}: {}; see 'tabor {} --help'", verb, error.what(), verb));
+  }
+  refuse_unknown_words(app, set, verb);
+  require_all(declared, set, verb);
+  assign_in_order(app, declared, verb);
+}
+
+}  // namespace tabor::cli

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "tabor/cli/exit_code.hpp"
+#include "tabor/cli/scan.hpp"
+#include "tabor/cli/verb.hpp"
+#include "tabor/io/json.hpp"
+
+namespace tabor::cli {
+
+/// The keys every JSON object begins with.
+io::Json json_head(const Context& context);
+io::Json json_head(const Context& context, const Scan& scan);
+
+/// Prints the object (with the warnings) or the text (warnings on stderr); returns `code`.
+int finish(Context& context, io::Json object, const std::string& text, int code = kDone);
+
+/// Refuses an output name that cannot be written, before hours of computing. Throws OutputError.
+void check_can_write(const std::filesystem::path& file);
+
+}  // namespace tabor::cli

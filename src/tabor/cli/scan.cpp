@@ -1,0 +1,114 @@
+#include "tabor/cli/scan.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "tabor/cli/table.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/topography/levelling.hpp"
+#include "tabor/topography/parameters.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+using topography::Topography;
+
+void assign_pixel(topography::ReadOptions& read, const std::string& text) {
+  const std::vector<double> pixel = parse_si_list(text, dimension::length, "--pixel");
+  if (pixel.size() > 2) throw UsageError("--pixel: expected one length or two (x,y)");
+  read.pixel_x = pixel.front();
+  read.pixel_y = pixel.back();
+}
+
+void declare_reading(OptionSet& set, topography::ReadOptions& read) {
+  set.group("Reading");
+  set.text("--channel", "NAME", "height channel, by name or number as in 'tabor info'",
+           read.channel);
+  set.add({.flag = "--pixel",
+           .placeholder = "DX[,DY]",
+           .help = "pixel size where the file has none, e.g. 0.67um or 5um,4um",
+           .assign = [&read](const std::string& text) { assign_pixel(read, text); }});
+  set.text("--unit", "UNIT", "unit of the heights where the file has none, e.g. um", read.unit);
+  set.quantity("--z-scale", "LENGTH", "height of one count, for integer images, e.g. 1nm",
+               dimension::length, read.z_scale);
+  set.toggle("--override-unit", "let --pixel and --unit win over what the file says",
+             read.override_unit);
+}
+
+void declare_treatment(OptionSet& set, topography::Treatment& treatment) {
+  set.group("Treatment, in the order given");
+  for (const topography::StepDescription& step : topography::treatment_steps()) {
+    const auto assign = [&treatment, name = step.name,
+                         is_switch = step.argument.empty()](const std::string& value) {
+      const std::string text = is_switch ? name : name + "=" + value;
+      topography::check({text});
+      treatment.push_back(text);
+    };
+    Option& option = set.add({.flag = "--" + step.name,
+                              .placeholder = step.argument,
+                              .help = step.help,
+                              .assign = assign});
+    option.repeatable = true;
+  }
+}
+
+bool is_levelled(const topography::Treatment& treatment) {
+  return std::any_of(treatment.begin(), treatment.end(), [](const std::string& step) {
+    return step.starts_with("highpass") ||
+           (step.starts_with("level=") && step != "level=none" && step != "level=mean");
+  });
+}
+
+}  // namespace
+
+void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment) {
+  set.group("Scan");
+  set.positional("SCAN", "a scan file, see 'tabor formats'", request.file);
+  declare_reading(set, request.read);
+  if (with_treatment) declare_treatment(set, request.treatment);
+}
+
+Scan load_scan(const ScanRequest& request, Context& context) {
+  const Observer observer = context.observer();
+  Topography surface = topography::read(request.file, request.read, observer);
+  for (const std::string& doubt : surface.doubts) context.warn(request.file + ": " + doubt);
+  return {.surface = topography::apply(request.treatment, std::move(surface), observer),
+          .path = request.file,
+          .sha256 = topography::sha256(request.file),
+          .treatment = request.treatment};
+}
+
+void warn_if_not_levelled(const Scan& scan, Context& context) {
+  if (scan.surface.periodic || is_levelled(scan.treatment)) return;
+  const double before = topography::rms_height(scan.surface);
+  const double after =
+      topography::rms_height(topography::level(scan.surface, topography::Form::plane));
+  context.warn(fmt::format(
+      "no levelling: heights are used as read (Sq {}, {} without its plane); add --level plane",
+      si(before, "m"), si(after, "m")));
+}
+
+void require_no_holes(const Scan& scan) {
+  const Index holes = topography::count_holes(scan.surface);
+  if (holes == 0) return;
+  throw InputError(scan.path, fmt::format("{} missing pixels", holes), "a height at every pixel",
+                   "add --fill harmonic");
+}
+
+std::string describe(const Scan& scan) {
+  const Grid& grid = scan.surface.grid;
+  std::string pixel = si(grid.dx(), "m");
+  if (grid.dx() != grid.dy()) pixel += " x " + si(grid.dy(), "m");
+  Facts facts;
+  facts.fact("scan", fmt::format("{} ({}), {} x {} pixels of {}", scan.path, scan.surface.format,
+                                 grid.nx, grid.ny, pixel));
+  facts.fact("treatment",
+             scan.treatment.empty() ? "none" : fmt::format("{}", fmt::join(scan.treatment, ", ")));
+  return facts.text();
+}
+
+}  // namespace tabor::cli

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+
+#include "tabor/cli/verb.hpp"
+#include "tabor/topography/file.hpp"
+#include "tabor/topography/treatment.hpp"
+
+namespace tabor::cli {
+
+/// A scan as the command line asks for it.
+struct ScanRequest {
+  std::string file;
+  topography::ReadOptions read;
+  topography::Treatment treatment;  ///< in the order given
+};
+
+/// A scan as the verbs work on it.
+struct Scan {
+  topography::Topography surface;  ///< treated
+  std::string path;
+  std::string sha256;
+  topography::Treatment treatment;
+};
+
+/// Declares SCAN and how it is read; with_treatment adds the treatment steps, each an option of its
+/// own, applied in the order given.
+void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment = true);
+
+/// Reads and treats. Doubts about the file become warnings.
+Scan load_scan(const ScanRequest& request, Context& context);
+
+/// Warns when a scan that does not close on itself is used as it was read, and says by how much a
+/// plane would change it.
+void warn_if_not_levelled(const Scan& scan, Context& context);
+
+/// Refuses holes with the option that fills them.
+void require_no_holes(const Scan& scan);
+
+/// "edt.x3p  x3p  512 x 512 pixels of 670 nm" and the treatment, for people.
+std::string describe(const Scan& scan);
+
+}  // namespace tabor::cli

@@ -1,0 +1,97 @@
+#include "tabor/cli/table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "tabor/core/units.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+// Characters on the screen: UTF-8 continuation bytes take no room.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+bool is_numeric(const std::string& cell) {
+  return !cell.empty() && (std::isdigit(static_cast<unsigned char>(cell.front())) ||
+                           cell.front() == '-' || cell.front() == '.');
+}
+
+std::string aligned(const std::string& cell, std::size_t room, bool right) {
+  const std::string blanks(room - std::min(room, width(cell)), ' ');
+  return right ? blanks + cell : cell + blanks;
+}
+
+std::string without_trailing_blanks(std::string line) {
+  line.erase(line.find_last_not_of(' ') + 1);
+  return line + '\n';
+}
+
+}  // namespace
+
+void Table::row(std::vector<std::string> cells) {
+  cells.resize(headings_.size());
+  rows_.push_back(std::move(cells));
+}
+
+std::string Table::text() const {
+  std::vector<std::size_t> rooms;
+  std::vector<bool> right;
+  for (std::size_t column = 0; column < headings_.size(); ++column) {
+    std::size_t room = width(headings_[column]);
+    bool numeric = !rows_.empty();
+    for (const auto& cells : rows_) {
+      room = std::max(room, width(cells[column]));
+      numeric = numeric && is_numeric(cells[column]);
+    }
+    rooms.push_back(room);
+    right.push_back(numeric);
+  }
+  const auto line = [&](const std::vector<std::string>& cells) {
+    std::string joined;
+    for (std::size_t column = 0; column < cells.size(); ++column) {
+      joined += (column > 0 ? "  " : "") + aligned(cells[column], rooms[column], right[column]);
+    }
+    return without_trailing_blanks(joined);
+  };
+  std::vector<std::string> rules;
+  for (const std::size_t room : rooms) rules.emplace_back(room, '-');
+  std::string text = line(headings_) + line(rules);
+  for (const auto& cells : rows_) text += line(cells);
+  return text;
+}
+
+void Facts::fact(const std::string& label, const std::string& value) {
+  if (!value.empty()) lines_.emplace_back(label, value);
+}
+
+std::string Facts::text() const {
+  std::size_t room = 0;
+  for (const auto& [label, value] : lines_) room = std::max(room, width(label));
+  std::string text;
+  for (const auto& [label, value] : lines_)
+    text += aligned(label, room, false) + "  " + value + '\n';
+  return text;
+}
+
+std::string percent(double fraction, int digits) {
+  return std::isnan(fraction) ? "-" : fmt::format("{:.{}g} %", 100 * fraction, digits);
+}
+
+std::string si(double value, const std::string& unit) {
+  return std::isnan(value) ? "-" : format_si(value, unit);
+}
+
+std::string plain(double value, int digits) {
+  return std::isnan(value) ? "-" : fmt::format("{:.{}g}", value, digits);
+}
+
+std::string yes_no(bool value) { return value ? "yes" : "NO"; }
+
+}  // namespace tabor::cli

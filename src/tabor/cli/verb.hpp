@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "tabor/cli/options.hpp"
+#include "tabor/cli/progress.hpp"
+
+namespace tabor::cli {
+
+/// What every verb is given besides its own options.
+struct Context {
+  std::ostream& out;
+  std::ostream& err;
+  std::string command_line = {};  ///< as typed, for result files
+  bool json = false;
+  bool quiet = false;
+  std::uint64_t threads = 0;  ///< 0 = all cores
+  std::uint64_t seed = 1;
+  std::vector<std::string> warnings = {};
+  ProgressPrinter* progress = nullptr;
+
+  /// Adds a warning once; it appears in the JSON object or on stderr.
+  void warn(const std::string& text);
+  Observer observer() const;
+};
+
+/// Runs a verb whose options are parsed; returns its exit code.
+using Action = std::function<int(Context&)>;
+
+/// One verb of the command line. declare() binds the options to variables owned by the Action it
+/// returns, so a verb can be run any number of times.
+struct Verb {
+  std::string name;
+  std::string arguments;              ///< "SCAN --pressure P [options]"
+  std::string summary;                ///< one line
+  std::string details = {};           ///< paragraphs below the summary, may be empty
+  std::vector<std::string> examples;  ///< command lines that work in the project's folder
+  std::function<Action(OptionSet&)> declare;
+};
+
+/// All verbs in the order people meet them.
+const std::vector<Verb>& verbs();
+
+/// Declares --json, --quiet, --threads and --seed, which every verb has.
+void declare_common(OptionSet& set, Context& context);
+
+/// The options of a verb, common ones included, for help and documentation.
+OptionSet options_of(const Verb& verb);
+
+}  // namespace tabor::cli

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "tabor/cli/verb.hpp"
+
+namespace tabor::cli {
+
+Verb info_verb();
+Verb convert_verb();
+Verb params_verb();
+Verb psd_verb();
+Verb generate_verb();
+Verb contact_verb();
+Verb lubricate_verb();
+Verb friction_verb();
+Verb sweep_verb();
+Verb report_verb();
+Verb formats_verb();
+Verb cite_verb();
+Verb options_verb();
+
+}  // namespace tabor::cli
