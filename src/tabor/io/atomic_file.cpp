@@ -1,6 +1,7 @@
 #include "tabor/io/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -47,9 +48,8 @@ class Descriptor {
 /// Unique in this process and, by the process number, on this machine.
 fs::path temporary_name(const fs::path& file) {
   static std::atomic<unsigned> counter{0};
-  const std::string unique = std::to_string(::getpid()) + "-" + std::to_string(counter++);
   return file.parent_path() /
-         ("." + file.filename().string() + "." + unique + std::string(kSuffix));
+         fmt::format(".{}.{}-{}{}", file.filename().string(), ::getpid(), counter++, kSuffix);
 }
 
 void write_all(int descriptor, std::span<const std::byte> bytes, const fs::path& file) {

@@ -1,0 +1,148 @@
+#include "tabor/io/subprocess.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <thread>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+
+extern char** environ;
+
+namespace tabor::io {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr std::size_t kMaxOutput = 64 * 1024;
+
+std::vector<std::string> merged_environment(const std::map<std::string, std::string>& changes) {
+  std::vector<std::string> variables;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string name = split(*entry, '=').front();
+    if (!changes.contains(name)) variables.emplace_back(*entry);
+  }
+  for (const auto& [name, value] : changes) variables.push_back(name + "=" + value);
+  return variables;
+}
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> result;
+  for (std::string& text : texts) result.push_back(text.data());
+  result.push_back(nullptr);
+  return result;
+}
+
+/// The child's standard streams: nothing to read, both outputs into the pipe; its own process
+/// group, so that its children can be killed with it.
+pid_t spawn(const std::string& program, std::vector<std::string> arguments,
+            std::vector<std::string> environment, const std::array<int, 2>& pipe_ends) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, pipe_ends[1], STDERR_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  arguments.insert(arguments.begin(), program);
+  pid_t child = -1;
+  const int error = posix_spawn(&child, program.c_str(), &actions, &attributes,
+                                pointers(arguments).data(), pointers(environment).data());
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) {
+    close(pipe_ends[0]);
+    close(pipe_ends[1]);
+    throw InputError("cannot start " + program + ": " + std::strerror(error));
+  }
+  return child;
+}
+
+int milliseconds_until(Clock::time_point deadline) {
+  const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(deadline - Clock::now());
+  return static_cast<int>(std::clamp<long long>(left.count(), 0, 1 << 30));
+}
+
+/// Reads until every writer has closed the pipe (true) or the deadline has passed (false).
+bool drain(int pipe_end, Clock::time_point deadline, std::string& output) {
+  std::array<char, 4096> buffer;
+  while (Clock::now() < deadline) {
+    pollfd ready{pipe_end, POLLIN, 0};
+    if (poll(&ready, 1, milliseconds_until(deadline)) <= 0) continue;
+    const ssize_t n = read(pipe_end, buffer.data(), buffer.size());
+    if (n == 0) return true;
+    if (n > 0 && output.size() < kMaxOutput) {
+      output.append(buffer.data(), static_cast<std::size_t>(n));
+    }
+  }
+  return false;
+}
+
+/// Waits for the child to end; true if it did so before the deadline.
+bool wait_for(pid_t child, Clock::time_point deadline, int& status) {
+  while (waitpid(child, &status, WNOHANG) == 0) {
+    if (Clock::now() >= deadline) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<std::filesystem::path> find_program(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  for (const std::string& folder : split(path == nullptr ? "/usr/bin" : path, ':')) {
+    const std::filesystem::path candidate = std::filesystem::path(folder) / name;
+    if (access(candidate.c_str(), X_OK) == 0) return candidate;
+  }
+  return std::nullopt;
+}
+
+Completed run_program(const std::filesystem::path& program,
+                      const std::vector<std::string>& arguments,
+                      const std::map<std::string, std::string>& environment,
+                      std::chrono::milliseconds limit) {
+  std::array<int, 2> pipe_ends{};
+  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
+    throw InputError("cannot start " + program.string() + ": " + std::strerror(errno));
+  }
+  const auto deadline = Clock::now() + limit;
+  const pid_t child =
+      spawn(program.string(), arguments, merged_environment(environment), pipe_ends);
+  close(pipe_ends[1]);
+  Completed completed;
+  int status = 0;
+  const bool closed = drain(pipe_ends[0], deadline, completed.output);
+  close(pipe_ends[0]);
+  if (!closed || !wait_for(child, deadline, status)) {
+    completed.timed_out = true;
+    kill(-child, SIGKILL);
+    waitpid(child, &status, 0);
+  }
+  completed.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return completed;
+}
+
+TemporaryFolder::TemporaryFolder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "tabor-XXXXXX").string();
+  if (mkdtemp(pattern.data()) == nullptr) {
+    throw OutputError("cannot create a temporary folder " + pattern + ": " + std::strerror(errno));
+  }
+  path_ = pattern;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+}  // namespace tabor::io
