@@ -5,7 +5,7 @@
 namespace tabor::topography {
 
 /// A rectangle of pixels; (x0, y0) is its top left pixel.
-struct Window2d {
+struct PixelWindow {
   Index x0 = 0;
   Index y0 = 0;
   Index nx = 0;
@@ -14,7 +14,7 @@ struct Window2d {
 
 /// The part inside the window; no longer periodic unless it is the whole. Throws InputError when
 /// the window is empty or leaves the scan.
-Topography crop(Topography topography, const Window2d& window);
+Topography crop(Topography topography, const PixelWindow& window);
 
 /// The same area on nx * ny pixels: per axis the area average when there are fewer pixels than
 /// before, a cubic spline through the pixel centres (natural ends, or periodic) when there are

@@ -25,9 +25,8 @@ struct FillResult {
   Convergence convergence;  ///< certificate: residual relative to the height range (harmonic only)
 };
 
-/// Fills the holes of a height field. `periodic` joins opposite edges. Throws InputError when every
-/// pixel is a hole.
-FillResult fill_holes(const Field& height, const Grid& grid, Fill fill, bool periodic = false,
+/// Fills the holes of a height field. Throws InputError when every pixel is a hole.
+FillResult fill_holes(const Field& height, const Grid& grid, Fill fill,
                       const Observer& observer = {});
 
 /// The topography without holes, with a line in the history that says how much was filled.

@@ -24,8 +24,8 @@ std::string_view name_of(PsdWindow window);
 struct PsdOptions {
   PsdConvention convention = PsdConvention::jacobs;
   std::optional<PsdWindow> window;  ///< default: none for a periodic surface, else hann
-  std::optional<double> fit_q_min;  ///< [rad/m], default: found roll-off or 4 bins from zero
-  std::optional<double> fit_q_max;  ///< [rad/m], default: half the Nyquist wavevector
+  std::optional<double> fit_q_min;  ///< [rad/m], default: see find_fit_range
+  std::optional<double> fit_q_max;  ///< [rad/m], default: see find_fit_range
 };
 
 /// Least-squares slope of log density against log q, over logarithmically spaced bins.
@@ -65,5 +65,15 @@ PowerSpectra power_spectra(const Topography& topography, const PsdOptions& optio
 /// Fits H to a density that falls as q^-(offset + 2 H); offset 1 for C1D, 2 for C2D.
 HurstFit fit_hurst(const std::vector<double>& q, const std::vector<double>& density, double offset,
                    double q_min, double q_max);
+
+/// Where a power law can be expected: from twice the wavevector at which q^offset density peaks
+/// (the roll-off) to half the largest wavevector, or to a third of the one from which the density
+/// falls faster than any H <= 1 allows (a low-pass filter, the instrument's resolution).
+struct FitRange {
+  double q_min = 0;
+  double q_max = 0;
+};
+FitRange find_fit_range(const std::vector<double>& q, const std::vector<double>& density,
+                        double offset);
 
 }  // namespace tabor::topography

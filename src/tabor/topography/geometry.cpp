@@ -1,0 +1,71 @@
+#include "tabor/topography/geometry.hpp"
+
+#include <fmt/format.h>
+
+#include "tabor/core/error.hpp"
+
+namespace tabor::topography {
+namespace {
+
+void set_spacing(Grid& grid, Index nx, Index ny) {
+  grid.lx = grid.dx() * static_cast<double>(nx);
+  grid.ly = grid.dy() * static_cast<double>(ny);
+  grid.nx = nx;
+  grid.ny = ny;
+}
+
+bool inside(const PixelWindow& w, const Grid& grid) {
+  return w.nx > 0 && w.ny > 0 && w.x0 >= 0 && w.y0 >= 0 && w.x0 < grid.nx && w.y0 < grid.ny &&
+         w.nx <= grid.nx - w.x0 && w.ny <= grid.ny - w.y0;
+}
+
+}  // namespace
+
+Topography crop(Topography topography, const PixelWindow& window) {
+  const Grid grid = topography.grid;
+  if (!inside(window, grid)) {
+    throw InputError(
+        "crop", fmt::format("{},{},{},{} pixels", window.x0, window.y0, window.nx, window.ny),
+        fmt::format("x0,y0,nx,ny inside the {} x {} pixels of the scan", grid.nx, grid.ny), "");
+  }
+  topography.periodic = topography.periodic && window.nx == grid.nx && window.ny == grid.ny;
+  const Field part = topography.height.block(window.y0, window.x0, window.ny, window.nx);
+  topography.height = part;
+  set_spacing(topography.grid, window.nx, window.ny);
+  topography.history.push_back(fmt::format("crop={},{},{},{}: {} of {} pixels", window.x0,
+                                           window.y0, window.nx, window.ny, topography.grid.size(),
+                                           grid.size()));
+  return topography;
+}
+
+Topography mirror(Topography topography) {
+  const Field& z = topography.height;
+  Field tiled(2 * z.rows(), 2 * z.cols());
+  tiled << z, z.rowwise().reverse(), z.colwise().reverse(), z.reverse();
+  topography.height = std::move(tiled);
+  set_spacing(topography.grid, 2 * topography.grid.nx, 2 * topography.grid.ny);
+  topography.periodic = true;
+  topography.history.push_back(
+      fmt::format("mirror: {} x {} pixels, periodic", topography.grid.nx, topography.grid.ny));
+  return topography;
+}
+
+Topography flip(Topography topography, Axis axis) {
+  if (axis == Axis::x) {
+    topography.height.rowwise().reverseInPlace();
+  } else {
+    topography.height.colwise().reverseInPlace();
+  }
+  topography.history.push_back(axis == Axis::x ? "flip=x" : "flip=y");
+  return topography;
+}
+
+Topography transpose(Topography topography) {
+  topography.height = Field(topography.height.transpose());
+  std::swap(topography.grid.nx, topography.grid.ny);
+  std::swap(topography.grid.lx, topography.grid.ly);
+  topography.history.push_back("transpose");
+  return topography;
+}
+
+}  // namespace tabor::topography

@@ -1,0 +1,239 @@
+#include "tabor/topography/levelling.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/parallel.hpp"
+#include "tabor/core/units.hpp"
+#include "tabor/topography/parameters.hpp"
+#include "tabor/topography/rows.hpp"
+
+namespace tabor::topography {
+namespace {
+
+constexpr int kMaxDegree = 4;
+constexpr int kMaxTerms = FormFit::kMaxTerms;
+
+/// P_0 ... P_4 at one coordinate.
+using Legendre = Eigen::Array<double, kMaxDegree + 1, 1>;
+
+Legendre legendre(double u) {
+  Legendre p;
+  p << 1, u, (3 * u * u - 1) / 2, (5 * u * u - 3) * u / 2, ((35 * u * u - 30) * u * u + 3) / 8;
+  return p;
+}
+
+/// P_i at every pixel centre of an axis, the axis mapped to (-1, 1).
+std::vector<Legendre> legendre_table(Index n) {
+  std::vector<Legendre> table(static_cast<std::size_t>(n));
+  for (Index i = 0; i < n; ++i) {
+    table[static_cast<std::size_t>(i)] =
+        legendre((2 * static_cast<double>(i) + 1) / static_cast<double>(n) - 1);
+  }
+  return table;
+}
+
+/// Exponents (i, j) of the terms P_i(u) P_j(v): by total degree, x first.
+struct Term {
+  int i, j;
+};
+
+std::vector<Term> terms_of(int degree) {
+  std::vector<Term> terms;
+  for (int total = 0; total <= degree; ++total) {
+    for (int j = 0; j <= total; ++j) {
+      terms.push_back({total - j, j});
+    }
+  }
+  return terms;
+}
+
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxTerms, kMaxTerms>;
+using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxTerms, 1>;
+
+/// Normal equations of the fit over some rows.
+struct NormalEquations {
+  explicit NormalEquations(Index n_terms = 0)
+      : matrix(Matrix::Zero(n_terms, n_terms)), right(Vector::Zero(n_terms)) {}
+  Matrix matrix;
+  Vector right;
+  Index n_valid = 0;
+};
+
+/// Sums of P_i(u) P_k(u) and P_i(u) z over the valid points of one row.
+struct RowSums {
+  Eigen::Matrix<double, kMaxDegree + 1, kMaxDegree + 1> products;
+  Eigen::Matrix<double, kMaxDegree + 1, 1> heights;
+  Index n_valid = 0;
+};
+
+RowSums row_sums(const double* z, const std::vector<Legendre>& along_x) {
+  RowSums sums;
+  sums.products.setZero();
+  sums.heights.setZero();
+  for (std::size_t x = 0; x < along_x.size(); ++x) {
+    if (!std::isnan(z[x])) {
+      const auto p = along_x[x].matrix();
+      sums.products.noalias() += p * p.transpose();
+      sums.heights += p * z[x];
+      ++sums.n_valid;
+    }
+  }
+  return sums;
+}
+
+void add_row(NormalEquations& equations, const RowSums& row, const Legendre& along_y,
+             const std::vector<Term>& terms) {
+  for (std::size_t a = 0; a < terms.size(); ++a) {
+    const double weight = along_y[terms[a].j];
+    equations.right[static_cast<Index>(a)] += weight * row.heights[terms[a].i];
+    for (std::size_t b = 0; b < terms.size(); ++b) {
+      equations.matrix(static_cast<Index>(a), static_cast<Index>(b)) +=
+          weight * along_y[terms[b].j] * row.products(terms[a].i, terms[b].i);
+    }
+  }
+  equations.n_valid += row.n_valid;
+}
+
+/// Blocks of rows are summed in their order, so that the result does not depend on the threads.
+NormalEquations normal_equations(const Field& height, int degree) {
+  const auto terms = terms_of(degree);
+  const auto along_x = legendre_table(height.cols());
+  const auto along_y = legendre_table(height.rows());
+  const auto n_terms = static_cast<Index>(terms.size());
+  std::vector<NormalEquations> blocks(
+      static_cast<std::size_t>((height.rows() + kRowsPerBlock - 1) / kRowsPerBlock),
+      NormalEquations(n_terms));
+  parallel_for(height.rows(), kRowsPerBlock, [&](Index begin, Index end) {
+    auto& block = blocks[static_cast<std::size_t>(begin / kRowsPerBlock)];
+    for (Index y = begin; y < end; ++y) {
+      const auto row = row_sums(&height(y, 0), along_x);
+      add_row(block, row, along_y[static_cast<std::size_t>(y)], terms);
+    }
+  });
+  NormalEquations total(n_terms);
+  for (const auto& block : blocks) {
+    total.matrix += block.matrix;
+    total.right += block.right;
+    total.n_valid += block.n_valid;
+  }
+  return total;
+}
+
+/// Refuses a fit that the valid points leave undetermined: too few, or all on one curve.
+void check_determined(const NormalEquations& equations, int degree) {
+  constexpr double smallest_ratio = 1e-12;
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(equations.matrix, Eigen::EigenvaluesOnly);
+  const auto& values = eigen.eigenvalues();
+  if (equations.n_valid == 0 || values[0] <= smallest_ratio * values[values.size() - 1]) {
+    throw InputError(
+        fmt::format("levelling by a polynomial of degree {}", degree),
+        fmt::format("{} valid points that do not determine it", equations.n_valid),
+        fmt::format("at least {} points not on one curve", equations.right.size()),
+        degree > 0 ? "use a lower degree (--level mean)" : "the surface has no valid point");
+  }
+}
+
+/// The fitted polynomial along one row: coefficients of P_i(u).
+Legendre row_polynomial(const FormFit& fit, const std::vector<Term>& terms,
+                        const Legendre& along_y) {
+  Legendre row = Legendre::Zero();
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    row[terms[t].i] += fit.coefficients[t] * along_y[terms[t].j];
+  }
+  return row;
+}
+
+constexpr std::array<std::pair<std::string_view, Form>, 6> kForms{{{"none", Form::none},
+                                                                   {"mean", Form::mean},
+                                                                   {"plane", Form::plane},
+                                                                   {"poly2", Form::poly2},
+                                                                   {"poly3", Form::poly3},
+                                                                   {"poly4", Form::poly4}}};
+
+int degree_of(Form form) { return static_cast<int>(form) - static_cast<int>(Form::mean); }
+
+std::string describe(const Topography& topography, const FormFit& fit, double rms_before) {
+  std::string text = fmt::format("{} valid points", fit.n_valid);
+  if (fit.degree >= 1) {
+    text += fmt::format(", tilt x {:.6g}, y {:.6g}", 2 * fit.coefficients[1] / topography.grid.lx,
+                        2 * fit.coefficients[2] / topography.grid.ly);
+  } else {
+    text += ", mean " + format_si(fit.coefficients[0], "m", 6);
+  }
+  return text + fmt::format(", Sq {} -> {}", format_si(rms_before, "m"),
+                            format_si(rms_height(topography), "m"));
+}
+
+}  // namespace
+
+std::optional<Form> form_from(std::string_view name) {
+  for (const auto& [known, form] : kForms) {
+    if (known == name) {
+      return form;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string_view name_of(Form form) { return kForms[static_cast<std::size_t>(form)].first; }
+
+FormFit fit_form(const Field& height, int degree) {
+  FormFit fit;
+  fit.degree = degree;
+  Field rest = height;
+  // The second pass fits what rounding left behind: a tilt may be a thousand times the roughness.
+  for (int pass = 0; pass < 2; ++pass) {
+    const auto equations = normal_equations(rest, degree);
+    check_determined(equations, degree);
+    const Vector correction = equations.matrix.ldlt().solve(equations.right);
+    FormFit step = fit;
+    for (Index t = 0; t < correction.size(); ++t) {
+      step.coefficients[static_cast<std::size_t>(t)] = correction[t];
+      fit.coefficients[static_cast<std::size_t>(t)] += correction[t];
+    }
+    fit.n_valid = equations.n_valid;
+    if (pass == 0) {
+      rest = remove_form(rest, step);
+    }
+  }
+  return fit;
+}
+
+Field remove_form(const Field& height, const FormFit& fit) {
+  const auto terms = terms_of(fit.degree);
+  const auto along_x = legendre_table(height.cols());
+  const auto along_y = legendre_table(height.rows());
+  Field result(height.rows(), height.cols());
+  parallel_for(height.rows(), kRowsPerBlock, [&](Index begin, Index end) {
+    for (Index y = begin; y < end; ++y) {
+      const auto row = row_polynomial(fit, terms, along_y[static_cast<std::size_t>(y)]);
+      for (Index x = 0; x < height.cols(); ++x) {
+        result(y, x) = height(y, x) - (row * along_x[static_cast<std::size_t>(x)]).sum();
+      }
+    }
+  });
+  return result;
+}
+
+Topography level(Topography topography, Form form) {
+  if (form == Form::none) {
+    topography.history.push_back("level=none");
+    return topography;
+  }
+  const auto fit = fit_form(topography.height, degree_of(form));
+  const double rms_before = rms_height(topography);
+  topography.height = remove_form(topography.height, fit);
+  topography.periodic = topography.periodic && form == Form::mean;  // a tilt does not tile
+  topography.history.push_back(
+      fmt::format("level={}: {}", name_of(form), describe(topography, fit, rms_before)));
+  return topography;
+}
+
+}  // namespace tabor::topography

@@ -1,0 +1,227 @@
+#include "tabor/topography/treatment.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/core/units.hpp"
+#include "tabor/topography/filters.hpp"
+#include "tabor/topography/geometry.hpp"
+#include "tabor/topography/holes.hpp"
+#include "tabor/topography/levelling.hpp"
+
+namespace tabor::topography {
+namespace {
+
+/// What later steps must know of earlier ones.
+struct ChainState {
+  double tiles = 1;  ///< copies of the scan along each side since `mirror`; "512/L" means one copy
+  const Observer* observer = nullptr;
+
+  double side(const Grid& grid) const { return scan_side(grid) / tiles; }
+};
+
+using Action = std::function<Topography(Topography, ChainState&)>;
+
+/// A step of the chain: how it is written and how its argument becomes an action.
+struct Step {
+  StepDescription description;
+  Action (*parse)(const std::string& argument);
+};
+
+[[noreturn]] void refuse(const std::string& step, const std::string& argument,
+                         const std::vector<std::string>& known) {
+  throw InputError(step, argument.empty() ? "no value" : fmt::format("'{}'", argument),
+                   fmt::format("{}", fmt::join(known, "|")),
+                   fmt::format("e.g. {}={}{}", step, known.back(), suggestion(argument, known)));
+}
+
+Action parse_level(const std::string& argument) {
+  const auto form = form_from(argument);
+  if (!form) {
+    refuse("level", argument, {"none", "mean", "poly2", "poly3", "poly4", "plane"});
+  }
+  return [form](Topography t, ChainState&) { return level(std::move(t), *form); };
+}
+
+Action parse_fill(const std::string& argument) {
+  const auto fill = fill_from(argument);
+  if (!fill) {
+    refuse("fill", argument, {"nearest", "mean", "harmonic"});
+  }
+  return [fill](Topography t, ChainState& state) {
+    return fill_holes(std::move(t), *fill, *state.observer);
+  };
+}
+
+Action parse_low_pass(const std::string& argument) {
+  return [filter = parse_filter(argument, "lowpass")](Topography t, ChainState& state) {
+    const double side = state.side(t.grid);
+    return low_pass(std::move(t), filter, side);
+  };
+}
+
+Action parse_high_pass(const std::string& argument) {
+  return [filter = parse_filter(argument, "highpass")](Topography t, ChainState& state) {
+    const double side = state.side(t.grid);
+    return high_pass(std::move(t), filter, side);
+  };
+}
+
+/// A coordinate in pixels ("128") or as a length ("85um").
+struct Coordinate {
+  double value = 0;
+  bool is_length = false;
+
+  Index pixels(double spacing) const {
+    return static_cast<Index>(std::llround(is_length ? value / spacing : value));
+  }
+};
+
+/// Pixel counts beyond this are typing errors, and would overflow sums of them.
+constexpr double kLargestCoordinate = 1e9;
+
+Coordinate parse_coordinate(const std::string& step, const std::string& text) {
+  if (const auto pixels = parse_number(text)) {
+    if (*pixels != std::round(*pixels) || *pixels < 0 || *pixels > kLargestCoordinate) {
+      throw InputError(step, fmt::format("'{}'", text),
+                       "a whole number of pixels or a length such as 100um", "");
+    }
+    return {*pixels, false};
+  }
+  const double length = parse_si(text, dimension::length, "--" + step);
+  if (!(length >= 0) || length > kLargestCoordinate) {
+    throw InputError(step, fmt::format("'{}'", text), "a length that is not negative", "");
+  }
+  return {length, true};
+}
+
+std::vector<Coordinate> parse_coordinates(const std::string& step, const std::string& argument,
+                                          std::size_t count, const std::string& form) {
+  std::vector<Coordinate> coordinates;
+  const auto parts = split(argument, ',');
+  if (parts.size() != count) {
+    throw InputError(step, argument.empty() ? "no value" : fmt::format("'{}'", argument), form, "");
+  }
+  for (const auto& part : parts) {
+    coordinates.push_back(parse_coordinate(step, std::string(trim(part))));
+  }
+  return coordinates;
+}
+
+Action parse_crop(const std::string& argument) {
+  const auto c = parse_coordinates(
+      "crop", argument, 4, "x0,y0,nx,ny in pixels or lengths (0,0,512,512 or 0um,0um,300um,300um)");
+  return [c](Topography t, ChainState& state) {
+    state.tiles = 1;
+    const double dx = t.grid.dx(), dy = t.grid.dy();
+    return crop(std::move(t), {c[0].pixels(dx), c[1].pixels(dy), c[2].pixels(dx), c[3].pixels(dy)});
+  };
+}
+
+Action parse_resample(const std::string& argument) {
+  const auto c = parse_coordinates("resample", argument, 2, "nx,ny in pixels (1024,1024)");
+  if (c[0].is_length || c[1].is_length) {
+    throw InputError("resample", fmt::format("'{}'", argument), "nx,ny in pixels (1024,1024)", "");
+  }
+  return [c](Topography t, ChainState&) {
+    return resample(std::move(t), c[0].pixels(1), c[1].pixels(1));
+  };
+}
+
+Action parse_mirror(const std::string& argument) {
+  if (!argument.empty()) {
+    throw InputError("mirror", fmt::format("'{}'", argument), "no value", "write just mirror");
+  }
+  return [](Topography t, ChainState& state) {
+    state.tiles *= 2;
+    return mirror(std::move(t));
+  };
+}
+
+Action parse_flip(const std::string& argument) {
+  if (argument != "x" && argument != "y") {
+    refuse("flip", argument, {"y", "x"});
+  }
+  return [axis = argument == "x" ? Axis::x : Axis::y](Topography t, ChainState&) {
+    return flip(std::move(t), axis);
+  };
+}
+
+const std::array<Step, 8>& steps() {
+  static const std::array<Step, 8> table{{
+      {{"crop", "x0,y0,nx,ny", "keep a rectangle, in pixels or lengths"}, parse_crop},
+      {{"level", "none|mean|plane|poly2|poly3|poly4",
+        "subtract a least-squares polynomial (total degree) over the valid points"},
+       parse_level},
+      {{"fill", "harmonic|nearest|mean", "replace holes; harmonic = Laplace from each hole's rim"},
+       parse_fill},
+      {{"lowpass", "hann:512/L|hann-full:512/L|hann-separable:512/L|hann:8um|gauss:8um",
+        "smooth: Hann window in frequency (L = scan side) or ISO Gaussian S-filter"},
+       parse_low_pass},
+      {{"highpass", "gauss:250um|hann:8/L", "subtract the low-pass (ISO Gaussian L-filter)"},
+       parse_high_pass},
+      {{"resample", "nx,ny", "area average to fewer pixels, cubic spline to more"}, parse_resample},
+      {{"mirror", "", "tile 2 x 2 with mirror images: periodic without a seam"}, parse_mirror},
+      {{"flip", "x|y", "reverse the columns (x) or the rows (y)"}, parse_flip},
+  }};
+  return table;
+}
+
+/// "level=plane" -> ("level", "plane").
+std::pair<std::string, std::string> split_step(std::string_view text) {
+  const auto equals = text.find('=');
+  if (equals == std::string_view::npos) {
+    return {std::string(trim(text)), ""};
+  }
+  return {std::string(trim(text.substr(0, equals))), std::string(trim(text.substr(equals + 1)))};
+}
+
+Action parse_step(std::string_view text) {
+  const auto [name, argument] = split_step(text);
+  std::vector<std::string> names;
+  for (const Step& step : steps()) {
+    if (step.description.name == name) {
+      return step.parse(argument);
+    }
+    names.push_back(step.description.name);
+  }
+  throw InputError("treatment", fmt::format("'{}'", text),
+                   fmt::format("one of {}{}", fmt::join(names, ", "), suggestion(name, names)), "");
+}
+
+}  // namespace
+
+std::vector<StepDescription> treatment_steps() {
+  std::vector<StepDescription> descriptions;
+  for (const Step& step : steps()) {
+    descriptions.push_back(step.description);
+  }
+  return descriptions;
+}
+
+void check(const Treatment& treatment) {
+  for (const auto& step : treatment) {
+    parse_step(step);
+  }
+}
+
+Topography apply(const Treatment& treatment, Topography topography, const Observer& observer) {
+  check(treatment);  // a typing error in the last step is found before the first one runs
+  ChainState state;
+  state.observer = &observer;
+  for (std::size_t i = 0; i < treatment.size(); ++i) {
+    report_progress(observer, "treatment",
+                    static_cast<double>(i) / static_cast<double>(treatment.size()));
+    topography = parse_step(treatment[i])(std::move(topography), state);
+  }
+  report_progress(observer, "treatment", 1);
+  return topography;
+}
+
+}  // namespace tabor::topography
