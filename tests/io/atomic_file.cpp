@@ -1,0 +1,87 @@
+#include "tabor/io/atomic_file.hpp"
+
+#include "support/folder.hpp"
+#include "tabor/core/error.hpp"
+
+namespace tabor::io {
+namespace {
+
+using test::Folder;
+
+TEST(TemporaryFile, AppearsUnderItsNameOnlyWhenCommitted) {
+  const Folder folder;
+  TemporaryFile file(folder / "out.txt");
+  test::put_bytes(file.path(), "all of it");
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.txt"));
+  EXPECT_TRUE(is_temporary_name(file.path()));
+  file.commit();
+  EXPECT_EQ(test::bytes_of(folder / "out.txt"), "all of it");
+  EXPECT_EQ(folder.n_files(), 1u);
+}
+
+TEST(TemporaryFile, LeavesNothingWhenDiscarded) {
+  const Folder folder;
+  { const TemporaryFile file(folder / "out.txt"); }
+  EXPECT_EQ(folder.n_files(), 0u);
+}
+
+TEST(WriteFile, ReplacesTheOldContent) {
+  const Folder folder;
+  write_file(folder / "a", "a long first version");
+  write_file(folder / "a", "second");
+  EXPECT_EQ(read_text(folder / "a"), "second");
+}
+
+TEST(WriteFile, KeepsTheOldContentWhenTheDiskIsFull) {
+  const Folder folder;
+  write_file(folder / "a", "first");
+  {
+    const test::FullDisk full(100);
+    EXPECT_THROW(write_file(folder / "a", std::string(1000, 'x')), OutputError);
+  }
+  EXPECT_EQ(read_text(folder / "a"), "first");
+  EXPECT_EQ(folder.n_files(), 1u);
+}
+
+TEST(WriteFile, NamesTheFileInAFolderThatDoesNotExist) {
+  const Folder folder;
+  try {
+    write_file(folder / "no" / "a.txt", "x");
+    FAIL() << "wrote into a folder that does not exist";
+  } catch (const OutputError& error) {
+    EXPECT_NE(std::string(error.what()).find("a.txt"), std::string::npos) << error.what();
+  }
+}
+
+TEST(WriteFile, RefusesAFolderAsItsName) {
+  const Folder folder;
+  EXPECT_THROW(write_file(folder.path(), "x"), OutputError);
+}
+
+TEST(WriteFile, RefusesAnUnwritableFolder) {
+  if (::geteuid() == 0) {
+    GTEST_SKIP() << "root may write anywhere";
+  }
+  const Folder folder;
+  std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read);
+  EXPECT_THROW(write_file(folder / "a", "x"), OutputError);
+}
+
+TEST(MakeFolder, RefusesANameThatIsAFile) {
+  const Folder folder;
+  write_file(folder / "a", "x");
+  EXPECT_THROW(make_folder(folder / "a"), OutputError);
+  EXPECT_THROW(make_folder(folder / "a/b"), OutputError);
+}
+
+TEST(ReadText, RefusesWhatIsAbsentAFolderOrTooLarge) {
+  const Folder folder;
+  write_file(folder / "a", "0123456789");
+  EXPECT_EQ(read_text(folder / "a", 10), "0123456789");
+  EXPECT_THROW(read_text(folder / "a", 9), InputError);
+  EXPECT_THROW(read_text(folder / "b"), InputError);
+  EXPECT_THROW(read_text(folder.path()), InputError);
+}
+
+}  // namespace
+}  // namespace tabor::io
