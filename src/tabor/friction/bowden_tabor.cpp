@@ -1,0 +1,64 @@
+#include "tabor/friction/bowden_tabor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+
+namespace tabor::friction {
+namespace {
+
+void check_positive(double value, const std::string& what) {
+  if (!(value > 0) || !std::isfinite(value)) {
+    throw InputError(what, fmt::format("{} Pa", value), "a positive pressure", "");
+  }
+}
+
+/// A share may exceed its bounds by rounding alone; NaN is refused too.
+void check_share(double value, const std::string& what) {
+  if (!(value >= 0 && value <= 1 + 1e-12)) {
+    throw InputError(what, fmt::format("{}", value), "a share between 0 and 1", "");
+  }
+}
+
+double area_fraction(const Contact& contact, Area area) {
+  if (area == Area::pixels) {
+    return contact.contact_area_fraction_pixels;
+  }
+  return std::max(contact.contact_area_fraction,
+                  contact.mean_pressure / contact.saturation_pressure);
+}
+
+}  // namespace
+
+std::string_view name(Area area) { return area == Area::corrected ? "corrected" : "pixels"; }
+
+Area parse_area(std::string_view text) {
+  for (const Area area : {Area::corrected, Area::pixels}) {
+    if (text == name(area)) {
+      return area;
+    }
+  }
+  throw InputError("area", "'" + std::string(text) + "'",
+                   "corrected or pixels" + suggestion(text, {"corrected", "pixels"}), "");
+}
+
+Estimate estimate(const Contact& contact, double shear_strength, Area area) {
+  check_positive(contact.mean_pressure, "mean pressure");
+  check_positive(shear_strength, "shear strength");
+  if (!(contact.saturation_pressure > 0)) {
+    check_positive(contact.saturation_pressure, "saturation pressure");
+  }
+  check_share(contact.contact_area_fraction, "contact area fraction");
+  check_share(contact.contact_area_fraction_pixels, "contact area fraction in pixels");
+  check_share(contact.lubricated_share, "lubricated share");
+  const double fraction = area_fraction(contact, area);
+  const double dry = fraction * shear_strength / contact.mean_pressure;
+  return {fraction, area, dry, (1 - std::min(contact.lubricated_share, 1.0)) * dry};
+}
+
+}  // namespace tabor::friction

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <limits>
+#include <string_view>
+
+namespace tabor::friction {
+
+/// Which count of the real contact area friction uses.
+enum class Area {
+  corrected,  ///< perimeter-corrected (Yastrebov et al. 2017)
+  pixels      ///< counted contact pixels, as Costagliola et al. 2022 do
+};
+
+std::string_view name(Area area);
+Area parse_area(std::string_view text);  ///< throws InputError with the nearest match
+
+/// What a Bowden-Tabor estimate needs to know of one state of contact and film.
+struct Contact {
+  double mean_pressure = 0;                 ///< P [Pa], > 0
+  double contact_area_fraction = 0;         ///< A_real / A0, perimeter-corrected
+  double contact_area_fraction_pixels = 0;  ///< A_real / A0, counted
+  double saturation_pressure = std::numeric_limits<double>::infinity();  ///< p_sat [Pa]
+  double lubricated_share = 0;  ///< wet contact pixels / contact pixels
+};
+
+struct Estimate {
+  double area_fraction = 0;        ///< A_real / A0 that was used
+  Area area = Area::corrected;     ///< and how it was counted
+  double friction_dry = 0;         ///< mu of the whole real contact
+  double friction_lubricated = 0;  ///< mu of its dry part; wet contact carries no shear
+};
+
+/// Bowden & Tabor: the friction force is the shear strength tau_y [Pa] times the real contact area,
+///
+///   dry         mu = (A_real / A0) tau_y / P
+///   lubricated  mu = (A_real - A_lub) / A0 * tau_y / P
+///
+/// (Costagliola et al. 2022, eqs. 4-5). A corrected area is never taken below P / p_sat, which
+/// bounds the continuum too. Throws InputError for values out of range.
+Estimate estimate(const Contact& contact, double shear_strength, Area area = Area::corrected);
+
+}  // namespace tabor::friction
