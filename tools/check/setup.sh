@@ -1,0 +1,76 @@
+# shellcheck shell=bash
+# Sourced by tools/quickstart, tools/test and .ci/run: finds the project, installs what is missing,
+# configures and builds. Everything it makes lies below build/.
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+cd "$root" || exit 1
+
+# The system's tools come first: a python3 of another origin lacks the Debian packages.
+export PATH=/usr/bin:/bin:$PATH
+# Idle threads sleep instead of taking a core from the tests beside them.
+export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
+
+fail() {
+  printf '%s: %s\n' "$(basename "$0")" "$1" >&2
+  exit 1
+}
+
+# missing_packages SCOPE...: the packages of tools/packages.txt that are not installed
+missing_packages() {
+  local package scope
+  grep -v '^#' tools/packages.txt | while read -r package scope; do
+    case " $* " in *" $scope "*) ;; *) continue ;; esac
+    dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed ||
+      printf '%s ' "$package"
+  done
+}
+
+# as_root COMMAND...: without a terminal sudo must not ask for a password
+as_root() {
+  if [ "$(id -u)" = 0 ]; then "$@"
+  elif [ -t 0 ]; then sudo "$@"
+  else sudo -n "$@"; fi
+}
+
+# install_missing SCOPE...
+install_missing() {
+  if ! command -v dpkg-query >/dev/null; then
+    echo "This is no Debian system: the libraries of tools/packages.txt are taken as they are."
+    return
+  fi
+  local missing
+  missing=$(missing_packages "$@")
+  [ -n "$missing" ] || return 0
+  if [ "$(id -u)" != 0 ] && ! command -v sudo >/dev/null; then
+    fail "these packages are missing and only root can install them: apt-get install $missing"
+  fi
+  echo "Installing: $missing"
+  as_root apt-get -qq update ||
+    echo "apt-get update failed; trying with the package lists at hand" >&2
+  # shellcheck disable=SC2086  # a list of words
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get -qq install -y --no-install-recommends $missing \
+    </dev/null >/dev/null || fail "apt-get could not install: $missing"
+}
+
+# configure PRESET [cmake options...]: into build/PRESET
+configure() {
+  local preset=$1
+  shift
+  if command -v ccache >/dev/null; then
+    set -- -DCMAKE_CXX_COMPILER_LAUNCHER=ccache "$@"
+  fi
+  mkdir -p "build/$preset"
+  cmake --preset "$preset" "$@" >"build/$preset/configure.log" 2>&1 ||
+    { cat "build/$preset/configure.log" >&2; fail "configuring failed (build/$preset/configure.log)"; }
+}
+
+# build PRESET [targets...]
+build() {
+  local preset=$1
+  shift
+  [ $# = 0 ] || set -- --target "$@"
+  echo "Building (build/$preset)"
+  cmake --build "build/$preset" "$@" >"build/$preset/build.log" 2>&1 ||
+    { grep -E 'error|Error|FAILED' "build/$preset/build.log" | head -40 >&2
+      fail "the build failed (build/$preset/build.log)"; }
+}
