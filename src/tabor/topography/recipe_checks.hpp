@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "tabor/topography/topography.hpp"
+
+namespace tabor::topography {
+
+/// Throws InputError unless the grid has pixels and a positive, finite size.
+void check_grid(const Grid& grid, const std::string& what);
+
+/// Throws InputError unless value > 0 and finite.
+void check_positive(double value, const std::string& what);
+
+/// A generated surface: source and history carry the recipe.
+Topography generated(const Grid& grid, Field height, bool periodic, const std::string& recipe);
+
+}  // namespace tabor::topography

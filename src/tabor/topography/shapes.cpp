@@ -1,0 +1,91 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/units.hpp"
+#include "tabor/topography/recipe_checks.hpp"
+#include "tabor/topography/rows.hpp"
+#include "tabor/topography/synthesis.hpp"
+
+namespace tabor::topography {
+namespace {
+
+using std::numbers::pi;
+
+/// height(x, y) at every pixel centre, with (0, 0) at the pixel (0, 0) or in the middle of the
+/// scan.
+template <typename Height>
+Field sample(const Grid& grid, bool from_middle, const Height& height) {
+  Field field(grid.ny, grid.nx);
+  const double shift_x = from_middle ? 0.5 * static_cast<double>(grid.nx - 1) : 0;
+  const double shift_y = from_middle ? 0.5 * static_cast<double>(grid.ny - 1) : 0;
+  for_each_row(grid.ny, [&](Index y) {
+    for (Index x = 0; x < grid.nx; ++x) {
+      field(y, x) = height((static_cast<double>(x) - shift_x) * grid.dx(),
+                           (static_cast<double>(y) - shift_y) * grid.dy());
+    }
+  });
+  return field;
+}
+
+bool fits(double length, double wavelength) {
+  const double periods = wavelength > 0 ? length / wavelength : 1;
+  return std::abs(periods - std::round(periods)) < 1e-9 * periods;
+}
+
+}  // namespace
+
+Topography sinusoid(const Sinusoid& recipe) {
+  check_grid(recipe.grid, "sinusoid");
+  if (recipe.wavelength_x < 0 || recipe.wavelength_y < 0 ||
+      !(recipe.wavelength_x + recipe.wavelength_y > 0)) {
+    throw InputError(
+        "sinusoid",
+        fmt::format("wavelengths {} m and {} m", recipe.wavelength_x, recipe.wavelength_y),
+        "at least one positive wavelength, none negative", "");
+  }
+  const double qx = recipe.wavelength_x > 0 ? 2 * pi / recipe.wavelength_x : 0;
+  const double qy = recipe.wavelength_y > 0 ? 2 * pi / recipe.wavelength_y : 0;
+  auto height = sample(recipe.grid, false, [&](double x, double y) {
+    return recipe.amplitude * std::cos(qx * x) * std::cos(qy * y);
+  });
+  const bool periodic =
+      fits(recipe.grid.lx, recipe.wavelength_x) && fits(recipe.grid.ly, recipe.wavelength_y);
+  return generated(
+      recipe.grid, std::move(height), periodic,
+      fmt::format("generate sinusoid: amplitude {}, wavelengths {} and {}",
+                  format_si(recipe.amplitude, "m"), format_si(recipe.wavelength_x, "m"),
+                  format_si(recipe.wavelength_y, "m")));
+}
+
+Topography sphere(const Sphere& recipe) {
+  check_grid(recipe.grid, "sphere");
+  check_positive(recipe.radius, "radius of the sphere");
+  const double radius = recipe.radius;
+  auto height = sample(recipe.grid, true, [radius](double x, double y) {
+    const double square = x * x + y * y;
+    // sqrt(R^2 - r^2) - R without cancellation near the pole
+    return square < radius * radius ? -square / (radius + std::sqrt(radius * radius - square))
+                                    : -radius;
+  });
+  return generated(recipe.grid, std::move(height), false,
+                   fmt::format("generate sphere: radius {}", format_si(radius, "m")));
+}
+
+Topography bump(const Bump& recipe) {
+  check_grid(recipe.grid, "bump");
+  check_positive(recipe.radius, "radius of the bump");
+  auto height = sample(recipe.grid, true, [&](double x, double y) {
+    const double r = std::hypot(x, y) / recipe.radius;
+    const double c = r < 1 ? std::cos(pi / 2 * r) : 0;
+    return recipe.height * c * c;
+  });
+  const bool inside = 2 * recipe.radius <= std::min(recipe.grid.lx, recipe.grid.ly);
+  return generated(recipe.grid, std::move(height), inside,
+                   fmt::format("generate bump: height {}, radius {}", format_si(recipe.height, "m"),
+                               format_si(recipe.radius, "m")));
+}
+
+}  // namespace tabor::topography
