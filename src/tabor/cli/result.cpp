@@ -34,6 +34,12 @@ int finish(Context& context, io::Json object, const std::string& text, int code)
   return code;
 }
 
+void declare_output(OptionSet& set, std::optional<std::string>& target) {
+  set.group("Output");
+  set.text("--output", "OUT.h5", "keep the maps of every state in an HDF5 file", target)
+      .short_flag = "-o";
+}
+
 void check_can_write(const std::filesystem::path& file) {
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   std::error_code error;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "tabor/cli/exit_code.hpp"
@@ -16,6 +17,9 @@ io::Json json_head(const Context& context, const Scan& scan);
 
 /// Prints the object (with the warnings) or the text (warnings on stderr); returns `code`.
 int finish(Context& context, io::Json object, const std::string& text, int code = kDone);
+
+/// Declares `-o OUT.h5`.
+void declare_output(OptionSet& set, std::optional<std::string>& target);
 
 /// Refuses an output name that cannot be written, before hours of computing. Throws OutputError.
 void check_can_write(const std::filesystem::path& file);

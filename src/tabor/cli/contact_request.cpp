@@ -1,0 +1,165 @@
+#include "tabor/cli/contact_request.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "tabor/cli/interrupt.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/parallel.hpp"
+#include "tabor/core/resources.hpp"
+#include "tabor/elastic/half_space.hpp"
+#include "tabor/material/solid.hpp"
+
+namespace tabor::cli {
+
+void declare_contact(OptionSet& set, ContactRequest& request) {
+  set.group("Contact");
+  set.quantities("--pressure", "P[,P2,...]", "mean pressure, load / nominal area, e.g. 2MPa,7MPa",
+                 dimension::pressure, request.pressures)
+      .required = true;
+  set.quantity("--youngs-modulus", "E", "Young's modulus of the rough body, e.g. 70GPa",
+               dimension::pressure, request.youngs_modulus)
+      .required = true;
+  set.number("--poisson-ratio", "NU", "Poisson's ratio of the rough body, e.g. 0.33",
+             request.poissons_ratio)
+      .required = true;
+  set.quantity("--counter-youngs-modulus", "E2", "Young's modulus of the counter body [rigid]",
+               dimension::pressure, request.counter_youngs_modulus);
+  set.number("--counter-poisson-ratio", "NU2", "Poisson's ratio of the counter body",
+             request.counter_poissons_ratio);
+  set.quantity("--saturation-pressure", "PS", "cap on the contact pressure, e.g. 240MPa [elastic]",
+               dimension::pressure, request.saturation_pressure);
+  set.choice("--boundary", {"periodic", "free"},
+             "periodic: the scan repeats; free: loaded on the scan only [periodic]",
+             request.boundary);
+  set.number("--tolerance", "T", "certificate to reach, 1e-12 to 1e-4 [1e-6]", request.tolerance);
+  set.choice("--solver", {"fast", "polonsky-keer"}, "polonsky-keer is the textbook baseline [fast]",
+             request.solver);
+}
+
+void check(const ContactRequest& request) {
+  if (request.counter_youngs_modulus.has_value() != request.counter_poissons_ratio.has_value()) {
+    throw UsageError(
+        "--counter-youngs-modulus and --counter-poisson-ratio belong together; give both or none");
+  }
+  if (!(request.tolerance >= 1e-12 && request.tolerance <= 1e-4)) {
+    throw UsageError(fmt::format("--tolerance: got {}; expected 1e-12 to 1e-4", request.tolerance));
+  }
+  effective_modulus(request);
+  for (const double pressure : request.pressures) {
+    if (pressure <= 0) {
+      throw InputError("--pressure", si(pressure, "Pa"), "more than zero", "");
+    }
+    if (request.saturation_pressure && pressure >= *request.saturation_pressure) {
+      throw InputError(
+          "--pressure", si(pressure, "Pa"),
+          "less than the saturation pressure " + si(*request.saturation_pressure, "Pa"),
+          "no contact that saturates there can carry this load; lower --pressure or "
+          "raise --saturation-pressure");
+    }
+  }
+}
+
+double effective_modulus(const ContactRequest& request) {
+  const material::Solid solid{request.youngs_modulus, request.poissons_ratio};
+  if (!request.counter_youngs_modulus) return material::effective_modulus(solid);
+  return material::effective_modulus(
+      solid, {*request.counter_youngs_modulus, request.counter_poissons_ratio.value_or(0)});
+}
+
+std::unique_ptr<elastic::ElasticOperator> make_operator(const ContactRequest& request,
+                                                        const Grid& grid) {
+  const double modulus = effective_modulus(request);
+  return request.is_periodic() ? elastic::make_periodic(grid, modulus)
+                               : elastic::make_free(grid, modulus);
+}
+
+void warn_about_edges(const Scan& scan, const ContactRequest& request, Context& context) {
+  if (!request.is_periodic() || scan.surface.periodic) return;
+  context.warn(
+      "the scan is not periodic but is solved as if it repeated: steps at its edges carry load; "
+      "--mirror removes them, --boundary free does without repetition");
+}
+
+ContactResult solve(elastic::ElasticOperator& elasticity, const Field& height, double pressure,
+                    const ContactRequest& request, Context& context) {
+  contact::Problem problem{.height = height, .mean_pressure = pressure};
+  problem.saturation_pressure = request.saturation_pressure.value_or(contact::kNoSaturation);
+  problem.tolerance = request.tolerance;
+  const auto solver =
+      request.solver == "fast" ? contact::Solver::fast : contact::Solver::polonsky_keer;
+  const Stopwatch watch;
+  const double fft_before = elasticity.fft_seconds();
+  ContactResult result;
+  result.state = contact::solve(elasticity, problem, solver, context.observer());
+  // A solver that was stopped returns what it has; half a state is of no use to anybody.
+  if (interrupted()) throw Interrupted();
+  result.summary =
+      contact::summarise(result.state, problem, elasticity.grid(), request.is_periodic());
+  result.fft_seconds = elasticity.fft_seconds() - fft_before;
+  result.seconds = watch.seconds();
+  if (!result.state.convergence.converged) {
+    context.warn(fmt::format("{}: NOT CONVERGED, certificate {:.1e} instead of {:.0e}",
+                             si(pressure, "Pa"), result.state.convergence.certificate,
+                             request.tolerance));
+  }
+  if (!result.summary.area_correction_valid) {
+    context.warn(si(pressure, "Pa") +
+                 ": saturated regions fill whole rows, the perimeter correction of the area does "
+                 "not hold there");
+  }
+  return result;
+}
+
+io::Json settings_json(const ContactRequest& request) {
+  const auto optional = [](const std::optional<double>& value) {
+    return value ? io::Json(*value) : io::Json(nullptr);
+  };
+  return {{"youngs_modulus_Pa", request.youngs_modulus},
+          {"poissons_ratio", request.poissons_ratio},
+          {"counter_youngs_modulus_Pa", optional(request.counter_youngs_modulus)},
+          {"counter_poissons_ratio", optional(request.counter_poissons_ratio)},
+          {"effective_modulus_Pa", effective_modulus(request)},
+          {"saturation_pressure_Pa", optional(request.saturation_pressure)},
+          {"boundary", request.boundary},
+          {"solver", request.solver},
+          {"tolerance", request.tolerance},
+          {"threads", thread_count()}};
+}
+
+io::Json state_json(const ContactResult& result) {
+  const contact::Summary& summary = result.summary;
+  const Convergence& convergence = result.state.convergence;
+  return {{"mean_pressure_Pa", summary.mean_pressure},
+          {"contact_area_fraction", summary.contact_area_fraction},
+          {"contact_area_fraction_pixels", summary.contact_area_fraction_pixels},
+          {"area_correction_valid", summary.area_correction_valid},
+          {"saturated_area_fraction", summary.saturated_area_fraction},
+          {"mean_gap_m", summary.mean_gap},
+          {"separation_m", summary.separation},
+          {"max_pressure_Pa", summary.max_pressure},
+          {"elastic_energy_J_per_m2", summary.elastic_energy},
+          {"n_patches", summary.n_patches},
+          {"perimeter_m", summary.perimeter},
+          {"certificate", io::number(convergence.certificate)},
+          {"converged", convergence.converged},
+          {"iterations", convergence.iterations},
+          {"operator_applications", convergence.operator_applications},
+          {"fft_seconds", result.fft_seconds},
+          {"seconds", result.seconds},
+          {"peak_memory_bytes", peak_memory_bytes()}};
+}
+
+std::string describe(const ContactRequest& request) {
+  Facts facts;
+  facts.fact("contact",
+             fmt::format("E* {}, {}, {}, solver {}", si(effective_modulus(request), "Pa"),
+                         request.saturation_pressure
+                             ? "saturation " + si(*request.saturation_pressure, "Pa")
+                             : std::string("elastic"),
+                         request.boundary, request.solver));
+  return facts.text();
+}
+
+}  // namespace tabor::cli

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tabor/cli/scan.hpp"
+#include "tabor/cli/table.hpp"
+#include "tabor/cli/verb.hpp"
+#include "tabor/contact/contact.hpp"
+#include "tabor/elastic/operator.hpp"
+#include "tabor/io/json.hpp"
+
+namespace tabor::cli {
+
+/// The contact options shared by `contact` and `friction`.
+struct ContactRequest {
+  std::vector<double> pressures;  ///< [Pa]
+  double youngs_modulus = 0;      ///< [Pa]
+  double poissons_ratio = 0;
+  std::optional<double> counter_youngs_modulus;  ///< [Pa], absent: rigid
+  std::optional<double> counter_poissons_ratio;
+  std::optional<double> saturation_pressure;  ///< [Pa], absent: elastic
+  std::string boundary = "periodic";
+  std::string solver = "fast";
+  double tolerance = 1e-6;
+
+  bool is_periodic() const { return boundary == "periodic"; }
+};
+
+/// One solved state with what a user reads about it.
+struct ContactResult {
+  contact::State state;
+  contact::Summary summary;
+  double fft_seconds = 0;
+  double seconds = 0;
+};
+
+void declare_contact(OptionSet& set, ContactRequest& request);
+
+/// Refuses what no solver could do, before a scan is read: P >= p_sat, a counter body half given.
+void check(const ContactRequest& request);
+
+double effective_modulus(const ContactRequest& request);
+std::unique_ptr<elastic::ElasticOperator> make_operator(const ContactRequest& request,
+                                                        const Grid& grid);
+
+/// Warns about edges that do not match under the periodic boundary.
+void warn_about_edges(const Scan& scan, const ContactRequest& request, Context& context);
+
+/// Solves one state. Throws Interrupted when the user stopped it.
+ContactResult solve(elastic::ElasticOperator& elasticity, const Field& height, double pressure,
+                    const ContactRequest& request, Context& context);
+
+/// Settings in force, for the JSON head and the result file.
+io::Json settings_json(const ContactRequest& request);
+/// The keys of one state.
+io::Json state_json(const ContactResult& result);
+std::string describe(const ContactRequest& request);
+
+}  // namespace tabor::cli

@@ -1,0 +1,96 @@
+#include "tabor/cli/fields_file.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+
+#include "tabor/core/version.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+std::string now_utc() {
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+}
+
+void write_attribute(io::Hdf5Writer& writer, const std::string& path, const std::string& key,
+                     const io::Json& value) {
+  if (value.is_boolean()) {
+    writer.attribute(path, key, value.get<bool>() ? 1 : 0);
+  } else if (value.is_number_integer()) {
+    writer.attribute(path, key, value.get<std::int64_t>());
+  } else if (value.is_number()) {
+    writer.attribute(path, key, value.get<double>());
+  } else if (value.is_string()) {
+    writer.attribute(path, key, value.get<std::string>());
+  }
+}
+
+}  // namespace
+
+std::string toml_of(const io::Json& settings) {
+  std::string text;
+  // Numbers, strings and arrays are written alike in JSON and TOML.
+  for (const auto& [key, value] : settings.items()) {
+    if (!value.is_null()) text += key + " = " + io::to_text(value, -1) + '\n';
+  }
+  return text;
+}
+
+FieldsFile::FieldsFile(const std::filesystem::path& file, const Context& context, const Scan& scan,
+                       const io::Json& settings, const std::vector<std::string>& methods)
+    : writer_(file), grid_(scan.surface.grid) {
+  write_root(context, scan, settings, methods);
+  write_surface(scan);
+}
+
+void FieldsFile::write_root(const Context& context, const Scan& scan, const io::Json& settings,
+                            const std::vector<std::string>& methods) {
+  writer_.attribute("/", "format", "tabor");
+  writer_.attribute("/", "format_version", 1);
+  writer_.attribute("/", "software_version", kVersion);
+  writer_.attribute("/", "command", context.command_line);
+  writer_.attribute("/", "config_toml", toml_of(settings));
+  writer_.attribute("/", "created", now_utc());
+  writer_.attribute("/", "input_sha256", scan.sha256);
+  writer_.attribute("/", "methods", methods);
+  writer_.attribute("/", "default", "surface");
+}
+
+void FieldsFile::write_surface(const Scan& scan) {
+  const topography::Topography& surface = scan.surface;
+  writer_.group("/surface");
+  writer_.axes("/surface", grid_);
+  writer_.write("/surface/height", surface.height);
+  writer_.describe("/surface/height", "m", "height, asperities up");
+  writer_.attach_axes("/surface/height");
+  writer_.write("/surface/mask", io::ByteMap(topography::holes(surface).cast<std::uint8_t>()));
+  writer_.describe("/surface/mask", "1", "1 where the height is missing");
+  writer_.attach_axes("/surface/mask");
+  writer_.nxdata("/surface", "height");
+  writer_.attribute("/surface", "source", scan.path);
+  writer_.attribute("/surface", "format", surface.format);
+  writer_.attribute("/surface", "instrument", surface.instrument);
+  writer_.attribute("/surface", "treatment", surface.history);
+  writer_.attribute("/surface", "doubts", surface.doubts);
+  writer_.attribute("/surface", "periodic", surface.periodic ? 1 : 0);
+}
+
+void FieldsFile::add_state(std::size_t number, const io::Json& scalars,
+                           const std::vector<StateField>& fields) {
+  const std::string group = fmt::format("/states/{:04}", number);
+  writer_.group(group);
+  writer_.axes(group, grid_);
+  for (const StateField& field : fields) {
+    const std::string path = group + "/" + field.name;
+    writer_.write(path, field.map);
+    writer_.describe(path, field.unit, field.long_name);
+    writer_.attach_axes(path);
+  }
+  writer_.nxdata(group, fields.front().name);
+  for (const auto& [key, value] : scalars.items()) write_attribute(writer_, group, key, value);
+}
+
+}  // namespace tabor::cli

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tabor/cli/result.hpp"
+#include "tabor/io/hdf5.hpp"
+
+namespace tabor::cli {
+
+/// One map of a state.
+struct StateField {
+  std::string name;  ///< "pressure"
+  std::string unit;  ///< "Pa"
+  std::string long_name;
+  const Field& map;
+};
+
+/// The `-o` file of contact, lubricate and friction (docs/results.md). Nothing appears under its
+/// name before commit().
+class FieldsFile {
+ public:
+  /// `settings` is a flat object, stored as TOML text; `methods` are keys of references.bib.
+  FieldsFile(const std::filesystem::path& file, const Context& context, const Scan& scan,
+             const io::Json& settings, const std::vector<std::string>& methods);
+
+  /// Adds /states/NNNN: scalars as attributes, the first field as what viewers plot.
+  void add_state(std::size_t number, const io::Json& scalars,
+                 const std::vector<StateField>& fields);
+  void commit() { writer_.commit(); }
+
+ private:
+  void write_root(const Context& context, const Scan& scan, const io::Json& settings,
+                  const std::vector<std::string>& methods);
+  void write_surface(const Scan& scan);
+
+  io::Hdf5Writer writer_;
+  Grid grid_;
+};
+
+/// A flat JSON object as TOML lines; nulls are left out.
+std::string toml_of(const io::Json& settings);
+
+}  // namespace tabor::cli

@@ -1,0 +1,175 @@
+#include <gmock/gmock.h>
+
+#include "run_tabor.hpp"
+#include "support/folder.hpp"
+#include "tabor/cli/interrupt.hpp"
+#include "tabor/io/hdf5.hpp"
+
+namespace tabor::test {
+namespace {
+
+using testing::HasSubstr;
+using Words = std::vector<std::string>;
+
+Words operator+(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+class ContactVerb : public testing::Test {
+ protected:
+  void SetUp() override {
+    const Outcome made = run_tabor({"generate", "self-affine", "-o", scan(), "--pixels", "64",
+                                    "--pixel", "1um", "--rms-slope", "0.1"});
+    ASSERT_EQ(made.code, 0) << made.err;
+  }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  std::string scan() const { return file("scan.h5"); }
+  Words contact(const std::string& pressure) const {
+    return {"contact",          scan(),  "--pressure",      pressure,
+            "--youngs-modulus", "70GPa", "--poisson-ratio", "0.33"};
+  }
+
+  Folder folder_;
+};
+
+TEST_F(ContactVerb, HasTheAgreedKeys) {
+  const io::Json result = json_of(contact("20MPa,50MPa"));
+  for (const char* key : {"nx", "ny", "effective_modulus_Pa", "saturation_pressure_Pa", "boundary",
+                          "solver", "threads", "states", "warnings"}) {
+    EXPECT_TRUE(result.contains(key)) << key;
+  }
+  ASSERT_EQ(result.at("states").size(), 2u);
+  for (const char* key :
+       {"mean_pressure_Pa", "contact_area_fraction", "contact_area_fraction_pixels",
+        "saturated_area_fraction", "mean_gap_m", "separation_m", "max_pressure_Pa",
+        "elastic_energy_J_per_m2", "n_patches", "perimeter_m", "certificate", "converged",
+        "iterations", "operator_applications", "fft_seconds", "seconds", "peak_memory_bytes"}) {
+    EXPECT_TRUE(result.at("states").at(0).contains(key)) << key;
+  }
+}
+
+TEST_F(ContactVerb, AreaGrowsWithPressureAndReachesTheTolerance) {
+  const io::Json states = json_of(contact("20MPa,50MPa")).at("states");
+  EXPECT_LT(states.at(0).at("contact_area_fraction").get<double>(),
+            states.at(1).at("contact_area_fraction").get<double>());
+  for (const io::Json& state : states) {
+    EXPECT_TRUE(state.at("converged").get<bool>());
+    EXPECT_LE(state.at("certificate").get<double>(), 1e-6);
+  }
+}
+
+TEST_F(ContactVerb, EffectiveModulusFollowsFromBothBodies) {
+  const io::Json rigid = json_of(contact("20MPa"));
+  EXPECT_NEAR(rigid.at("effective_modulus_Pa").get<double>(), 70e9 / (1 - 0.33 * 0.33), 1);
+  const io::Json equal = json_of(contact("20MPa") + Words{"--counter-youngs-modulus", "70GPa",
+                                                          "--counter-poisson-ratio", "0.33"});
+  EXPECT_NEAR(equal.at("effective_modulus_Pa").get<double>(), 35e9 / (1 - 0.33 * 0.33), 1);
+}
+
+TEST_F(ContactVerb, SaturationCapsThePressure) {
+  const io::Json result = json_of(contact("20MPa") + Words{"--saturation-pressure", "240MPa"});
+  const io::Json& state = result.at("states").at(0);
+  EXPECT_LE(state.at("max_pressure_Pa").get<double>(), 240e6);
+  EXPECT_GE(state.at("contact_area_fraction").get<double>(), 20.0 / 240);
+  EXPECT_EQ(result.at("saturation_pressure_Pa"), 240e6);
+}
+
+TEST_F(ContactVerb, PressureAtOrAboveSaturationIsBadInput) {
+  for (const char* pressure : {"240MPa", "20MPa,300MPa"}) {
+    const Outcome outcome = run_tabor(contact(pressure) + Words{"--saturation-pressure", "240MPa"});
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_EQ(count_lines(outcome.err), 1u);
+    EXPECT_THAT(outcome.err, HasSubstr("saturation"));
+  }
+}
+
+TEST_F(ContactVerb, SolidsThatDoNotExistAreBadInput) {
+  const Words base = {"contact", scan(), "--pressure", "1MPa"};
+  EXPECT_EQ(run_tabor(base + Words{"--youngs-modulus", "-70GPa", "--poisson-ratio", "0.3"}).code,
+            3);
+  EXPECT_EQ(run_tabor(base + Words{"--youngs-modulus", "70GPa", "--poisson-ratio", "0.7"}).code, 3);
+  EXPECT_EQ(run_tabor(contact("-1MPa")).code, 3);
+}
+
+TEST_F(ContactVerb, HalfACounterBodyIsAUsageError) {
+  const Outcome outcome = run_tabor(contact("1MPa") + Words{"--counter-youngs-modulus", "1GPa"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--counter-poisson-ratio"));
+}
+
+TEST_F(ContactVerb, HolesAreRefusedWithTheOptionThatFillsThem) {
+  put_bytes(folder_ / "holes.txt", "1 2 3\n4 NaN 6\n7 8 10\n");
+  const Words words = {"contact",          file("holes.txt"),
+                       "--pixel",          "1um",
+                       "--unit",           "nm",
+                       "--pressure",       "1MPa",
+                       "--youngs-modulus", "70GPa",
+                       "--poisson-ratio",  "0.33"};
+  const Outcome refused = run_tabor(words);
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("--fill harmonic"));
+  EXPECT_EQ(run_tabor(words + Words{"--fill", "harmonic"}).code, 0);
+}
+
+TEST_F(ContactVerb, BothSolversAndBothBoundariesAgreeOnALightContact) {
+  const auto area = [&](const Words& more) {
+    return json_of(contact("5MPa") + more)
+        .at("states")
+        .at(0)
+        .at("contact_area_fraction_pixels")
+        .get<double>();
+  };
+  EXPECT_EQ(area({}), area({"--solver", "polonsky-keer"}));
+  EXPECT_GT(area({"--boundary", "free"}), 0);
+}
+
+TEST_F(ContactVerb, KeepsTheMapsOfEveryState) {
+  const Outcome outcome = run_tabor(contact("20MPa,50MPa") + Words{"-o", file("out.h5")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  const io::Hdf5Reader result(file("out.h5"));
+  for (const std::string state : {"/states/0000", "/states/0001"}) {
+    for (const std::string map : {"/pressure", "/displacement", "/gap"}) {
+      EXPECT_EQ(result.shape(state + map), (std::vector<Index>{64, 64}));
+      EXPECT_TRUE(result.has_attribute(state + map, "units"));
+    }
+  }
+  EXPECT_NEAR(result.field("/states/0001/pressure").mean(), 50e6, 1);
+  EXPECT_EQ(result.number("/states/0000", "mean_pressure_Pa"), 20e6);
+  EXPECT_EQ(result.text("/", "format"), "tabor");
+  EXPECT_THAT(result.text("/", "command"), HasSubstr("tabor contact"));
+  EXPECT_THAT(result.text("/", "config_toml"), HasSubstr("youngs_modulus_Pa = 70000000000.0"));
+}
+
+TEST_F(ContactVerb, CiteNamesWhatTheResultUsed) {
+  ASSERT_EQ(run_tabor(contact("20MPa") + Words{"-o", file("out.h5")}).code, 0);
+  const io::Json elastic = json_of({"cite", file("out.h5")}).at("bibtex");
+  EXPECT_TRUE(elastic.contains("stanley1997"));
+  EXPECT_FALSE(elastic.contains("almqvist2007"));
+  EXPECT_FALSE(elastic.contains("barnes2021"));
+}
+
+TEST_F(ContactVerb, ResultsDoNotDependOnTheThreadCount) {
+  const auto state = [&](const std::string& threads) {
+    io::Json json = json_of(contact("20MPa") + Words{"--threads", threads}).at("states").at(0);
+    for (const char* timing : {"seconds", "fft_seconds", "peak_memory_bytes"}) json.erase(timing);
+    return json;
+  };
+  EXPECT_EQ(state("1"), state("2"));
+}
+
+TEST_F(ContactVerb, InterruptedKeepsWhatWasFinishedAndLeaves) {
+  cli::set_interrupted(true);
+  const Outcome outcome = run_tabor(contact("20MPa") + Words{"--json"});
+  cli::set_interrupted(false);
+  EXPECT_EQ(outcome.code, 130);
+}
+
+TEST_F(ContactVerb, TableShowsCertificateAndConvergence) {
+  const Outcome outcome = run_tabor(contact("20MPa"));
+  EXPECT_THAT(outcome.out, testing::AllOf(HasSubstr("20 MPa"), HasSubstr("certificate"),
+                                          HasSubstr("converged"), HasSubstr("yes")));
+}
+
+}  // namespace
+}  // namespace tabor::test

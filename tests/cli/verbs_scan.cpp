@@ -1,0 +1,196 @@
+// info, convert, params, psd, generate, formats, cite, options on small generated surfaces.
+#include <gmock/gmock.h>
+
+#include "run_tabor.hpp"
+#include "support/folder.hpp"
+
+namespace tabor::test {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A folder with a small periodic rough surface in it.
+class ScanVerbs : public testing::Test {
+ protected:
+  void SetUp() override {
+    const Outcome made = run_tabor({"generate", "self-affine", "-o", scan(), "--pixels", "32,24",
+                                    "--pixel", "1um", "--rms-height", "1um"});
+    ASSERT_EQ(made.code, 0) << made.err;
+  }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  std::string scan() const { return file("scan.sdf"); }
+
+  Folder folder_;
+};
+
+std::vector<std::string> keys_of(const io::Json& object) {
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : object.items()) keys.push_back(key);
+  return keys;
+}
+
+void expect_keys(const io::Json& object, const std::vector<std::string>& wanted) {
+  const std::vector<std::string> keys = keys_of(object);
+  for (const std::string& key : wanted) EXPECT_THAT(keys, Contains(key));
+}
+
+TEST_F(ScanVerbs, InfoHasTheAgreedKeys) {
+  const io::Json info = json_of({"info", scan()});
+  expect_keys(info, {"file", "format", "instrument", "channels", "channel", "nx", "ny", "pixel_x_m",
+                     "pixel_y_m", "size_x_m", "size_y_m", "missing_pixels", "missing_fraction",
+                     "height_min_m", "height_max_m", "height_rms_m", "height_quantum_m", "doubts",
+                     "warnings"});
+  expect_keys(info.at("channels").at(0), {"index", "name", "unit", "is_height"});
+  EXPECT_EQ(info.at("nx"), 32);
+  EXPECT_EQ(info.at("ny"), 24);
+  EXPECT_DOUBLE_EQ(info.at("pixel_x_m"), 1e-6);
+  EXPECT_DOUBLE_EQ(info.at("size_y_m"), 24e-6);
+  EXPECT_NEAR(info.at("height_rms_m").get<double>(), 1e-6, 1e-12);
+}
+
+TEST_F(ScanVerbs, JsonBeginsWithVersionAndCommandAndScan) {
+  const io::Json params = json_of({"params", scan()});
+  const std::vector<std::string> keys = keys_of(params);
+  ASSERT_GE(keys.size(), 3u);
+  EXPECT_THAT(std::vector<std::string>(keys.begin(), keys.begin() + 3),
+              ElementsAre("tabor_version", "command", "scan"));
+  EXPECT_EQ(params.at("scan").at("path"), scan());
+  EXPECT_EQ(params.at("scan").at("sha256").get<std::string>().size(), 64u);
+}
+
+TEST_F(ScanVerbs, ParamsCarryValueUnitAndDefinition) {
+  const io::Json params = json_of({"params", scan(), "--level", "plane"});
+  EXPECT_THAT(params.at("treatment"), ElementsAre("level=plane"));
+  for (const char* symbol : {"Sq", "Sa", "Sdq"}) {
+    expect_keys(params.at("parameters").at(symbol), {"value", "unit", "definition"});
+  }
+}
+
+TEST_F(ScanVerbs, TreatmentIsAppliedInTheOrderGiven) {
+  const io::Json cropped_first =
+      json_of({"params", scan(), "--crop", "0,0,16,24", "--level", "plane"});
+  const io::Json levelled_first =
+      json_of({"params", scan(), "--level", "plane", "--crop", "0,0,16,24"});
+  EXPECT_THAT(cropped_first.at("treatment"), ElementsAre("crop=0,0,16,24", "level=plane"));
+  EXPECT_THAT(levelled_first.at("treatment"), ElementsAre("level=plane", "crop=0,0,16,24"));
+  // A plane fitted to the crop itself leaves less than one fitted to the whole scan.
+  EXPECT_LT(cropped_first.at("parameters").at("Sq").at("value").get<double>(),
+            levelled_first.at("parameters").at("Sq").at("value").get<double>());
+}
+
+TEST_F(ScanVerbs, UnlevelledScansAreWarnedAbout) {
+  EXPECT_THAT(json_of({"params", scan()}).at("warnings").dump(), HasSubstr("--level plane"));
+  EXPECT_THAT(json_of({"params", scan(), "--level", "plane"}).at("warnings").dump(),
+              testing::Not(HasSubstr("--level plane")));
+}
+
+TEST_F(ScanVerbs, PsdHasTheAgreedKeys) {
+  const io::Json psd = json_of({"psd", scan(), "--level", "plane"});
+  expect_keys(psd, {"convention", "window", "x", "y", "radial", "rms_height_m", "rms_slope"});
+  expect_keys(psd.at("x"), {"q_rad_per_m", "c1d_m3", "hurst"});
+  expect_keys(psd.at("radial"), {"q_rad_per_m", "c2d_m4", "hurst"});
+  EXPECT_EQ(psd.at("convention"), "jacobs");
+  EXPECT_EQ(psd.at("x").at("q_rad_per_m").size(), psd.at("x").at("c1d_m3").size());
+}
+
+TEST_F(ScanVerbs, PsdWithoutWindowHasTheSurfacesRmsHeight) {
+  const io::Json psd = json_of({"psd", scan(), "--window", "none"});
+  EXPECT_NEAR(psd.at("rms_height_m").get<double>(), 1e-6, 1e-9);
+}
+
+TEST_F(ScanVerbs, ConvertKeepsTheHeights) {
+  const Outcome converted = run_tabor({"convert", scan(), file("copy.gwy")});
+  ASSERT_EQ(converted.code, 0) << converted.err;
+  const io::Json before = json_of({"info", scan()});
+  const io::Json after = json_of({"info", file("copy.gwy")});
+  EXPECT_EQ(after.at("format"), "gwy");
+  for (const char* key : {"nx", "ny", "height_min_m", "height_max_m"}) {
+    EXPECT_EQ(after.at(key), before.at(key)) << key;
+  }
+}
+
+TEST_F(ScanVerbs, PixelMayDifferAlongXAndY) {
+  put_bytes(folder_ / "plain.txt", "1 2 3\n4 5 6\n7 8 10\n");
+  const io::Json info = json_of({"info", file("plain.txt"), "--pixel", "5um,4um", "--unit", "nm"});
+  EXPECT_DOUBLE_EQ(info.at("pixel_x_m"), 5e-6);
+  EXPECT_DOUBLE_EQ(info.at("pixel_y_m"), 4e-6);
+  EXPECT_DOUBLE_EQ(info.at("height_max_m"), 10e-9);
+}
+
+TEST_F(ScanVerbs, TableIsForPeopleAndJsonForPrograms) {
+  const Outcome table = run_tabor({"params", scan(), "--level", "plane"});
+  EXPECT_THAT(table.out, AllOf(HasSubstr("Sq"), HasSubstr("µm"), HasSubstr("level=plane")));
+  const Outcome json = run_tabor({"params", scan(), "--level", "plane", "--json"});
+  EXPECT_EQ(json.out.front(), '{');
+  EXPECT_EQ(json.err, "");
+}
+
+TEST_F(ScanVerbs, GenerateIsReproducibleBySeed) {
+  const auto made = [&](const std::string& name, const std::string& seed) {
+    run_tabor({"generate", "edt", "-o", file(name), "--pixels", "64", "--seed", seed});
+    return json_of({"info", file(name)}).at("height_max_m");
+  };
+  EXPECT_EQ(made("a.sdf", "5"), made("b.sdf", "5"));
+  EXPECT_NE(made("a.sdf", "5"), made("c.sdf", "6"));
+}
+
+TEST_F(ScanVerbs, GenerateRefusesOptionsOfAnotherKind) {
+  const Outcome outcome = run_tabor({"generate", "edt", "-o", file("x.sdf"), "--radius", "1mm"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--radius does not belong"));
+}
+
+TEST_F(ScanVerbs, GenerateNamesTheNearestKind) {
+  const Outcome outcome = run_tabor({"generate", "sinusiod", "-o", file("x.sdf")});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("'sinusoid'"));
+}
+
+TEST_F(ScanVerbs, MissingFileIsBadInput) {
+  const Outcome outcome = run_tabor({"info", file("absent.x3p")});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_EQ(count_lines(outcome.err), 1u);
+  EXPECT_THAT(outcome.err, HasSubstr("absent.x3p"));
+}
+
+TEST_F(ScanVerbs, OutputInAnAbsentFolderCannotBeWritten) {
+  const Outcome outcome = run_tabor({"convert", scan(), file("absent/out.h5")});
+  EXPECT_EQ(outcome.code, 5);
+  EXPECT_THAT(outcome.err, HasSubstr("absent"));
+}
+
+TEST_F(ScanVerbs, HolesAreRefusedByPsdWithTheOptionThatFillsThem) {
+  put_bytes(folder_ / "holes.txt", "1 2 3\n4 NaN 6\n7 8 10\n");
+  const std::vector<std::string> words = {"psd", file("holes.txt"), "--pixel", "1um", "--unit",
+                                          "nm",  "--window",        "none"};
+  const Outcome outcome = run_tabor(words);
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("--fill harmonic"));
+}
+
+TEST(Formats, ListsWhatIsReadAndWritten) {
+  const io::Json formats = json_of({"formats"}).at("formats");
+  ASSERT_GT(formats.size(), 5u);
+  expect_keys(formats.at(0), {"name", "description", "extensions", "reads", "writes"});
+  EXPECT_THAT(run_tabor({"formats"}).out, HasSubstr("x3p"));
+}
+
+TEST(Cite, WithoutAFileGivesEveryEntryOnce) {
+  const io::Json entries = json_of({"cite"}).at("bibtex");
+  for (const auto& [key, text] : entries.items()) {
+    EXPECT_THAT(text.get<std::string>(), AllOf(HasSubstr("{" + key + ","), testing::EndsWith("}")));
+  }
+  EXPECT_TRUE(entries.contains("polonsky1999"));
+}
+
+TEST(Cite, RefusesAFileThatIsNoResult) {
+  const Folder folder;
+  put_bytes(folder / "x.h5", "not a result");
+  EXPECT_EQ(run_tabor({"cite", (folder / "x.h5").string()}).code, 3);
+}
+
+}  // namespace
+}  // namespace tabor::test
