@@ -35,9 +35,9 @@ XmlDocument::XmlDocument(std::string_view text, const std::string& name)
     : document_(std::make_unique<pugi::xml_document>()) {
   const pugi::xml_parse_result result = document_->load_buffer(text.data(), text.size());
   if (!result) {
-    throw InputError(
-        name, fmt::format("XML broken at byte {} ({})", result.offset, result.description()),
-        "well-formed XML", "export the file again");
+    throw InputError(name,
+                     fmt::format("XML broken at byte {} ({})", result.offset, result.description()),
+                     "well-formed XML", "export the file again");
   }
 }
 
@@ -51,11 +51,20 @@ std::string xml_escape(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
     switch (c) {
-      case '&': escaped += "&amp;"; break;
-      case '<': escaped += "&lt;"; break;
-      case '>': escaped += "&gt;"; break;
-      case '"': escaped += "&quot;"; break;
-      default: escaped += c;
+      case '&':
+        escaped += "&amp;";
+        break;
+      case '<':
+        escaped += "&lt;";
+        break;
+      case '>':
+        escaped += "&gt;";
+        break;
+      case '"':
+        escaped += "&quot;";
+        break;
+      default:
+        escaped += c;
     }
   }
   return escaped;

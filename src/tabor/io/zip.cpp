@@ -4,6 +4,7 @@
 #include <zip.h>
 
 #include <algorithm>
+#include <ctime>
 
 #include "tabor/core/error.hpp"
 

@@ -9,9 +9,9 @@
 namespace tabor::io {
 
 struct ZipEntry {
-  std::string name;            ///< as stored, folders separated by '/'
-  std::size_t size = 0;        ///< unpacked [bytes], as the archive claims
-  std::size_t packed_size = 0; ///< [bytes]
+  std::string name;             ///< as stored, folders separated by '/'
+  std::size_t size = 0;         ///< unpacked [bytes], as the archive claims
+  std::size_t packed_size = 0;  ///< [bytes]
 };
 
 /// A ZIP archive in memory, for reading. The bytes must outlive it.

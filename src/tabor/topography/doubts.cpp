@@ -1,0 +1,200 @@
+#include "tabor/topography/doubts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/parallel.hpp"
+#include "tabor/core/units.hpp"
+#include "tabor/spectral/fft.hpp"
+#include "tabor/topography/levelling.hpp"
+
+namespace tabor::topography {
+namespace {
+
+/// Heights looked at to estimate the quantum before all are checked.
+constexpr Index kSample = Index{1} << 20;
+/// A ratio this close to an integer counts as one. Random heights pass with a chance of 1/5 per
+/// distinct height, quantised ones always.
+constexpr double kIntegerTolerance = 0.1;
+/// Resolution of float32: below it a step is rounding, not quantisation.
+constexpr double kFinestShare = 0x1p-24;
+
+/// Every stride-th valid height, ascending, without repetition.
+std::vector<double> distinct_heights(const Field& height, Index stride) {
+  std::vector<double> values;
+  for (Index i = 0; i < height.size(); i += stride) {
+    if (std::isfinite(height.data()[i])) values.push_back(height.data()[i]);
+  }
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+/// Approximate common divisor of the gaps, ascending: the smallest one, refined by every further
+/// gap that is a multiple of it; 0 if one is not.
+double common_step(const std::vector<double>& heights) {
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < heights.size(); ++i) gaps.push_back(heights[i] - heights[i - 1]);
+  std::sort(gaps.begin(), gaps.end());
+  double total = 0;
+  double count = 0;
+  for (const double gap : gaps) {
+    const double steps = count > 0 ? std::round(gap * count / total) : 1;
+    if (count > 0 && std::abs(gap * count / total - steps) > kIntegerTolerance) return 0;
+    total += gap;
+    count += steps;
+  }
+  return count > 0 ? total / count : 0;
+}
+
+bool all_on_steps(const Field& height, double first, double step) {
+  const double off = parallel_max(height.size(), [&](Index begin, Index end) {
+    double worst = 0;
+    for (Index i = begin; i < end; ++i) {
+      const double steps = (height.data()[i] - first) / step;
+      if (std::isfinite(steps)) worst = std::max(worst, std::abs(steps - std::round(steps)));
+    }
+    return worst;
+  });
+  return off <= kIntegerTolerance;
+}
+
+double mean_square(const Field& height) {
+  const auto total = [&](const auto& term) {
+    return deterministic_sum(height.size(), [&](Index begin, Index end) {
+      double sum_of_block = 0;
+      for (Index i = begin; i < end; ++i) {
+        const double z = height.data()[i];
+        if (std::isfinite(z)) sum_of_block += term(z);
+      }
+      return sum_of_block;
+    });
+  };
+  const double n = total([](double) { return 1.0; });
+  if (n == 0) return 0;
+  const double mean = total([](double z) { return z; }) / n;
+  return total([mean](double z) { return (z - mean) * (z - mean); }) / n;
+}
+
+/// Distance of pixel (y, x) from the mean of its neighbours in x; NaN at holes.
+double bend(const Field& height, Index y, Index x) {
+  return std::abs(height(y, x) - (height(y, x - 1) + height(y, x + 1)) / 2);
+}
+
+double median_bend(const Field& height) {
+  std::vector<double> bends;
+  const Index stride = std::max<Index>(1, height.size() / kSample);
+  for (Index y = 0; y < height.rows(); y += stride) {
+    for (Index x = 1; x + 1 < height.cols(); ++x) {
+      if (const double b = bend(height, y, x); std::isfinite(b)) bends.push_back(b);
+    }
+  }
+  if (bends.empty()) return 0;
+  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
+  std::nth_element(bends.begin(), middle, bends.end());
+  return *middle;
+}
+
+void doubt_pixels(const Grid& grid, std::vector<std::string>& list) {
+  constexpr double kSquare = 1e-3;
+  if (std::abs(grid.dx() / grid.dy() - 1) > kSquare && grid.ny > 1) {
+    list.push_back(fmt::format("pixels are not square: {} x {}", format_si(grid.dx(), "m"),
+                               format_si(grid.dy(), "m")));
+  }
+}
+
+void doubt_sizes(const Grid& grid, std::vector<std::string>& list) {
+  constexpr Index kFastPrime = 13;  // FFTW has fast kernels up to it
+  for (const auto& [n, axis] : {std::pair(grid.nx, "x"), std::pair(grid.ny, "y")}) {
+    const Index prime = spectral::largest_prime_factor(n);
+    if (prime <= kFastPrime) continue;
+    Index fast = n;
+    while (spectral::largest_prime_factor(fast) > kFastPrime) --fast;
+    list.push_back(
+        fmt::format("{} pixels along {} have the prime factor {}: transforms are slow; crop to {}",
+                    n, axis, prime, fast));
+  }
+}
+
+void doubt_holes(const Topography& topography, std::vector<std::string>& list) {
+  const Index n_holes = count_holes(topography);
+  if (n_holes == 0) return;
+  list.push_back(fmt::format(
+      "{} of {} pixels are missing ({:.2g} %)", n_holes, topography.grid.size(),
+      100 * static_cast<double>(n_holes) / static_cast<double>(topography.grid.size())));
+}
+
+void doubt_quantum(double quantum, double rms, std::vector<std::string>& list) {
+  constexpr double kCoarse = 0.02;
+  if (quantum > kCoarse * rms && rms > 0) {
+    list.push_back(fmt::format("heights come in steps of {}, {:.2g} of their rms",
+                               format_si(quantum, "m"), quantum / rms));
+  }
+}
+
+void doubt_spikes(const Field& levelled, std::vector<std::string>& list) {
+  if (const Index spikes = count_spikes(levelled); spikes > 0) {
+    list.push_back(fmt::format("{} isolated spikes: slopes and contact depend on them", spikes));
+  }
+}
+
+/// Heights without their least-squares plane; as they are if they do not determine one.
+Field without_plane(const Field& height) {
+  try {
+    return remove_form(height, fit_form(height, 1));
+  } catch (const InputError&) {
+    return height;
+  }
+}
+
+}  // namespace
+
+double height_quantum(const Field& height) {
+  for (Index stride = std::max<Index>(1, height.size() / kSample); stride >= 1; stride /= 2) {
+    const std::vector<double> heights = distinct_heights(height, stride);
+    if (heights.size() < 3) {  // two levels are always one step apart
+      if (stride == 1) return 0;
+      continue;
+    }
+    const double step = common_step(heights);
+    if (step < kFinestShare * (heights.back() - heights.front())) return 0;
+    if (all_on_steps(height, heights.front(), step)) return step;
+  }
+  return 0;
+}
+
+Index count_spikes(const Field& height) {
+  constexpr double kFarFromNeighbours = 30;
+  constexpr double kFarFromAll = 5;
+  const double rms = std::sqrt(mean_square(height));
+  const double limit = std::max(kFarFromNeighbours * median_bend(height), kFarFromAll * rms);
+  Index n = 0;
+  for (Index y = 0; y < height.rows(); ++y) {
+    for (Index x = 1; x + 1 < height.cols(); ++x) {
+      if (rms > 0 && bend(height, y, x) > limit) ++n;
+    }
+  }
+  return n;
+}
+
+std::vector<std::string> doubts(const Topography& topography) {
+  std::vector<std::string> list;
+  doubt_pixels(topography.grid, list);
+  doubt_sizes(topography.grid, list);
+  doubt_holes(topography, list);
+  const Field levelled = without_plane(topography.height);
+  const double rms = std::sqrt(mean_square(topography.height));
+  const double rms_levelled = std::sqrt(mean_square(levelled));
+  if (rms > 2 * rms_levelled && rms_levelled > 0) {
+    list.push_back(fmt::format("tilt is larger than roughness: Sq {} becomes {} without its plane",
+                               format_si(rms, "m"), format_si(rms_levelled, "m")));
+  }
+  doubt_quantum(height_quantum(topography.height), rms_levelled, list);
+  doubt_spikes(levelled, list);
+  return list;
+}
+
+}  // namespace tabor::topography

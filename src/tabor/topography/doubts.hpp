@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tabor/topography/topography.hpp"
+
+namespace tabor::topography {
+
+/// What a careful user should know about these heights, one sentence each: pixels that are not
+/// square, holes, quantised heights, spikes, tilt larger than the roughness, sizes that make slow
+/// transforms. What only the file can tell (a guessed unit) its reader adds itself.
+std::vector<std::string> doubts(const Topography& topography);
+
+/// The step [m] all heights are multiples of (up to a common offset); 0 if there is none or if it
+/// is below 2^-24 of their range.
+double height_quantum(const Field& height);
+
+/// Isolated pixels far above or below both their neighbours in x (30 times the median distance and
+/// 5 Sq).
+Index count_spikes(const Field& height);
+
+}  // namespace tabor::topography

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tabor/core/error.hpp"
+#include "tabor/topography/file.hpp"
+
+namespace tabor::topography::format {
+
+/// A whole scan file in memory.
+struct Contents {
+  std::filesystem::path file;
+  std::string_view bytes;
+};
+
+/// One image channel as the file describes it. A stored value times `scale` is the height in
+/// `unit`; what the file leaves open is left empty here and asked from the user.
+struct Layer {
+  std::string name = {};
+  std::string unit = {};    ///< as in the file; "" if the file does not say
+  double scale = 1;         ///< stored value -> `unit`
+  bool is_count = false;    ///< integers without any scale: needs ReadOptions::z_scale
+  bool is_picture = false;  ///< known not to hold heights (intensity, colour), whatever its unit
+  std::optional<int> index = {};  ///< number the file itself gives the channel, else its position
+  Index nx = 0;
+  Index ny = 0;
+  std::optional<double> pixel_x = {};  ///< [m]
+  std::optional<double> pixel_y = {};  ///< [m]
+  std::string pixel_hint = {};  ///< what the file says about the missing pixel, for the message
+  std::function<Field()> load = {};  ///< stored values (ny, nx), row 0 on top, NaN = hole
+};
+
+/// What a file holds, before any heights are loaded.
+struct Document {
+  std::string format = {};  ///< name of the format table, or what a converter says it is
+  std::string instrument = {};
+  std::map<std::string, std::string> metadata = {};
+  std::vector<std::string> doubts = {};   ///< what the reader had to assume
+  std::vector<std::string> history = {};  ///< treatment recorded in the file
+  bool periodic = false;
+  std::vector<Layer> layers = {};
+};
+
+enum class Match { no, maybe, yes };
+
+/// Bytes from the start of a file that identify() may look at.
+inline constexpr std::size_t kHeadSize = 4096;
+
+/// One row of the format table: all that tabor knows about a format. Readers describe a file;
+/// choosing the channel, applying the user's options and checking units is the same for all and
+/// done once, in file.cpp.
+struct Format {
+  std::string name;
+  std::string description;
+  std::vector<std::string> extensions;
+  Match (*identify)(std::string_view head) = nullptr;  ///< null: cannot be read
+  Document (*open)(const Contents& contents) = nullptr;
+  void (*write)(const Topography& topography, const std::filesystem::path& file) = nullptr;
+  bool via_gwyddion = false;
+};
+
+/// All formats in the order in which they are tried.
+const std::vector<Format>& table();
+
+/// Thrown by open() when the container is not this format after all (a ZIP archive without
+/// main.xml): the next format is tried.
+class Unrecognised : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// Throws InputError "<file>: got ...; expected ...; <remedy>".
+[[noreturn]] void refuse(const Contents& contents, const std::string& got,
+                         const std::string& expected, const std::string& remedy = "");
+
+/// The one remedy for files that end too early or contradict themselves.
+inline constexpr const char* kDamaged = "the file is damaged or truncated: export or copy it again";
+
+/// Refuses sizes below one pixel and sizes that need more samples than `available`: a header must
+/// not make a reader allocate more than its file can hold.
+void check_size(const Contents& contents, double nx, double ny, std::size_t available);
+
+/// "pixel" as a positive finite length, or a refusal.
+double checked_pixel(const Contents& contents, double pixel);
+
+inline constexpr double kHole = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace tabor::topography::format

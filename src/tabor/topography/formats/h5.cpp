@@ -1,0 +1,119 @@
+// tabor's own HDF5 files (docs/results.md): the group /surface.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <ctime>
+
+#include "tabor/core/version.hpp"
+#include "tabor/io/hdf5.hpp"
+#include "tabor/topography/formats/readers.hpp"
+
+namespace tabor::topography::format {
+namespace {
+
+constexpr std::string_view kSignature{"\x89HDF\r\n\x1a\n", 8};
+
+std::string text_or_empty(const io::Hdf5Reader& reader, const std::string& name) {
+  return reader.has_attribute("/surface", name) ? reader.text("/surface", name) : "";
+}
+
+std::vector<std::string> texts_or_none(const io::Hdf5Reader& reader, const std::string& name) {
+  if (!reader.has_attribute("/surface", name)) return {};
+  return reader.attribute_texts("/surface", name);
+}
+
+/// Pixel pitch from the coordinates of the pixel centres; a single pixel's centre is half of it.
+double pitch(const Contents& contents, const std::vector<double>& centres) {
+  const std::size_t n = centres.size();
+  const double pixel =
+      n > 1 ? (centres.back() - centres.front()) / static_cast<double>(n - 1) : 2 * centres.front();
+  return checked_pixel(contents, pixel);
+}
+
+double pixel(const Contents& contents, const io::Hdf5Reader& reader, const std::string& axis) {
+  const std::string attribute = "pixel_" + axis + "_m";
+  if (reader.has_attribute("/surface", attribute)) {
+    return checked_pixel(contents, reader.number("/surface", attribute));
+  }
+  return pitch(contents, reader.numbers("/surface/" + axis));
+}
+
+Field height_of(const std::filesystem::path& file) {
+  const io::Hdf5Reader reader(file);
+  Field height = reader.field("/surface/height");
+  if (!reader.exists("/surface/mask")) return height;
+  const io::ByteMap mask = reader.bytes("/surface/mask");
+  if (mask.rows() == height.rows() && mask.cols() == height.cols()) {
+    height = (mask != 0).select(kHole, height);
+  }
+  return height;
+}
+
+std::string now_utc() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+}  // namespace
+
+Match identify_h5(std::string_view head) {
+  return head.starts_with(kSignature) ? Match::maybe : Match::no;
+}
+
+Document open_h5(const Contents& contents) {
+  const io::Hdf5Reader reader(contents.file);
+  if (!reader.exists("/surface/height")) {
+    throw Unrecognised(contents.file.string(), "an HDF5 file without /surface/height",
+                       "a file written by tabor", "");
+  }
+  const std::vector<Index> shape = reader.shape("/surface/height");
+  if (shape.size() != 2) refuse(contents, "heights that are no map", "two dimensions", kDamaged);
+  Document document{.format = "h5",
+                    .instrument = text_or_empty(reader, "instrument"),
+                    .doubts = texts_or_none(reader, "doubts"),
+                    .history = texts_or_none(reader, "treatment")};
+  document.periodic =
+      reader.has_attribute("/surface", "periodic") && reader.integer("/surface", "periodic") != 0;
+  document.metadata["source"] = text_or_empty(reader, "source");
+  document.layers.push_back({.name = "height",
+                             .unit = "m",
+                             .nx = shape[1],
+                             .ny = shape[0],
+                             .pixel_x = pixel(contents, reader, "x"),
+                             .pixel_y = pixel(contents, reader, "y"),
+                             .load = [file = contents.file] { return height_of(file); }});
+  return document;
+}
+
+void write_h5(const Topography& topography, const std::filesystem::path& file) {
+  io::Hdf5Writer writer(file);
+  writer.attribute("/", "format", "tabor");
+  writer.attribute("/", "format_version", 1);
+  writer.attribute("/", "software_version", kVersion);
+  writer.attribute("/", "created", now_utc());
+  writer.attribute("/", "default", "surface");
+  writer.group("/surface");
+  writer.axes("/surface", topography.grid);
+  writer.write("/surface/height", topography.height);
+  writer.describe("/surface/height", "m", "height");
+  writer.attach_axes("/surface/height");
+  writer.write("/surface/mask", io::ByteMap(holes(topography).cast<std::uint8_t>()));
+  writer.describe("/surface/mask", "1", "hole");
+  writer.attach_axes("/surface/mask");
+  writer.nxdata("/surface", "height");
+  writer.attribute("/surface", "source", topography.source);
+  writer.attribute("/surface", "format", topography.format);
+  writer.attribute("/surface", "instrument", topography.instrument);
+  writer.attribute("/surface", "treatment", topography.history);
+  writer.attribute("/surface", "doubts", topography.doubts);
+  writer.attribute("/surface", "periodic", topography.periodic ? 1 : 0);
+  writer.attribute("/surface", "pixel_x_m", topography.grid.dx());
+  writer.attribute("/surface", "pixel_y_m", topography.grid.dy());
+  writer.commit();
+}
+
+}  // namespace tabor::topography::format
