@@ -1,0 +1,190 @@
+#include "tabor/lubrication/pool_builder.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace tabor::lubrication {
+namespace {
+
+constexpr std::int32_t kAbsorbed = -1;  // `area` of a pool that turned out to be part of another
+
+/// Stable sort of `keys` by bits [shift, shift + 11), from `keys` to `sorted`.
+void radix_pass(const std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& sorted,
+                int shift) {
+  constexpr std::uint64_t mask = 2047;
+  std::array<std::size_t, mask + 2> start{};
+  for (const std::uint64_t key : keys) {
+    ++start[((key >> shift) & mask) + 1];
+  }
+  for (std::size_t digit = 1; digit < start.size(); ++digit) {
+    start[digit] += start[digit - 1];
+  }
+  for (const std::uint64_t key : keys) {
+    sorted[start[(key >> shift) & mask]++] = key;
+  }
+}
+
+}  // namespace
+
+std::vector<Pixel> ascending_pixels(const Terrain& terrain) {
+  const auto n = static_cast<std::size_t>(terrain.size());
+  std::vector<std::uint64_t> keys(n);
+  for (std::size_t p = 0; p < n; ++p) {
+    const auto unsigned_height = static_cast<std::uint32_t>(terrain.height[p]) ^ 0x80000000U;
+    keys[p] = (std::uint64_t{unsigned_height} << 32) | p;
+  }
+  {
+    std::vector<std::uint64_t> sorted(n);
+    for (const int shift : {32, 43, 54}) {  // pixel numbers, the low half, are in order already
+      radix_pass(keys, sorted, shift);
+      keys.swap(sorted);
+    }
+  }
+  std::vector<Pixel> order(n);
+  std::transform(keys.begin(), keys.end(), order.begin(),
+                 [](std::uint64_t key) { return static_cast<Pixel>(key & 0xFFFFFFFFU); });
+  return order;
+}
+
+void PoolBuilder::build() {
+  const Terrain& terrain = to_.terrain();
+  std::vector<Pixel> ascending = ascending_pixels(terrain);
+  to_.home_.assign(ascending.size(), kNoPool);
+  if (terrain.edge == Edge::open) {
+    pool(new_pool(kDry)).area = 1;  // of the ocean: a droplet raises it by its own volume
+  }
+  for (std::size_t begin = 0; begin < ascending.size();) {
+    const Height height = to_.height(ascending[begin]);
+    std::size_t end = begin;
+    do {
+      add(ascending[end++]);
+    } while (ties_ == Ties::connected && end < ascending.size() &&
+             to_.height(ascending[end]) == height);
+    settle_homes({&ascending[begin], end - begin});
+    begin = end;
+  }
+  to_.last_ = grown(home(0));
+  forget_absorbed();
+  group_by_home(ascending);
+  start_leaves();
+}
+
+PoolId PoolBuilder::grown(PoolId id) {
+  while (pool(id).owner != id) {
+    pool(id).owner = pool(pool(id).owner).owner;
+    id = pool(id).owner;
+  }
+  return id;
+}
+
+PoolId PoolBuilder::new_pool(Height base) {
+  const auto id = static_cast<PoolId>(to_.pools_.size());
+  to_.pools_.push_back({.owner = id, .level = base});
+  return id;
+}
+
+void PoolBuilder::add(Pixel p) {
+  const Height height = to_.height(p);
+  meeting_.clear();
+  for_each_neighbour(to_.terrain(), p, [&](Pixel q) {
+    const PoolId at = q == kOutside ? kOcean : home(q);
+    const PoolId top = at == kNoPool ? kNoPool : grown(at);
+    if (top != kNoPool && std::find(meeting_.begin(), meeting_.end(), top) == meeting_.end()) {
+      meeting_.push_back(top);
+    }
+  });
+  if (meeting_.empty()) {
+    home(p) = new_pool(height);
+  } else {
+    home(p) = meeting_.size() == 1 ? meeting_.front() : merge(height);
+  }
+}
+
+/// The pools in meeting_ become children of one pool whose lowest pixels are at `base`. With
+/// connected ties, a pool that itself begins at `base` is no child but a part of that one.
+PoolId PoolBuilder::merge(Height base) {
+  PoolId into = kNoPool;
+  if (ties_ == Ties::connected) {
+    const auto same = std::find_if(meeting_.begin(), meeting_.end(),
+                                   [&](PoolId id) { return pool(id).level == base; });
+    into = same == meeting_.end() ? kNoPool : *same;
+  }
+  if (into == kNoPool) {
+    into = new_pool(base);
+  }
+  for (const PoolId id : meeting_) {
+    if (id != into) {
+      join(into, id, base);
+    }
+  }
+  return into;
+}
+
+void PoolBuilder::join(PoolId into, PoolId id, Height base) {
+  Pool& joining = pool(id);
+  joining.parent = into;
+  joining.owner = into;
+  if (ties_ == Ties::connected && joining.level == base) {
+    pool(into).open_children += joining.open_children;
+    joining.area = kAbsorbed;
+  } else {
+    ++pool(into).open_children;
+  }
+}
+
+/// Pixels at the height of a merge belong to the merged pool, even those added before it.
+void PoolBuilder::settle_homes(Group group) {
+  if (group.size() > 1) {
+    for (const Pixel p : group) {
+      home(p) = grown(home(p));
+    }
+  }
+}
+
+/// Children of absorbed pools get the absorbing one as parent.
+void PoolBuilder::forget_absorbed() {
+  for (Pool& child : to_.pools_) {
+    while (child.parent != kNoPool && pool(child.parent).area == kAbsorbed) {
+      child.parent = pool(child.parent).parent;
+    }
+  }
+}
+
+void PoolBuilder::group_by_home(const std::vector<Pixel>& ascending) {
+  for (const PoolId id : to_.home_) {
+    ++pool(id).next;
+  }
+  std::int32_t begin = 0;
+  for (Pool& each : to_.pools_) {
+    const std::int32_t size = each.next;
+    each.next = begin;
+    begin += size;
+  }
+  to_.order_.resize(ascending.size());
+  for (const Pixel p : ascending) {
+    to_.order_[static_cast<std::size_t>(pool(home(p)).next++)] = p;
+  }
+  std::int32_t previous_end = 0;
+  for (Pool& each : to_.pools_) {
+    std::swap(each.next, previous_end);
+  }
+}
+
+/// Leaves hold liquid from the start; all other pools wait for their children.
+void PoolBuilder::start_leaves() {
+  const PoolId first = to_.terrain().edge == Edge::open ? kOcean + 1 : 0;
+  const auto count = static_cast<PoolId>(to_.pools_.size());
+  for (PoolId id = 0; id < count; ++id) {
+    pool(id).owner = id;
+    if (pool(id).open_children > 0) {
+      pool(id).level = kDry;
+    }
+  }
+  for (PoolId id = first; id < count; ++id) {
+    if (pool(id).active() && pool(id).area == 0) {  // an area: absorbed, or active since just now
+      to_.take_in(id);
+    }
+  }
+}
+
+}  // namespace tabor::lubrication

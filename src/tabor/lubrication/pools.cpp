@@ -1,0 +1,109 @@
+#include "tabor/lubrication/pools.hpp"
+
+#include "tabor/lubrication/pool_builder.hpp"
+
+namespace tabor::lubrication {
+
+Pools::Pools(const Terrain& terrain, Ties ties) : terrain_(&terrain), ties_(ties) {
+  PoolBuilder(*this, ties).build();
+}
+
+void Pools::shorten(PoolId id, PoolId root) {
+  while (id != root) {
+    const PoolId up = step_up(id);
+    pools_[static_cast<std::size_t>(id)].owner = root;
+    id = up;
+  }
+}
+
+bool Pools::in_arc(PoolId id, std::int32_t position) const {
+  return position < terrain_->size() && home(order_[static_cast<std::size_t>(position)]) == id;
+}
+
+Volume Pools::pour(PoolId id, Volume carried) {
+  Pool& pool = pools_[static_cast<std::size_t>(id)];
+  while (pool.stop != kNoRim) {
+    const Volume space = (Volume{pool.stop} - pool.level) * pool.area - pool.remainder;
+    if (carried < space) {
+      const Volume total = pool.remainder + carried;
+      const Volume rise = total / pool.area;
+      pool.level += static_cast<Height>(rise);
+      pool.remainder = static_cast<std::int32_t>(total - rise * pool.area);
+      return 0;
+    }
+    carried -= space;
+    pool.level = pool.stop;
+    pool.remainder = 0;
+    take_in(id);
+    if (pool.full() || carried == 0) {
+      return carried;
+    }
+  }
+  beyond_ += carried;
+  return 0;
+}
+
+Volume Pools::raise(PoolId id, Height rise) {
+  Pool& pool = pools_[static_cast<std::size_t>(id)];
+  if (pool.stop == kNoRim) {
+    beyond_ += Volume{rise} * pool.area;
+    return Volume{rise} * pool.area;
+  }
+  const Volume climb = std::min<Volume>(rise, Volume{pool.stop} - pool.level);
+  const Volume volume = climb * pool.area;
+  pool.level = static_cast<Height>(pool.level + climb);
+  if (pool.level == pool.stop) {
+    take_in(id);
+  }
+  return volume;
+}
+
+/// The pool `id` has risen to its stop: takes in the pixels there, or else is full and, if it is
+/// the last of its siblings to be so, their parent becomes active (several times where arcs have no
+/// height, as they may with ordered ties).
+void Pools::take_in(PoolId id) {
+  while (true) {
+    Pool& pool = pools_[static_cast<std::size_t>(id)];
+    while (in_arc(id, pool.next) &&
+           height(order_[static_cast<std::size_t>(pool.next)]) == pool.level) {
+      ++pool.next;
+      ++pool.area;
+    }
+    if (in_arc(id, pool.next)) {
+      pool.stop = height(order_[static_cast<std::size_t>(pool.next)]);
+    } else {
+      pool.stop = pool.parent == kNoPool ? kNoRim : height(bottom(pool.parent).front());
+    }
+    if (!pool.full()) {
+      return;
+    }
+    Pool& parent = pools_[static_cast<std::size_t>(pool.parent)];
+    parent.area += pool.area;
+    if (--parent.open_children > 0) {
+      return;
+    }
+    parent.level = pool.level;
+    id = pool.parent;
+  }
+}
+
+std::span<const Pixel> Pools::bottom(PoolId id) const {
+  const std::int32_t begin = (*this)[id].next;
+  const Pixel* const first = &order_[static_cast<std::size_t>(begin)];
+  std::int32_t end = begin + 1;
+  while (ties_ == Ties::connected && in_arc(id, end) &&
+         height(order_[static_cast<std::size_t>(end)]) == height(*first)) {
+    ++end;
+  }
+  return {first, static_cast<std::size_t>(end - begin)};
+}
+
+bool Pools::flooded() const {
+  if (terrain_->edge == Edge::open) {
+    return false;
+  }
+  const Pool& all = (*this)[last_];
+  return all.active() && all.stop == kNoRim;
+}
+
+}  // namespace tabor::lubrication

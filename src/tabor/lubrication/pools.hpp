@@ -1,0 +1,106 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tabor/lubrication/terrain.hpp"
+
+namespace tabor::lubrication {
+
+using PoolId = std::int32_t;
+
+inline constexpr PoolId kNoPool = -1;
+inline constexpr PoolId kOcean = 0;  ///< of an open edge: lies below everything and never fills
+
+/// What holds together pixels of equal height.
+enum class Ties {
+  connected,  ///< equal neighbours are one place (the rule of the droplets)
+  ordered     ///< a lower pixel number counts as lower: no two heights are ever equal
+};
+
+/// One component of the sublevel sets {height <= h}. It holds liquid while it is active: from the
+/// moment its children are full until it is full itself.
+struct Pool {
+  PoolId parent = kNoPool;     ///< what it becomes part of at its rim; kNoPool for the last one
+  PoolId owner = kNoPool;      ///< itself, or a step towards the active pool it now belongs to
+  Height level = kDry;         ///< of the liquid; kDry before the pool is active
+  Height stop = kNoRim;        ///< where it next takes in pixels, or its rim
+  std::int32_t area = 0;       ///< pixels under or at the level (before: of its full children)
+  std::int32_t remainder = 0;  ///< liquid above the level, less than one quantum over the area
+  std::int32_t next = 0;       ///< place in `order` of the first pixel not taken in yet
+  std::int32_t open_children = 0;
+
+  bool active() const { return open_children == 0; }
+  bool full() const { return level == stop; }
+};
+
+/// All pools a surface can ever have, as the tree in which they merge, and the liquid in them.
+/// Steps of the liquid are whole numbers: what is poured in is exactly what is there.
+class Pools {
+ public:
+  Pools(const Terrain& terrain, Ties ties);
+
+  const Terrain& terrain() const { return *terrain_; }
+  std::size_t count() const { return pools_.size(); }
+  const Pool& operator[](PoolId id) const { return pools_[static_cast<std::size_t>(id)]; }
+  PoolId home(Pixel p) const { return home_[static_cast<std::size_t>(p)]; }  ///< smallest pool of p
+  Height height(Pixel p) const { return terrain_->height[static_cast<std::size_t>(p)]; }
+
+  /// The pool whose liquid that of `id` is now part of; `id` itself while it is not active.
+  PoolId owner(PoolId id) {
+    PoolId root = id;
+    while (true) {
+      const PoolId up = step_up(root);
+      if (up == root) {
+        break;
+      }
+      root = up;
+    }
+    if (root != id) {
+      shorten(id, root);
+    }
+    return root;
+  }
+
+  /// Pours into an active pool that is not full; returns what is left once it is full.
+  Volume pour(PoolId id, Volume carried);
+
+  /// Raises an active pool that is not full by `rise`, at most to its next stop; returns the
+  /// volume.
+  Volume raise(PoolId id, Height rise);
+
+  /// The pixels over which the full pool `id` touches its neighbours, lowest pixel number first.
+  std::span<const Pixel> saddle(PoolId id) const { return bottom((*this)[id].parent); }
+  /// The lowest pixels of a pool that is not active.
+  std::span<const Pixel> bottom(PoolId id) const;
+
+  /// Poured beyond all rims: run off an open edge, or lying flat above the highest pixel.
+  Volume beyond() const { return beyond_; }
+  /// True once a closed or periodic map is one pool without a rim.
+  bool flooded() const;
+  void prefetch(PoolId id) const { __builtin_prefetch(&pools_[static_cast<std::size_t>(id)]); }
+
+ private:
+  friend class PoolBuilder;
+
+  PoolId step_up(PoolId id) const {
+    const Pool& pool = (*this)[id];
+    if (pool.owner != id || !pool.full() || pool.parent == kNoPool) {
+      return pool.owner;
+    }
+    return (*this)[pool.parent].active() ? pool.parent : id;
+  }
+  void shorten(PoolId id, PoolId root);
+  void take_in(PoolId id);
+  bool in_arc(PoolId id, std::int32_t position) const;
+
+  const Terrain* terrain_;
+  Ties ties_;
+  PoolId last_ = kNoPool;  ///< the one that holds all others
+  std::vector<Pool> pools_;
+  std::vector<PoolId> home_;
+  std::vector<Pixel> order_;  ///< pixels grouped by home, ascending in height within each
+  Volume beyond_ = 0;
+};
+
+}  // namespace tabor::lubrication
