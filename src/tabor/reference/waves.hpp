@@ -28,7 +28,7 @@ struct WestergaardWave {
 };
 
 /// A rigid flat on z = D cos(2 pi x / L) cos(2 pi y / L) (Johnson, Greenwood & Higginson 1985,
-/// doi:10.1016/0020-7403(85)90037-8). No closed form between the limits: kJghTable holds values
+/// doi:10.1016/0020-7403(85)90029-3). No closed form between the limits: kJghTable holds values
 /// of numerical solutions. Loads are ratios P / p*.
 double jgh_full_contact_pressure(double effective_modulus, double amplitude, double wavelength);
 
