@@ -1,0 +1,91 @@
+"""From a result to figures on disk and the page."""
+
+from pathlib import Path
+
+from tabor_report import example, hdf, output, page, single, study, style
+from tabor_report.errors import InputError
+from tabor_report.figures import (contact_area, contact_clusters, contact_map, dry_friction, lubricant_map,
+                                  lubricated_friction, psd, single_maps, topography)
+
+
+def open_result(path):
+    """A Study or a Single from a folder or file; raises InputError in one line."""
+    path = Path(path)
+    path = path / "results.h5" if path.is_dir() else path
+    file = hdf.open_file(path)
+    if "scans" in file or "table" in file:
+        return study.load(path, file)
+    return single.load(path, file)
+
+
+def default_folder(source):
+    """A study's figures lie in its folder; those of one file in a folder named after it."""
+    if source.kind == "study":
+        return source.path.parent
+    return source.path.with_name(source.path.stem + "_report")
+
+
+def build(source, folder, options, command):
+    """Writes DIR/figures/* and, if asked, DIR/report.html; returns the files' paths."""
+    style.apply()
+    folder = Path(folder)
+    output.make_folder(folder / "figures")
+    drawings = study_figures(source, options) if source.kind == "study" else single_figures(source)
+    saved, paths = [], []
+    for drawn in drawings:
+        png, svg = style.png(drawn.figure), style.svg(drawn.figure)
+        style.close(drawn.figure)
+        drawn.figure = None
+        paths.extend(_save(folder / "figures", drawn, png, svg))
+        saved.append((drawn, png, svg))
+    if options.html:
+        output.write(folder / "report.html", page.render(source, saved, command))
+        paths.append(folder / "report.html")
+    return paths
+
+
+def study_figures(source, options):
+    """Yields what can be drawn, in the order of the page, so that one figure is in memory at a time."""
+    if options.scan is not None and not 0 <= options.scan < len(source.scans):
+        raise InputError(f"--scan {options.scan}: the study has scans 0 to {len(source.scans) - 1}")
+    shown = example.examples(source, options)
+    for item in shown:
+        yield from _surface(item)
+    yield from _present(psd.draw(source))
+    for item in shown:
+        yield from _contact(item)
+    yield from _present(contact_area.draw(source))
+    yield from _present(dry_friction.draw(source, options.error_bar))
+    for item in shown:
+        yield from _present(lubricant_map.draw(item))
+        yield from _present(contact_clusters.draw(item))
+    yield from _present(lubricated_friction.draw(source, options.error_bar))
+
+
+def single_figures(source):
+    yield topography.draw(source.height(), source.pixel, "topography", source.title)
+    for state in source.states:
+        yield from single_maps.draw(source, state)
+
+
+def _surface(item):
+    if item.height is not None:
+        yield topography.draw(item.height, item.scan.pixel, "fig03_topography", item.scan.file, item.suffix)
+
+
+def _contact(item):
+    if item.contact is not None:
+        yield contact_map.draw(item.state, item.scan.pixel, item.contact.facts, item.scan.file, suffix=item.suffix)
+
+
+def _present(drawn):
+    if drawn is not None:
+        yield drawn
+
+
+def _save(folder, drawn, png, svg):
+    files = {f"{drawn.name}.png": png, f"{drawn.name}.svg": svg}
+    files.update({f"{drawn.name}{suffix}.csv": text for suffix, text in drawn.data.items()})
+    for name, content in files.items():
+        output.write(folder / name, content)
+    return [folder / name for name in files]

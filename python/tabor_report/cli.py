@@ -1,0 +1,60 @@
+"""python3 -m tabor_report DIR|RESULTS.h5: the program behind `tabor report`."""
+
+import argparse
+import shlex
+import sys
+
+from tabor_report import dependencies, units
+from tabor_report.errors import ReportError
+
+EXAMPLES = """examples:
+  python3 -m tabor_report study/                      figures and report.html in study/
+  python3 -m tabor_report contact.h5 -o contact_page  one scan's maps and page in contact_page/
+"""
+
+
+def main(arguments):
+    """Exit code: 0 done, 2 usage, 3 unreadable input or missing library, 5 cannot write."""
+    options = _parser().parse_args(arguments)
+    try:
+        dependencies.require(["numpy", "h5py", "matplotlib"] + (["jinja2"] if options.html else []))
+        _convert(options)
+        for path in _run(options, arguments):
+            if not options.quiet:
+                print(path)
+    except ReportError as error:
+        print(f"tabor report: {error}", file=sys.stderr)
+        return error.exit_code
+    return 0
+
+
+def _run(options, arguments):
+    # Imported late: these modules need the libraries that were just checked.
+    from tabor_report import build
+
+    source = build.open_result(options.result)
+    with source.file:
+        folder = options.output or build.default_folder(source)
+        return build.build(source, folder, options, shlex.join(["tabor", "report", *arguments]))
+
+
+def _convert(options):
+    options.pressure = None if options.pressure is None else units.parse_pressure(options.pressure)
+    options.density = None if options.density is None else units.parse_density(options.density)
+
+
+def _parser():
+    parser = argparse.ArgumentParser(prog="tabor report", epilog=EXAMPLES,
+                                     description="Figures and one self-contained HTML page from a result of tabor.",
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("result", metavar="DIR|RESULTS.h5", help="folder of `tabor sweep`, or a file written with -o")
+    parser.add_argument("-o", "--output", metavar="DIR", help="where to write (default: beside the result)")
+    parser.add_argument("--no-html", dest="html", action="store_false", help="figures and tables only")
+    parser.add_argument("--scan", type=int, metavar="N", help="scan that the maps show, counted from 0")
+    parser.add_argument("--all-scans", action="store_true", help="maps of every scan")
+    parser.add_argument("--pressure", metavar="P", help="pressure that the maps show, such as 7MPa (nearest computed)")
+    parser.add_argument("--density", metavar="D", help="lubricant density that the maps show, such as 0.45g/m^2")
+    parser.add_argument("--error-bar", choices=("std", "sem"), default="std",
+                        help="standard deviation (default) or standard error of the mean")
+    parser.add_argument("--quiet", action="store_true", help="do not list the written files")
+    return parser

@@ -1,0 +1,32 @@
+"""Names the Debian package of a Python library that is absent, before anything imports it."""
+
+import importlib
+
+from tabor_report.errors import InputError
+
+DEBIAN_PACKAGES = {
+    "numpy": "python3-numpy",
+    "h5py": "python3-h5py",
+    "matplotlib": "python3-matplotlib",
+    "jinja2": "python3-jinja2",
+}
+
+
+def missing_packages(names):
+    return [DEBIAN_PACKAGES[name] for name in names if not _is_importable(name)]
+
+
+def require(names):
+    """Raises InputError with the apt line that brings what is absent."""
+    missing = missing_packages(names)
+    if missing:
+        raise InputError(f"the report needs Python libraries that are not installed; "
+                         f"install them with: apt install {' '.join(missing)}")
+
+
+def _is_importable(name):
+    try:
+        importlib.import_module(name)
+    except ImportError:
+        return False
+    return True

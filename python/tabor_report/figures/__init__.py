@@ -1,0 +1,13 @@
+"""One figure per file. Each `draw` returns what the page and the disk need, or None if there is no data."""
+
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Drawn:
+    name: str  # file name without ending
+    title: str
+    caption: str
+    figure: object
+    data: dict = field(default_factory=dict)  # {suffix of the CSV's name: its text}
+    is_map: bool = False  # a raster: the page embeds the PNG, not the SVG

@@ -1,0 +1,101 @@
+"""Lubricated friction against pressure, one panel per group, one curve per density (Figure 9)."""
+
+import math
+import textwrap
+
+import numpy as np
+
+from tabor_report import friction_series as series_of
+from tabor_report import style, units
+from tabor_report.figures import Drawn
+from tabor_report.output import table_text
+
+MAX_COLUMNS = 3
+TITLE_WIDTH = 28  # characters over a panel of a third of the page
+
+
+def draw(study, error="std"):
+    panels = [(group, _curves(study, group)) for group in study.groups]
+    panels = [(group, curves) for group, curves in panels if curves]
+    if not panels:
+        return None
+    figure, axes = _grid(len(panels))
+    for panel, (group, curves) in zip(axes.ravel(), panels):
+        _draw_panel(panel, study, group, curves, error)
+    for unused in axes.ravel()[len(panels):]:
+        unused.set_visible(False)
+    _label(axes, len(panels))
+    style.limits_from_zero(axes[0][0])
+    style.legend_on_top(figure, {label: handle for panel in axes.ravel() for label, handle in style.entries(panel).items()})
+    every = [series for group, curves in panels for series in (series_of.dry(study, group), *curves)]
+    return Drawn("fig09_lubricated_friction", "Lubricated friction against pressure",
+                 _caption(study, every, error), figure, {"": table_text(series_of.csv_columns(study, every))})
+
+
+def _curves(study, group):
+    curves = (series_of.lubricated(study, group, density) for density in series_of.densities(study))
+    return [series for series in curves if np.isfinite(series.mean).any()]
+
+
+def _grid(n_panels):
+    columns = min(n_panels, MAX_COLUMNS)
+    rows = math.ceil(n_panels / columns)
+    width = {1: 5.6}.get(columns, style.WIDTH)
+    return style.new_figure(0.5 + 2.8 * rows, rows, columns, width=width, sharex=True, sharey=True)
+
+
+def _draw_panel(axes, study, group, curves, error):
+    series_of.draw(axes, series_of.dry(study, group), error, label="dry", color="0.35", marker="s", linestyle="--",
+                   markerfacecolor="white")
+    for series, look in zip(curves, _looks(study)):
+        series_of.draw(axes, series, error, label=f"computed {units.density(series.density)}", **look)
+    for density, look in zip(_measured_densities(study), _looks(study)):
+        points = series_of.experiment(study, group, density)
+        if points:
+            series_of.draw_experiment(axes, points, color=look["color"], marker="d", label=_measured_label(density))
+    axes.set_title("\n".join(textwrap.wrap(f"{style.literal(group)} ({curves[0].n_text})", TITLE_WIDTH)))
+    axes.grid(color="0.92", linewidth=0.6)
+
+
+def _looks(study):
+    return style.curve_styles()
+
+
+def _measured_densities(study):
+    """Computed densities first, so that a measured one carries the colour of its computed curve."""
+    if not study.experiment:
+        return []
+    measured = study.experiment.distinct("lubricant_density_g_per_m2")
+    if not measured:
+        return [None]
+    computed = series_of.densities(study)
+    return computed + [density for density in measured if not np.isclose(density, computed, rtol=1e-9).any()]
+
+
+def _measured_label(density):
+    return "experiment" if density is None else f"experiment {units.density(density)}"
+
+
+def _label(axes, n_panels):
+    columns = axes.shape[1]
+    for index, panel in enumerate(axes.ravel()[:n_panels]):
+        if index + columns >= n_panels:
+            panel.set_xlabel("mean pressure $P$ (MPa)")
+            panel.tick_params(labelbottom=True)
+        if index % columns == 0:
+            panel.set_ylabel("friction coefficient $\\mu$")
+
+
+def _caption(study, curves, error):
+    parts = ["Friction coefficient μ = (A_real − A_lub)/A₀ · τ_y/P (dimensionless), in which contact pixels that hold "
+             "lubricant do not shear, mean over the scans of a group against the mean pressure P, for each areal "
+             "lubricant density; dashed: the same contacts dry. "]
+    if any((series.n > 1).any() for series in curves):
+        parts.append(f"Error bars: {series_of.ERROR_NAMES[error]} over the n scans in the panel's title; none where n = 1. ")
+    else:
+        parts.append("One scan per group (n = 1), hence no error bars. ")
+    if study.experiment:
+        parts.append("Hollow diamonds: measured, with the error given in the measurement file. ")
+    if any(series.doubtful.any() for series in curves):
+        parts.append("Red ring: at least one case behind the mean did not converge. ")
+    return "".join(parts) + "As Figure 9 of Costagliola et al."

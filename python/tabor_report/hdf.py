@@ -1,0 +1,81 @@
+"""Reading HDF5 as tabor writes it: text as str, numbers as Python numbers, broken links as None."""
+
+import os
+
+# A finished result never changes under its name, so a lock protects nothing and fails on
+# read-only file systems.
+os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
+
+import h5py
+import numpy as np
+
+from tabor_report.errors import InputError
+
+
+def open_file(path):
+    """Opens for reading; raises InputError in one line if it is no tabor result."""
+    try:
+        file = h5py.File(path, "r")
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such file; give the folder or the .h5 file that tabor wrote") from None
+    except OSError as error:
+        reason = str(error).splitlines()[0]
+        raise InputError(f"{path}: cannot be read as HDF5 ({reason})") from None
+    if text(file.attrs.get("format", "")) != "tabor":
+        file.close()
+        raise InputError(f"{path}: root attribute 'format' is not 'tabor'; expected a file written by tabor")
+    return file
+
+
+def text(value):
+    if isinstance(value, bytes):
+        return value.decode("utf-8", "replace")
+    return str(value)
+
+
+def plain(value):
+    """One attribute as str, int, float, bool or list of those."""
+    if isinstance(value, h5py.Empty):
+        return None
+    if isinstance(value, (bytes, str)):
+        return text(value)
+    if isinstance(value, np.ndarray):
+        return [plain(item) for item in value.ravel()] if value.ndim else plain(value[()])
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def attributes(node):
+    return {name: plain(value) for name, value in node.attrs.items()}
+
+
+def text_list(value):
+    """Strings of an attribute that may be absent, one string, or an array of strings."""
+    if value is None or value == "":
+        return []
+    return [text(item) for item in value] if isinstance(value, list) else [text(value)]
+
+
+def child(group, name):
+    """The member `name`, or None if it is absent or its external link leads nowhere."""
+    try:
+        return group[name]
+    except (KeyError, OSError):
+        return None
+
+
+def link_target(group, name):
+    """The file an external link names, for the message about a missing one."""
+    link = group.get(name, getlink=True)
+    return getattr(link, "filename", name)
+
+
+def columns(group):
+    """A folder of 1-D datasets as {name: array}; text columns become object arrays of str."""
+    return {name: _column(dataset) for name, dataset in group.items()}
+
+
+def _column(dataset):
+    values = np.atleast_1d(dataset[()])
+    if values.dtype.kind in "OSU":
+        return np.array([text(value) for value in values], dtype=object)
+    return values

@@ -1,0 +1,85 @@
+"""A result file of one scan: `convert`, `contact`, `lubricate` or `friction` with -o."""
+
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from tabor_report import hdf
+from tabor_report.errors import InputError
+from tabor_report.states import SingleState
+from tabor_report.table import Table
+
+
+@dataclass
+class Single:
+    path: Path
+    file: object
+    facts: dict
+    surface: object
+    states: list
+    warnings: list = field(default_factory=list)
+
+    kind = "single"
+
+    @property
+    def title(self):
+        return Path(self.surface_facts.get("source") or self.path.name).name
+
+    @property
+    def surface_facts(self):
+        return hdf.attributes(self.surface)
+
+    @property
+    def saturation_pressure(self):
+        return self.facts.get("saturation_pressure_Pa")
+
+    @property
+    def pixel(self):
+        """(x, y) [m], from the axes of the map."""
+        return tuple(_spacing(self.surface, name) for name in ("x", "y"))
+
+    def height(self):
+        return self.surface["height"][()]
+
+    @property
+    def table(self):
+        """Every scalar of the states, one column each; a key absent from a state is None."""
+        names = list(dict.fromkeys(name for state in self.states for name in state.facts
+                                   if not _is_file_matter(name, state.facts[name])))
+        return Table({name: [state.facts.get(name) for state in self.states] for name in names})
+
+
+def load(path, file):
+    if "surface" not in file or "height" not in file["surface"]:
+        raise InputError(f"{path}: holds neither a study (/scans) nor a scan (/surface/height)")
+    facts = hdf.attributes(file)
+    nodes = [(key, file["states"][key]) for key in sorted(file["states"])] if "states" in file else []
+    states = [SingleState(key, node, _saturation_pressure(facts, node)) for key, node in nodes]
+    single = Single(path, file, facts, file["surface"], states)
+    single.warnings.extend(_doubts_about(single))
+    return single
+
+
+def _saturation_pressure(facts, node):
+    value = hdf.attributes(node).get("saturation_pressure_Pa", facts.get("saturation_pressure_Pa"))
+    return value if value and math.isfinite(value) else None
+
+
+def _spacing(surface, name):
+    axis = surface[name][:2]
+    return float(axis[1] - axis[0]) if len(axis) > 1 else 1.0
+
+
+def _is_file_matter(name, value):
+    """NeXus and HDF5 bookkeeping, not a result."""
+    return name in ("NX_class", "signal", "axes", "default") or name.endswith("_indices") or isinstance(value, list)
+
+
+def _doubts_about(single):
+    for doubt in hdf.text_list(single.surface_facts.get("doubts")):
+        yield doubt
+    for state in single.states:
+        if not state.facts.get("converged", True):
+            yield f"State {state.key} did not converge; do not use its numbers without a closer look."
+        yield from hdf.text_list(state.facts.get("warnings"))
+    yield from hdf.text_list(single.facts.get("warnings"))

@@ -1,0 +1,64 @@
+"""Maps of one contact state or one film, whatever kind of file they come from."""
+
+import numpy as np
+
+from tabor_report import hdf
+
+NO_CONTACT, CONTACT, SATURATED = 0, 1, 2
+
+
+class StudyContact:
+    """/contact of a store file: `state` and `gap`."""
+
+    def __init__(self, node):
+        self.node = node
+        self.facts = hdf.attributes(node)
+        self.pressure = self.facts.get("mean_pressure_Pa", float("nan"))
+
+    def state(self):
+        """uint8, shape (ny, nx): 0 none, 1 contact, 2 saturated."""
+        return self.node["state"][()]
+
+    def gap(self):
+        """[m], shape (ny, nx)"""
+        return self.node["gap"][()]
+
+
+class Film:
+    """One member of /films of a store file."""
+
+    def __init__(self, node):
+        self.node = node
+        self.facts = hdf.attributes(node)
+        self.density = self.facts.get("lubricant_density_g_per_m2", float("nan"))
+
+    def thickness(self):
+        """[m], shape (ny, nx)"""
+        return self.node["film_thickness"][()]
+
+
+class SingleState:
+    """One member of /states of a `contact -o`, `lubricate -o` or `friction -o` file."""
+
+    def __init__(self, key, node, saturation_pressure):
+        self.key = key
+        self.node = node
+        self.facts = hdf.attributes(node)
+        self.saturation_pressure = saturation_pressure
+        self.pressure = self.facts.get("mean_pressure_Pa")
+        self.density = self.facts.get("lubricant_density_g_per_m2")
+
+    def map(self, name):
+        """float64, shape (ny, nx), or None if this command stored no such map."""
+        dataset = hdf.child(self.node, name)
+        return None if dataset is None else dataset[()]
+
+    def state(self):
+        pressure = self.map("pressure")
+        if pressure is None:
+            return None
+        state = np.where(pressure > 0, CONTACT, NO_CONTACT).astype(np.uint8)
+        if self.saturation_pressure:
+            # The solver clips at the cap, so only rounding separates a saturated pixel from it.
+            state[pressure >= self.saturation_pressure * (1 - 1e-9)] = SATURATED
+        return state

@@ -1,0 +1,148 @@
+"""A study folder as `tabor sweep` leaves it: tables in memory, maps read when asked for."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from tabor_report import hdf
+from tabor_report.errors import InputError
+from tabor_report.states import Film, StudyContact
+from tabor_report.table import Table
+
+
+@dataclass
+class Scan:
+    """One row of /scans. Lengths [m], sides [pixels]."""
+
+    node: object
+    index: int
+    facts: dict
+    warnings: list
+
+    @property
+    def file(self):
+        return self.facts.get("file", f"scan {self.index}")
+
+    @property
+    def group(self):
+        return self.facts.get("group", "")
+
+    @property
+    def pixel(self):
+        """(x, y) [m]"""
+        return self.facts["pixel_x_m"], self.facts["pixel_y_m"]
+
+    @property
+    def treatment(self):
+        return hdf.text_list(self.facts.get("treatment"))
+
+    @property
+    def doubts(self):
+        return hdf.text_list(self.facts.get("doubts"))
+
+    def height(self):
+        """[m], shape (ny, nx), NaN = hole; None if the store lost it."""
+        surface = self._linked(self.node, "surface")
+        return None if surface is None else surface["height"][()]
+
+    def psd(self):
+        return self._linked(self.node, "psd")
+
+    def contacts(self):
+        """By rising pressure."""
+        found = [StudyContact(node) for node in self._linked_members("contact")]
+        return sorted(found, key=lambda contact: contact.pressure)
+
+    def films(self):
+        """By rising density."""
+        found = [Film(node) for node in self._linked_members("films")]
+        return sorted(found, key=lambda film: film.density)
+
+    def _linked_members(self, name):
+        folder = hdf.child(self.node, name)
+        members = [] if folder is None else [self._linked(folder, key) for key in sorted(folder)]
+        return [member for member in members if member is not None]
+
+    def _linked(self, group, name):
+        node = hdf.child(group, name)
+        if node is None and name in group.keys():
+            self._warn(f"{self.file}: {hdf.link_target(group, name)} is missing or damaged; "
+                       "what is drawn from it is left out")
+        return node
+
+    def _warn(self, message):
+        if message not in self.warnings:
+            self.warnings.append(message)
+
+
+@dataclass
+class Study:
+    path: Path
+    file: object
+    facts: dict
+    table: Table
+    averages: Table
+    scans: list
+    experiment: Table
+    warnings: list = field(default_factory=list)
+
+    kind = "study"
+
+    @property
+    def title(self):
+        return self.facts.get("title") or self.path.parent.resolve().name
+
+    @property
+    def saturation_pressure(self):
+        """[Pa], None if elastic."""
+        return self.facts.get("saturation_pressure_Pa")
+
+    @property
+    def groups(self):
+        """In the order of the study."""
+        named = [scan.group for scan in self.scans] + list(self.averages.get("group", []))
+        return list(dict.fromkeys(named))
+
+
+def load(path, file):
+    """Reads tables and scan facts of an open results.h5; raises InputError if it is no study."""
+    facts = hdf.attributes(file)
+    warnings = []
+    study = Study(path=path, file=file, facts=facts, table=_table(path, file, "table"),
+                  averages=_table(path, file, "averages"), scans=_scans(path, file, warnings),
+                  experiment=_experiment(file), warnings=warnings)
+    study.warnings.extend(_doubts_about(study))
+    return study
+
+
+def _table(path, file, name):
+    if name not in file:
+        raise InputError(f"{path}: /{name} is missing; run `tabor sweep` again, it rebuilds the tables from the store")
+    return Table(hdf.columns(file[name]))
+
+
+def _scans(path, file, warnings):
+    folder = file["scans"] if "scans" in file else {}
+    scans = [Scan(folder[key], index, hdf.attributes(folder[key]), warnings)
+             for index, key in enumerate(sorted(folder))]
+    for scan in scans:
+        for name in ("pixel_x_m", "pixel_y_m"):
+            if name not in scan.facts:
+                raise InputError(f"{path}: scan {scan.file} has no attribute {name}; expected the schema of docs/results.md")
+    return scans
+
+
+def _experiment(file):
+    return Table(hdf.columns(file["experiment"])) if "experiment" in file else Table({})
+
+
+def _doubts_about(study):
+    expected, done = study.facts.get("n_cases"), study.facts.get("n_cases_done")
+    if expected is not None and done is not None and done < expected:
+        yield f"The study is not complete: {done} of {expected} cases are done. Averages hold what is there."
+    loose = study.table.not_converged()
+    if loose:
+        yield (f"{loose} of {len(study.table)} rows did not converge. They are marked in the table and in the "
+               "figures; do not use them without a closer look.")
+    for scan in study.scans:
+        for doubt in scan.doubts:
+            yield f"{scan.file}: {doubt}"

@@ -1,0 +1,120 @@
+"""One look for all figures, and the same bytes for the same numbers."""
+
+import io
+import itertools
+
+import matplotlib
+
+matplotlib.use("Agg")
+
+from matplotlib import pyplot as plt
+from matplotlib.lines import Line2D
+
+DPI = 180
+WIDTH = 7.2  # inches, a full text column pair
+
+# Okabe & Ito (2008): told apart with every common colour blindness.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#444444")
+MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+DRY, WET, LIQUID, SOLID, WARNING = "#E8862E", "#000000", "#3A86C8", "#B9B2A8", "#C1121F"
+
+_SETTINGS = {
+    "font.size": 9,
+    "axes.titlesize": 9.5,
+    "axes.titlelocation": "left",
+    "axes.labelsize": 9,
+    "axes.linewidth": 0.7,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.formatter.use_mathtext": True,
+    "legend.fontsize": 8,
+    "legend.frameon": False,
+    "lines.linewidth": 1.4,
+    "lines.markersize": 5,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "figure.constrained_layout.use": True,
+    # Without these two an SVG differs from run to run.
+    "svg.hashsalt": "tabor",
+    "svg.fonttype": "path",
+}
+
+
+def apply():
+    matplotlib.rcdefaults()
+    matplotlib.rcParams.update(_SETTINGS)
+
+
+def new_figure(height, n_rows=1, n_columns=1, width=WIDTH, **keywords):
+    """figure, 2-D array of axes"""
+    return plt.subplots(n_rows, n_columns, figsize=(width, height), squeeze=False, **keywords)
+
+
+def curve_styles():
+    """Endless colour and marker pairs; the line style changes when the colours are used up."""
+    for line in itertools.cycle(("-", "--", ":", "-.")):
+        for colour, marker in zip(COLOURS, MARKERS):
+            yield {"color": colour, "marker": marker, "linestyle": line}
+
+
+def legend_on_top(figure, entries):
+    """A legend above the figure's edge: it can neither cover data nor squeeze it; saving takes it in.
+
+    entries: {label: handle}
+    """
+    longest = max(len(label) for label in entries)
+    columns = max(1, min(3, len(entries), int(figure.get_figwidth() / (0.067 * longest + 0.6))))
+    figure.legend(list(entries.values()), list(entries), loc="lower left", bbox_to_anchor=(0, 1), ncol=columns,
+                  columnspacing=1.4, borderaxespad=0.2, handlelength=2.2)
+
+
+def entries(axes):
+    """{label: handle} of one panel, curves before guide lines."""
+    pairs = zip(*axes.get_legend_handles_labels())
+    ordered = sorted(pairs, key=lambda pair: isinstance(pair[0], Line2D))
+    return {label: handle for handle, label in ordered}
+
+
+def limits_from_zero(axes):
+    """Axes that begin at zero, with air above the highest symbol."""
+    axes.set_xlim(0, axes.get_xlim()[1])
+    axes.set_ylim(0, axes.get_ylim()[1] * 1.05)
+
+
+def legend_above(axes, n_columns, handles=None):
+    """A legend that cannot cover data."""
+    handles = handles if handles is not None else axes.get_legend_handles_labels()[0]
+    if handles:
+        axes.legend(handles=handles, loc="lower left", bbox_to_anchor=(0, 1.0), ncol=n_columns, borderaxespad=0.4,
+                    columnspacing=1.2, handlelength=1.8)
+
+
+def literal(text, longest=60):
+    """A user's text without matplotlib reading $...$ as mathematics, cut where it would leave the page."""
+    text = str(text)
+    text = text if len(text) <= longest else text[:longest - 1] + "\N{HORIZONTAL ELLIPSIS}"
+    return text.replace("$", r"\$")
+
+
+def png(figure):
+    return _bytes(figure, format="png", dpi=DPI, metadata={"Software": None})
+
+
+def svg(figure):
+    return _bytes(figure, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
+
+
+def width_in_inches(png_bytes):
+    """Of a PNG made here; its IHDR chunk holds the width in bytes 16 to 19."""
+    return int.from_bytes(png_bytes[16:20], "big") / DPI
+
+
+def close(figure):
+    plt.close(figure)
+
+
+def _bytes(figure, **keywords):
+    stream = io.BytesIO()
+    # Tight: the layout engine does not see legends of the figure, nor labels beside axes of fixed aspect.
+    figure.savefig(stream, bbox_inches="tight", pad_inches=0.08, **keywords)
+    return stream.getvalue()

@@ -1,0 +1,158 @@
+"""The small pieces: units, reduction of maps, choice of the window, tables, files, command line."""
+
+import contextlib
+import io
+import stat
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+import numpy as np
+
+from tabor_report import cli, dependencies, errors, maps, output, section, units
+from tabor_report.example import richest_window
+from tabor_report.figures import psd
+from tabor_report.map_axes import round_length
+from tabor_report.table import Table, converged
+
+
+class Units(unittest.TestCase):
+    def test_a_number_is_rounded_and_keeps_its_sign(self):
+        self.assertEqual(units.number(0.291666), "0.2917")
+        self.assertEqual(units.number(-2.0), "−2")
+        self.assertEqual(units.number(4e-9, 2), "4×10⁻⁹")
+        self.assertEqual(units.number(float("nan")), "–")
+
+    def test_pressures_and_lengths_take_the_prefix_that_suits_them(self):
+        self.assertEqual(units.pressure(7e6), "7 MPa")
+        self.assertEqual(units.pressure(78.55e9), "78.55 GPa")
+        self.assertEqual(units.length(0.67e-6), "670 nm")
+        self.assertEqual(units.length(2.278e-3), "2.278 mm")
+
+    def test_a_pressure_without_its_unit_is_refused_with_the_corrected_form(self):
+        self.assertEqual(units.parse_pressure("7 MPa"), 7e6)
+        for wrong in ("7", "7 bar", "MPa", "7e MPa"):
+            with self.assertRaises(errors.InputError):
+                units.parse_pressure(wrong)
+        self.assertEqual(units.parse_density("0.45g/m^2"), 0.45)
+        with self.assertRaisesRegex(errors.InputError, "0.45g/m"):
+            units.parse_density("0.45")
+
+    def test_a_scale_bar_has_a_round_length_that_fits(self):
+        self.assertEqual([round_length(value) for value in (0.57, 4.99, 5.0, 99.0)], [0.5, 2.0, 5.0, 50.0])
+
+
+class Maps(unittest.TestCase):
+    def test_block_mean_keeps_the_mean_of_whole_tiles(self):
+        field = np.random.default_rng(1).random((12, 20))
+        self.assertAlmostEqual(maps.block_mean(field, 4).mean(), field.mean(), places=14)
+
+    def test_block_mean_leaves_holes_out_and_keeps_a_tile_of_holes_a_hole(self):
+        field = np.ones((4, 4))
+        field[0, 0] = np.nan
+        field[2:, 2:] = np.nan
+        reduced = maps.block_mean(field, 2)
+        np.testing.assert_array_equal(reduced, [[1, 1], [1, np.nan]])
+
+    def test_tiles_at_the_edge_average_what_they_have(self):
+        field = np.arange(5.0)[None, :]
+        np.testing.assert_array_equal(maps.block_mean(field, 2), [[0.5, 2.5, 4.0]])
+        np.testing.assert_allclose(maps.tile_centres(0, 5, 2, 1.0, 1.0), [1.0, 3.0, 4.5])
+
+    def test_a_single_pixel_of_contact_stays_visible_and_more_is_darker(self):
+        touching = np.zeros((3456, 3456), dtype=bool)
+        touching[1000, 2000] = True
+        block = maps.block_size(touching.shape)
+        darkness = maps.ink(maps.block_mean(touching, block))
+        self.assertLessEqual(max(darkness.shape), maps.MAX_SIDE)
+        self.assertEqual(np.count_nonzero(darkness), 1)
+        self.assertGreaterEqual(darkness.max(), 0.35)
+        self.assertTrue(np.all(np.diff(maps.ink(np.linspace(0, 1, 17))) > 0))
+
+    def test_the_window_is_the_one_with_the_most_marked_pixels(self):
+        interest = np.zeros((500, 700), dtype=bool)
+        interest[310:340, 410:440] = True
+        interest[10:20, 10:20] = True
+        window = richest_window(interest)
+        self.assertEqual(window.of(interest).sum(), 900)
+        self.assertEqual(window.shape, (100, 100))
+
+    def test_a_map_smaller_than_a_window_is_shown_whole(self):
+        self.assertEqual(richest_window(np.ones((5, 9), dtype=bool)).shape, (5, 5))
+
+
+class Section(unittest.TestCase):
+    def test_lines_are_solid_plus_film_and_solid_plus_gap(self):
+        height, film, gap = np.array([[1.0, 2.0, 3.0]]), np.array([[0.5, 0.0, 0.25]]), np.array([[2.0, 1.0, 0.0]])
+        lines = section.cut(0, (0, 3), 2.0, height, film, gap)
+        np.testing.assert_array_equal(lines["x_m"], [1, 3, 5])
+        np.testing.assert_array_equal(lines["liquid_level_m"], [1.5, np.nan, 3.25])
+        np.testing.assert_array_equal(lines["counterface_m"], [3, 3, 3])
+
+
+class Spectra(unittest.TestCase):
+    def test_spectra_on_one_grid_are_averaged_and_on_another_kept_apart(self):
+        q, other = np.array([1.0, 2.0]), np.array([1.0, 3.0])
+        curves = psd.mean_by_grid([(q, np.array([2.0, 4.0]), 0.8), (other, np.array([9.0, 9.0]), 0.5),
+                                   (q, np.array([4.0, 8.0]), 0.6)])
+        self.assertEqual([curve[3] for curve in curves], [2, 1])
+        np.testing.assert_array_equal(curves[0][1], [3, 6])
+        self.assertAlmostEqual(curves[0][2], 0.7)
+
+
+class Tables(unittest.TestCase):
+    def test_converged_is_read_from_numbers_and_from_words(self):
+        self.assertEqual(list(converged(Table(converged=np.array([1, 0], dtype=np.uint8)))), [True, False])
+        words = np.array(["true", "false", "1"], dtype=object)
+        self.assertEqual(list(converged(Table(converged=words))), [True, False, True])
+
+    def test_numbers_survive_the_csv(self):
+        values = [0.1, 1 / 3, 6.02e23]
+        lines = output.table_text({"value": values}).splitlines()
+        self.assertEqual([float(line) for line in lines[1:]], values)
+
+
+class Files(unittest.TestCase):
+    def test_a_file_is_complete_or_absent_and_leaves_nothing_behind(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "table.csv"
+            output.write(path, "a\n")
+            self.assertEqual([entry.name for entry in Path(folder).iterdir()], ["table.csv"])
+            self.assertTrue(path.stat().st_mode & stat.S_IRUSR)
+            with mock.patch("os.replace", side_effect=OSError(28, "No space left on device")):
+                with self.assertRaisesRegex(errors.OutputError, "No space left"):
+                    output.write(path, "b\n")
+            self.assertEqual([entry.name for entry in Path(folder).iterdir()], ["table.csv"])
+            self.assertEqual(path.read_text(), "a\n")
+
+
+class CommandLine(unittest.TestCase):
+    def run_cli(self, *arguments):
+        stream = io.StringIO()
+        with contextlib.redirect_stderr(stream), contextlib.redirect_stdout(io.StringIO()):
+            code = cli.main([str(argument) for argument in arguments])
+        return code, stream.getvalue()
+
+    def test_what_cannot_be_read_ends_with_3_and_one_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            noise = Path(folder) / "noise.h5"
+            noise.write_bytes(b"not HDF5 at all")
+            for argument in (Path(folder) / "absent.h5", folder, noise):
+                code, message = self.run_cli(argument)
+                self.assertEqual(code, 3)
+                self.assertEqual(message.count("\n"), 1, message)
+                self.assertIn(str(argument), message)
+
+    def test_a_missing_library_is_named_with_its_apt_line(self):
+        with mock.patch.object(dependencies, "_is_importable", lambda name: name != "h5py"):
+            code, message = self.run_cli("any.h5")
+        self.assertEqual(code, 3)
+        self.assertIn("apt install python3-h5py", message)
+
+    def test_a_pressure_without_unit_ends_with_3(self):
+        self.assertEqual(self.run_cli("any.h5", "--pressure", "7")[0], 3)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,163 @@
+"""Whole runs of `python3 -m tabor_report`: the files, their sizes, the page."""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree
+from html.parser import HTMLParser
+from pathlib import Path
+
+import synthetic_study
+from synthetic_study import Recipe
+
+PACKAGE = Path(__file__).resolve().parents[2] / "python"
+ODD = Recipe(groups=("vor dem Gleiten – Ö/µ", "vor dem Gleiten – Ö/µ", "после <b>$x$</b>"), shape=(80, 96), pressures=(2e6, 8e6),
+             not_converged=((2, 0),), missing_cases=((1, 1),), doubts={0: "heights are quantised at 10 nm"})
+
+
+def run(*arguments):
+    return subprocess.run([sys.executable, "-W", "error::UserWarning:matplotlib", "-m", "tabor_report", *map(str, arguments)], capture_output=True, text=True,
+                          env={**os.environ, "PYTHONPATH": str(PACKAGE), "PYTHONDONTWRITEBYTECODE": "1"}, timeout=240)
+
+
+class Links(HTMLParser):
+    """Everything a browser would fetch or follow, the ids and the text."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.fetched, self.followed, self.ids, self.words = [], [], set(), []
+        self.feed(text)
+
+    def handle_starttag(self, tag, attributes):
+        values = dict(attributes)
+        self.ids.add(values.get("id"))
+        self.fetched += [values[name] for name in ("src", "srcset", "data") if name in values]
+        if "href" in values:
+            (self.followed if tag == "a" else self.fetched).append(values["href"])
+
+    def handle_data(self, data):
+        self.words.append(data)
+
+
+def png_size(path):
+    head = path.read_bytes()[:24]
+    assert head[:8] == b"\x89PNG\r\n\x1a\n", path
+    return int.from_bytes(head[16:20], "big"), int.from_bytes(head[20:24], "big")
+
+
+class StudyReport(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = Path(cls.temporary.name) / "study – Ö"
+        synthetic_study.write(cls.folder, ODD)
+        cls.done = run(cls.folder)
+        cls.page = (cls.folder / "report.html").read_text(encoding="utf-8") if cls.done.returncode == 0 else ""
+        cls.links = Links(cls.page)
+        cls.text = " ".join(cls.links.words)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def test_it_ends_well_and_silently(self):
+        self.assertEqual((self.done.returncode, self.done.stderr), (0, ""))
+
+    def test_every_figure_exists_as_png_svg_and_csv_and_is_listed(self):
+        names = ["fig03_topography", "fig04_psd", "fig05_contact_map", "fig06_dry_friction", "fig07_lubricant_map",
+                 "fig08_contact_clusters", "fig09_lubricated_friction", "fig10_contact_area"]
+        for name in names:
+            for ending in ("png", "svg", "csv"):
+                path = self.folder / "figures" / f"{name}.{ending}"
+                self.assertGreater(path.stat().st_size, 100, path)
+                self.assertIn(str(path), self.done.stdout)
+
+    def test_pngs_are_wide_enough_to_print(self):
+        for path in (self.folder / "figures").glob("*.png"):
+            width, height = png_size(path)
+            self.assertTrue(600 < width < 1600 and 300 < height < 2400, (path.name, width, height))
+
+    def test_svgs_are_xml_without_a_date(self):
+        for path in (self.folder / "figures").glob("*.svg"):
+            text = path.read_text(encoding="utf-8")
+            xml.etree.ElementTree.fromstring(text)
+            self.assertNotIn("dc:date", text)
+
+    def test_no_temporary_file_is_left(self):
+        self.assertEqual([path for path in self.folder.rglob(".*") if path.is_file()], [])
+
+    def test_the_page_fetches_nothing(self):
+        self.assertTrue(self.links.fetched)
+        self.assertTrue(all(source.startswith("data:image/") for source in self.links.fetched), self.links.fetched)
+        self.assertNotRegex(self.page, r"@import|url\(|<script|<link|<iframe")
+
+    def test_every_entry_of_the_contents_leads_somewhere(self):
+        for target in self.links.followed:
+            self.assertTrue(target.startswith("#") and target[1:] in self.links.ids, target)
+
+    def test_names_of_the_user_appear_as_written_and_not_as_markup(self):
+        self.assertIn("vor dem Gleiten – Ö/µ", self.text)
+        self.assertIn("после <b>$x$</b>", self.text)
+        self.assertNotIn("<b>$x$</b>", self.page)
+
+    def test_rows_that_did_not_converge_are_marked_and_warned_about(self):
+        self.assertEqual(len(re.findall(r'<tr class="loose">', self.page)), 2)
+        self.assertIn("2 of 10 rows did not converge", self.text)
+
+    def test_an_incomplete_study_and_doubts_are_warned_about(self):
+        self.assertIn("10 of 12 cases are done", self.text)
+        self.assertIn("heights are quantised at 10 nm", self.text)
+
+    def test_the_page_names_scans_material_origin_and_sources(self):
+        for words in ("before_1.x3p", "lowpass=hann:512/L", "78.55 GPa", "240 MPa", "tabor sweep study.toml",
+                      "polonsky1999", "almqvist2007", "costagliola2022", "barnes2021", "@software{tabor"):
+            self.assertIn(words, self.text)
+        self.assertRegex(self.text, r"SHA-256 [0-9a-f]{64}")
+
+    def test_the_same_study_gives_the_same_bytes(self):
+        before = {path: path.read_bytes() for path in [*self.folder.glob("figures/*"), self.folder / "report.html"]}
+        self.assertEqual(run(self.folder).returncode, 0)
+        self.assertEqual([path.name for path, data in before.items() if path.read_bytes() != data], [])
+
+
+class SingleReport(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = Path(temporary.name)
+
+    def report(self, **parts):
+        synthetic_study.write_single(self.folder / "one.h5", Recipe(shape=(70, 90), pressures=(5e6,), densities=(0.9,)), **parts)
+        done = run(self.folder / "one.h5")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        names = {path.stem for path in (self.folder / "one_report" / "figures").glob("*.png")}
+        return names, (self.folder / "one_report" / "report.html").read_text(encoding="utf-8")
+
+    def test_a_friction_file_shows_every_map_it_holds(self):
+        names, page = self.report()
+        self.assertEqual(names, {"topography", *(f"state0000_{what}" for what in ("pressure", "contact", "gap", "film", "section"))})
+        self.assertIn("one.x3p", page)
+        self.assertIn("contact area fraction", page)
+
+    def test_a_film_alone_is_shown_without_contact(self):
+        names, _ = self.report(contact=False)
+        self.assertEqual(names, {"topography", "state0000_film", "state0000_section"})
+
+    def test_a_folder_that_cannot_be_written_ends_with_5(self):
+        synthetic_study.write_single(self.folder / "one.h5", Recipe(shape=(20, 20), pressures=(5e6,)))
+        (self.folder / "taken").write_text("a file where a folder should be")
+        done = run(self.folder / "one.h5", "-o", self.folder / "taken")
+        self.assertEqual(done.returncode, 5)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+    def test_no_html_makes_figures_only(self):
+        synthetic_study.write_single(self.folder / "one.h5", Recipe(shape=(20, 20), pressures=(5e6,)), film=False)
+        self.assertEqual(run(self.folder / "one.h5", "--no-html").returncode, 0)
+        self.assertFalse((self.folder / "one_report" / "report.html").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
