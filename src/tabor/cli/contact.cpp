@@ -5,6 +5,7 @@
 
 #include "tabor/cli/contact_request.hpp"
 #include "tabor/cli/fields_file.hpp"
+#include "tabor/cli/lowpass_scan.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 
@@ -16,21 +17,9 @@ struct Request {
   ScanRequest scan;
   ContactRequest contact;
   std::optional<std::string> output;
+  std::vector<double> cutoffs;           ///< of --lowpass-scan
+  std::optional<double> shear_strength;  ///< [Pa], for its friction
 };
-
-std::vector<std::string> methods_of(const ContactRequest& request) {
-  std::vector<std::string> methods = {"polonsky1999", "yastrebov2017",
-                                      request.is_periodic() ? "stanley1997" : "love1929"};
-  if (request.solver == "fast") methods.insert(methods.begin(), "rey2017");
-  if (request.saturation_pressure) methods.push_back("almqvist2007");
-  return methods;
-}
-
-std::vector<StateField> fields_of(const contact::State& state) {
-  return {{"pressure", "Pa", "contact pressure", state.pressure},
-          {"displacement", "m", "displacement of the surface, into the body", state.displacement},
-          {"gap", "m", "gap between the deformed surface and the flat", state.gap}};
-}
 
 Table table() {
   return Table({"pressure", "contact", "pixels", "saturated", "mean gap", "max pressure", "patches",
@@ -53,13 +42,27 @@ std::vector<std::string> row_of(const ContactResult& result) {
           si(result.seconds, "s")};
 }
 
-int show(const Request& request, Context& context) {
+void check(const Request& request) {
   check(request.contact);
   if (request.output) check_can_write(*request.output);
+  if (request.output && !request.cutoffs.empty()) {
+    throw UsageError("--lowpass-scan keeps no maps; leave out -o");
+  }
+  if (request.shear_strength && request.cutoffs.empty()) {
+    throw UsageError("--shear-strength belongs to --lowpass-scan here; see also 'tabor friction'");
+  }
+}
+
+int show(const Request& request, Context& context) {
+  check(request);
   const Scan scan = load_scan(request.scan, context);
   require_no_holes(scan);
   warn_if_not_levelled(scan, context);
   warn_about_edges(scan, request.contact, context);
+  if (!request.cutoffs.empty()) {
+    return run_lowpass_scan(scan, request.contact, request.cutoffs, request.shear_strength,
+                            context);
+  }
   const auto elasticity = make_operator(request.contact, scan.surface.grid);
   const io::Json settings = settings_json(request.contact);
 
@@ -72,25 +75,28 @@ int show(const Request& request, Context& context) {
   object.update(settings);
   object["states"] = io::Json::array();
   Table rows = table();
-  int code = kDone;
-  for (const double pressure : request.contact.pressures) {
-    try {
-      const ContactResult result =
-          solve(*elasticity, scan.surface.height, pressure, request.contact, context);
-      const io::Json state = state_json(result);
-      if (file) file->add_state(object["states"].size(), state, fields_of(result.state));
-      object["states"].push_back(state);
-      rows.row(row_of(result));
-      if (!result.state.convergence.converged) code = kNotConverged;
-    } catch (const Interrupted&) {
-      context.warn("interrupted: only the states that were finished are shown");
-      code = kInterrupted;
-      break;
-    }
-  }
+  const auto receive = [&](const ContactResult& result) {
+    const io::Json state = state_json(result);
+    if (file) file->add_state(object["states"].size(), state, fields_of(result.state));
+    object["states"].push_back(state);
+    rows.row(row_of(result));
+  };
+  const int code = solve_all(*elasticity, scan, request.contact, context, receive);
   if (file) file->commit();
   return finish(context, object, describe(scan) + describe(request.contact) + '\n' + rows.text(),
                 code);
+}
+
+void declare_lowpass_scan(OptionSet& set, Request& request) {
+  set.group("Dependence on the finest wavelength");
+  set.add({.flag = "--lowpass-scan",
+           .placeholder = "C[,C2,...]",
+           .help =
+               "repeat with '--lowpass hann:C/L' for rising C and find where the area no longer "
+               "changes, e.g. 64,128,256,512",
+           .assign = [&](const std::string& text) { request.cutoffs = parse_cutoffs(text); }});
+  set.quantity("--shear-strength", "TAU", "add dry friction to the low-pass scan",
+               dimension::pressure, request.shear_strength);
 }
 
 }  // namespace
@@ -111,6 +117,7 @@ Verb contact_verb() {
             const auto request = std::make_shared<Request>();
             declare_scan(set, request->scan);
             declare_contact(set, request->contact);
+            declare_lowpass_scan(set, *request);
             declare_output(set, request->output);
             return [request](Context& context) { return show(*request, context); };
           }};

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "tabor/cli/exit_code.hpp"
 #include "tabor/cli/interrupt.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
@@ -110,6 +111,31 @@ ContactResult solve(elastic::ElasticOperator& elasticity, const Field& height, d
                  "not hold there");
   }
   return result;
+}
+
+int solve_all(elastic::ElasticOperator& elasticity, const Scan& scan, const ContactRequest& request,
+              Context& context, const std::function<void(const ContactResult&)>& receive) {
+  int code = kDone;
+  try {
+    for (const double pressure : request.pressures) {
+      const ContactResult result =
+          solve(elasticity, scan.surface.height, pressure, request, context);
+      receive(result);
+      if (!result.state.convergence.converged) code = kNotConverged;
+    }
+  } catch (const Interrupted&) {
+    context.warn("interrupted: only the states that were finished are shown");
+    code = kInterrupted;
+  }
+  return code;
+}
+
+std::vector<std::string> methods_of(const ContactRequest& request) {
+  std::vector<std::string> methods = {"polonsky1999", "yastrebov2017",
+                                      request.is_periodic() ? "stanley1997" : "love1929"};
+  if (request.solver == "fast") methods.insert(methods.begin(), "rey2017");
+  if (request.saturation_pressure) methods.push_back("almqvist2007");
+  return methods;
 }
 
 io::Json settings_json(const ContactRequest& request) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,6 +53,14 @@ void warn_about_edges(const Scan& scan, const ContactRequest& request, Context& 
 /// Solves one state. Throws Interrupted when the user stopped it.
 ContactResult solve(elastic::ElasticOperator& elasticity, const Field& height, double pressure,
                     const ContactRequest& request, Context& context);
+
+/// Solves every pressure, hands each result on and drops it. Ctrl-C keeps the finished ones.
+/// Returns the exit code: done, not converged or interrupted.
+int solve_all(elastic::ElasticOperator& elasticity, const Scan& scan, const ContactRequest& request,
+              Context& context, const std::function<void(const ContactResult&)>& receive);
+
+/// Keys of references.bib.
+std::vector<std::string> methods_of(const ContactRequest& request);
 
 /// Settings in force, for the JSON head and the result file.
 io::Json settings_json(const ContactRequest& request);

@@ -39,6 +39,12 @@ std::string toml_of(const io::Json& settings) {
   return text;
 }
 
+std::vector<StateField> fields_of(const contact::State& state) {
+  return {{"pressure", "Pa", "contact pressure", state.pressure},
+          {"displacement", "m", "displacement of the surface, into the body", state.displacement},
+          {"gap", "m", "gap between the deformed surface and the flat", state.gap}};
+}
+
 FieldsFile::FieldsFile(const std::filesystem::path& file, const Context& context, const Scan& scan,
                        const io::Json& settings, const std::vector<std::string>& methods)
     : writer_(file), grid_(scan.surface.grid) {

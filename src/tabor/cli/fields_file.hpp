@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tabor/cli/result.hpp"
+#include "tabor/contact/contact.hpp"
 #include "tabor/io/hdf5.hpp"
 
 namespace tabor::cli {
@@ -38,6 +39,9 @@ class FieldsFile {
   io::Hdf5Writer writer_;
   Grid grid_;
 };
+
+/// Pressure, displacement and gap of a contact.
+std::vector<StateField> fields_of(const contact::State& state);
 
 /// A flat JSON object as TOML lines; nulls are left out.
 std::string toml_of(const io::Json& settings);

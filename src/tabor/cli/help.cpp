@@ -65,7 +65,7 @@ std::string cell(const std::string& text) {
 std::string markdown_of(const Verb& verb) {
   std::string text = fmt::format("\n## tabor {}\n\n    tabor {} {}\n\n{}\n", verb.name, verb.name,
                                  verb.arguments, verb.summary);
-  if (!verb.details.empty()) text += "\n" + verb.details + "\n";
+  if (!verb.details.empty()) text += fmt::format("\n{}\n", verb.details);
   text += "\n| option | meaning |\n|---|---|\n";
   const OptionSet set = options_of(verb);
   for (const Option& option : set.options()) {
@@ -93,11 +93,11 @@ std::string overview() {
 std::string help_of(const Verb& verb) {
   std::string text = fmt::format("Usage: tabor {} {}\n\n{}\n", verb.name, verb.arguments,
                                  wrapped(verb.summary, 0));
-  if (!verb.details.empty()) text += "\n" + wrapped(verb.details, 0) + "\n";
+  if (!verb.details.empty()) text += fmt::format("\n{}\n", wrapped(verb.details, 0));
   std::string group;
   const OptionSet set = options_of(verb);
   for (const Option& option : set.options()) {
-    if (option.group != group) text += "\n" + option.group + ":\n";
+    if (option.group != group) text += fmt::format("\n{}:\n", option.group);
     group = option.group;
     text += option_line(option);
   }

@@ -1,0 +1,197 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+
+#include "tabor/cli/contact_request.hpp"
+#include "tabor/cli/fields_file.hpp"
+#include "tabor/cli/film_request.hpp"
+#include "tabor/cli/verbs.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/friction/bowden_tabor.hpp"
+#include "tabor/friction/trapped.hpp"
+#include "tabor/friction/wet_contact.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+struct Request {
+  ScanRequest scan;
+  ContactRequest contact;
+  FilmRequest film;
+  double shear_strength = 0;  ///< [Pa]
+  std::string area = "corrected";
+  std::optional<std::string> output;
+};
+
+std::vector<lubrication::Film> films_of(const Scan& scan, const Request& request,
+                                        Context& context) {
+  std::vector<lubrication::Film> films(request.film.densities.size());
+  rain(scan, request.film, context,
+       [&](std::size_t place, lubrication::Film&& film) { films[place] = std::move(film); });
+  return films;
+}
+
+friction::Contact contact_of(const ContactResult& result, const Request& request,
+                             double wet_share) {
+  friction::Contact contact;
+  contact.mean_pressure = result.summary.mean_pressure;
+  contact.contact_area_fraction = result.summary.contact_area_fraction;
+  contact.contact_area_fraction_pixels = result.summary.contact_area_fraction_pixels;
+  contact.saturation_pressure =
+      request.contact.saturation_pressure.value_or(contact::kNoSaturation);
+  contact.lubricated_share = wet_share;
+  return contact;
+}
+
+/// One pressure with one density.
+io::Json state_of(const ContactResult& result, const lubrication::Film& film, double density,
+                  const Grid& grid, const Request& request) {
+  const Mask touching = contact::contact_mask(result.state);
+  const double wet_share = friction::lubricated_share(touching, film.thickness);
+  const friction::TrappedLiquid trapped = friction::trapped_liquid(
+      touching, film.thickness, result.state.gap, grid, request.contact.is_periodic());
+  const friction::Estimate estimate =
+      friction::estimate(contact_of(result, request, wet_share), request.shear_strength,
+                         friction::parse_area(request.area));
+  return {{"mean_pressure_Pa", result.summary.mean_pressure},
+          {"lubricant_density_g_per_m2", grams_per_square_metre(density)},
+          {"contact_area_fraction", result.summary.contact_area_fraction},
+          {"contact_area_fraction_pixels", result.summary.contact_area_fraction_pixels},
+          {"saturated_area_fraction", result.summary.saturated_area_fraction},
+          {"mean_gap_m", result.summary.mean_gap},
+          {"mean_film_m", film.mean_film},
+          {"lubricated_share", wet_share},
+          {"spill_over_fraction", friction::spill_over_fraction(film.thickness, result.state.gap)},
+          {"trapped_fraction", trapped.trapped_fraction},
+          {"friction_area_fraction", estimate.area_fraction},
+          {"friction_dry", estimate.friction_dry},
+          {"friction_lubricated", estimate.friction_lubricated},
+          {"certificate", io::number(result.state.convergence.certificate)},
+          {"converged", result.state.convergence.converged}};
+}
+
+std::vector<std::string> row_of(const io::Json& state) {
+  const auto number = [&](const char* key) { return state.at(key).get<double>(); };
+  return {si(number("mean_pressure_Pa"), "Pa"),
+          plain(number("lubricant_density_g_per_m2")) + " g/m²",
+          percent(number("friction_area_fraction")),
+          percent(number("lubricated_share")),
+          percent(number("spill_over_fraction")),
+          plain(number("friction_dry")),
+          plain(number("friction_lubricated")),
+          state.at("certificate").is_null() ? "-" : fmt::format("{:.1e}", number("certificate")),
+          yes_no(state.at("converged").get<bool>())};
+}
+
+Table table() {
+  return Table({"pressure", "lubricant", "contact", "wet share", "spill-over", "friction dry",
+                "friction wet", "certificate", "converged"});
+}
+
+io::Json all_settings(const Request& request, const Context& context) {
+  io::Json settings = settings_json(request.contact);
+  settings.update(settings_json(request.film, context));
+  settings["shear_strength_Pa"] = request.shear_strength;
+  settings["area"] = request.area;
+  return settings;
+}
+
+std::vector<std::string> all_methods(const Request& request) {
+  std::vector<std::string> methods = methods_of(request.contact);
+  for (const std::string& method : methods_of(request.film)) methods.push_back(method);
+  methods.emplace_back("bowden1950");
+  return methods;
+}
+
+std::vector<StateField> maps_of(const contact::State& state, const lubrication::Film& film) {
+  std::vector<StateField> fields = fields_of(state);
+  fields.push_back({"film_thickness", "m", "thickness of the lubricant film", film.thickness});
+  return fields;
+}
+
+std::string text_of(const Scan& scan, const Request& request, const Context& context,
+                    const Table& rows) {
+  Facts facts;
+  facts.fact("friction", fmt::format("shear strength {}, {} contact area",
+                                     si(request.shear_strength, "Pa"), request.area));
+  return describe(scan) + describe(request.contact) + describe(request.film, context) +
+         facts.text() + '\n' + rows.text();
+}
+
+int show(const Request& request, Context& context) {
+  check(request.contact);
+  check(request.film);
+  if (request.shear_strength <= 0) {
+    throw InputError("--shear-strength", si(request.shear_strength, "Pa"), "more than zero", "");
+  }
+  if (request.output) check_can_write(*request.output);
+  const Scan scan = load_scan(request.scan, context);
+  require_no_holes(scan);
+  warn_if_not_levelled(scan, context);
+  warn_about_edges(scan, request.contact, context);
+  const io::Json settings = all_settings(request, context);
+  std::optional<FieldsFile> file;
+  if (request.output) file.emplace(*request.output, context, scan, settings, all_methods(request));
+  io::Json object = json_head(context, scan);
+  object.update(settings);
+  object["states"] = io::Json::array();
+
+  // Each density is rained once and each pressure solved once, never once per combination.
+  const std::vector<lubrication::Film> films = films_of(scan, request, context);
+  const auto elasticity = make_operator(request.contact, scan.surface.grid);
+  Table rows = table();
+  const int code =
+      solve_all(*elasticity, scan, request.contact, context, [&](const ContactResult& result) {
+        for (std::size_t i = 0; i < films.size(); ++i) {
+          const io::Json state =
+              state_of(result, films[i], request.film.densities[i], scan.surface.grid, request);
+          if (file)
+            file->add_state(object["states"].size(), state, maps_of(result.state, films[i]));
+          object["states"].push_back(state);
+          rows.row(row_of(state));
+        }
+      });
+  if (file) file->commit();
+  return finish(context, object, text_of(scan, request, context, rows), code);
+}
+
+}  // namespace
+
+Verb friction_verb() {
+  return {
+      .name = "friction",
+      .arguments =
+          "SCAN --pressure P --youngs-modulus E --poisson-ratio NU --density D "
+          "--shear-strength TAU [options]",
+      .summary = "dry and lubricated Bowden-Tabor friction coefficients",
+      .details =
+          "Friction is the real contact area times the shear strength over the pressure; "
+          "contact that stands in liquid carries no shear. '--density 0g/m^2' asks for "
+          "dry friction alone.",
+      .examples = {"tabor friction surfaces/edt_before.x3p --level plane --pressure 2MPa,7MPa "
+                   "--youngs-modulus 70GPa --poisson-ratio 0.33 --saturation-pressure 240MPa "
+                   "--density 0.45g/m^2,0.9g/m^2 --shear-strength 70MPa",
+                   "tabor friction surfaces/edt_before.x3p --level plane --pressure 7MPa "
+                   "--youngs-modulus 70GPa --poisson-ratio 0.33 --saturation-pressure 240MPa "
+                   "--density 0.9g/m^2 --model bottom-fill --shear-strength 70MPa --area pixels "
+                   "--json"},
+      .declare = [](OptionSet& set) -> Action {
+        const auto request = std::make_shared<Request>();
+        declare_scan(set, request->scan);
+        declare_contact(set, request->contact);
+        declare_film(set, request->film);
+        set.group("Friction");
+        set.quantity("--shear-strength", "TAU", "shear strength of the contact, e.g. 70MPa",
+                     dimension::pressure, request->shear_strength)
+            .required = true;
+        set.choice("--area", {"corrected", "pixels"},
+                   "contact area that friction uses: perimeter-corrected or counted [corrected]",
+                   request->area);
+        declare_output(set, request->output);
+        return [request](Context& context) { return show(*request, context); };
+      }};
+}
+
+}  // namespace tabor::cli

@@ -1,0 +1,164 @@
+// lubricate and friction on a small generated surface.
+#include <gmock/gmock.h>
+
+#include "run_tabor.hpp"
+#include "support/folder.hpp"
+#include "tabor/io/hdf5.hpp"
+
+namespace tabor::test {
+namespace {
+
+using Words = std::vector<std::string>;
+
+Words operator+(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+class LubricantVerbs : public testing::Test {
+ protected:
+  void SetUp() override {
+    const Outcome made =
+        run_tabor({"generate", "edt", "-o", scan(), "--pixels", "64", "--pixel", "2um"});
+    ASSERT_EQ(made.code, 0) << made.err;
+  }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  std::string scan() const { return file("scan.h5"); }
+  Words lubricate(const std::string& density) const {
+    return {"lubricate", scan(), "--density", density};
+  }
+  Words friction(const std::string& pressure, const std::string& density) const {
+    return {"friction",
+            scan(),
+            "--pressure",
+            pressure,
+            "--density",
+            density,
+            "--youngs-modulus",
+            "70GPa",
+            "--poisson-ratio",
+            "0.33",
+            "--saturation-pressure",
+            "240MPa",
+            "--shear-strength",
+            "70MPa"};
+  }
+
+  Folder folder_;
+};
+
+TEST_F(LubricantVerbs, LubricateHasTheAgreedKeys) {
+  const io::Json result = json_of(lubricate("0.45g/m^2,0.9g/m^2"));
+  for (const char* key : {"model", "reading", "edge", "seed", "droplet_height_m",
+                          "oil_density_kg_per_m3", "states", "scan", "warnings"}) {
+    EXPECT_TRUE(result.contains(key)) << key;
+  }
+  ASSERT_EQ(result.at("states").size(), 2u);
+  for (const char* key :
+       {"lubricant_density_g_per_m2", "mean_film_m", "n_droplets", "wet_fraction", "max_film_m",
+        "deposited_volume_m3", "lost_volume_m3", "n_pools", "seconds", "peak_memory_bytes"}) {
+    EXPECT_TRUE(result.at("states").at(0).contains(key)) << key;
+  }
+}
+
+TEST_F(LubricantVerbs, MeanFilmIsArealDensityOverOilDensity) {
+  const io::Json states =
+      json_of(lubricate("0.9g/m^2") + Words{"--oil-density", "800kg/m^3"}).at("states");
+  EXPECT_NEAR(states.at(0).at("mean_film_m").get<double>(), 0.9e-3 / 800, 1e-15);
+  EXPECT_EQ(states.at(0).at("lubricant_density_g_per_m2"), 0.9);
+}
+
+TEST_F(LubricantVerbs, StatesComeInTheOrderAskedFor) {
+  const io::Json states = json_of(lubricate("0.9g/m^2,0.45g/m^2")).at("states");
+  EXPECT_EQ(states.at(0).at("lubricant_density_g_per_m2"), 0.9);
+  EXPECT_EQ(states.at(1).at("lubricant_density_g_per_m2"), 0.45);
+}
+
+TEST_F(LubricantVerbs, EveryDropletIsOnTheSurfaceOrCountedAsLost) {
+  const double area = 64 * 2e-6 * 64 * 2e-6;
+  for (const char* edge : {"closed", "open"}) {
+    const io::Json state =
+        json_of(lubricate("0.9g/m^2") + Words{"--edge", edge}).at("states").at(0);
+    const double volume =
+        state.at("deposited_volume_m3").get<double>() + state.at("lost_volume_m3").get<double>();
+    // Whole droplets of 0.1 um times a pixel: the dose is met within one of them.
+    EXPECT_NEAR(volume, area * 1e-6, 1e-7 * 2e-6 * 2e-6 * 1.001) << edge;
+  }
+}
+
+TEST_F(LubricantVerbs, AllModelsRun) {
+  for (const char* model : {"droplets", "limit", "bottom-fill", "uniform"}) {
+    EXPECT_EQ(json_of(lubricate("0.9g/m^2") + Words{"--model", model}).at("model"), model);
+  }
+}
+
+TEST_F(LubricantVerbs, AFloodedSurfaceIsWarnedAbout) {
+  const io::Json result = json_of(lubricate("100g/m^2") + Words{"--model", "bottom-fill"});
+  EXPECT_TRUE(result.at("states").at(0).at("flooded").get<bool>());
+  EXPECT_EQ(result.at("states").at(0).at("wet_fraction"), 1);
+  EXPECT_FALSE(result.at("warnings").empty());
+}
+
+TEST_F(LubricantVerbs, LubricateKeepsTheFilms) {
+  ASSERT_EQ(run_tabor(lubricate("0.9g/m^2,0.45g/m^2") + Words{"-o", file("out.h5")}).code, 0);
+  const io::Hdf5Reader result(file("out.h5"));
+  EXPECT_NEAR(result.field("/states/0000/film_thickness").mean(), 1e-6, 1e-10);
+  EXPECT_NEAR(result.field("/states/0001/film_thickness").mean(), 0.5e-6, 1e-10);
+}
+
+TEST_F(LubricantVerbs, NegativeDensityIsBadInput) {
+  EXPECT_EQ(run_tabor(lubricate("-1g/m^2")).code, 3);
+  EXPECT_EQ(run_tabor(lubricate("1g/m^2") + Words{"--oil-density", "0kg/m^3"}).code, 3);
+  EXPECT_EQ(run_tabor(lubricate("1g/m^2") + Words{"--droplet", "0um"}).code, 3);
+}
+
+TEST_F(LubricantVerbs, FrictionHasTheAgreedKeysForEveryPressureAndDensity) {
+  const io::Json states = json_of(friction("2MPa,7MPa", "0.45g/m^2,0.9g/m^2")).at("states");
+  ASSERT_EQ(states.size(), 4u);
+  for (const char* key : {"mean_pressure_Pa", "lubricant_density_g_per_m2", "contact_area_fraction",
+                          "lubricated_share", "spill_over_fraction", "friction_dry",
+                          "friction_lubricated", "certificate", "converged"}) {
+    EXPECT_TRUE(states.at(0).contains(key)) << key;
+  }
+  EXPECT_EQ(states.at(1).at("mean_pressure_Pa"), 2e6);
+  EXPECT_EQ(states.at(1).at("lubricant_density_g_per_m2"), 0.9);
+}
+
+TEST_F(LubricantVerbs, FrictionIsAreaTimesShearStrengthOverPressure) {
+  for (const char* area : {"corrected", "pixels"}) {
+    const io::Json state =
+        json_of(friction("7MPa", "0.9g/m^2") + Words{"--area", area}).at("states").at(0);
+    const std::string key =
+        std::string("contact_area_fraction") + (area == std::string("pixels") ? "_pixels" : "");
+    const double dry = state.at(key).get<double>() * 70.0 / 7.0;
+    EXPECT_NEAR(state.at("friction_dry").get<double>(), dry, 1e-12) << area;
+    EXPECT_NEAR(state.at("friction_lubricated").get<double>(),
+                dry * (1 - state.at("lubricated_share").get<double>()), 1e-12);
+  }
+}
+
+TEST_F(LubricantVerbs, FrictionWithoutOilIsDry) {
+  const io::Json state = json_of(friction("7MPa", "0g/m^2")).at("states").at(0);
+  EXPECT_EQ(state.at("friction_lubricated"), state.at("friction_dry"));
+}
+
+TEST_F(LubricantVerbs, FrictionKeepsContactAndFilm) {
+  ASSERT_EQ(run_tabor(friction("7MPa", "0.9g/m^2") + Words{"-o", file("out.h5")}).code, 0);
+  const io::Hdf5Reader result(file("out.h5"));
+  for (const char* map : {"pressure", "displacement", "gap", "film_thickness"}) {
+    EXPECT_EQ(result.shape(std::string("/states/0000/") + map), (std::vector<Index>{64, 64}));
+  }
+  const io::Json entries = json_of({"cite", file("out.h5")}).at("bibtex");
+  for (const char* key : {"bowden1950", "almqvist2007", "costagliola2022", "hdf5"}) {
+    EXPECT_TRUE(entries.contains(key)) << key;
+  }
+}
+
+TEST_F(LubricantVerbs, ShearStrengthMustBePositive) {
+  Words words = friction("7MPa", "0.9g/m^2");
+  words.back() = "0MPa";
+  EXPECT_EQ(run_tabor(words).code, 3);
+}
+
+}  // namespace
+}  // namespace tabor::test

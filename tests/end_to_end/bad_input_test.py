@@ -1,0 +1,165 @@
+"""Every kind of bad input ends with its exit code and one clear line."""
+
+import os
+import resource
+import signal
+import subprocess
+import unittest
+
+from program import ALUMINIUM, ProgramTest
+
+MATRIX = ["--pixel", "1um", "--unit", "nm"]
+
+
+def limit_file_size(n_bytes):
+    """For preexec_fn: writing beyond n_bytes fails as on a full disk."""
+
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (n_bytes, n_bytes))
+
+    return limit
+
+
+def limit_memory():
+    resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
+
+
+class Units(ProgramTest):
+    def test_missing_wrong_and_mixed_units_are_usage_errors(self):
+        self.generate("scan.h5")
+        for pressure, part in [("7", "--pressure 7MPa"), ("7um", "MPa"), ("7MPa,8", "--pressure 8MPa"),
+                               ("7MPa,8kg", "MPa"), ("seven MPa", "number"), ("7MPaa", "MPaa")]:
+            done = self.tabor("contact", "scan.h5", "--pressure", pressure, *ALUMINIUM)
+            self.assert_refused(done, 2, "--pressure", part)
+
+    def test_a_scan_without_unit_is_refused_with_the_option_to_add(self):
+        (self.folder / "plain.txt").write_text("1 2 3\n4 5 6\n7 8 10\n")
+        self.assert_refused(self.tabor("info", "plain.txt"), 3, "plain.txt", "--pixel")
+        self.assert_refused(self.tabor("info", "plain.txt", "--pixel", "1um"), 3, "--unit")
+        self.assertEqual(self.json("info", "plain.txt", *MATRIX)["nx"], 3)
+
+
+class Pressure(ProgramTest):
+    def test_at_or_above_saturation_is_refused(self):
+        self.generate("scan.h5")
+        for pressure in ["240MPa", "1GPa", "2MPa,240MPa"]:
+            done = self.tabor("contact", "scan.h5", "--pressure", pressure, *ALUMINIUM,
+                              "--saturation-pressure", "240MPa")
+            self.assert_refused(done, 3, "240 MPa", "saturation")
+
+
+class Holes(ProgramTest):
+    def test_are_refused_with_the_option_that_fills_them(self):
+        (self.folder / "holes.txt").write_text("1 2 3\n4 NaN 6\n7 8 10\n")
+        done = self.tabor("contact", "holes.txt", *MATRIX, "--pressure", "1MPa", *ALUMINIUM)
+        self.assert_refused(done, 3, "1 missing", "--fill harmonic")
+        done = self.tabor("lubricate", "holes.txt", *MATRIX, "--density", "1g/m^2")
+        self.assert_refused(done, 3, "--fill harmonic")
+
+    def test_everywhere_are_refused(self):
+        (self.folder / "nothing.txt").write_text("NaN NaN NaN\n" * 3)
+        for words in (["info"], ["params"], ["contact", "--pressure", "1MPa", *ALUMINIUM, "--fill", "harmonic"]):
+            done = self.tabor(words[0], "nothing.txt", *MATRIX, *words[1:])
+            self.assert_refused(done, 3, "nothing.txt")
+
+
+class BrokenFiles(ProgramTest):
+    def test_truncated_anywhere_are_refused_without_a_crash(self):
+        for extension in ("x3p", "sdf", "gsf", "gwy", "h5", "npy"):
+            whole = self.generate(f"whole.{extension}", "edt", 16).read_bytes()
+            cut = self.folder / f"cut.{extension}"
+            for share in (0, 1, 25, 50, 75, 99):
+                cut.write_bytes(whole[:len(whole) * share // 100])
+                done = self.tabor("info", cut.name)
+                self.assertEqual(done.returncode, 3, f"{extension} {share} %: {done.stderr}")
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+
+    def test_that_claim_more_than_they_hold_do_not_take_memory(self):
+        header = "Gwyddion Simple Field 1.0\nXRes = 2000000000\nYRes = 2000000000\nXReal = 1\nYReal = 1\nXYUnits = m\nZUnits = m\n"
+        (self.folder / "lying.gsf").write_bytes(header.encode() + b"\0" * 8)
+        done = self.tabor("info", "lying.gsf", preexec_fn=limit_memory)
+        self.assert_refused(done, 3, "lying.gsf")
+
+    def test_of_an_unknown_kind_are_refused(self):
+        (self.folder / "noise.x3p").write_bytes(bytes(range(256)) * 8)
+        self.assert_refused(self.tabor("info", "noise.x3p"), 3, "noise.x3p")
+        (self.folder / "empty.x3p").write_bytes(b"")
+        self.assert_refused(self.tabor("info", "empty.x3p"), 3, "empty.x3p")
+
+    def test_that_are_folders_or_absent_are_refused(self):
+        (self.folder / "folder.x3p").mkdir()
+        self.assert_refused(self.tabor("info", "folder.x3p"), 3, "folder.x3p")
+        self.assert_refused(self.tabor("info", "absent.x3p"), 3, "absent.x3p")
+
+
+class Lubricant(ProgramTest):
+    def test_that_more_than_floods_the_surface_is_said(self):
+        self.generate("scan.h5")
+        result = self.json("lubricate", "scan.h5", "--density", "1kg/m^2")
+        self.assertTrue(result["states"][0]["flooded"])
+        self.assertEqual(result["states"][0]["wet_fraction"], 1)
+        self.assertIn("flood", " ".join(result["warnings"]))
+
+    def test_negative_is_refused(self):
+        self.generate("scan.h5")
+        done = self.tabor("lubricate", "scan.h5", "--density=-1g/m^2")
+        self.assert_refused(done, 3, "--density")
+
+
+class Words(ProgramTest):
+    def test_unknown_ones_name_the_nearest(self):
+        self.assert_refused(self.tabor("lubricte", "scan.h5"), 2, "'lubricate'")
+        self.assert_refused(self.tabor("info", "scan.h5", "--pixle", "1um"), 2, "'--pixel'")
+        self.assert_refused(self.tabor("params", "scan.h5", "--fill", "harmonik"), 2, "harmonic")
+
+    def test_missing_ones_are_named(self):
+        self.assert_refused(self.tabor("contact", "scan.h5", *ALUMINIUM), 2, "--pressure")
+        self.assert_refused(self.tabor("info"), 2, "SCAN")
+
+
+class Output(ProgramTest):
+    def contact(self, *words, **options):
+        return self.tabor("contact", "scan.h5", "--pressure", "7MPa", *ALUMINIUM, *words, **options)
+
+    def test_into_an_absent_folder_is_refused_before_computing(self):
+        self.generate("scan.h5")
+        self.assert_refused(self.contact("-o", "absent/out.h5"), 5, "absent")
+
+    def test_onto_a_folder_is_refused(self):
+        self.generate("scan.h5")
+        (self.folder / "out.h5").mkdir()
+        self.assert_refused(self.contact("-o", "out.h5"), 5, "out.h5")
+
+    @unittest.skipIf(os.geteuid() == 0, "root may write everywhere")
+    def test_into_a_read_only_folder_is_refused(self):
+        self.generate("scan.h5")
+        (self.folder / "closed").mkdir(mode=0o500)
+        self.assert_refused(self.contact("-o", "closed/out.h5"), 5, "closed")
+
+    def test_of_an_unknown_extension_is_refused(self):
+        self.generate("scan.h5")
+        done = self.tabor("convert", "scan.h5", "out.docx")
+        self.assert_refused(done, 3, "out.docx")
+
+    def test_to_a_full_disk_leaves_nothing_behind(self):
+        self.generate("scan.h5")
+        before = self.files()
+        done = self.contact("-o", "out.h5", preexec_fn=limit_file_size(4096))
+        self.assert_refused(done, 5, "out.h5")
+        self.assertEqual(self.files(), before)
+        for extension in ("gwy", "x3p", "npy", "h5", "txt"):
+            done = self.tabor("convert", "scan.h5", f"out.{extension}",
+                              preexec_fn=limit_file_size(512))
+            self.assert_refused(done, 5, f"out.{extension}")
+            self.assertEqual(self.files(), before)
+
+    def test_to_a_full_standard_output_is_noticed(self):
+        with open("/dev/full", "w") as full:
+            done = self.tabor("formats", stdout=full, stderr=subprocess.PIPE)
+        self.assertEqual(done.returncode, 5)
+        self.assertIn("standard output", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

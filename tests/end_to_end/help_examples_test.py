@@ -1,0 +1,53 @@
+"""The examples that --help shows work as they stand, in the project's folder."""
+
+import os
+import pathlib
+import shlex
+import shutil
+import unittest
+
+from program import ALUMINIUM, SOURCE, ProgramTest
+
+VERBS = ["info", "convert", "params", "psd", "generate", "contact", "lubricate", "friction", "sweep",
+         "report", "formats", "cite", "options"]
+
+
+def examples_of(help_text):
+    return [shlex.split(line) for line in help_text.split("Examples:\n")[1].splitlines() if line.strip()]
+
+
+class HelpExamples(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(SOURCE / "surfaces", self.folder / "surfaces",
+                        ignore=lambda _, names: [n for n in names if not n.startswith("edt_before")])
+
+    def run_examples(self, verb):
+        done = self.tabor(verb, "--help")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        examples = examples_of(done.stdout)
+        self.assertGreaterEqual(len(examples), 2)
+        for words in examples:
+            self.assertEqual(words[0], "tabor")
+            done = self.tabor(*words[1:])
+            self.assertEqual(done.returncode, 0, f"{shlex.join(words)}\n{done.stderr}")
+
+
+def add_test(verb):
+    setattr(HelpExamples, f"test_{verb}", lambda self: self.run_examples(verb))
+
+
+for name in VERBS:
+    if name not in ("sweep", "report"):
+        add_test(name)
+
+
+class HelpOfEveryVerb(ProgramTest):
+    def test_is_named_by_the_overview(self):
+        overview = self.tabor("--help").stdout
+        for verb in VERBS:
+            self.assertIn(f"\n  {verb} ", overview)
+
+
+if __name__ == "__main__":
+    unittest.main()
