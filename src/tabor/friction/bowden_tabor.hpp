@@ -35,8 +35,8 @@ struct Estimate {
 ///   dry         mu = (A_real / A0) tau_y / P
 ///   lubricated  mu = (A_real - A_lub) / A0 * tau_y / P
 ///
-/// (Costagliola et al. 2022, eqs. 4-5). A corrected area is never taken below P / p_sat, which
-/// bounds the continuum too. Throws InputError for values out of range.
+/// (Bowden & Tabor 1950; Costagliola et al. 2022, section 4). A corrected area is never taken below
+/// P / p_sat, which bounds the continuum too. Throws InputError for values out of range.
 Estimate estimate(const Contact& contact, double shear_strength, Area area = Area::corrected);
 
 }  // namespace tabor::friction

@@ -1,0 +1,64 @@
+// The only file that knows zlib.
+#include "tabor/io/deflate.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+
+#include "tabor/core/error.hpp"
+
+namespace tabor::io {
+namespace {
+
+constexpr std::size_t kChunk = std::size_t{1} << 16;
+
+/// A running inflation that ends itself.
+struct Inflation {
+  z_stream stream{};
+  bool ready = inflateInit(&stream) == Z_OK;
+  ~Inflation() {
+    if (ready) inflateEnd(&stream);
+  }
+};
+
+}  // namespace
+
+std::string inflate(std::string_view packed, std::size_t size, const std::string& name) {
+  const auto damaged = [&] {
+    return InputError(name, "a compressed block that cannot be unpacked",
+                      fmt::format("{} bytes", size), "export or copy the file again");
+  };
+  Inflation inflation;
+  if (!inflation.ready || packed.size() > std::size_t{1} << 31) throw damaged();
+  z_stream& stream = inflation.stream;
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(packed.size());
+  std::string content;
+  std::array<char, kChunk> chunk;
+  int status = Z_OK;
+  while (status == Z_OK) {
+    stream.next_out = reinterpret_cast<Bytef*>(chunk.data());
+    stream.avail_out = kChunk;
+    status = ::inflate(&stream, Z_NO_FLUSH);
+    const std::size_t n = kChunk - stream.avail_out;
+    if (content.size() + n > size) throw damaged();
+    content.append(chunk.data(), n);
+  }
+  if (status != Z_STREAM_END || content.size() != size) throw damaged();
+  return content;
+}
+
+std::string deflate(std::string_view bytes) {
+  uLongf size = compressBound(bytes.size());
+  std::string packed(size, '\0');
+  const int status =
+      compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+               reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()));
+  if (status != Z_OK) throw OutputError("cannot compress: out of memory");
+  packed.resize(size);
+  return packed;
+}
+
+}  // namespace tabor::io

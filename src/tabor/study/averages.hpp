@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tabor/study/record.hpp"
+
+namespace tabor::study {
+
+/// Statistics of repeated values. NaN where they do not exist: mean for n = 0, the rest for n < 2.
+struct Mean {
+  std::size_t n = 0;
+  double mean = kNoValue;
+  double standard_deviation = kNoValue;  ///< with n - 1
+  double standard_error = kNoValue;      ///< standard deviation / sqrt(n)
+};
+
+Mean mean_of(const std::vector<double>& values);
+
+/// One row of averages.csv: the scans of one group under one pressure and density.
+struct Average {
+  std::string group;
+  double mean_pressure = 0;      ///< [Pa]
+  double lubricant_density = 0;  ///< [kg/m^2]
+  std::size_t n = 0;
+  Mean friction_dry;
+  Mean friction_lubricated;
+};
+
+/// Groups, pressures and densities in the order of their first row. Rows that failed or did not
+/// converge do not count: n says how many did.
+std::vector<Average> averages(const std::vector<Row>& rows);
+
+}  // namespace tabor::study

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "tabor/core/convergence.hpp"
+#include "tabor/study/record.hpp"
+
+// From a study to the files of its store, one unit at a time.
+namespace tabor::study {
+
+/// Reads and treats one scan. Throws InputError, also for a surface that still has holes.
+topography::Topography treated_surface(const Study& study, const Scan& scan,
+                                       const Observer& observer);
+
+/// Power spectra and map of the treated scan into the store.
+void compute_surface(const Store& store, const Unit& unit,
+                     const topography::Topography& topography);
+
+/// Solves one contact and stores it, converged or not; throws Interrupted if `observer` stops it.
+void compute_contact(const Store& store, const Unit& unit, const Study& study,
+                     const topography::Topography& topography, double mean_pressure,
+                     const Observer& observer);
+
+/// Lays down the films of all densities and stores them.
+void compute_film(const Store& store, const Unit& unit, const Study& study,
+                  const topography::Topography& topography, const Observer& observer);
+
+/// The rows of one contact, one per density, from what is in the store.
+void compute_rows(const Store& store, const Study& study, const Scan& scan, const ScanUnits& units,
+                  std::size_t pressure);
+
+/// The same rows when there is no contact or no film, and why.
+void record_failure(const Store& store, const Study& study, const Scan& scan,
+                    const ScanUnits& units, std::size_t pressure, const std::string& error);
+
+}  // namespace tabor::study

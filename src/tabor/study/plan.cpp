@@ -1,0 +1,123 @@
+#include "tabor/study/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+
+namespace tabor::study {
+namespace {
+
+enum class Found { absent, damaged, complete };
+
+class Planner {
+ public:
+  Planner(const Store& store, const Study& study, bool retry, std::vector<std::string>& warnings)
+      : store_(store), study_(study), retry_(retry), warnings_(warnings) {}
+
+  ScanPlan plan(const ScanUnits& units, const std::vector<std::size_t>& mine) {
+    ScanPlan plan;
+    plan.retry.assign(study_.mean_pressures.size(), false);
+    bool film_wanted = false;
+    for (const std::size_t pressure : mine) {
+      const Rows rows = look_at(units.cases[pressure]);
+      const Found contact = find(units.contacts[pressure]);
+      // A contact that could not be solved leaves failed rows and no file: it is not tried again.
+      const bool contact_wanted =
+          contact == Found::damaged || (contact == Found::absent && !rows.all_failed);
+      if (rows.missing || contact_wanted) {
+        plan.pressures.push_back(pressure);
+      }
+      plan.retry[pressure] = rows.not_converged;
+      film_wanted = film_wanted || rows.missing || !rows.all_failed;
+    }
+    if (!mine.empty()) {
+      const bool rows_missing = !plan.pressures.empty();
+      const Found film = find(units.film);
+      plan.film = film == Found::damaged || rows_missing || (film == Found::absent && film_wanted);
+      plan.surface = find(units.surface) != Found::complete && (film_wanted || rows_missing);
+    }
+    return plan;
+  }
+
+ private:
+  struct Rows {
+    bool missing = false;        ///< at least one is to be computed
+    bool all_failed = true;      ///< each is there and holds an error
+    bool not_converged = false;  ///< one is to be tried again
+  };
+
+  Rows look_at(const std::vector<Unit>& cases) {
+    Rows rows;
+    for (const Unit& unit : cases) {
+      if (find(unit) != Found::complete) {
+        rows.missing = true;
+        rows.all_failed = false;
+        continue;
+      }
+      const Row row = read_row(store_, unit);
+      const bool again = retry_ && (row.failed() || !row.converged);
+      rows.not_converged = rows.not_converged || again;
+      rows.missing = rows.missing || again;
+      rows.all_failed = rows.all_failed && row.failed() && !again;
+    }
+    return rows;
+  }
+
+  Found find(const Unit& unit) {
+    if (!store_.has(unit)) {
+      return Found::absent;
+    }
+    const std::string problem = defect(store_, unit, study_.lubricant_densities.size());
+    if (problem.empty()) {
+      return Found::complete;
+    }
+    warnings_.push_back(fmt::format("damaged, computed again: {}", problem));
+    store_.remove(unit);
+    return Found::damaged;
+  }
+
+  const Store& store_;
+  const Study& study_;
+  bool retry_;
+  std::vector<std::string>& warnings_;
+};
+
+}  // namespace
+
+Shard parse_shard(std::string_view text) {
+  const std::vector<std::string> parts = split(text, '/');
+  if (parts.size() == 2) {
+    const auto index = parse_number(parts[0]);
+    const auto count = parse_number(parts[1]);
+    if (index && count && *count >= 1 && *count <= 1e6 && *index >= 1 && *index <= *count &&
+        *index == static_cast<int>(*index) && *count == static_cast<int>(*count)) {
+      return {static_cast<int>(*index), static_cast<int>(*count)};
+    }
+  }
+  throw InputError("--shard", "'" + std::string(text) + "'", "i/n with 1 <= i <= n, such as 2/8",
+                   "");
+}
+
+std::vector<ScanPlan> plan(const Store& store, const Study& study,
+                           const std::vector<ScanUnits>& units, const Shard& shard, bool retry,
+                           std::vector<std::string>& warnings) {
+  Planner planner(store, study, retry, warnings);
+  std::vector<ScanPlan> plans;
+  std::size_t pair = 0;
+  for (const ScanUnits& scan : units) {
+    std::vector<std::size_t> mine;
+    for (std::size_t pressure = 0; pressure < study.mean_pressures.size(); ++pressure, ++pair) {
+      if (pair % static_cast<std::size_t>(shard.count) ==
+          static_cast<std::size_t>(shard.index - 1)) {
+        mine.push_back(pressure);
+      }
+    }
+    plans.push_back(planner.plan(scan, mine));
+  }
+  return plans;
+}
+
+}  // namespace tabor::study

@@ -1,0 +1,271 @@
+#include "tabor/study/record.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/resources.hpp"
+#include "tabor/core/version.hpp"
+#include "tabor/io/atomic_file.hpp"
+#include "tabor/io/json.hpp"
+
+namespace tabor::study {
+namespace {
+
+/// Columns of a row that are plain numbers, with their names in the file.
+struct Member {
+  const char* name;
+  double Row::*value;
+};
+constexpr Member kMembers[] = {
+    {"mean_pressure_Pa", &Row::mean_pressure},
+    {"lubricant_density_kg_per_m2", &Row::lubricant_density},
+    {"contact_area_fraction", &Row::contact_area_fraction},
+    {"contact_area_fraction_pixels", &Row::contact_area_fraction_pixels},
+    {"saturated_area_fraction", &Row::saturated_area_fraction},
+    {"mean_gap_m", &Row::mean_gap},
+    {"lubricated_share", &Row::lubricated_share},
+    {"spill_over_fraction", &Row::spill_over_fraction},
+    {"trapped_fraction", &Row::trapped_fraction},
+    {"escaping_fraction", &Row::escaping_fraction},
+    {"friction_dry", &Row::friction_dry},
+    {"friction_lubricated", &Row::friction_lubricated},
+    {"certificate", &Row::certificate},
+};
+
+void attributes(io::Hdf5Writer& writer, const std::string& path, const Scalars& scalars) {
+  for (const auto& [name, value] : scalars) {
+    writer.attribute(path, name, value);
+  }
+}
+
+/// Writes a map with its units, axes and default plot.
+void write_map(io::Hdf5Writer& writer, const std::string& group, const std::string& name,
+               const Field& map, const std::string& long_name) {
+  const std::string path = group + "/" + name;
+  writer.write(path, map, io::Precision::float32);
+  writer.describe(path, "m", long_name);
+  writer.attach_axes(path);
+}
+
+io::Hdf5Writer unit_writer(const Store& store, const Unit& unit, const std::string& plotted) {
+  io::Hdf5Writer writer(store.path(unit));
+  write_root(writer, plotted);
+  writer.attribute("/", "canonical_text", unit.text);
+  return writer;
+}
+
+io::ByteMap contact_states(const contact::State& state, double saturation_pressure) {
+  return (state.pressure > 0).cast<std::uint8_t>() +
+         (state.pressure >= saturation_pressure).cast<std::uint8_t>();
+}
+
+void write_spectrum(io::Hdf5Writer& writer, const std::string& axis, const std::string& density,
+                    const topography::Spectrum& spectrum) {
+  const std::string q_path = "/psd/" + axis + "_q_rad_per_m";
+  const std::string density_path = "/psd/" + axis + "_" + density;
+  writer.write(q_path, spectrum.q);
+  writer.describe(q_path, "rad/m", "wavevector 2 pi / lambda");
+  writer.write(density_path, spectrum.density);
+  writer.describe(density_path, spectrum.unit, "power spectral density");
+  writer.attribute("/psd", "hurst_" + axis, spectrum.hurst.hurst);
+}
+
+std::string defect_of_row(const Store& store, const Unit& unit) {
+  try {
+    return read_row(store, unit).case_id == unit.key ? "" : "belongs to another case";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+std::vector<std::string> expected_maps(const Unit& unit, std::size_t n_films) {
+  if (unit.file.starts_with("surface-")) {
+    return {"/surface/height", "/psd/radial_c2d_m4"};
+  }
+  if (unit.file.starts_with("contact-")) {
+    return {"/contact/state", "/contact/gap"};
+  }
+  std::vector<std::string> films;
+  for (std::size_t i = 0; i < n_films; ++i) {
+    films.push_back(film_group(i) + "/film_thickness");
+  }
+  return films;
+}
+
+}  // namespace
+
+void write_row(const Store& store, const Unit& unit, const Row& row) {
+  io::Json json;
+  json["case_id"] = row.case_id;
+  json["canonical_text"] = unit.text;
+  json["software_version"] = kVersion;
+  json["scan"] = row.scan;
+  json["group"] = row.group;
+  for (const Member& member : kMembers) {
+    json[member.name] = io::number(row.*member.value);
+  }
+  json["converged"] = row.converged;
+  json["error"] = row.error;
+  io::write_file(store.path(unit), io::to_text(json) + "\n");
+}
+
+Row read_row(const Store& store, const Unit& unit) {
+  const io::Json json = io::read_json(store.path(unit));
+  try {
+    Row row;
+    row.case_id = json.at("case_id").get<std::string>();
+    row.scan = json.at("scan").get<std::string>();
+    row.group = json.at("group").get<std::string>();
+    for (const Member& member : kMembers) {
+      const io::Json& value = json.at(member.name);
+      row.*member.value = value.is_null() ? kNoValue : value.get<double>();
+    }
+    row.converged = json.at("converged").get<bool>();
+    row.error = json.at("error").get<std::string>();
+    return row;
+  } catch (const io::Json::exception&) {
+    throw InputError(store.path(unit).string() + ": not a complete row");
+  }
+}
+
+Scalars scalars_of(const contact::Summary& summary, const Convergence& convergence) {
+  return {{"mean_pressure_Pa", summary.mean_pressure},
+          {"contact_area_fraction", summary.contact_area_fraction},
+          {"contact_area_fraction_pixels", summary.contact_area_fraction_pixels},
+          {"saturated_area_fraction", summary.saturated_area_fraction},
+          {"mean_gap_m", summary.mean_gap},
+          {"separation_m", summary.separation},
+          {"max_pressure_Pa", summary.max_pressure},
+          {"elastic_energy_J_per_m2", summary.elastic_energy},
+          {"n_patches", static_cast<double>(summary.n_patches)},
+          {"perimeter_m", summary.perimeter},
+          {"certificate", convergence.certificate},
+          {"tolerance", convergence.tolerance},
+          {"converged", convergence.converged ? 1.0 : 0.0},
+          {"iterations", static_cast<double>(convergence.iterations)},
+          {"operator_applications", static_cast<double>(convergence.operator_applications)}};
+}
+
+Scalars scalars_of(const lubrication::Film& film, double lubricant_density) {
+  return {{"lubricant_density_g_per_m2", in_g_per_m2(lubricant_density)},
+          {"mean_film_m", film.mean_film},
+          {"n_droplets", static_cast<double>(film.n_droplets)},
+          {"wet_fraction", film.wet_fraction},
+          {"max_film_m", film.max_film},
+          {"deposited_volume_m3", film.deposited_volume},
+          {"lost_volume_m3", film.lost_volume},
+          {"n_pools", static_cast<double>(film.n_pools)},
+          {"seconds", film.seconds},
+          {"peak_memory_bytes", static_cast<double>(peak_memory_bytes())}};
+}
+
+void write_surface(const Store& store, const Unit& unit, const topography::Topography& topography,
+                   const topography::PowerSpectra& spectra) {
+  io::Hdf5Writer writer = unit_writer(store, unit, "surface");
+  writer.axes("/surface", topography.grid);
+  write_map(writer, "/surface", "height", topography.height, "height");
+  writer.nxdata("/surface", "height");
+  writer.attribute("/surface", "format", topography.format);
+  writer.attribute("/surface", "instrument", topography.instrument);
+  writer.attribute("/surface", "channel", topography.channel);
+  writer.attribute("/surface", "treatment", topography.history);
+  writer.attribute("/surface", "doubts", topography.doubts);
+  writer.attribute("/surface", "periodic", topography.periodic ? 1 : 0);
+  write_spectrum(writer, "x", "c1d_m3", spectra.x);
+  write_spectrum(writer, "y", "c1d_m3", spectra.y);
+  write_spectrum(writer, "radial", "c2d_m4", spectra.radial);
+  writer.attribute("/psd", "convention", std::string(name_of(spectra.convention)));
+  writer.attribute("/psd", "window", std::string(name_of(spectra.window)));
+  writer.attribute("/psd", "rms_height_m", spectra.rms_height);
+  writer.attribute("/psd", "rms_slope", spectra.rms_slope);
+  writer.commit();
+}
+
+void write_contact(const Store& store, const Unit& unit, const Grid& grid,
+                   const contact::Problem& problem, const contact::State& state,
+                   const contact::Summary& summary, const Cost& cost) {
+  io::Hdf5Writer writer = unit_writer(store, unit, "contact");
+  writer.axes("/contact", grid);
+  const std::string path = "/contact/state";
+  writer.write(path, contact_states(state, problem.saturation_pressure));
+  writer.describe(path, "1", "0 no contact, 1 contact below saturation, 2 saturated");
+  writer.attach_axes(path);
+  write_map(writer, "/contact", "gap", state.gap, "gap between the surfaces");
+  writer.nxdata("/contact", "state");
+  attributes(writer, "/contact", scalars_of(summary, state.convergence));
+  attributes(writer, "/contact",
+             {{"size_x_m", grid.lx},
+              {"size_y_m", grid.ly},
+              {"fft_seconds", cost.fft_seconds},
+              {"seconds", cost.seconds},
+              {"peak_memory_bytes", static_cast<double>(peak_memory_bytes())}});
+  writer.commit();
+}
+
+StoredContact read_contact(const Store& store, const Unit& unit) {
+  const io::Hdf5Reader reader(store.path(unit));
+  const auto scalar = [&reader](const char* name) { return reader.number("/contact", name); };
+  StoredContact stored;
+  stored.contact = reader.bytes("/contact/state") > 0;
+  stored.gap = reader.field("/contact/gap");
+  stored.grid = {stored.gap.cols(), stored.gap.rows(), scalar("size_x_m"), scalar("size_y_m")};
+  stored.summary.mean_pressure = scalar("mean_pressure_Pa");
+  stored.summary.contact_area_fraction = scalar("contact_area_fraction");
+  stored.summary.contact_area_fraction_pixels = scalar("contact_area_fraction_pixels");
+  stored.summary.saturated_area_fraction = scalar("saturated_area_fraction");
+  stored.summary.mean_gap = scalar("mean_gap_m");
+  stored.convergence.certificate = scalar("certificate");
+  stored.convergence.converged = scalar("converged") != 0;
+  return stored;
+}
+
+FilmFile::FilmFile(const Store& store, const Unit& unit, const Grid& grid)
+    : grid_(grid), writer_(unit_writer(store, unit, "films/0000")) {
+  writer_.group("/films");
+}
+
+void FilmFile::add(const lubrication::Film& film, double lubricant_density) {
+  const std::string group = film_group(film.request);
+  writer_.axes(group, grid_);
+  write_map(writer_, group, "film_thickness", film.thickness, "film thickness");
+  writer_.nxdata(group, "film_thickness");
+  attributes(writer_, group, scalars_of(film, lubricant_density));
+  writer_.attribute(group, "warnings", film.warnings);
+}
+
+void FilmFile::commit() { writer_.commit(); }
+
+Field read_film(const Store& store, const Unit& unit, std::size_t density) {
+  return io::Hdf5Reader(store.path(unit)).field(film_group(density) + "/film_thickness");
+}
+
+std::string defect(const Store& store, const Unit& unit, std::size_t n_films, Depth depth) {
+  if (unit.file.ends_with(".json")) {
+    return defect_of_row(store, unit);
+  }
+  try {
+    const io::Hdf5Reader reader(store.path(unit));
+    for (const std::string& map : expected_maps(unit, n_films)) {
+      reader.shape(map);
+      if (depth == Depth::maps && reader.shape(map).size() == 2) {
+        reader.field(map);
+      }
+    }
+    return reader.text("/", "canonical_text") == unit.text ? "" : "belongs to another unit";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+std::string film_group(std::size_t density) { return fmt::format("/films/{:04}", density); }
+
+void write_root(io::Hdf5Writer& writer, const std::string& default_group) {
+  writer.attribute("/", "format", "tabor");
+  writer.attribute("/", "format_version", 1);
+  writer.attribute("/", "software_version", kVersion);
+  writer.attribute("/", "default", default_group);
+}
+
+}  // namespace tabor::study

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tabor/contact/contact.hpp"
+#include "tabor/io/hdf5.hpp"
+#include "tabor/lubrication/deposition.hpp"
+#include "tabor/study/store.hpp"
+#include "tabor/topography/psd.hpp"
+#include "tabor/topography/topography.hpp"
+
+// What the store's files hold and how they are written and read back (docs/results.md). Writing
+// throws OutputError; reading a damaged file throws InputError.
+namespace tabor::study {
+
+inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+
+/// One row of results.csv. Numbers are NaN in a row that failed.
+struct Row {
+  std::string case_id;
+  std::string scan;
+  std::string group;
+  double mean_pressure = 0;      ///< [Pa]
+  double lubricant_density = 0;  ///< [kg/m^2]
+  double contact_area_fraction = kNoValue;
+  double contact_area_fraction_pixels = kNoValue;
+  double saturated_area_fraction = kNoValue;
+  double mean_gap = kNoValue;  ///< [m]
+  double lubricated_share = kNoValue;
+  double spill_over_fraction = kNoValue;
+  double trapped_fraction = kNoValue;   ///< of the liquid, in closed pockets
+  double escaping_fraction = kNoValue;  ///< of the liquid, with a way out through the gap
+  double friction_dry = kNoValue;
+  double friction_lubricated = kNoValue;
+  double certificate = kNoValue;
+  bool converged = false;
+  std::string error;  ///< why there are no numbers; empty if there are
+
+  bool failed() const { return !error.empty(); }
+};
+
+void write_row(const Store& store, const Unit& unit, const Row& row);
+Row read_row(const Store& store, const Unit& unit);
+
+/// Attributes of /films/nnnn and keys of `tabor lubricate --json` with their values; the same for
+/// contacts and `tabor contact --json`.
+using Scalars = std::vector<std::pair<std::string, double>>;
+Scalars scalars_of(const lubrication::Film& film, double lubricant_density);
+Scalars scalars_of(const contact::Summary& summary, const Convergence& convergence);
+
+void write_surface(const Store& store, const Unit& unit, const topography::Topography& topography,
+                   const topography::PowerSpectra& spectra);
+
+/// What a row needs of a stored contact.
+struct StoredContact {
+  Mask contact;  ///< true where the solids touch
+  Field gap;     ///< [m]
+  Grid grid;
+  contact::Summary summary;
+  Convergence convergence;
+};
+struct Cost {
+  double fft_seconds = 0;
+  double seconds = 0;
+};
+void write_contact(const Store& store, const Unit& unit, const Grid& grid,
+                   const contact::Problem& problem, const contact::State& state,
+                   const contact::Summary& summary, const Cost& cost);
+StoredContact read_contact(const Store& store, const Unit& unit);
+
+/// Films arrive one after the other, in any order; commit() when all are there.
+class FilmFile {
+ public:
+  FilmFile(const Store& store, const Unit& unit, const Grid& grid);
+  void add(const lubrication::Film& film, double lubricant_density);
+  void commit();
+
+ private:
+  Grid grid_;
+  io::Hdf5Writer writer_;
+};
+Field read_film(const Store& store, const Unit& unit, std::size_t density);
+
+/// How thoroughly a file is looked at.
+enum class Depth {
+  structure,  ///< everything that should be there is, in its shape
+  maps        ///< and its maps can be read to the last byte
+};
+
+/// Empty if the file in the store is complete and belongs to the unit, otherwise what is wrong with
+/// it.
+std::string defect(const Store& store, const Unit& unit, std::size_t n_films,
+                   Depth depth = Depth::structure);
+
+/// "/films/0003"
+std::string film_group(std::size_t density);
+
+/// What every HDF5 file of tabor says about itself.
+void write_root(io::Hdf5Writer& writer, const std::string& default_group);
+
+}  // namespace tabor::study

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tabor/contact/contact.hpp"
+#include "tabor/friction/bowden_tabor.hpp"
+#include "tabor/lubrication/deposition.hpp"
+#include "tabor/material/solid.hpp"
+#include "tabor/study/experiment.hpp"
+#include "tabor/topography/file.hpp"
+#include "tabor/topography/treatment.hpp"
+
+namespace tabor::study {
+
+/// One surface of a study.
+struct Scan {
+  std::filesystem::path file;  ///< where it is
+  std::string label;           ///< how the study calls it: its path relative to the study file
+  std::string group;           ///< averages are taken over the scans of a group
+  topography::ReadOptions read;
+};
+
+/// How every contact of a study is solved.
+struct ContactSettings {
+  bool periodic = true;
+  contact::Solver solver = contact::Solver::fast;
+  double tolerance = 1e-6;
+};
+
+/// How every film of a study is laid down.
+struct LubricantSettings {
+  double oil_density = 900;  ///< [kg/m^3]
+  lubrication::Model model = lubrication::Model::droplets;
+  lubrication::Reading reading = lubrication::Reading::conserving;
+  lubrication::Edge edge = lubrication::Edge::closed;
+  double droplet_height = 1e-7;  ///< [m]
+  std::uint64_t seed = 1;
+};
+
+/// Scans x pressures x densities and everything they share. A value; SI throughout.
+struct Study {
+  std::string title;
+  std::filesystem::path file;  ///< the study file
+  double shear_strength = 0;   ///< tau_y [Pa]
+  friction::Area area = friction::Area::corrected;
+  material::Solid solid;
+  std::optional<material::Solid> counter_solid;  ///< rigid if absent
+  double saturation_pressure = contact::kNoSaturation;
+  topography::Treatment treatment;
+  ContactSettings contact;
+  LubricantSettings lubricant;
+  std::vector<double> mean_pressures;       ///< [Pa]
+  std::vector<double> lubricant_densities;  ///< [kg/m^2]
+  std::vector<Scan> scans;
+  std::optional<Experiment> experiment;
+
+  double effective_modulus() const;  ///< E* [Pa]
+  std::size_t n_cases() const {
+    return scans.size() * mean_pressures.size() * lubricant_densities.size();
+  }
+};
+
+/// Reads a study file. File names in it, which may be patterns ("before_*.x3p"), are relative to
+/// its own folder. Throws InputError with file, line and key for anything unknown, missing, without
+/// its unit or out of range, and for scans that are not there.
+Study read_study(const std::filesystem::path& file);
+
+/// Every setting in force, defaults included, as a study file that gives the same study again.
+std::string to_toml(const Study& study);
+
+/// Areal density [kg/m^2] as it is dosed, in g/m^2: 0.45 for 0.45e-3, free of the rounding of the
+/// factor 1000.
+double in_g_per_m2(double lubricant_density);
+
+}  // namespace tabor::study

@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string_view>
+
+#include "tabor/study/study.hpp"
+
+namespace tabor::study {
+namespace {
+
+std::string toml_text(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      result += '\\';
+    }
+    const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
+    result += control ? fmt::format("\\u{:04X}", static_cast<unsigned>(c)) : std::string(1, c);
+  }
+  return result + "\"";
+}
+
+std::string quantity(double value, std::string_view unit) {
+  return toml_text(fmt::format("{:.17g} {}", value, unit));
+}
+
+std::string quantities(const std::vector<double>& values, std::string_view unit) {
+  std::vector<std::string> texts;
+  for (const double value : values) {
+    texts.push_back(quantity(value, unit));
+  }
+  return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+std::string decimal(double value) {
+  // TOML tells integers from floats by their look.
+  const std::string text = fmt::format("{:.17g}", value);
+  return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
+}
+
+std::string solid_lines(const material::Solid& solid, std::string_view prefix) {
+  return fmt::format("{0}youngs_modulus = {1}\n{0}poissons_ratio = {2}\n", prefix,
+                     quantity(solid.youngs_modulus, "Pa"), decimal(solid.poissons_ratio));
+}
+
+std::string material_table(const Study& study) {
+  std::string text = "\n[material]\n" + solid_lines(study.solid, "");
+  if (study.counter_solid) {
+    text += solid_lines(*study.counter_solid, "counter_");
+  }
+  if (std::isfinite(study.saturation_pressure)) {
+    text += fmt::format("saturation_pressure = {}\n", quantity(study.saturation_pressure, "Pa"));
+  }
+  return text;
+}
+
+std::string lubricant_table(const LubricantSettings& lubricant) {
+  return fmt::format(
+      "\n[lubricant]\noil_density = {}\nmodel = {}\nreading = {}\nedge = {}\ndroplet = {}\n"
+      "seed = {}\n",
+      quantity(lubricant.oil_density, "kg/m^3"), toml_text(lubrication::name(lubricant.model)),
+      toml_text(lubrication::name(lubricant.reading)), toml_text(lubrication::name(lubricant.edge)),
+      quantity(lubricant.droplet_height, "m"), lubricant.seed);
+}
+
+std::string scan_table(const Scan& scan) {
+  std::string text = fmt::format("\n[[scan]]\nfile = {}\ngroup = {}\n", toml_text(scan.label),
+                                 toml_text(scan.group));
+  if (scan.read.channel) {
+    text += fmt::format("channel = {}\n", toml_text(*scan.read.channel));
+  }
+  if (scan.read.pixel_x) {
+    text += fmt::format("pixel = {}\n", quantity(*scan.read.pixel_x, "m"));
+  }
+  if (scan.read.unit) {
+    text += fmt::format("unit = {}\n", toml_text(*scan.read.unit));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string to_toml(const Study& study) {
+  std::vector<std::string> steps;
+  for (const std::string& step : study.treatment) {
+    steps.push_back(toml_text(step));
+  }
+  std::string text =
+      fmt::format("title = {}\nshear_strength = {}\narea = {}\n", toml_text(study.title),
+                  quantity(study.shear_strength, "Pa"), toml_text(friction::name(study.area)));
+  text += material_table(study);
+  text += fmt::format("\n[treatment]\nsteps = [{}]\n", fmt::join(steps, ", "));
+  text += fmt::format(
+      "\n[contact]\nboundary = {}\nsolver = {}\ntolerance = {}\n",
+      toml_text(study.contact.periodic ? "periodic" : "free"),
+      toml_text(study.contact.solver == contact::Solver::fast ? "fast" : "polonsky-keer"),
+      decimal(study.contact.tolerance));
+  text += fmt::format("\n[sweep]\nmean_pressure = {}\nlubricant_density = {}\n",
+                      quantities(study.mean_pressures, "Pa"),
+                      quantities(study.lubricant_densities, "kg/m^2"));
+  text += lubricant_table(study.lubricant);
+  for (const Scan& scan : study.scans) {
+    text += scan_table(scan);
+  }
+  if (study.experiment) {
+    text += fmt::format(
+        "\n[experiment]\nfile = {}\n",
+        toml_text(
+            study.experiment->file.lexically_relative(study.file.parent_path()).generic_string()));
+  }
+  return text;
+}
+
+}  // namespace tabor::study

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tabor/core/convergence.hpp"
+#include "tabor/study/plan.hpp"
+#include "tabor/study/study.hpp"
+
+namespace tabor::study {
+
+struct SweepOptions {
+  int jobs = 1;                ///< units computed at the same time; each takes its own memory
+  std::optional<Shard> shard;  ///< this process computes only its part
+  bool retry = false;          ///< compute failed and not converged cases again
+  std::string command;         ///< command line, kept in results.h5
+  Observer observer;           ///< called by one thread at a time, not always the same
+};
+
+/// How a sweep ended.
+struct Outcome {
+  std::size_t n_cases = 0;          ///< of the study
+  std::size_t n_done = 0;           ///< rows in results.csv, those of earlier runs included
+  std::size_t n_failed = 0;         ///< of them without numbers
+  std::size_t n_not_converged = 0;  ///< of them with numbers of less than the quality asked for
+  std::size_t n_surfaces = 0;       ///< units this run computed
+  std::size_t n_contacts = 0;
+  std::size_t n_films = 0;
+  std::size_t n_rows = 0;
+  std::vector<std::string> failures;  ///< one line per scan and pressure that has no numbers
+  std::vector<std::string> warnings;
+};
+
+/// Computes what the store in `directory` does not hold yet: each scan is treated once, each
+/// contact solved once per scan and pressure, each film laid down once per scan for all densities.
+/// A case that fails is recorded and the rest goes on. results.csv, averages.csv and results.h5 are
+/// rebuilt from the store at the end, also of an interrupted run. Results do not depend on jobs,
+/// shards, threads or interruptions.
+///
+/// Throws InputError (unreadable scan file, store in use), OutputError (cannot write), Interrupted
+/// (the observer returned false; what was finished is kept).
+Outcome run(const Study& study, const std::filesystem::path& directory,
+            const SweepOptions& options = {});
+
+}  // namespace tabor::study

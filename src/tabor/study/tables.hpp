@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tabor/study/averages.hpp"
+#include "tabor/study/record.hpp"
+
+namespace tabor::study {
+
+/// The rows the store holds so far, in the order scan, pressure, density of the study. Damaged ones
+/// are left out.
+std::vector<Row> rows_in(const Store& store, const std::vector<ScanUnits>& units);
+
+/// Contents of results.csv and averages.csv; a value that does not exist is an empty cell.
+std::string results_csv(const std::vector<Row>& rows);
+std::string averages_csv(const std::vector<Average>& averages);
+
+/// Writes results.csv, averages.csv and results.h5 into the study's folder from what the store
+/// holds. `command` is the command line that asked for it. Throws OutputError.
+void write_tables(const Store& store, const Study& study, const std::vector<ScanUnits>& units,
+                  const std::vector<Row>& rows, const std::string& command);
+
+}  // namespace tabor::study
