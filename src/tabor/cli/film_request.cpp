@@ -7,7 +7,7 @@
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/resources.hpp"
-#include "tabor/core/text.hpp"
+#include "tabor/study/study.hpp"
 
 namespace tabor::cli {
 
@@ -22,13 +22,11 @@ lubrication::Dose dose_of(const FilmRequest& request, const Context& context) {
   dose.model = lubrication::parse_model(request.model);
   dose.reading = lubrication::parse_reading(request.reading);
   dose.edge = lubrication::parse_edge(request.edge);
-  dose.seed = context.seed;
+  dose.seed = context.seed_or_default();
   return dose;
 }
 
-std::string density_text(double density) {
-  return plain(grams_per_square_metre(density)) + " g/m^2";
-}
+std::string density_text(double density) { return plain(study::in_g_per_m2(density)) + " g/m^2"; }
 
 }  // namespace
 
@@ -81,13 +79,13 @@ io::Json settings_json(const FilmRequest& request, const Context& context) {
   return {{"model", request.model},
           {"reading", request.reading},
           {"edge", request.edge},
-          {"seed", context.seed},
+          {"seed", context.seed_or_default()},
           {"droplet_height_m", request.droplet_height},
           {"oil_density_kg_per_m3", request.oil_density}};
 }
 
 io::Json state_json(double density, const lubrication::Film& film) {
-  return {{"lubricant_density_g_per_m2", grams_per_square_metre(density)},
+  return {{"lubricant_density_g_per_m2", study::in_g_per_m2(density)},
           {"mean_film_m", film.mean_film},
           {"n_droplets", film.n_droplets},
           {"wet_fraction", film.wet_fraction},
@@ -106,17 +104,12 @@ std::string describe(const FilmRequest& request, const Context& context) {
   std::string text = request.model;
   if (request.model == "droplets") {
     text += fmt::format(" of {}, {}, seed {}", si(request.droplet_height, "m"), request.reading,
-                        context.seed);
+                        context.seed_or_default());
   }
   Facts facts;
   facts.fact("lubricant", fmt::format("{}, {} edge, oil {} kg/m^3", text, request.edge,
                                       plain(request.oil_density)));
   return facts.text();
-}
-
-// Rounded to 12 digits, so that 0.45 g/m^2 is 0.45 again after its way through kg/m^2.
-double grams_per_square_metre(double density) {
-  return parse_number(fmt::format("{:.12g}", 1000 * density)).value();
 }
 
 std::vector<std::string> methods_of(const FilmRequest& request) {

@@ -37,7 +37,6 @@ io::Json settings_json(const FilmRequest& request, const Context& context);
 io::Json state_json(double density, const lubrication::Film& film);
 std::string describe(const FilmRequest& request, const Context& context);
 
-double grams_per_square_metre(double density);
 std::vector<std::string> methods_of(const FilmRequest& request);
 
 }  // namespace tabor::cli

@@ -11,6 +11,7 @@
 #include "tabor/friction/bowden_tabor.hpp"
 #include "tabor/friction/trapped.hpp"
 #include "tabor/friction/wet_contact.hpp"
+#include "tabor/study/study.hpp"
 
 namespace tabor::cli {
 
@@ -56,7 +57,7 @@ io::Json state_of(const ContactResult& result, const lubrication::Film& film, do
       friction::estimate(contact_of(result, request, wet_share), request.shear_strength,
                          friction::parse_area(request.area));
   return {{"mean_pressure_Pa", result.summary.mean_pressure},
-          {"lubricant_density_g_per_m2", grams_per_square_metre(density)},
+          {"lubricant_density_g_per_m2", study::in_g_per_m2(density)},
           {"contact_area_fraction", result.summary.contact_area_fraction},
           {"contact_area_fraction_pixels", result.summary.contact_area_fraction_pixels},
           {"saturated_area_fraction", result.summary.saturated_area_fraction},

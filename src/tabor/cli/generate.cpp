@@ -159,7 +159,7 @@ Topography make(Request& request, std::uint64_t seed) {
 
 int generate(Request request, Context& context) {
   check_can_write(request.output);
-  const Topography surface = make(request, context.seed);
+  const Topography surface = make(request, context.seed_or_default());
   topography::write(surface, request.output);
   const double rms = topography::rms_height(surface);
   const double slope = topography::rms_slope(surface);
@@ -167,7 +167,7 @@ int generate(Request request, Context& context) {
   object.update({{"output", request.output},
                  {"kind", request.kind},
                  {"recipe", surface.source},
-                 {"seed", context.seed},
+                 {"seed", context.seed_or_default()},
                  {"nx", surface.grid.nx},
                  {"ny", surface.grid.ny},
                  {"pixel_x_m", surface.grid.dx()},

@@ -87,6 +87,14 @@ Option& OptionSet::count(const std::string& flag, const std::string& help, std::
        }});
 }
 
+Option& OptionSet::count(const std::string& flag, const std::string& help,
+                         std::optional<std::uint64_t>& target) {
+  return add(
+      {.flag = flag, .placeholder = "N", .help = help, .assign = [flag, &target](auto& word) {
+         target = whole_number(flag, word);
+       }});
+}
+
 Option& OptionSet::number(const std::string& flag, const std::string& placeholder,
                           const std::string& help, double& target) {
   return add({.flag = flag,

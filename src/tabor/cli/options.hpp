@@ -42,6 +42,8 @@ class OptionSet {
   Option& choice(const std::string& flag, const std::vector<std::string>& words,
                  const std::string& help, std::string& target);
   Option& count(const std::string& flag, const std::string& help, std::uint64_t& target);
+  Option& count(const std::string& flag, const std::string& help,
+                std::optional<std::uint64_t>& target);
   Option& number(const std::string& flag, const std::string& placeholder, const std::string& help,
                  double& target);
   Option& number(const std::string& flag, const std::string& placeholder, const std::string& help,

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <iosfwd>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,14 @@ struct Context {
   bool json = false;
   bool quiet = false;
   std::uint64_t threads = 0;  ///< 0 = all cores
-  std::uint64_t seed = 1;
+  std::optional<std::uint64_t> seed = {};
   std::vector<std::string> warnings = {};
   ProgressPrinter* progress = nullptr;
 
   /// Adds a warning once; it appears in the JSON object or on stderr.
   void warn(const std::string& text);
   Observer observer() const;
+  std::uint64_t seed_or_default() const { return seed.value_or(1); }
 };
 
 /// Runs a verb whose options are parsed; returns its exit code.

@@ -1,0 +1,177 @@
+#include "tabor/study/sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <ostream>
+
+#include "tabor/cli/result.hpp"
+#include "tabor/cli/table.hpp"
+#include "tabor/cli/verbs.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/io/csv.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Request {
+  std::string study;
+  std::optional<std::string> directory;
+  std::uint64_t jobs = 1;
+  std::optional<study::Shard> shard;
+  bool retry = false;
+
+  fs::path folder() const {
+    return directory ? fs::path(*directory) : fs::path(study).stem().concat("_results");
+  }
+};
+
+study::Study read_study(const Request& request, const Context& context) {
+  study::Study study = study::read_study(request.study);
+  if (context.seed) study.lubricant.seed = *context.seed;
+  return study;
+}
+
+study::SweepOptions options_for(const Request& request, const Context& context) {
+  study::SweepOptions options;
+  options.jobs = static_cast<int>(std::clamp<std::uint64_t>(request.jobs, 1, 1024));
+  options.shard = request.shard;
+  options.retry = request.retry;
+  options.command = context.command_line;
+  options.observer = context.observer();
+  return options;
+}
+
+// Cells of averages.csv that hold numbers become numbers, empty ones null.
+io::Json averages_json(const io::CsvTable& csv) {
+  io::Json rows = io::Json::array();
+  for (const auto& cells : csv.rows) {
+    io::Json row = io::Json::object();
+    for (std::size_t i = 0; i < csv.columns.size(); ++i) {
+      const std::optional<double> number = parse_number(cells[i]);
+      row[csv.columns[i]] = csv.columns[i] == "group" ? io::Json(cells[i])
+                            : number                  ? io::Json(*number)
+                                                      : io::Json(nullptr);
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+std::string with_deviation(const io::Json& row, const std::string& name) {
+  const io::Json& mean = row.at(name + "_mean");
+  const io::Json& deviation = row.at(name + "_std");
+  if (mean.is_null()) return "-";
+  const std::string text = plain(mean.get<double>());
+  return deviation.is_null() ? text : text + " ± " + plain(deviation.get<double>(), 2);
+}
+
+std::string averages_text(const io::Json& rows) {
+  Table table({"group", "pressure", "lubricant", "n", "friction dry", "friction wet"});
+  for (const io::Json& row : rows) {
+    table.row({row.at("group").get<std::string>(),
+               si(row.at("mean_pressure_Pa").get<double>(), "Pa"),
+               plain(row.at("lubricant_density_g_per_m2").get<double>()) + " g/m²",
+               plain(row.at("n").get<double>()), with_deviation(row, "friction_dry"),
+               with_deviation(row, "friction_lubricated")});
+  }
+  return table.text() + "± is the standard deviation over n scans.\n";
+}
+
+std::string outcome_text(const Request& request, const study::Outcome& outcome) {
+  Facts facts;
+  facts.fact("study", request.study);
+  facts.fact("results", request.folder().string());
+  facts.fact("cases", fmt::format("{} of {} done, {} failed, {} not converged", outcome.n_done,
+                                  outcome.n_cases, outcome.n_failed, outcome.n_not_converged));
+  facts.fact("computed now",
+             fmt::format("{} surfaces, {} contacts, {} films, {} cases", outcome.n_surfaces,
+                         outcome.n_contacts, outcome.n_films, outcome.n_rows));
+  return facts.text();
+}
+
+io::Json outcome_json(const Context& context, const Request& request,
+                      const study::Outcome& outcome) {
+  io::Json object = json_head(context);
+  object.update({{"study", request.study},
+                 {"directory", request.folder().string()},
+                 {"results", (request.folder() / "results.h5").string()},
+                 {"results_csv", (request.folder() / "results.csv").string()},
+                 {"averages_csv", (request.folder() / "averages.csv").string()},
+                 {"n_cases", outcome.n_cases},
+                 {"n_done", outcome.n_done},
+                 {"n_failed", outcome.n_failed},
+                 {"n_not_converged", outcome.n_not_converged},
+                 {"n_computed_surfaces", outcome.n_surfaces},
+                 {"n_computed_contacts", outcome.n_contacts},
+                 {"n_computed_films", outcome.n_films},
+                 {"n_computed_cases", outcome.n_rows},
+                 {"failures", outcome.failures}});
+  return object;
+}
+
+int code_of(const study::Outcome& outcome) {
+  if (outcome.n_failed > 0) return kInput;
+  return outcome.n_not_converged > 0 ? kNotConverged : kDone;
+}
+
+int sweep(const Request& request, Context& context) {
+  const study::Study study = read_study(request, context);
+  study::Outcome outcome;
+  try {
+    outcome = study::run(study, request.folder(), options_for(request, context));
+  } catch (const Interrupted&) {
+    if (context.progress) context.progress->clear();
+    context.err << "tabor: interrupted; what was finished is kept in " << request.folder().string()
+                << ", the same command goes on from there\n";
+    return kInterrupted;
+  }
+  for (const std::string& warning : outcome.warnings) context.warn(warning);
+  for (const std::string& failure : outcome.failures) context.warn("failed: " + failure);
+  io::Json object = outcome_json(context, request, outcome);
+  object["averages"] = averages_json(io::read_csv(request.folder() / "averages.csv"));
+  const std::string text =
+      outcome_text(request, outcome) + '\n' + averages_text(object["averages"]);
+  return finish(context, object, text, code_of(outcome));
+}
+
+void declare_options(OptionSet& set, Request& request) {
+  set.group("Study");
+  set.positional("STUDY.toml", "the study: scans, treatment, material, pressures, densities",
+                 request.study);
+  set.text("--output", "DIR", "folder of the results [STUDY_results]", request.directory)
+      .short_flag = "-o";
+  set.count("--jobs", "cases computed at the same time, each with its own memory [1]",
+            request.jobs);
+  set.add({.flag = "--shard",
+           .placeholder = "I/N",
+           .help = "compute only part I of N; all parts may share one folder",
+           .assign = [&](const std::string& text) { request.shard = study::parse_shard(text); }});
+  set.toggle("--retry", "compute failed and not converged cases again", request.retry);
+}
+
+}  // namespace
+
+Verb sweep_verb() {
+  return {.name = "sweep",
+          .arguments = "STUDY.toml [-o DIR] [options]",
+          .summary = "scans x pressures x densities of a study, resumable",
+          .details =
+              "Finished cases are kept and skipped when the same command runs again; the "
+              "tables are rebuilt each time.",
+          .examples = {"tabor sweep examples/06_study/study.toml -o study_results",
+                       "tabor sweep examples/06_study/study.toml -o study_results --jobs 2 --json"},
+          .declare = [](OptionSet& set) -> Action {
+            const auto request = std::make_shared<Request>();
+            declare_options(set, *request);
+            return [request](Context& context) { return sweep(*request, context); };
+          }};
+}
+
+}  // namespace tabor::cli
