@@ -42,18 +42,18 @@ std::string bytes_of(const fs::path& file) {
 /// The first format that recognises the content opens it.
 Document open(const Contents& contents) {
   const std::string_view head = contents.bytes.substr(0, format::kHeadSize);
-  std::optional<format::Unrecognised> first_refusal;
-  for (const Format& format : format::table()) {
-    if (format.identify == nullptr || format.identify(head) == format::Match::no) continue;
+  std::string found;
+  std::string remedy;
+  for (const Format& row : format::table()) {
+    if (row.identify == nullptr || row.identify(head) == format::Match::no) continue;
     try {
-      return format.open(contents);
+      return row.open(contents);
     } catch (const format::Unrecognised& refusal) {
-      if (!first_refusal) first_refusal = refusal;
+      found += (found.empty() ? "" : "; ") + refusal.got();
+      remedy = refusal.remedy();
     }
   }
-  if (first_refusal) throw *first_refusal;
-  throw InputError(contents.file.string(), "content of no known format", "a scan file",
-                   "'tabor formats' lists what can be read");
+  throw InputError(contents.file.string(), found, "a scan file", remedy);
 }
 
 /// Heights in metres. What is not finite after scaling is a hole.
@@ -77,10 +77,10 @@ void require_heights(const Contents& contents, const Topography& topography) {
 
 const Format* writer_for(const fs::path& file) {
   const std::string extension = lower(file.extension().string());
-  for (const Format& format : format::table()) {
-    const auto& known = format.extensions;
-    if (format.write && std::find(known.begin(), known.end(), extension) != known.end()) {
-      return &format;
+  for (const Format& row : format::table()) {
+    const auto& known = row.extensions;
+    if (row.write && std::find(known.begin(), known.end(), extension) != known.end()) {
+      return &row;
     }
   }
   return nullptr;
@@ -88,8 +88,8 @@ const Format* writer_for(const fs::path& file) {
 
 std::string writable_extensions() {
   std::string text;
-  for (const Format& format : format::table()) {
-    if (format.write) text += (text.empty() ? "" : " ") + format.extensions.front();
+  for (const Format& row : format::table()) {
+    if (row.write) text += (text.empty() ? "" : " ") + row.extensions.front();
   }
   return text;
 }
@@ -98,13 +98,13 @@ std::string writable_extensions() {
 
 std::vector<FormatRow> formats() {
   std::vector<FormatRow> rows;
-  for (const Format& format : format::table()) {
-    rows.push_back({.name = format.name,
-                    .description = format.description,
-                    .extensions = format.extensions,
-                    .reads = format.open != nullptr,
-                    .writes = format.write != nullptr,
-                    .via_gwyddion = format.via_gwyddion});
+  for (const Format& row : format::table()) {
+    rows.push_back({.name = row.name,
+                    .description = row.description,
+                    .extensions = row.extensions,
+                    .reads = row.open != nullptr,
+                    .writes = row.write != nullptr,
+                    .via_gwyddion = row.via_gwyddion});
   }
   return rows;
 }
@@ -142,12 +142,12 @@ Topography read(const fs::path& file, const ReadOptions& options, const Observer
 }
 
 void write(const Topography& topography, const fs::path& file) {
-  const Format* format = writer_for(file);
-  if (format == nullptr) {
+  const Format* row = writer_for(file);
+  if (row == nullptr) {
     throw InputError(file.string(), "extension '" + file.extension().string() + "'",
                      "one of " + writable_extensions(), "the extension chooses the format");
   }
-  format->write(topography, file);
+  row->write(topography, file);
 }
 
 std::string sha256(const fs::path& file) { return io::sha256_of_file(file); }

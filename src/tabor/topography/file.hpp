@@ -54,8 +54,8 @@ FileInfo inspect(const std::filesystem::path& file, const ReadOptions& options =
 Topography read(const std::filesystem::path& file, const ReadOptions& options = {},
                 const Observer& observer = {});
 
-/// Writes by the file name's extension (.h5 .gwy .gsf .sdf .x3p .npy .txt .xyz .vti), to a temporary
-/// name that is then renamed. Throws OutputError, or InputError for an unknown extension.
+/// Writes by the file name's extension (.h5 .gwy .gsf .sdf .x3p .npy .txt .xyz .vti), to a
+/// temporary name that is then renamed. Throws OutputError, or InputError for an unknown extension.
 void write(const Topography& topography, const std::filesystem::path& file);
 
 /// SHA-256 of the file's bytes, hexadecimal.

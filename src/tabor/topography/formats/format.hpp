@@ -73,7 +73,16 @@ const std::vector<Format>& table();
 /// main.xml): the next format is tried.
 class Unrecognised : public InputError {
  public:
-  using InputError::InputError;
+  Unrecognised(const Contents& contents, const std::string& got, const std::string& remedy)
+      : InputError(contents.file.string(), got, "a scan file", remedy),
+        got_(got),
+        remedy_(remedy) {}
+  const std::string& got() const { return got_; }
+  const std::string& remedy() const { return remedy_; }
+
+ private:
+  std::string got_;
+  std::string remedy_;
 };
 
 /// Throws InputError "<file>: got ...; expected ...; <remedy>".

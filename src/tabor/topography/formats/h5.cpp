@@ -67,18 +67,21 @@ Match identify_h5(std::string_view head) {
 Document open_h5(const Contents& contents) {
   const io::Hdf5Reader reader(contents.file);
   if (!reader.exists("/surface/height")) {
-    throw Unrecognised(contents.file.string(), "an HDF5 file without /surface/height",
-                       "a file written by tabor", "");
+    throw Unrecognised(contents, "an HDF5 file without /surface/height",
+                       "tabor reads the HDF5 files it writes");
   }
   const std::vector<Index> shape = reader.shape("/surface/height");
   if (shape.size() != 2) refuse(contents, "heights that are no map", "two dimensions", kDamaged);
   Document document{.format = "h5",
                     .instrument = text_or_empty(reader, "instrument"),
-                    .doubts = texts_or_none(reader, "doubts"),
                     .history = texts_or_none(reader, "treatment")};
   document.periodic =
       reader.has_attribute("/surface", "periodic") && reader.integer("/surface", "periodic") != 0;
   document.metadata["source"] = text_or_empty(reader, "source");
+  // Doubts are found anew in the heights; the old ones may have been treated away since.
+  for (const std::string& doubt : texts_or_none(reader, "doubts")) {
+    document.metadata["earlier doubts"] += doubt + "; ";
+  }
   document.layers.push_back({.name = "height",
                              .unit = "m",
                              .nx = shape[1],

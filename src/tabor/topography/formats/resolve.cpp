@@ -123,8 +123,7 @@ const Layer& choose_layer(const Contents& contents, const Document& document,
     int count = 0;
     for (const Layer& layer : document.layers) {
       if (!suits(layer)) continue;
-      only = &layer;
-      ++count;
+      if (count++ == 0) only = &layer;
     }
     if (count == 1) return *only;
     if (count > 1) {

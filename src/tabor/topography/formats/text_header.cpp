@@ -111,7 +111,7 @@ bool is_assignment(const std::string& line) {
 
 bool is_header_line(std::string_view line) {
   const std::string text = lower(trim(line));
-  return text.empty() || text.starts_with('#') || text.starts_with('\\') ||
+  return text.empty() || text.starts_with('#') || text.starts_with("\\exported image units") ||
          text.starts_with("//") || is_assignment(text) || !column_unit(text, 'z').empty() ||
          text.starts_with("x,") || text.starts_with("x;") || text.starts_with("x\t") ||
          text.starts_with("x ");

@@ -211,7 +211,7 @@ Archive open_archive(const Contents& contents) {
       return archive;
     }
   }
-  throw Unrecognised(contents.file.string(), "a ZIP archive without main.xml", "an X3P file",
+  throw Unrecognised(contents, "a ZIP archive without main.xml, so no X3P file",
                      "unpack it if it holds several files");
 }
 

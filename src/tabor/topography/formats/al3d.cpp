@@ -1,0 +1,85 @@
+// AL3D, Alicona Imaging: text tags, then images at offsets the tags name.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "tabor/core/text.hpp"
+#include "tabor/topography/formats/bytes.hpp"
+#include "tabor/topography/formats/readers.hpp"
+
+namespace tabor::topography::format {
+namespace {
+
+constexpr std::string_view kMagic{"AliconaImaging\0\r\n", 17};
+constexpr std::size_t kRowAlignment = 8;
+/// The file prints InvalidPixelValue with fewer digits than its float32 heights have.
+constexpr double kSameValue = 1.5e-7;
+
+using Tags = std::map<std::string, std::string>;
+
+Tags take_tags(const Contents& contents) {
+  Cursor cursor(contents);
+  cursor.skip(kMagic.size());
+  Tags tags;
+  double n_left = 2;  // Version and TagCount come before the tags that are counted
+  while (n_left-- > 0) {
+    const std::string key = cursor.take_text(20);
+    tags[key] = cursor.take_text(30);
+    cursor.skip(2);
+    if (key == "TagCount") n_left += parse_number(tags[key]).value_or(0);
+  }
+  return tags;
+}
+
+double number(const Contents& contents, const Tags& tags, const std::string& key) {
+  const auto tag = tags.find(key);
+  const auto value = tag == tags.end() ? std::nullopt : parse_number(tag->second);
+  if (!value || !std::isfinite(*value)) {
+    refuse(contents, "no number " + key, "a depth image", kDamaged);
+  }
+  return *value;
+}
+
+Field heights(std::string_view data, const Raster& raster, double invalid) {
+  const Field raw = decode(data, raster);
+  return ((raw - invalid).abs() <= kSameValue * std::abs(invalid)).select(kHole, raw);
+}
+
+}  // namespace
+
+Match identify_al3d(std::string_view head) {
+  return head.starts_with(kMagic) ? Match::yes : Match::no;
+}
+
+Document open_al3d(const Contents& contents) {
+  const Tags tags = take_tags(contents);
+  const double nx = number(contents, tags, "Cols");
+  const double ny = number(contents, tags, "Rows");
+  const double offset = number(contents, tags, "DepthImageOffset");
+  const double invalid = number(contents, tags, "InvalidPixelValue");
+  if (!(offset > 0 && offset < static_cast<double>(contents.bytes.size()))) {
+    refuse(contents, fmt::format("a depth image at byte {}", offset), "heights", kDamaged);
+  }
+  Cursor cursor(contents);
+  cursor.seek(static_cast<std::size_t>(offset));
+  check_size(contents, nx, ny, cursor.left() / sizeof(float));
+  Raster raster{.sample = Sample::f32, .nx = static_cast<Index>(nx), .ny = static_cast<Index>(ny)};
+  const std::size_t row = static_cast<std::size_t>(raster.nx) * sizeof(float);
+  raster.row_stride = (row + kRowAlignment - 1) / kRowAlignment * kRowAlignment;
+  const std::string_view data = cursor.take(byte_size(raster));
+  const auto application = tags.find("CreatingApplication");
+  Document document{.format = "al3d", .instrument = "Alicona"};
+  if (application != tags.end()) document.metadata["CreatingApplication"] = application->second;
+  document.layers.push_back(
+      {.name = "depth",
+       .unit = "m",
+       .nx = raster.nx,
+       .ny = raster.ny,
+       .pixel_x = checked_pixel(contents, number(contents, tags, "PixelSizeXMeter")),
+       .pixel_y = checked_pixel(contents, number(contents, tags, "PixelSizeYMeter")),
+       .load = [data, raster, invalid] { return heights(data, raster, invalid); }});
+  return document;
+}
+
+}  // namespace tabor::topography::format

@@ -1,0 +1,154 @@
+// GWY, Gwyddion's native format: channels "/N/data" with masks "/N/mask" in one container.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tabor/core/text.hpp"
+#include "tabor/core/units.hpp"
+#include "tabor/io/atomic_file.hpp"
+#include "tabor/topography/formats/bytes.hpp"
+#include "tabor/topography/formats/gwy_object.hpp"
+#include "tabor/topography/formats/readers.hpp"
+
+namespace tabor::topography::format {
+namespace {
+
+constexpr std::string_view kMagic = "GWYP";
+
+std::string unit_of(const GwyObject& field, const std::string& which) {
+  const GwyObject* unit = field.object(which, "GwySIUnit");
+  return unit == nullptr ? "" : unit->text("unitstr");
+}
+
+/// Raw float64 bytes of a data field of the given size.
+std::string_view data_of(const Contents& contents, const GwyObject& field, Index nx, Index ny) {
+  const auto data = field.items.find("data");
+  const std::size_t expected = static_cast<std::size_t>(nx * ny) * sizeof(double);
+  if (data == field.items.end() || data->second.type != 'D' ||
+      data->second.array.size() != expected) {
+    refuse(contents, "a data field without its data", fmt::format("{} x {} numbers", nx, ny),
+           kDamaged);
+  }
+  return data->second.array;
+}
+
+std::optional<double> pixel(const GwyObject& field, const std::string& real, Index n) {
+  const auto factor = unit_factor(unit_of(field, "si_unit_xy"), dimension::length);
+  const double extent = field.number(real, 0);
+  if (!factor || !(extent > 0) || !std::isfinite(extent)) return std::nullopt;
+  return extent * *factor / static_cast<double>(n);
+}
+
+/// What Gwyddion shows under a mask is interpolated: those pixels are holes.
+Field masked(std::string_view data, std::string_view mask, const Raster& raster) {
+  Field heights = decode(data, raster);
+  if (!mask.empty()) heights = (decode(mask, raster) > 0.5).select(kHole, heights);
+  return heights;
+}
+
+Layer layer_of(const Contents& contents, const GwyObject& root, const GwyObject& field, int id) {
+  const std::string prefix = fmt::format("/{}/", id);
+  const double nx = field.number("xres", 0);
+  const double ny = field.number("yres", 0);
+  check_size(contents, nx, ny, contents.bytes.size() / sizeof(double));
+  Layer layer{.name = root.text(prefix + "data/title"), .unit = unit_of(field, "si_unit_z")};
+  if (layer.name.empty()) layer.name = fmt::format("channel {}", id);
+  layer.index = id;
+  layer.nx = static_cast<Index>(nx);
+  layer.ny = static_cast<Index>(ny);
+  layer.pixel_x = pixel(field, "xreal", layer.nx);
+  layer.pixel_y = pixel(field, "yreal", layer.ny);
+  const std::string_view data = data_of(contents, field, layer.nx, layer.ny);
+  std::string_view mask;
+  if (const GwyObject* mask_field = root.object(prefix + "mask", "GwyDataField")) {
+    mask = data_of(contents, *mask_field, layer.nx, layer.ny);
+  }
+  const Raster raster{.nx = layer.nx, .ny = layer.ny};
+  layer.load = [data, mask, raster] { return masked(data, mask, raster); };
+  return layer;
+}
+
+/// The N of "/N/data"; nullopt for every other key.
+std::optional<int> channel_id(const std::string& key) {
+  const std::vector<std::string> parts = split(key, '/');
+  if (parts.size() != 3 || !parts[0].empty() || parts[2] != "data") return std::nullopt;
+  const auto id = parse_number(parts[1]);
+  return id && *id >= 0 && *id < 1e6 ? std::optional(static_cast<int>(*id)) : std::nullopt;
+}
+
+void add_metadata(Document& document, const GwyObject& root, int id) {
+  const GwyObject* meta = root.object(fmt::format("/{}/meta", id), "GwyContainer");
+  if (meta == nullptr) return;
+  for (const auto& [key, value] : meta->items) {
+    if (!value.text.empty()) document.metadata.emplace(key, value.text);
+  }
+}
+
+}  // namespace
+
+Match identify_gwy(std::string_view head) {
+  return head.starts_with(kMagic) ? Match::yes : Match::no;
+}
+
+Document open_gwy(const Contents& contents) {
+  const GwyObject root = parse_gwy(contents);
+  Document document{.format = "gwy"};
+  std::map<int, const GwyObject*> fields;
+  for (const auto& [key, value] : root.items) {
+    const auto id = channel_id(key);
+    const GwyObject* field = root.object(key, "GwyDataField");
+    if (id && field != nullptr) fields[*id] = field;
+  }
+  for (const auto& [id, field] : fields) {
+    document.layers.push_back(layer_of(contents, root, *field, id));
+    add_metadata(document, root, id);
+  }
+  if (document.layers.empty()) {
+    refuse(contents, "no image channel", "a height map (/0/data)",
+           "profiles, volumes and point clouds cannot be read");
+  }
+  return document;
+}
+
+namespace {
+
+GwyBuilder unit(const std::string& text) {
+  GwyBuilder builder("GwySIUnit");
+  builder.add("unitstr", text);
+  return builder;
+}
+
+GwyBuilder data_field(const Grid& grid, const Field& values, const std::string& z_unit) {
+  GwyBuilder builder("GwyDataField");
+  builder.add("xres", static_cast<std::int32_t>(grid.nx));
+  builder.add("yres", static_cast<std::int32_t>(grid.ny));
+  builder.add("xreal", grid.lx);
+  builder.add("yreal", grid.ly);
+  builder.add("si_unit_xy", unit("m"));
+  builder.add("si_unit_z", unit(z_unit));
+  builder.add("data", values);
+  return builder;
+}
+
+}  // namespace
+
+void write_gwy(const Topography& topography, const std::filesystem::path& file) {
+  const Mask hole = holes(topography);
+  // Gwyddion computes with the values under a mask, so they must be numbers: the mean height.
+  const double n_valid = static_cast<double>(hole.size() - hole.count());
+  const double mean = hole.select(0, topography.height).sum() / std::max(1.0, n_valid);
+  GwyBuilder root("GwyContainer");
+  root.add("/0/data", data_field(topography.grid, hole.select(mean, topography.height), "m"));
+  root.add("/0/data/title", topography.channel.empty() ? "height" : topography.channel);
+  if (hole.any()) {
+    root.add("/0/mask", data_field(topography.grid, hole.cast<double>(), ""));
+  }
+  GwyBuilder meta("GwyContainer");
+  meta.add("Source", topography.source);
+  meta.add("Instrument", topography.instrument);
+  for (const auto& [key, value] : topography.metadata) meta.add(key, value);
+  root.add("/0/meta", meta);
+  io::write_file(file, std::string_view(std::string(kMagic) + root.bytes()));
+}
+
+}  // namespace tabor::topography::format

@@ -1,0 +1,59 @@
+// Every other format: Gwyddion, if installed, converts the file in a process of its own.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <fstream>
+#include <memory>
+
+#include "tabor/core/text.hpp"
+#include "tabor/io/subprocess.hpp"
+#include "tabor/topography/formats/readers.hpp"
+
+namespace tabor::topography::format {
+namespace {
+
+constexpr std::chrono::seconds kTimeLimit{120};
+
+/// The converted file, or "" if Gwyddion made none. A temporary home, because Gwyddion writes its
+/// settings and a log there; one file per call, because with several it reports success when only
+/// some could be read.
+std::string convert(const Contents& contents, const std::filesystem::path& program) {
+  const io::TemporaryFolder folder;
+  const std::filesystem::path output = folder.path() / "converted.gwy";
+  const io::Completed run = io::run_program(
+      program,
+      {"--convert-to-gwy=" + output.string(), std::filesystem::absolute(contents.file).string()},
+      {{"HOME", folder.path().string()}}, kTimeLimit);
+  if (run.timed_out) {
+    refuse(contents, fmt::format("no answer from Gwyddion in {} s", kTimeLimit.count()),
+           "a converted file", "convert it with Gwyddion yourself and read the .gwy file");
+  }
+  std::ifstream stream(output, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+Match identify_gwyddion(std::string_view) { return Match::maybe; }
+
+Document open_gwyddion(const Contents& contents) {
+  const auto program = io::find_program("gwyddion");
+  if (!program) {
+    throw Unrecognised(contents, "content of no format tabor reads itself",
+                       "for about 150 instrument formats install Gwyddion: "
+                       "sudo apt install gwyddion");
+  }
+  const auto bytes = std::make_shared<const std::string>(convert(contents, *program));
+  if (bytes->empty()) {
+    throw Unrecognised(contents, "content neither tabor nor Gwyddion recognises",
+                       "'tabor formats' lists what can be read");
+  }
+  Document document = open_gwy({contents.file, *bytes});
+  document.format = "gwyddion";
+  for (Layer& layer : document.layers) {
+    layer.load = [load = layer.load, bytes] { return load(); };  // the bytes live as long
+  }
+  return document;
+}
+
+}  // namespace tabor::topography::format

@@ -1,0 +1,83 @@
+// MetroPro .dat of Zygo interferometers; big-endian.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tabor/topography/formats/bytes.hpp"
+#include "tabor/topography/formats/readers.hpp"
+
+namespace tabor::topography::format {
+namespace {
+
+constexpr std::string_view kMagic{"\x88\x1b\x03", 3};
+constexpr double kMissing = 2147483640;
+
+/// Counts per half wavelength for the resolution codes 0, 1, 2.
+double resolution(const Contents& contents, int code) {
+  switch (code) {
+    case 0:
+      return 4096;
+    case 1:
+      return 32768;
+    case 2:
+      return 131072;
+    default:
+      refuse(contents, fmt::format("phase resolution code {}", code), "0, 1 or 2", kDamaged);
+  }
+}
+
+}  // namespace
+
+Match identify_metropro(std::string_view head) {
+  const bool known =
+      head.size() > 3 && head.starts_with(kMagic) && head[3] >= 0x6F && head[3] <= 0x71;
+  return known ? Match::yes : Match::no;
+}
+
+Document open_metropro(const Contents& contents) {
+  Cursor cursor(contents, std::endian::big);
+  cursor.seek(6);
+  const auto header_size = cursor.take<std::int32_t>();
+  cursor.seek(60);
+  const auto intensity_size = cursor.take<std::uint32_t>();
+  cursor.seek(68);
+  const double nx = cursor.take<std::uint16_t>();
+  const double ny = cursor.take<std::uint16_t>();
+  cursor.seek(164);
+  const double scale = cursor.take<float>();
+  const double wavelength = cursor.take<float>();
+  cursor.seek(176);
+  const double obliquity = cursor.take<float>();
+  cursor.seek(184);
+  const double pixel = cursor.take<float>();
+  cursor.seek(218);
+  const double counts = resolution(contents, cursor.take<std::int16_t>());
+  const double metres_per_count = scale * wavelength * obliquity / counts;
+  if (header_size < 220 || !std::isfinite(metres_per_count) || metres_per_count == 0) {
+    refuse(contents, "a header without a height scale", "a MetroPro phase map", kDamaged);
+  }
+  cursor.seek(static_cast<std::size_t>(header_size) + intensity_size);
+  check_size(contents, nx, ny, cursor.left() / sizeof(std::int32_t));
+  const Raster raster{.sample = Sample::i32,
+                      .order = std::endian::big,
+                      .nx = static_cast<Index>(nx),
+                      .ny = static_cast<Index>(ny)};
+  const auto load = [data = cursor.take(byte_size(raster)), raster]() -> Field {
+    const Field raw = decode(data, raster);
+    return (raw >= kMissing).select(kHole, raw);
+  };
+  // A file without lateral calibration says 0.
+  const bool calibrated = pixel > 0 && std::isfinite(pixel);
+  Document document{.format = "metropro", .instrument = "Zygo"};
+  document.layers.push_back({.name = "phase",
+                             .unit = "m",
+                             .scale = metres_per_count,
+                             .nx = raster.nx,
+                             .ny = raster.ny,
+                             .pixel_x = calibrated ? std::optional(pixel) : std::nullopt,
+                             .pixel_y = calibrated ? std::optional(pixel) : std::nullopt,
+                             .load = load});
+  return document;
+}
+
+}  // namespace tabor::topography::format
