@@ -11,7 +11,7 @@ namespace tabor::contact {
 inline constexpr double kNoSaturation = std::numeric_limits<double>::infinity();
 
 enum class Solver {
-  fast,          ///< preconditioned projected spectral gradient, one operator application per iteration
+  fast,  ///< preconditioned projected spectral gradient, one operator application per iteration
   polonsky_keer  ///< Polonsky & Keer 1999: the textbook baseline, two applications per iteration
 };
 
@@ -27,31 +27,31 @@ struct Problem {
 /// What was found. gap = separation + displacement - height; gap < 0 only at saturated pixels,
 /// where -gap is the residual plastic indentation.
 struct State {
-  Field pressure;      ///< [Pa], 0 <= p <= p_sat, mean exactly P
-  Field displacement;  ///< [m]
-  Field gap;           ///< [m]
+  Field pressure;         ///< [Pa], 0 <= p <= p_sat, mean exactly P
+  Field displacement;     ///< [m]
+  Field gap;              ///< [m]
   double separation = 0;  ///< [m]
   Convergence convergence;
 };
 
 /// Solves the contact problem. Throws InputError for input that makes no sense (P >= p_sat, NaN,
 /// wrong shape); returns a State with converged == false when the tolerance was not reached.
-State solve(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver = Solver::fast,
-            const Observer& observer = {});
+State solve(elastic::ElasticOperator& elasticity, const Problem& problem,
+            Solver solver = Solver::fast, const Observer& observer = {});
 
 /// Everything a user reads about a contact (contact.md section 4).
 struct Summary {
-  double mean_pressure = 0;                ///< [Pa]
-  double contact_area_fraction = 0;        ///< perimeter-corrected (Yastrebov et al. 2017)
-  double contact_area_fraction_pixels = 0; ///< counted
-  bool area_correction_valid = true;       ///< false where capped regions fill whole rows
+  double mean_pressure = 0;                 ///< [Pa]
+  double contact_area_fraction = 0;         ///< perimeter-corrected (Yastrebov et al. 2017)
+  double contact_area_fraction_pixels = 0;  ///< counted
+  bool area_correction_valid = true;        ///< false where capped regions fill whole rows
   double saturated_area_fraction = 0;
-  double mean_gap = 0;                     ///< [m]
-  double separation = 0;                   ///< [m]
-  double max_pressure = 0;                 ///< [Pa]
-  double elastic_energy = 0;               ///< [J/m^2]
+  double mean_gap = 0;        ///< [m]
+  double separation = 0;      ///< [m]
+  double max_pressure = 0;    ///< [Pa]
+  double elastic_energy = 0;  ///< [J/m^2]
   Index n_patches = 0;
-  double perimeter = 0;                    ///< [m]
+  double perimeter = 0;  ///< [m]
 };
 
 Summary summarise(const State& state, const Problem& problem, const Grid& grid, bool periodic);

@@ -9,7 +9,8 @@ namespace tabor {
 /// What an iterative solver can prove about its result. Not converging is returned, never thrown.
 struct Convergence {
   int iterations = 0;
-  int operator_applications = 0;  ///< one application = one FFT pair for FFT-based operators
+  int operator_applications = 0;  ///< on the problem's own grid
+  double fft_pairs = 0;  ///< all of them: coarse grids by their share of pixels, preconditioner too
   double certificate = std::numeric_limits<double>::infinity();  ///< dimensionless; proves quality
   double tolerance = 0;                                          ///< the certificate asked for
   bool converged = false;

@@ -373,6 +373,42 @@ void forward_rows(
 
 namespace {
 
+/// Replaces n/2 + 1 values of an even sequence of n by its (real) spectrum.
+void transform_even(const RowTransform<double>& transform, double* values, Index stride) {
+  const Index n = transform.n();
+  Buffer<double, double> sequence(n);
+  Buffer<std::complex<double>, double> spectrum(n / 2 + 1);
+  for (Index k = 0; k < n; ++k) {
+    sequence.data()[k] = values[std::min(k, n - k) * stride];
+  }
+  transform.forward(sequence.data(), spectrum.data());
+  for (Index k = 0; k <= n / 2; ++k) {
+    values[k * stride] = spectrum.data()[k].real();
+  }
+}
+
+}  // namespace
+
+Field even_spectrum(Index ny, Index nx, const std::function<double(Index y, Index x)>& value) {
+  const RowTransform<double> along_x(nx);
+  const RowTransform<double> along_y(ny);
+  Field spectrum(nx / 2 + 1, ny / 2 + 1);
+  parallel_for(spectrum.rows(), 1, [&](Index x, Index) {
+    for (Index y = 0; y <= ny / 2; ++y) {
+      spectrum(x, y) = value(y, x);
+    }
+    transform_even(along_y, &spectrum(x, 0), 1);
+  });
+  parallel_for(spectrum.cols(), 8, [&](Index begin, Index end) {
+    for (Index y = begin; y < end; ++y) {
+      transform_even(along_x, &spectrum(0, y), spectrum.cols());
+    }
+  });
+  return spectrum;
+}
+
+namespace {
+
 std::filesystem::path single_precision_file(const std::filesystem::path& file) {
   return std::filesystem::path(file).concat(".float");
 }

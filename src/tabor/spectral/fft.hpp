@@ -75,6 +75,11 @@ class Convolution {
   std::unique_ptr<State> state_;
 };
 
+/// Real spectrum of a map of shape (ny, nx) that is even in x and y: value(y, x) is asked for
+/// 0 <= y <= ny/2, 0 <= x <= nx/2 only. Shape (nx/2 + 1, ny/2 + 1), that is transposed: row kx
+/// holds the values a Multiplier of column kx needs. Takes no more memory than the result.
+Field even_spectrum(Index ny, Index nx, const std::function<double(Index y, Index x)>& value);
+
 /// One-dimensional transform of every row: spectrum of shape (ny, nx/2 + 1), not normalised.
 void forward_rows(
     const Field& map,

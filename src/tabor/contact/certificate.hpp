@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+namespace tabor::contact {
+
+/// Pixels that matter to the optimality of a pressure field: every pixel in contact and every other
+/// pixel whose gap could be the smallest. Parallel arrays.
+struct Candidates {
+  std::vector<double> pressure;  ///< [Pa]
+  std::vector<double> residual;  ///< v = S p - z [m], up to one common constant
+};
+
+/// Duality gap of the contact problem (Rey, Anciaux & Molinari 2017, doi:10.1007/s00466-017-1392-5,
+/// give the energy principle):
+///
+///     G = <p, v> - min { <s, v> : 0 <= s <= p_sat, mean(s) = P },    v = S p - z
+///
+/// It bounds the energy error of p from above. The minimum is a knapsack: p_sat on the smallest v.
+/// `load` is the sum of pressures P * n_pixels [Pa]; the result [Pa m] is summed over pixels. Only
+/// valid for a pressure that carries the load exactly.
+double duality_gap(const Candidates& candidates, double load, double saturation_pressure);
+
+/// The knapsack's threshold: the largest v that receives pressure [m].
+double knapsack_threshold(const Candidates& candidates, double load, double saturation_pressure);
+
+}  // namespace tabor::contact

@@ -1,0 +1,136 @@
+#include "tabor/contact/contact.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tabor/contact/certificate.hpp"
+#include "tabor/contact/fast_solver.hpp"
+#include "tabor/contact/polonsky_keer.hpp"
+#include "tabor/contact/scale.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/parallel.hpp"
+#include "tabor/core/units.hpp"
+
+namespace tabor::contact {
+namespace {
+
+void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
+  const Grid& grid = elasticity.grid();
+  if (problem.height.rows() != grid.ny || problem.height.cols() != grid.nx) {
+    throw InputError(
+        "contact",
+        fmt::format("heights of {} x {} pixels", problem.height.cols(), problem.height.rows()),
+        fmt::format("{} x {} as the elastic operator", grid.nx, grid.ny), "");
+  }
+  if (!problem.height.isFinite().all()) {
+    throw InputError("contact", "a surface with holes or infinite heights",
+                     "a height at every pixel", "fill the holes first (--fill harmonic)");
+  }
+  if (!(problem.mean_pressure > 0) || !std::isfinite(problem.mean_pressure)) {
+    throw InputError("mean pressure", format_si(problem.mean_pressure, "Pa"), "a positive pressure",
+                     "");
+  }
+  if (!(problem.saturation_pressure > problem.mean_pressure)) {
+    throw InputError("saturation pressure", format_si(problem.saturation_pressure, "Pa"),
+                     "more than the mean pressure of " + format_si(problem.mean_pressure, "Pa"),
+                     "no pressure field below the cap can carry this load");
+  }
+  if (!(problem.tolerance > 0)) {
+    throw InputError("tolerance", fmt::format("{}", problem.tolerance),
+                     "a positive number such as 1e-6", "");
+  }
+}
+
+/// p = P + S^-1 z, the answer if it stays within the bounds (contact everywhere); one transform.
+/// Tried only where the rms slope makes it plausible: its fluctuation has rms E* / 2 * rms slope.
+bool try_full_contact(elastic::ElasticOperator& elasticity, const Problem& problem, State& state) {
+  const Grid& grid = elasticity.grid();
+  const double lateral = std::min(grid.dx(), grid.dy());
+  const double range = problem.height.maxCoeff() - problem.height.minCoeff();
+  const auto steepest = [&](const auto& difference, double spacing) {
+    return difference.size() == 0 ? 0.0 : std::sqrt(difference.square().mean()) / spacing;
+  };
+  const Index ny = grid.ny;
+  const Index nx = grid.nx;
+  const double slope = std::hypot(
+      steepest(problem.height.rightCols(nx - 1) - problem.height.leftCols(nx - 1), grid.dx()),
+      steepest(problem.height.bottomRows(ny - 1) - problem.height.topRows(ny - 1), grid.dy()));
+  const double fluctuation = 0.5 * elasticity.effective_modulus() * slope;
+  if (range > 1e-12 * lateral && problem.mean_pressure < 0.25 * fluctuation) {
+    return false;
+  }
+  if (!elasticity.apply_inverse(problem.height, state.pressure)) {
+    return false;
+  }
+  state.convergence.fft_pairs += 1;
+  state.pressure += problem.mean_pressure - state.pressure.mean();
+  if (state.pressure.minCoeff() < 0 || state.pressure.maxCoeff() > problem.saturation_pressure) {
+    return false;
+  }
+  elasticity.apply(state.pressure, state.displacement);
+  state.convergence.operator_applications = 1;
+  state.convergence.fft_pairs += 1;
+  state.convergence.tolerance = problem.tolerance;
+  const Field residual = state.displacement - problem.height;
+  const Candidates all{
+      std::vector<double>(state.pressure.data(), state.pressure.data() + grid.size()),
+      std::vector<double>(residual.data(), residual.data() + grid.size())};
+  const double load = problem.mean_pressure * static_cast<double>(grid.size());
+  state.convergence.certificate =
+      std::max(0.0, duality_gap(all, load, problem.saturation_pressure)) /
+      (load * length_scale(elasticity, problem));
+  state.convergence.converged = state.convergence.certificate <= problem.tolerance;
+  return state.convergence.converged;
+}
+
+/// Separation: contact pixels below saturation have zero mean gap; if all are saturated, the
+/// largest overlap-free level. The gap is then set exactly complementary to the pressure, which
+/// moves it by no more than the certificate's error.
+void finish_state(const Problem& problem, State& state) {
+  const double cap = problem.saturation_pressure;
+  double total = 0;
+  double n_free = 0;
+  double saturated_level = -std::numeric_limits<double>::infinity();
+  for (Index i = 0; i < state.pressure.size(); ++i) {
+    const double p = state.pressure(i);
+    const double residual = state.displacement(i) - problem.height(i);
+    if (p > 0 && p < cap) {
+      total += residual;
+      n_free += 1;
+    } else if (p >= cap) {
+      saturated_level = std::max(saturated_level, residual);
+    }
+  }
+  state.separation = -(n_free > 0 ? total / n_free : saturated_level);
+  state.gap.resizeLike(state.pressure);
+  parallel_for(state.gap.size(), kBlock, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      const double gap = state.separation + state.displacement(i) - problem.height(i);
+      const double p = state.pressure(i);
+      state.gap(i) = p <= 0 ? std::max(gap, 0.0) : (p < cap ? 0.0 : std::min(gap, 0.0));
+    }
+  });
+}
+
+}  // namespace
+
+State solve(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
+            const Observer& observer) {
+  check(elasticity, problem);
+  State state;
+  if (!try_full_contact(elasticity, problem, state)) {
+    const double pairs_before = state.convergence.fft_pairs;
+    state = solver == Solver::fast ? solve_fast(elasticity, problem, observer)
+                                   : solve_polonsky_keer(elasticity, problem, observer);
+    state.convergence.fft_pairs += pairs_before;
+  }
+  finish_state(problem, state);
+  return state;
+}
+
+Mask contact_mask(const State& state) { return state.pressure > 0; }
+
+}  // namespace tabor::contact

@@ -1,0 +1,142 @@
+#include "tabor/contact/polonsky_keer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "tabor/contact/certificate.hpp"
+#include "tabor/contact/scale.hpp"
+#include "tabor/contact/start.hpp"
+
+namespace tabor::contact {
+namespace {
+
+/// Fields and scalars of the iteration, named as in the paper where it names them.
+class ConjugateGradient {
+ public:
+  ConjugateGradient(elastic::ElasticOperator& elasticity, const Problem& problem)
+      : elasticity_(elasticity), problem_(problem), cap_(problem.saturation_pressure) {}
+
+  State run(const Observer& observer);
+
+ private:
+  bool is_free(Index i) const { return pressure_(i) > 0 && pressure_(i) < cap_; }
+  double mean_over_free(const Field& field) const;
+  double certificate() const;
+  double update_direction();
+  void step(double length);
+
+  elastic::ElasticOperator& elasticity_;
+  const Problem& problem_;
+  double cap_;                // [Pa]
+  Field pressure_;            // [Pa]
+  Field gap_;                 // g = S p - z, about its mean over free pixels [m]
+  Field direction_;           // t
+  Field response_;            // r = S t
+  double conjugacy_ = 0;      // delta: 0 restarts the conjugate directions
+  double previous_norm_ = 1;  // G of the iteration before
+};
+
+double ConjugateGradient::mean_over_free(const Field& field) const {
+  double total = 0;
+  double n = 0;
+  for (Index i = 0; i < field.size(); ++i) {
+    if (is_free(i)) {
+      total += field(i);
+      n += 1;
+    }
+  }
+  return n > 0 ? total / n : 0;
+}
+
+double ConjugateGradient::certificate() const {
+  Candidates all{std::vector<double>(pressure_.data(), pressure_.data() + pressure_.size()),
+                 std::vector<double>(gap_.data(), gap_.data() + gap_.size())};
+  const auto n = static_cast<double>(pressure_.size());
+  const double load = problem_.mean_pressure * n;
+  if (!(std::abs(pressure_.sum() / load - 1) <= 1e-10)) {
+    return std::numeric_limits<double>::infinity();
+  }
+  return std::max(0.0, duality_gap(all, load, cap_) / (load * length_scale(elasticity_, problem_)));
+}
+
+/// t = g + delta G / G_old t on the free pixels; returns the step length <g, t> / <r, t>.
+double ConjugateGradient::update_direction() {
+  double norm = 0;
+  for (Index i = 0; i < gap_.size(); ++i) {
+    norm += is_free(i) ? gap_(i) * gap_(i) : 0;
+  }
+  const double ratio = conjugacy_ * norm / previous_norm_;
+  for (Index i = 0; i < gap_.size(); ++i) {
+    direction_(i) = is_free(i) ? gap_(i) + ratio * direction_(i) : 0;
+  }
+  previous_norm_ = norm;
+  elasticity_.apply(direction_, response_);
+  response_ -= mean_over_free(response_);
+  const double curvature = (response_ * direction_).sum();
+  const double slope = (gap_ * direction_).sum();
+  return curvature > 0 ? slope / curvature : 0;
+}
+
+/// Moves the free pixels along t and those that violate the contact conditions along g, then
+/// restores bounds and load.
+void ConjugateGradient::step(double length) {
+  bool any_violation = false;
+  for (Index i = 0; i < gap_.size(); ++i) {
+    const bool free = is_free(i);
+    const bool overlaps = !free && (pressure_(i) <= 0 ? gap_(i) < 0 : gap_(i) > 0);
+    if (free) {
+      pressure_(i) -= length * direction_(i);
+    } else if (overlaps) {
+      pressure_(i) -= length * gap_(i);
+      any_violation = true;
+    }
+    pressure_(i) = std::clamp(pressure_(i), 0.0, cap_);
+  }
+  conjugacy_ = any_violation ? 0 : 1;
+  fit_to_load(pressure_, problem_.mean_pressure, cap_);
+}
+
+State ConjugateGradient::run(const Observer& observer) {
+  State state;
+  Convergence& convergence = state.convergence;
+  convergence.tolerance = problem_.tolerance;
+  pressure_ =
+      Field::Constant(problem_.height.rows(), problem_.height.cols(), problem_.mean_pressure);
+  gap_.resizeLike(pressure_);
+  direction_ = Field::Zero(pressure_.rows(), pressure_.cols());
+  response_.resizeLike(pressure_);
+  while (true) {
+    elasticity_.apply(pressure_, gap_);
+    convergence.operator_applications += 1;
+    state.displacement = gap_;
+    gap_ -= problem_.height;
+    convergence.certificate = certificate();
+    convergence.converged = convergence.certificate <= problem_.tolerance;
+    const bool stop =
+        observer && !observer({"contact (Polonsky-Keer)", std::numeric_limits<double>::quiet_NaN(),
+                               &convergence});
+    if (convergence.converged || stop || convergence.iterations >= problem_.max_iterations) {
+      break;
+    }
+    const double separation = mean_over_free(gap_);
+    gap_ -= separation;
+    const double length = update_direction();
+    convergence.operator_applications += 1;
+    step(length > 0 ? length : elasticity_.effective_modulus() / elasticity_.grid().dx());
+    convergence.iterations += 1;
+  }
+  convergence.fft_pairs = convergence.operator_applications;
+  state.pressure = std::move(pressure_);
+  return state;
+}
+
+}  // namespace
+
+State solve_polonsky_keer(elastic::ElasticOperator& elasticity, const Problem& problem,
+                          const Observer& observer) {
+  return ConjugateGradient(elasticity, problem).run(observer);
+}
+
+}  // namespace tabor::contact

@@ -1,0 +1,65 @@
+#include "tabor/contact/projection.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tabor/core/parallel.hpp"
+
+namespace tabor::contact {
+namespace {
+
+/// Value of sum clip(x - shift, 0, cap) and number of terms strictly inside the bounds.
+std::pair<double, double> load_and_slope(const std::vector<double>& x, double shift, double cap) {
+  const auto n = static_cast<Index>(x.size());
+  const double load = deterministic_sum(n, [&](Index begin, Index end) {
+    double partial = 0;
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      partial += std::clamp(x[i] - shift, 0.0, cap);
+    }
+    return partial;
+  });
+  const double n_inside = deterministic_sum(n, [&](Index begin, Index end) {
+    double partial = 0;
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      partial += (x[i] > shift && x[i] - shift < cap) ? 1.0 : 0.0;
+    }
+    return partial;
+  });
+  return {load, n_inside};
+}
+
+}  // namespace
+
+double shift_for_load(const std::vector<double>& x, double load, double cap) {
+  const auto [smallest, largest] = std::minmax_element(x.begin(), x.end());
+  // At `low` the sum is at least the load, at `high` it is zero.
+  double low = *smallest - std::min(cap, load);
+  double high = *largest;
+  double shift = std::clamp(0.0, low, high);
+  constexpr int most_steps = 200;
+  for (int step = 0; step < most_steps; ++step) {
+    const auto [sum, n_inside] = load_and_slope(x, shift, cap);
+    const double excess = sum - load;
+    if (std::abs(excess) <= 1e-15 * load) {
+      break;
+    }
+    (excess > 0 ? low : high) = shift;
+    const double newton = n_inside > 0 ? shift + excess / n_inside : low;
+    const double next = (newton > low && newton < high) ? newton : 0.5 * (low + high);
+    if (next == shift || next == low || next == high) {
+      break;  // the bracket is two neighbouring numbers: rounding error is reached
+    }
+    shift = next;
+  }
+  return shift;
+}
+
+void project_on_load(std::vector<double>& x, double load, double cap) {
+  const double shift = shift_for_load(x, load, cap);
+  for (double& value : x) {
+    value = std::clamp(value - shift, 0.0, cap);
+  }
+}
+
+}  // namespace tabor::contact

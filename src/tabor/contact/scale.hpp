@@ -1,0 +1,11 @@
+#pragma once
+
+#include "tabor/contact/contact.hpp"
+
+namespace tabor::contact {
+
+/// Length [m] that makes certificates dimensionless: the rms height, or for a surface of constant
+/// height the displacement scale P * side / E*.
+double length_scale(const elastic::ElasticOperator& elasticity, const Problem& problem);
+
+}  // namespace tabor::contact

@@ -1,0 +1,120 @@
+#include "tabor/contact/start.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "tabor/contact/fast_solver.hpp"
+#include "tabor/contact/projection.hpp"
+#include "tabor/core/parallel.hpp"
+
+namespace tabor::contact {
+namespace {
+
+constexpr Index kCoarsestSize = 64;        // smaller grids start from the bearing area
+constexpr double kCoarseTolerance = 1e-3;  // tighter coarse solutions save nothing on the fine grid
+
+/// Means of 2 x 2 pixels; the last row and column of odd sizes stand for themselves.
+Field halved(const Field& fine) {
+  Field coarse((fine.rows() + 1) / 2, (fine.cols() + 1) / 2);
+  parallel_for(coarse.rows(), 16, [&](Index begin, Index end) {
+    for (Index y = begin; y < end; ++y) {
+      const Index below = std::min(2 * y + 1, fine.rows() - 1);
+      for (Index x = 0; x < coarse.cols(); ++x) {
+        const Index right = std::min(2 * x + 1, fine.cols() - 1);
+        coarse(y, x) = 0.25 * (fine(2 * y, 2 * x) + fine(2 * y, right) + fine(below, 2 * x) +
+                               fine(below, right));
+      }
+    }
+  });
+  return coarse;
+}
+
+Field doubled(const Field& coarse, Index ny, Index nx) {
+  Field fine(ny, nx);
+  parallel_for(ny, 16, [&](Index begin, Index end) {
+    for (Index y = begin; y < end; ++y) {
+      for (Index x = 0; x < nx; ++x) {
+        fine(y, x) = coarse(y / 2, x / 2);
+      }
+    }
+  });
+  return fine;
+}
+
+/// Pressure on the highest pixels: p_sat where that saturates, else proportional to the height
+/// above the median.
+Field bearing_pressure(const Problem& problem) {
+  const Field& height = problem.height;
+  const bool saturates = std::isfinite(problem.saturation_pressure);
+  const double share = saturates ? problem.mean_pressure / problem.saturation_pressure : 0.5;
+  std::vector<double> sorted(height.data(), height.data() + height.size());
+  const auto rank = std::min<Index>(
+      height.size() - 1, static_cast<Index>(std::ceil(share * static_cast<double>(height.size()))));
+  std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end(), std::greater<>());
+  const double level = sorted[static_cast<std::size_t>(rank)];
+  if (saturates) {
+    return (height >= level)
+        .select(Field::Constant(height.rows(), height.cols(), problem.saturation_pressure), 0.0);
+  }
+  return (height - level).max(0.0);
+}
+
+}  // namespace
+
+void fit_to_load(Field& pressure, double mean_pressure, double saturation_pressure) {
+  const double load = mean_pressure * static_cast<double>(pressure.size());
+  std::vector<double> values;
+  std::vector<Index> support;
+  const auto collect = [&](bool everywhere) {
+    values.clear();
+    support.clear();
+    for (Index i = 0; i < pressure.size(); ++i) {
+      if (everywhere || pressure.data()[i] > 0) {
+        values.push_back(pressure.data()[i]);
+        support.push_back(i);
+      }
+    }
+  };
+  collect(false);
+  if (values.empty() || saturation_pressure * static_cast<double>(values.size()) <= load) {
+    collect(true);
+  }
+  double carried = 0;
+  for (const double value : values) {
+    carried += value;
+  }
+  if (!std::isfinite(saturation_pressure) && carried > 0) {
+    for (double& value : values) {
+      value *= load / carried;
+    }
+  }
+  project_on_load(values, load, saturation_pressure);
+  for (std::size_t k = 0; k < support.size(); ++k) {
+    pressure.data()[support[k]] = values[k];
+  }
+}
+
+Field starting_pressure(const elastic::ElasticOperator& elasticity, const Problem& problem,
+                        double& fft_pairs) {
+  const Grid& grid = elasticity.grid();
+  Field pressure;
+  if (std::min(grid.nx, grid.ny) >= 2 * kCoarsestSize) {
+    Problem coarse = problem;
+    coarse.height = halved(problem.height);
+    coarse.tolerance = std::max(kCoarseTolerance, problem.tolerance);
+    const Grid coarse_grid{coarse.height.cols(), coarse.height.rows(), grid.lx, grid.ly};
+    const auto coarse_operator = elasticity.on_grid(coarse_grid);
+    const State state = solve_fast(*coarse_operator, coarse, {});
+    fft_pairs += state.convergence.fft_pairs * static_cast<double>(coarse_grid.size()) /
+                 static_cast<double>(grid.size());
+    pressure = doubled(state.pressure, grid.ny, grid.nx);
+  } else {
+    pressure = bearing_pressure(problem);
+  }
+  fit_to_load(pressure, problem.mean_pressure, problem.saturation_pressure);
+  return pressure;
+}
+
+}  // namespace tabor::contact

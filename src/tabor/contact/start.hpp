@@ -1,0 +1,17 @@
+#pragma once
+
+#include "tabor/contact/contact.hpp"
+
+namespace tabor::contact {
+
+/// A first pressure that carries the load: the solution of the same problem on a grid of half the
+/// resolution where that exists (recursively), else the bearing area of the heights. Adds the work
+/// of the coarse grids to fft_pairs, weighted by their share of pixels.
+Field starting_pressure(const elastic::ElasticOperator& elasticity, const Problem& problem,
+                        double& fft_pairs);
+
+/// Scales or shifts p on its support so that mean(p) = P exactly, within the bounds; a support too
+/// small for the load is widened to all pixels.
+void fit_to_load(Field& pressure, double mean_pressure, double saturation_pressure);
+
+}  // namespace tabor::contact
