@@ -4,8 +4,17 @@ from pathlib import Path
 
 from tabor_report import example, hdf, output, page, single, study, style
 from tabor_report.errors import InputError
-from tabor_report.figures import (contact_area, contact_clusters, contact_map, dry_friction, lubricant_map,
-                                  lubricated_friction, psd, single_maps, topography)
+from tabor_report.figures import (
+    contact_area,
+    contact_clusters,
+    contact_map,
+    dry_friction,
+    lubricant_map,
+    lubricated_friction,
+    psd,
+    single_maps,
+    topography,
+)
 
 
 def open_result(path):
@@ -75,7 +84,9 @@ def _surface(item):
 
 def _contact(item):
     if item.contact is not None:
-        yield contact_map.draw(item.state, item.scan.pixel, item.contact.facts, item.scan.file, suffix=item.suffix)
+        yield contact_map.draw(
+            item.state, item.scan.pixel, item.contact.facts, item.scan.file, suffix=item.suffix
+        )
 
 
 def _present(drawn):

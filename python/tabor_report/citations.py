@@ -26,7 +26,7 @@ def references():
         raise InputError(f"{_PLACES[0]}: no such file; install tabor with 'cmake --install'")
     # Entries end with a closing brace in the first column.
     texts = [text.strip() + "\n}" for text in path.read_text(encoding="utf-8").split("\n}") if "@" in text]
-    return {text[text.index("{") + 1:text.index(",")]: text for text in texts}
+    return {text[text.index("{") + 1 : text.index(",")]: text for text in texts}
 
 
 def _used(facts):
@@ -35,5 +35,7 @@ def _used(facts):
 
 
 def _own(version):
-    return ("@software{tabor,\n  title   = {tabor: real contact area, lubricant and friction of scanned rough surfaces},\n"
-            f"  version = {{{version}}}\n}}")
+    return (
+        "@software{tabor,\n  title   = {tabor: real contact area, lubricant and friction of scanned rough surfaces},\n"
+        f"  version = {{{version}}}\n}}"
+    )

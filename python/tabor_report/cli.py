@@ -44,17 +44,30 @@ def _convert(options):
 
 
 def _parser():
-    parser = argparse.ArgumentParser(prog="tabor report", epilog=EXAMPLES,
-                                     description="Figures and one self-contained HTML page from a result of tabor.",
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("result", metavar="DIR|RESULTS.h5", help="folder of `tabor sweep`, or a file written with -o")
+    parser = argparse.ArgumentParser(
+        prog="tabor report",
+        epilog=EXAMPLES,
+        description="Figures and one self-contained HTML page from a result of tabor.",
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "result", metavar="DIR|RESULTS.h5", help="folder of `tabor sweep`, or a file written with -o"
+    )
     parser.add_argument("-o", "--output", metavar="DIR", help="where to write (default: beside the result)")
     parser.add_argument("--no-html", dest="html", action="store_false", help="figures and tables only")
     parser.add_argument("--scan", type=int, metavar="N", help="scan that the maps show, counted from 0")
     parser.add_argument("--all-scans", action="store_true", help="maps of every scan")
-    parser.add_argument("--pressure", metavar="P", help="pressure that the maps show, such as 7MPa (nearest computed)")
-    parser.add_argument("--density", metavar="D", help="lubricant density that the maps show, such as 0.45g/m^2")
-    parser.add_argument("--error-bar", choices=("std", "sem"), default="std",
-                        help="standard deviation (default) or standard error of the mean")
+    parser.add_argument(
+        "--pressure", metavar="P", help="pressure that the maps show, such as 7MPa (nearest computed)"
+    )
+    parser.add_argument(
+        "--density", metavar="D", help="lubricant density that the maps show, such as 0.45g/m^2"
+    )
+    parser.add_argument(
+        "--error-bar",
+        choices=("std", "sem"),
+        default="std",
+        help="standard deviation (default) or standard error of the mean",
+    )
     parser.add_argument("--quiet", action="store_true", help="do not list the written files")
     return parser

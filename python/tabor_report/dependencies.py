@@ -20,8 +20,10 @@ def require(names):
     """Raises InputError with the apt line that brings what is absent."""
     missing = missing_packages(names)
     if missing:
-        raise InputError(f"the report needs Python libraries that are not installed; "
-                         f"install them with: apt install {' '.join(missing)}")
+        raise InputError(
+            f"the report needs Python libraries that are not installed; "
+            f"install them with: apt install {' '.join(missing)}"
+        )
 
 
 def _is_importable(name):

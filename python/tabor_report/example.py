@@ -50,7 +50,11 @@ class Example:
     @cached_property
     def _interest(self):
         if self.contact is None:
-            return np.zeros(self.thickness.shape, dtype=bool) if self.film else np.zeros(self.height.shape, dtype=bool)
+            return (
+                np.zeros(self.thickness.shape, dtype=bool)
+                if self.film
+                else np.zeros(self.height.shape, dtype=bool)
+            )
         touching = self.state > 0
         wet = touching & (self.thickness > 0) if self.film is not None else touching
         return wet if wet.any() else touching
@@ -58,18 +62,24 @@ class Example:
 
 def choose(scan, pressure=None, density=None, suffix=""):
     """The stored states nearest to what is asked; the middle pressure and lowest density if nothing is."""
-    return Example(scan, _nearest(scan.contacts(), "pressure", pressure, middle=True),
-                   _nearest(_wetting(scan.films()), "density", density, middle=False), suffix)
+    return Example(
+        scan,
+        _nearest(scan.contacts(), "pressure", pressure, middle=True),
+        _nearest(_wetting(scan.films()), "density", density, middle=False),
+        suffix,
+    )
 
 
 def examples(study, options):
     """One example per scan asked for: the first that has maps, all, or a given one."""
     if options.all_scans:
-        return [choose(scan, options.pressure, options.density, f"_scan{scan.index:04d}") for scan in study.scans]
+        return [
+            choose(scan, options.pressure, options.density, f"_scan{scan.index:04d}") for scan in study.scans
+        ]
     if options.scan is not None:
         return [choose(study.scans[options.scan], options.pressure, options.density)]
     candidates = (choose(scan, options.pressure, options.density) for scan in study.scans)
-    found = next((example for example in candidates if example.contact and example.height is not None), None)
+    found = next((item for item in candidates if item.contact and item.height is not None), None)
     return [found] if found else [choose(scan) for scan in study.scans[:1]]
 
 

@@ -4,9 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tabor_report import style
+from tabor_report import style, units
 from tabor_report.table import Table, converged
 
+DENSITY = "lubricant_density_g_per_m2"
 ERROR_NAMES = {"std": "standard deviation", "sem": "standard error of the mean"}
 
 
@@ -20,8 +21,9 @@ class Series:
     mean: np.ndarray
     std: np.ndarray
     sem: np.ndarray
-    n: np.ndarray
-    doubtful: np.ndarray  # a case behind the mean did not converge
+    n: np.ndarray  # converged scans behind the mean
+    loose_pressure: np.ndarray  # [Pa] of the cases that did not converge; no mean holds them
+    loose_friction: np.ndarray
 
     def bar(self, kind):
         """Half length of the error bar; NaN (none) where one scan gives no spread."""
@@ -29,8 +31,14 @@ class Series:
 
     @property
     def n_text(self):
-        low, high = int(self.n.min()), int(self.n.max())
-        return f"n = {low}" if low == high else f"n = {low}\N{EN DASH}{high}"
+        return number_text(self.n)
+
+
+def number_text(n):
+    """'n = 4', or 'n = 2-4' where not every mean has as many scans; means of nothing do not count."""
+    known = n[n > 0]
+    low, high = (int(known.min()), int(known.max())) if known.size else (0, 0)
+    return f"n = {low}" if low == high else f"n = {low}\N{EN DASH}{high}"
 
 
 def dry(study, group):
@@ -46,13 +54,13 @@ def dry(study, group):
 
 def lubricated(study, group, density):
     rows = _rows(study, group)
-    rows = rows.where(rows.equal("lubricant_density_g_per_m2", density)) if rows else rows
+    rows = rows.where(rows.equal(DENSITY, density)) if rows else rows
     ordered = sorted(rows.rows(), key=lambda row: row["mean_pressure_Pa"])
     return _series(study, group, density, ordered, "friction_lubricated")
 
 
 def densities(study):
-    return [value for value in study.averages.distinct("lubricant_density_g_per_m2") if value > 0]
+    return [value for value in study.averages.distinct(DENSITY) if value > 0]
 
 
 def experiment(study, group=None, density=None):
@@ -60,39 +68,81 @@ def experiment(study, group=None, density=None):
     points = study.experiment
     if points and group is not None and "group" in points:
         points = points.where(points.equal("group", group))
-    if points and density is not None and "lubricant_density_g_per_m2" in points:
-        points = points.where(points.equal("lubricant_density_g_per_m2", density))
+    if points and density is not None and DENSITY in points:
+        known = np.isfinite(points[DENSITY])
+        points = points.where(points.equal(DENSITY, density) if np.isfinite(density) else ~known)
     return points
 
 
+def measured_densities(study):
+    """Distinct densities [g/m^2] of the experiment; NaN last if some point names none."""
+    if not study.experiment:
+        return []
+    known = study.experiment.distinct(DENSITY)
+    column = np.asarray(study.experiment.get(DENSITY, [np.nan]), dtype=float)
+    return known + ([float("nan")] if np.isnan(column).any() else [])
+
+
+def measured_label(density):
+    return f"experiment {units.density(density)}" if np.isfinite(density) else "experiment"
+
+
 def draw(axes, series, error, **look):
-    """The curve with its bars, and a ring round every mean that holds a doubtful case."""
+    """The curve with its bars, and a ring for every case that did not converge."""
     shown = np.isfinite(series.mean)
-    axes.errorbar(series.pressure[shown] * 1e-6, series.mean[shown], yerr=_bars(series.bar(error)[shown]), capsize=2.5,
-                  elinewidth=0.9, **look)
-    rings = shown & series.doubtful
-    label = {"label": "holds a case that did not converge"} if rings.any() else {}
-    axes.plot(series.pressure[rings] * 1e-6, series.mean[rings], linestyle="none", marker="o", markersize=11,
-              markerfacecolor="none", markeredgecolor=style.WARNING, markeredgewidth=1.4, **label)
+    axes.errorbar(
+        series.pressure[shown] * 1e-6,
+        series.mean[shown],
+        yerr=_bars(series.bar(error)[shown]),
+        capsize=2.5,
+        elinewidth=0.9,
+        **look,
+    )
+    draw_loose(axes, series.loose_pressure * 1e-6, series.loose_friction)
+
+
+def draw_loose(axes, x, y):
+    """Cases that did not converge, ringed in the colour of a warning."""
+    if len(x):
+        axes.plot(
+            x,
+            y,
+            linestyle="none",
+            marker="o",
+            markersize=9,
+            markerfacecolor="none",
+            markeredgecolor=style.WARNING,
+            markeredgewidth=1.4,
+            label="did not converge, in no mean",
+        )
 
 
 def draw_experiment(axes, points, **look):
     error = np.asarray(points.get("error", np.full(len(points), np.nan)), dtype=float)
-    axes.errorbar(points["mean_pressure_Pa"] * 1e-6, points["friction"], yerr=_bars(error), linestyle="none", capsize=2.5,
-                  elinewidth=0.8, markerfacecolor="white", **look)
+    axes.errorbar(
+        points["mean_pressure_Pa"] * 1e-6,
+        points["friction"],
+        yerr=_bars(error),
+        linestyle="none",
+        capsize=2.5,
+        elinewidth=0.8,
+        markerfacecolor="white",
+        **look,
+    )
 
 
 def csv_columns(study, all_series):
-    """Columns of everything plotted: computed means, then measured points."""
-    columns = {name: [] for name in ("series", "group", "mean_pressure_Pa", "lubricant_density_g_per_m2", "n",
-                                     "friction", "std", "sem", "not_converged")}
+    """Columns of everything plotted: computed means, cases that did not converge, measured points."""
+    names = "series group mean_pressure_Pa lubricant_density_g_per_m2 n friction std sem".split()
+    columns = {name: [] for name in names}
     for series in all_series:
-        for values in zip(series.pressure, series.n, series.mean, series.std, series.sem, series.doubtful):
-            _append(columns, ("computed", series.group, values[0], series.density, *values[1:]))
+        for pressure, *values in zip(series.pressure, series.n, series.mean, series.std, series.sem):
+            _append(columns, ("computed", series.group, pressure, series.density, *values))
+        for pressure, friction in zip(series.loose_pressure, series.loose_friction):
+            _append(columns, ("not converged", series.group, pressure, series.density, 1, friction, "", ""))
     for row in study.experiment.rows():
-        _append(columns, ("experiment", row.get("group", ""), row["mean_pressure_Pa"],
-                          row.get("lubricant_density_g_per_m2", float("nan")), "", row["friction"],
-                          row.get("error", float("nan")), "", False))
+        where = (row.get("group", ""), row["mean_pressure_Pa"], row.get(DENSITY, float("nan")))
+        _append(columns, ("experiment", *where, "", row["friction"], row.get("error", float("nan")), ""))
     return columns
 
 
@@ -114,17 +164,25 @@ def _series(study, group, density, rows, name):
     def column(key):
         return np.array([row.get(key, np.nan) for row in rows], dtype=float)
 
-    pressure = column("mean_pressure_Pa")
-    return Series(group, density, pressure, column(f"{name}_mean"), column(f"{name}_std"), column(f"{name}_sem"),
-                  column("n"), _doubtful(study, group, density, pressure))
+    statistics = (column(f"{name}_{kind}") for kind in ("mean", "std", "sem"))
+    loose = sorted(_loose(study, group, density, name))
+    return Series(
+        group,
+        density,
+        column("mean_pressure_Pa"),
+        *statistics,
+        column("n"),
+        np.array([pressure for pressure, _ in loose], dtype=float),
+        np.array([friction for _, friction in loose], dtype=float),
+    )
 
 
-def _doubtful(study, group, density, pressures):
-    loose = study.table.where(~converged(study.table)) if study.table else Table({})
-    if not loose:
-        return np.zeros(len(pressures), dtype=bool)
-    mask = loose.equal("group", group)
-    if np.isfinite(density):
-        mask = mask & loose.equal("lubricant_density_g_per_m2", density)
-    bad = loose["mean_pressure_Pa"][mask]
-    return np.array([np.any(np.isclose(bad, pressure, rtol=1e-9)) for pressure in pressures], dtype=bool)
+def _loose(study, group, density, name):
+    """{(pressure, friction)} of the cases that did not converge; dry, equal ones of all densities are one."""
+    table = study.table.where(~converged(study.table)) if study.table else Table({})
+    if table:
+        table = table.where(table.equal("group", group))
+    if table and np.isfinite(density):
+        table = table.where(table.equal(DENSITY, density))
+    found = {(float(row["mean_pressure_Pa"]), float(row[name])) for row in table.rows()}
+    return {pair for pair in found if np.isfinite(pair[1])}

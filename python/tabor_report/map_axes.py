@@ -24,7 +24,9 @@ class MapView:
         self.window = window
         self.pixel = pixel
         self.block = maps.block_size(window.shape)
-        self.factor, self.unit = units.length_scale(max(window.shape[1] * pixel[0], window.shape[0] * pixel[1]))
+        self.factor, self.unit = units.length_scale(
+            max(window.shape[1] * pixel[0], window.shape[0] * pixel[1])
+        )
 
     @property
     def extent(self):
@@ -57,8 +59,15 @@ class MapView:
 def colour_map(axes, view, values, label, colours, limits=None, ground=HOLE):
     """Shows `values` (reduced, in print units) and its colour bar; returns nothing to keep."""
     low, high = limits or robust_limits(values)
-    image = axes.imshow(np.ma.masked_invalid(values), extent=view.extent, cmap=colours, vmin=low, vmax=high,
-                        interpolation="nearest", aspect="equal")
+    image = axes.imshow(
+        np.ma.masked_invalid(values),
+        extent=view.extent,
+        cmap=colours,
+        vmin=low,
+        vmax=high,
+        interpolation="nearest",
+        aspect="equal",
+    )
     axes.set_facecolor(ground)
     view.label(axes)
     # Inset, so that it is as high as the map whatever the map's shape.
@@ -80,7 +89,9 @@ def robust_limits(values):
 def ink_map(axes, view, touching):
     """Real contact in black; returns the share of contact of every printed point."""
     share = view.reduced(touching)
-    axes.imshow(maps.ink(share), extent=view.extent, cmap=INK, vmin=0, vmax=1, interpolation="nearest", aspect="equal")
+    axes.imshow(
+        maps.ink(share), extent=view.extent, cmap=INK, vmin=0, vmax=1, interpolation="nearest", aspect="equal"
+    )
     view.label(axes)
     return share
 
@@ -91,9 +102,25 @@ def scale_bar(axes, view):
     length = round_length((right - left) / 4)
     share = length / (right - left)
     below = offset_copy(axes.transAxes, fig=axes.figure, y=-27, units="points")
-    axes.plot([1 - share, 1], [0, 0], transform=below, color="black", linewidth=2.5, solid_capstyle="butt", clip_on=False)
-    axes.annotate(f"{length:g} {view.unit}", (1 - share / 2, 0), xycoords=below, xytext=(0, -3),
-                  textcoords="offset points", ha="center", va="top", fontsize=8)
+    axes.plot(
+        [1 - share, 1],
+        [0, 0],
+        transform=below,
+        color="black",
+        linewidth=2.5,
+        solid_capstyle="butt",
+        clip_on=False,
+    )
+    axes.annotate(
+        f"{length:g} {view.unit}",
+        (1 - share / 2, 0),
+        xycoords=below,
+        xytext=(0, -3),
+        textcoords="offset points",
+        ha="center",
+        va="top",
+        fontsize=8,
+    )
 
 
 def round_length(largest):
@@ -105,8 +132,10 @@ def round_length(largest):
 def ink_note(view):
     if view.block == 1:
         return "Every pixel is drawn. "
-    return (f"Each printed point stands for {view.block} × {view.block} pixels and is the darker the more of them are "
-            "in contact, never lighter than 35% grey where any is, so that small contacts stay visible. ")
+    return (
+        f"Each printed point stands for {view.block} × {view.block} pixels and is the darker the more of them are "
+        "in contact, never lighter than 35% grey where any is, so that small contacts stay visible. "
+    )
 
 
 def height_unit(values):

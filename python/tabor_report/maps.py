@@ -17,7 +17,7 @@ class Window:
     x1: int
 
     def of(self, field):
-        return field[self.y0:self.y1, self.x0:self.x1]
+        return field[self.y0 : self.y1, self.x0 : self.x1]
 
     @property
     def shape(self):

@@ -32,8 +32,13 @@ def render(source, figures, command):
 
 def _template():
     folder = Path(__file__).resolve().parent / "templates"
-    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(folder), autoescape=True,
-                                     undefined=jinja2.StrictUndefined, trim_blocks=True, lstrip_blocks=True)
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(folder),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
     environment.filters["symbols"] = symbols
     return environment.get_template("report.html")
 
@@ -53,6 +58,12 @@ def _subtitle(source):
 def _figure(number, drawn, png, svg):
     # A map as SVG is a raster in a wrapper; as an <img> an SVG's ids cannot clash with another's.
     kind, data = ("image/png", png) if drawn.is_map else ("image/svg+xml", svg)
-    return {"number": number, "width": round(SCREEN_PIXELS_PER_INCH * style.width_in_inches(png)), "name": drawn.name, "title": drawn.title, "caption": drawn.caption,
-            "uri": f"data:{kind};base64,{base64.b64encode(data).decode('ascii')}",
-            "csv": [f"figures/{drawn.name}{suffix}.csv" for suffix in drawn.data]}
+    return {
+        "number": number,
+        "width": round(SCREEN_PIXELS_PER_INCH * style.width_in_inches(png)),
+        "name": drawn.name,
+        "title": drawn.title,
+        "caption": drawn.caption,
+        "uri": f"data:{kind};base64,{base64.b64encode(data).decode('ascii')}",
+        "csv": [f"figures/{drawn.name}{suffix}.csv" for suffix in drawn.data],
+    }

@@ -20,8 +20,12 @@ def _highlights(single):
     found = []
     for state in single.states[:3]:
         facts = state.facts
-        for key, name in (("contact_area_fraction", "real contact area"), ("friction_dry", "dry friction"),
-                          ("friction_lubricated", "lubricated friction"), ("mean_film_m", "mean film")):
+        for key, name in (
+            ("contact_area_fraction", "real contact area"),
+            ("friction_dry", "dry friction"),
+            ("friction_lubricated", "lubricated friction"),
+            ("mean_film_m", "mean film"),
+        ):
             if isinstance(facts.get(key), float):
                 where = f" at {units.pressure(state.pressure)}" if state.pressure is not None else ""
                 found.append((name + where, show(key, facts[key])))
@@ -31,28 +35,48 @@ def _highlights(single):
 def _scan(single):
     facts = single.surface_facts
     ny, nx = single.surface["height"].shape
-    rows = [("pixels", f"{nx} × {ny}"),
-            ("pixel size", f"{units.length(single.pixel[0])} × {units.length(single.pixel[1])}"),
-            ("format", facts.get("format", "")), ("instrument", facts.get("instrument", "")),
-            ("periodic", "yes" if facts.get("periodic") else "no")]
+    rows = [
+        ("pixels", f"{nx} × {ny}"),
+        ("pixel size", f"{units.length(single.pixel[0])} × {units.length(single.pixel[1])}"),
+        ("format", facts.get("format", "")),
+        ("instrument", facts.get("instrument", "")),
+        ("periodic", "yes" if facts.get("periodic") else "no"),
+    ]
     sha256 = hdf.text_list(single.facts.get("input_sha256"))
-    return {"file": Path(facts.get("source") or single.title).name, "group": "", "sha256": sha256[0] if sha256 else "",
-            "rows": [(name, text) for name, text in rows if text], "doubts": hdf.text_list(facts.get("doubts"))}
+    return {
+        "file": Path(facts.get("source") or single.title).name,
+        "group": "",
+        "sha256": sha256[0] if sha256 else "",
+        "rows": [(name, text) for name, text in rows if text],
+        "doubts": hdf.text_list(facts.get("doubts")),
+    }
 
 
 def _settings(single):
-    scalars = {name: value for name, value in single.facts.items()
-               if isinstance(value, (int, float)) and name != "format_version"}
+    scalars = {
+        name: value
+        for name, value in single.facts.items()
+        if isinstance(value, (int, float)) and name != "format_version"
+    }
     return [(name, show(name, value)) for name, value in scalars.items()]
 
 
 def _results(table, n_states):
     names = [name for name in table if name not in ("converged", "warnings")]
     sure = table.get("converged", [True] * n_states)
-    rows = [{"sure": sure[index] is not False and sure[index] != 0, "cells": [show(name, table[name][index]) for name in names]}
-            for index in range(n_states if names else 0)]
-    return {"header": [name.replace("_", " ") for name in names] + ["converged"], "rows": rows, "n_total": len(rows),
-            "n_text": 0}
+    rows = [
+        {
+            "sure": sure[index] is not False and sure[index] != 0,
+            "cells": [show(name, table[name][index]) for name in names],
+        }
+        for index in range(n_states if names else 0)
+    ]
+    return {
+        "header": [name.replace("_", " ") for name in names] + ["converged"],
+        "rows": rows,
+        "n_total": len(rows),
+        "n_text": 0,
+    }
 
 
 def show(name, value):

@@ -22,11 +22,13 @@ def sections(study):
 def _highlights(study):
     """What a reader wants first: pressures, densities, range of friction, how much to trust."""
     table = study.table
-    found = [("mean pressures", _range(table, "mean_pressure_Pa", units.pressure)),
-             ("lubricant densities", _range(table, "lubricant_density_g_per_m2", units.density)),
-             ("real contact area", _range(table, "contact_area_fraction", lambda value: f"{value:.2%}")),
-             ("dry friction", _range(table, "friction_dry", lambda value: units.number(value, 3))),
-             ("lubricated friction", _range(table, "friction_lubricated", lambda value: units.number(value, 3)))]
+    found = [
+        ("mean pressures", _range(table, "mean_pressure_Pa", units.pressure)),
+        ("lubricant densities", _range(table, "lubricant_density_g_per_m2", units.density)),
+        ("real contact area", _range(table, "contact_area_fraction", lambda value: f"{value:.2%}")),
+        ("dry friction", _range(table, "friction_dry", lambda value: units.number(value, 3))),
+        ("lubricated friction", _range(table, "friction_lubricated", lambda value: units.number(value, 3))),
+    ]
     sure = len(table) - table.not_converged()
     found.append(("converged", f"{sure} of {len(table)} rows"))
     return [(name, text) for name, text in found if text]
@@ -43,20 +45,35 @@ def _range(table, name, show):
 def _scan(scan):
     facts = scan.facts
     return {
-        "file": scan.file, "group": scan.group, "sha256": facts.get("input_sha256", ""),
-        "rows": [("pixels", f"{facts.get('nx', '?')} × {facts.get('ny', '?')}"),
-                 ("pixel size", f"{units.length(scan.pixel[0])} × {units.length(scan.pixel[1])}"),
-                 ("size", f"{units.length(scan.pixel[0] * facts.get('nx', 0))} × {units.length(scan.pixel[1] * facts.get('ny', 0))}"),
-                 ("Sq", units.length(facts.get("rms_height_m"))),
-                 ("rms slope", units.number(facts.get("rms_slope")))] + _profile_slopes(scan),
+        "file": scan.file,
+        "group": scan.group,
+        "sha256": facts.get("input_sha256", ""),
+        "rows": _surface_rows(scan) if scan.is_treated else [("surface", "not treated yet")],
         "doubts": scan.doubts,
     }
 
 
-def _profile_slopes(scan):
+def _surface_rows(scan):
+    facts, sides = scan.facts, (scan.facts["nx"], scan.facts["ny"])
+    sizes = (units.length(pixel * side) for pixel, side in zip(scan.pixel, sides))
+    return [
+        ("pixels", " × ".join(map(str, sides))),
+        ("pixel size", " × ".join(map(units.length, scan.pixel))),
+        ("size", " × ".join(sizes)),
+        ("Sq", units.length(facts.get("rms_height_m"))),
+        ("rms slope", units.number(facts.get("rms_slope"))),
+        *_hurst_rows(scan),
+    ]
+
+
+def _hurst_rows(scan):
     psd = scan.psd()
     names = ("hurst_x", "hurst_y") if psd is not None else ()
-    return [(f"Hurst exponent {name[-1]}", units.number(float(psd.attrs[name]), 3)) for name in names if name in psd.attrs]
+    return [
+        (f"Hurst exponent {name[-1]}", units.number(float(psd.attrs[name]), 3))
+        for name in names
+        if name in psd.attrs
+    ]
 
 
 def _treatments(scans):
@@ -69,18 +86,21 @@ def _treatments(scans):
 
 def _settings(facts):
     cap = facts.get("saturation_pressure_Pa")
-    rows = [("Young's modulus E", facts.get("youngs_modulus_Pa"), units.pressure),
-            ("Poisson's ratio ν", facts.get("poissons_ratio"), units.number),
-            ("effective modulus E*", facts.get("effective_modulus_Pa"), units.pressure),
-            ("shear strength τ_y", facts.get("shear_strength_Pa"), units.pressure),
-            ("oil density", facts.get("oil_density_kg_per_m3"), lambda value: f"{units.number(value)} kg/m³"),
-            ("area used for friction", facts.get("area"), str)]
+    rows = [
+        ("Young's modulus E", facts.get("youngs_modulus_Pa"), units.pressure),
+        ("Poisson's ratio ν", facts.get("poissons_ratio"), units.number),
+        ("effective modulus E*", facts.get("effective_modulus_Pa"), units.pressure),
+        ("shear strength τ_y", facts.get("shear_strength_Pa"), units.pressure),
+        ("oil density", facts.get("oil_density_kg_per_m3"), lambda value: f"{units.number(value)} kg/m³"),
+        ("area used for friction", facts.get("area"), str),
+    ]
     shown = [(name, show(value)) for name, value, show in rows if value is not None]
     return shown + [("saturation pressure p_sat", units.pressure(cap) if cap else "none (elastic)")]
 
 
 _RESULT_COLUMNS = (
-    ("scan", "scan", str), ("group", "group", str),
+    ("scan", "scan", str),
+    ("group", "group", str),
     ("P (MPa)", "mean_pressure_Pa", lambda value: units.number(value * 1e-6)),
     ("lubricant (g/m²)", "lubricant_density_g_per_m2", units.number),
     ("A/A₀", "contact_area_fraction", units.number),
@@ -89,7 +109,8 @@ _RESULT_COLUMNS = (
     ("mean gap (µm)", "mean_gap_m", lambda value: units.number(value * 1e6)),
     ("wet share", "lubricated_share", units.number),
     ("spill-over", "spill_over_fraction", units.number),
-    ("μ dry", "friction_dry", units.number), ("μ lubricated", "friction_lubricated", units.number),
+    ("μ dry", "friction_dry", units.number),
+    ("μ lubricated", "friction_lubricated", units.number),
     ("certificate", "certificate", lambda value: units.number(value, 2)),
 )
 
@@ -101,23 +122,42 @@ def _results(table):
     if len(order) > MAX_ROWS:
         loose = [index for index in order if not sure[index]]
         order = sorted(set(loose + order[:MAX_ROWS]))
-    rows = [{"sure": bool(sure[index]), "cells": [show(_value(table[name][index])) for _, name, show in columns]}
-            for index in order]
-    return {"header": [title for title, _, _ in columns] + ["converged"], "rows": rows, "n_total": len(table),
-            "n_text": sum(name in ("scan", "group") for _, name, _ in columns)}
+    rows = [
+        {"sure": bool(sure[index]), "cells": [show(_value(table[name][index])) for _, name, show in columns]}
+        for index in order
+    ]
+    return {
+        "header": [title for title, _, _ in columns] + ["converged"],
+        "rows": rows,
+        "n_total": len(table),
+        "n_text": sum(name in ("scan", "group") for _, name, _ in columns),
+    }
 
 
-_STATISTICS = (("", "_mean", units.number), (", std", "_std", lambda value: units.number(value, 2)),
-               (", sem", "_sem", lambda value: units.number(value, 2)))
+_STATISTICS = (
+    ("", "_mean", units.number),
+    (", std", "_std", lambda value: units.number(value, 2)),
+    (", sem", "_sem", lambda value: units.number(value, 2)),
+)
 
 
 def _averages(table):
-    columns = [(title, name, show) for title, name, show in (
-        ("group", "group", str), ("P (MPa)", "mean_pressure_Pa", lambda value: units.number(value * 1e-6)),
-        ("lubricant (g/m²)", "lubricant_density_g_per_m2", units.number), ("n", "n", lambda value: str(int(value)))) if name in table]
+    columns = [
+        (title, name, show)
+        for title, name, show in (
+            ("group", "group", str),
+            ("P (MPa)", "mean_pressure_Pa", lambda value: units.number(value * 1e-6)),
+            ("lubricant (g/m²)", "lubricant_density_g_per_m2", units.number),
+            ("n", "n", lambda value: str(int(value))),
+        )
+        if name in table
+    ]
     for kind, title in (("friction_dry", "μ dry"), ("friction_lubricated", "μ lubricated")):
-        columns += [(f"{title}{part}", f"{kind}{suffix}", show) for part, suffix, show in _STATISTICS
-                    if f"{kind}{suffix}" in table]
+        columns += [
+            (f"{title}{part}", f"{kind}{suffix}", show)
+            for part, suffix, show in _STATISTICS
+            if f"{kind}{suffix}" in table
+        ]
     rows = [[show(_value(table[name][index])) for _, name, show in columns] for index in range(len(table))]
     return {"header": [title for title, _, _ in columns], "rows": rows, "n_text": 1}
 

@@ -7,7 +7,7 @@ from tabor_report.output import table_text
 
 
 def cut(row, columns, pixel_x, height, film=None, gap=None):
-    """Lines along x of one row, all [m]: x (pixel centres), solid, liquid level, counterface (NaN where unknown)."""
+    """Lines along x of one row, all [m]: pixel centres, solid, liquid level, counterface; NaN if unknown."""
     start, stop = columns
     solid = np.asarray(height[row, start:stop], dtype=float)
     nothing = np.full(solid.shape, np.nan)
@@ -15,7 +15,9 @@ def cut(row, columns, pixel_x, height, film=None, gap=None):
     return {
         "x_m": (np.arange(start, stop) + 0.5) * pixel_x,
         "solid_m": solid,
-        "liquid_level_m": nothing if thickness is None else np.where(thickness > 0, solid + thickness, np.nan),
+        "liquid_level_m": (
+            nothing if thickness is None else np.where(thickness > 0, solid + thickness, np.nan)
+        ),
         "counterface_m": nothing if gap is None else solid + np.asarray(gap[row, start:stop], dtype=float),
     }
 
@@ -28,8 +30,16 @@ def draw(axes, lines, length_factor, length_unit, height_factor, height_unit):
     axes.fill_between(x, bottom, solid, color=style.SOLID, linewidth=0, step="mid", label="solid")
     axes.plot(x, solid, color="0.3", linewidth=0.7, drawstyle="steps-mid")
     if np.isfinite(level).any():
-        axes.fill_between(x, solid, level, where=np.isfinite(level), color=style.LIQUID, linewidth=0, step="mid",
-                          label="lubricant before closing")
+        axes.fill_between(
+            x,
+            solid,
+            level,
+            where=np.isfinite(level),
+            color=style.LIQUID,
+            linewidth=0,
+            step="mid",
+            label="lubricant before closing",
+        )
     if np.isfinite(counter).any():
         axes.plot(x, counter, color=style.WARNING, linewidth=1.1, label="counterface (solid + gap)")
     axes.set_xlim(x[0], x[-1])

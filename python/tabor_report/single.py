@@ -44,8 +44,14 @@ class Single:
     @property
     def table(self):
         """Every scalar of the states, one column each; a key absent from a state is None."""
-        names = list(dict.fromkeys(name for state in self.states for name in state.facts
-                                   if not _is_file_matter(name, state.facts[name])))
+        names = list(
+            dict.fromkeys(
+                name
+                for state in self.states
+                for name in state.facts
+                if not _is_file_matter(name, state.facts[name])
+            )
+        )
         return Table({name: [state.facts.get(name) for state in self.states] for name in names})
 
 
@@ -72,7 +78,11 @@ def _spacing(surface, name):
 
 def _is_file_matter(name, value):
     """NeXus and HDF5 bookkeeping, not a result."""
-    return name in ("NX_class", "signal", "axes", "default") or name.endswith("_indices") or isinstance(value, list)
+    return (
+        name in ("NX_class", "signal", "axes", "default")
+        or name.endswith("_indices")
+        or isinstance(value, list)
+    )
 
 
 def _doubts_about(single):

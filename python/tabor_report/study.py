@@ -27,6 +27,11 @@ class Scan:
         return self.facts.get("group", "")
 
     @property
+    def is_treated(self):
+        """Whether the store held its surface when the tables were written."""
+        return all(name in self.facts for name in ("pixel_x_m", "pixel_y_m", "nx", "ny"))
+
+    @property
     def pixel(self):
         """(x, y) [m]"""
         return self.facts["pixel_x_m"], self.facts["pixel_y_m"]
@@ -48,7 +53,7 @@ class Scan:
         return self._linked(self.node, "psd")
 
     def contacts(self):
-        """By rising pressure."""
+        """By rising pressure; none while there is no surface to draw them on."""
         found = [StudyContact(node) for node in self._linked_members("contact")]
         return sorted(found, key=lambda contact: contact.pressure)
 
@@ -59,14 +64,20 @@ class Scan:
 
     def _linked_members(self, name):
         folder = hdf.child(self.node, name)
-        members = [] if folder is None else [self._linked(folder, key) for key in sorted(folder)]
+        members = (
+            []
+            if folder is None or not self.is_treated
+            else [self._linked(folder, key) for key in sorted(folder)]
+        )
         return [member for member in members if member is not None]
 
     def _linked(self, group, name):
         node = hdf.child(group, name)
         if node is None and name in group.keys():
-            self._warn(f"{self.file}: {hdf.link_target(group, name)} is missing or damaged; "
-                       "what is drawn from it is left out")
+            self._warn(
+                f"{self.file}: {hdf.link_target(group, name)} is missing or damaged; "
+                "what is drawn from it is left out"
+            )
         return node
 
     def _warn(self, message):
@@ -107,27 +118,34 @@ def load(path, file):
     """Reads tables and scan facts of an open results.h5; raises InputError if it is no study."""
     facts = hdf.attributes(file)
     warnings = []
-    study = Study(path=path, file=file, facts=facts, table=_table(path, file, "table"),
-                  averages=_table(path, file, "averages"), scans=_scans(path, file, warnings),
-                  experiment=_experiment(file), warnings=warnings)
+    study = Study(
+        path=path,
+        file=file,
+        facts=facts,
+        table=_table(path, file, "table"),
+        averages=_table(path, file, "averages"),
+        scans=_scans(path, file, warnings),
+        experiment=_experiment(file),
+        warnings=warnings,
+    )
     study.warnings.extend(_doubts_about(study))
     return study
 
 
 def _table(path, file, name):
     if name not in file:
-        raise InputError(f"{path}: /{name} is missing; run `tabor sweep` again, it rebuilds the tables from the store")
+        raise InputError(
+            f"{path}: /{name} is missing; run `tabor sweep` again, it rebuilds the tables from the store"
+        )
     return Table(hdf.columns(file[name]))
 
 
 def _scans(path, file, warnings):
     folder = file["scans"] if "scans" in file else {}
-    scans = [Scan(folder[key], index, hdf.attributes(folder[key]), warnings)
-             for index, key in enumerate(sorted(folder))]
-    for scan in scans:
-        for name in ("pixel_x_m", "pixel_y_m"):
-            if name not in scan.facts:
-                raise InputError(f"{path}: scan {scan.file} has no attribute {name}; expected the schema of docs/results.md")
+    scans = [
+        Scan(folder[key], index, hdf.attributes(folder[key]), warnings)
+        for index, key in enumerate(sorted(folder))
+    ]
     return scans
 
 
@@ -141,8 +159,12 @@ def _doubts_about(study):
         yield f"The study is not complete: {done} of {expected} cases are done. Averages hold what is there."
     loose = study.table.not_converged()
     if loose:
-        yield (f"{loose} of {len(study.table)} rows did not converge. They are marked in the table and in the "
-               "figures; do not use them without a closer look.")
+        yield (
+            f"{loose} of {len(study.table)} rows did not converge. They are marked in the table and in the "
+            "figures and count in no average."
+        )
+    for message in dict.fromkeys(text for text in study.table.get("error", ()) if text):
+        yield f"Failed: {message}"
     for scan in study.scans:
         for doubt in scan.doubts:
             yield f"{scan.file}: {doubt}"

@@ -64,8 +64,16 @@ def legend_on_top(figure, entries):
     """
     longest = max(len(label) for label in entries)
     columns = max(1, min(3, len(entries), int(figure.get_figwidth() / (0.067 * longest + 0.6))))
-    figure.legend(list(entries.values()), list(entries), loc="lower left", bbox_to_anchor=(0, 1), ncol=columns,
-                  columnspacing=1.4, borderaxespad=0.2, handlelength=2.2)
+    figure.legend(
+        list(entries.values()),
+        list(entries),
+        loc="lower left",
+        bbox_to_anchor=(0, 1),
+        ncol=columns,
+        columnspacing=1.4,
+        borderaxespad=0.2,
+        handlelength=2.2,
+    )
 
 
 def entries(axes):
@@ -85,14 +93,21 @@ def legend_above(axes, n_columns, handles=None):
     """A legend that cannot cover data."""
     handles = handles if handles is not None else axes.get_legend_handles_labels()[0]
     if handles:
-        axes.legend(handles=handles, loc="lower left", bbox_to_anchor=(0, 1.0), ncol=n_columns, borderaxespad=0.4,
-                    columnspacing=1.2, handlelength=1.8)
+        axes.legend(
+            handles=handles,
+            loc="lower left",
+            bbox_to_anchor=(0, 1.0),
+            ncol=n_columns,
+            borderaxespad=0.4,
+            columnspacing=1.2,
+            handlelength=1.8,
+        )
 
 
 def literal(text, longest=60):
     """A user's text without matplotlib reading $...$ as mathematics, cut where it would leave the page."""
     text = str(text)
-    text = text if len(text) <= longest else text[:longest - 1] + "\N{HORIZONTAL ELLIPSIS}"
+    text = text if len(text) <= longest else text[: longest - 1] + "\N{HORIZONTAL ELLIPSIS}"
     return text.replace("$", r"\$")
 
 

@@ -1,67 +1,38 @@
 """What the figures plot is what the study holds."""
 
-import csv
-import io
-import tempfile
 import unittest
-from argparse import Namespace
-from pathlib import Path
 
-import h5py
 import numpy as np
 
-import synthetic_study
+from study_case import StudyCase, draw, rows_of
 from synthetic_study import Recipe
-from tabor_report import build, errors, friction_series, style
+from synthetic_tables import average, measured
+from tabor_report import errors, friction_series, style
 from tabor_report.example import choose
 from tabor_report.figures import contact_area, dry_friction
-
-OPTIONS = Namespace(html=False, scan=None, all_scans=False, pressure=None, density=None, error_bar="std")
-
-
-def rows_of(text):
-    return list(csv.DictReader(io.StringIO(text)))
-
-
-class StudyCase(unittest.TestCase):
-    """Makes a study from a recipe and opens it."""
-
-    def study(self, recipe=Recipe(), change=None):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-        self.rows = synthetic_study.write(self.folder, recipe)
-        if change:
-            change(self.folder)
-        source = build.open_result(self.folder)
-        self.addCleanup(source.file.close)
-        style.apply()
-        return source
-
-    def drawn(self, source, **changes):
-        figures = {}
-        for drawn in build.study_figures(source, Namespace(**{**vars(OPTIONS), **changes})):
-            style.close(drawn.figure)
-            figures[drawn.name] = drawn
-        return figures
 
 
 class Friction(StudyCase):
     def test_plotted_means_and_bars_are_the_averages(self):
-        source = self.study()
-        averages = synthetic_study.average(self.rows)
-        plotted = rows_of(self.drawn(source)["fig09_lubricated_friction"].data[""])
+        source = self.default
+        averages = average(self.default_rows)
+        plotted = rows_of(self.default_figures["fig09_lubricated_friction"].data[""])
         for line in averages:
-            match = [row for row in plotted if row["series"] == "computed" and row["group"] == line["group"]
-                     and float(row["mean_pressure_Pa"]) == line["mean_pressure_Pa"]
-                     and float(row["lubricant_density_g_per_m2"]) == line["lubricant_density_g_per_m2"]]
+            match = [
+                row
+                for row in plotted
+                if row["series"] == "computed"
+                and row["group"] == line["group"]
+                and float(row["mean_pressure_Pa"]) == line["mean_pressure_Pa"]
+                and float(row["lubricant_density_g_per_m2"]) == line["lubricant_density_g_per_m2"]
+            ]
             self.assertEqual(len(match), 1)
             for column, key in (("friction", "mean"), ("std", "std"), ("sem", "sem")):
                 self.assertEqual(float(match[0][column]), line[f"friction_lubricated_{key}"])
             self.assertEqual(float(match[0]["n"]), 2)
 
     def test_the_drawn_curve_carries_the_means(self):
-        source = self.study()
+        source = self.default
         drawn = dry_friction.draw(source)
         series = friction_series.dry(source, "side A")
         curve = drawn.figure.axes[0].containers[0]
@@ -81,33 +52,54 @@ class Friction(StudyCase):
         style.close(drawn.figure)
 
     def test_experiment_points_are_plotted_as_measured(self):
-        source = self.study()
-        plotted = [row for row in rows_of(self.drawn(source)["fig06_dry_friction"].data[""]) if row["series"] == "experiment"]
-        self.assertEqual([float(row["friction"]) for row in plotted],
-                         [row["friction"] for row in synthetic_study.measured(Recipe())])
+        source = self.default
+        plotted = [
+            row
+            for row in rows_of(self.default_figures["fig06_dry_friction"].data[""])
+            if row["series"] == "experiment"
+        ]
+        self.assertEqual(
+            [float(row["friction"]) for row in plotted],
+            [row["friction"] for row in measured(Recipe())],
+        )
 
-    def test_a_mean_with_a_case_that_did_not_converge_is_marked(self):
+    def test_a_case_that_did_not_converge_is_drawn_by_itself_and_in_no_mean(self):
         source = self.study(Recipe(not_converged=((1, 2),)))
-        self.assertEqual(list(friction_series.dry(source, "side A").doubtful), [False, False, True, False])
-        self.assertFalse(friction_series.dry(source, "side B").doubtful.any())
-        self.assertIn("did not converge", self.drawn(source)["fig06_dry_friction"].caption)
+        series = friction_series.dry(source, "side A")
+        loose = [row["friction_dry"] for row in self.rows if not row["converged"]]
+        self.assertEqual((list(series.loose_pressure), list(series.loose_friction)), ([10e6], loose[:1]))
+        self.assertEqual(list(series.n), [2, 2, 1, 2])
+        self.assertEqual(len(friction_series.dry(source, "side B").loose_pressure), 0)
+        self.assertIn("did not converge", draw(source)["fig06_dry_friction"].caption)
 
     def test_the_saturated_limit_is_drawn_only_if_there_is_one(self):
-        self.assertAlmostEqual(dry_friction.limit(self.study()), 70 / 240)
+        self.assertAlmostEqual(dry_friction.limit(self.default), 70 / 240)
         self.assertIsNone(dry_friction.limit(self.study(Recipe(saturated=False))))
 
 
 class Area(StudyCase):
     def test_every_scan_and_pressure_appears_once_whatever_the_densities(self):
-        source = self.study()
-        plotted = rows_of(self.drawn(source)["fig10_contact_area"].data[""])
+        source = self.default
+        plotted = rows_of(self.default_figures["fig10_contact_area"].data[""])
         self.assertEqual(len(plotted), 4 * 4)
-        expected = {(row["scan"], row["mean_pressure_Pa"]): row["contact_area_fraction"] for row in self.rows}
-        self.assertEqual({(row["scan"], float(row["mean_pressure_Pa"])): float(row["contact_area_fraction"]) for row in plotted},
-                         expected)
+        expected = {
+            (row["scan"], row["mean_pressure_Pa"]): row["contact_area_fraction"] for row in self.default_rows
+        }
+        self.assertEqual(
+            {
+                (row["scan"], float(row["mean_pressure_Pa"])): float(row["contact_area_fraction"])
+                for row in plotted
+            },
+            expected,
+        )
 
     def test_the_mean_is_over_the_scans_at_that_pressure(self):
-        states = [{"pressure": 1.0, "area": 0.1}, {"pressure": 1.0, "area": 0.3}, {"pressure": 2.0, "area": 0.5}]
+        states = [
+            {"pressure": 1.0, "area": 0.1, "sure": True},
+            {"pressure": 1.0, "area": 0.3, "sure": True},
+            {"pressure": 2.0, "area": 0.5, "sure": True},
+            {"pressure": 2.0, "area": 0.9, "sure": False},
+        ]
         pressures, mean, n = contact_area.means(states)
         np.testing.assert_allclose(mean, [0.2, 0.5])
         self.assertEqual((list(pressures), list(n)), ([1.0, 2.0], [2, 1]))
@@ -115,72 +107,45 @@ class Area(StudyCase):
 
 class MapFigures(StudyCase):
     def test_a_study_draws_figures_3_to_10(self):
-        self.assertEqual([name[:5] for name in self.drawn(self.study())],
-                         ["fig03", "fig04", "fig05", "fig10", "fig06", "fig07", "fig08", "fig09"])
+        self.assertEqual(
+            [name[:5] for name in self.default_figures],
+            ["fig03", "fig04", "fig05", "fig10", "fig06", "fig07", "fig08", "fig09"],
+        )
 
     def test_the_contact_map_is_the_stored_state(self):
-        source = self.study()
+        source = self.default
         state = source.scans[0].contacts()[2].state()
-        text = self.drawn(source)["fig05_contact_map"].data[""].splitlines()
+        text = self.default_figures["fig05_contact_map"].data[""].splitlines()
         values = np.array([[float(cell) for cell in line.split(",")[1:]] for line in text[1:]])
         np.testing.assert_array_equal(values, state > 0)
 
     def test_dry_and_wet_clusters_add_up_to_the_contact(self):
-        source = self.study()
-        drawn = self.drawn(source)["fig08_contact_clusters"]
-        wet, dry = (np.array([[float(cell) for cell in line.split(",")[1:]] for line in drawn.data[key].splitlines()[1:]])
-                    for key in ("", "_dry"))
+        source = self.default
+        drawn = self.default_figures["fig08_contact_clusters"]
+        wet, dry = (
+            np.array(
+                [[float(cell) for cell in line.split(",")[1:]] for line in drawn.data[key].splitlines()[1:]]
+            )
+            for key in ("", "_dry")
+        )
         shown = choose(source.scans[0])
         np.testing.assert_array_equal(wet + dry, shown.window.of(shown.state) > 0)
 
     def test_the_section_lies_on_the_stored_maps(self):
-        source = self.study()
+        source = self.default
         shown = choose(source.scans[0])
-        rows = rows_of(self.drawn(source)["fig07_lubricant_map"].data[""])
+        rows = rows_of(self.default_figures["fig07_lubricant_map"].data[""])
         gaps = np.array([float(row["counterface_m"]) - float(row["solid_m"]) for row in rows])
-        stored = shown.gap[shown.row, shown.window.x0:shown.window.x1]
+        stored = shown.gap[shown.row, shown.window.x0 : shown.window.x1]
         np.testing.assert_allclose(gaps, stored, atol=1e-12)
 
     def test_the_wanted_state_and_every_scan_can_be_asked_for(self):
-        source = self.study()
-        self.assertIn("15 MPa", self.drawn(source, pressure=14e6)["fig05_contact_map"].caption)
-        self.assertIn("0.9 g/m²", self.drawn(source, density=1.0)["fig08_contact_clusters"].caption)
-        self.assertIn("fig05_contact_map_scan0003", self.drawn(source, all_scans=True))
+        source = self.default
+        self.assertIn("15 MPa", draw(source, pressure=14e6)["fig05_contact_map"].caption)
+        self.assertIn("0.9 g/m²", draw(source, density=1.0)["fig08_contact_clusters"].caption)
+        self.assertIn("fig05_contact_map_scan0003", draw(source, all_scans=True))
         with self.assertRaises(errors.InputError):
-            self.drawn(source, scan=4)
-
-
-class Damaged(StudyCase):
-    def test_a_missing_store_file_is_named_and_the_rest_is_drawn(self):
-        def lose(folder):
-            next((folder / "store").glob("film-*")).unlink()
-        source = self.study(Recipe(groups=("one",)), lose)
-        figures = self.drawn(source)
-        self.assertNotIn("fig08_contact_clusters", figures)
-        self.assertIn("fig05_contact_map", figures)
-        self.assertTrue(any("film-" in warning and "missing" in warning for warning in source.warnings))
-
-    def test_a_study_without_its_store_still_draws_its_tables(self):
-        def lose(folder):
-            for path in (folder / "store").iterdir():
-                path.unlink()
-        self.assertEqual(list(self.drawn(self.study(change=lose))),
-                         ["fig10_contact_area", "fig06_dry_friction", "fig09_lubricated_friction"])
-
-    def test_an_incomplete_study_says_how_much_is_there(self):
-        source = self.study(Recipe(missing_cases=((0, 0), (1, 3))))
-        self.assertTrue(any("28 of 32 cases" in warning for warning in source.warnings))
-        self.assertEqual(list(friction_series.dry(source, "side A").n), [1, 2, 2, 1])
-
-    def test_a_study_in_which_nothing_is_done_yet_is_no_error(self):
-        def empty(folder):
-            with h5py.File(folder / "results.h5", "a") as file:
-                for name in ("table", "averages"):
-                    for column in list(file[name]):
-                        values = file[name][column][:0]
-                        del file[name][column]
-                        file[name][column] = values
-        self.assertIn("fig04_psd", self.drawn(self.study(change=empty)))
+            draw(source, scan=4)
 
 
 if __name__ == "__main__":

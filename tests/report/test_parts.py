@@ -84,7 +84,11 @@ class Maps(unittest.TestCase):
 
 class Section(unittest.TestCase):
     def test_lines_are_solid_plus_film_and_solid_plus_gap(self):
-        height, film, gap = np.array([[1.0, 2.0, 3.0]]), np.array([[0.5, 0.0, 0.25]]), np.array([[2.0, 1.0, 0.0]])
+        height, film, gap = (
+            np.array([[1.0, 2.0, 3.0]]),
+            np.array([[0.5, 0.0, 0.25]]),
+            np.array([[2.0, 1.0, 0.0]]),
+        )
         lines = section.cut(0, (0, 3), 2.0, height, film, gap)
         np.testing.assert_array_equal(lines["x_m"], [1, 3, 5])
         np.testing.assert_array_equal(lines["liquid_level_m"], [1.5, np.nan, 3.25])
@@ -94,8 +98,13 @@ class Section(unittest.TestCase):
 class Spectra(unittest.TestCase):
     def test_spectra_on_one_grid_are_averaged_and_on_another_kept_apart(self):
         q, other = np.array([1.0, 2.0]), np.array([1.0, 3.0])
-        curves = psd.mean_by_grid([(q, np.array([2.0, 4.0]), 0.8), (other, np.array([9.0, 9.0]), 0.5),
-                                   (q, np.array([4.0, 8.0]), 0.6)])
+        curves = psd.mean_by_grid(
+            [
+                (q, np.array([2.0, 4.0]), 0.8),
+                (other, np.array([9.0, 9.0]), 0.5),
+                (q, np.array([4.0, 8.0]), 0.6),
+            ]
+        )
         self.assertEqual([curve[3] for curve in curves], [2, 1])
         np.testing.assert_array_equal(curves[0][1], [3, 6])
         self.assertAlmostEqual(curves[0][2], 0.7)

@@ -11,16 +11,28 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import synthetic_study
+from synthetic_single import write_single
 from synthetic_study import Recipe
 
 PACKAGE = Path(__file__).resolve().parents[2] / "python"
-ODD = Recipe(groups=("vor dem Gleiten – Ö/µ", "vor dem Gleiten – Ö/µ", "после <b>$x$</b>"), shape=(80, 96), pressures=(2e6, 8e6),
-             not_converged=((2, 0),), missing_cases=((1, 1),), doubts={0: "heights are quantised at 10 nm"})
+ODD = Recipe(
+    groups=("vor dem Gleiten – Ö/µ", "vor dem Gleiten – Ö/µ", "после <b>$x$</b>"),
+    shape=(80, 96),
+    pressures=(2e6, 8e6),
+    not_converged=((2, 0),),
+    missing_cases=((1, 1),),
+    doubts={0: "heights are quantised at 10 nm"},
+)
 
 
 def run(*arguments):
-    return subprocess.run([sys.executable, "-W", "error::UserWarning:matplotlib", "-m", "tabor_report", *map(str, arguments)], capture_output=True, text=True,
-                          env={**os.environ, "PYTHONPATH": str(PACKAGE), "PYTHONDONTWRITEBYTECODE": "1"}, timeout=240)
+    return subprocess.run(
+        [sys.executable, "-m", "tabor_report", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(PACKAGE), "PYTHONDONTWRITEBYTECODE": "1"},
+        timeout=240,
+    )
 
 
 class Links(HTMLParser):
@@ -55,7 +67,9 @@ class StudyReport(unittest.TestCase):
         cls.folder = Path(cls.temporary.name) / "study – Ö"
         synthetic_study.write(cls.folder, ODD)
         cls.done = run(cls.folder)
-        cls.page = (cls.folder / "report.html").read_text(encoding="utf-8") if cls.done.returncode == 0 else ""
+        cls.page = (
+            (cls.folder / "report.html").read_text(encoding="utf-8") if cls.done.returncode == 0 else ""
+        )
         cls.links = Links(cls.page)
         cls.text = " ".join(cls.links.words)
 
@@ -67,8 +81,16 @@ class StudyReport(unittest.TestCase):
         self.assertEqual((self.done.returncode, self.done.stderr), (0, ""))
 
     def test_every_figure_exists_as_png_svg_and_csv_and_is_listed(self):
-        names = ["fig03_topography", "fig04_psd", "fig05_contact_map", "fig06_dry_friction", "fig07_lubricant_map",
-                 "fig08_contact_clusters", "fig09_lubricated_friction", "fig10_contact_area"]
+        names = [
+            "fig03_topography",
+            "fig04_psd",
+            "fig05_contact_map",
+            "fig06_dry_friction",
+            "fig07_lubricant_map",
+            "fig08_contact_clusters",
+            "fig09_lubricated_friction",
+            "fig10_contact_area",
+        ]
         for name in names:
             for ending in ("png", "svg", "csv"):
                 path = self.folder / "figures" / f"{name}.{ending}"
@@ -91,7 +113,9 @@ class StudyReport(unittest.TestCase):
 
     def test_the_page_fetches_nothing(self):
         self.assertTrue(self.links.fetched)
-        self.assertTrue(all(source.startswith("data:image/") for source in self.links.fetched), self.links.fetched)
+        self.assertTrue(
+            all(source.startswith("data:image/") for source in self.links.fetched), self.links.fetched
+        )
         self.assertNotRegex(self.page, r"@import|url\(|<script|<link|<iframe")
 
     def test_every_entry_of_the_contents_leads_somewhere(self):
@@ -112,13 +136,25 @@ class StudyReport(unittest.TestCase):
         self.assertIn("heights are quantised at 10 nm", self.text)
 
     def test_the_page_names_scans_material_origin_and_sources(self):
-        for words in ("before_1.x3p", "lowpass=hann:512/L", "78.55 GPa", "240 MPa", "tabor sweep study.toml",
-                      "polonsky1999", "almqvist2007", "costagliola2022", "barnes2021", "@software{tabor"):
+        for words in (
+            "before_1.x3p",
+            "lowpass=hann:512/L",
+            "78.55 GPa",
+            "240 MPa",
+            "tabor sweep study.toml",
+            "polonsky1999",
+            "almqvist2007",
+            "costagliola2022",
+            "barnes2021",
+            "@software{tabor",
+        ):
             self.assertIn(words, self.text)
         self.assertRegex(self.text, r"SHA-256 [0-9a-f]{64}")
 
     def test_the_same_study_gives_the_same_bytes(self):
-        before = {path: path.read_bytes() for path in [*self.folder.glob("figures/*"), self.folder / "report.html"]}
+        before = {
+            path: path.read_bytes() for path in [*self.folder.glob("figures/*"), self.folder / "report.html"]
+        }
         self.assertEqual(run(self.folder).returncode, 0)
         self.assertEqual([path.name for path, data in before.items() if path.read_bytes() != data], [])
 
@@ -130,7 +166,9 @@ class SingleReport(unittest.TestCase):
         self.folder = Path(temporary.name)
 
     def report(self, **parts):
-        synthetic_study.write_single(self.folder / "one.h5", Recipe(shape=(70, 90), pressures=(5e6,), densities=(0.9,)), **parts)
+        write_single(
+            self.folder / "one.h5", Recipe(shape=(70, 90), pressures=(5e6,), densities=(0.9,)), **parts
+        )
         done = run(self.folder / "one.h5")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         names = {path.stem for path in (self.folder / "one_report" / "figures").glob("*.png")}
@@ -138,7 +176,13 @@ class SingleReport(unittest.TestCase):
 
     def test_a_friction_file_shows_every_map_it_holds(self):
         names, page = self.report()
-        self.assertEqual(names, {"topography", *(f"state0000_{what}" for what in ("pressure", "contact", "gap", "film", "section"))})
+        self.assertEqual(
+            names,
+            {
+                "topography",
+                *(f"state0000_{what}" for what in ("pressure", "contact", "gap", "film", "section")),
+            },
+        )
         self.assertIn("one.x3p", page)
         self.assertIn("contact area fraction", page)
 
@@ -147,14 +191,14 @@ class SingleReport(unittest.TestCase):
         self.assertEqual(names, {"topography", "state0000_film", "state0000_section"})
 
     def test_a_folder_that_cannot_be_written_ends_with_5(self):
-        synthetic_study.write_single(self.folder / "one.h5", Recipe(shape=(20, 20), pressures=(5e6,)))
+        write_single(self.folder / "one.h5", Recipe(shape=(20, 20), pressures=(5e6,)))
         (self.folder / "taken").write_text("a file where a folder should be")
         done = run(self.folder / "one.h5", "-o", self.folder / "taken")
         self.assertEqual(done.returncode, 5)
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
 
     def test_no_html_makes_figures_only(self):
-        synthetic_study.write_single(self.folder / "one.h5", Recipe(shape=(20, 20), pressures=(5e6,)), film=False)
+        write_single(self.folder / "one.h5", Recipe(shape=(20, 20), pressures=(5e6,)), film=False)
         self.assertEqual(run(self.folder / "one.h5", "--no-html").returncode, 0)
         self.assertFalse((self.folder / "one_report" / "report.html").exists())
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from tabor_report import style, units
 from tabor_report.figures import Drawn
+from tabor_report.friction_series import draw_loose, number_text
 from tabor_report.output import table_text
 from tabor_report.table import converged
 
@@ -24,15 +25,25 @@ def draw(study):
     axes.grid(color="0.92", linewidth=0.6)
     style.limits_from_zero(axes)
     style.legend_on_top(figure, style.entries(axes))
-    return Drawn("fig10_contact_area", "Real contact area against pressure", _caption(study), figure,
-                 {"": _csv(groups)})
+    return Drawn(
+        "fig10_contact_area",
+        "Real contact area against pressure",
+        _caption(study),
+        figure,
+        {"": _csv(groups)},
+    )
 
 
 def means(states):
-    """Pressures [Pa], mean area fraction over the scans, number of scans."""
+    """Pressures [Pa], mean area fraction over the scans, number of scans; of converged states only."""
+    states = [state for state in states if state["sure"]]
     pressures = np.array(sorted({state["pressure"] for state in states}))
     members = [[state["area"] for state in states if state["pressure"] == pressure] for pressure in pressures]
-    return pressures, np.array([np.mean(areas) for areas in members]), np.array([len(areas) for areas in members])
+    return (
+        pressures,
+        np.array([np.mean(areas) for areas in members]),
+        np.array([len(areas) for areas in members]),
+    )
 
 
 def _states(study, group):
@@ -45,50 +56,74 @@ def _states(study, group):
     for row, sure in zip(rows.rows(), converged(rows)):
         key = (row["scan"], float(row["mean_pressure_Pa"]))
         if np.isfinite(row["contact_area_fraction"]):
-            states[key] = {"scan": row["scan"], "group": group, "pressure": key[1],
-                           "area": float(row["contact_area_fraction"]), "sure": bool(sure)}
+            states[key] = {
+                "scan": row["scan"],
+                "group": group,
+                "pressure": key[1],
+                "area": float(row["contact_area_fraction"]),
+                "sure": bool(sure),
+            }
     return [states[key] for key in sorted(states)]
 
 
 def _draw_group(axes, group, states, look):
     pressures, mean, n = means(states)
-    number = f"n = {n.min()}" if n.min() == n.max() else f"n = {n.min()}\N{EN DASH}{n.max()}"
+    number = number_text(n)
     axes.plot(pressures * 1e-6, mean * 100, color=look["color"], linestyle=look["linestyle"])
     axes.plot([], [], **look, markersize=4.5, label=f"{style.literal(group) or 'mean'} ({number})")
-    axes.plot([state["pressure"] * 1e-6 for state in states], [state["area"] * 100 for state in states],
-              linestyle="none", marker=look["marker"], markersize=4.5, color=look["color"], alpha=0.75)
+    axes.plot(
+        [state["pressure"] * 1e-6 for state in states],
+        [state["area"] * 100 for state in states],
+        linestyle="none",
+        marker=look["marker"],
+        markersize=4.5,
+        color=look["color"],
+        alpha=0.75,
+    )
 
 
 def _draw_doubtful(axes, groups):
     loose = [state for _, states in groups for state in states if not state["sure"]]
-    if loose:
-        axes.plot([state["pressure"] * 1e-6 for state in loose], [state["area"] * 100 for state in loose],
-                  linestyle="none", marker="o", markersize=10, markeredgecolor=style.WARNING, markeredgewidth=1.4,
-                  markerfacecolor="none", label="did not converge")
+    pressures, areas = ([state[name] for state in loose] for name in ("pressure", "area"))
+    draw_loose(axes, np.array(pressures) * 1e-6, np.array(areas) * 100)
 
 
 def _draw_bound(axes, study):
     cap = study.saturation_pressure
     if cap:
         top = float(np.max(study.table["mean_pressure_Pa"]))
-        axes.plot([0, top * 1e-6], [0, top / cap * 100], color="0.35", linestyle=":",
-                  label=f"$P/p_{{sat}}$, $p_{{sat}}$ = {units.pressure(cap)}")
+        axes.plot(
+            [0, top * 1e-6],
+            [0, top / cap * 100],
+            color="0.35",
+            linestyle=":",
+            label=f"$P/p_{{sat}}$, $p_{{sat}}$ = {units.pressure(cap)}",
+        )
 
 
 def _caption(study):
-    text = ("Real contact area as a share of the apparent area (%) against the mean pressure P. Symbols: every scan; "
-            "lines: mean over the n scans of a group. ")
+    text = (
+        "Real contact area as a share of the apparent area (%) against the mean pressure P. Symbols: every scan; "
+        "lines: mean over the n scans of a group. "
+    )
     if study.saturation_pressure:
-        text += ("Dotted: P/p_sat, the smallest area that can carry P when no contact bears more than p_sat; no "
-                 "solution may lie below it. ")
+        text += (
+            "Dotted: P/p_sat, the smallest area that can carry P when no contact bears more than p_sat; no "
+            "solution may lie below it. "
+        )
     if study.table.not_converged():
-        text += "Ringed in red: did not converge. "
+        text += "Red rings: did not converge and count in no mean. "
     return text + f"Area counted: {study.facts.get('area', 'corrected')}."
 
 
 def _csv(groups):
     states = [state for _, members in groups for state in members]
-    return table_text({"scan": [state["scan"] for state in states], "group": [state["group"] for state in states],
-                       "mean_pressure_Pa": [state["pressure"] for state in states],
-                       "contact_area_fraction": [state["area"] for state in states],
-                       "converged": [state["sure"] for state in states]})
+    return table_text(
+        {
+            "scan": [state["scan"] for state in states],
+            "group": [state["group"] for state in states],
+            "mean_pressure_Pa": [state["pressure"] for state in states],
+            "contact_area_fraction": [state["area"] for state in states],
+            "converged": [state["sure"] for state in states],
+        }
+    )

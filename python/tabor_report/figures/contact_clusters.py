@@ -22,10 +22,21 @@ def draw(example, name="fig08_contact_clusters"):
     view.label(axes)
     map_axes.scale_bar(axes, view)
     axes.set_title(_title(view, example, touching, wet), pad=20)
-    style.legend_above(axes, 2, [Patch(color=style.DRY, label="dry contact"), Patch(color=style.WET, label="wet contact")])
-    data = {"": view.csv(wet_share, "wet_share_of_pixels"), "_dry": view.csv(dry_share, "dry_share_of_pixels")}
-    return Drawn(name + example.suffix, f"Contact clusters: {example.scan.file}", _caption(view, example), figure, data,
-                 is_map=True)
+    style.legend_above(
+        axes, 2, [Patch(color=style.DRY, label="dry contact"), Patch(color=style.WET, label="wet contact")]
+    )
+    data = {
+        "": view.csv(wet_share, "wet_share_of_pixels"),
+        "_dry": view.csv(dry_share, "dry_share_of_pixels"),
+    }
+    return Drawn(
+        name + example.suffix,
+        f"Contact clusters: {example.scan.file}",
+        _caption(view, example),
+        figure,
+        data,
+        is_map=True,
+    )
 
 
 def picture(dry_share, wet_share):
@@ -34,22 +45,28 @@ def picture(dry_share, wet_share):
     weight = np.divide(maps.ink(share), share, out=np.zeros_like(share), where=share > 0)
     dry, wet = (np.array(to_rgb(colour)) for colour in (style.DRY, style.WET))
     ground = 1 - (share * weight)[..., None]
-    return np.clip(ground + (dry_share * weight)[..., None] * dry + (wet_share * weight)[..., None] * wet, 0, 1)
+    return np.clip(
+        ground + (dry_share * weight)[..., None] * dry + (wet_share * weight)[..., None] * wet, 0, 1
+    )
 
 
 def _title(view, example, touching, wet):
     inside = np.count_nonzero(view.window.of(touching))
     share = np.count_nonzero(view.window.of(wet)) / inside if inside else 0.0
-    return (f"$P$ = {units.pressure(example.contact.pressure)}, {units.density(example.film.density)}: "
-            f"{share:.1%} of the contact here is wet")
+    return (
+        f"$P$ = {units.pressure(example.contact.pressure)}, {units.density(example.film.density)}: "
+        f"{share:.1%} of the contact here is wet"
+    )
 
 
 def _caption(view, example):
     touching = example.state > 0
     total = np.count_nonzero(touching)
     share = np.count_nonzero(touching & (example.thickness > 0)) / total if total else 0.0
-    return (f"Contact clusters of {example.scan.file} at {units.pressure(example.contact.pressure)} with "
-            f"{units.density(example.film.density)} of lubricant, in the window of the lubricant map: dry contact "
-            f"orange, contact that holds lubricant black. {map_axes.ink_note(view)}Over the whole scan {share:.2%} of the "
-            "contact is wet; the window was chosen for its wet contact and is not typical. "
-            "As Figure 8 of Costagliola et al.")
+    return (
+        f"Contact clusters of {example.scan.file} at {units.pressure(example.contact.pressure)} with "
+        f"{units.density(example.film.density)} of lubricant, in the window of the lubricant map: dry contact "
+        f"orange, contact that holds lubricant black. {map_axes.ink_note(view)}Over the whole scan {share:.2%} of the "
+        "contact is wet; the window was chosen for its wet contact and is not typical. "
+        "As Figure 8 of Costagliola et al."
+    )

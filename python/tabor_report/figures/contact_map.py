@@ -13,8 +13,14 @@ def draw(state, pixel, facts, scan_name, name="fig05_contact_map", suffix=""):
     share = map_axes.ink_map(axes[0][0], view, state > 0)
     map_axes.scale_bar(axes[0][0], view)
     axes[0][0].set_title(_title(state, facts))
-    return Drawn(name + suffix, f"Contact map: {scan_name}", _caption(view, facts, scan_name), figure,
-                 {"": view.csv(share, "contact_share")}, is_map=True)
+    return Drawn(
+        name + suffix,
+        f"Contact map: {scan_name}",
+        _caption(view, facts, scan_name),
+        figure,
+        {"": view.csv(share, "contact_share")},
+        is_map=True,
+    )
 
 
 def figure_height(view, width=4.8):
@@ -32,6 +38,8 @@ def _title(state, facts):
 
 def _caption(view, facts, scan_name):
     doubt = "" if facts.get("converged", True) else "This state did not converge. "
-    return (f"Real contact (black) of {scan_name} under the mean pressure "
-            f"{units.pressure(facts.get('mean_pressure_Pa'))}. {doubt}{map_axes.ink_note(view)}"
-            "The share in the title is counted over all pixels. As Figure 5 of Costagliola et al.")
+    return (
+        f"Real contact (black) of {scan_name} under the mean pressure "
+        f"{units.pressure(facts.get('mean_pressure_Pa'))}. {doubt}{map_axes.ink_note(view)}"
+        "The share in the title is counted over all pixels. As Figure 5 of Costagliola et al."
+    )

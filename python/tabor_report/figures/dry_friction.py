@@ -1,5 +1,7 @@
 """Dry friction against pressure, one curve per group (Figure 6 of the seed paper)."""
 
+import itertools
+
 import numpy as np
 
 from tabor_report import friction_series as series_of
@@ -9,8 +11,11 @@ from tabor_report.output import table_text
 
 
 def draw(study, error="std"):
-    curves = [series for series in (series_of.dry(study, group) for group in study.groups)
-              if np.isfinite(series.mean).any()]
+    curves = [
+        series
+        for series in (series_of.dry(study, group) for group in study.groups)
+        if np.isfinite(series.mean).any()
+    ]
     if not curves:
         return None
     figure, grid = style.new_figure(3.4, width=5.6)
@@ -25,8 +30,13 @@ def draw(study, error="std"):
     axes.grid(color="0.92", linewidth=0.6)
     style.limits_from_zero(axes)
     style.legend_on_top(figure, style.entries(axes))
-    return Drawn("fig06_dry_friction", "Dry friction against pressure", _caption(study, curves, error), figure,
-                 {"": table_text(series_of.csv_columns(study, curves))})
+    return Drawn(
+        "fig06_dry_friction",
+        "Dry friction against pressure",
+        _caption(study, curves, error),
+        figure,
+        {"": table_text(series_of.csv_columns(study, curves))},
+    )
 
 
 def limit(study):
@@ -38,31 +48,36 @@ def limit(study):
 def _draw_limit(axes, study):
     value = limit(study)
     if value is not None:
-        axes.axhline(value, color="0.45", linestyle=":", linewidth=1.0,
-                     label=f"all contact saturated, $\\tau_y/p_{{sat}}$ = {value:.3g}")
+        axes.axhline(
+            value,
+            color="0.45",
+            linestyle=":",
+            linewidth=1.0,
+            label=f"all contact saturated, $\\tau_y/p_{{sat}}$ = {value:.3g}",
+        )
 
 
 def _draw_experiment(axes, study):
-    points = study.experiment
-    densities = points.distinct("lubricant_density_g_per_m2") if points else []
-    looks = zip((None,) if not densities else densities, ("d", "p", "h", "*", "<", ">", "8") * 10)
-    for density, marker in looks:
-        chosen = series_of.experiment(study, density=density)
-        if chosen:
-            suffix = "" if density is None else f" {units.density(density)}"
-            series_of.draw_experiment(axes, chosen, color="0.1", marker=marker, label=f"experiment{suffix}")
+    for density, marker in zip(series_of.measured_densities(study), itertools.cycle("dph*<>8")):
+        points = series_of.experiment(study, density=density)
+        label = series_of.measured_label(density)
+        series_of.draw_experiment(axes, points, color="0.1", marker=marker, label=label)
 
 
 def _caption(study, curves, error):
     strength = units.pressure(study.facts.get("shear_strength_Pa"))
-    parts = [f"Dry friction coefficient μ = (A_real/A₀) τ_y/P (dimensionless) with shear strength τ_y = {strength}, "
-             "mean over the scans of a group against the mean pressure P. "]
+    parts = [
+        f"Dry friction coefficient μ = (A_real/A₀) τ_y/P (dimensionless) with shear strength τ_y = {strength}, "
+        "mean over the scans of a group against the mean pressure P. "
+    ]
     if any((series.n > 1).any() for series in curves):
-        parts.append(f"Error bars: {series_of.ERROR_NAMES[error]} over the n scans of the legend; no bar where n = 1. ")
+        parts.append(
+            f"Error bars: {series_of.ERROR_NAMES[error]} over the n scans of the legend; no bar where n = 1. "
+        )
     else:
         parts.append("One scan per group (n = 1), hence no error bars. ")
     if study.experiment:
         parts.append("Hollow symbols: measured, with the error given in the measurement file. ")
-    if any(series.doubtful.any() for series in curves):
-        parts.append("Red ring: at least one case behind the mean did not converge. ")
+    if any(len(series.loose_pressure) for series in curves):
+        parts.append("Red rings: single cases that did not converge; no mean holds them. ")
     return "".join(parts) + "As Figure 6 of Costagliola et al."

@@ -22,14 +22,21 @@ def draw(study, error="std"):
     figure, axes = _grid(len(panels))
     for panel, (group, curves) in zip(axes.ravel(), panels):
         _draw_panel(panel, study, group, curves, error)
-    for unused in axes.ravel()[len(panels):]:
+    for unused in axes.ravel()[len(panels) :]:
         unused.set_visible(False)
     _label(axes, len(panels))
     style.limits_from_zero(axes[0][0])
-    style.legend_on_top(figure, {label: handle for panel in axes.ravel() for label, handle in style.entries(panel).items()})
+    style.legend_on_top(
+        figure, {label: handle for panel in axes.ravel() for label, handle in style.entries(panel).items()}
+    )
     every = [series for group, curves in panels for series in (series_of.dry(study, group), *curves)]
-    return Drawn("fig09_lubricated_friction", "Lubricated friction against pressure",
-                 _caption(study, every, error), figure, {"": table_text(series_of.csv_columns(study, every))})
+    return Drawn(
+        "fig09_lubricated_friction",
+        "Lubricated friction against pressure",
+        _caption(study, every, error),
+        figure,
+        {"": table_text(series_of.csv_columns(study, every))},
+    )
 
 
 def _curves(study, group):
@@ -45,14 +52,24 @@ def _grid(n_panels):
 
 
 def _draw_panel(axes, study, group, curves, error):
-    series_of.draw(axes, series_of.dry(study, group), error, label="dry", color="0.35", marker="s", linestyle="--",
-                   markerfacecolor="white")
+    series_of.draw(
+        axes,
+        series_of.dry(study, group),
+        error,
+        label="dry",
+        color="0.35",
+        marker="s",
+        linestyle="--",
+        markerfacecolor="white",
+    )
     for series, look in zip(curves, _looks(study)):
         series_of.draw(axes, series, error, label=f"computed {units.density(series.density)}", **look)
     for density, look in zip(_measured_densities(study), _looks(study)):
         points = series_of.experiment(study, group, density)
         if points:
-            series_of.draw_experiment(axes, points, color=look["color"], marker="d", label=_measured_label(density))
+            series_of.draw_experiment(
+                axes, points, color=look["color"], marker="d", label=series_of.measured_label(density)
+            )
     axes.set_title("\n".join(textwrap.wrap(f"{style.literal(group)} ({curves[0].n_text})", TITLE_WIDTH)))
     axes.grid(color="0.92", linewidth=0.6)
 
@@ -63,17 +80,9 @@ def _looks(study):
 
 def _measured_densities(study):
     """Computed densities first, so that a measured one carries the colour of its computed curve."""
-    if not study.experiment:
-        return []
-    measured = study.experiment.distinct("lubricant_density_g_per_m2")
-    if not measured:
-        return [None]
     computed = series_of.densities(study)
+    measured = series_of.measured_densities(study)
     return computed + [density for density in measured if not np.isclose(density, computed, rtol=1e-9).any()]
-
-
-def _measured_label(density):
-    return "experiment" if density is None else f"experiment {units.density(density)}"
 
 
 def _label(axes, n_panels):
@@ -87,15 +96,19 @@ def _label(axes, n_panels):
 
 
 def _caption(study, curves, error):
-    parts = ["Friction coefficient μ = (A_real − A_lub)/A₀ · τ_y/P (dimensionless), in which contact pixels that hold "
-             "lubricant do not shear, mean over the scans of a group against the mean pressure P, for each areal "
-             "lubricant density; dashed: the same contacts dry. "]
+    parts = [
+        "Friction coefficient μ = (A_real − A_lub)/A₀ · τ_y/P (dimensionless), in which contact pixels that hold "
+        "lubricant do not shear, mean over the scans of a group against the mean pressure P, for each areal "
+        "lubricant density; dashed: the same contacts dry. "
+    ]
     if any((series.n > 1).any() for series in curves):
-        parts.append(f"Error bars: {series_of.ERROR_NAMES[error]} over the n scans in the panel's title; none where n = 1. ")
+        parts.append(
+            f"Error bars: {series_of.ERROR_NAMES[error]} over the n scans in the panel's title; none where n = 1. "
+        )
     else:
         parts.append("One scan per group (n = 1), hence no error bars. ")
     if study.experiment:
         parts.append("Hollow diamonds: measured, with the error given in the measurement file. ")
-    if any(series.doubtful.any() for series in curves):
-        parts.append("Red ring: at least one case behind the mean did not converge. ")
+    if any(len(series.loose_pressure) for series in curves):
+        parts.append("Red rings: single cases that did not converge; no mean holds them. ")
     return "".join(parts) + "As Figure 9 of Costagliola et al."

@@ -20,8 +20,9 @@ def draw(study):
         _draw_panel(panel, axis, curves[axis])
     axes[0][0].set_ylabel("$C^{1D}$ (µm³)")
     _legend(figure, axes[0], curves)
-    return Drawn("fig04_psd", "Power spectral density along x and y", _caption(study), figure,
-                 {"": _csv(curves)})
+    return Drawn(
+        "fig04_psd", "Power spectral density along x and y", _caption(study), figure, {"": _csv(curves)}
+    )
 
 
 def mean_by_grid(members):
@@ -32,8 +33,15 @@ def mean_by_grid(members):
     grids = {}
     for q, density, hurst in members:
         grids.setdefault(q.tobytes(), []).append((q, density, hurst))
-    return [(group[0][0], np.mean([item[1] for item in group], axis=0), _mean([item[2] for item in group]), len(group))
-            for group in grids.values()]
+    return [
+        (
+            group[0][0],
+            np.mean([item[1] for item in group], axis=0),
+            _mean([item[2] for item in group]),
+            len(group),
+        )
+        for group in grids.values()
+    ]
 
 
 def _curves(study, axis):
@@ -43,15 +51,25 @@ def _curves(study, axis):
         psd = scan.psd()
         if psd is not None:
             members.setdefault(scan.group, []).append(
-                (psd[f"{axis}_q_rad_per_m"][()], psd[f"{axis}_c1d_m3"][()], float(psd.attrs.get(f"hurst_{axis}", np.nan))))
+                (
+                    psd[f"{axis}_q_rad_per_m"][()],
+                    psd[f"{axis}_c1d_m3"][()],
+                    float(psd.attrs.get(f"hurst_{axis}", np.nan)),
+                )
+            )
     return [(group, *curve) for group, spectra in members.items() for curve in mean_by_grid(spectra)]
 
 
 def _draw_panel(axes, axis, curves):
     for (_, q, density, _, _), look in zip(curves, style.curve_styles()):
         shown = density > density.max() * FLOOR
-        axes.loglog(q[shown] * 1e-6, density[shown] * 1e18, color=look["color"], linestyle=look["linestyle"],
-                    linewidth=1.1)
+        axes.loglog(
+            q[shown] * 1e-6,
+            density[shown] * 1e18,
+            color=look["color"],
+            linestyle=look["linestyle"],
+            linewidth=1.1,
+        )
     if curves:
         _draw_slope(axes, curves)
     axes.set_xlabel(f"$q_{axis}$ (rad/µm)")
@@ -63,13 +81,23 @@ def _draw_slope(axes, curves):
     low, high = _slope_range(curves)
     q = np.array([low, high])
     exponent = -(1 + 2 * REFERENCE_HURST)
-    highest = max(np.max(density[inside] / grid[inside] ** exponent) for _, grid, density, _, _ in curves
-                  for inside in [(grid >= low) & (grid <= high)] if inside.any())
+    highest = max(
+        np.max(density[inside] / grid[inside] ** exponent)
+        for _, grid, density, _, _ in curves
+        for inside in [(grid >= low) & (grid <= high)]
+        if inside.any()
+    )
     line = 3 * highest * q**exponent
     axes.loglog(q * 1e-6, line * 1e18, color="0.25", linestyle=(0, (4, 3)), linewidth=1.1)
     middle = np.sqrt(low * high)
-    axes.annotate(f"$H$ = {REFERENCE_HURST}", (middle * 1e-6, 3 * highest * middle**exponent * 1e18), xytext=(6, 4),
-                  textcoords="offset points", fontsize=8, color="0.25")
+    axes.annotate(
+        f"$H$ = {REFERENCE_HURST}",
+        (middle * 1e-6, 3 * highest * middle**exponent * 1e18),
+        xytext=(6, 4),
+        textcoords="offset points",
+        fontsize=8,
+        color="0.25",
+    )
 
 
 def _slope_range(curves):
@@ -89,7 +117,9 @@ def _legend(figure, panels, curves):
 def _label(index, curves):
     found = {axis: of_axis[index] for axis, of_axis in curves.items() if index < len(of_axis)}
     group, _, _, _, n = next(iter(found.values()))
-    parts = [f"n = {n}"] + [f"$H_{axis}$ = {curve[3]:.2f}" for axis, curve in found.items() if np.isfinite(curve[3])]
+    parts = [f"n = {n}"] + [
+        f"$H_{axis}$ = {curve[3]:.2f}" for axis, curve in found.items() if np.isfinite(curve[3])
+    ]
     return f"{style.literal(group) or 'scans'} ({', '.join(parts)})"
 
 
@@ -102,11 +132,15 @@ def _caption(study):
     facts = next((dict(scan.psd().attrs) for scan in study.scans if scan.psd() is not None), {})
     convention, window = facts.get("convention", "jacobs"), facts.get("window", "")
     cut = f"Values below {units.number(FLOOR)} of the largest are left out. "
-    return ("One-dimensional power spectral densities of the treated scans against the angular wavevector q = 2π/λ, "
-            "along x (sliding direction, left) and y (right), averaged over the scans of a group. The dashed line has "
-            f"the slope −(1 + 2H) of a self-affine surface with Hurst exponent H = {REFERENCE_HURST}; the H in the "
-            f"legend is fitted to each scan and averaged. Convention: {convention}" + (f", window: {window}. " if window else ". ")
-            + cut + "As Figure 4 of Costagliola et al.")
+    return (
+        "One-dimensional power spectral densities of the treated scans against the angular wavevector q = 2π/λ, "
+        "along x (sliding direction, left) and y (right), averaged over the scans of a group. The dashed line has "
+        f"the slope −(1 + 2H) of a self-affine surface with Hurst exponent H = {REFERENCE_HURST}; the H in the "
+        f"legend is fitted to each scan and averaged. Convention: {convention}"
+        + (f", window: {window}. " if window else ". ")
+        + cut
+        + "As Figure 4 of Costagliola et al."
+    )
 
 
 def _csv(curves):

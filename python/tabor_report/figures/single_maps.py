@@ -9,8 +9,13 @@ from tabor_report.figures import Drawn, contact_map
 
 def draw(single, state):
     """All figures that the maps of this state allow."""
-    figures = [_pressure(single, state), _contact(single, state), _gap(single, state), _film(single, state),
-               _section(single, state)]
+    figures = [
+        _pressure(single, state),
+        _contact(single, state),
+        _gap(single, state),
+        _film(single, state),
+        _section(single, state),
+    ]
     return [figure for figure in figures if figure is not None]
 
 
@@ -24,8 +29,17 @@ def _pressure(single, state):
     pressure = state.map("pressure")
     if pressure is None:
         return None
-    return _map(single, state, "pressure", np.where(pressure > 0, pressure * 1e-6, np.nan), "pressure (MPa)",
-                map_axes.PRESSURE_COLOURS, "Contact pressure (MPa); white: no contact", "white", (0.0, None))
+    return _map(
+        single,
+        state,
+        "pressure",
+        np.where(pressure > 0, pressure * 1e-6, np.nan),
+        "pressure (MPa)",
+        map_axes.PRESSURE_COLOURS,
+        "Contact pressure (MPa); white: no contact",
+        "white",
+        (0.0, None),
+    )
 
 
 def _contact(single, state):
@@ -40,8 +54,17 @@ def _gap(single, state):
     if gap is None:
         return None
     factor, unit = map_axes.height_unit(gap)
-    return _map(single, state, "gap", gap * factor, f"gap ({unit})", map_axes.GAP_COLOURS,
-                f"Gap between the surfaces ({unit})", map_axes.HOLE, (0.0, None))
+    return _map(
+        single,
+        state,
+        "gap",
+        gap * factor,
+        f"gap ({unit})",
+        map_axes.GAP_COLOURS,
+        f"Gap between the surfaces ({unit})",
+        map_axes.HOLE,
+        (0.0, None),
+    )
 
 
 def _film(single, state):
@@ -49,8 +72,17 @@ def _film(single, state):
     if film is None:
         return None
     factor, unit = units.length_scale(max(float(np.nanmax(film)), 1e-9))
-    return _map(single, state, "film", np.where(film > 0, film * factor, np.nan), f"film thickness ({unit})",
-                map_axes.FILM_COLOURS, f"Lubricant thickness ({unit}); sand colour: dry", map_axes.DRY_GROUND, (0.0, None))
+    return _map(
+        single,
+        state,
+        "film",
+        np.where(film > 0, film * factor, np.nan),
+        f"film thickness ({unit})",
+        map_axes.FILM_COLOURS,
+        f"Lubricant thickness ({unit}); sand colour: dry",
+        map_axes.DRY_GROUND,
+        (0.0, None),
+    )
 
 
 def _map(single, state, what, values, axis_label, colours, text, ground, limits):
@@ -62,8 +94,14 @@ def _map(single, state, what, values, axis_label, colours, text, ground, limits)
     map_axes.colour_map(grid[0][0], view, shown, axis_label, colours, (low, high), ground)
     grid[0][0].set_title(label(state).replace("P =", "$P$ ="))
     caption = f"{text}, at {label(state)}. {view.note}Colours end at the 99.5th percentile of what is drawn."
-    return Drawn(f"state{state.key}_{what}", f"{what.capitalize()} map", caption, figure,
-                 {"": view.csv(shown, axis_label.replace("µ", "u"))}, is_map=True)
+    return Drawn(
+        f"state{state.key}_{what}",
+        f"{what.capitalize()} map",
+        caption,
+        figure,
+        {"": view.csv(shown, axis_label.replace("µ", "u"))},
+        is_map=True,
+    )
 
 
 def _section(single, state):
@@ -81,9 +119,11 @@ def _section(single, state):
     style.legend_above(grid[0][0], 3)
     stretch = section.exaggeration(grid[0][0], length, factor)
     where = units.number((row + 0.5) * single.pixel[1] * length)
-    caption = (f"Section along x at y = {where} {length_unit}, {label(state)}: solid (grey), lubricant before the "
-               "surfaces close (blue), counterface (red) as undeformed solid plus gap, whichever the file holds. "
-               f"Heights are stretched {units.number(stretch, 2)} times against lengths.")
+    caption = (
+        f"Section along x at y = {where} {length_unit}, {label(state)}: solid (grey), lubricant before the "
+        "surfaces close (blue), counterface (red) as undeformed solid plus gap, whichever the file holds. "
+        f"Heights are stretched {units.number(stretch, 2)} times against lengths."
+    )
     return Drawn(f"state{state.key}_section", "Section", caption, figure, {"": section.csv(lines)})
 
 

@@ -15,10 +15,18 @@ def draw(height, pixel, name, scan_name, suffix=""):
     figure, axes = style.new_figure(_height(view), width=6.0)
     map_axes.colour_map(axes[0][0], view, values, f"height about the mean ({unit})", map_axes.HEIGHT_COLOURS)
     axes[0][0].set_title(style.literal(scan_name))
-    caption = (f"Height of the treated scan {scan_name} about its mean ({unit}); x is the sliding direction, row 0 on "
-               f"top. {view.note}Colours span the 0.5th to 99.5th percentile of what is drawn; grey: missing pixels.")
-    return Drawn(name + suffix, f"Topography: {scan_name}", caption, figure,
-                 {"": view.csv(values, f"height_{_ascii(unit)}")}, is_map=True)
+    caption = (
+        f"Height of the treated scan {scan_name} about its mean ({unit}); x is the sliding direction, row 0 on "
+        f"top. {view.note}Colours span the 0.5th to 99.5th percentile of what is drawn; grey: missing pixels."
+    )
+    return Drawn(
+        name + suffix,
+        f"Topography: {scan_name}",
+        caption,
+        figure,
+        {"": view.csv(values, f"height_{_ascii(unit)}")},
+        is_map=True,
+    )
 
 
 def _height(view):

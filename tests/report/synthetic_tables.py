@@ -1,0 +1,66 @@
+"""Averages, invented measurements, and tables as CSV and HDF5 columns."""
+
+import csv
+
+import h5py
+import numpy as np
+
+
+def average(rows):
+    """averages.csv: mean, standard deviation (n - 1) and standard error over a group's converged scans."""
+    keys = list(
+        dict.fromkeys(
+            (row["group"], row["mean_pressure_Pa"], row["lubricant_density_g_per_m2"]) for row in rows
+        )
+    )
+    result = []
+    for group, pressure, density in keys:
+        members = [
+            row
+            for row in rows
+            if (row["group"], row["mean_pressure_Pa"], row["lubricant_density_g_per_m2"])
+            == (group, pressure, density)
+            and row["converged"]
+        ]
+        line = {
+            "group": group,
+            "mean_pressure_Pa": pressure,
+            "lubricant_density_g_per_m2": density,
+            "n": len(members),
+        }
+        for kind in ("friction_dry", "friction_lubricated"):
+            values = np.array([row[kind] for row in members])
+            spread = values.std(ddof=1) if len(values) > 1 else np.nan
+            line[f"{kind}_mean"] = values.mean() if len(values) else np.nan
+            line |= {f"{kind}_std": spread, f"{kind}_sem": spread / np.sqrt(max(1, len(values)))}
+        result.append(line)
+    return result
+
+
+def measured(recipe):
+    """Invented friction tests, falling with pressure."""
+    return [
+        {
+            "mean_pressure_Pa": pressure,
+            "friction": 0.24 - 0.05 * density - 4e-9 * pressure,
+            "error": 0.008,
+            "lubricant_density_g_per_m2": density,
+        }
+        for density in recipe.densities
+        for pressure in recipe.pressures
+    ]
+
+
+def write_columns(group, rows):
+    for name in rows[0] if rows else ():
+        values = [row[name] for row in rows]
+        group[name] = (
+            np.array(values, dtype=h5py.string_dtype()) if isinstance(values[0], str) else np.array(values)
+        )
+
+
+def write_csv(path, columns, rows):
+    with open(path, "w", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, columns)
+        writer.writeheader()
+        writer.writerows(rows)

@@ -1,0 +1,75 @@
+"""Studies that are damaged, incomplete or hardly begun."""
+
+import unittest
+
+import h5py
+
+from study_case import StudyCase, draw
+from synthetic_study import Recipe
+from tabor_report import friction_series, page_study
+
+
+class Damaged(StudyCase):
+    def test_a_missing_store_file_is_named_and_the_rest_is_drawn(self):
+        def lose(folder):
+            next((folder / "store").glob("film-*")).unlink()
+
+        source = self.study(Recipe(groups=("one",)), lose)
+        figures = draw(source)
+        self.assertNotIn("fig08_contact_clusters", figures)
+        self.assertIn("fig05_contact_map", figures)
+        self.assertTrue(any("film-" in warning and "missing" in warning for warning in source.warnings))
+
+    def test_a_study_without_its_store_still_draws_its_tables(self):
+        def lose(folder):
+            for path in (folder / "store").iterdir():
+                path.unlink()
+
+        self.assertEqual(
+            list(draw(self.study(change=lose))),
+            ["fig10_contact_area", "fig06_dry_friction", "fig09_lubricated_friction"],
+        )
+
+    def test_an_incomplete_study_says_how_much_is_there(self):
+        source = self.study(Recipe(missing_cases=((0, 0), (1, 3))))
+        self.assertTrue(any("28 of 32 cases" in warning for warning in source.warnings))
+        self.assertEqual(list(friction_series.dry(source, "side A").n), [1, 2, 2, 1])
+
+    def test_a_study_in_which_nothing_is_done_yet_is_no_error(self):
+        def empty(folder):
+            with h5py.File(folder / "results.h5", "a") as file:
+                for name in ("table", "averages"):
+                    for column in list(file[name]):
+                        values = file[name][column][:0]
+                        del file[name][column]
+                        file[name][column] = values
+
+        self.assertIn("fig04_psd", draw(self.study(change=empty)))
+
+    def test_a_scan_that_is_not_treated_yet_is_listed_without_maps(self):
+        def forget(folder):
+            with h5py.File(folder / "results.h5", "a") as file:
+                scan = file["scans/0000"]
+                for name in ("nx", "ny", "pixel_x_m", "pixel_y_m", "rms_height_m", "rms_slope", "treatment"):
+                    del scan.attrs[name]
+                for name in ("surface", "psd"):
+                    del scan[name]
+
+        source = self.study(Recipe(groups=("one", "two")), forget)
+        self.assertIn("before_2.x3p", draw(source)["fig05_contact_map"].title)
+        scans = page_study.sections(source)["scans"]
+        self.assertEqual(scans[0]["rows"], [("surface", "not treated yet")])
+        self.assertIn(("pixels", "128 × 96"), scans[1]["rows"])
+
+    def test_a_failed_case_is_named_with_its_message(self):
+        def fail(folder):
+            with h5py.File(folder / "results.h5", "a") as file:
+                n = len(file["table/case_id"])
+                file["table/error"] = ["the load cannot be carried"] + [""] * (n - 1)
+
+        source = self.study(Recipe(groups=("one",)), fail)
+        self.assertIn("Failed: the load cannot be carried", source.warnings)
+
+
+if __name__ == "__main__":
+    unittest.main()
