@@ -99,9 +99,9 @@ FitRange find_fit_range(const std::vector<double>& q, const std::vector<double>&
   });
   const double roll_off = peak == bins.end() ? q.front() : std::exp(peak->log_q);
   const double cut = find_cut(bins, offset, roll_off);
-  // At least half a decade is left, whatever the spectrum looks like.
   const double q_max = std::min(q.back() / 2, cut / 3);
-  return {std::min(2 * roll_off, q_max / 3), q_max};
+  // A narrow spectrum is fitted from nearer to its roll-off, never from below it.
+  return {std::min(2 * roll_off, std::max(roll_off, q_max / 3)), q_max};
 }
 
 }  // namespace tabor::topography

@@ -1,0 +1,137 @@
+#include <cstdlib>
+
+#include "topography/formats/sample.hpp"
+
+namespace tabor::topography {
+namespace {
+
+using test::Folder;
+
+std::string written_bytes(const Folder& folder, const std::string& extension) {
+  write(test::small_map(), folder / ("map" + extension));
+  return test::bytes_of(folder / ("map" + extension));
+}
+
+/// Complete options, so that every damaged file gets as far as its data.
+ReadOptions generous() {
+  ReadOptions options = test::micrometres();
+  options.override_unit = true;
+  return options;
+}
+
+/// No converter in these tests: what no reader recognises shall be refused at once.
+class WithoutPath {
+ public:
+  WithoutPath() : path_(std::getenv("PATH")) { ::setenv("PATH", "/nonexistent", 1); }
+  ~WithoutPath() { ::setenv("PATH", path_.c_str(), 1); }
+
+ private:
+  std::string path_;
+};
+
+class NoConverter : public ::testing::Test, WithoutPath {};
+class BinaryFile : public ::testing::TestWithParam<const char*>, WithoutPath {};
+class AnyFile : public ::testing::TestWithParam<const char*>, WithoutPath {};
+
+TEST_P(BinaryFile, TruncatedAnywhereIsRefused) {
+  const Folder folder;
+  const std::string bytes = written_bytes(folder, GetParam());
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    EXPECT_NE(test::refusal(folder, bytes.substr(0, size), generous()), "") << size;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, BinaryFile,
+                         ::testing::Values(".gwy", ".gsf", ".sdf", ".x3p", ".npy"),
+                         [](const auto& info) { return std::string(info.param).substr(1); });
+
+TEST_P(AnyFile, WithAFlippedBitIsReadOrRefusedButNeverBreaksTheProgram) {
+  const Folder folder;
+  const std::string bytes = written_bytes(folder, GetParam());
+  // Every bit of the headers, then a stride: data bits only change heights.
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); bit += bit < 8 * 512 ? 1 : 13) {
+    std::string flipped = bytes;
+    flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
+    EXPECT_NO_FATAL_FAILURE(test::refusal(folder, flipped, generous())) << bit;
+  }
+}
+
+TEST_P(AnyFile, TruncatedAnywhereNeverBreaksTheProgram) {
+  const Folder folder;
+  const std::string bytes = written_bytes(folder, GetParam());
+  for (std::size_t size = 0; size < bytes.size(); size += 7) {
+    EXPECT_NO_FATAL_FAILURE(test::refusal(folder, bytes.substr(0, size), generous()));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, AnyFile,
+                         ::testing::Values(".gwy", ".gsf", ".sdf", ".asdf", ".x3p", ".npy", ".txt",
+                                           ".xyz"),
+                         [](const auto& info) { return std::string(info.param).substr(1); });
+
+TEST_F(NoConverter, Hdf5TruncatedIsRefused) {
+  const Folder folder;
+  const std::string bytes = written_bytes(folder, ".h5");
+  for (std::size_t size = 0; size < bytes.size(); size += bytes.size() / 40) {
+    EXPECT_NE(test::refusal(folder, bytes.substr(0, size)), "") << size;
+  }
+}
+
+TEST_F(NoConverter, AbsurdSizesInHeadersAreRefusedBeforeAllocating) {
+  const Folder folder;
+  std::string gsf = written_bytes(folder, ".gsf");
+  gsf.replace(gsf.find("XRes = 5"), 8, "XRes = 2000000000");
+  EXPECT_NE(test::refusal(folder, gsf).find("as its header says"), std::string::npos);
+  std::string npy = written_bytes(folder, ".npy");
+  npy.replace(npy.find("(4, 5), }"), 23, "(4000000000, 500000), }");
+  EXPECT_NE(test::refusal(folder, npy, generous()).find("as its header says"), std::string::npos);
+  std::string sdf = written_bytes(folder, ".sdf");
+  sdf.replace(42, 4, "\xff\xff\xff\xff");
+  EXPECT_NE(test::refusal(folder, sdf).find("65535 x 65535"), std::string::npos);
+  std::string zero = written_bytes(folder, ".sdf");
+  zero.replace(42, 2, std::string(2, '\0'));
+  EXPECT_NE(test::refusal(folder, zero).find("at least 1 x 1"), std::string::npos);
+}
+
+TEST_F(NoConverter, NegativePixelsAreRefused) {
+  const Folder folder;
+  std::string sdf = written_bytes(folder, ".sdf");
+  const double pixel = -1e-6;
+  std::memcpy(sdf.data() + 46, &pixel, sizeof pixel);
+  EXPECT_NE(test::refusal(folder, sdf).find("positive length"), std::string::npos);
+}
+
+TEST_F(NoConverter, AMapOfHolesIsRefused) {
+  const Folder folder;
+  Topography map = test::small_map();
+  map.height.setConstant(test::kNaN);
+  write(map, folder / "map.x3p");
+  EXPECT_NE(test::refusal(folder / "map.x3p").find("no valid height"), std::string::npos);
+}
+
+TEST_F(NoConverter, WhatIsNoScanIsRefusedWithTheLineThatInstallsGwyddion) {
+  const Folder folder;
+  const std::string message = test::refusal(folder, std::string("\x01\x02\x03", 3));
+  EXPECT_NE(message.find("sudo apt install gwyddion"), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos);
+  EXPECT_NE(test::refusal(folder, "").find("empty"), std::string::npos);
+  EXPECT_NE(test::refusal(folder / "absent.x3p").find("no such file"), std::string::npos);
+  EXPECT_NE(test::refusal(folder.path()).find("folder"), std::string::npos);
+}
+
+TEST_F(NoConverter, DeeplyNestedGwyObjectsAreRefused) {
+  const Folder folder;
+  std::string object;
+  for (int depth = 0; depth < 2000; ++depth) {
+    test::ByteFile outer;
+    outer.text(0, std::string("A\0", 2)).append(static_cast<std::uint32_t>(object.size()));
+    const std::string inner = outer.bytes() + object;
+    object = std::string("k\0o", 3) + inner;
+  }
+  test::ByteFile root;
+  root.text(0, std::string("GWYPG\0", 6)).append(static_cast<std::uint32_t>(object.size()));
+  EXPECT_NE(test::refusal(folder, root.bytes() + object).find("nested"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tabor::topography

@@ -1,0 +1,154 @@
+#include "tabor/io/zip.hpp"
+#include "topography/formats/sample.hpp"
+
+namespace tabor::topography {
+namespace {
+
+using test::Folder;
+
+struct Parts {
+  std::string feature = "SUR";
+  std::string y_type = "I";
+  std::string z_type = "D";
+  std::string z_scale;
+  std::string size = "<SizeX>2</SizeX><SizeY>2</SizeY><SizeZ>1</SizeZ>";
+  std::string data = "<DataLink><PointDataLink>bindata\\data.bin</PointDataLink></DataLink>";
+};
+
+std::string xml(const Parts& parts) {
+  const auto axis = [](const std::string& name, const std::string& type, const std::string& data,
+                       const std::string& rest) {
+    return "<" + name + "><AxisType>" + type + "</AxisType><DataType>" + data + "</DataType>" +
+           rest + "</" + name + ">";
+  };
+  return "<?xml version=\"1.0\"?><p:ISO5436_2 xmlns:p=\"http://www.opengps.eu/2008/ISO5436_2\">"
+         "<Record1><Revision>ISO5436 – 2000</Revision><FeatureType>" +
+         parts.feature + "</FeatureType><Axes>" +
+         axis("CX", "I", "D", "<Increment>1e-6</Increment>") +
+         axis("CY", parts.y_type, "D", "<Increment>2e-6</Increment><Offset/>") +
+         axis("CZ", "A", parts.z_type, parts.z_scale) +
+         "</Axes></Record1><Record3><MatrixDimension>" + parts.size + "</MatrixDimension>" +
+         parts.data + "</Record3></p:ISO5436_2>";
+}
+
+template <typename T>
+std::string binary(std::initializer_list<T> values) {
+  test::ByteFile bytes;
+  for (const T value : values) bytes.append(value);
+  return bytes.bytes();
+}
+
+std::string archive(const Parts& parts, const std::string& data, const std::string& folder = "") {
+  return io::zip({{"__MACOSX/main.xml", "junk"},
+                  {folder + "main.xml", xml(parts)},
+                  {folder + "bindata/data.bin", data}});
+}
+
+Field square(double a, double b, double c, double d) {
+  Field field(2, 2);
+  field << a, b, c, d;
+  return field;
+}
+
+TEST(X3p, ToleratesTopFoldersBackSlashesAndEmptyOffsets) {
+  const Folder folder;
+  const Topography map =
+      test::read_bytes(folder, archive({}, binary({1.0, 2.0, test::kNaN, 4.0}), "scan/"));
+  EXPECT_TRUE(test::same_bits(map.height, square(1, 2, test::kNaN, 4)));
+  EXPECT_NEAR(map.grid.dy(), 2e-6, 1e-18);
+}
+
+TEST(X3p, IntegersAreSignedAndScaledByTheIncrement) {
+  const Folder folder;
+  Parts parts;
+  parts.z_type = "I";
+  parts.z_scale = "<Increment>0.5</Increment><Offset>10</Offset>";
+  const Topography map =
+      test::read_bytes(folder, archive(parts, binary<std::int16_t>({-2, 0, 2, 4})));
+  EXPECT_TRUE(test::same_bits(map.height, square(9, 10, 11, 12)));
+}
+
+TEST(X3p, ListedHeightsTakeTheLastCoordinateAndEmptyOnesAreHoles) {
+  const Folder folder;
+  Parts parts;
+  parts.data =
+      "<DataList><Datum>1</Datum><Datum>0;1;2</Datum><Datum/><Datum>4e0</Datum></DataList>";
+  EXPECT_TRUE(test::same_bits(test::read_bytes(folder, archive(parts, "")).height,
+                              square(1, 2, test::kNaN, 4)));
+}
+
+TEST(X3p, LayersAreChannels) {
+  const Folder folder;
+  Parts parts;
+  parts.size = "<SizeX>2</SizeX><SizeY>1</SizeY><SizeZ>2</SizeZ>";
+  const std::string bytes = archive(parts, binary({1.0, 2.0, 3.0, 4.0}));
+  EXPECT_NE(test::refusal(folder, bytes).find("--channel"), std::string::npos);
+  ReadOptions options;
+  options.channel = "layer 1";
+  EXPECT_EQ(test::read_bytes(folder, bytes, options).height(0, 0), 3);
+}
+
+TEST(X3p, PointCloudsAndIrregularAxesAreRefusedWithTheReason) {
+  const Folder folder;
+  Parts cloud;
+  cloud.feature = "PCL";
+  EXPECT_NE(test::refusal(folder, archive(cloud, "")).find("point cloud"), std::string::npos);
+  Parts irregular;
+  irregular.y_type = "A";
+  EXPECT_NE(test::refusal(folder, archive(irregular, "")).find("evenly spaced"), std::string::npos);
+}
+
+TEST(X3p, SizesThatContradictTheDataAreRefusedBeforeAllocating) {
+  const Folder folder;
+  const std::string data = binary({1.0, 2.0, 3.0, 4.0});
+  Parts larger;
+  larger.size = "<SizeX>3</SizeX><SizeY>2</SizeY>";
+  EXPECT_NE(test::refusal(folder, archive(larger, data)).find("48 bytes as main.xml says"),
+            std::string::npos);
+  for (const char* size :
+       {"<SizeX>1000000000</SizeX><SizeY>1000000000</SizeY>", "<SizeX>0</SizeX><SizeY>2</SizeY>",
+        "<SizeX>-2</SizeX><SizeY>-2</SizeY>", "<SizeX>nan</SizeX><SizeY>2</SizeY>",
+        "<SizeX>1e300</SizeX><SizeY>1e300</SizeY>"}) {
+    Parts absurd;
+    absurd.size = size;
+    EXPECT_NE(test::refusal(folder, archive(absurd, data)), "") << size;
+  }
+}
+
+TEST(X3p, ZipWithoutMainXmlIsRefusedByName) {
+  const Folder folder;
+  const std::string message = test::refusal(folder, io::zip({{"readme.txt", "hello"}}));
+  EXPECT_NE(message.find("without main.xml"), std::string::npos) << message;
+}
+
+TEST(X3p, ZipBombIsRefusedWithoutUnpackingIt) {
+  const Folder folder;
+  const std::string zeros(std::size_t{256} << 20, '\0');
+  const std::string bomb = io::zip({{"main.xml", zeros}});
+  EXPECT_LT(bomb.size(), 1u << 20);
+  EXPECT_NE(test::refusal(folder, bomb).find("at most"), std::string::npos);
+  EXPECT_NE(test::refusal(folder, io::zip({{"main.xml", xml({})}, {"bindata/data.bin", zeros}}))
+                .find("32 bytes as main.xml says"),
+            std::string::npos);
+}
+
+TEST(X3p, BrokenXmlIsRefused) {
+  const Folder folder;
+  EXPECT_NE(test::refusal(folder, io::zip({{"main.xml", "<a><b></a>"}})).find("XML"),
+            std::string::npos);
+  EXPECT_NE(test::refusal(folder, io::zip({{"main.xml", "<a/>"}})), "");
+}
+
+TEST(X3p, ChangedDataAreDoubted) {
+  const Folder folder;
+  Parts parts;
+  parts.data =
+      "<DataLink><PointDataLink>bindata/data.bin</PointDataLink>"
+      "<MD5ChecksumPointData>00000000000000000000000000000000</MD5ChecksumPointData></DataLink>";
+  const Topography map = test::read_bytes(folder, archive(parts, binary({1.0, 2.0, 3.0, 4.0})));
+  ASSERT_FALSE(map.doubts.empty());
+  EXPECT_NE(map.doubts.front().find("MD5"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace tabor::topography
