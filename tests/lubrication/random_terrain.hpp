@@ -36,7 +36,7 @@ inline RandomCase random_case(std::uint64_t number, Pixel largest_side) {
   const Height droplets[] = {1, 2, 3, 7, 1 + range / 6, 2 * range};
   result.droplet = droplets[below(6)];
   result.seed = number;
-  result.n_droplets = 1 + below(60);
+  result.n_droplets = 1 + below(30 + 2 * result.terrain.size());
   result.terrain.height.resize(static_cast<std::size_t>(result.terrain.size()));
   for (Height& height : result.terrain.height) {
     height = below(n_heights) * step;

@@ -66,6 +66,7 @@ class Deposition {
     const Ties ties = dose_.model == Model::droplets ? Ties::connected : Ties::ordered;
     report_progress(observer, "pools", 0);
     Pools pools(terrain_, ties);
+    terrain_.height = {};
     const auto reached = [&](std::size_t i, const RainState& state) { emit(i, state, pools); };
     if (dose_.model == Model::droplets) {
       rain_droplets(pools, droplet(), dose_.reading, dose_.seed, doses(terrain_.size()), reached,

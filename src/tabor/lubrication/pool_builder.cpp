@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "tabor/lubrication/large_pages.hpp"
+
 namespace tabor::lubrication {
 namespace {
 
@@ -28,13 +30,17 @@ void radix_pass(const std::vector<std::uint64_t>& keys, std::vector<std::uint64_
 
 std::vector<Pixel> ascending_pixels(const Terrain& terrain) {
   const auto n = static_cast<std::size_t>(terrain.size());
-  std::vector<std::uint64_t> keys(n);
+  std::vector<std::uint64_t> keys;
+  reserve_large_pages(keys, n);
+  keys.resize(n);
   for (std::size_t p = 0; p < n; ++p) {
     const auto unsigned_height = static_cast<std::uint32_t>(terrain.height[p]) ^ 0x80000000U;
     keys[p] = (std::uint64_t{unsigned_height} << 32) | p;
   }
   {
-    std::vector<std::uint64_t> sorted(n);
+    std::vector<std::uint64_t> sorted;
+    reserve_large_pages(sorted, n);
+    sorted.resize(n);
     for (const int shift : {32, 43, 54}) {  // pixel numbers, the low half, are in order already
       radix_pass(keys, sorted, shift);
       keys.swap(sorted);
@@ -49,7 +55,11 @@ std::vector<Pixel> ascending_pixels(const Terrain& terrain) {
 void PoolBuilder::build() {
   const Terrain& terrain = to_.terrain();
   std::vector<Pixel> ascending = ascending_pixels(terrain);
-  to_.home_.assign(ascending.size(), kNoPool);
+  reserve_large_pages(to_.sites_, ascending.size());
+  to_.sites_.resize(ascending.size());
+  for (std::size_t p = 0; p < ascending.size(); ++p) {
+    to_.sites_[p].height = terrain.height[p];
+  }
   if (terrain.edge == Edge::open) {
     pool(new_pool(kDry)).area = 1;  // of the ocean: a droplet raises it by its own volume
   }
@@ -65,6 +75,7 @@ void PoolBuilder::build() {
   }
   to_.last_ = grown(home(0));
   forget_absorbed();
+  number_by_place();
   group_by_home(ascending);
   start_leaves();
 }
@@ -150,9 +161,40 @@ void PoolBuilder::forget_absorbed() {
   }
 }
 
+/// Numbers pools in the order in which a walk along the rows meets them, so that pools of
+/// neighbouring pixels are neighbours in memory; absorbed pools, which no pixel belongs to, vanish.
+void PoolBuilder::number_by_place() {
+  std::vector<PoolId> number(to_.pools_.size(), kNoPool);
+  PoolId count = 0;
+  if (to_.terrain().edge == Edge::open) {
+    number[kOcean] = count++;
+  }
+  for (auto& site : to_.sites_) {
+    PoolId& renamed = number[static_cast<std::size_t>(site.home)];
+    if (renamed == kNoPool) {
+      renamed = count++;
+    }
+    site.home = renamed;
+  }
+  std::vector<Pool> pools;
+  reserve_large_pages(pools, static_cast<std::size_t>(count));
+  pools.resize(static_cast<std::size_t>(count));
+  for (std::size_t id = 0; id < number.size(); ++id) {
+    if (number[id] != kNoPool) {
+      Pool& renamed = pools[static_cast<std::size_t>(number[id])];
+      renamed = to_.pools_[id];
+      if (renamed.parent != kNoPool) {
+        renamed.parent = number[static_cast<std::size_t>(renamed.parent)];
+      }
+    }
+  }
+  to_.last_ = number[static_cast<std::size_t>(to_.last_)];
+  to_.pools_ = std::move(pools);
+}
+
 void PoolBuilder::group_by_home(const std::vector<Pixel>& ascending) {
-  for (const PoolId id : to_.home_) {
-    ++pool(id).next;
+  for (const auto& site : to_.sites_) {
+    ++pool(site.home).next;
   }
   std::int32_t begin = 0;
   for (Pool& each : to_.pools_) {
@@ -160,6 +202,7 @@ void PoolBuilder::group_by_home(const std::vector<Pixel>& ascending) {
     each.next = begin;
     begin += size;
   }
+  reserve_large_pages(to_.order_, ascending.size());
   to_.order_.resize(ascending.size());
   for (const Pixel p : ascending) {
     to_.order_[static_cast<std::size_t>(pool(home(p)).next++)] = p;

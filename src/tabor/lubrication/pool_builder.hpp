@@ -27,9 +27,10 @@ class PoolBuilder {
   void settle_homes(Group group);
   void group_by_home(const std::vector<Pixel>& ascending);
   void forget_absorbed();
+  void number_by_place();
   void start_leaves();
   Pool& pool(PoolId id) { return to_.pools_[static_cast<std::size_t>(id)]; }
-  PoolId& home(Pixel p) { return to_.home_[static_cast<std::size_t>(p)]; }
+  PoolId& home(Pixel p) { return to_.sites_[static_cast<std::size_t>(p)].home; }
 
   Pools& to_;
   Ties ties_;

@@ -38,13 +38,14 @@ struct Pool {
 /// Steps of the liquid are whole numbers: what is poured in is exactly what is there.
 class Pools {
  public:
+  /// `terrain` must outlive the pools, but its heights are copied and may be released.
   Pools(const Terrain& terrain, Ties ties);
 
   const Terrain& terrain() const { return *terrain_; }
   std::size_t count() const { return pools_.size(); }
   const Pool& operator[](PoolId id) const { return pools_[static_cast<std::size_t>(id)]; }
-  PoolId home(Pixel p) const { return home_[static_cast<std::size_t>(p)]; }  ///< smallest pool of p
-  Height height(Pixel p) const { return terrain_->height[static_cast<std::size_t>(p)]; }
+  PoolId home(Pixel p) const { return sites_[static_cast<std::size_t>(p)].home; }
+  Height height(Pixel p) const { return sites_[static_cast<std::size_t>(p)].height; }
 
   /// The pool whose liquid that of `id` is now part of; `id` itself while it is not active.
   PoolId owner(PoolId id) {
@@ -83,6 +84,12 @@ class Pools {
  private:
   friend class PoolBuilder;
 
+  /// Kept together because they are read together, in no order a cache could guess.
+  struct Site {
+    Height height = 0;
+    PoolId home = kNoPool;  ///< the smallest pool the pixel can ever be part of
+  };
+
   PoolId step_up(PoolId id) const {
     const Pool& pool = (*this)[id];
     if (pool.owner != id || !pool.full() || pool.parent == kNoPool) {
@@ -98,7 +105,7 @@ class Pools {
   Ties ties_;
   PoolId last_ = kNoPool;  ///< the one that holds all others
   std::vector<Pool> pools_;
-  std::vector<PoolId> home_;
+  std::vector<Site> sites_;
   std::vector<Pixel> order_;  ///< pixels grouped by home, ascending in height within each
   Volume beyond_ = 0;
 };

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "tabor/lubrication/large_pages.hpp"
+
 namespace tabor::lubrication {
 namespace {
 
@@ -33,8 +35,11 @@ std::int32_t place_of(Pixel p, std::span<const Pixel> sorted) {
 
 }  // namespace
 
-Router::Router(Pools& pools)
-    : pools_(pools), ways_(static_cast<std::size_t>(pools.terrain().size())) {}
+Router::Router(Pools& pools) : pools_(pools) {
+  const auto n = static_cast<std::size_t>(pools.terrain().size());
+  reserve_large_pages(ways_, n);
+  ways_.resize(n);
+}
 
 void Router::Choice::consider(const Candidate& candidate) {
   const bool same_pool = candidate.wet_by != kNoPool && candidate.wet_by == best.wet_by;
@@ -79,6 +84,17 @@ Router::Choice Router::choose(Pixel p) {
   return choice;
 }
 
+PoolId Router::from_pixel(Pixel start) {
+  const Way& way = ways_[static_cast<std::size_t>(start)];
+  if (is_pool(way.target)) {
+    const PoolId pool = pools_.owner(way.target);
+    if (pools_[pool].level < way.bound && !pools_[pool].full()) {
+      return pool;
+    }
+  }
+  return follow(toward(start));
+}
+
 PoolId Router::follow(Target at) {
   trail_.clear();
   plateau_.clear();
@@ -99,13 +115,14 @@ PoolId Router::follow(Target at) {
       continue;
     }
     const Pixel p = ~at;
-    const Way way =
-        valid(ways_[static_cast<std::size_t>(p)]) ? ways_[static_cast<std::size_t>(p)] : step(p);
+    const bool known = valid(ways_[static_cast<std::size_t>(p)]);
+    const Way way = known ? ways_[static_cast<std::size_t>(p)] : step(p);
     if (way.target == at) {  // stationary on a saddle of equal heights: the way is cut here
       record(at);
       at = drain_of_saddle(pools_.home(p), kNoPool, p);
     } else {
-      trail_.push_back({p, way.bound, plateau_.size()});
+      const bool doubtful = !known && way.bound < kNoRim;
+      trail_.push_back({p, way.bound, plateau_.size(), doubtful});
       at = way.target;
     }
   }
@@ -206,15 +223,61 @@ Router::Saddle Router::find_regions(PoolId above) {
 void Router::record(Target target) {
   Height bound = kNoRim;
   for (std::size_t i = trail_.size(); i-- > 0;) {
-    bound = std::min(bound, trail_[i].bound);
+    const Step& step = trail_[i];
+    if (step.doubtful && is_pool(target)) {
+      bound = std::min(bound, std::max(step.bound, bound_of_agreement(step.pixel, target, bound)));
+    } else {
+      bound = std::min(bound, step.bound);
+    }
     const Way way{target, bound};
-    ways_[static_cast<std::size_t>(trail_[i].pixel)] = way;
-    for (std::size_t j = i == 0 ? 0 : trail_[i - 1].plateau_end; j < trail_[i].plateau_end; ++j) {
+    ways_[static_cast<std::size_t>(step.pixel)] = way;
+    for (std::size_t j = i == 0 ? 0 : trail_[i - 1].plateau_end; j < step.plateau_end; ++j) {
       ways_[static_cast<std::size_t>(plateau_[j])] = way;
     }
   }
   trail_.clear();
   plateau_.clear();
+}
+
+/// Where all lower neighbours of p are known to lead to the same pool, p does not care which of
+/// them it prefers: the lowest of their bounds; kDry if they disagree, or are not known, or if p
+/// has none because it lies on a plateau.
+Height Router::bound_of_agreement(Pixel p, PoolId end, Height way_bound) {
+  Height bound = way_bound;
+  bool any = false;
+  bool agree = true;
+  const Height height = pools_.height(p);
+  for_each_neighbour(pools_.terrain(), p, [&](Pixel q) {
+    if (agree && candidate(q).height < height) {
+      any = true;
+      agree = known_end(q, bound) == end;
+    }
+  });
+  return any && agree ? bound : kDry;
+}
+
+/// The pool that is not full which p is known to lead to, lowering `bound` by what that needs.
+PoolId Router::known_end(Pixel p, Height& bound) {
+  constexpr int most_hops = 8;  // an answer not worth more than that
+  for (int hop = 0; hop < most_hops && p != kOutside; ++hop) {
+    const Candidate here = candidate(p);
+    const Way way =
+        here.wet_by != kNoPool ? Way{here.wet_by, kNoRim} : ways_[static_cast<std::size_t>(p)];
+    if (!is_pool(way.target) || !valid(way)) {
+      return kNoPool;
+    }
+    bound = std::min(bound, way.bound);
+    const PoolId pool = pools_.owner(way.target);
+    if (!pools_[pool].full()) {
+      return pool;
+    }
+    const auto saddle = pools_.saddle(pool);
+    if (saddle.size() > 1) {
+      return kNoPool;
+    }
+    p = saddle.front();
+  }
+  return kNoPool;
 }
 
 }  // namespace tabor::lubrication

@@ -20,7 +20,7 @@ class Router {
  public:
   explicit Router(Pools& pools);
 
-  PoolId from_pixel(Pixel start) { return follow(toward(start)); }
+  PoolId from_pixel(Pixel start);
   PoolId from_full_pool(PoolId id) { return follow(id); }
 
   /// Asks the processor to fetch what from_pixel(start) will read first, and second.
@@ -74,6 +74,7 @@ class Router {
     Pixel pixel = 0;
     Height bound = kNoRim;
     std::size_t plateau_end = 0;  ///< pixels of plateau_ up to here share this step
+    bool doubtful = false;        ///< bounded by another neighbour that could be chosen later
   };
 
   PoolId follow(Target start);
@@ -85,6 +86,8 @@ class Router {
   Target drain_of_saddle(PoolId above, PoolId full, Pixel on);
   Saddle find_regions(PoolId above);
   void record(Target target);
+  Height bound_of_agreement(Pixel p, PoolId end, Height way_bound);
+  PoolId known_end(Pixel p, Height& bound);
 
   Pools& pools_;
   std::vector<Way> ways_;

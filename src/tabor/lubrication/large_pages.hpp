@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+#include <cstddef>
+#include <cstdint>
+
+namespace tabor::lubrication {
+
+/// Room for n elements that the system may back by large pages: an array read in random order
+/// otherwise spends as long on finding pages as on reading them. Only a hint; call on an empty
+/// vector, before its elements exist.
+template <class T>
+void reserve_large_pages(std::vector<T>& vector, std::size_t n) {
+  vector.reserve(n);
+#if defined(__linux__)
+  constexpr std::uintptr_t page = 4096;
+  const auto begin = (reinterpret_cast<std::uintptr_t>(vector.data()) + page - 1) / page * page;
+  const auto end = reinterpret_cast<std::uintptr_t>(vector.data() + n) / page * page;
+  if (end > begin) {
+    (void)madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  }
+#endif
+}
+
+}  // namespace tabor::lubrication
