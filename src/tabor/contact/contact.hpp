@@ -46,12 +46,12 @@ struct Summary {
   double contact_area_fraction_pixels = 0;  ///< counted
   bool area_correction_valid = true;        ///< false where capped regions fill whole rows
   double saturated_area_fraction = 0;
-  double mean_gap = 0;        ///< [m]
+  double mean_gap = 0;        ///< [m], mean of max(gap, 0)
   double separation = 0;      ///< [m]
   double max_pressure = 0;    ///< [Pa]
   double elastic_energy = 0;  ///< [J/m^2]
   Index n_patches = 0;
-  double perimeter = 0;  ///< [m]
+  double perimeter = 0;  ///< [m], along pixel edges (4/pi of a circle's)
 };
 
 Summary summarise(const State& state, const Problem& problem, const Grid& grid, bool periodic);

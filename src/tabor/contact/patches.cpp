@@ -1,0 +1,95 @@
+#include "tabor/contact/patches.hpp"
+
+#include <algorithm>
+#include <cstdint>
+#include <numeric>
+
+#include "tabor/core/parallel.hpp"
+
+namespace tabor::contact {
+namespace {
+
+/// Union-find over pixels; the root of a patch is its first pixel.
+class Components {
+ public:
+  explicit Components(Index n) : parent_(static_cast<std::size_t>(n)) {
+    std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
+  }
+
+  std::uint32_t root(std::uint32_t pixel) {
+    while (parent_[pixel] != pixel) {
+      parent_[pixel] = parent_[parent_[pixel]];  // path halving
+      pixel = parent_[pixel];
+    }
+    return pixel;
+  }
+
+  void join(Index a, Index b) {
+    const std::uint32_t root_a = root(static_cast<std::uint32_t>(a));
+    const std::uint32_t root_b = root(static_cast<std::uint32_t>(b));
+    parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
+  }
+
+ private:
+  std::vector<std::uint32_t> parent_;
+};
+
+}  // namespace
+
+Patches find_patches(const Mask& contact, bool periodic) {
+  const Index ny = contact.rows();
+  const Index nx = contact.cols();
+  Components components(contact.size());
+  const auto join = [&](Index y, Index x, Index other_y, Index other_x) {
+    if (contact(y, x) && contact(other_y, other_x)) {
+      components.join(y * nx + x, other_y * nx + other_x);
+    }
+  };
+  for (Index y = 0; y < ny; ++y) {
+    for (Index x = 0; x < nx; ++x) {
+      if (x + 1 < nx || periodic) {
+        join(y, x, y, (x + 1) % nx);
+      }
+      if (y + 1 < ny || periodic) {
+        join(y, x, (y + 1) % ny, x);
+      }
+    }
+  }
+  std::vector<std::uint32_t> counts(static_cast<std::size_t>(contact.size()), 0);
+  for (Index i = 0; i < contact.size(); ++i) {
+    if (contact(i)) {
+      counts[components.root(static_cast<std::uint32_t>(i))] += 1;
+    }
+  }
+  Patches patches;
+  for (const std::uint32_t count : counts) {
+    if (count > 0) {
+      patches.pixel_counts.push_back(count);
+    }
+  }
+  return patches;
+}
+
+Transitions count_transitions(const Mask& contact, bool periodic) {
+  const Index ny = contact.rows();
+  const Index nx = contact.cols();
+  const auto count = [&](auto&& differs) {
+    return static_cast<Index>(deterministic_sum(contact.size(), [&](Index begin, Index end) {
+      Index n = 0;
+      for (Index i = begin; i < end; ++i) {
+        n += differs(i / nx, i % nx) ? 1 : 0;
+      }
+      return static_cast<double>(n);
+    }));
+  };
+  Transitions transitions;
+  transitions.along_rows = count([&](Index y, Index x) {
+    return (periodic || x + 1 < nx) && contact(y, x) != contact(y, (x + 1) % nx);
+  });
+  transitions.along_columns = count([&](Index y, Index x) {
+    return (periodic || y + 1 < ny) && contact(y, x) != contact((y + 1) % ny, x);
+  });
+  return transitions;
+}
+
+}  // namespace tabor::contact

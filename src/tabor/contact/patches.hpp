@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "tabor/core/types.hpp"
+
+namespace tabor::contact {
+
+/// Connected contact patches: pixels that share an edge belong together, across the border too if
+/// the cell is periodic.
+struct Patches {
+  std::vector<Index> pixel_counts;  ///< of each patch, in order of its first pixel
+  Index size() const { return static_cast<Index>(pixel_counts.size()); }
+};
+
+Patches find_patches(const Mask& contact, bool periodic);
+
+/// Number of neighbouring pixel pairs of which exactly one is in contact.
+struct Transitions {
+  Index along_rows = 0;     ///< left-right neighbours
+  Index along_columns = 0;  ///< upper-lower neighbours
+  Index total() const { return along_rows + along_columns; }
+};
+
+Transitions count_transitions(const Mask& contact, bool periodic);
+
+}  // namespace tabor::contact

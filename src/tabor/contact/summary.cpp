@@ -1,0 +1,70 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "tabor/contact/contact.hpp"
+#include "tabor/contact/patches.hpp"
+#include "tabor/core/parallel.hpp"
+
+namespace tabor::contact {
+namespace {
+
+/// Area that each contact transition adds in excess, in pixels (Yastrebov, Anciaux & Molinari 2017,
+/// doi:10.1016/j.triboint.2017.04.023).
+constexpr double kTransitionArea = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
+
+double mean_of(Index n, const std::function<double(Index)>& value) {
+  return deterministic_sum(n,
+                           [&](Index begin, Index end) {
+                             double partial = 0;
+                             for (Index i = begin; i < end; ++i) {
+                               partial += value(i);
+                             }
+                             return partial;
+                           }) /
+         static_cast<double>(n);
+}
+
+/// The correction takes a contact line to cut pixels at random. A region of saturated pixels that
+/// fills whole rows or columns ends on the pixel grid instead.
+bool fills_whole_lines(const State& state, double saturation_pressure) {
+  if (!std::isfinite(saturation_pressure)) {
+    return false;
+  }
+  const Mask saturated = state.pressure >= saturation_pressure;
+  return saturated.rowwise().all().any() || saturated.colwise().all().any();
+}
+
+}  // namespace
+
+Summary summarise(const State& state, const Problem& problem, const Grid& grid, bool periodic) {
+  const Mask contact = contact_mask(state);
+  const Transitions transitions = count_transitions(contact, periodic);
+  const Index n = grid.size();
+  const double cap = problem.saturation_pressure;
+
+  Summary summary;
+  summary.mean_pressure = problem.mean_pressure;
+  summary.contact_area_fraction_pixels =
+      mean_of(n, [&](Index i) { return contact(i) ? 1.0 : 0.0; });
+  summary.area_correction_valid = !fills_whole_lines(state, cap);
+  const double excess =
+      kTransitionArea * static_cast<double>(transitions.total()) / static_cast<double>(n);
+  const double floor = std::isfinite(cap) ? problem.mean_pressure / cap : 0.0;
+  summary.contact_area_fraction = std::max(
+      floor, summary.contact_area_fraction_pixels - (summary.area_correction_valid ? excess : 0.0));
+  summary.saturated_area_fraction =
+      mean_of(n, [&](Index i) { return state.pressure(i) >= cap ? 1.0 : 0.0; });
+  summary.mean_gap = mean_of(n, [&](Index i) { return std::max(state.gap(i), 0.0); });
+  summary.separation = state.separation;
+  summary.max_pressure = state.pressure.maxCoeff();
+  summary.elastic_energy =
+      mean_of(n, [&](Index i) { return 0.5 * state.pressure(i) * state.displacement(i); });
+  summary.n_patches = find_patches(contact, periodic).size();
+  summary.perimeter = static_cast<double>(transitions.along_rows) * grid.dy() +
+                      static_cast<double>(transitions.along_columns) * grid.dx();
+  return summary;
+}
+
+}  // namespace tabor::contact
