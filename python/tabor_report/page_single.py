@@ -11,25 +11,27 @@ def sections(single):
         "scans": [_scan(single)],
         "treatments": [(tuple(hdf.text_list(single.surface_facts.get("treatment"))), [single.title])],
         "settings": _settings(single),
-        "results": _results(single.table, len(single.states)),
+        "results": _results(single.states),
         "averages": {"header": [], "rows": [], "n_text": 0},
     }
 
 
+_HIGHLIGHTS = {
+    "contact_area_fraction": ("real contact area", lambda value: f"{value:.2%}"),
+    "mean_film_m": ("mean film", units.length),
+    "friction_dry": ("dry friction", lambda value: units.number(value, 3)),
+    "friction_lubricated": ("lubricated friction", lambda value: units.number(value, 3)),
+}
+
+
 def _highlights(single):
-    found = []
-    for state in single.states[:3]:
-        facts = state.facts
-        for key, name in (
-            ("contact_area_fraction", "real contact area"),
-            ("friction_dry", "dry friction"),
-            ("friction_lubricated", "lubricated friction"),
-            ("mean_film_m", "mean film"),
-        ):
-            if isinstance(facts.get(key), float):
-                where = f" at {units.pressure(state.pressure)}" if state.pressure is not None else ""
-                found.append((name + where, show(key, facts[key])))
-    return found
+    """What a reader wants first, of the first three states."""
+    return [
+        (f"{name}, {state.label}", show_value(state.facts[key]))
+        for state in single.states[:3]
+        for key, (name, show_value) in _HIGHLIGHTS.items()
+        if isinstance(state.facts.get(key), float)
+    ]
 
 
 def _scan(single):
@@ -53,38 +55,60 @@ def _scan(single):
 
 
 def _settings(single):
-    scalars = {
-        name: value
-        for name, value in single.facts.items()
-        if isinstance(value, (int, float)) and name != "format_version"
-    }
-    return [(name, show(name, value)) for name, value in scalars.items()]
-
-
-def _results(table, n_states):
-    names = [name for name in table if name not in ("converged", "warnings")]
-    sure = table.get("converged", [True] * n_states)
-    rows = [
-        {
-            "sure": sure[index] is not False and sure[index] != 0,
-            "cells": [show(name, table[name][index]) for name in names],
-        }
-        for index in range(n_states if names else 0)
+    return [
+        (words(key), show(key, value))
+        for key, value in single.settings.items()
+        if not isinstance(value, dict)
     ]
+
+
+def _results(states):
+    """One row per quantity, one column per state: few states, many quantities."""
+    keys = dict.fromkeys(key for state in states for key in state.scalars)
+    rows = [
+        {"sure": True, "cells": [words(key), *(show(key, state.scalars.get(key)) for state in states)]}
+        for key in keys
+        if key != "converged"
+    ]
+    sure = [bool(state.facts["converged"]) for state in states if "converged" in state.facts]
+    if sure:
+        answers = ["yes" if state.facts.get("converged", True) else "NO" for state in states]
+        rows.append({"sure": all(sure), "cells": ["converged", *answers]})
+    header = ["", *(f"state {int(state.key)}" for state in states)]
     return {
-        "header": [name.replace("_", " ") for name in names] + ["converged"],
-        "rows": rows,
+        "header": header,
+        "rows": rows if states else [],
         "n_total": len(rows),
-        "n_text": 0,
+        "n_text": 1,
     }
 
 
-def show(name, value):
+# Endings of keys: how a value is shown with that unit. Longer endings first.
+_UNITS = {
+    "_kg_per_m3": lambda value: f"{units.number(value)} kg/m³",
+    "_g_per_m2": units.density,
+    "_J_per_m2": lambda value: f"{units.number(value)} J/m²",
+    "_bytes": lambda value: f"{units.number(value / 2**20)} MiB",
+    "_m3": lambda value: f"{units.number(value)} m³",
+    "_Pa": units.pressure,
+    "_m": units.length,
+    "_s": lambda value: f"{units.number(value)} s",
+}
+
+
+def words(key):
+    """'effective_modulus_Pa' -> 'effective modulus': the value is shown with its unit."""
+    return key.removesuffix(_ending(key)).replace("_", " ")
+
+
+def show(key, value):
     """A value in a readable multiple of the SI unit its key ends in."""
-    if not isinstance(value, (int, float)) or isinstance(value, bool):
-        return units.number(value) if not isinstance(value, str) else value
-    if name.endswith("_Pa"):
-        return units.pressure(value)
-    if name.endswith("_m"):
-        return units.length(float(value))
-    return units.number(value)
+    if isinstance(value, list):
+        return ", ".join(show(key, item) for item in value)
+    if isinstance(value, (str, bool)) or value is None:
+        return units.number(value)
+    return _UNITS[_ending(key)](float(value)) if _ending(key) else units.number(value)
+
+
+def _ending(key):
+    return next((ending for ending in _UNITS if key.endswith(ending)), "")

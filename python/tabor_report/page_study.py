@@ -98,36 +98,41 @@ def _settings(facts):
     return shown + [("saturation pressure p_sat", units.pressure(cap) if cap else "none (elastic)")]
 
 
+# What a reader looks for stands first: a narrow page cuts the rest off until it is scrolled.
 _RESULT_COLUMNS = (
     ("scan", "scan", str),
     ("group", "group", str),
     ("P (MPa)", "mean_pressure_Pa", lambda value: units.number(value * 1e-6)),
     ("lubricant (g/m²)", "lubricant_density_g_per_m2", units.number),
+    ("μ dry", "friction_dry", units.number),
+    ("μ lubricated", "friction_lubricated", units.number),
     ("A/A₀", "contact_area_fraction", units.number),
+    ("wet share", "lubricated_share", units.number),
+    ("certificate", "certificate", lambda value: units.number(value, 2)),
+    ("converged", None, lambda sure: "yes" if sure else "NO"),
     ("A/A₀ (pixels)", "contact_area_fraction_pixels", units.number),
     ("saturated A/A₀", "saturated_area_fraction", units.number),
     ("mean gap (µm)", "mean_gap_m", lambda value: units.number(value * 1e6)),
-    ("wet share", "lubricated_share", units.number),
     ("spill-over", "spill_over_fraction", units.number),
-    ("μ dry", "friction_dry", units.number),
-    ("μ lubricated", "friction_lubricated", units.number),
-    ("certificate", "certificate", lambda value: units.number(value, 2)),
 )
 
 
 def _results(table):
-    columns = [column for column in _RESULT_COLUMNS if column[1] in table]
+    columns = [column for column in _RESULT_COLUMNS if column[1] is None or column[1] in table]
     sure = converged(table)
     order = list(range(len(table)))
     if len(order) > MAX_ROWS:
         loose = [index for index in order if not sure[index]]
         order = sorted(set(loose + order[:MAX_ROWS]))
     rows = [
-        {"sure": bool(sure[index]), "cells": [show(_value(table[name][index])) for _, name, show in columns]}
+        {
+            "sure": bool(sure[index]),
+            "cells": [show(_value((table[name] if name else sure)[index])) for _, name, show in columns],
+        }
         for index in order
     ]
     return {
-        "header": [title for title, _, _ in columns] + ["converged"],
+        "header": [title for title, _, _ in columns],
         "rows": rows,
         "n_total": len(table),
         "n_text": sum(name in ("scan", "group") for _, name, _ in columns),

@@ -1,13 +1,13 @@
 """A result file of one scan: `convert`, `contact`, `lubricate` or `friction` with -o."""
 
 import math
+import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from tabor_report import hdf
 from tabor_report.errors import InputError
 from tabor_report.states import SingleState
-from tabor_report.table import Table
 
 
 @dataclass
@@ -15,6 +15,7 @@ class Single:
     path: Path
     file: object
     facts: dict
+    settings: dict
     surface: object
     states: list
     warnings: list = field(default_factory=list)
@@ -30,10 +31,6 @@ class Single:
         return hdf.attributes(self.surface)
 
     @property
-    def saturation_pressure(self):
-        return self.facts.get("saturation_pressure_Pa")
-
-    @property
     def pixel(self):
         """(x, y) [m], from the axes of the map."""
         return tuple(_spacing(self.surface, name) for name in ("x", "y"))
@@ -41,48 +38,37 @@ class Single:
     def height(self):
         return self.surface["height"][()]
 
-    @property
-    def table(self):
-        """Every scalar of the states, one column each; a key absent from a state is None."""
-        names = list(
-            dict.fromkeys(
-                name
-                for state in self.states
-                for name in state.facts
-                if not _is_file_matter(name, state.facts[name])
-            )
-        )
-        return Table({name: [state.facts.get(name) for state in self.states] for name in names})
-
 
 def load(path, file):
     if "surface" not in file or "height" not in file["surface"]:
         raise InputError(f"{path}: holds neither a study (/scans) nor a scan (/surface/height)")
     facts = hdf.attributes(file)
     nodes = [(key, file["states"][key]) for key in sorted(file["states"])] if "states" in file else []
-    states = [SingleState(key, node, _saturation_pressure(facts, node)) for key, node in nodes]
-    single = Single(path, file, facts, file["surface"], states)
+    settings = _settings(file)
+    states = [
+        SingleState(key, node, _saturation_pressure(settings, hdf.attributes(node))) for key, node in nodes
+    ]
+    single = Single(path, file, facts, settings, file["surface"], states)
     single.warnings.extend(_doubts_about(single))
     return single
 
 
-def _saturation_pressure(facts, node):
-    value = hdf.attributes(node).get("saturation_pressure_Pa", facts.get("saturation_pressure_Pa"))
+def _settings(file):
+    """Settings in force, from config_toml; {} if it is no TOML or this Python cannot read it."""
+    try:
+        return tomllib.loads(hdf.text(file.attrs.get("config_toml", "")))
+    except (AttributeError, tomllib.TOMLDecodeError):
+        return {}
+
+
+def _saturation_pressure(settings, facts):
+    value = facts.get("saturation_pressure_Pa", settings.get("saturation_pressure_Pa"))
     return value if value and math.isfinite(value) else None
 
 
 def _spacing(surface, name):
     axis = surface[name][:2]
     return float(axis[1] - axis[0]) if len(axis) > 1 else 1.0
-
-
-def _is_file_matter(name, value):
-    """NeXus and HDF5 bookkeeping, not a result."""
-    return (
-        name in ("NX_class", "signal", "axes", "default")
-        or name.endswith("_indices")
-        or isinstance(value, list)
-    )
 
 
 def _doubts_about(single):

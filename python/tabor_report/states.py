@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tabor_report import hdf
+from tabor_report import hdf, units
 
 NO_CONTACT, CONTACT, SATURATED = 0, 1, 2
 
@@ -48,6 +48,18 @@ class SingleState:
         self.pressure = self.facts.get("mean_pressure_Pa")
         self.density = self.facts.get("lubricant_density_g_per_m2")
 
+    @property
+    def label(self):
+        """'P = 5 MPa, 0.9 g/m²', whichever of the two it has."""
+        parts = [f"P = {units.pressure(self.pressure)}"] if self.pressure is not None else []
+        parts += [units.density(self.density)] if self.density is not None else []
+        return ", ".join(parts) or f"state {self.key}"
+
+    @property
+    def scalars(self):
+        """What --json prints for this state, without the bookkeeping of NeXus and HDF5."""
+        return {key: value for key, value in self.facts.items() if not _is_file_matter(key, value)}
+
     def map(self, name):
         """float64, shape (ny, nx), or None if this command stored no such map."""
         dataset = hdf.child(self.node, name)
@@ -62,3 +74,11 @@ class SingleState:
             # The solver clips at the cap, so only rounding separates a saturated pixel from it.
             state[pressure >= self.saturation_pressure * (1 - 1e-9)] = SATURATED
         return state
+
+
+def _is_file_matter(key, value):
+    return (
+        key in ("NX_class", "signal", "axes", "default")
+        or key.endswith("_indices")
+        or isinstance(value, list)
+    )

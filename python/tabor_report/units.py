@@ -15,6 +15,8 @@ def number(value, digits=4):
         return "\N{EN DASH}"
     if isinstance(value, (bool, str)):
         return str(value)
+    if isinstance(value, int):
+        return f"{value:,}".replace(",", "\N{NARROW NO-BREAK SPACE}").replace("-", "\N{MINUS SIGN}")
     shown = f"{value:.{digits}g}"
     if "e" in shown:
         mantissa, exponent = shown.split("e")

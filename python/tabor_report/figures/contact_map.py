@@ -15,7 +15,7 @@ def draw(state, pixel, facts, scan_name, name="fig05_contact_map", suffix=""):
     axes[0][0].set_title(_title(state, facts))
     return Drawn(
         name + suffix,
-        f"Contact map: {scan_name}",
+        f"Contact map: {scan_name}, {_pressure(facts)}",
         _caption(view, facts, scan_name),
         figure,
         {"": view.csv(share, "contact_share")},
@@ -30,16 +30,20 @@ def figure_height(view, width=4.8):
 
 def _title(state, facts):
     touching = np.count_nonzero(state)
-    title = f"$P$ = {units.pressure(facts.get('mean_pressure_Pa'))}, {touching / state.size:.2%} of the pixels in contact"
+    title = f"$P$ = {_pressure(facts)}, {touching / state.size:.2%} of the pixels in contact"
     saturated = np.count_nonzero(state == 2)
     title += f", {saturated / touching:.0%} of them saturated" if saturated else ""
     return title + ("" if facts.get("converged", True) else "\nNOT CONVERGED")
+
+
+def _pressure(facts):
+    return units.pressure(facts.get("mean_pressure_Pa"))
 
 
 def _caption(view, facts, scan_name):
     doubt = "" if facts.get("converged", True) else "This state did not converge. "
     return (
         f"Real contact (black) of {scan_name} under the mean pressure "
-        f"{units.pressure(facts.get('mean_pressure_Pa'))}. {doubt}{map_axes.ink_note(view)}"
+        f"{_pressure(facts)}. {doubt}{map_axes.ink_note(view)}"
         "The share in the title is counted over all pixels. As Figure 5 of Costagliola et al."
     )

@@ -93,7 +93,7 @@ def _caption(view, example, stretch):
     if example.contact is not None:
         text += (
             " and the counterface (red), drawn as the undeformed solid plus the gap, hence the deformed flat, at "
-            f"{units.pressure(example.contact.pressure)}; liquid above it would be squeezed out"
+            f"{units.pressure(example.contact.pressure)}; solid above it is flattened, liquid above it would be squeezed out"
         )
     return (
         text

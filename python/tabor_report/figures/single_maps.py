@@ -19,12 +19,6 @@ def draw(single, state):
     return [figure for figure in figures if figure is not None]
 
 
-def label(state):
-    parts = [f"P = {units.pressure(state.pressure)}"] if state.pressure is not None else []
-    parts += [units.density(state.density)] if state.density is not None else []
-    return ", ".join(parts) or f"state {state.key}"
-
-
 def _pressure(single, state):
     pressure = state.map("pressure")
     if pressure is None:
@@ -92,11 +86,11 @@ def _map(single, state, what, values, axis_label, colours, text, ground, limits)
     low = low if limits[0] is None else limits[0]
     figure, grid = style.new_figure(contact_map.figure_height(view, 4.6), width=6.0)
     map_axes.colour_map(grid[0][0], view, shown, axis_label, colours, (low, high), ground)
-    grid[0][0].set_title(label(state).replace("P =", "$P$ ="))
-    caption = f"{text}, at {label(state)}. {view.note}Colours end at the 99.5th percentile of what is drawn."
+    grid[0][0].set_title(state.label.replace("P =", "$P$ ="))
+    caption = f"{text}, at {state.label}. {view.note}Colours end at the 99.5th percentile of what is drawn."
     return Drawn(
         f"state{state.key}_{what}",
-        f"{what.capitalize()} map",
+        f"{what.capitalize()} map: {state.label}",
         caption,
         figure,
         {"": view.csv(shown, axis_label.replace("µ", "u"))},
@@ -120,11 +114,13 @@ def _section(single, state):
     stretch = section.exaggeration(grid[0][0], length, factor)
     where = units.number((row + 0.5) * single.pixel[1] * length)
     caption = (
-        f"Section along x at y = {where} {length_unit}, {label(state)}: solid (grey), lubricant before the "
-        "surfaces close (blue), counterface (red) as undeformed solid plus gap, whichever the file holds. "
+        f"Section along x at y = {where} {length_unit}, {state.label}: solid (grey), lubricant before the "
+        "surfaces close (blue), counterface (red) as undeformed solid plus gap (solid above it is flattened), whichever the file holds. "
         f"Heights are stretched {units.number(stretch, 2)} times against lengths."
     )
-    return Drawn(f"state{state.key}_section", "Section", caption, figure, {"": section.csv(lines)})
+    return Drawn(
+        f"state{state.key}_section", f"Section: {state.label}", caption, figure, {"": section.csv(lines)}
+    )
 
 
 def _place(state, film, height):
