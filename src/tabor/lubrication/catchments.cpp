@@ -84,7 +84,7 @@ PoolId Catchments::overflow(PoolId pool) {
 
 /// Over the saddle pixel to its lowest neighbour in a pool that is not full yet.
 PoolId Catchments::across_saddle(PoolId full) {
-  const Pixel saddle = pools_.saddle(full).front();
+  const Pixel saddle = pools_.saddle(full);
   Pixel lowest = saddle;
   for_each_neighbour(pools_.terrain(), saddle, [&](Pixel q) {
     if (lower(q, lowest)) {

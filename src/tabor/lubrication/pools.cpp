@@ -77,6 +77,8 @@ void Pools::take_in(PoolId id) {
     if (!pool.full()) {
       return;
     }
+    const auto saddle = bottom(pool.parent);
+    pool.next = saddle.size() == 1 ? saddle.front() : kSeveral;
     Pool& parent = pools_[static_cast<std::size_t>(pool.parent)];
     parent.area += pool.area;
     if (--parent.open_children > 0) {

@@ -10,6 +10,7 @@ namespace tabor::lubrication {
 using PoolId = std::int32_t;
 
 inline constexpr PoolId kNoPool = -1;
+inline constexpr Pixel kSeveral = -1;
 inline constexpr PoolId kOcean = 0;  ///< of an open edge: lies below everything and never fills
 
 /// What holds together pixels of equal height.
@@ -70,8 +71,9 @@ class Pools {
   /// volume.
   Volume raise(PoolId id, Height rise);
 
-  /// The pixels over which the full pool `id` touches its neighbours, lowest pixel number first.
-  std::span<const Pixel> saddle(PoolId id) const { return bottom((*this)[id].parent); }
+  /// The only pixel over which the full pool `id` touches its neighbours; kSeveral if more than
+  /// one.
+  Pixel saddle(PoolId id) const { return (*this)[id].next; }
   /// The lowest pixels of a pool that is not active.
   std::span<const Pixel> bottom(PoolId id) const;
 
@@ -79,6 +81,14 @@ class Pools {
   Volume beyond() const { return beyond_; }
   /// True once a closed or periodic map is one pool without a rim.
   bool flooded() const;
+
+  /// Asks the processor to fetch a pool, or a pixel and its neighbours, before they are needed.
+  void prefetch_around(Pixel p) const {
+    const auto n = static_cast<Pixel>(sites_.size());
+    for (const Pixel q : {p - terrain_->nx, p, p + terrain_->nx}) {
+      __builtin_prefetch(&sites_[static_cast<std::size_t>(q < 0 || q >= n ? p : q)]);
+    }
+  }
   void prefetch(PoolId id) const { __builtin_prefetch(&pools_[static_cast<std::size_t>(id)]); }
 
  private:

@@ -12,8 +12,9 @@ namespace tabor::lubrication {
 namespace {
 
 constexpr Pixel kLargestBatch = 1 << 16;  // start pixels drawn at once, on all threads
-constexpr std::size_t kWayAhead = 24;     // droplets between asking for a way and using it
-constexpr std::size_t kPoolAhead = 12;    // the same for the pool at its end
+constexpr std::size_t kWayAhead = 36;     // droplets between asking for a way and using it
+constexpr std::size_t kEndAhead = 24;     // the same for the pool at its end
+constexpr std::size_t kHomeAhead = 12;    // and for the pool of the start pixel
 
 class Rain {
  public:
@@ -33,8 +34,9 @@ class Rain {
     draw_starts();
     auto place = static_cast<std::size_t>(state_.n_droplets) % batch_size_;
     for (; place < batch_size_ && state_.dosed < dose; ++place) {
-      router_.prefetch(starts_[place + kWayAhead]);
-      router_.prefetch_pool(starts_[place + kPoolAhead]);
+      router_.prefetch_way(starts_[place + kWayAhead]);
+      router_.prefetch_end(starts_[place + kEndAhead]);
+      router_.prefetch_home(starts_[place + kHomeAhead]);
       state_.dosed += drop(starts_[place]);
       ++state_.n_droplets;
     }

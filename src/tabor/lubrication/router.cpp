@@ -105,12 +105,11 @@ PoolId Router::follow(Target at) {
         record(at);
         return at;
       }
-      const auto saddle = pools_.saddle(at);
-      if (saddle.size() == 1) {
-        at = toward(saddle.front());
+      if (const Pixel saddle = pools_.saddle(at); saddle != kSeveral) {
+        at = toward(saddle);
       } else {
         record(at);
-        at = drain_of_saddle(pools_[at].parent, at, saddle.front());
+        at = drain_of_saddle(pools_[at].parent, at, kOutside);
       }
       continue;
     }
@@ -259,6 +258,7 @@ Height Router::bound_of_agreement(Pixel p, PoolId end, Height way_bound) {
 /// The pool that is not full which p is known to lead to, lowering `bound` by what that needs.
 PoolId Router::known_end(Pixel p, Height& bound) {
   constexpr int most_hops = 8;  // an answer not worth more than that
+  static_assert(kSeveral == kOutside);
   for (int hop = 0; hop < most_hops && p != kOutside; ++hop) {
     const Candidate here = candidate(p);
     const Way way =
@@ -271,11 +271,7 @@ PoolId Router::known_end(Pixel p, Height& bound) {
     if (!pools_[pool].full()) {
       return pool;
     }
-    const auto saddle = pools_.saddle(pool);
-    if (saddle.size() > 1) {
-      return kNoPool;
-    }
-    p = saddle.front();
+    p = pools_.saddle(pool);
   }
   return kNoPool;
 }

@@ -23,12 +23,24 @@ class Router {
   PoolId from_pixel(Pixel start);
   PoolId from_full_pool(PoolId id) { return follow(id); }
 
-  /// Asks the processor to fetch what from_pixel(start) will read first, and second.
-  void prefetch(Pixel start) const { __builtin_prefetch(&ways_[static_cast<std::size_t>(start)]); }
-  void prefetch_pool(Pixel start) const {
-    const Target target = ways_[static_cast<std::size_t>(start)].target;
-    if (is_pool(target)) {
-      pools_.prefetch(target);
+  /// Asks the processor, in three steps some droplets apart, to fetch what from_pixel(start) will
+  /// read: its way; the pool it leads to and, if the way may be doubtful, the pixels around; their
+  /// pool.
+  void prefetch_way(Pixel start) const {
+    __builtin_prefetch(&ways_[static_cast<std::size_t>(start)]);
+  }
+  void prefetch_end(Pixel start) const {
+    const Way& way = ways_[static_cast<std::size_t>(start)];
+    if (is_pool(way.target)) {
+      pools_.prefetch(way.target);
+    }
+    if (way.bound != kNoRim) {
+      pools_.prefetch_around(start);
+    }
+  }
+  void prefetch_home(Pixel start) const {
+    if (ways_[static_cast<std::size_t>(start)].bound != kNoRim) {
+      pools_.prefetch(pools_.home(start));
     }
   }
 
