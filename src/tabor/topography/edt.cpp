@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -34,13 +36,21 @@ constexpr double kRoughnessStretch = 1.3;  // ... and the finer roughness more
 constexpr double kWallWidth = 0.1;         // of a crater, over its radius
 constexpr double kShoulder = 0.35;         // raised rim over crater depth
 constexpr double kPlateauCap = 0.5;        // rms heights at which rolling stops the plateaus
+constexpr double kPlateauShare = 0.12;     // of the area
+constexpr double kPlateauRelief = 0.1;     // what rolling leaves of the height above a plateau
+constexpr double kSplit = 25e-6;           // [m], shorter roughness survives rolling
 constexpr double kFineShare = 0.5;         // rms of the finer roughness over that of the craters
 constexpr double kFineRollOff = 60e-6;     // [m]
 constexpr double kRollOff = 100e-6;        // [m], of the power law
 constexpr double kOutlineIrregularity = 0.06;
 constexpr std::size_t kOutlineModes = 5;  // 2 to 6 lobes
 
-enum Stream : std::uint64_t { kRoughnessStream = 1, kCraterStream = 2, kGrooveStream = 3 };
+enum Stream : std::uint64_t {
+  kRoughnessStream = 1,
+  kCraterStream = 2,
+  kGrooveStream = 3,
+  kPlateauStream = 4
+};
 
 /// One spark's mark.
 struct Crater {
@@ -180,21 +190,46 @@ Field roughness(const Grid& grid, double hurst, double roll_off, double stretch,
   return std::move(field.height);
 }
 
-/// Periodic and unscaled.
-Field virgin_surface(const Grid& grid, const Edt& recipe) {
-  Field z = crater_field(grid, recipe.seed);
-  z += kFineShare * roughness(grid, recipe.hurst, kFineRollOff, kRoughnessStretch, recipe.seed,
-                              kRoughnessStream);
-  impose_power_law(z, grid, recipe.hurst, 2 * pi / kRollOff, kRoughnessStretch);
-  return z;
-}
-
 /// Height that `share` of the pixels lie below.
 double quantile(const Field& z, double share) {
   std::vector<double> heights(z.data(), z.data() + z.size());
   const auto rank = static_cast<std::ptrdiff_t>(share * static_cast<double>(z.size() - 1));
   std::nth_element(heights.begin(), heights.begin() + rank, heights.end());
   return heights[static_cast<std::size_t>(rank)];
+}
+
+/// Skin-pass rolling of a normalised field: the highest parts become plateaus of nearly one height.
+void press(Field& z) {
+  const double plateau = quantile(z, 1 - kPlateauShare);
+  z = (z > plateau).select(plateau + kPlateauRelief * (z - plateau), z);
+}
+
+/// Self-affine roughness of wavelengths from `shortest` to `longest`, in units of the whole.
+Field roughness_band(const Grid& grid, const Edt& recipe, double shortest, double longest,
+                     Stream stream) {
+  const double corner = 2 * pi / kFineRollOff, low = 2 * pi / longest, high = 2 * pi / shortest;
+  const double modes = grid.area() / (4 * pi * pi);  // per unit of wavevector area
+  const double variance = pi * corner * corner * (1 + 1 / recipe.hurst) * modes;  // of all bands
+  return random_field({grid, kRoughnessStretch, true, recipe.seed, stream,
+                       [&](double q) {
+                         return q < low || q >= high
+                                    ? 0
+                                    : std::pow(std::max(q / corner, 1.0), -2 * (1 + recipe.hurst)) /
+                                          variance;
+                       }})
+      .height;
+}
+
+/// Periodic and unscaled. The roughness shorter than the split is added after rolling: it is what
+/// makes pockets on top of the plateaus.
+Field virgin_surface(const Grid& grid, const Edt& recipe) {
+  constexpr double all = std::numeric_limits<double>::infinity();
+  Field z = crater_field(grid, recipe.seed);
+  z += kFineShare * roughness_band(grid, recipe, kSplit, all, kRoughnessStream);
+  press(z);
+  z += kFineShare * roughness_band(grid, recipe, 0, kSplit, kPlateauStream);
+  impose_power_law(z, grid, recipe.hurst, 2 * pi / kRollOff, kRoughnessStretch);
+  return z;
 }
 
 /// Sliding flattens what stands above the quantile to a tenth of its height and scratches grooves
