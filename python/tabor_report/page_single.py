@@ -25,10 +25,10 @@ _HIGHLIGHTS = {
 
 
 def _highlights(single):
-    """What a reader wants first, of the first three states."""
+    """What a reader wants first, of the first two states."""
     return [
         (f"{name}, {state.label}", show_value(state.facts[key]))
-        for state in single.states[:3]
+        for state in single.states[:2]
         for key, (name, show_value) in _HIGHLIGHTS.items()
         if isinstance(state.facts.get(key), float)
     ]
@@ -98,7 +98,8 @@ _UNITS = {
 
 def words(key):
     """'effective_modulus_Pa' -> 'effective modulus': the value is shown with its unit."""
-    return key.removesuffix(_ending(key)).replace("_", " ")
+    text = key.removesuffix(_ending(key)).replace("_", " ")
+    return text.replace("youngs", "Young's").replace("poissons", "Poisson's")
 
 
 def show(key, value):

@@ -128,7 +128,7 @@ def load(path, file):
         experiment=_experiment(file),
         warnings=warnings,
     )
-    study.warnings.extend(_doubts_about(study))
+    study.warnings.extend(list(_doubts_about(study)))
     return study
 
 
@@ -166,5 +166,10 @@ def _doubts_about(study):
     for message in dict.fromkeys(text for text in study.table.get("error", ()) if text):
         yield f"Failed: {message}"
     for scan in study.scans:
-        for doubt in scan.doubts:
+        for doubt in dict.fromkeys(scan.doubts + _warnings_of_states(scan)):
             yield f"{scan.file}: {doubt}"
+
+
+def _warnings_of_states(scan):
+    states = [*scan.contacts(), *scan.films()]
+    return [text for state in states for text in hdf.text_list(state.facts.get("warnings"))]

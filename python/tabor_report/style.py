@@ -51,10 +51,18 @@ def new_figure(height, n_rows=1, n_columns=1, width=WIDTH, **keywords):
 
 
 def curve_styles():
-    """Endless colour and marker pairs; the line style changes when the colours are used up."""
+    """Endless colour and marker pairs; the line style changes when the colours are used up.
+
+    Symbols shrink from curve to curve, so that one drawn over another of the same values hides neither.
+    """
     for line in itertools.cycle(("-", "--", ":", "-.")):
-        for colour, marker in zip(COLOURS, MARKERS):
-            yield {"color": colour, "marker": marker, "linestyle": line}
+        for step, (colour, marker) in enumerate(zip(COLOURS, MARKERS)):
+            yield {
+                "color": colour,
+                "marker": marker,
+                "linestyle": line,
+                "markersize": max(4.0, 8.5 - 2 * step),
+            }
 
 
 def legend_on_top(figure, entries):

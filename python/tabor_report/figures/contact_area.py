@@ -70,13 +70,13 @@ def _draw_group(axes, group, states, look):
     pressures, mean, n = means(states)
     number = number_text(n)
     axes.plot(pressures * 1e-6, mean * 100, color=look["color"], linestyle=look["linestyle"])
-    axes.plot([], [], **look, markersize=4.5, label=f"{style.literal(group) or 'mean'} ({number})")
+    axes.plot([], [], **look, label=f"{style.literal(group) or 'mean'} ({number})")
     axes.plot(
         [state["pressure"] * 1e-6 for state in states],
         [state["area"] * 100 for state in states],
         linestyle="none",
         marker=look["marker"],
-        markersize=4.5,
+        markersize=look["markersize"],
         color=look["color"],
         alpha=0.75,
     )

@@ -123,10 +123,16 @@ def _section(single, state):
     )
 
 
+def _shores(film):
+    """Wet pixels whose right neighbour is dry: where pools end there is most to see."""
+    wet = film > 0
+    return wet & ~np.roll(wet, -1, axis=1)
+
+
 def _place(state, film, height):
     """Row and columns of the section: where most of the (wet) contact is, else the middle."""
     touching = state.state()
-    interest = touching > 0 if touching is not None else film > 0
+    interest = touching > 0 if touching is not None else _shores(film)
     if touching is not None and film is not None and (interest & (film > 0)).any():
         interest = interest & (film > 0)
     window = richest_window(interest)
