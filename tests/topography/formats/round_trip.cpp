@@ -52,7 +52,7 @@ TEST_P(RoundTrip, OfOnePixelRowsWorks) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
                          ::testing::Values(".h5", ".gwy", ".sdf", ".asdf", ".x3p", ".txt", ".xyz"),
-                         [](const auto& info) { return std::string(info.param).substr(1); });
+                         [](const auto& suite) { return std::string(suite.param).substr(1); });
 
 TEST(Gsf, KeepsFloat32Heights) {
   const Folder folder;
@@ -80,7 +80,7 @@ TEST(Npy, TransposesColumnMajorAndBigEndianArrays) {
   test::ByteFile file;
   file.text(0, "\x93NUMPY").number<std::uint8_t>(6, 2);
   file.number(8, static_cast<std::uint32_t>(dictionary.size())).text(12, dictionary);
-  for (const std::int16_t value : {1, 4, 2, 5, 3, 6}) {
+  for (const std::int16_t value : std::initializer_list<std::int16_t>{1, 4, 2, 5, 3, 6}) {
     file.big_endian(file.bytes().size(), value);
   }
   Field expected(2, 3);

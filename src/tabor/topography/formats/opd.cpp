@@ -37,7 +37,6 @@ Blocks take_blocks(const Contents& contents) {
   }
   Blocks blocks;
   for (const auto& [name, length] : entries) {
-    if (length > cursor.left()) break;  // trailing blocks may be cut; a missing one is missed later
     blocks.emplace(name, cursor.take(length));
   }
   return blocks;
