@@ -1,9 +1,11 @@
 // The only file that knows HDF5.
 #include "tabor/io/hdf5.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <hdf5.h>
 #include <hdf5_hl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -138,10 +140,36 @@ struct Hdf5Writer::File {
     }
   }
 
+  ~File() {
+    if (id.valid()) {
+      discard_further_writes();
+    }
+  }
+
   static hid_t create(const fs::path& path) {
     const Session session;
+    // A library that cannot even write its first block does not recover: try before it does.
+    try {
+      write_file(path, std::string(4096, '\0'));
+    } catch (const OutputError&) {
+      return -1;
+    }
     const Handle access = file_access();
     return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  }
+
+  /// A file that is not committed is of no use to anybody. HDF5 would still flush it, and crash at
+  /// the end of the program if that failed on a full disk: let it flush into nothing.
+  void discard_further_writes() const {
+    const Handle access(H5Fget_access_plist(id), &H5Pclose);
+    void* handle = nullptr;
+    const int sink = ::open("/dev/zero", O_RDWR | O_CLOEXEC);
+    if (sink >= 0 && H5Fget_vfd_handle(id, access, &handle) >= 0 && handle != nullptr) {
+      ::dup2(sink, *static_cast<int*>(handle));
+    }
+    if (sink >= 0) {
+      ::close(sink);
+    }
   }
 
   [[noreturn]] void fail(const std::string& path) const {

@@ -1,0 +1,78 @@
+#include "tabor/study/averages.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tabor/study/tables.hpp"
+
+namespace tabor::study {
+namespace {
+
+Row row(const std::string& group, double pressure, double friction) {
+  Row made;
+  made.group = group;
+  made.mean_pressure = pressure;
+  made.friction_dry = friction;
+  made.friction_lubricated = friction / 2;
+  made.converged = true;
+  return made;
+}
+
+TEST(MeanOf, MatchesTheTextbookNumbers) {
+  // 2, 4, 4, 4, 5, 5, 7, 9: mean 5, sum of squared deviations 32.
+  const Mean mean = mean_of({2, 4, 4, 4, 5, 5, 7, 9});
+  EXPECT_EQ(mean.n, 8u);
+  EXPECT_DOUBLE_EQ(mean.mean, 5);
+  EXPECT_DOUBLE_EQ(mean.standard_deviation, std::sqrt(32.0 / 7));
+  EXPECT_DOUBLE_EQ(mean.standard_error, std::sqrt(32.0 / 7 / 8));
+}
+
+TEST(MeanOf, OneValueHasNoError) {
+  EXPECT_EQ(mean_of({3}).mean, 3);
+  EXPECT_TRUE(std::isnan(mean_of({3}).standard_deviation));
+  EXPECT_TRUE(std::isnan(mean_of({3}).standard_error));
+  EXPECT_TRUE(std::isnan(mean_of({}).mean));
+}
+
+TEST(Averages, KeepGroupsApartInOrderOfAppearance) {
+  const std::vector<Row> rows{row("B", 5, 0.1), row("A", 5, 0.4), row("B", 2, 0.2),
+                              row("B", 5, 0.3)};
+  const std::vector<Average> result = averages(rows);
+  ASSERT_EQ(result.size(), 3u);
+  EXPECT_EQ(result[0].group, "B");
+  EXPECT_EQ(result[0].mean_pressure, 5);
+  EXPECT_EQ(result[0].n, 2u);
+  EXPECT_DOUBLE_EQ(result[0].friction_dry.mean, 0.2);
+  EXPECT_DOUBLE_EQ(result[0].friction_lubricated.mean, 0.1);
+  EXPECT_EQ(result[1].mean_pressure, 2);
+  EXPECT_EQ(result[2].group, "A");
+}
+
+TEST(Averages, CountOnlyRowsThatConverged) {
+  std::vector<Row> rows{row("A", 5, 0.1), row("A", 5, 0.9), row("A", 5, 0.5)};
+  rows[1].converged = false;
+  rows[2].error = "no surface";
+  const std::vector<Average> result = averages(rows);
+  ASSERT_EQ(result.size(), 1u);
+  EXPECT_EQ(result[0].n, 1u);
+  EXPECT_DOUBLE_EQ(result[0].friction_dry.mean, 0.1);
+}
+
+TEST(AveragesCsv, LeavesCellsWithoutValueEmpty) {
+  EXPECT_EQ(averages_csv(averages({row("A, left", 5e6, 0.25)})),
+            "group,mean_pressure_Pa,lubricant_density_g_per_m2,n,friction_dry_mean,"
+            "friction_dry_std,friction_dry_sem,friction_lubricated_mean,friction_lubricated_std,"
+            "friction_lubricated_sem\n"
+            "\"A, left\",5000000,0,1,0.25,,,0.125,,\n");
+}
+
+TEST(ResultsCsv, HasTheAgreedColumns) {
+  EXPECT_EQ(results_csv({}),
+            "case_id,scan,group,mean_pressure_Pa,lubricant_density_g_per_m2,contact_area_fraction,"
+            "contact_area_fraction_pixels,saturated_area_fraction,mean_gap_m,lubricated_share,"
+            "spill_over_fraction,friction_dry,friction_lubricated,certificate,converged\n");
+}
+
+}  // namespace
+}  // namespace tabor::study

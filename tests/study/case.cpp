@@ -1,0 +1,89 @@
+#include "tabor/study/case.hpp"
+
+#include <functional>
+#include <set>
+
+#include "study/example_study.hpp"
+
+namespace tabor::study {
+namespace {
+
+using test::ExampleStudy;
+
+/// All keys of the example's first scan, after a change to the study.
+ScanUnits units_after(const std::function<void(Study&)>& change) {
+  static const ExampleStudy example;
+  Study study = example.read();
+  change(study);
+  return units_of(study).front();
+}
+
+ScanUnits units() {
+  return units_after([](Study&) {});
+}
+
+TEST(Units, KeysDoNotDependOnWhereTheStudyLies) {
+  const ExampleStudy one;
+  const ExampleStudy other;
+  ASSERT_EQ(test::bytes_of(one.folder / "scan_1.h5"), test::bytes_of(other.folder / "scan_1.h5"));
+  EXPECT_EQ(units_of(one.read())[0].cases[1][1].key, units_of(other.read())[0].cases[1][1].key);
+}
+
+TEST(Units, KeyIsTheDigestOfAFixedText) {
+  // If this changes, stores written before are computed again: then kAlgorithms must change too.
+  Study study;
+  study.treatment = {"level=plane"};
+  const Unit surface = surface_unit(study, {}, "abc");
+  EXPECT_EQ(surface.text,
+            "tabor surface 1\nscan_sha256 = 3:abc\nchannel = 0:\nunit = 0:\npixel_x_m = 0\n"
+            "pixel_y_m = 0\nstep = 11:level=plane\n");
+  EXPECT_EQ(surface.file, "surface-" + surface.key + ".h5");
+  EXPECT_EQ(surface.key.size(), 16u);
+}
+
+TEST(Units, AllKeysOfAStudyDiffer) {
+  std::set<std::string> keys;
+  std::size_t n = 0;
+  for (const ScanUnits& scan : units_of(ExampleStudy().read())) {
+    for (const auto& cases : scan.cases) {
+      for (const Unit& unit : cases) {
+        keys.insert(unit.key);
+        ++n;
+      }
+    }
+  }
+  EXPECT_EQ(n, 8u);
+  EXPECT_EQ(keys.size(), n);
+}
+
+TEST(Units, ASettingChangesOnlyWhatDependsOnIt) {
+  const ScanUnits before = units();
+  const ScanUnits strength = units_after([](Study& study) { study.shear_strength = 1e6; });
+  EXPECT_EQ(strength.contacts[0].key, before.contacts[0].key);
+  EXPECT_EQ(strength.film.key, before.film.key);
+  EXPECT_NE(strength.cases[0][0].key, before.cases[0][0].key);
+
+  const ScanUnits seed = units_after([](Study& study) { study.lubricant.seed = 2; });
+  EXPECT_EQ(seed.contacts[0].key, before.contacts[0].key);
+  EXPECT_NE(seed.film.key, before.film.key);
+  EXPECT_NE(seed.cases[0][0].key, before.cases[0][0].key);
+
+  const ScanUnits modulus = units_after([](Study& study) { study.solid.youngs_modulus = 71e9; });
+  EXPECT_EQ(modulus.film.key, before.film.key);
+  EXPECT_NE(modulus.contacts[0].key, before.contacts[0].key);
+
+  const ScanUnits treatment = units_after([](Study& study) { study.treatment = {}; });
+  EXPECT_NE(treatment.surface.key, before.surface.key);
+  EXPECT_NE(treatment.film.key, before.film.key);
+  EXPECT_NE(treatment.contacts[0].key, before.contacts[0].key);
+}
+
+TEST(Units, APressureMoreLeavesTheOthersAlone) {
+  const ScanUnits more = units_after(
+      [](Study& study) { study.mean_pressures.insert(study.mean_pressures.begin(), 1e6); });
+  EXPECT_EQ(more.contacts[1].key, units().contacts[0].key);
+  EXPECT_EQ(more.cases[1][0].key, units().cases[0][0].key);
+}
+
+}  // namespace
+}  // namespace tabor::study

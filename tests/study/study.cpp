@@ -1,0 +1,122 @@
+#include "tabor/study/study.hpp"
+
+#include <cmath>
+
+#include "study/example_study.hpp"
+
+namespace tabor::study {
+namespace {
+
+using test::ExampleStudy;
+using test::kStudyText;
+using test::message_of;
+using test::replaced;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// What read_study says about the example with one part of its text replaced.
+std::string complaint(const std::string& part, const std::string& by) {
+  const ExampleStudy example;
+  example.write(replaced(kStudyText, part, by));
+  return message_of([&] { example.read(); });
+}
+
+TEST(ReadStudy, ConvertsEverythingToSi) {
+  const Study study = ExampleStudy().read();
+  EXPECT_EQ(study.title, "two small scans");
+  EXPECT_EQ(study.shear_strength, 70e6);
+  EXPECT_EQ(study.saturation_pressure, 240e6);
+  EXPECT_THAT(study.mean_pressures, ElementsAre(5e6, 15e6));
+  EXPECT_THAT(study.treatment, ElementsAre("level=mean"));
+  EXPECT_NEAR(study.effective_modulus(), 70e9 / (1 - 0.33 * 0.33), 1);
+  EXPECT_EQ(in_g_per_m2(study.lubricant_densities[0]), 0.45);
+  EXPECT_EQ(in_g_per_m2(study.lubricant_densities[1]), 0.9);
+  EXPECT_EQ(study.n_cases(), 8u);
+}
+
+TEST(ReadStudy, ExpandsPatternsInByteOrder) {
+  const Study study = ExampleStudy().read();
+  ASSERT_EQ(study.scans.size(), 2u);
+  EXPECT_EQ(study.scans[0].label, "scan_1.h5");
+  EXPECT_EQ(study.scans[1].label, "scan_2.h5");
+  EXPECT_EQ(study.scans[1].group, "side A");
+}
+
+TEST(ReadStudy, TakesANameWithPatternCharactersLiterallyIfThatFileExists) {
+  const ExampleStudy example;
+  example.add_scan("scan[1].h5", 3);
+  example.write(replaced(kStudyText, "scan_*.h5", "scan[1].h5"));
+  EXPECT_EQ(example.read().scans.at(0).label, "scan[1].h5");
+}
+
+TEST(ReadStudy, WithoutSaturationIsElasticAndWithoutDensityIsDry) {
+  const ExampleStudy example;
+  std::string text = replaced(kStudyText, "saturation_pressure = \"240 MPa\"\n", "");
+  text = replaced(text, "lubricant_density = [\"0.45 g/m^2\", \"0.9 g/m^2\"]\n", "");
+  example.write(text);
+  EXPECT_TRUE(std::isinf(example.read().saturation_pressure));
+  EXPECT_THAT(example.read().lubricant_densities, ElementsAre(0));
+}
+
+TEST(ReadStudy, ReadsBackWhatItWroteAsText) {
+  const ExampleStudy example;
+  example.write(replaced(kStudyText, "[sweep]\n",
+                         "[contact]\nboundary = \"free\"\ntolerance = 1e-7\n"
+                         "[lubricant]\nmodel = \"limit\"\nedge = \"open\"\nseed = 7\n[sweep]\n"));
+  const std::string text = to_toml(example.read());
+  example.write(text);
+  EXPECT_EQ(to_toml(example.read()), text);
+  EXPECT_FALSE(example.read().contact.periodic);
+  EXPECT_EQ(example.read().lubricant.seed, 7u);
+  EXPECT_EQ(example.read().lubricant.edge, lubrication::Edge::open);
+}
+
+TEST(ReadStudy, NamesLineAndNearestMatchOfAnUnknownKey) {
+  EXPECT_THAT(complaint("youngs_modulus", "young_modulus"),
+              HasSubstr("study.toml:4: unknown key 'material.young_modulus'; did you mean "
+                        "'material.youngs_modulus'?"));
+  EXPECT_THAT(complaint("group =", "grup ="), HasSubstr("did you mean 'scan[].group'?"));
+}
+
+TEST(ReadStudy, RefusesValuesWithoutOrWithWrongUnits) {
+  EXPECT_THAT(complaint("\"70 MPa\"", "70e6"), HasSubstr("shear_strength"));
+  EXPECT_THAT(complaint("\"70 GPa\"", "\"70 GPa s\""), HasSubstr("material.youngs_modulus"));
+  EXPECT_THAT(complaint("[\"5 MPa\", \"15 MPa\"]", "[\"5 MPa\", 15]"),
+              HasSubstr("sweep.mean_pressure: got 15 without a unit"));
+  EXPECT_THAT(complaint("\"0.45 g/m^2\"", "\"0.45 g/m^3\""), HasSubstr("lubricant_density"));
+}
+
+TEST(ReadStudy, RefusesValuesThatMakeNoSense) {
+  EXPECT_THAT(complaint("\"5 MPa\"", "\"-5 MPa\""), HasSubstr("above zero"));
+  EXPECT_THAT(complaint("\"15 MPa\"", "\"300 MPa\""), HasSubstr("below the saturation pressure"));
+  EXPECT_THAT(complaint("\"15 MPa\"", "\"5 MPa\""), HasSubstr("twice"));
+  EXPECT_THAT(complaint("0.33", "0.6"), HasSubstr("poissons_ratio"));
+  EXPECT_THAT(complaint("level=mean", "levle=mean"), HasSubstr("treatment.steps"));
+  EXPECT_THAT(complaint("[sweep]", "area = 3\n[sweep]"), HasSubstr("unknown key"));
+  EXPECT_THAT(complaint("[sweep]", "[lubricant]\nmodel = \"dropets\"\n[sweep]"),
+              HasSubstr("lubricant.model"));
+  EXPECT_THAT(complaint("[sweep]", "[contact]\nboundary = \"fre\"\n[sweep]"),
+              HasSubstr("did you mean 'free'?"));
+}
+
+TEST(ReadStudy, NamesWhatIsMissing) {
+  EXPECT_THAT(complaint("shear_strength = \"70 MPa\"\n", ""),
+              HasSubstr("shear_strength is missing"));
+  EXPECT_THAT(complaint("mean_pressure = [\"5 MPa\", \"15 MPa\"]\n", ""),
+              HasSubstr("sweep.mean_pressure is missing"));
+  EXPECT_THAT(complaint("[[scan]]\nfile = \"scan_*.h5\"\ngroup = \"side A\"\n", ""),
+              HasSubstr("no [[scan]]"));
+  EXPECT_THAT(message_of([] { read_study("/no/such/study.toml"); }), HasSubstr("study.toml"));
+}
+
+TEST(ReadStudy, NamesTheNearestFileOfAScanThatIsNotThere) {
+  EXPECT_THAT(complaint("scan_*.h5", "scan_1.hdf"), HasSubstr("did you mean 'scan_1.h5'?"));
+  EXPECT_THAT(complaint("scan_*.h5", "other_*.x3p"), HasSubstr("no file 'other_*.x3p'"));
+}
+
+TEST(ReadStudy, RefusesAScanListedTwice) {
+  EXPECT_THAT(complaint("\"scan_*.h5\"", "[\"scan_1.h5\", \"scan_*.h5\"]"), HasSubstr("twice"));
+}
+
+}  // namespace
+}  // namespace tabor::study

@@ -1,0 +1,259 @@
+#include "tabor/study/sweep.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "study/example_study.hpp"
+#include "tabor/io/csv.hpp"
+#include "tabor/io/hdf5.hpp"
+
+namespace tabor::study {
+namespace {
+
+using test::ExampleStudy;
+using test::replaced;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// Lets a sweep go on for `n` messages, then asks it to stop.
+SweepOptions stopping_after(int n) {
+  SweepOptions options;
+  options.observer = [left = n](const Progress&) mutable { return --left >= 0; };
+  return options;
+}
+
+TEST(Sweep, ComputesEveryCaseOnce) {
+  const ExampleStudy example;
+  const Outcome outcome = example.run();
+  EXPECT_EQ(outcome.n_cases, 8u);
+  EXPECT_EQ(outcome.n_done, 8u);
+  EXPECT_EQ(outcome.n_failed, 0u);
+  EXPECT_EQ(outcome.n_not_converged, 0u);
+  EXPECT_EQ(outcome.n_surfaces, 2u);
+  EXPECT_EQ(outcome.n_contacts, 4u);  // one per scan and pressure, not per density
+  EXPECT_EQ(outcome.n_films, 2u);     // one per scan for all densities
+  EXPECT_EQ(outcome.n_rows, 8u);
+  EXPECT_TRUE(outcome.warnings.empty());
+}
+
+TEST(Sweep, RowsAreInTheOrderOfTheStudy) {
+  const ExampleStudy example;
+  example.run();
+  const io::CsvTable table = io::parse_csv(example.csv(), "results.csv");
+  ASSERT_EQ(table.rows.size(), 8u);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(table.text(i, "scan"), i < 4 ? "scan_1.h5" : "scan_2.h5");
+    EXPECT_EQ(table.number(i, "mean_pressure_Pa"), i % 4 < 2 ? 5e6 : 15e6);
+    EXPECT_EQ(table.number(i, "lubricant_density_g_per_m2"), i % 2 == 0 ? 0.45 : 0.9);
+    EXPECT_EQ(table.text(i, "converged"), "true");
+  }
+}
+
+TEST(Sweep, RowsObeyBowdenAndTabor) {
+  const ExampleStudy example;
+  example.run();
+  const io::CsvTable table = io::parse_csv(example.csv(), "results.csv");
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const double area = table.number(i, "contact_area_fraction");
+    const double pressure = table.number(i, "mean_pressure_Pa");
+    const double dry = table.number(i, "friction_dry");
+    const double share = table.number(i, "lubricated_share");
+    EXPECT_GE(area, pressure / 240e6 * (1 - 1e-12));
+    EXPECT_DOUBLE_EQ(dry, area * 70e6 / pressure);
+    EXPECT_DOUBLE_EQ(table.number(i, "friction_lubricated"), dry * (1 - share));
+  }
+}
+
+TEST(Sweep, MoreLubricantNeverMeansMoreFriction) {
+  const ExampleStudy example;
+  example.run();
+  const io::CsvTable table = io::parse_csv(example.csv(), "results.csv");
+  for (std::size_t i = 0; i + 1 < table.rows.size(); i += 2) {
+    EXPECT_LE(table.number(i + 1, "friction_lubricated"), table.number(i, "friction_lubricated"));
+    EXPECT_EQ(table.number(i + 1, "friction_dry"), table.number(i, "friction_dry"));
+  }
+}
+
+TEST(Sweep, SecondRunComputesNothingAndChangesNothing) {
+  const ExampleStudy example;
+  example.run();
+  const std::string csv = example.csv();
+  int n_messages = 0;
+  SweepOptions options;
+  options.observer = [&](const Progress&) { return ++n_messages > 0; };
+  const Outcome again = example.run(options);
+  EXPECT_EQ(again.n_rows + again.n_contacts + again.n_films + again.n_surfaces, 0u);
+  EXPECT_EQ(again.n_done, 8u);
+  EXPECT_EQ(n_messages, 0);
+  EXPECT_EQ(example.csv(), csv);
+}
+
+TEST(Sweep, SameBytesForAnyNumberOfJobs) {
+  const ExampleStudy example;
+  example.run({}, "one");
+  SweepOptions options;
+  options.jobs = 2;
+  example.run(options, "two");
+  options.jobs = 16;
+  example.run(options, "many");
+  EXPECT_EQ(example.csv("one"), example.csv("two"));
+  EXPECT_EQ(example.csv("one"), example.csv("many"));
+}
+
+TEST(Sweep, StoppedAnywhereAndResumedGivesTheSameBytes) {
+  const ExampleStudy example;
+  example.run({}, "whole");
+  for (const int jobs : {1, 2}) {
+    bool stopped = true;
+    for (int n = 0; stopped && n < 1000; n += 7) {  // each run a little further than the one before
+      SweepOptions options = stopping_after(n);
+      options.jobs = jobs;
+      try {
+        example.run(options, "resumed" + std::to_string(jobs));
+        stopped = false;
+      } catch (const Interrupted&) {
+      }
+    }
+    EXPECT_FALSE(stopped);
+    EXPECT_EQ(example.csv("whole"), example.csv("resumed" + std::to_string(jobs)));
+  }
+}
+
+TEST(Sweep, InterruptedKeepsWhatIsFinished) {
+  const ExampleStudy example;
+  SweepOptions options;
+  options.observer = [](const Progress& progress) { return progress.fraction < 0.6; };
+  EXPECT_THROW(example.run(options), Interrupted);
+  const io::CsvTable table = io::parse_csv(example.csv(), "results.csv");
+  EXPECT_GE(table.rows.size(), 2u);
+  EXPECT_LT(table.rows.size(), 8u);
+  const Outcome rest = example.run();
+  EXPECT_EQ(rest.n_rows, 8 - table.rows.size());
+}
+
+TEST(Sweep, AnExceptionOfTheObserverEndsItWithoutLoss) {
+  const ExampleStudy example;
+  example.run({}, "whole");
+  SweepOptions options;
+  options.jobs = 2;
+  options.observer = [](const Progress& progress) -> bool {
+    if (progress.fraction > 0.5) {
+      throw std::runtime_error("from outside");
+    }
+    return true;
+  };
+  EXPECT_THROW(example.run(options), std::runtime_error);
+  EXPECT_GT(example.run().n_rows, 0u);
+  EXPECT_EQ(example.csv(), example.csv("whole"));
+}
+
+TEST(Sweep, AScanThatFailsIsRecordedAndTheRestGoesOn) {
+  const ExampleStudy example;
+  example.add_scan("scan_1.h5", 1, true);
+  const Outcome outcome = example.run();
+  EXPECT_EQ(outcome.n_done, 8u);
+  EXPECT_EQ(outcome.n_failed, 4u);
+  ASSERT_EQ(outcome.failures.size(), 2u);
+  EXPECT_THAT(outcome.failures[0], HasSubstr("1 missing pixels"));
+  EXPECT_THAT(outcome.failures[0], HasSubstr("fill=harmonic"));
+  const io::CsvTable table = io::parse_csv(example.csv(), "results.csv");
+  EXPECT_EQ(table.text(0, "friction_dry"), "");
+  EXPECT_EQ(table.text(0, "converged"), "false");
+  EXPECT_GT(table.number(4, "friction_dry"), 0);
+  const io::CsvTable averages = io::read_csv(example.results() / "averages.csv");
+  EXPECT_EQ(averages.number(0, "n"), 1);
+}
+
+TEST(Sweep, FailedCasesWaitForRetry) {
+  const ExampleStudy example;
+  example.add_scan("scan_1.h5", 1, true);
+  example.run();
+  EXPECT_EQ(example.run().n_rows, 0u);
+  SweepOptions options;
+  options.retry = true;
+  const Outcome again = example.run(options);
+  EXPECT_EQ(again.n_rows, 4u);  // tried again, failed again
+  EXPECT_EQ(again.n_failed, 4u);
+  EXPECT_EQ(again.n_contacts, 0u);
+}
+
+TEST(Sweep, NotConvergedCasesAreSolvedAgainOnlyByRetry) {
+  const ExampleStudy example;
+  // Elastic, and asked for more than double precision can prove.
+  std::string text = replaced(test::kStudyText, "saturation_pressure = \"240 MPa\"\n", "");
+  example.write(replaced(text, "[sweep]", "[contact]\ntolerance = 1e-60\n[sweep]"));
+  const Outcome first = example.run();
+  ASSERT_GE(first.n_not_converged, 2u);
+  EXPECT_EQ(first.n_failed, 0u);
+  EXPECT_EQ(example.run().n_contacts, 0u);
+  SweepOptions options;
+  options.retry = true;
+  EXPECT_EQ(example.run(options).n_contacts, first.n_not_converged / 2);  // two densities each
+  std::size_t n_averaged = 0;
+  const io::CsvTable averages = io::read_csv(example.results() / "averages.csv");
+  for (std::size_t i = 0; i < averages.rows.size(); ++i) {
+    n_averaged += static_cast<std::size_t>(averages.number(i, "n"));
+  }
+  EXPECT_EQ(n_averaged, 8 - first.n_not_converged);
+}
+
+TEST(Sweep, ANewPressureAddsOnlyItsOwnWork) {
+  const ExampleStudy example;
+  example.run();
+  example.write(replaced(test::kStudyText, "\"15 MPa\"", "\"10 MPa\", \"15 MPa\""));
+  const Outcome outcome = example.run();
+  EXPECT_EQ(outcome.n_contacts, 2u);
+  EXPECT_EQ(outcome.n_films, 0u);
+  EXPECT_EQ(outcome.n_rows, 4u);
+  EXPECT_EQ(outcome.n_done, 12u);
+}
+
+TEST(Sweep, ResultsFileLeadsToEveryMap) {
+  const ExampleStudy example;
+  example.write(std::string(test::kStudyText) + "[experiment]\nfile = \"measured.csv\"\n");
+  test::put_bytes(example.folder / "measured.csv", "mean_pressure_Pa,friction\n2e6,0.3\n");
+  SweepOptions options;
+  options.command = "tabor sweep study.toml";
+  example.run(options);
+  const io::Hdf5Reader results(example.results() / "results.h5");
+  EXPECT_EQ(results.text("/", "format"), "tabor");
+  EXPECT_EQ(results.text("/", "command"), "tabor sweep study.toml");
+  EXPECT_EQ(results.number("/", "saturation_pressure_Pa"), 240e6);
+  EXPECT_EQ(results.integer("/", "n_cases_done"), 8);
+  EXPECT_EQ(results.numbers("/table/friction_dry").size(), 8u);
+  EXPECT_EQ(results.texts("/table/scan").front(), "scan_1.h5");
+  EXPECT_EQ(results.integers("/averages/n").front(), 2);
+  EXPECT_THAT(results.children("/scans"), ElementsAre("0000", "0001"));
+  EXPECT_EQ(results.integer("/scans/0001", "nx"), 32);
+  EXPECT_NEAR(results.number("/scans/0001", "pixel_x_m"), 1e-6, 1e-18);
+  EXPECT_THAT(results.shape("/scans/0001/surface/height"), ElementsAre(24, 32));
+  EXPECT_THAT(results.shape("/scans/0001/contact/0001/state"), ElementsAre(24, 32));
+  EXPECT_THAT(results.shape("/scans/0001/films/0001/film_thickness"), ElementsAre(24, 32));
+  EXPECT_EQ(results.number("/scans/0001/contact/0001", "mean_pressure_Pa"), 15e6);
+  EXPECT_EQ(results.number("/scans/0001/films/0001", "lubricant_density_g_per_m2"), 0.9);
+  EXPECT_FALSE(results.numbers("/scans/0000/psd/x_q_rad_per_m").empty());
+  EXPECT_EQ(results.numbers("/experiment/friction").front(), 0.3);
+}
+
+TEST(Sweep, StoredStatesAgreeWithTheTable) {
+  const ExampleStudy example;
+  example.run();
+  const io::Hdf5Reader results(example.results() / "results.h5");
+  const io::ByteMap state = results.bytes("/scans/0000/contact/0001/state");
+  const double pixels = (state > 0).cast<double>().mean();
+  EXPECT_NEAR(pixels, results.numbers("/table/contact_area_fraction_pixels")[2], 1e-12);
+  EXPECT_NEAR((state == 2).cast<double>().mean(),
+              results.numbers("/table/saturated_area_fraction")[2], 1e-12);
+}
+
+TEST(Sweep, WarnsAboutTwoScansWithTheSameBytes) {
+  const ExampleStudy example;
+  std::filesystem::copy_file(example.folder / "scan_1.h5", example.folder / "scan_3.h5");
+  const Outcome outcome = example.run();
+  EXPECT_EQ(outcome.n_contacts, 4u);  // the copy's contacts are in the store already
+  ASSERT_EQ(outcome.warnings.size(), 1u);
+  EXPECT_THAT(outcome.warnings[0], HasSubstr("scan_1.h5 and scan_3.h5 hold the same bytes"));
+}
+
+}  // namespace
+}  // namespace tabor::study
