@@ -83,8 +83,10 @@ int show(const Request& request, Context& context) {
   };
   const int code = solve_all(*elasticity, scan, request.contact, context, receive);
   if (file) file->commit();
-  return finish(context, object, describe(scan) + describe(request.contact) + '\n' + rows.text(),
-                code);
+  Facts facts;
+  describe(scan, facts);
+  describe(request.contact, facts);
+  return finish(context, object, facts.text() + '\n' + rows.text(), code);
 }
 
 void declare_lowpass_scan(OptionSet& set, Request& request) {

@@ -177,15 +177,13 @@ io::Json state_json(const ContactResult& result) {
           {"peak_memory_bytes", peak_memory_bytes()}};
 }
 
-std::string describe(const ContactRequest& request) {
-  Facts facts;
+void describe(const ContactRequest& request, Facts& facts) {
   facts.fact("contact",
              fmt::format("E* {}, {}, {}, solver {}", si(effective_modulus(request), "Pa"),
                          request.saturation_pressure
                              ? "saturation " + si(*request.saturation_pressure, "Pa")
                              : std::string("elastic"),
                          request.boundary, request.solver));
-  return facts.text();
 }
 
 }  // namespace tabor::cli

@@ -66,6 +66,6 @@ std::vector<std::string> methods_of(const ContactRequest& request);
 io::Json settings_json(const ContactRequest& request);
 /// The keys of one state.
 io::Json state_json(const ContactResult& result);
-std::string describe(const ContactRequest& request);
+void describe(const ContactRequest& request, Facts& facts);
 
 }  // namespace tabor::cli

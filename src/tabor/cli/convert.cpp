@@ -23,8 +23,9 @@ int convert(const Request& request, Context& context) {
   object["ny"] = scan.surface.grid.ny;
   object["missing_pixels"] = topography::count_holes(scan.surface);
   Facts facts;
+  describe(scan, facts);
   facts.fact("written", request.output);
-  return finish(context, object, describe(scan) + facts.text());
+  return finish(context, object, facts.text());
 }
 
 }  // namespace

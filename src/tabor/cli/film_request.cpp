@@ -100,16 +100,14 @@ io::Json state_json(double density, const lubrication::Film& film) {
           {"peak_memory_bytes", peak_memory_bytes()}};
 }
 
-std::string describe(const FilmRequest& request, const Context& context) {
+void describe(const FilmRequest& request, const Context& context, Facts& facts) {
   std::string text = request.model;
   if (request.model == "droplets") {
     text += fmt::format(" of {}, {}, seed {}", si(request.droplet_height, "m"), request.reading,
                         context.seed_or_default());
   }
-  Facts facts;
   facts.fact("lubricant", fmt::format("{}, {} edge, oil {} kg/m^3", text, request.edge,
                                       plain(request.oil_density)));
-  return facts.text();
 }
 
 std::vector<std::string> methods_of(const FilmRequest& request) {

@@ -35,7 +35,7 @@ void rain(const Scan& scan, const FilmRequest& request, Context& context,
 io::Json settings_json(const FilmRequest& request, const Context& context);
 /// The keys of one state.
 io::Json state_json(double density, const lubrication::Film& film);
-std::string describe(const FilmRequest& request, const Context& context);
+void describe(const FilmRequest& request, const Context& context, Facts& facts);
 
 std::vector<std::string> methods_of(const FilmRequest& request);
 

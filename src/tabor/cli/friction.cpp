@@ -115,10 +115,12 @@ std::vector<StateField> maps_of(const contact::State& state, const lubrication::
 std::string text_of(const Scan& scan, const Request& request, const Context& context,
                     const Table& rows) {
   Facts facts;
+  describe(scan, facts);
+  describe(request.contact, facts);
+  describe(request.film, context, facts);
   facts.fact("friction", fmt::format("shear strength {}, {} contact area",
                                      si(request.shear_strength, "Pa"), request.area));
-  return describe(scan) + describe(request.contact) + describe(request.film, context) +
-         facts.text() + '\n' + rows.text();
+  return facts.text() + '\n' + rows.text();
 }
 
 int show(const Request& request, Context& context) {

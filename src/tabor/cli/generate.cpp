@@ -32,13 +32,13 @@ class Given {
 
   double need(const std::string& kind, const std::string& flag) {
     if (const auto value = take(flag)) return *value;
-    throw UsageError(fmt::format("tabor generate {}: {} is missing", kind, flag));
+    throw UsageError(fmt::format("generate {}: {} is missing", kind, flag));
   }
 
   void refuse_rest(const std::string& kind) const {
     if (values_.empty()) return;
-    throw UsageError(fmt::format("tabor generate {}: {} does not belong to this kind", kind,
-                                 values_.begin()->first));
+    throw UsageError(
+        fmt::format("generate {}: {} does not belong to this kind", kind, values_.begin()->first));
   }
 
  private:
@@ -90,7 +90,7 @@ Topography make_self_affine(Request& request, std::uint64_t seed) {
   recipe.random_amplitudes = request.random_amplitudes;
   recipe.seed = seed;
   if (recipe.rms_height.has_value() == recipe.rms_slope.has_value()) {
-    throw UsageError("tabor generate self-affine: give either --rms-height or --rms-slope");
+    throw UsageError("generate self-affine: give either --rms-height or --rms-slope");
   }
   return topography::self_affine(recipe);
 }
@@ -149,7 +149,7 @@ Topography make(Request& request, std::uint64_t seed) {
   if (maker == makers().end()) {
     std::vector<std::string> kinds;
     for (const auto& [kind, unused] : makers()) kinds.push_back(kind);
-    throw UsageError(fmt::format("tabor generate: unknown kind '{}'{}", request.kind,
+    throw UsageError(fmt::format("generate: unknown kind '{}'{}", request.kind,
                                  suggestion(request.kind, kinds)));
   }
   Topography surface = maker->second(request, seed);

@@ -141,10 +141,12 @@ int run_lowpass_scan(const Scan& scan, const ContactRequest& request,
   object["ny"] = scan.surface.grid.ny;
   object.update(settings_json(request));
   object["states"] = table.states;
+  Facts head;
+  describe(scan, head);
+  describe(request, head);
   Facts facts;
   object["plateaus"] = plateaus_of(request, cutoffs, table, facts);
-  return finish(context, object,
-                describe(scan) + describe(request) + '\n' + table.rows.text() + '\n' + facts.text(),
+  return finish(context, object, head.text() + '\n' + table.rows.text() + '\n' + facts.text(),
                 code);
 }
 

@@ -68,8 +68,10 @@ int show(const Request& request, Context& context) {
     object["states"].push_back(state);
     table.row(row_of(state));
   }
-  return finish(context, object,
-                describe(scan) + describe(request.film, context) + '\n' + table.text(), code);
+  Facts facts;
+  describe(scan, facts);
+  describe(request.film, context, facts);
+  return finish(context, object, facts.text() + '\n' + table.text(), code);
 }
 
 }  // namespace

@@ -27,7 +27,9 @@ int show(const ScanRequest& request, Context& context) {
                                               {"definition", parameter.definition}};
     table.row({parameter.symbol, value_of(parameter), parameter.definition});
   }
-  return finish(context, object, describe(scan) + '\n' + table.text());
+  Facts facts;
+  describe(scan, facts);
+  return finish(context, object, facts.text() + '\n' + table.text());
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ Declared declare(CLI::App& app, const OptionSet& set) {
     CLI::Option* added = option.is_switch() ? app.add_flag(names) : app.add_option(names);
     // Values of a repeated option are all taken here and told apart in assign_in_order(), where
     // an option that makes no sense twice can be refused by name.
-    added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
+    added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+        ->allow_extra_args(option.is_positional() && option.repeatable);
     if (option.is_positional() && option.repeatable) added->expected(0, -1);
     declared[added] = &option;
   }
@@ -45,11 +46,11 @@ void refuse_unknown_words(const CLI::App& app, const OptionSet& set, const std::
   const auto dashed = std::find_if(unknown.begin(), unknown.end(),
                                    [](const std::string& word) { return word.starts_with('-'); });
   if (dashed == unknown.end()) {
-    throw UsageError(fmt::format("tabor {}: unexpected word '{}'; see 'tabor {} --help'", verb,
-                                 unknown.front(), verb));
+    throw UsageError(
+        fmt::format("unexpected word '{}'; see 'tabor {} --help'", unknown.front(), verb));
   }
   const std::string flag = dashed->substr(0, dashed->find('='));
-  throw UsageError(fmt::format("tabor {}: unknown option '{}'{}; see 'tabor {} --help'", verb, flag,
+  throw UsageError(fmt::format("unknown option '{}'{}; see 'tabor {} --help'", flag,
                                suggestion(flag, flags_of(set)), verb));
 }
 
@@ -60,8 +61,8 @@ void require_all(const Declared& declared, const OptionSet& set, const std::stri
       if (wanted != &option || parsed->count() > 0) continue;
       const std::string form =
           option.placeholder.empty() ? option.flag : option.flag + " " + option.placeholder;
-      throw UsageError(fmt::format("tabor {}: {} is missing ({}); see 'tabor {} --help'", verb,
-                                   form, option.help, verb));
+      throw UsageError(
+          fmt::format("{} is missing ({}); see 'tabor {} --help'", form, option.help, verb));
     }
   }
 }
@@ -76,13 +77,13 @@ void assign(const Option& option, const std::string& value) {
 
 // Treatment steps act in the order given, so values are assigned in the order of the command line
 // and not, as CLI11 would, in the order of declaration.
-void assign_in_order(CLI::App& app, const Declared& declared, const std::string& verb) {
+void assign_in_order(CLI::App& app, const Declared& declared) {
   std::map<const CLI::Option*, std::size_t> taken;
   for (const CLI::Option* parsed : app.parse_order()) {
     const Option& option = *declared.at(parsed);
     const std::size_t position = taken[parsed]++;
     if (position > 0 && !option.repeatable) {
-      throw UsageError(fmt::format("tabor {}: {} is given more than once", verb, option.flag));
+      throw UsageError(fmt::format("{} is given more than once", option.flag));
     }
     if (position < parsed->results().size()) assign(option, parsed->results()[position]);
   }
@@ -98,11 +99,11 @@ void parse(const OptionSet& set, const std::string& verb, const std::vector<std:
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
   } catch (const CLI::ParseError& error) {
-    throw UsageError(fmt::format("tabor {}: {}; see 'tabor {} --help'", verb, error.what(), verb));
+    throw UsageError(fmt::format("{}; see 'tabor {} --help'", error.what(), verb));
   }
   refuse_unknown_words(app, set, verb);
   require_all(declared, set, verb);
-  assign_in_order(app, declared, verb);
+  assign_in_order(app, declared);
 }
 
 }  // namespace tabor::cli

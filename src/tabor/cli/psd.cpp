@@ -44,8 +44,9 @@ std::vector<std::string> row_of(const std::string& name, const Spectrum& spectru
           fmt::format("{} [{}]", spectrum.density.size(), spectrum.unit)};
 }
 
-std::string text_of(const PowerSpectra& spectra) {
+std::string text_of(const Scan& scan, const PowerSpectra& spectra) {
   Facts facts;
+  describe(scan, facts);
   facts.fact("convention", std::string(name_of(spectra.convention)));
   facts.fact("window",
              std::string(name_of(spectra.window)) +
@@ -80,7 +81,7 @@ int show(const Request& request, Context& context) {
   object["radial"] = json_of(spectra.radial, spectra.radial.unit == "m^3" ? "w_m3" : "c2d_m4");
   object["rms_height_m"] = spectra.rms_height;
   object["rms_slope"] = spectra.rms_slope;
-  return finish(context, object, describe(scan) + text_of(spectra));
+  return finish(context, object, text_of(scan, spectra));
 }
 
 void declare_options(OptionSet& set, Request& request) {

@@ -99,16 +99,14 @@ void require_no_holes(const Scan& scan) {
                    "add --fill harmonic");
 }
 
-std::string describe(const Scan& scan) {
+void describe(const Scan& scan, Facts& facts) {
   const Grid& grid = scan.surface.grid;
   std::string pixel = si(grid.dx(), "m");
   if (grid.dx() != grid.dy()) pixel += " x " + si(grid.dy(), "m");
-  Facts facts;
   facts.fact("scan", fmt::format("{} ({}), {} x {} pixels of {}", scan.path, scan.surface.format,
                                  grid.nx, grid.ny, pixel));
   facts.fact("treatment",
              scan.treatment.empty() ? "none" : fmt::format("{}", fmt::join(scan.treatment, ", ")));
-  return facts.text();
 }
 
 }  // namespace tabor::cli

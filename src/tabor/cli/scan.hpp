@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "tabor/cli/table.hpp"
 #include "tabor/cli/verb.hpp"
 #include "tabor/topography/file.hpp"
 #include "tabor/topography/treatment.hpp"
@@ -37,7 +38,7 @@ void warn_if_not_levelled(const Scan& scan, Context& context);
 /// Refuses holes with the option that fills them.
 void require_no_holes(const Scan& scan);
 
-/// "edt.x3p  x3p  512 x 512 pixels of 670 nm" and the treatment, for people.
-std::string describe(const Scan& scan);
+/// File, pixels and treatment, for people.
+void describe(const Scan& scan, Facts& facts);
 
 }  // namespace tabor::cli
