@@ -1,0 +1,67 @@
+#pragma once
+
+// The only file that includes HDF5's headers, for hdf5_*.cpp alone.
+#include <hdf5.h>
+#include <hdf5_hl.h>
+
+#include <cstdint>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace tabor::io::hdf5 {
+
+/// Distributed HDF5 libraries are mostly not thread-safe, so one thread at a time is inside. Also
+/// keeps the library from printing its own error stack: what fails is said by an exception.
+class Session {
+ public:
+  Session() : lock_(mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+ private:
+  static std::recursive_mutex& mutex() {
+    static std::recursive_mutex instance;
+    return instance;
+  }
+  std::lock_guard<std::recursive_mutex> lock_;
+};
+
+/// An HDF5 identifier that closes itself; negative means the call that made it failed.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
+  ~Handle() { reset(); }
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(Handle&&) = delete;
+
+  operator hid_t() const { return id_; }
+  bool valid() const { return id_ >= 0; }
+  bool reset() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// How files are opened: without locks of HDF5's own, closed with everything in them.
+Handle file_access();
+
+/// The same for writing, through a driver that notes a failing write instead of telling HDF5, which
+/// would crash at the end of the program over a file it could not flush.
+Handle writing_access();
+
+/// True once a write to this file, opened with writing_access(), has failed.
+bool write_failed(hid_t file);
+
+/// Number of elements, or nullopt-like maximum when the product does not fit.
+inline std::uint64_t count_of(const std::vector<hsize_t>& shape) {
+  std::uint64_t count = 1;
+  for (const hsize_t n : shape) {
+    if (__builtin_mul_overflow(count, static_cast<std::uint64_t>(n), &count)) {
+      return UINT64_MAX;
+    }
+  }
+  return count;
+}
+
+}  // namespace tabor::io::hdf5
