@@ -148,18 +148,28 @@ TEST(FitHurst, GivesNoNumberWithoutThreeBins) {
   EXPECT_TRUE(std::isnan(fit_hurst({}, {}, 1, 1, 2).hurst));
 }
 
+// Random phases only: every mode has the power of the law, so that what is left is the filter's
+// bias.
 TEST(FindFitRange, StaysAboveTheRollOffAndBelowAFilter) {
   SelfAffine recipe;
   recipe.grid = {512, 512, 512e-6, 512e-6};
   recipe.rms_height = 1e-6;
   recipe.hurst = 0.7;
   recipe.roll_off_wavelength = 128e-6;
-  recipe.random_amplitudes = true;
   const auto smooth = low_pass(self_affine(recipe), parse_filter("hann:3um"));
   const auto fit = power_spectra(smooth).radial.hurst;
   EXPECT_GT(fit.q_min, 0.9 * 2 * pi / 128e-6);
   EXPECT_LT(fit.q_max, 2 * pi / 3e-6);
   EXPECT_NEAR(fit.hurst, 0.7, 0.1);
+}
+
+TEST(FindFitRange, IsNotCutShortByTheScatterOfTheFirstBins) {
+  std::vector<double> q, density;
+  for (int k = 1; k <= 500; ++k) {
+    q.push_back(k);
+    density.push_back(std::pow(k, -2.5) * (k == 4 ? 3.5 : k == 7 ? 0.3 : 1));
+  }
+  EXPECT_EQ(find_fit_range(q, density, 1).q_max, 250);
 }
 
 TEST(PowerSpectra, OfTheTransposedSurfaceSwapXAndY) {

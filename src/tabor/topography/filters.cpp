@@ -184,11 +184,11 @@ std::string cutoff_text(const Filter& filter, double side) {
 std::string describe(std::string_view step, const Filter& filter, double side,
                      const Topography& before, const Topography& after) {
   const double pixel = std::max(before.grid.dx(), before.grid.dy());
-  const bool idle = filter.cutoff_wavelength(side) <= 2 * pixel;
+  const bool mild = filter.cutoff_wavelength(side) <= 2 * pixel;
   return fmt::format(
       "{}={}: {}, {:.4g} pixels{}; Sq {} -> {}, Sdq {:.4g} -> {:.4g}", step, to_string(filter),
       cutoff_text(filter, side), filter.cutoff_wavelength(side) / pixel,
-      idle ? " (beyond Nyquist: hardly any effect)" : "", format_si(rms_height(before), "m"),
+      mild ? " (mild: its end lies beyond Nyquist)" : "", format_si(rms_height(before), "m"),
       format_si(rms_height(after), "m"), rms_slope(before), rms_slope(after));
 }
 

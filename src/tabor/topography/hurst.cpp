@@ -59,15 +59,15 @@ Line fit_line(const std::vector<Bin>& bins) {
   return {slope, std::sqrt(scatter / xx)};
 }
 
-/// First q from which the density falls more steeply, over half a decade, than H = 1 plus one
-/// power.
+/// First q from which the density falls more steeply, over half a decade (less at the end of the
+/// spectrum, where bins hold many modes), than H = 1 plus one power.
 double find_cut(const std::vector<Bin>& bins, double offset, double from) {
-  const auto reach = static_cast<std::size_t>(kBinsPerDecade / 4);
-  for (std::size_t i = 0; i + reach < bins.size(); ++i) {
-    const double slope = (bins[i + reach].log_density - bins[i].log_density) /
-                         (bins[i + reach].log_q - bins[i].log_q);
+  const auto reach = static_cast<std::size_t>(kBinsPerDecade / 2);
+  for (std::size_t i = 0; i + reach / 2 < bins.size(); ++i) {
+    const Bin& last = bins[std::min(i + reach, bins.size() - 1)];
+    const double slope = (last.log_density - bins[i].log_density) / (last.log_q - bins[i].log_q);
     if (std::exp(bins[i].log_q) > from && slope < -(offset + 3)) {
-      return std::exp(bins[i + reach].log_q);
+      return std::exp(bins[i].log_q);
     }
   }
   return std::numeric_limits<double>::infinity();
@@ -99,7 +99,7 @@ FitRange find_fit_range(const std::vector<double>& q, const std::vector<double>&
   });
   const double roll_off = peak == bins.end() ? q.front() : std::exp(peak->log_q);
   const double cut = find_cut(bins, offset, roll_off);
-  const double q_max = std::min(q.back() / 2, cut / 3);
+  const double q_max = std::min(q.back() / 2, cut / 2.5);
   // A narrow spectrum is fitted from nearer to its roll-off, never from below it.
   return {std::min(2 * roll_off, std::max(roll_off, q_max / 3)), q_max};
 }

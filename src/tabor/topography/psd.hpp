@@ -67,8 +67,8 @@ HurstFit fit_hurst(const std::vector<double>& q, const std::vector<double>& dens
                    double q_min, double q_max);
 
 /// Where a power law can be expected: from twice the wavevector at which q^offset density peaks
-/// (the roll-off) to half the largest wavevector, or to a third of the one from which the density
-/// falls faster than any H <= 1 allows (a low-pass filter, the instrument's resolution).
+/// (the roll-off) to half the largest wavevector, or to 0.4 of the one from which the
+/// density falls faster than any H <= 1 allows (a low-pass filter, the instrument's resolution).
 struct FitRange {
   double q_min = 0;
   double q_max = 0;
