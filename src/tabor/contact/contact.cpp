@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 #include <vector>
 
 #include "tabor/contact/certificate.hpp"
@@ -44,25 +46,27 @@ void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
   }
 }
 
-/// p = P + S^-1 z, the answer if it stays within the bounds (contact everywhere); one transform.
-/// Tried only where the rms slope makes it plausible: its fluctuation has rms E* / 2 * rms slope.
-bool try_full_contact(elastic::ElasticOperator& elasticity, const Problem& problem, State& state) {
-  const Grid& grid = elasticity.grid();
-  const double lateral = std::min(grid.dx(), grid.dy());
-  const double range = problem.height.maxCoeff() - problem.height.minCoeff();
-  const auto steepest = [&](const auto& difference, double spacing) {
-    return difference.size() == 0 ? 0.0 : std::sqrt(difference.square().mean()) / spacing;
+/// Rms slope by forward differences, without wrapping around.
+double rms_slope(const Field& height, const Grid& grid) {
+  const auto mean_square = [](const auto& difference, double spacing) {
+    return difference.size() == 0 ? 0.0 : difference.square().mean() / (spacing * spacing);
   };
-  const Index ny = grid.ny;
   const Index nx = grid.nx;
-  const double slope = std::hypot(
-      steepest(problem.height.rightCols(nx - 1) - problem.height.leftCols(nx - 1), grid.dx()),
-      steepest(problem.height.bottomRows(ny - 1) - problem.height.topRows(ny - 1), grid.dy()));
-  const double fluctuation = 0.5 * elasticity.effective_modulus() * slope;
-  if (range > 1e-12 * lateral && problem.mean_pressure < 0.25 * fluctuation) {
-    return false;
-  }
-  if (!elasticity.apply_inverse(problem.height, state.pressure)) {
+  const Index ny = grid.ny;
+  return std::sqrt(mean_square(height.rightCols(nx - 1) - height.leftCols(nx - 1), grid.dx()) +
+                   mean_square(height.bottomRows(ny - 1) - height.topRows(ny - 1), grid.dy()));
+}
+
+/// Rms pressure [Pa] that full contact needs to flatten the surface: E* / 2 * rms slope.
+double flattening_pressure(const elastic::ElasticOperator& elasticity, const Problem& problem) {
+  return 0.5 * elasticity.effective_modulus() * rms_slope(problem.height, elasticity.grid());
+}
+
+/// p = P + S^-1 z, the answer if it stays within the bounds (contact everywhere); one transform.
+/// Tried only where the pressure is not far below the flattening pressure.
+bool try_full_contact(elastic::ElasticOperator& elasticity, const Problem& problem, State& state) {
+  if (problem.mean_pressure < 0.25 * flattening_pressure(elasticity, problem) ||
+      !elasticity.apply_inverse(problem.height, state.pressure)) {
     return false;
   }
   state.convergence.fft_pairs += 1;
@@ -76,9 +80,9 @@ bool try_full_contact(elastic::ElasticOperator& elasticity, const Problem& probl
   state.convergence.tolerance = problem.tolerance;
   const Field residual = state.displacement - problem.height;
   const Candidates all{
-      std::vector<double>(state.pressure.data(), state.pressure.data() + grid.size()),
-      std::vector<double>(residual.data(), residual.data() + grid.size())};
-  const double load = problem.mean_pressure * static_cast<double>(grid.size());
+      std::vector<double>(state.pressure.data(), state.pressure.data() + state.pressure.size()),
+      std::vector<double>(residual.data(), residual.data() + residual.size())};
+  const double load = problem.mean_pressure * static_cast<double>(residual.size());
   state.convergence.certificate =
       std::max(0.0, duality_gap(all, load, problem.saturation_pressure)) /
       (load * length_scale(elasticity, problem));
@@ -86,11 +90,46 @@ bool try_full_contact(elastic::ElasticOperator& elasticity, const Problem& probl
   return state.convergence.converged;
 }
 
+State run(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
+          const Observer& observer) {
+  return solver == Solver::fast ? solve_fast(elasticity, problem, observer)
+                                : solve_polonsky_keer(elasticity, problem, observer);
+}
+
+/// A cap that no pressure reaches leaves the elastic answer, to the bit: wherever the cap turns out
+/// idle, the answer is the one computed without it. Caps above what roughness usually reaches
+/// are tried without first.
+State run_capped(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
+                 const Observer& observer, bool& cap_is_idle) {
+  const double cap = problem.saturation_pressure;
+  Problem elastic_problem = problem;
+  elastic_problem.saturation_pressure = kNoSaturation;
+  double pairs_spent = 0;
+  const auto try_elastic = [&](State& state) {
+    state = run(elasticity, elastic_problem, solver, observer);
+    pairs_spent += state.convergence.fft_pairs;
+    cap_is_idle = state.pressure.maxCoeff() <= cap;
+    return cap_is_idle;
+  };
+  State state;
+  const bool probably_idle = cap > 10 * flattening_pressure(elasticity, problem);
+  if (!probably_idle || !try_elastic(state)) {
+    state = run(elasticity, problem, solver, observer);
+    pairs_spent += state.convergence.fft_pairs;
+    State elastic_state;
+    if (!probably_idle && state.convergence.converged && state.pressure.maxCoeff() < cap &&
+        try_elastic(elastic_state)) {
+      state = std::move(elastic_state);
+    }
+  }
+  state.convergence.fft_pairs = pairs_spent;
+  return state;
+}
+
 /// Separation: contact pixels below saturation have zero mean gap; if all are saturated, the
 /// largest overlap-free level. The gap is then set exactly complementary to the pressure, which
 /// moves it by no more than the certificate's error.
-void finish_state(const Problem& problem, State& state) {
-  const double cap = problem.saturation_pressure;
+void finish_state(const Problem& problem, double cap, State& state) {
   double total = 0;
   double n_free = 0;
   double saturated_level = -std::numeric_limits<double>::infinity();
@@ -121,13 +160,14 @@ State solve(elastic::ElasticOperator& elasticity, const Problem& problem, Solver
             const Observer& observer) {
   check(elasticity, problem);
   State state;
+  bool cap_is_idle = !std::isfinite(problem.saturation_pressure);
   if (!try_full_contact(elasticity, problem, state)) {
-    const double pairs_before = state.convergence.fft_pairs;
-    state = solver == Solver::fast ? solve_fast(elasticity, problem, observer)
-                                   : solve_polonsky_keer(elasticity, problem, observer);
-    state.convergence.fft_pairs += pairs_before;
+    const double pairs_spent = state.convergence.fft_pairs;
+    state = cap_is_idle ? run(elasticity, problem, solver, observer)
+                        : run_capped(elasticity, problem, solver, observer, cap_is_idle);
+    state.convergence.fft_pairs += pairs_spent;
   }
-  finish_state(problem, state);
+  finish_state(problem, cap_is_idle ? kNoSaturation : problem.saturation_pressure, state);
   return state;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tabor/contact/certificate.hpp"
+#include "tabor/contact/projection.hpp"
 #include "tabor/contact/scale.hpp"
 #include "tabor/contact/start.hpp"
 
@@ -23,6 +24,7 @@ class ConjugateGradient {
  private:
   bool is_free(Index i) const { return pressure_(i) > 0 && pressure_(i) < cap_; }
   double mean_over_free(const Field& field) const;
+  double level() const;
   double certificate() const;
   double update_direction();
   void step(double length);
@@ -36,6 +38,7 @@ class ConjugateGradient {
   Field response_;            // r = S t
   double conjugacy_ = 0;      // delta: 0 restarts the conjugate directions
   double previous_norm_ = 1;  // G of the iteration before
+  double step_length_ = 1;    // tau of the iteration before [Pa/m]
 };
 
 double ConjugateGradient::mean_over_free(const Field& field) const {
@@ -48,6 +51,20 @@ double ConjugateGradient::mean_over_free(const Field& field) const {
     }
   }
   return n > 0 ? total / n : 0;
+}
+
+/// Separation in the units of gap_: the mean over the free pixels; with a cap, where there may be
+/// none, the level at which a step along the gap carries the load.
+double ConjugateGradient::level() const {
+  if (!std::isfinite(cap_)) {
+    return mean_over_free(gap_);
+  }
+  std::vector<double> trial(static_cast<std::size_t>(gap_.size()));
+  for (Index i = 0; i < gap_.size(); ++i) {
+    trial[static_cast<std::size_t>(i)] = pressure_(i) - step_length_ * gap_(i);
+  }
+  const double load = problem_.mean_pressure * static_cast<double>(gap_.size());
+  return -shift_for_load(trial, load, cap_) / step_length_;
 }
 
 double ConjugateGradient::certificate() const {
@@ -107,6 +124,7 @@ State ConjugateGradient::run(const Observer& observer) {
   gap_.resizeLike(pressure_);
   direction_ = Field::Zero(pressure_.rows(), pressure_.cols());
   response_.resizeLike(pressure_);
+  step_length_ = elasticity_.effective_modulus() / elasticity_.grid().dx();
   while (true) {
     elasticity_.apply(pressure_, gap_);
     convergence.operator_applications += 1;
@@ -120,11 +138,11 @@ State ConjugateGradient::run(const Observer& observer) {
     if (convergence.converged || stop || convergence.iterations >= problem_.max_iterations) {
       break;
     }
-    const double separation = mean_over_free(gap_);
-    gap_ -= separation;
+    gap_ -= level();
     const double length = update_direction();
     convergence.operator_applications += 1;
-    step(length > 0 ? length : elasticity_.effective_modulus() / elasticity_.grid().dx());
+    step_length_ = length > 0 ? length : step_length_;
+    step(step_length_);
     convergence.iterations += 1;
   }
   convergence.fft_pairs = convergence.operator_applications;

@@ -1,0 +1,85 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <string>
+
+#include "contact/surfaces.hpp"
+#include "tabor/core/error.hpp"
+
+namespace tabor::test {
+namespace {
+
+using testing::HasSubstr;
+
+std::string refusal(const std::function<void()>& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+TEST(SolveContact, RefusesALoadThatTheCapCannotCarry) {
+  const Field height = wave(16, 0.01, true);
+  EXPECT_THAT(refusal([&] { solve_unit(height, 0.2, 0.1); }),
+              HasSubstr("no pressure field below the cap"));
+  EXPECT_THAT(refusal([&] { solve_unit(height, 0.2, 0.2); }),
+              HasSubstr("no pressure field below the cap"));
+}
+
+TEST(SolveContact, RefusesHolesAndInfiniteHeights) {
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    Field height = wave(16, 0.01, true);
+    height(3, 4) = bad;
+    EXPECT_THAT(refusal([&] { solve_unit(height, 0.01); }), HasSubstr("--fill harmonic"));
+  }
+}
+
+TEST(SolveContact, RefusesPressuresAndTolerancesThatMakeNoSense) {
+  const Field height = wave(16, 0.01, true);
+  for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    EXPECT_THAT(refusal([&] { solve_unit(height, bad); }), HasSubstr("mean pressure")) << bad;
+  }
+  EXPECT_THAT(refusal([&] { solve_unit(height, 0.01, std::nan("")); }), HasSubstr("saturation"));
+  EXPECT_THAT(refusal([&] { solve_unit(height, 0.01, contact::kNoSaturation, 0); }),
+              HasSubstr("tolerance"));
+}
+
+TEST(SolveContact, RefusesAHeightOfAnotherShapeThanTheOperator) {
+  const auto elasticity = elastic::make_periodic(square(16), 1.0);
+  contact::Problem problem;
+  problem.height = Field::Zero(16, 17);
+  problem.mean_pressure = 1;
+  EXPECT_THAT(refusal([&] { contact::solve(*elasticity, problem); }), HasSubstr("17 x 16"));
+}
+
+TEST(SolveContact, ReturnsANonConvergedStateWhenStopped) {
+  const auto elasticity = elastic::make_periodic(square(64), 1.0);
+  contact::Problem problem;
+  problem.height = self_affine(64, 0.8, 1, 16, 1);
+  problem.mean_pressure = 0.02;
+  int calls = 0;
+  const auto state = contact::solve(*elasticity, problem, contact::Solver::fast,
+                                    [&](const Progress&) { return ++calls < 3; });
+  EXPECT_FALSE(state.convergence.converged);
+  EXPECT_GT(state.convergence.certificate, 1e-6);
+  EXPECT_NEAR(state.pressure.mean() / problem.mean_pressure, 1, 1e-10);
+}
+
+TEST(SolveContact, SaysSoWhenItRunsOutOfIterations) {
+  const auto elasticity = elastic::make_periodic(square(64), 1.0);
+  contact::Problem problem;
+  problem.height = self_affine(64, 0.8, 1, 16, 1);
+  problem.mean_pressure = 0.02;
+  problem.max_iterations = 2;
+  for (const auto solver : {contact::Solver::fast, contact::Solver::polonsky_keer}) {
+    EXPECT_FALSE(contact::solve(*elasticity, problem, solver).convergence.converged);
+  }
+}
+
+}  // namespace
+}  // namespace tabor::test

@@ -1,0 +1,151 @@
+// The pieces of the solver: projection, certificate, preconditioner, patches.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "contact/surfaces.hpp"
+#include "tabor/contact/certificate.hpp"
+#include "tabor/contact/patches.hpp"
+#include "tabor/contact/preconditioner.hpp"
+#include "tabor/contact/projection.hpp"
+
+namespace tabor::contact {
+namespace {
+
+constexpr double kNoCap = std::numeric_limits<double>::infinity();
+
+std::vector<double> random_values(std::size_t n, std::uint64_t seed) {
+  const CounterRandom random(seed);
+  std::vector<double> values(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    values[k] = random.normal(k) * 1e8;
+  }
+  return values;
+}
+
+TEST(ProjectOnLoad, KeepsBoundsAndLoad) {
+  for (const double cap : {kNoCap, 2e8, 1e7}) {
+    for (const double share : {1e-6, 0.1, 0.5, 0.999}) {
+      std::vector<double> x = random_values(5000, 4);
+      const double load = share * 5000 * std::min(cap, 1e8);
+      project_on_load(x, load, cap);
+      EXPECT_NEAR(std::accumulate(x.begin(), x.end(), 0.0) / load, 1, 1e-13);
+      EXPECT_GE(*std::min_element(x.begin(), x.end()), 0);
+      EXPECT_LE(*std::max_element(x.begin(), x.end()), cap);
+    }
+  }
+}
+
+TEST(ProjectOnLoad, LeavesAFeasiblePointAlone) {
+  std::vector<double> x{0.0, 1.0, 2.0, 5.0};
+  project_on_load(x, 8.0, 5.0);
+  EXPECT_EQ(x, (std::vector<double>{0.0, 1.0, 2.0, 5.0}));
+}
+
+TEST(DualityGap, IsZeroForTheKnapsackItself) {
+  EXPECT_EQ(duality_gap({{0, 3, 0}, {2.0, 1.0, 5.0}}, 3, kNoCap), 0);
+  EXPECT_EQ(duality_gap({{1, 2, 0}, {2.0, 1.0, 5.0}}, 3, 2), 0);
+}
+
+TEST(DualityGap, IsTheDistanceToTheBestFeasibleLoad) {
+  // All on v = 5 costs 15; best without cap is 3 * 1, with cap 2 it is 2 * 1 + 1 * 2.
+  EXPECT_DOUBLE_EQ(duality_gap({{0, 0, 3}, {2.0, 1.0, 5.0}}, 3, kNoCap), 12);
+  EXPECT_DOUBLE_EQ(duality_gap({{0, 1, 2}, {2.0, 1.0, 5.0}}, 3, 2), 11 - 4);
+}
+
+TEST(DualityGap, DoesNotDependOnTheLevelOfTheResidual) {
+  const double gap = duality_gap({{1, 1, 1}, {2.0, 1.0, 5.0}}, 3, 2);
+  EXPECT_NEAR(duality_gap({{1, 1, 1}, {1002.0, 1001.0, 1005.0}}, 3, 2), gap, 1e-11);
+}
+
+TEST(KnapsackThreshold, IsTheBearingLevel) {
+  EXPECT_EQ(knapsack_threshold({{0, 0, 0, 0}, {4.0, 1.0, 3.0, 2.0}}, 2.5, 1), 3.0);
+}
+
+TEST(Preconditioner, DirectSumsArePositiveDefiniteOnAnySet) {
+  const Grid grid{48, 40, 1.0, 0.9};
+  Preconditioner preconditioner(grid, 1.0, true);
+  const CounterRandom random(9);
+  for (std::uint64_t trial = 0; trial < 20; ++trial) {
+    FieldF residual = FieldF::Zero(40, 48);
+    PixelList set;
+    for (std::uint32_t pixel = 0; pixel < 40 * 48; ++pixel) {
+      if (random.uniform(trial * 10000 + pixel) < 0.1) {
+        set.push_back(pixel);
+        residual(pixel) = static_cast<float>(random.normal(trial * 10000 + 5000 + pixel));
+      }
+    }
+    std::vector<float> out;
+    preconditioner.apply(set, residual, out);
+    double product = 0;
+    for (std::size_t k = 0; k < set.size(); ++k) {
+      product += static_cast<double>(out[k]) * residual(set[k]);
+    }
+    EXPECT_GT(product, 0);
+  }
+}
+
+TEST(Preconditioner, LargeSetsByFourierTransformArePositiveDefinite) {
+  const Grid grid{64, 64, 1.0, 1.0};
+  Preconditioner preconditioner(grid, 1.0, true);
+  const CounterRandom random(2);
+  FieldF residual(64, 64);
+  PixelList set(64 * 64);
+  std::iota(set.begin(), set.end(), 0U);
+  for (int trial = 0; trial < 10; ++trial) {
+    for (const std::uint32_t pixel : set) {
+      residual(pixel) =
+          static_cast<float>(random.normal(static_cast<std::uint64_t>(trial) * 4096 + pixel));
+    }
+    std::vector<float> out;
+    preconditioner.apply(set, residual, out);
+    EXPECT_GT((Eigen::Map<const FieldF>(out.data(), 64, 64) * residual).sum(), 0);
+  }
+  EXPECT_EQ(preconditioner.fft_pairs(), 10);
+}
+
+TEST(Preconditioner, SumsAcrossTheEdgesOfAPeriodicCell) {
+  const Grid grid{40, 40, 1.0, 1.0};
+  Preconditioner preconditioner(grid, 1.0, true);
+  const auto response = [&](Index y, Index x) {
+    FieldF residual = FieldF::Zero(40, 40);
+    residual(y, x) = 1;
+    const auto neighbour = static_cast<std::uint32_t>(((y + 2) % 40) * 40 + (x + 3) % 40);
+    std::vector<float> out;
+    preconditioner.apply({neighbour}, residual, out);
+    return out[0];
+  };
+  EXPECT_EQ(response(20, 20), response(39, 38));
+  EXPECT_LT(response(20, 20), 0);
+}
+
+TEST(FindPatches, JoinsAcrossPeriodicBorders) {
+  Mask contact = Mask::Constant(4, 5, false);
+  contact(0, 0) = contact(0, 4) = contact(3, 0) = true;  // one patch around the corner
+  contact(1, 2) = true;
+  EXPECT_EQ(find_patches(contact, true).pixel_counts, (std::vector<Index>{3, 1}));
+  EXPECT_EQ(find_patches(contact, false).pixel_counts, (std::vector<Index>{1, 1, 1, 1}));
+}
+
+TEST(FindPatches, DiagonalNeighboursAreSeparate) {
+  Mask contact = Mask::Constant(3, 3, false);
+  contact(0, 0) = contact(1, 1) = true;
+  EXPECT_EQ(find_patches(contact, false).size(), 2);
+}
+
+TEST(CountTransitions, CountsTheOutlineOfABlock) {
+  Mask contact = Mask::Constant(8, 8, false);
+  contact.block(2, 3, 2, 3) = true;  // 2 rows, 3 columns
+  const Transitions transitions = count_transitions(contact, true);
+  EXPECT_EQ(transitions.along_rows, 4);
+  EXPECT_EQ(transitions.along_columns, 6);
+  contact = Mask::Constant(8, 8, false);
+  contact.leftCols(3) = true;
+  EXPECT_EQ(count_transitions(contact, true).along_rows, 16);
+  EXPECT_EQ(count_transitions(contact, false).along_rows, 8);
+}
+
+}  // namespace
+}  // namespace tabor::contact

@@ -1,0 +1,55 @@
+#include "tabor/core/parallel.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace tabor {
+namespace {
+
+class Parallel : public testing::Test {
+ protected:
+  ~Parallel() override { set_thread_count(0); }
+};
+
+TEST_F(Parallel, VisitsEveryItemOnce) {
+  for (const int threads : {1, 2, 5}) {
+    set_thread_count(threads);
+    std::atomic<Index> visited = 0;
+    parallel_for(100001, 64, [&](Index begin, Index end) { visited += end - begin; });
+    EXPECT_EQ(visited, 100001);
+  }
+}
+
+TEST_F(Parallel, SumsHaveTheSameBitsForAnyThreadCount) {
+  const Field values = Field::Random(701, 333);
+  set_thread_count(1);
+  const double one = sum(values);
+  for (const int threads : {2, 3, 8}) {
+    set_thread_count(threads);
+    EXPECT_EQ(sum(values), one) << threads;
+  }
+  EXPECT_NEAR(one, values.sum(), 1e-9);
+}
+
+TEST_F(Parallel, RethrowsWhatTheBodyThrows) {
+  set_thread_count(2);
+  EXPECT_THROW(parallel_for(100, 1,
+                            [](Index begin, Index) {
+                              if (begin == 57) {
+                                throw std::runtime_error("57");
+                              }
+                            }),
+               std::runtime_error);
+}
+
+TEST_F(Parallel, MaximumOfNothingIsMinusInfinity) {
+  EXPECT_EQ(parallel_max(0, [](Index, Index) { return 1.0; }),
+            -std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+}  // namespace tabor

@@ -1,0 +1,31 @@
+#include "tabor/core/text.hpp"
+
+#include <gtest/gtest.h>
+
+namespace tabor {
+namespace {
+
+TEST(ParseNumber, TakesWholeNumbersInTheCLocaleOnly) {
+  EXPECT_EQ(parse_number(" 1.5e-3 "), 1.5e-3);
+  EXPECT_EQ(parse_number("+2"), 2.0);
+  EXPECT_FALSE(parse_number("1,5"));
+  EXPECT_FALSE(parse_number("1.5 um"));
+  EXPECT_FALSE(parse_number("+-2"));
+  EXPECT_FALSE(parse_number(""));
+}
+
+TEST(NearestMatch, FindsTyposAndStaysSilentOnStrangers) {
+  EXPECT_EQ(nearest_match("lowpas", {"level", "lowpass", "mirror"}), "lowpass");
+  EXPECT_EQ(nearest_match("Lowpass", {"lowpass"}), "lowpass");
+  EXPECT_FALSE(nearest_match("temperature", {"level", "lowpass"}));
+  EXPECT_EQ(suggestion("presure", {"pressure"}), "; did you mean 'pressure'?");
+  EXPECT_EQ(suggestion("zzzzzz", {"pressure"}), "");
+}
+
+TEST(Split, KeepsEmptyParts) {
+  EXPECT_EQ(split("a,,b", ','), (std::vector<std::string>{"a", "", "b"}));
+  EXPECT_EQ(split("", ','), (std::vector<std::string>{""}));
+}
+
+}  // namespace
+}  // namespace tabor

@@ -1,0 +1,147 @@
+#include "tabor/spectral/fft.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "support/validation.hpp"
+#include "tabor/core/parallel.hpp"
+
+namespace tabor::spectral {
+namespace {
+
+using Spectrum = std::vector<std::complex<double>>;
+
+Spectrum transform(const Field& map) {
+  Spectrum spectrum(static_cast<std::size_t>(map.rows() * (map.cols() / 2 + 1)));
+  RealFft2d<double>(map.rows(), map.cols()).forward(map.data(), spectrum.data());
+  return spectrum;
+}
+
+std::complex<double> naive_mode(const Field& map, Index ky, Index kx) {
+  std::complex<double> sum = 0;
+  for (Index y = 0; y < map.rows(); ++y) {
+    for (Index x = 0; x < map.cols(); ++x) {
+      const double phase = -2 * std::numbers::pi *
+                           (static_cast<double>(ky * y) / static_cast<double>(map.rows()) +
+                            static_cast<double>(kx * x) / static_cast<double>(map.cols()));
+      sum += map(y, x) * std::polar(1.0, phase);
+    }
+  }
+  return sum;
+}
+
+class Sizes : public testing::TestWithParam<std::pair<Index, Index>> {};
+
+TEST_P(Sizes, ForwardIsTheDefiningSum) {
+  const auto [ny, nx] = GetParam();
+  const Field map = Field::Random(ny, nx);
+  const Spectrum spectrum = transform(map);
+  for (Index ky = 0; ky < ny; ++ky) {
+    for (Index kx = 0; kx <= nx / 2; ++kx) {
+      const auto got = spectrum[static_cast<std::size_t>(ky * (nx / 2 + 1) + kx)];
+      EXPECT_NEAR(std::abs(got - naive_mode(map, ky, kx)), 0, 1e-12 * static_cast<double>(nx * ny));
+    }
+  }
+}
+
+TEST_P(Sizes, InverseUndoesForward) {
+  const auto [ny, nx] = GetParam();
+  const Field map = Field::Random(ny, nx);
+  Spectrum spectrum = transform(map);
+  Field back(ny, nx);
+  RealFft2d<double>(ny, nx).inverse(spectrum.data(), back.data());
+  EXPECT_LE((back - map).abs().maxCoeff(), 1e-14);
+}
+
+TEST_P(Sizes, PaddedConvolutionIsTheDirectSum) {
+  const auto [ny, nx] = GetParam();
+  const auto kernel = [](Index y, Index x) {
+    return 1.0 / (1.0 + static_cast<double>(y * y + 2 * x * x));
+  };
+  const Field values = even_spectrum(2 * ny, 2 * nx, kernel);
+  const Field map = Field::Random(ny, nx);
+  Field result(ny, nx);
+  Convolution<double>(ny, nx, Convolution<double>::Padding::zero)
+      .apply(
+          map.data(),
+          [&](Index kx, std::span<double> out) {
+            std::copy_n(&values(kx, 0), out.size(), out.begin());
+          },
+          result.data());
+  for (Index y = 0; y < ny; ++y) {
+    for (Index x = 0; x < nx; ++x) {
+      double expected = 0;
+      for (Index j = 0; j < ny; ++j) {
+        for (Index i = 0; i < nx; ++i) {
+          expected += map(j, i) * kernel(std::abs(y - j), std::abs(x - i));
+        }
+      }
+      EXPECT_NEAR(result(y, x), expected, 1e-13 * static_cast<double>(nx * ny));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    EvenOddPrimeAndThin, Sizes,
+    testing::Values(std::pair<Index, Index>{8, 8}, std::pair<Index, Index>{7, 12},
+                    std::pair<Index, Index>{13, 5}, std::pair<Index, Index>{1, 9},
+                    std::pair<Index, Index>{9, 1}, std::pair<Index, Index>{1, 1}));
+
+TEST(RealFft2d, KeepsTheSumOfSquares) {
+  const Field map = Field::Random(54, 40);
+  const Spectrum spectrum = transform(map);
+  double power = 0;
+  for (Index ky = 0; ky < 54; ++ky) {
+    for (Index kx = 0; kx <= 20; ++kx) {
+      const double weight = (kx == 0 || kx == 20) ? 1 : 2;  // the other half of the spectrum
+      power += weight * std::norm(spectrum[static_cast<std::size_t>(ky * 21 + kx)]);
+    }
+  }
+  const double error = std::abs(power / (54 * 40) / map.square().sum() - 1);
+  test::expect_within("Spectra", "Parseval, 54 x 40", "sum of squares, relative", "identity", error,
+                      1e-14);
+}
+
+TEST(Convolution, HasTheSameBitsForAnyThreadCount) {
+  const FieldF map = FieldF::Random(120, 90);
+  const auto smooth = [](Index kx, std::span<float> values) {
+    for (std::size_t ky = 0; ky < values.size(); ++ky) {
+      values[ky] = 1.0F / (1.0F + static_cast<float>(kx) + static_cast<float>(ky));
+    }
+  };
+  FieldF first(120, 90);
+  for (const int threads : {1, 2, 3}) {
+    set_thread_count(threads);
+    FieldF result(120, 90);
+    Convolution<float>(120, 90).apply(map.data(), smooth, result.data());
+    if (threads == 1) {
+      first = result;
+    }
+    EXPECT_TRUE((result == first).all()) << threads;
+  }
+  set_thread_count(0);
+}
+
+TEST(GoodFftSize, IsTheNextSmoothNumber) {
+  EXPECT_EQ(good_fft_size(3456), 3456);
+  EXPECT_EQ(good_fft_size(3401), 3402);  // 2 3^5 7
+  EXPECT_EQ(good_fft_size(1), 1);
+  EXPECT_EQ(largest_prime_factor(3400), 17);
+  EXPECT_EQ(largest_prime_factor(97), 97);
+}
+
+TEST(Wavevector, IsNegativeAboveTheMiddle) {
+  EXPECT_DOUBLE_EQ(wavevector(1, 8, 2.0), std::numbers::pi);
+  EXPECT_DOUBLE_EQ(wavevector(7, 8, 2.0), -std::numbers::pi);
+  EXPECT_DOUBLE_EQ(wavevector(4, 8, 2.0), 4 * std::numbers::pi);
+}
+
+}  // namespace
+}  // namespace tabor::spectral
