@@ -55,14 +55,14 @@ TEST(SolveContact, LightLoadsScatterAroundThePublishedSlope) {
 }
 
 TEST(SolveContact, BothSolversAgreeOnRoughSurfaces) {
-  const Field height = self_affine(128, 0.8, 1, 32, 11);
+  const Field height = self_affine(64, 0.8, 1, 16, 11);
   for (const double cap : {contact::kNoSaturation, 0.2}) {
-    const Solved fast = solve_unit(height, 0.02, cap, 1e-12);
-    const Solved baseline = solve_unit(height, 0.02, cap, 1e-12, contact::Solver::polonsky_keer);
+    const Solved fast = solve_unit(height, 0.02, cap, 1e-13);
+    const Solved baseline = solve_unit(height, 0.02, cap, 1e-13, contact::Solver::polonsky_keer);
     ASSERT_TRUE(fast.state.convergence.converged);
     ASSERT_TRUE(baseline.state.convergence.converged);
     expect_within("Contact",
-                  std::isfinite(cap) ? "rough, saturated, n = 128" : "rough, elastic, n = 128",
+                  std::isfinite(cap) ? "rough, saturated, n = 64" : "rough, elastic, n = 64",
                   "pressure, fast against Polonsky-Keer", "each other",
                   (fast.state.pressure - baseline.state.pressure).abs().maxCoeff() /
                       fast.summary.max_pressure,
