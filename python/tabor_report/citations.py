@@ -9,7 +9,7 @@ _HERE = Path(__file__).resolve().parent
 # Beside the installed package, or where the source tree keeps it.
 _PLACES = (_HERE / "references.bib", _HERE.parents[1] / "src/tabor/cli/references.bib")
 
-_STUDY = ("polonsky1999", "stanley1997", "bowden1950", "costagliola2022", "barnes2021", "jacobs2017")
+_STUDY = ("polonsky1999", "stanley1997", "bowden1950", "costagliola2021", "barnes2021", "jacobs2017")
 
 
 def bibtex(facts):

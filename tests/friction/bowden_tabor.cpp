@@ -10,7 +10,7 @@
 namespace tabor::friction {
 namespace {
 
-constexpr double kShearStrength = 70e6;  // Costagliola et al. 2022: aluminium, [Pa]
+constexpr double kShearStrength = 70e6;  // Costagliola et al. 2021: aluminium, [Pa]
 constexpr double kSaturation = 240e6;    // [Pa]
 
 Contact saturated(double mean_pressure) {

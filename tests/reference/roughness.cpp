@@ -23,7 +23,7 @@ TEST(RoughContact, PerssonsAreaEndsInFullContact) {
 }
 
 TEST(RoughContact, SaturatedFrictionOfTheAluminiumSheet) {
-  // 70 MPa / 240 MPa, Costagliola et al. 2022.
+  // 70 MPa / 240 MPa, Costagliola et al. 2021.
   EXPECT_NEAR(saturated_friction(70e6, 240e6), 0.2917, 5e-5);
 }
 

@@ -144,7 +144,7 @@ class StudyReport(unittest.TestCase):
             "tabor sweep study.toml",
             "polonsky1999",
             "almqvist2007",
-            "costagliola2022",
+            "costagliola2021",
             "barnes2021",
             "@software{tabor",
         ):

@@ -18,7 +18,7 @@ using Keys = std::set<std::string>;
 // A study says what it used by its settings: docs/results.md lists these attributes.
 Keys keys_of_study(const io::Hdf5Reader& file) {
   Keys keys = {"rey2017",    "polonsky1999",    "stanley1997",
-               "bowden1950", "costagliola2022", "jacobs2017"};
+               "bowden1950", "costagliola2021", "jacobs2017"};
   if (file.has_attribute("/", "saturation_pressure_Pa")) keys.insert("almqvist2007");
   if (file.has_attribute("/", "area") && file.text("/", "area") == "corrected") {
     keys.insert("yastrebov2017");
@@ -41,7 +41,7 @@ Keys keys_of(const std::string& path) {
     keys = keys_of_study(file);
   }
   if (keys.contains("stanley1997") || keys.contains("love1929")) keys.insert("frigo2005");
-  if (keys.contains("costagliola2022")) keys.insert("salmon2011");
+  if (keys.contains("costagliola2021")) keys.insert("salmon2011");
   keys.insert("hdf5");
   return keys;
 }

@@ -111,8 +111,8 @@ void describe(const FilmRequest& request, const Context& context, Facts& facts) 
 }
 
 std::vector<std::string> methods_of(const FilmRequest& request) {
-  if (request.model == "limit") return {"costagliola2022", "barnes2021"};
-  return {"costagliola2022"};
+  if (request.model == "limit") return {"costagliola2021", "barnes2021"};
+  return {"costagliola2021"};
 }
 
 }  // namespace tabor::cli

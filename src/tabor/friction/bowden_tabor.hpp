@@ -8,7 +8,7 @@ namespace tabor::friction {
 /// Which count of the real contact area friction uses.
 enum class Area {
   corrected,  ///< perimeter-corrected (Yastrebov et al. 2017)
-  pixels      ///< counted contact pixels, as Costagliola et al. 2022 do
+  pixels      ///< counted contact pixels, as Costagliola et al. 2021 do
 };
 
 std::string_view name(Area area);
@@ -35,7 +35,7 @@ struct Estimate {
 ///   dry         mu = (A_real / A0) tau_y / P
 ///   lubricated  mu = (A_real - A_lub) / A0 * tau_y / P
 ///
-/// (Bowden & Tabor 1950; Costagliola et al. 2022, section 4). A corrected area is never taken below
+/// (Bowden & Tabor 1950; Costagliola et al. 2021, section 4). A corrected area is never taken below
 /// P / p_sat, which bounds the continuum too. Throws InputError for values out of range.
 Estimate estimate(const Contact& contact, double shear_strength, Area area = Area::corrected);
 

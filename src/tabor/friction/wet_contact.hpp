@@ -10,7 +10,7 @@ namespace tabor::friction {
 double lubricated_share(const Mask& contact, const Field& film);
 
 /// The share of the liquid that no longer fits when the surfaces close on each other: sum of
-/// max(film - gap, 0) over the sum of film (Costagliola et al. 2022, section 4.3). A negative gap
+/// max(film - gap, 0) over the sum of film (Costagliola et al. 2021, section 4.3). A negative gap
 /// (plastic overlap) holds no liquid, as a closed one. 0 without liquid. Throws as above.
 double spill_over_fraction(const Field& film, const Field& gap);
 

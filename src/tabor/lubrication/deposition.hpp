@@ -13,7 +13,7 @@ namespace tabor::lubrication {
 
 /// How the liquid gets onto the surface.
 enum class Model {
-  droplets,     ///< random droplets run downhill, one after the other (Costagliola et al. 2022)
+  droplets,     ///< random droplets run downhill, one after the other (Costagliola et al. 2021)
   limit,        ///< the same for vanishing droplets: fill, spill, merge (Barnes et al. 2020)
   bottom_fill,  ///< one flat level for the whole surface
   uniform       ///< the same thickness everywhere

@@ -17,7 +17,7 @@
 #include "tabor/topography/rows.hpp"
 #include "tabor/topography/synthesis.hpp"
 
-// The recipe: sparks leave overlapping craters (section 3 of Costagliola et al. 2022 shows plateaus
+// The recipe: sparks leave overlapping craters (section 3 of Costagliola et al. 2021 shows plateaus
 // with asperities on asperities); skin-pass rolling limits the height of what stands between them;
 // finer self-affine roughness covers everything. The amplitudes of the sum are then set to the
 // power law that such sheets are measured to follow, while its phases keep the craters and
