@@ -165,6 +165,20 @@ TEST_F(ContactVerb, InterruptedKeepsWhatWasFinishedAndLeaves) {
   EXPECT_EQ(outcome.code, 130);
 }
 
+TEST_F(ContactVerb, LowPassScanRepeatsTheContactForEveryCutoff) {
+  const io::Json result =
+      json_of(contact("20MPa") + Words{"--lowpass-scan", "4,8,16", "--shear-strength", "70MPa"});
+  const io::Json& states = result.at("states");
+  ASSERT_EQ(states.size(), 3u);
+  EXPECT_EQ(states.at(1).at("lowpass"), "lowpass=hann:8/L");
+  EXPECT_LT(states.at(0).at("rms_slope").get<double>(), states.at(2).at("rms_slope").get<double>());
+  for (const io::Json& state : states) {
+    EXPECT_NEAR(state.at("friction_dry").get<double>(),
+                state.at("contact_area_fraction").get<double>() * 70 / 20, 1e-12);
+  }
+  EXPECT_EQ(result.at("plateaus").size(), 1u);
+}
+
 TEST_F(ContactVerb, TableShowsCertificateAndConvergence) {
   const Outcome outcome = run_tabor(contact("20MPa"));
   EXPECT_THAT(outcome.out, testing::AllOf(HasSubstr("20 MPa"), HasSubstr("certificate"),

@@ -162,6 +162,29 @@ class ContactInterrupted(ProgramTest):
         self.assertTrue((self.folder / "out.h5").exists())
 
 
+def report_libraries_are_installed():
+    names = "numpy, h5py, matplotlib, jinja2"
+    return subprocess.run(["/usr/bin/python3", "-c", f"import {names}"], capture_output=True, check=False).returncode == 0
+
+
+class Report(SweepTest):
+    @unittest.skipUnless(report_libraries_are_installed(), "the Python libraries of the report are not installed")
+    def test_of_a_study_and_of_a_result_file_is_one_page(self):
+        self.reference()
+        files = self.json("report", "reference")["files"]
+        self.assertTrue(any(name.endswith("report.html") for name in files), files)
+        self.assertTrue((self.folder / "reference/report.html").exists())
+
+    def test_of_nothing_is_refused(self):
+        done = self.tabor("report", "absent")
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn("absent", done.stderr)
+
+    def test_with_a_wrong_word_is_a_usage_error(self):
+        self.assert_refused(self.tabor("report", "reference", "--presure", "7MPa"), 2, "--pressure")
+
+
 class HelpExamples(ProgramTest):
     def test_of_sweep_work(self):
         shutil.copytree(SOURCE / "examples/06_study", self.folder / "examples/06_study")

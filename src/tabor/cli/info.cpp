@@ -8,7 +8,7 @@
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
-#include "tabor/core/text.hpp"
+#include "tabor/topography/doubts.hpp"
 #include "tabor/topography/parameters.hpp"
 
 namespace tabor::cli {
@@ -27,33 +27,6 @@ struct Heights {
   double quantum = kNone;
 };
 
-// The step of heights that are whole multiples of one: the smallest difference between distinct
-// heights, if all differences of a sample are multiples of it within rounding. NaN if they are not.
-double height_quantum(const Field& height) {
-  constexpr Index kSample = 200000;
-  std::vector<double> values;
-  const Index stride = std::max<Index>(1, height.size() / kSample);
-  for (Index i = 0; i < height.size(); i += stride) {
-    if (std::isfinite(height.data()[i])) values.push_back(height.data()[i]);
-  }
-  std::sort(values.begin(), values.end());
-  if (values.empty()) return kNone;
-  const double range = values.back() - values.front();
-  double step = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    const double difference = values[i] - values[i - 1];
-    if (difference > 1e-9 * range) step = std::min(step, difference);
-  }
-  // More levels than this cannot be told from continuous heights by a sample of this size.
-  if (!std::isfinite(step) || range / step > 65536) return kNone;
-  step = range / std::round(range / step);
-  const bool regular = std::all_of(values.begin(), values.end(), [&](double value) {
-    const double level = (value - values.front()) / step;
-    return std::abs(level - std::round(level)) < 0.05;
-  });
-  return regular ? step : kNone;
-}
-
 Heights heights_of(const Topography& surface) {
   Heights heights;
   const Index n = surface.height.size();
@@ -67,7 +40,8 @@ Heights heights_of(const Topography& surface) {
     heights.max = std::max(heights.max, z);
   }
   heights.rms = topography::rms_height(surface);
-  heights.quantum = height_quantum(surface.height);
+  const double quantum = topography::height_quantum(surface.height);
+  if (quantum > 0) heights.quantum = quantum;
   return heights;
 }
 

@@ -1,0 +1,89 @@
+// sweep on two small generated surfaces.
+#include <gmock/gmock.h>
+
+#include "run_tabor.hpp"
+#include "support/folder.hpp"
+
+namespace tabor::test {
+namespace {
+
+using testing::HasSubstr;
+
+class StudyVerbs : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (const char* seed : {"1", "2"}) {
+      const Outcome made = run_tabor({"generate", "edt", "-o", file(std::string(seed) + ".h5"),
+                                      "--pixels", "32", "--pixel", "4um", "--seed", seed});
+      ASSERT_EQ(made.code, 0) << made.err;
+    }
+    put_bytes(folder_ / "study.toml",
+              "shear_strength = \"70 MPa\"\n"
+              "[material]\nyoungs_modulus = \"70 GPa\"\npoissons_ratio = 0.33\n"
+              "saturation_pressure = \"240 MPa\"\n"
+              "[treatment]\nsteps = [\"level=plane\"]\n"
+              "[sweep]\nmean_pressure = [\"2 MPa\", \"7 MPa\"]\n"
+              "lubricant_density = [\"0.9 g/m^2\"]\n"
+              "[[scan]]\nfile = \"[12].h5\"\ngroup = \"before\"\n");
+  }
+  std::string file(const std::string& name) const { return (folder_ / name).string(); }
+  std::vector<std::string> sweep() const {
+    return {"sweep", file("study.toml"), "-o", file("out")};
+  }
+
+  Folder folder_;
+};
+
+TEST_F(StudyVerbs, SweepSaysWhatItDidAndAverages) {
+  const io::Json result = json_of(sweep());
+  EXPECT_EQ(result.at("n_cases"), 4);
+  EXPECT_EQ(result.at("n_done"), 4);
+  EXPECT_EQ(result.at("n_computed_contacts"), 4);
+  const io::Json& averages = result.at("averages");
+  ASSERT_EQ(averages.size(), 2u);
+  EXPECT_EQ(averages.at(0).at("group"), "before");
+  EXPECT_EQ(averages.at(0).at("n"), 2);
+  EXPECT_GT(averages.at(0).at("friction_dry_mean").get<double>(), 0.29);
+}
+
+TEST_F(StudyVerbs, SweepAgainComputesNothing) {
+  run_tabor(sweep());
+  const io::Json again = json_of(sweep());
+  EXPECT_EQ(again.at("n_done"), 4);
+  EXPECT_EQ(again.at("n_computed_contacts"), 0);
+}
+
+TEST_F(StudyVerbs, SweepTableShowsMeanAndDeviation) {
+  const Outcome outcome = run_tabor(sweep());
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.out, testing::AllOf(HasSubstr("±"), HasSubstr("4 of 4 done")));
+}
+
+TEST_F(StudyVerbs, SeedOfTheCommandLineWinsOverTheStudys) {
+  std::vector<std::string> words = sweep();
+  run_tabor(words);
+  words.insert(words.end(), {"--seed", "7"});
+  EXPECT_EQ(json_of(words).at("n_computed_films"), 2);
+}
+
+TEST_F(StudyVerbs, BadShardIsAUsageError) {
+  std::vector<std::string> words = sweep();
+  words.insert(words.end(), {"--shard", "3/2"});
+  EXPECT_EQ(run_tabor(words).code, 2);
+}
+
+TEST_F(StudyVerbs, CiteKnowsWhatAStudyUsed) {
+  ASSERT_EQ(run_tabor(sweep()).code, 0);
+  const io::Json entries = json_of({"cite", file("out/results.h5")}).at("bibtex");
+  for (const char* key : {"almqvist2007", "costagliola2021", "yastrebov2017"}) {
+    EXPECT_TRUE(entries.contains(key)) << key;
+  }
+  EXPECT_FALSE(entries.contains("barnes2021"));
+}
+
+TEST_F(StudyVerbs, MissingStudyIsBadInput) {
+  EXPECT_EQ(run_tabor({"sweep", file("absent.toml")}).code, 3);
+}
+
+}  // namespace
+}  // namespace tabor::test
