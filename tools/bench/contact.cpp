@@ -1,6 +1,6 @@
 // Counts and times of the contact solvers on generated surfaces.
 //
-//   bench_contact [n] [--baseline] [--surface edt|self-affine] [--elastic] [--threads N] [--seed S]
+//   bench_contact [n] [--baseline] [--surface edt|self-affine] [--threads N] [--seed S]
 //
 // Prints one row per case: solver iterations, operator applications and FFT pairs are
 // deterministic; seconds and their ratios are not. `pair` is a plain FFTW-like double transform
@@ -9,7 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,7 +35,7 @@ struct Options {
 
 struct Case {
   std::string name;
-  Field height;
+  std::shared_ptr<const Field> height;
   Grid grid;
   double saturation_pressure;
   std::vector<double> mean_pressures;
@@ -62,9 +62,9 @@ std::vector<Case> cases(const Options& options) {
     topography::Edt recipe;
     recipe.grid = grid;
     recipe.seed = options.seed;
-    const Field height = topography::edt(recipe).height;
+    const auto height = std::make_shared<const Field>(topography::edt(recipe).height);
     list.push_back({"edt saturated", height, grid, 240e6, {2e6, 5e6, 10e6, 15e6}});
-    const double unit = aluminium() * rms_slope(height, grid);  // A/A0 ~ 2 P / (E* rms slope)
+    const double unit = aluminium() * rms_slope(*height, grid);  // A/A0 ~ 2 P / (E* rms slope)
     list.push_back({"edt elastic",
                     height,
                     grid,
@@ -78,7 +78,7 @@ std::vector<Case> cases(const Options& options) {
     recipe.roll_off_wavelength = grid.lx / 4;
     recipe.short_cutoff_wavelength = 4 * 2 * grid.dx();
     recipe.seed = options.seed;
-    const Field height = topography::self_affine(recipe).height;
+    const auto height = std::make_shared<const Field>(topography::self_affine(recipe).height);
     const double unit = aluminium();
     list.push_back({"self-affine elastic",
                     height,
@@ -106,7 +106,7 @@ double seconds_of_pair(Index n) {
 void run(const Case& item, double mean_pressure, contact::Solver solver, double pair_seconds) {
   const auto elasticity = elastic::make_periodic(item.grid, aluminium());
   contact::Problem problem;
-  problem.height = item.height;
+  problem.height = *item.height;
   problem.mean_pressure = mean_pressure;
   problem.saturation_pressure = item.saturation_pressure;
   const Stopwatch watch;

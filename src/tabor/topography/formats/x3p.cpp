@@ -188,10 +188,17 @@ void add_layers(Document& document, const Contents& contents, const Matrix& matr
   }
 }
 
+/// Maker and model; ISO 25178-72 wants both filled in, so that writers without either put a phrase.
 std::string instrument_of(const io::XmlElement& root) {
   const io::XmlElement instrument = root.at("Record2/Instrument");
-  return std::string(
-      trim(instrument.at("Manufacturer").text() + " " + instrument.at("Model").text()));
+  std::string name;
+  for (const char* part : {"Manufacturer", "Model"}) {
+    const std::string text(trim(instrument.at(part).text()));
+    if (!text.empty() && lower(text) != "not available") {
+      name += (name.empty() ? "" : " ") + text;
+    }
+  }
+  return name;
 }
 
 void add_metadata(Document& document, const io::XmlElement& root) {
