@@ -59,6 +59,27 @@ TEST_F(ContactVerb, AreaGrowsWithPressureAndReachesTheTolerance) {
   }
 }
 
+TEST_F(ContactVerb, StatisticsAddStiffnessAndHistograms) {
+  EXPECT_FALSE(json_of(contact("20MPa")).at("states").at(0).contains("contact_stiffness_Pa_per_m"));
+  const io::Json state = json_of(contact("20MPa") + Words{"--statistics"}).at("states").at(0);
+  EXPECT_GT(state.at("contact_stiffness_Pa_per_m").get<double>(), 0);
+  for (const char* key : {"pressure_histogram", "gap_histogram", "patch_area_histogram"}) {
+    EXPECT_TRUE(state.at(key).contains("count")) << key;
+  }
+}
+
+TEST_F(ContactVerb, ALoadPathKeepsThePlasticIndentation) {
+  const Words path = contact("20MPa,60MPa,20MPa") + Words{"--saturation-pressure", "2GPa"};
+  const io::Json kept = json_of(path + Words{"--load-path"}).at("states");
+  const io::Json fresh = json_of(path).at("states");
+  const auto area = [](const io::Json& states, std::size_t k) {
+    return states.at(k).at("contact_area_fraction_pixels").get<double>();
+  };
+  EXPECT_EQ(area(fresh, 0), area(fresh, 2));
+  EXPECT_EQ(area(kept, 0), area(fresh, 0));
+  EXPECT_GT(area(kept, 2), area(kept, 0));
+}
+
 TEST_F(ContactVerb, EffectiveModulusFollowsFromBothBodies) {
   const io::Json rigid = json_of(contact("20MPa"));
   EXPECT_NEAR(rigid.at("effective_modulus_Pa").get<double>(), 70e9 / (1 - 0.33 * 0.33), 1);

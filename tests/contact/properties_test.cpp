@@ -6,6 +6,8 @@
 
 #include "contact/surfaces.hpp"
 #include "support/validation.hpp"
+#include "tabor/contact/distributions.hpp"
+#include "tabor/contact/stiffness.hpp"
 #include "tabor/core/parallel.hpp"
 
 namespace tabor::test {
@@ -171,6 +173,82 @@ TEST(SolveContact, AgreesOnNonSquarePixels) {
   ASSERT_TRUE(state.convergence.converged);
   const double area = contact::contact_mask(state).cast<double>().mean();
   EXPECT_NEAR(area, solve_unit(fine, 0.01).summary.contact_area_fraction_pixels, 0.01);
+}
+
+TEST(ContactStiffness, IsTheSlopeOfLoadAgainstSeparation) {
+  const Field height = self_affine(128, 0.8, 1, 16, 8);
+  const Grid grid = square(128);
+  const auto elasticity = elastic::make_periodic(grid, 1.0);
+  const Solved before = solve_unit(height, 0.0499, kNoCap, 1e-10);
+  const Solved middle = solve_unit(height, 0.05, kNoCap, 1e-10);
+  const Solved after = solve_unit(height, 0.0501, kNoCap, 1e-10);
+  const auto stiffness = contact::contact_stiffness(*elasticity, middle.state, kNoCap);
+  ASSERT_TRUE(stiffness.convergence.converged);
+  const double slope = 0.0002 / (before.state.separation - after.state.separation);
+  expect_within("Contact", "self-affine, P/(E* rms slope) = 0.05", "stiffness, relative",
+                "central difference of the load", std::abs(stiffness.value / slope - 1), 1e-2);
+}
+
+TEST(ContactStiffness, IsThatOfAFlatPunchOnAFreePatch) {
+  const Index n = 101;
+  Field height = Field::Constant(n, n, -1.0);
+  const double radius = 40.0 / static_cast<double>(n);
+  for (Index i = 0; i < height.size(); ++i) {
+    const double r =
+        std::hypot(static_cast<double>(i % n - n / 2), static_cast<double>(i / n - n / 2));
+    height(i) = r <= 40 ? 0.0 : -1.0;
+  }
+  const Grid grid = square(n);
+  const auto elasticity = elastic::make_free(grid, 1.0);
+  const Solved solved = solve_unit(height, 1e-3, kNoCap, 1e-9, contact::Solver::fast, false);
+  const auto stiffness = contact::contact_stiffness(*elasticity, solved.state, kNoCap);
+  expect_within("Contact", "flat punch, free, a/h = 40", "stiffness, relative", "2 a E*",
+                std::abs(stiffness.value / (2 * radius) - 1), 1e-2);
+}
+
+TEST(ContactStiffness, IsInfiniteInFullContact) {
+  const auto elasticity = elastic::make_periodic(square(32), 1.0);
+  const Solved solved = solve_unit(wave(32, 0.01, true), 1.0);
+  EXPECT_TRUE(std::isinf(contact::contact_stiffness(*elasticity, solved.state, kNoCap).value));
+}
+
+TEST(Distributions, CountEveryPixelAndPatchOnce) {
+  const Field height = self_affine(128, 0.8, 1, 32, 3);
+  const Solved solved = solve_unit(height, 0.02);
+  const auto total = [](const contact::Histogram& histogram) {
+    EXPECT_EQ(histogram.edges.size(), histogram.counts.size() + 1);
+    Index sum = 0;
+    for (const Index count : histogram.counts) {
+      sum += count;
+    }
+    return sum;
+  };
+  const Index n_contact = contact::contact_mask(solved.state).count();
+  EXPECT_EQ(total(contact::pressure_histogram(solved.state)), n_contact);
+  EXPECT_EQ(total(contact::gap_histogram(solved.state)), height.size() - n_contact);
+  EXPECT_EQ(total(contact::patch_area_histogram(solved.state, square(128), true)),
+            solved.summary.n_patches);
+}
+
+TEST(LoadPath, ReloadingBelowTheOldMaximumIsElastic) {
+  const Field height = self_affine(128, 0.8, 1, 32, 3);
+  const double cap = 0.2;
+  const Solved first = solve_unit(height, 0.02, cap, 1e-10);
+  ASSERT_GT(first.summary.saturated_area_fraction, 0);
+  const Field unloaded = contact::unloaded_height(height, first.state);
+  EXPECT_TRUE((unloaded <= height).all());
+  EXPECT_TRUE((unloaded < height).any());
+  // The same load gives the same pressure without any further flow ...
+  const Solved again = solve_unit(unloaded, 0.02, cap, 1e-10);
+  EXPECT_LE((again.state.pressure - first.state.pressure).abs().maxCoeff(), 1e-4 * cap);
+  EXPECT_LE((unloaded - contact::unloaded_height(unloaded, again.state)).maxCoeff(),
+            1e-4 * (height - unloaded).maxCoeff());
+  // ... and less load stays below the cap, with more contact than the virgin surface had.
+  const Solved less = solve_unit(unloaded, 0.01, cap, 1e-10);
+  const Solved elastic = solve_unit(unloaded, 0.01, kNoCap, 1e-10);
+  EXPECT_LE((less.state.pressure - elastic.state.pressure).abs().maxCoeff(), 1e-4 * cap);
+  EXPECT_GT(less.summary.contact_area_fraction_pixels,
+            solve_unit(height, 0.01, cap).summary.contact_area_fraction_pixels);
 }
 
 TEST(Summary, StoredEnergyIsTheWorkOfTheLoad) {

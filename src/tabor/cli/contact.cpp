@@ -79,6 +79,7 @@ int show(const Request& request, Context& context) {
     const io::Json state = state_json(result);
     if (file) file->add_state(object["states"].size(), state, fields_of(result.state));
     object["states"].push_back(state);
+    object["states"].back().update(statistics_json(*elasticity, result, request.contact, context));
     rows.row(row_of(result));
   };
   const int code = solve_all(*elasticity, scan, request.contact, context, receive);
@@ -87,6 +88,16 @@ int show(const Request& request, Context& context) {
   describe(scan, facts);
   describe(request.contact, facts);
   return finish(context, object, facts.text() + '\n' + rows.text(), code);
+}
+
+void declare_extras(OptionSet& set, ContactRequest& request) {
+  set.toggle("--load-path",
+             "the pressures are one history: the plastic indentation a state leaves is kept in the "
+             "next, so that reloading below the largest is elastic",
+             request.load_path);
+  set.toggle("--statistics",
+             "add contact stiffness and histograms of pressure, gap and patch area to --json",
+             request.statistics);
 }
 
 void declare_lowpass_scan(OptionSet& set, Request& request) {
@@ -119,6 +130,7 @@ Verb contact_verb() {
             const auto request = std::make_shared<Request>();
             declare_scan(set, request->scan);
             declare_contact(set, request->contact);
+            declare_extras(set, request->contact);
             declare_lowpass_scan(set, *request);
             declare_output(set, request->output);
             return [request](Context& context) { return show(*request, context); };

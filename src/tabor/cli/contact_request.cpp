@@ -117,10 +117,12 @@ int solve_all(elastic::ElasticOperator& elasticity, const Scan& scan, const Cont
               Context& context, const std::function<void(const ContactResult&)>& receive) {
   int code = kDone;
   try {
+    Field unloaded;  // of a load path: the surface as the states before left it
     for (const double pressure : request.pressures) {
-      const ContactResult result =
-          solve(elasticity, scan.surface.height, pressure, request, context);
+      const Field& height = unloaded.size() > 0 ? unloaded : scan.surface.height;
+      const ContactResult result = solve(elasticity, height, pressure, request, context);
       receive(result);
+      if (request.load_path) unloaded = contact::unloaded_height(height, result.state);
       if (!result.state.convergence.converged) code = kNotConverged;
     }
   } catch (const Interrupted&) {
@@ -151,6 +153,7 @@ io::Json settings_json(const ContactRequest& request) {
           {"boundary", request.boundary},
           {"solver", request.solver},
           {"tolerance", request.tolerance},
+          {"load_path", request.load_path},
           {"threads", thread_count()}};
 }
 
@@ -178,6 +181,9 @@ io::Json state_json(const ContactResult& result) {
 }
 
 void describe(const ContactRequest& request, Facts& facts) {
+  if (request.load_path) {
+    facts.fact("load path", "in the order given, plastic indentation is kept");
+  }
   facts.fact("contact",
              fmt::format("E* {}, {}, {}, solver {}", si(effective_modulus(request), "Pa"),
                          request.saturation_pressure

@@ -26,6 +26,8 @@ struct ContactRequest {
   std::string boundary = "periodic";
   std::string solver = "fast";
   double tolerance = 1e-6;
+  bool load_path = false;   ///< plastic indentation of a state is kept in the next
+  bool statistics = false;  ///< stiffness and histograms too
 
   bool is_periodic() const { return boundary == "periodic"; }
 };
@@ -64,6 +66,9 @@ std::vector<std::string> methods_of(const ContactRequest& request);
 
 /// Settings in force, for the JSON head and the result file.
 io::Json settings_json(const ContactRequest& request);
+/// Contact stiffness and histograms of one state, where --statistics asks for them, else empty.
+io::Json statistics_json(elastic::ElasticOperator& elasticity, const ContactResult& result,
+                         const ContactRequest& request, Context& context);
 /// The keys of one state.
 io::Json state_json(const ContactResult& result);
 void describe(const ContactRequest& request, Facts& facts);

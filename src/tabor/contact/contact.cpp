@@ -171,6 +171,10 @@ State solve(elastic::ElasticOperator& elasticity, const Problem& problem, Solver
   return state;
 }
 
+Field unloaded_height(const Field& height, const State& state) {
+  return height + state.gap.min(0.0);
+}
+
 Mask contact_mask(const State& state) { return state.pressure > 0; }
 
 }  // namespace tabor::contact

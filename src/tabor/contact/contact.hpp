@@ -56,6 +56,10 @@ struct Summary {
 
 Summary summarise(const State& state, const Problem& problem, const Grid& grid, bool periodic);
 
+/// The surface after unloading: heights less the residual plastic indentation max(-gap, 0) of the
+/// saturated pixels. Solving on it again at the same load or less is elastic.
+Field unloaded_height(const Field& height, const State& state);
+
 /// True where pressure > 0.
 Mask contact_mask(const State& state);
 
