@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "tabor/core/version.hpp"
+#include "tabor/topography/surface_group.hpp"
 
 namespace tabor::cli {
 
@@ -49,7 +50,7 @@ FieldsFile::FieldsFile(const std::filesystem::path& file, const Context& context
                        const io::Json& settings, const std::vector<std::string>& methods)
     : writer_(file), grid_(scan.surface.grid) {
   write_root(context, scan, settings, methods);
-  write_surface(scan);
+  topography::write_surface_group(writer_, scan.surface, scan.path);
 }
 
 void FieldsFile::write_root(const Context& context, const Scan& scan, const io::Json& settings,
@@ -63,25 +64,6 @@ void FieldsFile::write_root(const Context& context, const Scan& scan, const io::
   writer_.attribute("/", "input_sha256", scan.sha256);
   writer_.attribute("/", "methods", methods);
   writer_.attribute("/", "default", "surface");
-}
-
-void FieldsFile::write_surface(const Scan& scan) {
-  const topography::Topography& surface = scan.surface;
-  writer_.group("/surface");
-  writer_.axes("/surface", grid_);
-  writer_.write("/surface/height", surface.height);
-  writer_.describe("/surface/height", "m", "height, asperities up");
-  writer_.attach_axes("/surface/height");
-  writer_.write("/surface/mask", io::ByteMap(topography::holes(surface).cast<std::uint8_t>()));
-  writer_.describe("/surface/mask", "1", "1 where the height is missing");
-  writer_.attach_axes("/surface/mask");
-  writer_.nxdata("/surface", "height");
-  writer_.attribute("/surface", "source", scan.path);
-  writer_.attribute("/surface", "format", surface.format);
-  writer_.attribute("/surface", "instrument", surface.instrument);
-  writer_.attribute("/surface", "treatment", surface.history);
-  writer_.attribute("/surface", "doubts", surface.doubts);
-  writer_.attribute("/surface", "periodic", surface.periodic ? 1 : 0);
 }
 
 void FieldsFile::add_state(std::size_t number, const io::Json& scalars,

@@ -34,7 +34,6 @@ class FieldsFile {
  private:
   void write_root(const Context& context, const Scan& scan, const io::Json& settings,
                   const std::vector<std::string>& methods);
-  void write_surface(const Scan& scan);
 
   io::Hdf5Writer writer_;
   Grid grid_;

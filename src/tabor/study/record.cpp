@@ -9,6 +9,7 @@
 #include "tabor/core/version.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/json.hpp"
+#include "tabor/topography/surface_group.hpp"
 
 namespace tabor::study {
 namespace {
@@ -164,15 +165,7 @@ Scalars scalars_of(const lubrication::Film& film, double lubricant_density) {
 void write_surface(const Store& store, const Unit& unit, const topography::Topography& topography,
                    const topography::PowerSpectra& spectra) {
   io::Hdf5Writer writer = unit_writer(store, unit, "surface");
-  writer.axes("/surface", topography.grid);
-  write_map(writer, "/surface", "height", topography.height, "height");
-  writer.nxdata("/surface", "height");
-  writer.attribute("/surface", "format", topography.format);
-  writer.attribute("/surface", "instrument", topography.instrument);
-  writer.attribute("/surface", "channel", topography.channel);
-  writer.attribute("/surface", "treatment", topography.history);
-  writer.attribute("/surface", "doubts", topography.doubts);
-  writer.attribute("/surface", "periodic", topography.periodic ? 1 : 0);
+  topography::write_surface_group(writer, topography, topography.source, io::Precision::float32);
   write_spectrum(writer, "x", "c1d_m3", spectra.x);
   write_spectrum(writer, "y", "c1d_m3", spectra.y);
   write_spectrum(writer, "radial", "c2d_m4", spectra.radial);

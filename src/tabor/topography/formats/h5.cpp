@@ -7,6 +7,7 @@
 #include "tabor/core/version.hpp"
 #include "tabor/io/hdf5.hpp"
 #include "tabor/topography/formats/readers.hpp"
+#include "tabor/topography/surface_group.hpp"
 
 namespace tabor::topography::format {
 namespace {
@@ -99,23 +100,7 @@ void write_h5(const Topography& topography, const std::filesystem::path& file) {
   writer.attribute("/", "software_version", kVersion);
   writer.attribute("/", "created", now_utc());
   writer.attribute("/", "default", "surface");
-  writer.group("/surface");
-  writer.axes("/surface", topography.grid);
-  writer.write("/surface/height", topography.height);
-  writer.describe("/surface/height", "m", "height");
-  writer.attach_axes("/surface/height");
-  writer.write("/surface/mask", io::ByteMap(holes(topography).cast<std::uint8_t>()));
-  writer.describe("/surface/mask", "1", "hole");
-  writer.attach_axes("/surface/mask");
-  writer.nxdata("/surface", "height");
-  writer.attribute("/surface", "source", topography.source);
-  writer.attribute("/surface", "format", topography.format);
-  writer.attribute("/surface", "instrument", topography.instrument);
-  writer.attribute("/surface", "treatment", topography.history);
-  writer.attribute("/surface", "doubts", topography.doubts);
-  writer.attribute("/surface", "periodic", topography.periodic ? 1 : 0);
-  writer.attribute("/surface", "pixel_x_m", topography.grid.dx());
-  writer.attribute("/surface", "pixel_y_m", topography.grid.dy());
+  write_surface_group(writer, topography, topography.source);
   writer.commit();
 }
 
