@@ -120,6 +120,16 @@ TEST_F(ScanVerbs, PixelMayDifferAlongXAndY) {
   EXPECT_DOUBLE_EQ(info.at("height_max_m"), 10e-9);
 }
 
+TEST_F(ScanVerbs, InfoOfAFileThatLacksAUnitSaysWhatToGive) {
+  put_bytes(folder_ / "plain.txt", "1 2 3\n4 5 6\n7 8 10\n");
+  const io::Json info = json_of({"info", file("plain.txt")});
+  EXPECT_TRUE(info.at("pixel_x_m").is_null());
+  EXPECT_EQ(info.at("channels").size(), 1u);
+  EXPECT_THAT(info.at("doubts").at(0).get<std::string>(), HasSubstr("--pixel 0.67um --unit um"));
+  // Everything that needs heights still refuses.
+  EXPECT_EQ(run_tabor({"params", file("plain.txt")}).code, 3);
+}
+
 TEST_F(ScanVerbs, TableIsForPeopleAndJsonForPrograms) {
   const Outcome table = run_tabor({"params", scan(), "--level", "plane"});
   EXPECT_THAT(table.out, AllOf(HasSubstr("Sq"), HasSubstr("µm"), HasSubstr("level=plane")));

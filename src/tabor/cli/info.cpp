@@ -8,6 +8,7 @@
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
+#include "tabor/core/error.hpp"
 #include "tabor/topography/doubts.hpp"
 #include "tabor/topography/parameters.hpp"
 
@@ -56,6 +57,18 @@ io::Json channels_of(const FileInfo& file) {
   return channels;
 }
 
+void describe(const FileInfo& file, const std::string& path, const std::string& instrument,
+              Facts& facts) {
+  facts.fact("file", path);
+  facts.fact("format", file.format);
+  facts.fact("instrument", instrument);
+  for (const topography::Channel& channel : file.channels) {
+    facts.fact(fmt::format("channel {}", channel.index),
+               fmt::format("{} [{}]{}", channel.name, channel.unit.empty() ? "?" : channel.unit,
+                           channel.is_height ? "" : ", not a height"));
+  }
+}
+
 io::Json json_of(const Context& context, const Scan& scan, const FileInfo& file,
                  const Heights& heights) {
   const Topography& surface = scan.surface;
@@ -92,14 +105,7 @@ std::string text_of(const Scan& scan, const FileInfo& file, const Heights& heigh
   const Grid& grid = surface.grid;
   const auto missing = topography::count_holes(surface);
   Facts facts;
-  facts.fact("file", scan.path);
-  facts.fact("format", file.format);
-  facts.fact("instrument", surface.instrument);
-  for (const topography::Channel& channel : file.channels) {
-    facts.fact(fmt::format("channel {}", channel.index),
-               fmt::format("{} [{}]{}", channel.name, channel.unit.empty() ? "?" : channel.unit,
-                           channel.is_height ? "" : ", not a height"));
-  }
+  describe(file, scan.path, surface.instrument, facts);
   facts.fact("pixels", fmt::format("{} x {}", grid.nx, grid.ny));
   facts.fact("pixel", si(grid.dx(), "m") + " x " + si(grid.dy(), "m"));
   facts.fact("size", si(grid.lx, "m") + " x " + si(grid.ly, "m"));
@@ -115,13 +121,38 @@ std::string text_of(const Scan& scan, const FileInfo& file, const Heights& heigh
   return facts.text();
 }
 
+/// A sound file that needs a word from the user: what is in it, and what to say.
+int show_incomplete(const ScanRequest& request, const FileInfo& file, const std::string& doubt,
+                    Context& context) {
+  io::Json object = json_head(context);
+  object["scan"] = {{"path", request.file}, {"sha256", topography::sha256(request.file)}};
+  object.update({{"file", request.file},
+                 {"format", file.format},
+                 {"instrument", file.instrument},
+                 {"channels", channels_of(file)}});
+  for (const char* key :
+       {"channel", "nx", "ny", "pixel_x_m", "pixel_y_m", "size_x_m", "size_y_m", "missing_pixels",
+        "missing_fraction", "height_min_m", "height_max_m", "height_rms_m", "height_quantum_m"}) {
+    object[key] = nullptr;
+  }
+  object["doubts"] = {doubt};
+  Facts facts;
+  describe(file, request.file, file.instrument, facts);
+  facts.fact("needs", doubt);
+  return finish(context, object, facts.text());
+}
+
 int show(const ScanRequest& request, Context& context) {
   const FileInfo file = topography::inspect(request.file, request.read);
-  const Scan scan = load_scan(request, context);
-  const Heights heights = heights_of(scan.surface);
-  // Doubts have a key and lines of their own here.
-  context.warnings.clear();
-  return finish(context, json_of(context, scan, file, heights), text_of(scan, file, heights));
+  try {
+    const Scan scan = load_scan(request, context);
+    const Heights heights = heights_of(scan.surface);
+    // Doubts have a key and lines of their own here.
+    context.warnings.clear();
+    return finish(context, json_of(context, scan, file, heights), text_of(scan, file, heights));
+  } catch (const IncompleteError& error) {
+    return show_incomplete(request, file, error.what(), context);
+  }
 }
 
 }  // namespace

@@ -21,6 +21,12 @@ class InputError : public Error {
   explicit InputError(const std::string& message) : Error(message) {}
 };
 
+/// Input that is sound but lacks what only the user can say: a unit, a pixel size, which channel.
+class IncompleteError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// A result that cannot be written (exit code 5).
 class OutputError : public Error {
  public:

@@ -13,6 +13,11 @@ void refuse(const Contents& contents, const std::string& got, const std::string&
   throw InputError(contents.file.string(), got, expected, remedy);
 }
 
+void ask(const Contents& contents, const std::string& got, const std::string& expected,
+         const std::string& remedy) {
+  throw IncompleteError(contents.file.string(), got, expected, remedy);
+}
+
 void check_size(const Contents& contents, double nx, double ny, std::size_t available) {
   if (!(nx >= 1) || !(ny >= 1) || nx != std::floor(nx) || ny != std::floor(ny)) {
     refuse(contents, fmt::format("a size of {} x {} pixels", nx, ny), "at least 1 x 1", kDamaged);

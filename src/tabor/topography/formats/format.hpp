@@ -89,6 +89,10 @@ class Unrecognised : public InputError {
 [[noreturn]] void refuse(const Contents& contents, const std::string& got,
                          const std::string& expected, const std::string& remedy = "");
 
+/// The same for a sound file that lacks what only the user can say: throws IncompleteError.
+[[noreturn]] void ask(const Contents& contents, const std::string& got, const std::string& expected,
+                      const std::string& remedy);
+
 /// The one remedy for files that end too early or contradict themselves.
 inline constexpr const char* kDamaged = "the file is damaged or truncated: export or copy it again";
 

@@ -62,10 +62,10 @@ double resolve_pixel(const Contents& contents, const Layer& layer, char axis,
                      std::vector<std::string>& doubts) {
   const std::optional<double>& own = axis == 'x' ? layer.pixel_x : layer.pixel_y;
   if (!own && !given) {
-    refuse(contents, layer.pixel_hint.empty() ? "no pixel size in the file" : layer.pixel_hint,
-           "a pixel size",
-           std::string("add it, for example --pixel 0.67um") +
-               (layer.unit.empty() && !layer.is_count ? " --unit um" : ""));
+    ask(contents, layer.pixel_hint.empty() ? "no pixel size in the file" : layer.pixel_hint,
+        "a pixel size",
+        std::string("add it, for example --pixel 0.67um") +
+            (layer.unit.empty() && !layer.is_count ? " --unit um" : ""));
   }
   if (!given) return *own;
   if (!(*given > 0) || !std::isfinite(*given)) {
@@ -93,8 +93,8 @@ double factor_of_unit(const Contents& contents, const std::string& unit) {
 /// A count has no size of its own: only the user's --z-scale gives it one.
 double scale_of_counts(const Contents& contents, const ReadOptions& options) {
   if (!options.z_scale) {
-    refuse(contents, "integer counts without a height scale", "the height of one count",
-           "add it, for example --z-scale 1nm");
+    ask(contents, "integer counts without a height scale", "the height of one count",
+        "add it, for example --z-scale 1nm");
   }
   if (!(std::abs(*options.z_scale) > 0) || !std::isfinite(*options.z_scale)) {
     refuse(contents, fmt::format("--z-scale {}", *options.z_scale), "a length other than zero");
@@ -127,12 +127,12 @@ const Layer& choose_layer(const Contents& contents, const Document& document,
     }
     if (count == 1) return *only;
     if (count > 1) {
-      refuse(contents, fmt::format("{} height channels: {}", count, list(document)), "one",
-             fmt::format("choose it, for example --channel {}", index_of(document, *only)));
+      ask(contents, fmt::format("{} height channels: {}", count, list(document)), "one",
+          fmt::format("choose it, for example --channel {}", index_of(document, *only)));
     }
   }
-  refuse(contents, "no channel whose unit is a length: " + list(document), "heights",
-         "choose one with --channel and --unit um --override-unit if it does hold heights");
+  ask(contents, "no channel whose unit is a length: " + list(document), "heights",
+      "choose one with --channel and --unit um --override-unit if it does hold heights");
 }
 
 Grid resolve_grid(const Contents& contents, const Layer& layer, const ReadOptions& options,
@@ -169,7 +169,7 @@ double resolve_height_factor(const Contents& contents, const Layer& layer,
   }
   if (own) return layer.scale * *own;
   if (layer.unit.empty()) {
-    refuse(contents, "heights without a unit", "a unit", "add it, for example --unit um");
+    ask(contents, "heights without a unit", "a unit", "add it, for example --unit um");
   }
   refuse(contents, "channel '" + layer.name + "' in '" + layer.unit + "'", "heights",
          "choose another --channel, or give --unit with --override-unit if the file is wrong");
