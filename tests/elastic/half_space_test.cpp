@@ -46,8 +46,8 @@ TEST(PeriodicHalfSpace, MultipliesAModeByTwoOverModulusAndWavevector) {
     const Field displacement = applied(*elasticity, pressure);
     const double amplitude = (displacement * pressure).sum() / pressure.square().sum();
     amplitude_error = std::max(amplitude_error, std::abs(amplitude / compliance - 1));
-    pointwise_error = std::max(
-        pointwise_error, (displacement / compliance - pressure).abs().maxCoeff());
+    pointwise_error =
+        std::max(pointwise_error, (displacement / compliance - pressure).abs().maxCoeff());
   }
   test::expect_within("Elastic operator", "single modes, 48 x 60", "amplitude, relative",
                       "2 / (E* q)", amplitude_error, 1e-14);
