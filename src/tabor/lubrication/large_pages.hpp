@@ -27,4 +27,13 @@ void reserve_large_pages(std::vector<T>& vector, std::size_t n) {
 #endif
 }
 
+/// The same for a vector that has grown to its size.
+template <class T>
+void move_to_large_pages(std::vector<T>& vector) {
+  std::vector<T> moved;
+  reserve_large_pages(moved, vector.size());
+  moved = vector;
+  vector = std::move(moved);
+}
+
 }  // namespace tabor::lubrication

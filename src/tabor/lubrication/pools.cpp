@@ -81,6 +81,7 @@ void Pools::take_in(PoolId id) {
     pool.next = saddle.size() == 1 ? saddle.front() : kSeveral;
     Pool& parent = pools_[static_cast<std::size_t>(pool.parent)];
     parent.area += pool.area;
+    pool.remember_overflow({});
     if (--parent.open_children > 0) {
       return;
     }

@@ -19,9 +19,15 @@ enum class Ties {
   ordered     ///< a lower pixel number counts as lower: no two heights are ever equal
 };
 
+/// The pool, not full then, in which a droplet's way ended.
+struct Way {
+  PoolId end = 0;
+  Height bound = kDry;  ///< the way is the same while the level at its end is below
+};
+
 /// One component of the sublevel sets {height <= h}. It holds liquid while it is active: from the
 /// moment its children are full until it is full itself.
-struct Pool {
+struct alignas(32) Pool {
   PoolId parent = kNoPool;     ///< what it becomes part of at its rim; kNoPool for the last one
   PoolId owner = kNoPool;      ///< itself, or a step towards the active pool it now belongs to
   Height level = kDry;         ///< of the liquid; kDry before the pool is active
@@ -33,6 +39,14 @@ struct Pool {
 
   bool active() const { return open_children == 0; }
   bool full() const { return level == stop; }
+
+  /// Where the overflow of a full pool ran last. Kept where the liquid was counted, which a full
+  /// pool needs no longer, so that a droplet that meets it reads one cache line only.
+  Way overflow() const { return {area, remainder}; }
+  void remember_overflow(const Way& way) {
+    area = way.end;
+    remainder = way.bound;
+  }
 };
 
 /// All pools a surface can ever have, as the tree in which they merge, and the liquid in them.
@@ -64,12 +78,25 @@ class Pools {
     return root;
   }
 
+  /// The same, but a full pool that has become part of its parent since may stand for it: saves
+  /// looking at the parent.
+  PoolId holder(PoolId id) const {
+    while ((*this)[id].owner != id) {
+      id = (*this)[id].owner;
+    }
+    return id;
+  }
+
   /// Pours into an active pool that is not full; returns what is left once it is full.
   Volume pour(PoolId id, Volume carried);
 
   /// Raises an active pool that is not full by `rise`, at most to its next stop; returns the
   /// volume.
   Volume raise(PoolId id, Height rise);
+
+  void remember_overflow(PoolId full, const Way& way) {
+    pools_[static_cast<std::size_t>(full)].remember_overflow(way);
+  }
 
   /// The only pixel over which the full pool `id` touches its neighbours; kSeveral if more than
   /// one.
@@ -82,13 +109,7 @@ class Pools {
   /// True once a closed or periodic map is one pool without a rim.
   bool flooded() const;
 
-  /// Asks the processor to fetch a pool, or a pixel and its neighbours, before they are needed.
-  void prefetch_around(Pixel p) const {
-    const auto n = static_cast<Pixel>(sites_.size());
-    for (const Pixel q : {p - terrain_->nx, p, p + terrain_->nx}) {
-      __builtin_prefetch(&sites_[static_cast<std::size_t>(q < 0 || q >= n ? p : q)]);
-    }
-  }
+  /// Asks the processor to fetch a pool before it is needed.
   void prefetch(PoolId id) const { __builtin_prefetch(&pools_[static_cast<std::size_t>(id)]); }
 
  private:

@@ -1,31 +1,29 @@
 #include "tabor/lubrication/rain.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/random.hpp"
 #include "tabor/lubrication/catchments.hpp"
 #include "tabor/lubrication/router.hpp"
+#include "tabor/lubrication/scouts.hpp"
 
 namespace tabor::lubrication {
 namespace {
 
 constexpr Pixel kLargestBatch = 1 << 16;  // start pixels drawn at once, on all threads
-constexpr std::size_t kWayAhead = 36;     // droplets between asking for a way and using it
-constexpr std::size_t kEndAhead = 24;     // the same for the pool at its end
-constexpr std::size_t kHomeAhead = 12;    // and for the pool of the start pixel
 
 class Rain {
  public:
   Rain(Pools& pools, Height droplet, Reading reading, std::uint64_t seed)
       : pools_(pools),
         router_(pools),
+        scouts_(pools, router_.slopes()),
         random_(seed),
         droplet_(droplet),
         reading_(reading),
         batch_size_(static_cast<std::size_t>(std::min(pools.terrain().size(), kLargestBatch))),
-        starts_(batch_size_ + kWayAhead) {}
+        starts_(batch_size_ + Scouts::kAhead) {}
 
   const RainState& state() const { return state_; }
 
@@ -34,9 +32,7 @@ class Rain {
     draw_starts();
     auto place = static_cast<std::size_t>(state_.n_droplets) % batch_size_;
     for (; place < batch_size_ && state_.dosed < dose; ++place) {
-      router_.prefetch_way(starts_[place + kWayAhead]);
-      router_.prefetch_end(starts_[place + kEndAhead]);
-      router_.prefetch_home(starts_[place + kHomeAhead]);
+      scouts_.advance(starts_.data(), place);
       state_.dosed += drop(starts_[place]);
       ++state_.n_droplets;
     }
@@ -83,6 +79,7 @@ class Rain {
 
   Pools& pools_;
   Router router_;
+  Scouts scouts_;
   CounterRandom random_;
   Height droplet_;
   Reading reading_;

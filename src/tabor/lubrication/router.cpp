@@ -3,12 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "tabor/lubrication/large_pages.hpp"
-
 namespace tabor::lubrication {
 namespace {
-
-constexpr std::int32_t kVisited = std::numeric_limits<std::int32_t>::min();
 
 /// Disjoint sets of 0..n-1.
 class Sets {
@@ -35,12 +31,6 @@ std::int32_t place_of(Pixel p, std::span<const Pixel> sorted) {
 
 }  // namespace
 
-Router::Router(Pools& pools) : pools_(pools) {
-  const auto n = static_cast<std::size_t>(pools.terrain().size());
-  reserve_large_pages(ways_, n);
-  ways_.resize(n);
-}
-
 void Router::Choice::consider(const Candidate& candidate) {
   const bool same_pool = candidate.wet_by != kNoPool && candidate.wet_by == best.wet_by;
   const Candidate other = candidate.before(best) ? best : candidate;
@@ -50,22 +40,6 @@ void Router::Choice::consider(const Candidate& candidate) {
   if (!same_pool) {
     doubt = std::min(doubt, other.height);
   }
-}
-
-Router::Way Router::Choice::way(Height below) const {
-  const Height bound = doubt < below ? doubt : kNoRim;
-  if (best.wet_by != kNoPool) {
-    return {best.wet_by, bound};
-  }
-  return {best.pixel == kOutside ? kOcean : toward(best.pixel), bound};
-}
-
-bool Router::valid(const Way& way) {
-  if (way.bound == kDry) {
-    return false;
-  }
-  const PoolId pool = is_pool(way.target) ? way.target : pools_.home(~way.target);
-  return pools_[pools_.owner(pool)].level < way.bound;
 }
 
 Router::Candidate Router::candidate(Pixel q) {
@@ -78,99 +52,90 @@ Router::Candidate Router::candidate(Pixel q) {
   return solid <= level ? Candidate{level, q, pool} : Candidate{solid, q, kNoPool};
 }
 
-Router::Choice Router::choose(Pixel p) {
-  Choice choice;
-  for_each_neighbour(pools_.terrain(), p, [&](Pixel q) { choice.consider(candidate(q)); });
-  return choice;
+Router::Target Router::toward(const Candidate& candidate) const {
+  if (candidate.wet_by != kNoPool) {
+    return candidate.wet_by;
+  }
+  return candidate.pixel == kOutside ? kOcean : slopes_.from(candidate.pixel);
 }
 
-PoolId Router::from_pixel(Pixel start) {
-  const Way& way = ways_[static_cast<std::size_t>(start)];
-  if (is_pool(way.target)) {
-    const PoolId pool = pools_.owner(way.target);
-    if (pools_[pool].level < way.bound && !pools_[pool].full()) {
-      return pool;
-    }
-  }
-  return follow(toward(start));
+bool Router::valid(const Way& way) {
+  return way.bound != kDry && pools_[pools_.owner(way.end)].level < way.bound;
 }
 
 PoolId Router::follow(Target at) {
-  trail_.clear();
-  plateau_.clear();
   while (true) {
-    if (is_pool(at)) {
-      at = pools_.owner(at);
+    if (Slopes::is_pool(at)) {
+      at = pools_.holder(at);
       if (!pools_[at].full()) {
         record(at);
         return at;
       }
-      if (const Pixel saddle = pools_.saddle(at); saddle != kSeveral) {
-        at = toward(saddle);
-      } else {
-        record(at);
-        at = drain_of_saddle(pools_[at].parent, at, kOutside);
-      }
-      continue;
     }
-    const Pixel p = ~at;
-    const bool known = valid(ways_[static_cast<std::size_t>(p)]);
-    const Way way = known ? ways_[static_cast<std::size_t>(p)] : step(p);
-    if (way.target == at) {  // stationary on a saddle of equal heights: the way is cut here
-      record(at);
-      at = drain_of_saddle(pools_.home(p), kNoPool, p);
+    if (const Way way = slopes_.way_from(pools_, at); valid(way)) {
+      trail_.push_back({at, way.bound});
+      at = way.end;
+    } else if (!Slopes::is_pool(at)) {
+      at = take_branch(at);
     } else {
-      const bool doubtful = !known && way.bound < kNoRim;
-      trail_.push_back({p, way.bound, plateau_.size(), doubtful});
-      at = way.target;
+      const PoolId owner = pools_.owner(at);
+      at = owner == at ? spill(at) : owner;
     }
   }
 }
 
-/// One step of the rule from a pixel; a way to itself where equal heights join pools.
-Router::Way Router::step(Pixel p) {
-  if (const Candidate here = candidate(p); here.wet_by != kNoPool) {
-    return {here.wet_by, kNoRim};
+Router::Target Router::spill(PoolId full) {
+  if (const Pixel saddle = pools_.saddle(full); saddle != kSeveral) {
+    trail_.push_back({full, kNoRim});
+    return slopes_.from(saddle);
   }
-  const Height height = pools_.height(p);
-  const Choice choice = choose(p);
-  if (choice.leads_below(height)) {
-    return choice.way(height);
-  }
-  const PoolId home = pools_.home(p);
-  if (!pools_[home].active() && pools_.height(pools_.bottom(home).front()) == height) {
-    return {toward(p), kNoRim};
-  }
-  return across_plateau(p);
+  record(full);
+  return drain_of_saddle(pools_[full].parent, full, kOutside);
 }
 
-/// A dry plateau on a slope: all its pixels without a lower neighbour of their own go the same way.
-Router::Way Router::across_plateau(Pixel p) {
-  const Height height = pools_.height(p);
-  const auto way_of = [&](Pixel q) -> Way& { return ways_[static_cast<std::size_t>(q)]; };
-  std::vector<Pixel> plateau{p};
-  way_of(p).target = kVisited;
-  Choice choice;
-  for (std::size_t i = 0; i < plateau.size(); ++i) {
-    bool stationary = true;
-    for_each_neighbour(pools_.terrain(), plateau[i], [&](Pixel q) {
-      const Candidate next = candidate(q);
-      if (next.height < height) {
-        choice.consider(next);
-        stationary = false;
-      } else if (next.height == height && way_of(q).target != kVisited) {
-        way_of(q).target = kVisited;
-        plateau.push_back(q);
-      }
-    });
-    if (stationary && i > 0) {
-      plateau_.push_back(plateau[i]);
+/// The lowest branch as the levels stand. Under water all branches belong to one pool: that one.
+Router::Target Router::take_branch(Target fork) {
+  const auto branches = slopes_.branches(fork);
+  if (branches.size() == 1) {
+    const Slopes::Branch& on = branches.front();
+    const PoolId above = pools_.owner(on.home);
+    trail_.clear();
+    return pools_[above].level >= on.height ? above
+                                            : drain_of_saddle(on.home, kNoPool, on.leads_to);
+  }
+  Height lowest = kNoRim;
+  Height doubt = kNoRim;
+  Target target = kNoPool;
+  for (const Slopes::Branch& branch : branches) {
+    const PoolId pool = pools_.owner(branch.home);
+    const Height level = pools_[pool].level;
+    const bool wet = level >= branch.height;
+    const Height height = wet ? level : branch.height;
+    const Target to = wet ? pool : branch.leads_to;
+    if (height < lowest) {
+      doubt = wet && to == target ? doubt : lowest;
+      lowest = height;
+      target = to;
+    } else if (!(wet && to == target)) {
+      doubt = std::min(doubt, height);
     }
   }
-  for (const Pixel q : plateau) {
-    way_of(q) = Way{};
+  trail_.push_back({fork, doubt});
+  return target;
+}
+
+/// The trail up to here leads to `end`, and is valid below the lowest bound on it.
+void Router::record(PoolId end) {
+  Height bound = kNoRim;
+  for (std::size_t i = trail_.size(); i-- > 0;) {
+    bound = std::min(bound, trail_[i].bound);
+    if (Slopes::is_pool(trail_[i].from)) {
+      pools_.remember_overflow(trail_[i].from, {end, bound});
+    } else {
+      slopes_.remember(trail_[i].from, {end, bound});
+    }
   }
-  return choice.way(height);
+  trail_.clear();
 }
 
 Router::Target Router::drain_of_saddle(PoolId above, PoolId full, Pixel on) {
@@ -185,7 +150,7 @@ Router::Target Router::drain_of_saddle(PoolId above, PoolId full, Pixel on) {
     const Choice& drain = saddle.drain[region];
     const Candidate now = candidate(drain.best.pixel);
     if (fresh || now.height == drain.best.height || now.height < drain.doubt) {
-      return Choice{now}.way(kNoRim).target;
+      return toward(now);
     }
   }
 }
@@ -216,64 +181,6 @@ Router::Saddle Router::find_regions(PoolId above) {
     });
   }
   return saddle;
-}
-
-/// The trail up to here leads to `target`, and is valid below the lowest bound on it.
-void Router::record(Target target) {
-  Height bound = kNoRim;
-  for (std::size_t i = trail_.size(); i-- > 0;) {
-    const Step& step = trail_[i];
-    if (step.doubtful && is_pool(target)) {
-      bound = std::min(bound, std::max(step.bound, bound_of_agreement(step.pixel, target, bound)));
-    } else {
-      bound = std::min(bound, step.bound);
-    }
-    const Way way{target, bound};
-    ways_[static_cast<std::size_t>(step.pixel)] = way;
-    for (std::size_t j = i == 0 ? 0 : trail_[i - 1].plateau_end; j < step.plateau_end; ++j) {
-      ways_[static_cast<std::size_t>(plateau_[j])] = way;
-    }
-  }
-  trail_.clear();
-  plateau_.clear();
-}
-
-/// Where all lower neighbours of p are known to lead to the same pool, p does not care which of
-/// them it prefers: the lowest of their bounds; kDry if they disagree, or are not known, or if p
-/// has none because it lies on a plateau.
-Height Router::bound_of_agreement(Pixel p, PoolId end, Height way_bound) {
-  Height bound = way_bound;
-  bool any = false;
-  bool agree = true;
-  const Height height = pools_.height(p);
-  for_each_neighbour(pools_.terrain(), p, [&](Pixel q) {
-    if (agree && candidate(q).height < height) {
-      any = true;
-      agree = known_end(q, bound) == end;
-    }
-  });
-  return any && agree ? bound : kDry;
-}
-
-/// The pool that is not full which p is known to lead to, lowering `bound` by what that needs.
-PoolId Router::known_end(Pixel p, Height& bound) {
-  constexpr int most_hops = 8;  // an answer not worth more than that
-  static_assert(kSeveral == kOutside);
-  for (int hop = 0; hop < most_hops && p != kOutside; ++hop) {
-    const Candidate here = candidate(p);
-    const Way way =
-        here.wet_by != kNoPool ? Way{here.wet_by, kNoRim} : ways_[static_cast<std::size_t>(p)];
-    if (!is_pool(way.target) || !valid(way)) {
-      return kNoPool;
-    }
-    bound = std::min(bound, way.bound);
-    const PoolId pool = pools_.owner(way.target);
-    if (!pools_[pool].full()) {
-      return pool;
-    }
-    p = pools_.saddle(pool);
-  }
-  return kNoPool;
 }
 
 }  // namespace tabor::lubrication
