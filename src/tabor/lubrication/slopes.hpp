@@ -1,0 +1,71 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tabor/lubrication/pools.hpp"
+
+namespace tabor::lubrication {
+
+/// Where the dry surface leads a droplet, found once and true for any amount of liquid.
+///
+/// Most pixels have no choice. Of two lower neighbours of a dry pixel let the higher one, when the
+/// water reaches it, lie in a pool that holds the lower one too: then the droplet goes to the lower
+/// one while that is dry, and into the same pool by either when it is wet. A pixel whose lower
+/// neighbours are nested like this is as good as the lowest of them, and so on downhill, until a
+/// lowest place (a leaf pool) or a fork: a place whose lower neighbours can fill independently, so
+/// that the levels of the day decide. About one pixel in nine of a rough surface is a fork.
+///
+/// If a pool covers any place on such a way it covers all below; hence a start in the water ends in
+/// that pool, or at a fork whose branches are all in it.
+class Slopes {
+ public:
+  using Target = std::int32_t;  ///< a PoolId, or the complement of the number of a fork
+
+  /// A lower neighbour of a fork.
+  struct Branch {
+    Height height = 0;
+    PoolId home = kNoPool;  ///< the smallest pool that can cover it
+    Target leads_to = 0;    ///< while it is dry
+  };
+
+  /// A fork has two branches or more, ascending in pixel number; or one, if it is a pixel without
+  /// lower neighbours on a saddle of several equal pixels: that pixel, with the pool above as home.
+  struct Fork {
+    std::int32_t first_branch = 0;
+    std::int32_t n_branches = 0;
+    Way way;  ///< of the last droplet
+  };
+
+  static bool is_pool(Target target) { return target >= 0; }
+
+  /// For pools with connected ties that hold no liquid yet.
+  explicit Slopes(const Pools& pools);
+
+  Target from(Pixel p) const { return leads_to_[static_cast<std::size_t>(p)]; }
+  std::span<const Branch> branches(Target fork) const {
+    const Fork& at = forks_[static_cast<std::size_t>(~fork)];
+    return {&branches_[static_cast<std::size_t>(at.first_branch)],
+            static_cast<std::size_t>(at.n_branches)};
+  }
+
+  /// The last droplet's way from a fork, or from a full pool.
+  Way way_from(const Pools& pools, Target at) const {
+    return is_pool(at) ? pools[at].overflow() : forks_[static_cast<std::size_t>(~at)].way;
+  }
+  void remember(Target fork, const Way& way) { forks_[static_cast<std::size_t>(~fork)].way = way; }
+
+  void prefetch(Pixel p) const { __builtin_prefetch(&leads_to_[static_cast<std::size_t>(p)]); }
+  void prefetch_fork(Target fork) const {
+    __builtin_prefetch(&forks_[static_cast<std::size_t>(~fork)]);
+  }
+
+ private:
+  friend class SlopeFinder;
+
+  std::vector<Target> leads_to_;  ///< per pixel
+  std::vector<Fork> forks_;
+  std::vector<Branch> branches_;
+};
+
+}  // namespace tabor::lubrication
