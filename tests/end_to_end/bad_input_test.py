@@ -35,8 +35,9 @@ class Units(ProgramTest):
 
     def test_a_scan_without_unit_is_refused_with_the_option_to_add(self):
         (self.folder / "plain.txt").write_text("1 2 3\n4 5 6\n7 8 10\n")
-        self.assert_refused(self.tabor("info", "plain.txt"), 3, "plain.txt", "--pixel")
-        self.assert_refused(self.tabor("info", "plain.txt", "--pixel", "1um"), 3, "--unit")
+        self.assert_refused(self.tabor("params", "plain.txt"), 3, "plain.txt", "--pixel")
+        self.assert_refused(self.tabor("params", "plain.txt", "--pixel", "1um"), 3, "--unit")
+        self.assertIn("--pixel", self.json("info", "plain.txt")["doubts"][0])
         self.assertEqual(self.json("info", "plain.txt", *MATRIX)["nx"], 3)
 
 

@@ -11,8 +11,8 @@ namespace tabor::lubrication {
 /// kStride droplets and reads only what was fetched for it before. Nothing relies on what it sees.
 class Scouts {
  public:
-  static constexpr std::size_t kStride = 8;
-  static constexpr std::size_t kSteps = 5;
+  static constexpr std::size_t kStride = 12;
+  static constexpr std::size_t kSteps = 4;
   static constexpr std::size_t kAhead = kStride * kSteps;  ///< droplets between first and last step
 
   Scouts(const Pools& pools, const Slopes& slopes) : pools_(pools), slopes_(slopes) {}
