@@ -2,26 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <string>
 
 #include "contact/surfaces.hpp"
+#include "support/refusal.hpp"
 #include "tabor/core/error.hpp"
 
 namespace tabor::test {
 namespace {
 
 using testing::HasSubstr;
-
-std::string refusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
 
 TEST(SolveContact, RefusesALoadThatTheCapCannotCarry) {
   const Field height = wave(16, 0.01, true);

@@ -60,10 +60,6 @@ TEST(DualityGap, DoesNotDependOnTheLevelOfTheResidual) {
   EXPECT_NEAR(duality_gap({{1, 1, 1}, {1002.0, 1001.0, 1005.0}}, 3, 2), gap, 1e-11);
 }
 
-TEST(KnapsackThreshold, IsTheBearingLevel) {
-  EXPECT_EQ(knapsack_threshold({{0, 0, 0, 0}, {4.0, 1.0, 3.0, 2.0}}, 2.5, 1), 3.0);
-}
-
 TEST(Preconditioner, DirectSumsArePositiveDefiniteOnAnySet) {
   const Grid grid{48, 40, 1.0, 0.9};
   Preconditioner preconditioner(grid, 1.0, true);

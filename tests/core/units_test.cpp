@@ -3,25 +3,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <functional>
 #include <string>
 #include <vector>
 
+#include "support/refusal.hpp"
 #include "tabor/core/error.hpp"
 
 namespace tabor {
 namespace {
 
+using test::refusal;
 using testing::HasSubstr;
-
-std::string message_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no InputError";
-}
 
 TEST(ParseQuantity, TurnsUnitsIntoSi) {
   EXPECT_DOUBLE_EQ(parse_si("7 MPa", dimension::pressure, "--pressure"), 7e6);
@@ -43,17 +35,17 @@ TEST(ParseQuantity, KnowsTheMicroSignInAllItsEncodings) {
 }
 
 TEST(ParseQuantity, NamesTheCorrectedFormWhenTheUnitIsMissing) {
-  EXPECT_THAT(message_of([] { parse_si("7", dimension::pressure, "--pressure"); }),
+  EXPECT_THAT(refusal([] { parse_si("7", dimension::pressure, "--pressure"); }),
               HasSubstr("--pressure 7MPa"));
 }
 
 TEST(ParseQuantity, RefusesUnitsOfAnotherDimension) {
-  EXPECT_THAT(message_of([] { parse_si("7 um", dimension::pressure, "--pressure"); }),
+  EXPECT_THAT(refusal([] { parse_si("7 um", dimension::pressure, "--pressure"); }),
               HasSubstr("MPa"));
 }
 
 TEST(ParseQuantity, NamesTheUnknownUnit) {
-  EXPECT_THAT(message_of([] { parse_si("7 Mpa", dimension::pressure, "--pressure"); }),
+  EXPECT_THAT(refusal([] { parse_si("7 Mpa", dimension::pressure, "--pressure"); }),
               HasSubstr("'Mpa'"));
 }
 

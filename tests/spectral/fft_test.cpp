@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "support/folder.hpp"
 #include "support/validation.hpp"
+#include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
 
 namespace tabor::spectral {
@@ -127,6 +129,20 @@ TEST(Convolution, HasTheSameBitsForAnyThreadCount) {
     EXPECT_TRUE((result == first).all()) << threads;
   }
   set_thread_count(0);
+}
+
+TEST(Wisdom, MeasuredPlansTransformAlikeAndAbsentFilesAreRefused) {
+  const test::Folder folder;
+  EXPECT_THROW(load_wisdom(folder / "absent"), InputError);
+  EXPECT_THROW(measure_wisdom(8, 8, folder / "no" / "folder"), OutputError);
+  const Field map = Field::Random(24, 36);
+  const Spectrum estimated = transform(map);
+  measure_wisdom(24, 36, folder / "wisdom");
+  load_wisdom(folder / "wisdom");
+  const Spectrum measured = transform(map);
+  for (std::size_t k = 0; k < estimated.size(); ++k) {
+    EXPECT_NEAR(std::abs(measured[k] - estimated[k]), 0, 1e-12);
+  }
 }
 
 TEST(GoodFftSize, IsTheNextSmoothNumber) {

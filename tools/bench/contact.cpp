@@ -3,8 +3,9 @@
 //   bench_contact [n] [--baseline] [--surface edt|self-affine] [--threads N] [--seed S]
 //
 // Prints one row per case: solver iterations, operator applications and FFT pairs are
-// deterministic; seconds and their ratios are not. `pair` is a plain FFTW-like double transform
-// pair of the same size timed in the same run.
+// deterministic; seconds and their ratios are not. s/pair: solver time over the time of one
+// double-precision transform pair of the same size, measured in the same run. B/px: peak memory of
+// the process so far, which holds the heights twice.
 #include <fmt/format.h>
 
 #include <algorithm>

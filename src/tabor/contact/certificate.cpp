@@ -60,12 +60,4 @@ double duality_gap(const Candidates& candidates, double load, double saturation_
   return product - saturation_pressure * smallest;
 }
 
-double knapsack_threshold(const Candidates& candidates, double load, double saturation_pressure) {
-  if (candidates.residual.empty()) {
-    return 0;
-  }
-  const Knapsack knapsack = fill_knapsack(candidates, load, saturation_pressure);
-  return knapsack.sorted_start[knapsack.n_full];
-}
-
 }  // namespace tabor::contact

@@ -21,7 +21,4 @@ struct Candidates {
 /// valid for a pressure that carries the load exactly.
 double duality_gap(const Candidates& candidates, double load, double saturation_pressure);
 
-/// The knapsack's threshold: the largest v that receives pressure [m].
-double knapsack_threshold(const Candidates& candidates, double load, double saturation_pressure);
-
 }  // namespace tabor::contact
