@@ -2,12 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <unordered_map>
+#include <utility>
 
 #include "tabor/lubrication/large_pages.hpp"
 
 namespace tabor::lubrication {
 namespace {
 
+// Pixels in order of height lie anywhere: how many ahead of its turn one is asked of the memory.
+constexpr std::size_t kNear = 16;
+constexpr std::size_t kFar = 24;
 constexpr std::int32_t kAbsorbed = -1;  // `area` of a pool that turned out to be part of another
 
 /// Stable sort of `keys` by bits [shift, shift + 11), from `keys` to `sorted`.
@@ -67,6 +72,7 @@ void PoolBuilder::build() {
     const Height height = to_.height(ascending[begin]);
     std::size_t end = begin;
     do {
+      prefetch_neighbours(ascending, end + kFar);
       add(ascending[end++]);
     } while (ties_ == Ties::connected && end < ascending.size() &&
              to_.height(ascending[end]) == height);
@@ -76,7 +82,7 @@ void PoolBuilder::build() {
   to_.last_ = grown(home(0));
   forget_absorbed();
   number_by_place();
-  group_by_home(ascending);
+  make_arcs(ascending);
   start_leaves();
 }
 
@@ -92,6 +98,25 @@ PoolId PoolBuilder::new_pool(Height base) {
   const auto id = static_cast<PoolId>(to_.pools_.size());
   to_.pools_.push_back({.owner = id, .level = base});
   return id;
+}
+
+void PoolBuilder::prefetch_site(const std::vector<Pixel>& ascending, std::size_t place) const {
+  if (place < ascending.size()) {
+    __builtin_prefetch(&to_.sites_[static_cast<std::size_t>(ascending[place])]);
+  }
+}
+
+/// The rows above and below; the neighbours in the row most likely come with the pixel itself.
+void PoolBuilder::prefetch_neighbours(const std::vector<Pixel>& ascending,
+                                      std::size_t place) const {
+  if (place >= ascending.size()) {
+    return;
+  }
+  const Pixel p = ascending[place];
+  const Pixel nx = to_.terrain().nx;
+  for (const Pixel q : {p, std::max(p - nx, 0), std::min(p + nx, to_.terrain().size() - 1)}) {
+    __builtin_prefetch(&to_.sites_[static_cast<std::size_t>(q)]);
+  }
 }
 
 void PoolBuilder::add(Pixel p) {
@@ -192,24 +217,56 @@ void PoolBuilder::number_by_place() {
   to_.pools_ = std::move(pools);
 }
 
-void PoolBuilder::group_by_home(const std::vector<Pixel>& ascending) {
+void PoolBuilder::make_arcs(const std::vector<Pixel>& ascending) {
   for (const auto& site : to_.sites_) {
     ++pool(site.home).next;
   }
   std::int32_t begin = 0;
   for (Pool& each : to_.pools_) {
-    const std::int32_t size = each.next;
+    const std::int32_t size = each.next + 1;
     each.next = begin;
     begin += size;
   }
-  reserve_large_pages(to_.order_, ascending.size());
-  to_.order_.resize(ascending.size());
-  for (const Pixel p : ascending) {
-    to_.order_[static_cast<std::size_t>(pool(home(p)).next++)] = p;
-  }
-  std::int32_t previous_end = 0;
+  const auto n_places = static_cast<std::size_t>(begin);
+  reserve_large_pages(to_.arcs_, n_places);
+  to_.arcs_.resize(n_places);
+  to_.is_rim_.resize(n_places);
+  fill_arcs(ascending);
+  begin = 0;
   for (Pool& each : to_.pools_) {
-    std::swap(each.next, previous_end);
+    const auto rim = static_cast<std::size_t>(each.next);
+    to_.arcs_[rim] = each.parent == kNoPool ? kNoRim : pool(each.parent).level;
+    to_.is_rim_[rim] = true;
+    each.next = std::exchange(begin, each.next + 1);
+  }
+}
+
+/// Puts all heights in their places and finds the lowest pixels of all pools but leaves; with
+/// ordered ties that is always one.
+void PoolBuilder::fill_arcs(const std::vector<Pixel>& ascending) {
+  std::unordered_map<PoolId, std::vector<Pixel>> several;
+  for (std::size_t i = 0; i < ascending.size(); ++i) {
+    prefetch_site(ascending, i + kNear);
+    const Pixel p = ascending[i];
+    const auto& site = to_.sites_[static_cast<std::size_t>(p)];
+    Pool& at = pool(site.home);
+    to_.arcs_[static_cast<std::size_t>(at.next++)] = site.height;
+    if (at.open_children == 0 || at.level != site.height) {
+      continue;
+    }
+    if (at.area == 0) {
+      at.area = 1;
+      at.remainder = p;
+    } else if (ties_ == Ties::connected) {
+      several[site.home].push_back(p);
+    }
+  }
+  for (const auto& [id, more] : several) {
+    std::int32_t& lowest = pool(id).remainder;
+    const Pixel first = std::exchange(lowest, ~static_cast<std::int32_t>(to_.saddles_.size()));
+    to_.saddles_.push_back(static_cast<Pixel>(more.size()) + 1);
+    to_.saddles_.push_back(first);
+    to_.saddles_.insert(to_.saddles_.end(), more.begin(), more.end());
   }
 }
 
@@ -218,9 +275,11 @@ void PoolBuilder::start_leaves() {
   const PoolId first = to_.terrain().edge == Edge::open ? kOcean + 1 : 0;
   const auto count = static_cast<PoolId>(to_.pools_.size());
   for (PoolId id = 0; id < count; ++id) {
-    pool(id).owner = id;
-    if (pool(id).open_children > 0) {
-      pool(id).level = kDry;
+    Pool& each = pool(id);
+    each.owner = id;
+    if (!each.active()) {
+      each.level = kDry;
+      each.area = 0;
     }
   }
   for (PoolId id = first; id < count; ++id) {

@@ -1,5 +1,7 @@
 #include "tabor/lubrication/pools.hpp"
 
+#include <algorithm>
+
 #include "tabor/lubrication/pool_builder.hpp"
 
 namespace tabor::lubrication {
@@ -14,10 +16,6 @@ void Pools::shorten(PoolId id, PoolId root) {
     pools_[static_cast<std::size_t>(id)].owner = root;
     id = up;
   }
-}
-
-bool Pools::in_arc(PoolId id, std::int32_t position) const {
-  return position < terrain_->size() && home(order_[static_cast<std::size_t>(position)]) == id;
 }
 
 Volume Pools::pour(PoolId id, Volume carried) {
@@ -64,41 +62,36 @@ Volume Pools::raise(PoolId id, Height rise) {
 void Pools::take_in(PoolId id) {
   while (true) {
     Pool& pool = pools_[static_cast<std::size_t>(id)];
-    while (in_arc(id, pool.next) &&
-           height(order_[static_cast<std::size_t>(pool.next)]) == pool.level) {
-      ++pool.next;
-      ++pool.area;
+    auto next = static_cast<std::size_t>(pool.next);
+    while (!is_rim_[next] && arcs_[next] == pool.level) {
+      ++next;
     }
-    if (in_arc(id, pool.next)) {
-      pool.stop = height(order_[static_cast<std::size_t>(pool.next)]);
-    } else {
-      pool.stop = pool.parent == kNoPool ? kNoRim : height(bottom(pool.parent).front());
-    }
+    pool.area += static_cast<std::int32_t>(next) - pool.next;
+    pool.next = static_cast<std::int32_t>(next);
+    pool.stop = arcs_[next];
     if (!pool.full()) {
       return;
     }
-    const auto saddle = bottom(pool.parent);
-    pool.next = saddle.size() == 1 ? saddle.front() : kSeveral;
     Pool& parent = pools_[static_cast<std::size_t>(pool.parent)];
+    pool.next = std::max(parent.remainder, kSeveral);
     parent.area += pool.area;
     pool.remember_overflow({});
     if (--parent.open_children > 0) {
       return;
     }
     parent.level = pool.level;
+    parent.remainder = 0;
     id = pool.parent;
   }
 }
 
 std::span<const Pixel> Pools::bottom(PoolId id) const {
-  const std::int32_t begin = (*this)[id].next;
-  const Pixel* const first = &order_[static_cast<std::size_t>(begin)];
-  std::int32_t end = begin + 1;
-  while (ties_ == Ties::connected && in_arc(id, end) &&
-         height(order_[static_cast<std::size_t>(end)]) == height(*first)) {
-    ++end;
+  const std::int32_t& lowest = (*this)[id].remainder;
+  if (lowest >= 0) {
+    return {&lowest, 1};
   }
-  return {first, static_cast<std::size_t>(end - begin)};
+  const Pixel* const listed = &saddles_[static_cast<std::size_t>(~lowest)];
+  return {listed + 1, static_cast<std::size_t>(*listed)};
 }
 
 bool Pools::flooded() const {

@@ -34,7 +34,8 @@ struct alignas(32) Pool {
   Height stop = kNoRim;        ///< where it next takes in pixels, or its rim
   std::int32_t area = 0;       ///< pixels under or at the level (before: of its full children)
   std::int32_t remainder = 0;  ///< liquid above the level, less than one quantum over the area
-  std::int32_t next = 0;       ///< place in `order` of the first pixel not taken in yet
+                               ///< (before: its lowest pixel, or the complement of their place)
+  std::int32_t next = 0;       ///< place among the arcs of the first pixel not taken in yet
   std::int32_t open_children = 0;
 
   bool active() const { return open_children == 0; }
@@ -98,9 +99,9 @@ class Pools {
     pools_[static_cast<std::size_t>(full)].remember_overflow(way);
   }
 
-  /// The only pixel over which the full pool `id` touches its neighbours; kSeveral if more than
+  /// The only pixel over which the `full` pool touches its neighbours; kSeveral if more than
   /// one.
-  Pixel saddle(PoolId id) const { return (*this)[id].next; }
+  Pixel saddle(PoolId full) const { return (*this)[full].next; }
   /// The lowest pixels of a pool that is not active.
   std::span<const Pixel> bottom(PoolId id) const;
 
@@ -130,14 +131,15 @@ class Pools {
   }
   void shorten(PoolId id, PoolId root);
   void take_in(PoolId id);
-  bool in_arc(PoolId id, std::int32_t position) const;
 
   const Terrain* terrain_;
   Ties ties_;
   PoolId last_ = kNoPool;  ///< the one that holds all others
   std::vector<Pool> pools_;
   std::vector<Site> sites_;
-  std::vector<Pixel> order_;  ///< pixels grouped by home, ascending in height within each
+  std::vector<Height> arcs_;    ///< heights of the pixels of each home, ascending, and its rim
+  std::vector<bool> is_rim_;    ///< per place in arcs_
+  std::vector<Pixel> saddles_;  ///< saddles of several pixels: their number, then the pixels
   Volume beyond_ = 0;
 };
 

@@ -11,7 +11,8 @@
 namespace tabor::lubrication {
 namespace {
 
-constexpr Pixel kLargestBatch = 1 << 16;  // start pixels drawn at once, on all threads
+constexpr Pixel kLargestBatch = 1 << 16;     // start pixels drawn at once, on all threads
+constexpr std::int64_t kRarestSettling = 2;  // droplets per pixel between two settlings of slopes
 
 class Rain {
  public:
@@ -23,7 +24,8 @@ class Rain {
         droplet_(droplet),
         reading_(reading),
         batch_size_(static_cast<std::size_t>(std::min(pools.terrain().size(), kLargestBatch))),
-        starts_(batch_size_ + Scouts::kAhead) {}
+        starts_(batch_size_ + Scouts::kAhead + Scouts::kBlock),
+        settle_at_(pools.terrain().size() / 4 + 1) {}
 
   const RainState& state() const { return state_; }
 
@@ -32,7 +34,13 @@ class Rain {
     draw_starts();
     auto place = static_cast<std::size_t>(state_.n_droplets) % batch_size_;
     for (; place < batch_size_ && state_.dosed < dose; ++place) {
-      scouts_.advance(starts_.data(), place);
+      if (state_.n_droplets == settle_at_) {
+        router_.slopes().settle(pools_);
+        settle_at_ += std::min(settle_at_, kRarestSettling * pools_.terrain().size());
+      }
+      if (place % Scouts::kBlock == 0) {
+        scouts_.advance(&starts_[place]);
+      }
       state_.dosed += drop(starts_[place]);
       ++state_.n_droplets;
     }
@@ -86,6 +94,7 @@ class Rain {
   std::size_t batch_size_;
   std::vector<Pixel> starts_;
   std::int64_t drawn_ = -1;
+  std::int64_t settle_at_;  ///< droplets
   RainState state_;
 };
 

@@ -106,8 +106,8 @@ Router::Target Router::take_branch(Target fork) {
   Height lowest = kNoRim;
   Height doubt = kNoRim;
   Target target = kNoPool;
-  for (const Slopes::Branch& branch : branches) {
-    const PoolId pool = pools_.owner(branch.home);
+  for (Slopes::Branch& branch : branches) {
+    const PoolId pool = branch.home = pools_.owner(branch.home);
     const Height level = pools_[pool].level;
     const bool wet = level >= branch.height;
     const Height height = wet ? level : branch.height;

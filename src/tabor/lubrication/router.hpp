@@ -21,7 +21,7 @@ class Router {
  public:
   explicit Router(Pools& pools) : pools_(pools), slopes_(pools) {}
 
-  const Slopes& slopes() const { return slopes_; }
+  Slopes& slopes() { return slopes_; }
   PoolId from_pixel(Pixel start) { return follow(slopes_.from(start)); }
   PoolId from_full_pool(PoolId id) { return follow(id); }
 

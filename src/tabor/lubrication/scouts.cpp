@@ -2,64 +2,85 @@
 
 namespace tabor::lubrication {
 
-void Scouts::advance(const Pixel* starts, std::size_t k) {
-  std::size_t droplet = k + kAhead;
-  slopes_.prefetch(starts[droplet]);
-  droplet -= kStride;
-  Scout& fresh = ring_[droplet % ring_.size()];
-  fresh.task = Task::look;
-  go_to(fresh, slopes_.from(starts[droplet]));
-  for (droplet -= kStride; droplet > k; droplet -= kStride) {
-    step(ring_[droplet % ring_.size()]);
+void Scouts::advance(const Pixel* starts) {
+  for (std::size_t i = kAhead; i < kAhead + kBlock; ++i) {
+    slopes_.prefetch(starts[i]);
+  }
+  ++first_;
+  land(block(8), starts + 8 * kBlock);
+  run(block(7));
+  judge(block(6));
+  leave(block(5));
+  cross(block(4));
+  run(block(3));
+  judge(block(2));
+  leave(block(1));
+}
+
+/// On the slope under its start.
+void Scouts::land(Block& block, const Pixel* starts) const {
+  block.clear();
+  for (std::size_t i = 0; i < kBlock; ++i) {
+    const Target at = slopes_.from(starts[i]);
+    block.keep({at, at});
+    prefetch(at);
   }
 }
 
-void Scouts::step(Scout& scout) const {
-  if (scout.task == Task::choose) {
-    scout.task = Task::look;
-    if (Slopes::is_pool(scout.from)) {
-      const Pixel saddle = pools_.saddle(scout.from);
-      go_to(scout, saddle < 0 ? scout.at : slopes_.from(saddle));
-    } else {
-      for (const Slopes::Branch& branch : slopes_.branches(scout.from)) {
-        go_to(scout, branch.home);
-      }
-    }
-    return;
+/// To where the droplet before it ran.
+void Scouts::run(Block& block) const {
+  for (Scout& scout : block.all()) {
+    scout.at = next(scout.at);
+    prefetch(scout.at);
   }
-  if (scout.task == Task::judge &&
-      pools_[scout.at].level >= slopes_.way_from(pools_, scout.from).bound) {
-    scout.task = Task::choose;
+}
+
+/// Keeps those whose way has expired.
+void Scouts::judge(Block& block) const {
+  const auto judged = block.all();
+  block.clear();
+  for (const Scout& scout : judged) {
+    const Target end = next(scout.at);
+    prefetch(end);
+    const bool is_way = !Slopes::is_pool(scout.from) || pools_[scout.from].full();
+    if (is_way && pools_[scout.at].level >= slopes_.way_from(pools_, scout.from).bound) {
+      block.keep(scout);
+    }
+  }
+}
+
+/// A fork asks for the pools on its branches, a full pool for the slope under its saddle.
+void Scouts::leave(Block& block) const {
+  const auto leaving = block.all();
+  block.clear();
+  for (const Scout& scout : leaving) {
     if (!Slopes::is_pool(scout.from)) {
-      __builtin_prefetch(slopes_.branches(scout.from).data());
+      for (const Slopes::Branch& branch : slopes_.branches(scout.from)) {
+        pools_.prefetch(branch.home);
+      }
     } else if (const Pixel saddle = pools_.saddle(scout.from); saddle != kSeveral) {
       slopes_.prefetch(saddle);
-    }
-    return;
-  }
-  look(scout);
-}
-
-void Scouts::look(Scout& scout) const {
-  const Slopes::Target at = scout.at;
-  scout.task = Task::look;
-  if (Slopes::is_pool(at)) {
-    const Pool& pool = pools_[at];
-    if (pool.owner != at) {
-      go_to(scout, pool.owner);
-      return;
-    }
-    if (!pool.full()) {
-      return;
+      block.keep({scout.from, saddle});
     }
   }
-  scout.from = at;
-  scout.task = Task::judge;
-  go_to(scout, slopes_.way_from(pools_, at).end);
 }
 
-void Scouts::go_to(Scout& scout, Slopes::Target target) const {
-  scout.at = target;
+void Scouts::cross(Block& block) const {
+  for (Scout& scout : block.all()) {
+    scout.from = scout.at = slopes_.from(scout.at);
+    prefetch(scout.at);
+  }
+}
+
+Scouts::Target Scouts::next(Target at) const {
+  if (!Slopes::is_pool(at)) {
+    return slopes_.way_from(pools_, at).end;
+  }
+  const Pool& pool = pools_[at];
+  return pool.owner == at && pool.full() ? pool.overflow().end : pool.owner;
+}
+
+void Scouts::prefetch(Target target) const {
   if (Slopes::is_pool(target)) {
     pools_.prefetch(target);
   } else {

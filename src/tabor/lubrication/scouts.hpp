@@ -7,35 +7,47 @@
 namespace tabor::lubrication {
 
 /// Walk some droplets ahead of the rain and ask the processor to fetch what a droplet will read:
-/// the arrays are far larger than a cache and read in random order. A scout takes one step per
-/// kStride droplets and reads only what was fetched for it before. Nothing relies on what it sees.
+/// the arrays are far larger than a cache and read in random order. Droplets are scouted in blocks;
+/// a block takes one step, reading only what was fetched for it before, while the block before it
+/// takes the next. Nothing relies on what scouts see.
 class Scouts {
  public:
-  static constexpr std::size_t kStride = 12;
-  static constexpr std::size_t kSteps = 4;
-  static constexpr std::size_t kAhead = kStride * kSteps;  ///< droplets between first and last step
+  static constexpr std::size_t kBlock = 64;
+  static constexpr std::size_t kSteps = 9;
+  static constexpr std::size_t kAhead = kBlock * kSteps;  ///< droplets known beyond the present one
 
-  Scouts(const Pools& pools, const Slopes& slopes) : pools_(pools), slopes_(slopes) {}
+  Scouts(Pools& pools, Slopes& slopes) : pools_(pools), slopes_(slopes) {}
 
-  /// Before droplet `k` falls; starts[k + 1 .. k + kAhead] must be known.
-  void advance(const Pixel* starts, std::size_t k);
+  /// Before the droplets starts[0 .. kBlock) fall; starts[kBlock .. kBlock + kAhead) follow them.
+  void advance(const Pixel* starts);
 
  private:
-  enum class Task { look, judge, choose };
+  using Target = Slopes::Target;
   struct Scout {
-    Slopes::Target at = 0;    ///< always a pool or a fork, be it of an earlier scout
-    Slopes::Target from = 0;  ///< the full pool or fork whose way is being judged
-    Task task = Task::look;
+    Target from = 0;  ///< where its way is remembered
+    Target at = 0;    ///< where that ends, or the saddle it will cross
+  };
+  struct Block {
+    std::array<Scout, kBlock> scouts;
+    std::size_t size = 0;
+    void clear() { size = 0; }
+    void keep(const Scout& scout) { scouts[size++] = scout; }
+    std::span<Scout> all() { return {scouts.data(), size}; }
   };
 
-  void step(Scout& scout) const;
-  void look(Scout& scout) const;
-  void go_to(Scout& scout, Slopes::Target target) const;
+  Block& block(std::size_t steps_ahead) { return ring_[(first_ + steps_ahead) % ring_.size()]; }
+  void land(Block& block, const Pixel* starts) const;
+  void run(Block& block) const;
+  void judge(Block& block) const;
+  void leave(Block& block) const;
+  void cross(Block& block) const;
+  void prefetch(Target target) const;
+  Target next(Target at) const;
 
-  const Pools& pools_;
-  const Slopes& slopes_;
-  std::array<Scout, 64> ring_{};
-  static_assert(kAhead < 64);
+  Pools& pools_;
+  Slopes& slopes_;
+  std::array<Block, kSteps> ring_{};
+  std::size_t first_ = 0;
 };
 
 }  // namespace tabor::lubrication

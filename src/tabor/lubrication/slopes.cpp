@@ -81,10 +81,12 @@ class SlopeFinder {
         known(p) = target;
       }
     }
-    for (const Slopes::Fork& fork : to_.forks_) {
-      for (std::int32_t i = 0; i < fork.n_branches && fork.n_branches > 1; ++i) {
-        Slopes::Branch& branch = to_.branches_[static_cast<std::size_t>(fork.first_branch + i)];
-        branch.leads_to = known(branch.leads_to);  // so far it named the pixel
+    for (std::size_t number = 0; number < to_.forks_.size(); ++number) {
+      const auto branches = to_.branches(~static_cast<Slopes::Target>(number));
+      for (Slopes::Branch& branch : branches) {
+        if (branches.size() > 1) {
+          branch.leads_to = known(branch.leads_to);  // so far it named the pixel
+        }
       }
     }
     move_to_large_pages(to_.forks_);
@@ -181,12 +183,17 @@ class SlopeFinder {
     return bottom.size() == 1 || height(b) > height(bottom.front());
   }
 
+  Slopes::Branch branch(Pixel q) const { return {height(q), home(q), q}; }
+
   Slopes::Target add_fork() {
-    to_.forks_.push_back({static_cast<std::int32_t>(to_.branches_.size()),
-                          static_cast<std::int32_t>(lower_.size()),
-                          {}});
-    for (const Pixel q : lower_) {
-      to_.branches_.push_back({height(q), home(q), q});
+    Slopes::Fork& fork = to_.forks_.emplace_back();
+    if (lower_.size() == 2) {
+      fork.two = {branch(lower_[0]), branch(lower_[1])};
+    } else {
+      fork.list(to_.branches_.size(), lower_.size());
+      for (const Pixel q : lower_) {
+        to_.branches_.push_back(branch(q));
+      }
     }
     return ~static_cast<Slopes::Target>(to_.forks_.size() - 1);
   }
@@ -198,6 +205,36 @@ class SlopeFinder {
   std::vector<Pixel> lower_;
 };
 
+namespace {
+
+/// The pool that covers all branches of a fork, or kNoPool.
+PoolId pool_over_all(std::span<const Slopes::Branch> branches, Pools& pools) {
+  const PoolId over_first = pools.owner(branches.front().home);
+  for (const Slopes::Branch& branch : branches) {
+    const PoolId pool = pools.owner(branch.home);
+    if (pool != over_first || pools[pool].level < branch.height) {
+      return kNoPool;
+    }
+  }
+  return over_first;
+}
+
+}  // namespace
+
 Slopes::Slopes(const Pools& pools) { SlopeFinder(*this, pools).find(); }
+
+void Slopes::settle(Pools& pools) {
+  std::vector<PoolId> pool_over(forks_.size());
+  for (std::size_t number = 0; number < forks_.size(); ++number) {
+    pool_over[number] = pool_over_all(branches(~static_cast<Target>(number)), pools);
+  }
+  for (Target& target : leads_to_) {
+    if (is_pool(target)) {
+      target = pools.owner(target);
+    } else if (const PoolId pool = pool_over[static_cast<std::size_t>(~target)]; pool != kNoPool) {
+      target = pool;
+    }
+  }
+}
 
 }  // namespace tabor::lubrication

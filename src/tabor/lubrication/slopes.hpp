@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -31,10 +32,17 @@ class Slopes {
 
   /// A fork has two branches or more, ascending in pixel number; or one, if it is a pixel without
   /// lower neighbours on a saddle of several equal pixels: that pixel, with the pool above as home.
-  struct Fork {
-    std::int32_t first_branch = 0;
-    std::int32_t n_branches = 0;
+  /// Two branches, the common number, lie in the fork: half a cache line.
+  struct alignas(32) Fork {
     Way way;  ///< of the last droplet
+    std::array<Branch, 2> two;
+
+    bool has_two() const { return two[0].home != kNoPool; }
+    std::size_t first_listed() const { return static_cast<std::size_t>(two[0].height); }
+    std::size_t n_listed() const { return static_cast<std::size_t>(two[0].leads_to); }
+    void list(std::size_t first, std::size_t n) {
+      two[0] = {static_cast<Height>(first), kNoPool, static_cast<Target>(n)};
+    }
   };
 
   static bool is_pool(Target target) { return target >= 0; }
@@ -43,10 +51,10 @@ class Slopes {
   explicit Slopes(const Pools& pools);
 
   Target from(Pixel p) const { return leads_to_[static_cast<std::size_t>(p)]; }
-  std::span<const Branch> branches(Target fork) const {
-    const Fork& at = forks_[static_cast<std::size_t>(~fork)];
-    return {&branches_[static_cast<std::size_t>(at.first_branch)],
-            static_cast<std::size_t>(at.n_branches)};
+  std::span<Branch> branches(Target fork) {
+    Fork& at = forks_[static_cast<std::size_t>(~fork)];
+    return at.has_two() ? std::span<Branch>(at.two)
+                        : std::span(branches_).subspan(at.first_listed(), at.n_listed());
   }
 
   /// The last droplet's way from a fork, or from a full pool.
@@ -54,6 +62,10 @@ class Slopes {
     return is_pool(at) ? pools[at].overflow() : forks_[static_cast<std::size_t>(~at)].way;
   }
   void remember(Target fork, const Way& way) { forks_[static_cast<std::size_t>(~fork)].way = way; }
+
+  /// Forgets choices that the water has taken away: forks with all branches in one pool and pools
+  /// that have become part of others give way to the pool that holds them now.
+  void settle(Pools& pools);
 
   void prefetch(Pixel p) const { __builtin_prefetch(&leads_to_[static_cast<std::size_t>(p)]); }
   void prefetch_fork(Target fork) const {
@@ -65,7 +77,7 @@ class Slopes {
 
   std::vector<Target> leads_to_;  ///< per pixel
   std::vector<Fork> forks_;
-  std::vector<Branch> branches_;
+  std::vector<Branch> branches_;  ///< of the forks that have not two
 };
 
 }  // namespace tabor::lubrication
