@@ -91,14 +91,25 @@ TEST(Sweep, SecondRunComputesNothingAndChangesNothing) {
 
 TEST(Sweep, SameBytesForAnyNumberOfJobs) {
   const ExampleStudy example;
-  example.run({}, "one");
   SweepOptions options;
-  options.jobs = 2;
-  example.run(options, "two");
-  options.jobs = 16;
-  example.run(options, "many");
-  EXPECT_EQ(example.csv("one"), example.csv("two"));
-  EXPECT_EQ(example.csv("one"), example.csv("many"));
+  options.jobs = 1;
+  example.run(options, "one");
+  for (const int jobs : {0, 2, 16}) {
+    options.jobs = jobs;
+    const std::string folder = "jobs" + std::to_string(jobs);
+    example.run(options, folder);
+    EXPECT_EQ(example.csv("one"), example.csv(folder));
+  }
+}
+
+TEST(Sweep, JobsFillThreadsOrHalfOfTheMemory) {
+  constexpr Index n_pixels = 1000 * 1000;
+  const auto room_for = [](std::size_t n_units) { return 2 * n_units * 80 * n_pixels; };
+  EXPECT_EQ(jobs_that_fit(n_pixels, room_for(8), 2), 2);
+  EXPECT_EQ(jobs_that_fit(n_pixels, room_for(8), 16), 8);
+  EXPECT_EQ(jobs_that_fit(n_pixels, room_for(1) - 1, 16), 1);
+  EXPECT_EQ(jobs_that_fit(n_pixels, 0, 16), 1);
+  EXPECT_EQ(jobs_that_fit(0, room_for(8), 4), 4);
 }
 
 TEST(Sweep, StoppedAnywhereAndResumedGivesTheSameBytes) {

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 struct Request {
   std::string study;
   std::optional<std::string> directory;
-  std::uint64_t jobs = 1;
+  std::uint64_t jobs = 0;
   std::optional<study::Shard> shard;
   bool retry = false;
 
@@ -40,7 +40,7 @@ study::Study read_study(const Request& request, const Context& context) {
 
 study::SweepOptions options_for(const Request& request, const Context& context) {
   study::SweepOptions options;
-  options.jobs = static_cast<int>(std::clamp<std::uint64_t>(request.jobs, 1, 1024));
+  options.jobs = static_cast<int>(std::min<std::uint64_t>(request.jobs, 1024));
   options.shard = request.shard;
   options.retry = request.retry;
   options.command = context.command_line;
@@ -147,7 +147,9 @@ void declare_options(OptionSet& set, Request& request) {
                  request.study);
   set.text("--output", "DIR", "folder of the results [STUDY_results]", request.directory)
       .short_flag = "-o";
-  set.count("--jobs", "cases computed at the same time, each with its own memory [1]",
+  set.count("--jobs",
+            "cases computed at the same time, each with its own memory [as many as there are "
+            "threads and room for]",
             request.jobs);
   set.add({.flag = "--shard",
            .placeholder = "I/N",

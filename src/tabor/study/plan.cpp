@@ -120,4 +120,13 @@ std::vector<ScanPlan> plan(const Store& store, const Study& study,
   return plans;
 }
 
+int jobs_that_fit(Index n_pixels, std::size_t available_bytes, int n_threads) {
+  // Of one unit with its surface; tools/bench/study prints it.
+  constexpr std::size_t bytes_per_pixel = 80;
+  const std::size_t fitting =
+      available_bytes / 2 /
+      (bytes_per_pixel * static_cast<std::size_t>(std::max<Index>(1, n_pixels)));
+  return static_cast<int>(std::clamp<std::size_t>(fitting, 1, static_cast<std::size_t>(n_threads)));
+}
+
 }  // namespace tabor::study

@@ -35,4 +35,8 @@ std::vector<ScanPlan> plan(const Store& store, const Study& study,
                            const std::vector<ScanUnits>& units, const Shard& shard, bool retry,
                            std::vector<std::string>& warnings);
 
+/// How many units on surfaces of `n_pixels` are computed at the same time: one per thread, a film
+/// being laid down by one thread, as long as they fit in half of the free memory; at least one.
+int jobs_that_fit(Index n_pixels, std::size_t available_bytes, int n_threads);
+
 }  // namespace tabor::study

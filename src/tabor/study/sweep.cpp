@@ -11,6 +11,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
+#include "tabor/core/resources.hpp"
 #include "tabor/study/compute.hpp"
 #include "tabor/study/scan_work.hpp"
 #include "tabor/study/tables.hpp"
@@ -51,8 +52,11 @@ class Sweep {
       scans_.emplace_back(plans[scan], study_.mean_pressures.size());
       add_tasks(plans[scan], scan);
     }
-    const int n_workers =
-        std::clamp(static_cast<int>(tasks_.size()), 1, std::max(1, options_.jobs));
+    if (tasks_.empty()) {
+      return;
+    }
+    const int n_jobs = options_.jobs > 0 ? options_.jobs : affordable_jobs();
+    const int n_workers = std::min(static_cast<int>(tasks_.size()), n_jobs);
     {
       const ThreadShare share(n_workers);
       std::vector<std::jthread> workers;
@@ -78,6 +82,19 @@ class Sweep {
     for (const std::size_t pressure : plan.pressures) {
       tasks_.push_back({Task::Kind::contact, scan, pressure});
     }
+  }
+
+  /// Scans of a study are of one size, or nearly: the first that can be read tells for all.
+  int affordable_jobs() {
+    for (const Task& task : tasks_) {
+      try {
+        return jobs_that_fit(surface(task.scan)->height.size(), available_memory_bytes(),
+                             thread_count());
+      } catch (const InputError&) {
+        // Said where the scan is used.
+      }
+    }
+    return 1;
   }
 
   void work() {

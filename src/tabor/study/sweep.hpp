@@ -12,7 +12,8 @@
 namespace tabor::study {
 
 struct SweepOptions {
-  int jobs = 1;                ///< units computed at the same time; each takes its own memory
+  int jobs = 0;                ///< units computed at the same time, each with its own memory;
+                               ///< 0: as many as there are threads and room for
   std::optional<Shard> shard;  ///< this process computes only its part
   bool retry = false;          ///< compute failed and not converged cases again
   std::string command;         ///< command line, kept in results.h5
