@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "tabor/lubrication/large_pages.hpp"
 #include "tabor/lubrication/pool_builder.hpp"
 
 namespace tabor::lubrication {
@@ -92,6 +93,39 @@ std::span<const Pixel> Pools::bottom(PoolId id) const {
   }
   const Pixel* const listed = &saddles_[static_cast<std::size_t>(~lowest)];
   return {listed + 1, static_cast<std::size_t>(*listed)};
+}
+
+std::vector<PoolId> Pools::renumber() {
+  const auto n_before = static_cast<PoolId>(pools_.size());
+  std::vector<PoolId> renamed(pools_.size(), kNoPool);
+  std::vector<PoolId> kept;
+  for (PoolId id = 0; id < n_before; ++id) {
+    if (owner(id) == id) {
+      renamed[static_cast<std::size_t>(id)] = static_cast<PoolId>(kept.size());
+      kept.push_back(id);
+    }
+  }
+  const auto new_number = [&](PoolId id) { return renamed[static_cast<std::size_t>(owner(id))]; };
+  std::vector<Pool> pools;
+  reserve_large_pages(pools, kept.size());
+  for (const PoolId id : kept) {
+    Pool pool = (*this)[id];
+    pool.owner = new_number(id);
+    pool.parent = pool.parent == kNoPool ? kNoPool : new_number(pool.parent);
+    if (pool.full()) {
+      pool.remember_overflow({new_number(pool.overflow().end), pool.overflow().bound});
+    }
+    pools.push_back(pool);
+  }
+  for (PoolId id = 0; id < n_before; ++id) {
+    renamed[static_cast<std::size_t>(id)] = new_number(id);
+  }
+  for (Site& site : sites_) {
+    site.home = renamed[static_cast<std::size_t>(site.home)];
+  }
+  last_ = renamed[static_cast<std::size_t>(last_)];
+  pools_ = std::move(pools);
+  return renamed;
 }
 
 bool Pools::flooded() const {

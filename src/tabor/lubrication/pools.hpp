@@ -110,6 +110,11 @@ class Pools {
   /// True once a closed or periodic map is one pool without a rim.
   bool flooded() const;
 
+  /// Gives the pools new numbers, in the same order, and forgets those that have become part of
+  /// others: what is still of use then lies closer together. Returns for each old number the new
+  /// one of the pool that holds it.
+  std::vector<PoolId> renumber();
+
   /// Asks the processor to fetch a pool before it is needed.
   void prefetch(PoolId id) const { __builtin_prefetch(&pools_[static_cast<std::size_t>(id)]); }
 

@@ -35,7 +35,8 @@ class Rain {
     auto place = static_cast<std::size_t>(state_.n_droplets) % batch_size_;
     for (; place < batch_size_ && state_.dosed < dose; ++place) {
       if (state_.n_droplets == settle_at_) {
-        router_.slopes().settle(pools_);
+        router_.settle();
+        scouts_.start();
         settle_at_ += std::min(settle_at_, kRarestSettling * pools_.terrain().size());
       }
       if (place % Scouts::kBlock == 0) {

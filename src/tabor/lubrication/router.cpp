@@ -84,6 +84,12 @@ PoolId Router::follow(Target at) {
   }
 }
 
+void Router::settle() {
+  const std::vector<PoolId> renamed = pools_.renumber();
+  slopes_.settle(pools_, renamed);
+  saddles_.clear();
+}
+
 Router::Target Router::spill(PoolId full) {
   if (const Pixel saddle = pools_.saddle(full); saddle != kSeveral) {
     trail_.push_back({full, kNoRim});

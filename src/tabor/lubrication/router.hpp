@@ -25,6 +25,10 @@ class Router {
   PoolId from_pixel(Pixel start) { return follow(slopes_.from(start)); }
   PoolId from_full_pool(PoolId id) { return follow(id); }
 
+  /// Forgets what the liquid has decided for good, so that less memory is in use. Pools get new
+  /// numbers.
+  void settle();
+
  private:
   using Target = Slopes::Target;
 

@@ -18,6 +18,9 @@ class Scouts {
 
   Scouts(Pools& pools, Slopes& slopes) : pools_(pools), slopes_(slopes) {}
 
+  /// Forgets where scouts stand: pools and forks have new numbers.
+  void start() { ring_ = {}; }
+
   /// Before the droplets starts[0 .. kBlock) fall; starts[kBlock .. kBlock + kAhead) follow them.
   void advance(const Pixel* starts);
 

@@ -223,18 +223,50 @@ PoolId pool_over_all(std::span<const Slopes::Branch> branches, Pools& pools) {
 
 Slopes::Slopes(const Pools& pools) { SlopeFinder(*this, pools).find(); }
 
-void Slopes::settle(Pools& pools) {
-  std::vector<PoolId> pool_over(forks_.size());
+void Slopes::settle(Pools& pools, const std::vector<PoolId>& renamed) {
+  const auto rename = [&](PoolId& pool) { pool = renamed[static_cast<std::size_t>(pool)]; };
   for (std::size_t number = 0; number < forks_.size(); ++number) {
-    pool_over[number] = pool_over_all(branches(~static_cast<Target>(number)), pools);
-  }
-  for (Target& target : leads_to_) {
-    if (is_pool(target)) {
-      target = pools.owner(target);
-    } else if (const PoolId pool = pool_over[static_cast<std::size_t>(~target)]; pool != kNoPool) {
-      target = pool;
+    rename(forks_[number].way.end);
+    for (Branch& branch : branches(~static_cast<Target>(number))) {
+      rename(branch.home);
     }
   }
+  const std::vector<Target> now = renumber_forks(pools);
+  const auto settle = [&](Target& target) {
+    target = is_pool(target) ? renamed[static_cast<std::size_t>(target)]
+                             : now[static_cast<std::size_t>(~target)];
+  };
+  for (Target& target : leads_to_) {
+    settle(target);
+  }
+  for (std::size_t number = 0; number < forks_.size(); ++number) {
+    const auto all = branches(~static_cast<Target>(number));
+    for (Branch& branch : all) {
+      if (all.size() > 1) {  // a single one names a pixel
+        settle(branch.leads_to);
+      }
+    }
+  }
+}
+
+/// Keeps the forks that still offer a choice; returns what each old number has become.
+std::vector<Slopes::Target> Slopes::renumber_forks(Pools& pools) {
+  std::vector<Target> now(forks_.size());
+  std::vector<std::size_t> kept;
+  for (std::size_t number = 0; number < forks_.size(); ++number) {
+    const PoolId pool = pool_over_all(branches(~static_cast<Target>(number)), pools);
+    now[number] = pool == kNoPool ? ~static_cast<Target>(kept.size()) : pool;
+    if (pool == kNoPool) {
+      kept.push_back(number);
+    }
+  }
+  std::vector<Fork> forks;
+  reserve_large_pages(forks, kept.size());
+  for (const std::size_t number : kept) {
+    forks.push_back(forks_[number]);
+  }
+  forks_ = std::move(forks);
+  return now;
 }
 
 }  // namespace tabor::lubrication

@@ -63,9 +63,9 @@ class Slopes {
   }
   void remember(Target fork, const Way& way) { forks_[static_cast<std::size_t>(~fork)].way = way; }
 
-  /// Forgets choices that the water has taken away: forks with all branches in one pool and pools
-  /// that have become part of others give way to the pool that holds them now.
-  void settle(Pools& pools);
+  /// Follows Pools::renumber(), and forgets choices that the water has taken away: forks with all
+  /// branches in one pool give way to that pool.
+  void settle(Pools& pools, const std::vector<PoolId>& renamed);
 
   void prefetch(Pixel p) const { __builtin_prefetch(&leads_to_[static_cast<std::size_t>(p)]); }
   void prefetch_fork(Target fork) const {
@@ -74,6 +74,8 @@ class Slopes {
 
  private:
   friend class SlopeFinder;
+
+  std::vector<Target> renumber_forks(Pools& pools);
 
   std::vector<Target> leads_to_;  ///< per pixel
   std::vector<Fork> forks_;
