@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tabor/contact/certificate.hpp"
+#include "tabor/contact/long_waves.hpp"
 #include "tabor/contact/preconditioner.hpp"
 #include "tabor/contact/projection.hpp"
 #include "tabor/contact/scale.hpp"
@@ -16,19 +17,42 @@
 namespace tabor::contact {
 namespace {
 
-constexpr double kFirstRefresh = 1e-5;  // certificate below which v is computed afresh in double
+constexpr double kFirstRefresh = 1e-6;  // certificate below which v is computed afresh in double
 constexpr double kNextRefresh = 1e-4;   // ... and again each time it fell by this factor
 constexpr int kPatience = 300;          // iterations without a better certificate before giving up
 constexpr double kUnknownFraction = std::numeric_limits<double>::quiet_NaN();
+
+/// Sum of term(k) over k < n, in fixed blocks.
+template <typename Term>
+double sum_over(std::size_t n, const Term& term) {
+  return deterministic_sum(static_cast<Index>(n), [&](Index begin, Index end) {
+    double partial = 0;
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      partial += term(k);
+    }
+    return partial;
+  });
+}
+
+/// body(k) for every k < n.
+template <typename Body>
+void for_each(std::size_t n, const Body& body) {
+  parallel_for(static_cast<Index>(n), kBlock, [&](Index begin, Index end) {
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      body(k);
+    }
+  });
+}
 
 /// Projected gradient on the pressure with one operator application an iteration:
 ///
 ///     p <- clip(p - tau M (v - sep) - shift, 0, p_sat),    v = S p - z
 ///
-/// M: Preconditioner on the pixels that may move; sep: separation for which the diagonally
-/// preconditioned step carries the load; tau: second Barzilai & Borwein (1988) step in the metric
-/// of M; shift: exact load. v follows by S dp in single precision, p and v are kept in double and v
-/// is computed afresh when the certificate has become small (docs/theory.md, "Fast solver").
+/// M: Preconditioner with LongWaves on the pixels that may move; sep: separation for which the
+/// diagonally preconditioned step carries the load; tau: second Barzilai & Borwein (1988) step in
+/// the metric of M; shift: exact load. v follows by S dp in single precision, p and v are kept in
+/// double and v is computed afresh when the certificate has become small (docs/theory.md, "Fast
+/// solver").
 class ProjectedGradient {
  public:
   ProjectedGradient(elastic::ElasticOperator& elasticity, const Problem& problem)
@@ -38,8 +62,9 @@ class ProjectedGradient {
         load_(problem.mean_pressure * static_cast<double>(problem.height.size())),
         scale_(problem.mean_pressure * length_scale(elasticity, problem) *
                static_cast<double>(problem.height.size())),
-        preconditioner_(elasticity.grid(), elasticity.effective_modulus(),
-                        elasticity.drops_mean()) {
+        preconditioner_(elasticity.grid(), elasticity.effective_modulus(), elasticity.drops_mean()),
+        long_waves_(elasticity.grid(), elasticity.effective_modulus(), preconditioner_.plateau(),
+                    elasticity.drops_mean()) {
     convergence_.tolerance = problem.tolerance;
   }
 
@@ -47,12 +72,14 @@ class ProjectedGradient {
 
  private:
   void refresh();
+  double highest_contact() const;
   void collect_candidates();
   void certify();
   void find_separation();
   void choose_active_set();
   void find_direction();
   void choose_step();
+  double project_step();
   bool move();
   void accept(double length);
   Index size() const { return pressure_.size(); }
@@ -63,22 +90,27 @@ class ProjectedGradient {
   double load_;   // sum of pressures [Pa]
   double scale_;  // of the duality gap [Pa m]
   Preconditioner preconditioner_;
+  LongWaves long_waves_;
   Convergence convergence_;
 
-  Field pressure_;             // p [Pa]
-  Field residual_;             // v = S p - z [m]
-  FieldF increment_;           // dp, then S dp
-  FieldF active_residual_;     // v - sep on the active set, 0 elsewhere
-  FieldF previous_direction_;  // M (v - sep) of the step before, 0 off its set
+  Field pressure_;  // p [Pa]
+  Field residual_;  // v = S p - z [m]
+  FieldF work_;     // v - sep on the active set, then dp, then S dp; 0 elsewhere but for S dp
   PixelList candidate_pixels_;
   Candidates candidates_;
   PixelList active_;
   PixelList previous_active_;
-  std::vector<float> direction_;  // M (v - sep) on the active set [Pa]
-  std::vector<double> trial_;     // pressures tried on the active set [Pa]
-  double separation_ = 0;         // [m], in the units of v
-  double step_ = 1;               // tau
-  double step_curvature_ = 0;     // <dp, S dp> of the step before [Pa m]
+  // On the active set, in its order:
+  std::vector<float> response_;            // S dp of the step before [m]
+  std::vector<float> direction_;           // M (v - sep) [Pa]
+  std::vector<float> compact_direction_;   // the same without long waves [Pa]
+  std::vector<float> stiffness_;           // row sums of the compact kernel [Pa/m]
+  std::vector<float> moved_;               // direction as far as the bounds let it through [Pa]
+  std::vector<double> trial_;              // pressures tried [Pa]
+  std::vector<float> previous_direction_;  // on previous_active_ [Pa]
+  double separation_ = 0;                  // [m], in the units of v
+  double step_ = 1;                        // tau
+  double step_curvature_ = 0;              // <dp, S dp> of the step before [Pa m]
   double refresh_below_ = kFirstRefresh;
   bool residual_is_fresh_ = false;
   double best_certificate_ = std::numeric_limits<double>::infinity();
@@ -99,46 +131,58 @@ void ProjectedGradient::refresh() {
   residual_is_fresh_ = true;
 }
 
+/// Largest v in contact. Pixels in contact are among the candidates before, once there are some.
+double ProjectedGradient::highest_contact() const {
+  const bool all = candidate_pixels_.empty();
+  const Index n = all ? size() : static_cast<Index>(candidate_pixels_.size());
+  return parallel_max(n, [&](Index begin, Index end) {
+    double highest = -std::numeric_limits<double>::infinity();
+    for (Index k = begin; k < end; ++k) {
+      const Index pixel = all ? k : candidate_pixels_[static_cast<std::size_t>(k)];
+      if (pressure_.data()[pixel] > 0) {
+        highest = std::max(highest, residual_.data()[pixel]);
+      }
+    }
+    return highest;
+  });
+}
+
 /// A pixel without pressure can only matter if its v is at most the largest v in contact.
 void ProjectedGradient::collect_candidates() {
-  const double* p = pressure_.data();
   const double* v = residual_.data();
-  const double largest = parallel_max(size(), [&](Index begin, Index end) {
-    double block_largest = -std::numeric_limits<double>::infinity();
-    for (Index i = begin; i < end; ++i) {
-      block_largest =
-          std::max(block_largest, p[i] > 0 ? v[i] : -std::numeric_limits<double>::infinity());
-    }
-    return block_largest;
-  });
+  const double highest = highest_contact();
   const Index n_blocks = (size() + kBlock - 1) / kBlock;
   std::vector<PixelList> lists(static_cast<std::size_t>(n_blocks));
   parallel_for(n_blocks, 1, [&](Index block, Index) {
     PixelList& list = lists[static_cast<std::size_t>(block)];
     for (Index i = block * kBlock; i < std::min(size(), (block + 1) * kBlock); ++i) {
-      if (p[i] > 0 || v[i] <= largest) {
+      if (v[i] <= highest) {
         list.push_back(static_cast<std::uint32_t>(i));
       }
     }
   });
-  candidate_pixels_.clear();
-  candidates_.pressure.clear();
-  candidates_.residual.clear();
+  std::vector<std::size_t> starts{0};
   for (const PixelList& list : lists) {
-    for (const std::uint32_t pixel : list) {
-      candidate_pixels_.push_back(pixel);
-      candidates_.pressure.push_back(p[pixel]);
-      candidates_.residual.push_back(v[pixel]);
-    }
+    starts.push_back(starts.back() + list.size());
   }
+  candidate_pixels_.resize(starts.back());
+  candidates_.pressure.resize(starts.back());
+  candidates_.residual.resize(starts.back());
+  parallel_for(n_blocks, 1, [&](Index block, Index) {
+    std::size_t k = starts[static_cast<std::size_t>(block)];
+    for (const std::uint32_t pixel : lists[static_cast<std::size_t>(block)]) {
+      candidate_pixels_[k] = pixel;
+      candidates_.pressure[k] = pressure_.data()[pixel];
+      candidates_.residual[k] = v[pixel];
+      ++k;
+    }
+  });
 }
 
 /// Certificate of contact.md section 2; infinite if the pressure does not carry the load exactly.
 void ProjectedGradient::certify() {
-  double carried = 0;
-  for (const double pressure : candidates_.pressure) {
-    carried += pressure;
-  }
+  const double carried =
+      sum_over(candidates_.pressure.size(), [&](std::size_t k) { return candidates_.pressure[k]; });
   convergence_.certificate = std::abs(carried / load_ - 1) <= 1e-10
                                  ? std::max(0.0, duality_gap(candidates_, load_, cap_) / scale_)
                                  : std::numeric_limits<double>::infinity();
@@ -153,87 +197,104 @@ void ProjectedGradient::certify() {
 void ProjectedGradient::find_separation() {
   const double diagonal_step = step_ * preconditioner_.diagonal();
   trial_.resize(candidates_.pressure.size());
-  for (std::size_t k = 0; k < trial_.size(); ++k) {
+  for_each(trial_.size(), [&](std::size_t k) {
     trial_[k] = candidates_.pressure[k] - diagonal_step * candidates_.residual[k];
-  }
+  });
   separation_ = -shift_for_load(trial_, load_, cap_) / diagonal_step;
 }
 
 /// Pixels that may move: strictly inside the bounds, or at a bound and pulled inside.
 void ProjectedGradient::choose_active_set() {
   std::swap(active_, previous_active_);
+  std::swap(direction_, previous_direction_);
   active_.clear();
-  for (const std::uint32_t pixel : previous_active_) {
-    active_residual_.data()[pixel] = 0;
-  }
   for (std::size_t k = 0; k < candidate_pixels_.size(); ++k) {
     const double p = candidates_.pressure[k];
     const double v = candidates_.residual[k] - separation_;
     if ((p > 0 || v < 0) && (p < cap_ || v > 0)) {
       active_.push_back(candidate_pixels_[k]);
-      active_residual_.data()[candidate_pixels_[k]] = static_cast<float>(v);
     }
   }
+  response_.resize(active_.size());
+  for_each(active_.size(), [&](std::size_t k) { response_[k] = work_.data()[active_[k]]; });
 }
 
 void ProjectedGradient::find_direction() {
-  const double pairs_before = preconditioner_.fft_pairs();
-  preconditioner_.apply(active_, active_residual_, direction_);
-  convergence_.fft_pairs += preconditioner_.fft_pairs() - pairs_before;
+  for_each(static_cast<std::size_t>(size()), [&](std::size_t i) { work_.data()[i] = 0; });
+  for_each(active_.size(), [&](std::size_t k) {
+    work_.data()[active_[k]] = static_cast<float>(residual_.data()[active_[k]] - separation_);
+  });
+  preconditioner_.apply(active_, work_, compact_direction_, stiffness_);
+  direction_ = compact_direction_;
+  if (!long_waves_.useful()) {
+    return;
+  }
+  moved_.resize(active_.size());
+  for_each(active_.size(), [&](std::size_t k) {
+    const double p = pressure_.data()[active_[k]];
+    const double wanted = p - step_ * static_cast<double>(direction_[k]);
+    const double allowed = std::clamp(wanted, 0.0, cap_);
+    moved_[k] = wanted == allowed ? direction_[k] : static_cast<float>((p - allowed) / step_);
+  });
+  long_waves_.correct(active_, stiffness_, moved_, direction_);
 }
 
 /// tau = <dp, S dp> / <S dp, M S dp>; M S dp is the change of the direction since the last step.
-/// increment_ still holds S dp.
 void ProjectedGradient::choose_step() {
-  double mean = 0;
-  for (const std::uint32_t pixel : active_) {
-    mean += increment_.data()[pixel];
-  }
-  mean /= static_cast<double>(active_.size());
+  const double mean = sum_over(response_.size(), [&](std::size_t k) { return response_[k]; }) /
+                      static_cast<double>(active_.size());
   double curvature = 0;
+  std::size_t before = 0;
   for (std::size_t k = 0; k < active_.size(); ++k) {
-    const double change =
-        static_cast<double>(direction_[k]) - previous_direction_.data()[active_[k]];
-    curvature += change * (increment_.data()[active_[k]] - mean);
+    while (before < previous_active_.size() && previous_active_[before] < active_[k]) {
+      ++before;
+    }
+    const bool stayed = before < previous_active_.size() && previous_active_[before] == active_[k];
+    const double previous = stayed ? previous_direction_[before] : 0.0;
+    curvature += (static_cast<double>(direction_[k]) - previous) * (response_[k] - mean);
   }
   if (step_curvature_ > 0 && curvature > 0) {
     step_ = step_curvature_ / curvature;
   }
 }
 
+/// Tries a step along the direction: trial_ within bounds and load, dp into work_. Returns the
+/// slope of the energy along dp [Pa m].
+double ProjectedGradient::project_step() {
+  const double active_load =
+      sum_over(active_.size(), [&](std::size_t k) { return pressure_.data()[active_[k]]; });
+  trial_.resize(active_.size());
+  for_each(active_.size(), [&](std::size_t k) {
+    trial_[k] = pressure_.data()[active_[k]] - step_ * static_cast<double>(direction_[k]);
+  });
+  project_on_load(trial_, active_load, cap_);
+  return sum_over(active_.size(), [&](std::size_t k) {
+    const std::uint32_t pixel = active_[k];
+    const double change = trial_[k] - pressure_.data()[pixel];
+    work_.data()[pixel] = static_cast<float>(change);
+    return change * (residual_.data()[pixel] - separation_);
+  });
+}
+
 /// Projects the step on bounds and load, applies the operator to it, and shortens it to the minimum
 /// of the energy along it where it overshoots. Returns false if nothing moved.
 bool ProjectedGradient::move() {
-  double active_load = 0;
-  trial_.resize(active_.size());
-  for (std::size_t k = 0; k < active_.size(); ++k) {
-    const double p = pressure_.data()[active_[k]];
-    active_load += p;
-    trial_[k] = p - step_ * static_cast<double>(direction_[k]);
+  double slope = project_step();
+  if (slope >= 0) {  // bounds can turn a corrected direction uphill: leave long waves alone
+    direction_ = compact_direction_;
+    slope = project_step();
   }
-  project_on_load(trial_, active_load, cap_);
-
-  increment_.setZero();
-  double slope = 0;  // of the energy along dp [Pa m]
-  double largest = 0;
-  for (std::size_t k = 0; k < active_.size(); ++k) {
-    const std::uint32_t pixel = active_[k];
-    const double change = trial_[k] - pressure_.data()[pixel];
-    increment_.data()[pixel] = static_cast<float>(change);
-    slope += change * (residual_.data()[pixel] - separation_);
-    largest = std::max(largest, std::abs(change));
-  }
-  if (largest == 0) {
+  const auto change = [&](std::size_t k) { return trial_[k] - pressure_.data()[active_[k]]; };
+  if (sum_over(active_.size(), [&](std::size_t k) { return std::abs(change(k)); }) == 0) {
     return false;
   }
-  elasticity_.apply(increment_, increment_);
+  elasticity_.apply(work_, work_);
   convergence_.operator_applications += 1;
   convergence_.fft_pairs += 1;
 
-  double curvature = 0;
-  for (std::size_t k = 0; k < active_.size(); ++k) {
-    curvature += (trial_[k] - pressure_.data()[active_[k]]) * increment_.data()[active_[k]];
-  }
+  const double curvature = sum_over(active_.size(), [&](std::size_t k) {
+    return change(k) * static_cast<double>(work_.data()[active_[k]]);
+  });
   const double length = (slope < 0 && slope + 0.5 * curvature > 0) ? -slope / curvature : 1.0;
   accept(length);
   step_curvature_ = length * length * curvature;
@@ -242,20 +303,14 @@ bool ProjectedGradient::move() {
 
 /// p += length * dp and v += length * S dp; a whole step lands on the bounds exactly.
 void ProjectedGradient::accept(double length) {
-  for (const std::uint32_t pixel : previous_active_) {
-    previous_direction_.data()[pixel] = 0;
-  }
-  for (std::size_t k = 0; k < active_.size(); ++k) {
+  for_each(active_.size(), [&](std::size_t k) {
     double& p = pressure_.data()[active_[k]];
     p = length == 1 ? trial_[k] : std::clamp(p + length * (trial_[k] - p), 0.0, cap_);
-    previous_direction_.data()[active_[k]] = direction_[k];
-  }
+  });
   const auto factor = static_cast<float>(length);
-  parallel_for(size(), kBlock, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      increment_.data()[i] *= factor;
-      residual_.data()[i] += static_cast<double>(increment_.data()[i]);
-    }
+  for_each(static_cast<std::size_t>(size()), [&](std::size_t i) {
+    work_.data()[i] *= factor;
+    residual_.data()[i] += static_cast<double>(work_.data()[i]);
   });
   residual_is_fresh_ = false;
 }
@@ -265,9 +320,7 @@ State ProjectedGradient::run(const Observer& observer) {
   const Index nx = problem_.height.cols();
   pressure_ = starting_pressure(elasticity_, problem_, convergence_.fft_pairs);
   refresh();
-  increment_.resize(ny, nx);
-  active_residual_ = FieldF::Zero(ny, nx);
-  previous_direction_ = FieldF::Zero(ny, nx);
+  work_ = FieldF::Zero(ny, nx);
 
   while (true) {
     collect_candidates();
@@ -288,11 +341,14 @@ State ProjectedGradient::run(const Observer& observer) {
     }
     find_separation();
     choose_active_set();
+    if (active_.empty()) {
+      break;
+    }
     find_direction();
     if (convergence_.iterations > 0) {
       choose_step();
     }
-    if (active_.empty() || !move()) {
+    if (!move()) {
       break;
     }
     convergence_.iterations += 1;

@@ -56,7 +56,8 @@ class Restricted {
       residual_(set_[k]) = static_cast<float>(residual[k]);
     }
     std::vector<float> values;
-    preconditioner_.apply(set_, residual_, values);
+    std::vector<float> row_sums;
+    preconditioner_.apply(set_, residual_, values, row_sums);
     return {values.begin(), values.end()};
   }
 

@@ -15,8 +15,8 @@
 namespace tabor::elastic {
 namespace {
 
-/// An operator that is a convolution with a known spectrum. Scratch memory of a precision is taken
-/// at its first use.
+/// An operator that is a convolution with a known spectrum. Scratch memory is held for the
+/// precision used last only: solvers change it a few times per solution.
 class ConvolutionOperator : public ElasticOperator {
  public:
   ConvolutionOperator(const Grid& grid, double effective_modulus, bool padded)
@@ -31,6 +31,7 @@ class ConvolutionOperator : public ElasticOperator {
         pressure, [this](Index kx, std::span<double> values) { fill(kx, values); }, displacement);
   }
   void apply(const FieldF& pressure, FieldF& displacement) override {
+    double_.reset();
     run<float>(
         single_, pressure, [this](Index kx, std::span<float> values) { fill(kx, values); },
         displacement);
@@ -40,6 +41,7 @@ class ConvolutionOperator : public ElasticOperator {
  protected:
   /// out = F^-1 [ values F [in] ] in double precision.
   void convolve(const Field& in, const spectral::Multiplier<double>& values, Field& out) {
+    single_.reset();
     run<double>(double_, in, values, out);
   }
 

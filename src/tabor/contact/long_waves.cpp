@@ -1,0 +1,212 @@
+#include "tabor/contact/long_waves.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tabor/core/parallel.hpp"
+
+namespace tabor::contact {
+namespace {
+
+constexpr Index kPixelsPerBlock = 8;  // the reach of the compact kernel
+/// Least energy of the error, as a share of the first. The correction cancels long waves of the
+/// direction that are up to a hundred times too large: what it leaves must be small against that.
+constexpr double kTolerance = 1e-8;
+constexpr int kMostSteps = 100;
+
+/// Even, so that bands of pixels between two rows of blocks can be gathered in two colours.
+Index block_count(Index n_pixels) {
+  return std::max<Index>(2, 2 * (n_pixels / (2 * kPixelsPerBlock)));
+}
+
+double product(const FieldF& a, const FieldF& b) {
+  return deterministic_sum(a.size(), [&](Index begin, Index end) {
+    double partial = 0;
+    for (Index i = begin; i < end; ++i) {
+      partial += static_cast<double>(a.data()[i]) * static_cast<double>(b.data()[i]);
+    }
+    return partial;
+  });
+}
+
+/// Row k of the 3 x 3 blocks around a block: (dy, dx), each -1, 0 or 1.
+Index slot(Index dy, Index dx) { return 3 * (dy + 1) + dx + 1; }
+
+}  // namespace
+
+LongWaves::LongWaves(const Grid& grid, double effective_modulus, double plateau, bool wraps)
+    : grid_(grid),
+      blocks_y_(block_count(grid.ny)),
+      blocks_x_(block_count(grid.nx)),
+      wraps_(wraps),
+      rows_(neighbours(grid.ny, blocks_y_, wraps)),
+      columns_(neighbours(grid.nx, blocks_x_, wraps)),
+      convolution_(blocks_y_, blocks_x_,
+                   wraps ? spectral::Convolution<float>::Padding::none
+                         : spectral::Convolution<float>::Padding::zero) {
+  const Index extent = wraps ? 1 : 2;
+  const Index ny = extent * blocks_y_;
+  const Index nx = extent * blocks_x_;
+  const auto cells = static_cast<double>(extent * extent * blocks_y_ * blocks_x_);
+  const double blocks_per_pixel =
+      cells / static_cast<double>(extent * extent) / static_cast<double>(grid.size());
+  const auto compliance = [&](Index ky, Index kx) {
+    const double stiffness =
+        0.5 * effective_modulus *
+        std::hypot(spectral::wavevector(kx, nx, static_cast<double>(extent) * grid.lx),
+                   spectral::wavevector(ky, ny, static_cast<double>(extent) * grid.ly));
+    return blocks_per_pixel * (1 / stiffness - 1 / std::hypot(stiffness, plateau));
+  };
+  compliance_.resize(nx / 2 + 1, ny / 2 + 1);
+  for (Index kx = 0; kx <= nx / 2; ++kx) {
+    for (Index ky = 0; ky <= ny / 2; ++ky) {
+      compliance_(kx, ky) = kx + ky == 0 ? 0.0F : static_cast<float>(compliance(ky, kx));
+    }
+  }
+  // A stiff answer to the mean keeps the load; stiffer than the longest wave slows the solution.
+  compliance_(0, 0) = compliance_.maxCoeff();
+}
+
+std::vector<LongWaves::Neighbours> LongWaves::neighbours(Index n_pixels, Index n_blocks,
+                                                         bool wraps) {
+  std::vector<Neighbours> list;
+  for (Index pixel = 0; pixel < n_pixels; ++pixel) {
+    const double position = (static_cast<double>(pixel) + 0.5) * static_cast<double>(n_blocks) /
+                                static_cast<double>(n_pixels) -
+                            0.5;
+    const auto lower = static_cast<Index>(std::floor(position));
+    const auto weight = static_cast<float>(position - std::floor(position));
+    if (wraps) {
+      list.push_back({(lower + n_blocks) % n_blocks, (lower + 1) % n_blocks, weight});
+    } else {
+      const Index inside = std::clamp<Index>(lower, 0, n_blocks - 2);
+      list.push_back(
+          {inside, inside + 1, lower == inside ? weight : (lower < inside ? 0.0F : 1.0F)});
+    }
+  }
+  return list;
+}
+
+/// load_ = P^T moved, stiffness_ = K. Pixels of one band between two rows of blocks add to these
+/// two rows only: even bands first, then odd ones, each in parallel.
+void LongWaves::gather(const PixelList& set, const std::vector<float>& stiffness,
+                       const std::vector<float>& moved, const std::vector<float>& direction) {
+  load_ = FieldF::Zero(blocks_y_, blocks_x_);
+  stiffness_ = FieldF::Zero(blocks_y_ * blocks_x_, 9);
+  const auto add = [&](std::size_t k, Index y, Index x) {
+    const Neighbours& row = rows_[static_cast<std::size_t>(y)];
+    const Neighbours& column = columns_[static_cast<std::size_t>(x)];
+    const float wy[2] = {1 - row.weight, row.weight};
+    const float wx[2] = {1 - column.weight, column.weight};
+    const bool is_free = moved[k] == direction[k];
+    for (Index i = 0; i < 4; ++i) {
+      const float weight = wy[i / 2] * wx[i % 2];
+      const Index block = (i / 2 == 0 ? row.lower : row.upper) * blocks_x_ +
+                          (i % 2 == 0 ? column.lower : column.upper);
+      load_.data()[block] += weight * moved[k];
+      for (Index j = 0; is_free && j < 4; ++j) {
+        stiffness_(block, slot(j / 2 - i / 2, j % 2 - i % 2)) +=
+            weight * wy[j / 2] * wx[j % 2] * stiffness[k];
+      }
+    }
+  };
+  const auto add_row = [&](Index y) {
+    const auto first = static_cast<std::uint32_t>(y * grid_.nx);
+    const auto last = static_cast<std::uint32_t>((y + 1) * grid_.nx);
+    for (auto it = std::lower_bound(set.begin(), set.end(), first); it != set.end() && *it < last;
+         ++it) {
+      add(static_cast<std::size_t>(it - set.begin()), y, static_cast<Index>(*it - first));
+    }
+  };
+  std::vector<std::vector<Index>> bands(static_cast<std::size_t>(blocks_y_));
+  for (Index y = 0; y < grid_.ny; ++y) {
+    bands[static_cast<std::size_t>(rows_[static_cast<std::size_t>(y)].lower)].push_back(y);
+  }
+  for (const Index colour : {0, 1}) {
+    parallel_for(blocks_y_ / 2, 1, [&](Index half, Index) {
+      for (const Index y : bands[static_cast<std::size_t>(2 * half + colour)]) {
+        add_row(y);
+      }
+    });
+  }
+}
+
+void LongWaves::apply_compliance(const FieldF& load, FieldF& displacement) {
+  displacement.resize(blocks_y_, blocks_x_);
+  convolution_.apply(
+      load.data(),
+      [this](Index kx, std::span<float> values) {
+        std::copy_n(compliance_.data() + kx * compliance_.cols(), values.size(), values.begin());
+      },
+      displacement.data());
+}
+
+void LongWaves::apply_stiffness(const FieldF& displacement, FieldF& load) const {
+  load.resize(blocks_y_, blocks_x_);
+  const auto wrapped = [](Index k, Index n) { return k < 0 ? k + n : (k < n ? k : k - n); };
+  parallel_for(blocks_y_, 16, [&](Index begin, Index end) {
+    for (Index y = begin; y < end; ++y) {
+      for (Index x = 0; x < blocks_x_; ++x) {
+        float sum = 0;
+        for (Index dy = -1; dy <= 1; ++dy) {
+          for (Index dx = -1; dx <= 1; ++dx) {
+            sum += stiffness_(y * blocks_x_ + x, slot(dy, dx)) *
+                   displacement(wrapped(y + dy, blocks_y_), wrapped(x + dx, blocks_x_));
+          }
+        }
+        load(y, x) = sum;
+      }
+    }
+  });
+}
+
+/// (I + S_c K) e = S_c load.
+void LongWaves::solve() {
+  FieldF residual;
+  FieldF stiff_residual;
+  apply_compliance(load_, residual);
+  apply_stiffness(residual, stiff_residual);
+  FieldF step = residual;
+  FieldF stiff_step = stiff_residual;
+  FieldF image;
+  displacement_ = FieldF::Zero(blocks_y_, blocks_x_);
+  double square = product(residual, stiff_residual);
+  const double enough = kTolerance * square;
+  for (int k = 0; k < kMostSteps && square > enough; ++k) {
+    apply_compliance(stiff_step, image);
+    image += step;
+    const auto length = static_cast<float>(square / product(image, stiff_step));
+    displacement_ += length * step;
+    residual -= length * image;
+    apply_stiffness(residual, stiff_residual);
+    const double next = product(residual, stiff_residual);
+    const auto momentum = static_cast<float>(next / square);
+    step = residual + momentum * step;
+    stiff_step = stiff_residual + momentum * stiff_step;
+    square = next;
+  }
+  // One more round through S_c smooths what the inner product does not see: blocks out of contact.
+  apply_stiffness(displacement_, image);
+  image = load_ - image;
+  apply_compliance(image, displacement_);
+}
+
+void LongWaves::correct(const PixelList& set, const std::vector<float>& stiffness,
+                        const std::vector<float>& moved, std::vector<float>& direction) {
+  gather(set, stiffness, moved, direction);
+  solve();
+  parallel_for(static_cast<Index>(set.size()), kBlock, [&](Index begin, Index end) {
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      const Neighbours& row = rows_[set[k] / static_cast<std::size_t>(grid_.nx)];
+      const Neighbours& column = columns_[set[k] % static_cast<std::size_t>(grid_.nx)];
+      const auto along_x = [&](Index y) {
+        return (1 - column.weight) * displacement_(y, column.lower) +
+               column.weight * displacement_(y, column.upper);
+      };
+      direction[k] -=
+          stiffness[k] * ((1 - row.weight) * along_x(row.lower) + row.weight * along_x(row.upper));
+    }
+  });
+}
+
+}  // namespace tabor::contact

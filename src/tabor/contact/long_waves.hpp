@@ -1,0 +1,63 @@
+#pragma once
+
+#include <vector>
+
+#include "tabor/contact/preconditioner.hpp"
+#include "tabor/core/types.hpp"
+#include "tabor/spectral/fft.hpp"
+
+namespace tabor::contact {
+
+/// Second level of the preconditioner. The compact kernel M answers a residual as if contacts
+/// farther apart than its taper did not feel each other. This adds what they do, on a grid of
+/// blocks of pixels: with P the bilinear interpolation from that grid to the pixels of a set, m the
+/// row sums of M on the set and S_c the compliance of long waves that M leaves out,
+///
+///     e = S_c P^T (d - m P e),     d <- d - m P e
+///
+/// e [m] is the long-wave displacement the corrected direction d [Pa] causes. It is solved by
+/// conjugate gradients in the inner product of K = P^T m P, in which I + S_c K is symmetric.
+class LongWaves {
+ public:
+  /// plateau: value of M at long waves [Pa/m]; wraps: the grid is a periodic cell.
+  LongWaves(const Grid& grid, double effective_modulus, double plateau, bool wraps);
+
+  /// False for grids of a few blocks, on which nothing is left to correct.
+  bool useful() const { return blocks_y_ >= kLeastBlocks && blocks_x_ >= kLeastBlocks; }
+
+  /// Corrects direction[k] at pixel set[k]. stiffness: m [Pa/m]; moved: the part of the direction
+  /// that the bounds on the pressure let through. A pixel where the two differ is held by a bound:
+  /// it adds to the load of its block but not to its stiffness.
+  void correct(const PixelList& set, const std::vector<float>& stiffness,
+               const std::vector<float>& moved, std::vector<float>& direction);
+
+ private:
+  static constexpr Index kLeastBlocks = 4;
+
+  struct Neighbours {  // two blocks between whose centres a pixel lies, along one axis
+    Index lower;
+    Index upper;
+    float weight;  // of the upper one
+  };
+
+  static std::vector<Neighbours> neighbours(Index n_pixels, Index n_blocks, bool wraps);
+  void gather(const PixelList& set, const std::vector<float>& stiffness,
+              const std::vector<float>& moved, const std::vector<float>& direction);
+  void apply_compliance(const FieldF& load, FieldF& displacement);
+  void apply_stiffness(const FieldF& displacement, FieldF& load) const;
+  void solve();
+
+  Grid grid_;
+  Index blocks_y_;
+  Index blocks_x_;
+  bool wraps_;
+  std::vector<Neighbours> rows_;     // of every pixel row
+  std::vector<Neighbours> columns_;  // of every pixel column
+  FieldF compliance_;                // S_c [m/Pa], shape (half spectrum of x, half spectrum of y)
+  FieldF load_;                      // P^T moved [Pa]
+  FieldF stiffness_;                 // K [Pa/m], shape (blocks, 9): to the 3 x 3 blocks around
+  FieldF displacement_;              // e [m]
+  spectral::Convolution<float> convolution_;
+};
+
+}  // namespace tabor::contact
