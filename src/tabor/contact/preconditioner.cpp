@@ -1,6 +1,7 @@
 #include "tabor/contact/preconditioner.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -52,16 +53,19 @@ double Preconditioner::plateau() const {
 }
 
 Preconditioner::Sums Preconditioner::sum_inside(const float* corner) const {
-  using Row = Eigen::Array<float, kRowLength, 1>;
-  Row products = Row::Zero();
-  Row weights = Row::Zero();
+  // Lane by lane, so that the compiler uses vectors without reordering sums.
+  std::array<float, kRowLength> products{};
+  std::array<float, kRowLength> weights{};
   for (Index j = 0; j < kSide; ++j) {
-    const Eigen::Map<const Row> kernel(kernel_.data() + j * kRowLength);
-    const Eigen::Map<const Row> residual(corner + j * grid_.nx);
-    products += kernel * residual;
-    weights += (residual != 0).select(kernel, 0.0F);
+    const float* kernel = kernel_.data() + j * kRowLength;
+    const float* residual = corner + j * grid_.nx;
+    for (std::size_t i = 0; i < kRowLength; ++i) {
+      products[i] += kernel[i] * residual[i];
+      weights[i] += residual[i] != 0 ? kernel[i] : 0.0F;
+    }
   }
-  return {products.sum(), weights.sum()};
+  return {std::accumulate(products.begin(), products.end(), 0.0F),
+          std::accumulate(weights.begin(), weights.end(), 0.0F)};
 }
 
 Preconditioner::Sums Preconditioner::sum_at_edge(const FieldF& residual, Index y, Index x) const {
