@@ -2,8 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
+#include <chrono>
 #include <sstream>
+#include <thread>
 
 #include "tabor/cli/interrupt.hpp"
 
@@ -11,18 +12,6 @@ namespace tabor::cli {
 namespace {
 
 using testing::HasSubstr;
-
-TEST(ShareDone, IsLogarithmicInTheCertificate) {
-  const Convergence half{.certificate = 1e-3, .tolerance = 1e-6};
-  EXPECT_DOUBLE_EQ(share_done(0, half), 0.5);
-}
-
-TEST(ShareDone, StaysBetweenNothingAndAll) {
-  EXPECT_EQ(share_done(0, {.certificate = 10, .tolerance = 1e-6}), 0);
-  EXPECT_EQ(share_done(0, {.certificate = 1e-9, .tolerance = 1e-6}), 1);
-  EXPECT_EQ(share_done(0, {.certificate = INFINITY, .tolerance = 1e-6}), 0);
-  EXPECT_EQ(share_done(0, {.certificate = NAN, .tolerance = 1e-6}), 0);
-}
 
 TEST(Duration, IsReadable) {
   EXPECT_EQ(format_duration(12.3), "12 s");
@@ -47,6 +36,14 @@ TEST(Progress, DoesNotFloodALogFile) {
   const Observer observer = printer.observer();
   for (int i = 0; i < 1000; ++i) observer({.stage = "rain", .fraction = i / 1000.0});
   EXPECT_EQ(err.str(), "");  // the first line comes after ten seconds
+}
+
+TEST(Progress, OfAStageTellsTheShareOfTheWhole) {
+  std::ostringstream err;
+  ProgressPrinter printer(err, ProgressStyle::terminal);
+  std::this_thread::sleep_for(std::chrono::milliseconds(150));  // more often it would not print
+  printer.observer()({.stage = "film", .fraction = 0.99, .whole = 0.25});
+  EXPECT_THAT(err.str(), HasSubstr("film  25 %"));
 }
 
 }  // namespace

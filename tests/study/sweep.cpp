@@ -134,7 +134,7 @@ TEST(Sweep, StoppedAnywhereAndResumedGivesTheSameBytes) {
 TEST(Sweep, InterruptedKeepsWhatIsFinished) {
   const ExampleStudy example;
   SweepOptions options;
-  options.observer = [](const Progress& progress) { return progress.fraction < 0.6; };
+  options.observer = [](const Progress& progress) { return !(progress.whole >= 0.6); };
   EXPECT_THROW(example.run(options), Interrupted);
   const io::CsvTable table = io::parse_csv(example.csv(), "results.csv");
   EXPECT_GE(table.rows.size(), 2u);
@@ -149,7 +149,7 @@ TEST(Sweep, AnExceptionOfTheObserverEndsItWithoutLoss) {
   SweepOptions options;
   options.jobs = 2;
   options.observer = [](const Progress& progress) -> bool {
-    if (progress.fraction > 0.5) {
+    if (progress.whole > 0.5) {
       throw std::runtime_error("from outside");
     }
     return true;

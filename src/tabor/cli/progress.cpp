@@ -37,14 +37,6 @@ ProgressStyle progress_style_of_stderr(bool quiet) {
   return isatty(STDERR_FILENO) != 0 ? ProgressStyle::terminal : ProgressStyle::lines;
 }
 
-double share_done(double first_certificate_log10, const Convergence& convergence) {
-  const double last = std::log10(std::max(convergence.tolerance, 1e-300));
-  const double now = std::log10(std::max(convergence.certificate, 1e-300));
-  const double way = first_certificate_log10 - last;
-  return std::isfinite(now) && way > 0 ? std::clamp((first_certificate_log10 - now) / way, 0.0, 1.0)
-                                       : 0.0;
-}
-
 std::string format_duration(double seconds) {
   const auto whole = static_cast<long>(std::lround(std::max(0.0, seconds)));
   if (whole < 60) return fmt::format("{} s", whole);
@@ -64,14 +56,20 @@ void ProgressPrinter::show(const Progress& progress) {
   if (progress.stage != stage_) {
     stage_ = progress.stage;
     stage_start_ = now;
-    first_log_ = progress.convergence ? std::log10(progress.convergence->certificate) : 0;
+    first_certificate_ = 0;
+  }
+  if (progress.convergence && !(first_certificate_ > 0 && std::isfinite(first_certificate_))) {
+    first_certificate_ = progress.convergence->certificate;
   }
   const double period = style_ == ProgressStyle::terminal ? kTerminalPeriod : kLinePeriod;
   if (now - last_shown_ < period) return;
   last_shown_ = now;
-  double share = std::isnan(progress.fraction) ? 0 : progress.fraction;
-  if (share == 0 && progress.convergence) share = share_done(first_log_, *progress.convergence);
-  const std::string line = describe(progress, share, now - stage_start_);
+  const bool is_part = !std::isnan(progress.whole);
+  double share = is_part ? progress.whole : progress.fraction;
+  if (std::isnan(share)) {
+    share = progress.convergence ? share_done(first_certificate_, *progress.convergence) : 0;
+  }
+  const std::string line = describe(progress, share, is_part ? now : now - stage_start_);
   if (style_ == ProgressStyle::terminal) {
     err_ << "\r\033[K" << line << std::flush;
     line_on_screen_ = true;

@@ -39,14 +39,11 @@ class ProgressPrinter {
   ProgressStyle style_;
   std::string stage_;
   Stopwatch since_start_;
-  double stage_start_ = 0;  ///< [s]
-  double last_shown_ = 0;   ///< [s]
-  double first_log_ = 0;    ///< log10 of the stage's first certificate
+  double stage_start_ = 0;        ///< [s]
+  double last_shown_ = 0;         ///< [s]
+  double first_certificate_ = 0;  ///< of the stage
   bool line_on_screen_ = false;
 };
-
-/// Share of an iterative solve that is done, from the logarithm of its certificate.
-double share_done(double first_certificate_log10, const Convergence& convergence);
 
 /// "12 s", "3 min 20 s", "2 h 5 min"
 std::string format_duration(double seconds);

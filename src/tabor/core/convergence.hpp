@@ -16,11 +16,15 @@ struct Convergence {
   bool converged = false;
 };
 
+/// Share of an iterative solve that is done, from the logarithm of its certificate: 0 at the first.
+double share_done(double first_certificate, const Convergence& convergence);
+
 /// One message from a long computation to whoever watches it.
 struct Progress {
   std::string_view stage;  ///< "contact 7 MPa", "rain", "read", ...
   double fraction = std::numeric_limits<double>::quiet_NaN();  ///< done share 0..1, NaN if unknown
   const Convergence* convergence = nullptr;                    ///< of an iterative solver, or null
+  double whole = std::numeric_limits<double>::quiet_NaN();     ///< done share of all stages, or NaN
 };
 
 /// Called once per iteration (or every few per cent of a loop). Returns false to stop: the

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <deque>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "tabor/core/error.hpp"
@@ -15,16 +17,10 @@
 #include "tabor/study/compute.hpp"
 #include "tabor/study/scan_work.hpp"
 #include "tabor/study/tables.hpp"
+#include "tabor/study/work_share.hpp"
 
 namespace tabor::study {
 namespace {
-
-struct Task {
-  enum class Kind { surface, film, contact };
-  Kind kind;
-  std::size_t scan;
-  std::size_t pressure = 0;  ///< of a contact
-};
 
 /// Shares the machine's threads among the workers for as long as it lives.
 class ThreadShare {
@@ -55,6 +51,7 @@ class Sweep {
     if (tasks_.empty()) {
       return;
     }
+    work_share_.emplace(tasks_);
     const int n_jobs = options_.jobs > 0 ? options_.jobs : affordable_jobs();
     const int n_workers = std::min(static_cast<int>(tasks_.size()), n_jobs);
     {
@@ -88,7 +85,7 @@ class Sweep {
   int affordable_jobs() {
     for (const Task& task : tasks_) {
       try {
-        return jobs_that_fit(surface(task.scan)->height.size(), available_memory_bytes(),
+        return jobs_that_fit(surface(task)->height.size(), available_memory_bytes(),
                              thread_count());
       } catch (const InputError&) {
         // Said where the scan is used.
@@ -100,9 +97,11 @@ class Sweep {
   void work() {
     for (std::size_t next = next_++; next < tasks_.size() && !stop_; next = next_++) {
       try {
+        const Stopwatch watch;
         perform(tasks_[next]);
         scans_[tasks_[next].scan].task_done();
-        ++n_tasks_done_;
+        const std::lock_guard lock(mutex_);
+        work_share_->end(next, watch.seconds());
       } catch (...) {
         const std::lock_guard lock(mutex_);
         stop_ = true;
@@ -133,41 +132,43 @@ class Sweep {
   void compute(const Task& task) {
     switch (task.kind) {
       case Task::Kind::surface:
-        return compute_surface_of(task.scan);
+        return compute_surface_of(task);
       case Task::Kind::film:
-        return compute_film_of(task.scan);
+        return compute_film_of(task);
       case Task::Kind::contact:
-        return compute_contact_of(task.scan, task.pressure);
+        return compute_contact_of(task);
     }
   }
 
-  void compute_surface_of(std::size_t scan) {
-    const auto lock = exclusive(units_[scan].surface);
-    if (!usable(units_[scan].surface)) {
-      compute_surface(store_, units_[scan].surface, *surface(scan));
+  void compute_surface_of(const Task& task) {
+    const Unit& unit = units_[task.scan].surface;
+    const auto lock = exclusive(unit);
+    if (!usable(unit)) {
+      compute_surface(store_, unit, *surface(task));
       count(outcome_.n_surfaces);
     }
   }
 
-  void compute_film_of(std::size_t scan) {
-    const auto lock = exclusive(units_[scan].film);
-    if (!usable(units_[scan].film)) {
-      const std::string stage = stage_name("film", study_.scans[scan]);
-      compute_film(store_, units_[scan].film, study_, *surface(scan), watch(stage));
+  void compute_film_of(const Task& task) {
+    const Unit& unit = units_[task.scan].film;
+    const auto lock = exclusive(unit);
+    if (!usable(unit)) {
+      const std::string stage = stage_name("film", study_.scans[task.scan]);
+      compute_film(store_, unit, study_, *surface(task), watch(task, stage));
       count(outcome_.n_films);
     }
   }
 
-  void compute_contact_of(std::size_t scan, std::size_t pressure) {
-    const Unit& unit = units_[scan].contacts[pressure];
+  void compute_contact_of(const Task& task) {
+    const Unit& unit = units_[task.scan].contacts[task.pressure];
     const auto lock = exclusive(unit);
-    const bool again = scans_[scan].plan().retry[pressure];
+    const bool again = scans_[task.scan].plan().retry[task.pressure];
     if (usable(unit) && (!again || read_contact(store_, unit).convergence.converged)) {
       return;
     }
-    const double load = study_.mean_pressures[pressure];
-    const std::string stage = stage_name("contact", study_.scans[scan], load);
-    compute_contact(store_, unit, study_, *surface(scan), load, watch(stage));
+    const double load = study_.mean_pressures[task.pressure];
+    const std::string stage = stage_name("contact", study_.scans[task.scan], load);
+    compute_contact(store_, unit, study_, *surface(task), load, watch(task, stage));
     count(outcome_.n_contacts);
   }
 
@@ -182,10 +183,14 @@ class Sweep {
     outcome_.n_rows += study_.lubricant_densities.size();
   }
 
-  std::shared_ptr<const topography::Topography> surface(std::size_t scan) {
-    return scans_[scan].surface([this, scan] {
-      const std::string stage = stage_name("read", study_.scans[scan]);
-      return treated_surface(study_, study_.scans[scan], watch(stage));
+  std::shared_ptr<const topography::Topography> surface(const Task& task) {
+    return scans_[task.scan].surface([this, &task] {
+      const Scan& scan = study_.scans[task.scan];
+      const Observer observer = [this, stage = stage_name("read", scan)](const Progress& inner) {
+        report({stage, inner.fraction, inner.convergence});
+        return true;
+      };
+      return treated_surface(study_, scan, observer);
     });
   }
 
@@ -207,8 +212,19 @@ class Sweep {
     return store_.lock(unit.key, [this] { report({"waiting for another shard"}); });
   }
 
-  Observer watch(const std::string& stage) {
-    return [this, stage](const Progress& inner) {
+  /// Keeps account of how far the task is, and passes its messages on.
+  Observer watch(const Task& task, const std::string& stage) {
+    const auto place = static_cast<std::size_t>(&task - tasks_.data());
+    return [this, place, stage, first = 0.0](const Progress& inner) mutable {
+      double share = inner.fraction;
+      if (inner.convergence != nullptr) {
+        first = first > 0 && std::isfinite(first) ? first : inner.convergence->certificate;
+        share = share_done(first, *inner.convergence);
+      }
+      if (share >= 0) {
+        const std::lock_guard lock(mutex_);
+        work_share_->inside(place, share);
+      }
       report({stage, inner.fraction, inner.convergence});
       return true;
     };
@@ -217,9 +233,7 @@ class Sweep {
   /// Passes one message on, with the share of the whole sweep. Throws Interrupted to stop.
   void report(Progress progress) {
     const std::lock_guard lock(mutex_);
-    const double inner = progress.fraction >= 0 ? progress.fraction : 0;
-    progress.fraction = (static_cast<double>(n_tasks_done_) + inner) /
-                        static_cast<double>(std::max<std::size_t>(1, tasks_.size()));
+    progress.whole = work_share_->share();
     if (!stop_ && options_.observer && !options_.observer(progress)) {
       stop_ = true;
     }
@@ -241,10 +255,10 @@ class Sweep {
   std::deque<ScanWork> scans_;  // a deque, since mutexes do not move
   std::vector<Task> tasks_;
   std::atomic<std::size_t> next_ = 0;
-  std::atomic<std::size_t> n_tasks_done_ = 0;
   std::atomic<bool> stop_ = false;
   std::mutex mutex_;
-  std::exception_ptr first_error_;  // guarded by mutex_
+  std::optional<WorkShare> work_share_;  // guarded by mutex_
+  std::exception_ptr first_error_;       // guarded by mutex_
 };
 
 void count_rows(const std::vector<Row>& rows, Outcome& outcome) {
