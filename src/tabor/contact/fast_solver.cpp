@@ -117,8 +117,11 @@ class ProjectedGradient {
   int best_iteration_ = 0;
 };
 
-/// v = S p - z in double precision.
+/// v = S p - z in double precision. Candidates, which are collected anew after it, make room for it.
 void ProjectedGradient::refresh() {
+  candidates_ = Candidates();
+  candidate_pixels_ = PixelList();
+  trial_ = std::vector<double>();
   elasticity_.apply(pressure_, residual_);
   const double* height = problem_.height.data();
   parallel_for(size(), kBlock, [&](Index begin, Index end) {

@@ -101,9 +101,8 @@ Field starting_pressure(const elastic::ElasticOperator& elasticity, const Proble
   const Grid& grid = elasticity.grid();
   Field pressure;
   if (std::min(grid.nx, grid.ny) >= 2 * kCoarsestSize) {
-    Problem coarse = problem;
-    coarse.height = halved(problem.height);
-    coarse.tolerance = std::max(kCoarseTolerance, problem.tolerance);
+    const Problem coarse{halved(problem.height), problem.mean_pressure, problem.saturation_pressure,
+                         std::max(kCoarseTolerance, problem.tolerance), problem.max_iterations};
     const Grid coarse_grid{coarse.height.cols(), coarse.height.rows(), grid.lx, grid.ly};
     const auto coarse_operator = elasticity.on_grid(coarse_grid);
     const State state = solve_fast(*coarse_operator, coarse, {});

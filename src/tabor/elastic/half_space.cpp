@@ -41,8 +41,12 @@ class ConvolutionOperator : public ElasticOperator {
  protected:
   /// out = F^-1 [ values F [in] ] in double precision.
   void convolve(const Field& in, const spectral::Multiplier<double>& values, Field& out) {
+    const bool was_single = single_.has_value();
     single_.reset();
     run<double>(double_, in, values, out);
+    if (was_single) {
+      double_.reset();
+    }
   }
 
   virtual void fill(Index kx, std::span<double> values) const = 0;
