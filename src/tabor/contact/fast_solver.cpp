@@ -117,7 +117,8 @@ class ProjectedGradient {
   int best_iteration_ = 0;
 };
 
-/// v = S p - z in double precision. Candidates, which are collected anew after it, make room for it.
+/// v = S p - z in double precision. Candidates, which are collected anew after it, make room for
+/// it.
 void ProjectedGradient::refresh() {
   candidates_ = Candidates();
   candidate_pixels_ = PixelList();

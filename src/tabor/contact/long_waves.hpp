@@ -50,7 +50,6 @@ class LongWaves {
   Grid grid_;
   Index blocks_y_;
   Index blocks_x_;
-  bool wraps_;
   std::vector<Neighbours> rows_;     // of every pixel row
   std::vector<Neighbours> columns_;  // of every pixel column
   FieldF compliance_;                // S_c [m/Pa], shape (half spectrum of x, half spectrum of y)
