@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numeric>
 
 #include "tabor/core/parallel.hpp"
@@ -15,6 +16,7 @@ constexpr Index kRadius = 8;               // taper reaches zero this many pixel
 constexpr Index kSide = 2 * kRadius - 1;   // pixels with a weight, along each axis
 constexpr Index kRowLength = 2 * kRadius;  // one vector register of floats; the last weight is zero
 constexpr Index kKernelGrid = 64;          // cell on which the short kernel is computed
+constexpr Index kNone = -1;
 
 double taper(Index offset) {
   return std::max(0.0, 1 - static_cast<double>(std::abs(offset)) / static_cast<double>(kRadius));
@@ -31,6 +33,22 @@ Field stiffness_kernel(double dy, double dx, double modulus) {
   };
   // The symbol is even, so that its inverse transform is the forward one over the pixel count.
   return spectral::even_spectrum(m, m, symbol).transpose() / static_cast<double>(m * m);
+}
+
+/// A row of the kernel, or of residuals under it; compilers leave the loop over plain floats
+/// scalar.
+using Lanes = float __attribute__((vector_size(kRowLength * sizeof(float))));
+
+/// Sum over the lanes, halves by halves.
+float total(const Lanes& lanes) {
+  std::array<float, kRowLength> sums{};
+  std::memcpy(sums.data(), &lanes, sizeof lanes);
+  for (std::size_t half = kRowLength / 2; half > 0; half /= 2) {
+    for (std::size_t i = 0; i < half; ++i) {
+      sums[i] += sums[i + half];
+    }
+  }
+  return sums[0];
 }
 
 }  // namespace
@@ -52,40 +70,43 @@ double Preconditioner::plateau() const {
   return std::accumulate(kernel_.begin(), kernel_.end(), 0.0);
 }
 
-Preconditioner::Sums Preconditioner::sum_inside(const float* corner) const {
-  // Lane by lane, so that the compiler uses vectors without reordering sums.
-  std::array<float, kRowLength> products{};
-  std::array<float, kRowLength> weights{};
+Preconditioner::Sums Preconditioner::sum_around(const float* corner, Index row_stride) const {
+  Lanes products{};
+  Lanes weights{};
   for (Index j = 0; j < kSide; ++j) {
-    const float* kernel = kernel_.data() + j * kRowLength;
-    const float* residual = corner + j * grid_.nx;
-    for (std::size_t i = 0; i < kRowLength; ++i) {
-      products[i] += kernel[i] * residual[i];
-      weights[i] += residual[i] != 0 ? kernel[i] : 0.0F;
-    }
+    Lanes kernel;
+    Lanes residual;
+    std::memcpy(&kernel, kernel_.data() + j * kRowLength, sizeof kernel);
+    std::memcpy(&residual, corner + j * row_stride, sizeof residual);
+    products += kernel * residual;
+    weights += residual != 0.0F ? kernel : Lanes{};
   }
-  return {std::accumulate(products.begin(), products.end(), 0.0F),
-          std::accumulate(weights.begin(), weights.end(), 0.0F)};
+  return {total(products), total(weights)};
 }
 
 Preconditioner::Sums Preconditioner::sum_at_edge(const FieldF& residual, Index y, Index x) const {
-  const auto wrapped = [](Index k, Index n) { return ((k % n) + n) % n; };
-  Sums sums{0, 0};
+  std::array<float, kSide * kRowLength> around{};
+  std::array<Index, kRowLength> columns{};
+  for (Index i = 0; i < kRowLength; ++i) {
+    columns[static_cast<std::size_t>(i)] = pixel_or_none(x + i - (kRadius - 1), grid_.nx);
+  }
   for (Index j = 0; j < kSide; ++j) {
-    for (Index i = 0; i < kSide; ++i) {
-      const Index row = y + j - (kRadius - 1);
-      const Index column = x + i - (kRadius - 1);
-      const bool outside = row < 0 || row >= grid_.ny || column < 0 || column >= grid_.nx;
-      if (outside && !wraps_) {
-        continue;
+    const Index row = pixel_or_none(y + j - (kRadius - 1), grid_.ny);
+    for (std::size_t i = 0; i < kRowLength && row != kNone; ++i) {
+      if (columns[i] != kNone) {
+        around[static_cast<std::size_t>(j * kRowLength) + i] = residual(row, columns[i]);
       }
-      const float kernel = kernel_[static_cast<std::size_t>(j * kRowLength + i)];
-      const float value = residual(wrapped(row, grid_.ny), wrapped(column, grid_.nx));
-      sums.product += kernel * value;
-      sums.row += value != 0 ? kernel : 0;
     }
   }
-  return sums;
+  return sum_around(around.data(), kRowLength);
+}
+
+/// Where pixel k of n lies: on the other side if the grid wraps, else nowhere if it is outside.
+Index Preconditioner::pixel_or_none(Index k, Index n) const {
+  if (wraps_) {
+    return ((k % n) + n) % n;
+  }
+  return k < 0 || k >= n ? kNone : k;
 }
 
 void Preconditioner::apply(const PixelList& set, const FieldF& residual, std::vector<float>& out,
@@ -100,7 +121,8 @@ void Preconditioner::apply(const PixelList& set, const FieldF& residual, std::ve
       const bool inside =
           x >= kRadius && x < nx - kRadius && y >= kRadius && y < grid_.ny - kRadius;
       const Index corner = (y - (kRadius - 1)) * nx + x - (kRadius - 1);
-      const Sums sums = inside ? sum_inside(residual.data() + corner) : sum_at_edge(residual, y, x);
+      const Sums sums =
+          inside ? sum_around(residual.data() + corner, nx) : sum_at_edge(residual, y, x);
       out[k] = sums.product;
       row_sums[k] = sums.row;
     }

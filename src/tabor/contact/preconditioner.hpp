@@ -34,8 +34,9 @@ class Preconditioner {
     float product;
     float row;
   };
-  Sums sum_inside(const float* corner) const;
+  Sums sum_around(const float* corner, Index row_stride) const;
   Sums sum_at_edge(const FieldF& residual, Index y, Index x) const;
+  Index pixel_or_none(Index k, Index n) const;
 
   Grid grid_;
   bool wraps_;

@@ -13,18 +13,15 @@ namespace {
 std::pair<double, double> load_and_slope(const std::vector<double>& x, double shift, double cap) {
   const auto n = static_cast<Index>(x.size());
   const double load = deterministic_sum(n, [&](Index begin, Index end) {
-    double partial = 0;
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      partial += std::clamp(x[i] - shift, 0.0, cap);
-    }
-    return partial;
+    const Eigen::Map<const Eigen::ArrayXd> block(x.data() + begin, end - begin);
+    return (block - shift).max(0.0).min(cap).sum();
   });
   const double n_inside = deterministic_sum(n, [&](Index begin, Index end) {
-    double partial = 0;
+    Index count = 0;
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      partial += (x[i] > shift && x[i] - shift < cap) ? 1.0 : 0.0;
+      count += static_cast<Index>(x[i] > shift) & static_cast<Index>(x[i] - shift < cap);
     }
-    return partial;
+    return static_cast<double>(count);
   });
   return {load, n_inside};
 }
