@@ -8,6 +8,7 @@ of a part of the cases renew only their rows.
 from __future__ import annotations
 
 import argparse
+import fcntl
 import json
 import math
 import platform
@@ -181,10 +182,14 @@ def pressure_for(bench: Bench, surface: Surface, contact: float, guess: float) -
 
 
 def cases_of(bench: Bench, surface: Surface) -> list[Case]:
+    """Loads of an earlier run are kept, so that renewed rows stand beside the old ones."""
+    known = {row["case"]: row["mean_pressure_Pa"] for row in bench.rows
+             if (row["surface"], row["n"]) == (surface.name, surface.n)}
     cases, pressure = [], 0.01 * 0.1 * EFFECTIVE_MODULUS / 4
     for contact in CONTACTS:
-        pressure = pressure_for(bench, surface, contact, pressure)
-        cases.append(Case(surface, f"{contact:g} %", pressure))
+        name = f"{contact:g} %"
+        pressure = known.get(name) or pressure_for(bench, surface, contact, pressure)
+        cases.append(Case(surface, name, pressure))
         pressure *= 4
     return cases + [Case(surface, f"saturated {p / 1e6:g} MPa", p, SATURATION)
                     for p in SATURATED_PRESSURES]
@@ -322,27 +327,18 @@ def load_record() -> dict:
 
 
 def save_record(bench: Bench) -> None:
-    """Fresh rows replace the recorded ones; those of another run stay."""
-    rows = merged(load_record()["rows"], list(bench.fresh.values()))
+    """Fresh rows replace the recorded ones; those of another run, even one at work, stay."""
     record = {
         "date": date.today().isoformat(), "command": "tools/bench/peers/run --record",
         "target": TARGET, "timeout_s": TIMEOUT, "machine": benchmark.machine(),
-        "versions": versions(),
-        "refused": REFUSED, "rows": sorted(rows, key=page.order),
+        "versions": versions(), "refused": REFUSED,
     }
-    RECORD.write_text(json.dumps(record, indent=1, allow_nan=False) + "\n", "utf-8")
-    benchmark.record("Peers", page.section(record))
-
-
-def recorded_pressure(bench: Bench, surface: Surface) -> list[Case] | None:
-    """The loads of an earlier run, so that renewed rows stand beside the old ones."""
-    known = {row["case"]: row["mean_pressure_Pa"] for row in bench.rows
-             if (row["surface"], row["n"]) == (surface.name, surface.n)}
-    names = [f"{contact:g} %" for contact in CONTACTS]
-    if not all(name in known for name in names):
-        return None
-    return [Case(surface, name, known[name]) for name in names] + [
-        Case(surface, f"saturated {p / 1e6:g} MPa", p, SATURATION) for p in SATURATED_PRESSURES]
+    with open(bench.build / "peers/record.lock", "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        rows = merged(load_record()["rows"], list(bench.fresh.values()))
+        record["rows"] = sorted(rows, key=page.order)
+        RECORD.write_text(json.dumps(record, indent=1, allow_nan=False) + "\n", "utf-8")
+        benchmark.record("Peers", page.section(record))
 
 
 def parse() -> argparse.Namespace:
@@ -375,7 +371,7 @@ def main() -> None:
             for surface in surfaces(bench, n, options.scans):
                 if options.surface not in ("", surface.name):
                     continue
-                for case in recorded_pressure(bench, surface) or cases_of(bench, surface):
+                for case in cases_of(bench, surface):
                     if options.cases and case.name not in options.cases.split(","):
                         continue
                     compare(bench, case, tools, options.longest)

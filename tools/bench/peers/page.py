@@ -79,7 +79,9 @@ def section(record: dict) -> str:
     versions = ", ".join(f"{name} {version}" for name, version in record["versions"].items())
     refused = "".join(f"- {tool}: {reason}.\n" for tool, reason in record["refused"].items())
     return f"""Other open programs on the same contacts, each driven to the same proven error. Made by `{record['command']}` on {record['date']};
-do not edit. {record['machine']}, shared with other work; one thread for every program. Versions: {versions}.
+do not edit. It may have run in parts (`--tools`, `--surface`, `--cases`): a row's date is in `benchmarks_peers.json`, and tabor's
+rows may be younger than its peers'. {record['machine']}, shared with other work; one thread for every program.
+Versions: {versions}.
 
 - **Gap reached**: the duality gap of [theory](theory.md), computed by `bench_certify` on the pressure field that a program returns. Each
   program's own tolerance is changed in steps of 3 until the gap is at most {record['target']:.0e}, and where that is possible not below
