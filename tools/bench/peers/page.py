@@ -97,13 +97,13 @@ Versions: {versions}.
   n = 512: what is not in the table was not run.
 - **Options**: of several options of a program the fastest that met the target is shown; above n = 512 only the one that was fastest at
   a smaller size was run. ASPHER is built with FFTW for this processor and solves on nested grids with its preconditioner;
-  ContactMechanics runs with restarts (its default) and without; Tamaas solves for the pressure (for the gap it took ten times as
-  long), in units of E* and the side, without which its saturated solver does not move.
+  ContactMechanics runs with restarts (its default) and without; Tamaas solves for the pressure (slower for the gap, in a trial), in
+  units of E* and the side, without which its saturated solver does not move.
 
 What a program cannot do, or what it can and tabor cannot:
 
 {refused}- ContactMechanics: finds the saturated load only when it is started from the bearing area, as here.
-- Tamaas, ContactMechanics, slippy: adhesion. Tamaas, ASPHER, slippy: friction within the contact. Tamaas: viscoelastic and plastic
+- Tamaas, slippy: adhesion. Tamaas, ASPHER, slippy: friction within the contact. Tamaas: viscoelastic and plastic
   volumes. None of these is in tabor.
 
 Ratios of processor time to tabor's:
