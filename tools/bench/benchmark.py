@@ -47,6 +47,10 @@ def machine() -> str:
     return f"{os.cpu_count()} processors ({names[0] if names else 'unnamed'})"
 
 
+def made_by(command: str) -> str:
+    return f"Made by `{command} --record` on {datetime.date.today()}; do not edit. {machine()}."
+
+
 def record(title: str, text: str, page: pathlib.Path = PAGE) -> None:
     """Replaces the section of this title in the page, or appends it."""
     page_text = page.read_text("utf-8") if page.is_file() else TITLE
@@ -62,5 +66,4 @@ def record(title: str, text: str, page: pathlib.Path = PAGE) -> None:
 
 def record_outputs(title: str, command: str, text: str, outputs: list[str]) -> None:
     blocks = "\n".join(f"```\n{output.rstrip()}\n```\n" for output in outputs)
-    made = f"Made by `{command} --record` on {datetime.date.today()}; do not edit. {machine()}."
-    record(title, f"{made}\n\n{text.strip()}\n\n{blocks}")
+    record(title, f"{made_by(command)}\n\n{text.strip()}\n\n{blocks}")

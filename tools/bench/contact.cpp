@@ -1,6 +1,7 @@
 // Counts and times of the contact solvers on generated surfaces.
 //
 //   bench_contact [n] [--baseline] [--surface edt|self-affine] [--threads N] [--seed S]
+//                 [--loads X,X...]   elastic only, at these P / (E* rms slope)
 //
 // Prints one row per case: solver iterations, operator applications and FFT pairs are
 // deterministic; seconds and their ratios are not. s/pair: solver time over the time of one
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <complex>
 #include <cstdio>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,7 @@ struct Options {
   bool baseline = false;
   std::string surface = "all";
   std::uint64_t seed = 1;
+  std::vector<double> loads;  // P / (E* rms slope)
 };
 
 struct Load {
@@ -67,6 +70,14 @@ Grid edt_grid(Index n) {
 /// Aluminium of the seed paper: E 70 GPa, nu 0.33.
 double aluminium() { return material::effective_modulus({70e9, 0.33}); }
 
+/// A/A0 ~ 2 P / (E* rms slope) for light loads.
+void add_elastic_loads(Surface& surface, const std::string& name, double unit,
+                       const Options& options, const std::vector<double>& usual) {
+  for (const double load : options.loads.empty() ? usual : options.loads) {
+    surface.loads.push_back({name, load * unit, contact::kNoSaturation});
+  }
+}
+
 Surface edt_surface(const Options& options) {
   topography::Edt recipe;
   recipe.grid = edt_grid(options.n);
@@ -74,12 +85,12 @@ Surface edt_surface(const Options& options) {
   Surface surface{recipe.grid, {}, {}};
   surface.problem.height = topography::edt(recipe).height;
   for (const double pressure : {2e6, 5e6, 10e6, 15e6}) {
-    surface.loads.push_back({"edt saturated", pressure, 240e6});
+    if (options.loads.empty()) {
+      surface.loads.push_back({"edt saturated", pressure, 240e6});
+    }
   }
   const double unit = aluminium() * rms_slope(surface.problem.height, surface.grid);
-  for (const double share : {0.0025, 0.01, 0.025}) {  // A/A0 ~ 2 P / (E* rms slope)
-    surface.loads.push_back({"edt elastic", share * unit, contact::kNoSaturation});
-  }
+  add_elastic_loads(surface, "edt elastic", unit, options, {0.0025, 0.01, 0.025});
   return surface;
 }
 
@@ -92,9 +103,8 @@ Surface self_affine_surface(const Options& options) {
   recipe.seed = options.seed;
   Surface surface{recipe.grid, {}, {}};
   surface.problem.height = topography::self_affine(recipe).height;
-  for (const double share : {0.0025, 0.01, 0.025, 0.1}) {
-    surface.loads.push_back({"self-affine elastic", share * aluminium(), contact::kNoSaturation});
-  }
+  add_elastic_loads(surface, "self-affine elastic", aluminium(), options,
+                    {0.0025, 0.01, 0.025, 0.1});
   return surface;
 }
 
@@ -167,6 +177,11 @@ Options parse(int argc, char** argv) {
       set_thread_count(std::stoi(argv[++i]));
     } else if (word == "--seed" && i + 1 < argc) {
       options.seed = std::stoull(argv[++i]);
+    } else if (word == "--loads" && i + 1 < argc) {
+      std::istringstream list(argv[++i]);
+      for (std::string load; std::getline(list, load, ',');) {
+        options.loads.push_back(std::stod(load));
+      }
     } else {
       options.n = std::stol(word);
     }
