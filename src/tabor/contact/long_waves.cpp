@@ -10,8 +10,8 @@ namespace {
 
 constexpr Index kPixelsPerBlock = 8;  // the reach of the compact kernel
 /// Least energy of the error, as a share of the first. The correction cancels long waves of the
-/// direction that are up to a hundred times too large: what it leaves must be small against that.
-constexpr double kTolerance = 1e-8;
+/// direction that are hundreds of times too large: what it leaves must be small against that.
+constexpr double kTolerance = 1e-12;
 constexpr int kMostSteps = 100;
 
 /// Even, so that bands of pixels between two rows of blocks can be gathered in two colours.
