@@ -19,10 +19,11 @@ void reserve_large_pages(std::vector<T>& vector, std::size_t n) {
   vector.reserve(n);
 #if defined(__linux__)
   constexpr std::uintptr_t page = 4096;
-  const auto begin = (reinterpret_cast<std::uintptr_t>(vector.data()) + page - 1) / page * page;
-  const auto end = reinterpret_cast<std::uintptr_t>(vector.data() + n) / page * page;
-  if (end > begin) {
-    (void)madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+  char* const first = reinterpret_cast<char*>(vector.data());
+  const std::uintptr_t skipped = (page - reinterpret_cast<std::uintptr_t>(first) % page) % page;
+  const std::uintptr_t size = n * sizeof(T);
+  if (size >= skipped + page) {
+    (void)madvise(first + skipped, (size - skipped) / page * page, MADV_HUGEPAGE);
   }
 #endif
 }

@@ -91,7 +91,8 @@ std::span<const Pixel> Pools::bottom(PoolId id) const {
   if (lowest >= 0) {
     return {&lowest, 1};
   }
-  const Pixel* const listed = &saddles_[static_cast<std::size_t>(~lowest)];
+  const std::int32_t place = ~lowest;
+  const Pixel* const listed = &saddles_[static_cast<std::size_t>(place)];
   return {listed + 1, static_cast<std::size_t>(*listed)};
 }
 

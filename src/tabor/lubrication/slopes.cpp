@@ -233,8 +233,7 @@ void Slopes::settle(Pools& pools, const std::vector<PoolId>& renamed) {
   }
   const std::vector<Target> now = renumber_forks(pools);
   const auto settle = [&](Target& target) {
-    target = is_pool(target) ? renamed[static_cast<std::size_t>(target)]
-                             : now[static_cast<std::size_t>(~target)];
+    target = is_pool(target) ? renamed[static_cast<std::size_t>(target)] : now[place_of(target)];
   };
   for (Target& target : leads_to_) {
     settle(target);

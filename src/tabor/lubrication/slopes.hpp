@@ -52,29 +52,31 @@ class Slopes {
 
   Target from(Pixel p) const { return leads_to_[static_cast<std::size_t>(p)]; }
   std::span<Branch> branches(Target fork) {
-    Fork& at = forks_[static_cast<std::size_t>(~fork)];
+    Fork& at = forks_[place_of(fork)];
     return at.has_two() ? std::span<Branch>(at.two)
                         : std::span(branches_).subspan(at.first_listed(), at.n_listed());
   }
 
   /// The last droplet's way from a fork, or from a full pool.
   Way way_from(const Pools& pools, Target at) const {
-    return is_pool(at) ? pools[at].overflow() : forks_[static_cast<std::size_t>(~at)].way;
+    return is_pool(at) ? pools[at].overflow() : forks_[place_of(at)].way;
   }
-  void remember(Target fork, const Way& way) { forks_[static_cast<std::size_t>(~fork)].way = way; }
+  void remember(Target fork, const Way& way) { forks_[place_of(fork)].way = way; }
 
   /// Follows Pools::renumber(), and forgets choices that the water has taken away: forks with all
   /// branches in one pool give way to that pool.
   void settle(Pools& pools, const std::vector<PoolId>& renamed);
 
   void prefetch(Pixel p) const { __builtin_prefetch(&leads_to_[static_cast<std::size_t>(p)]); }
-  void prefetch_fork(Target fork) const {
-    __builtin_prefetch(&forks_[static_cast<std::size_t>(~fork)]);
-  }
+  void prefetch_fork(Target fork) const { __builtin_prefetch(&forks_[place_of(fork)]); }
 
  private:
   friend class SlopeFinder;
 
+  static std::size_t place_of(Target fork) {
+    const Target complement = ~fork;
+    return static_cast<std::size_t>(complement);
+  }
   std::vector<Target> renumber_forks(Pools& pools);
 
   std::vector<Target> leads_to_;  ///< per pixel
