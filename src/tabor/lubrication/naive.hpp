@@ -27,7 +27,7 @@ class NaiveRain {
   struct Place {
     std::int64_t level = 0;
     Pixel pixel = 0;
-    auto operator<=>(const Place&) const = default;
+    auto operator<=>(const Place&) const = default;  // NOLINT(modernize-use-nullptr): a false alarm
   };
 
   Place place(Pixel p) const;
