@@ -48,7 +48,7 @@ def machine() -> str:
 
 
 def made_by(command: str) -> str:
-    return f"Made by `{command} --record` on {datetime.date.today()}; do not edit. {machine()}."
+    return f"Made by `{command}` on {datetime.date.today()}; do not edit. {machine()}."
 
 
 def record(title: str, text: str, page: pathlib.Path = PAGE) -> None:
@@ -66,4 +66,4 @@ def record(title: str, text: str, page: pathlib.Path = PAGE) -> None:
 
 def record_outputs(title: str, command: str, text: str, outputs: list[str]) -> None:
     blocks = "\n".join(f"```\n{output.rstrip()}\n```\n" for output in outputs)
-    record(title, f"{made_by(command)}\n\n{text.strip()}\n\n{blocks}")
+    record(title, f"{made_by(command + ' --record')}\n\n{text.strip()}\n\n{blocks}")

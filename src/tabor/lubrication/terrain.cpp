@@ -11,6 +11,8 @@ constexpr double kPicometre = 1e-12;                 // [m]
 constexpr double kFinestQuantum = kPicometre / 256;  // far below any instrument's noise [m]
 constexpr double kUsableQuanta = 4294967292.0;       // 2^32 without kDry, kNoRim and rounding
 
+constexpr Index kMostPixels = (1 << 30) - 2;  // places of pixels and of rims, one a pool, fit Pixel
+
 double quantum_for(double range) {
   double quantum = kFinestQuantum;
   while (range > kUsableQuanta * quantum) {
@@ -22,9 +24,9 @@ double quantum_for(double range) {
 }  // namespace
 
 Terrain quantise(const Field& height, Edge edge) {
-  if (height.size() == 0 || height.size() >= std::numeric_limits<Pixel>::max()) {
+  if (height.size() == 0 || height.size() > kMostPixels) {
     throw InputError("surface to lubricate", std::to_string(height.size()) + " pixels",
-                     "1 to 2147483646", "");
+                     "1 to " + std::to_string(kMostPixels), "");
   }
   if (!height.allFinite()) {
     throw InputError("surface to lubricate", "missing or infinite heights",
