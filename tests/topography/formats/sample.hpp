@@ -3,33 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <string>
 
+#include "support/byte_file.hpp"
 #include "support/folder.hpp"
+#include "support/sample_map.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/topography/file.hpp"
 
 namespace tabor::test {
-
-inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
-/// A small map with holes in a corner and inside, irrational heights and pixels that are not
-/// square.
-inline topography::Topography small_map() {
-  topography::Topography map;
-  map.grid = {.nx = 5, .ny = 4, .lx = 5 * 0.67e-6, .ly = 4 * 1.1e-6};
-  map.height = Field(4, 5);
-  for (Index i = 0; i < 20; ++i) {
-    map.height.data()[i] = 1e-6 * std::sin(1.0 + static_cast<double>(i * i));
-  }
-  map.height(0, 0) = kNaN;
-  map.height(2, 3) = kNaN;
-  map.channel = "surface";
-  map.source = "made in a test";
-  return map;
-}
 
 /// Same bits at every pixel, holes at the same places.
 inline ::testing::AssertionResult same_bits(const Field& a, const Field& b) {
@@ -77,39 +59,5 @@ inline topography::ReadOptions micrometres() {
   options.unit = "um";
   return options;
 }
-
-/// Builds the bytes of an instrument's file at given offsets.
-class ByteFile {
- public:
-  explicit ByteFile(std::size_t size = 0) : bytes_(size, '\0') {}
-
-  ByteFile& text(std::size_t at, const std::string& text) {
-    return raw(at, text.data(), text.size());
-  }
-  template <typename T>
-  ByteFile& number(std::size_t at, T value) {
-    return raw(at, &value, sizeof value);
-  }
-  template <typename T>
-  ByteFile& big_endian(std::size_t at, T value) {
-    char swapped[sizeof(T)];
-    std::memcpy(swapped, &value, sizeof(T));
-    std::reverse(swapped, swapped + sizeof(T));
-    return raw(at, swapped, sizeof(T));
-  }
-  template <typename T>
-  ByteFile& append(T value) {
-    return number(bytes_.size(), value);
-  }
-  const std::string& bytes() const { return bytes_; }
-
- private:
-  ByteFile& raw(std::size_t at, const void* data, std::size_t size) {
-    if (bytes_.size() < at + size) bytes_.resize(at + size, '\0');
-    std::memcpy(bytes_.data() + at, data, size);
-    return *this;
-  }
-  std::string bytes_;
-};
 
 }  // namespace tabor::test
