@@ -12,6 +12,7 @@ from tabor_report.figures import (
     lubricant_map,
     lubricated_friction,
     psd,
+    single_curves,
     single_maps,
     topography,
 )
@@ -73,8 +74,8 @@ def study_figures(source, options):
 
 def single_figures(source):
     yield topography.draw(source.height(), source.pixel, "topography", source.title)
-    for state in source.states:
-        yield from single_maps.draw(source, state)
+    yield from _present(single_curves.draw(source))
+    yield from single_maps.draw(source)
 
 
 def _surface(item):

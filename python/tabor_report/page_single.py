@@ -106,7 +106,9 @@ def show(key, value):
     """A value in a readable multiple of the SI unit its key ends in."""
     if isinstance(value, list):
         return ", ".join(show(key, item) for item in value)
-    if isinstance(value, (str, bool)) or value is None:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, str) or value is None:
         return units.number(value)
     return _UNITS[_ending(key)](float(value)) if _ending(key) else units.number(value)
 

@@ -51,9 +51,17 @@ class SingleState:
     @property
     def label(self):
         """'P = 5 MPa, 0.9 g/m²', whichever of the two it has."""
-        parts = [f"P = {units.pressure(self.pressure)}"] if self.pressure is not None else []
-        parts += [units.density(self.density)] if self.density is not None else []
+        parts = [self.pressure_label] if self.pressure is not None else []
+        parts += [self.density_label] if self.density is not None else []
         return ", ".join(parts) or f"state {self.key}"
+
+    @property
+    def pressure_label(self):
+        return f"P = {units.pressure(self.pressure)}" if self.pressure is not None else f"state {self.key}"
+
+    @property
+    def density_label(self):
+        return units.density(self.density) if self.density is not None else f"state {self.key}"
 
     @property
     def scalars(self):

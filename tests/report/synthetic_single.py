@@ -1,5 +1,7 @@
 """Result files of one scan, as `contact -o`, `lubricate -o` and `friction -o` write them."""
 
+import itertools
+
 import numpy as np
 
 from synthetic_file import add_map, add_nxdata, new_file
@@ -24,11 +26,12 @@ def write_single(path, recipe=Recipe(pressures=(5e6, 10e6), densities=(0.9,)), f
                 "doubts": [],
             }
         )
-        for key, pressure in enumerate(recipe.pressures if contact else (None,)):
-            _write_single_state(file, key, height, pressure, recipe, film)
+        pairs = itertools.product(recipe.pressures if contact else (None,), recipe.densities)
+        for key, (pressure, density) in enumerate(pairs):
+            _write_single_state(file, key, height, pressure, density if film else None, recipe)
 
 
-def _write_single_state(file, key, height, pressure, recipe, film):
+def _write_single_state(file, key, height, pressure, density, recipe):
     node = add_nxdata(file, f"states/{key:04d}", "gap" if pressure else "film_thickness")
     if pressure:
         state, gap = contact_maps(height, pressure, recipe)
@@ -44,8 +47,8 @@ def _write_single_state(file, key, height, pressure, recipe, film):
                 "saturation_pressure_Pa": SATURATION,
             }
         )
-    if film:
-        add_map(
-            node, "film_thickness", film_map(height, recipe.densities[0]).astype(float), "m", "film thickness"
-        )
-        node.attrs["lubricant_density_g_per_m2"] = recipe.densities[0]
+    if density:
+        add_map(node, "film_thickness", film_map(height, density).astype(float), "m", "film thickness")
+        node.attrs["lubricant_density_g_per_m2"] = density
+    if pressure and density:
+        node.attrs.update({"friction_dry": 0.3, "friction_lubricated": 0.3 - 1e-8 * pressure * density})

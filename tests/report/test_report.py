@@ -165,10 +165,9 @@ class SingleReport(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
 
-    def report(self, **parts):
-        write_single(
-            self.folder / "one.h5", Recipe(shape=(70, 90), pressures=(5e6,), densities=(0.9,)), **parts
-        )
+    def report(self, pressures=(5e6,), densities=(0.9,), **parts):
+        recipe = Recipe(shape=(70, 90), pressures=pressures, densities=densities)
+        write_single(self.folder / "one.h5", recipe, **parts)
         done = run(self.folder / "one.h5")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         names = {path.stem for path in (self.folder / "one_report" / "figures").glob("*.png")}
@@ -185,6 +184,23 @@ class SingleReport(unittest.TestCase):
         )
         self.assertIn("one.x3p", page)
         self.assertIn("contact area fraction", page)
+
+    def test_a_contact_is_drawn_once_per_pressure_and_a_film_once_per_density(self):
+        names, page = self.report(pressures=(5e6, 10e6), densities=(0.45, 0.9))
+        contact = {f"state{state}_{what}" for state in ("0000", "0002") for what in ("pressure", "contact", "gap")}
+        films = {"state0000_film", "state0001_film"}
+        sections = {f"state{state:04d}_section" for state in range(4)}
+        self.assertEqual(names, {"topography", "against_pressure"} | contact | films | sections)
+        self.assertIn("Film map: 0.45 g/m²", page)
+
+    def test_the_curves_are_the_states(self):
+        self.report(pressures=(5e6, 10e6), densities=(0.45, 0.9))
+        rows = (self.folder / "one_report/figures/against_pressure.csv").read_text(encoding="utf-8").splitlines()
+        with_text = [row.split(",") for row in rows if not row.startswith("#")]
+        column = with_text[0].index("friction_lubricated")
+        values = [float(row[column]) for row in with_text[1:]]
+        expected = [0.3 - 1e-8 * p * d for p in (5e6, 10e6) for d in (0.45, 0.9)]
+        self.assertEqual(values, expected)
 
     def test_a_film_alone_is_shown_without_contact(self):
         names, _ = self.report(contact=False)

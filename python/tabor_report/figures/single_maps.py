@@ -7,16 +7,19 @@ from tabor_report.example import richest_window
 from tabor_report.figures import Drawn, contact_map
 
 
-def draw(single, state):
-    """All figures that the maps of this state allow."""
-    figures = [
-        _pressure(single, state),
-        _contact(single, state),
-        _gap(single, state),
-        _film(single, state),
-        _section(single, state),
-    ]
-    return [figure for figure in figures if figure is not None]
+def draw(single):
+    """Yields all figures that the maps allow, state by state: contact does not know the lubricant nor
+    a film the pressure, so that each is drawn for the first state that shows it."""
+    drawn = set()
+    for state in single.states:
+        figures = []
+        if ("contact", state.pressure) not in drawn:
+            figures += [_pressure(single, state), _contact(single, state), _gap(single, state)]
+        if ("film", state.density) not in drawn:
+            figures.append(_film(single, state))
+        drawn.update({("contact", state.pressure), ("film", state.density)})
+        figures.append(_section(single, state))
+        yield from (figure for figure in figures if figure is not None)
 
 
 def _pressure(single, state):
@@ -32,7 +35,7 @@ def _pressure(single, state):
         map_axes.PRESSURE_COLOURS,
         "Contact pressure (MPa); white: no contact",
         "white",
-        (0.0, None),
+        state.pressure_label,
     )
 
 
@@ -57,7 +60,7 @@ def _gap(single, state):
         map_axes.GAP_COLOURS,
         f"Gap between the surfaces ({unit})",
         map_axes.HOLE,
-        (0.0, None),
+        state.pressure_label,
     )
 
 
@@ -75,22 +78,21 @@ def _film(single, state):
         map_axes.FILM_COLOURS,
         f"Lubricant thickness ({unit}); sand colour: dry",
         map_axes.DRY_GROUND,
-        (0.0, None),
+        state.density_label,
     )
 
 
-def _map(single, state, what, values, axis_label, colours, text, ground, limits):
+def _map(single, state, what, values, axis_label, colours, text, ground, label):
     view = map_axes.MapView(maps.whole(values), single.pixel)
     shown = view.reduced(values)
-    low, high = map_axes.robust_limits(shown)
-    low = low if limits[0] is None else limits[0]
+    _, high = map_axes.robust_limits(shown)
     figure, grid = style.new_figure(contact_map.figure_height(view, 4.6), width=6.0)
-    map_axes.colour_map(grid[0][0], view, shown, axis_label, colours, (low, high), ground)
-    grid[0][0].set_title(state.label.replace("P =", "$P$ ="))
-    caption = f"{text}, at {state.label}. {view.note}Colours end at the 99.5th percentile of what is drawn."
+    map_axes.colour_map(grid[0][0], view, shown, axis_label, colours, (0.0, high), ground)
+    grid[0][0].set_title(label.replace("P =", "$P$ ="))
+    caption = f"{text}, at {label}. {view.note}Colours end at the 99.5th percentile of what is drawn."
     return Drawn(
         f"state{state.key}_{what}",
-        f"{what.capitalize()} map: {state.label}",
+        f"{what.capitalize()} map: {label}",
         caption,
         figure,
         {"": view.csv(shown, axis_label.replace("µ", "u"))},

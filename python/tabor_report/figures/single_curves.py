@@ -1,0 +1,81 @@
+"""Contact area and friction of one scan against pressure."""
+
+import numpy as np
+
+from tabor_report import style, units
+from tabor_report.figures import Drawn
+from tabor_report.friction_series import draw_loose
+from tabor_report.output import table_text
+
+AREA, DRY, LUBRICATED = "contact_area_fraction", "friction_dry", "friction_lubricated"
+_LABELS = {AREA: "real contact area $A_{real}/A_0$ (%)", DRY: "friction coefficient $\\mu$"}
+
+
+def draw(single):
+    """None with fewer than two pressures: there is no curve."""
+    states = [state for state in single.states if state.pressure is not None]
+    if len({state.pressure for state in states}) < 2:
+        return None
+    panels = [key for key in (AREA, DRY) if any(_has(state, key) for state in states)]
+    if not panels:
+        return None
+    figure, grid = style.new_figure(3.4, n_columns=len(panels), width=3.7 * len(panels))
+    for axes, key in zip(grid[0], panels):
+        _draw_panel(axes, key, states)
+    style.legend_on_top(figure, style.entries(grid[0][-1]))
+    return Drawn(
+        "against_pressure",
+        "Against pressure",
+        _caption(single, panels),
+        figure,
+        {"": table_text(_columns(states))},
+    )
+
+
+def _has(state, key):
+    value = state.facts.get(key)
+    return isinstance(value, float) and np.isfinite(value)
+
+
+def _draw_panel(axes, key, states):
+    curves = _curves(key, states)
+    for (label, members), look in zip(curves, style.curve_styles()):
+        factor = 100 if key == AREA else 1
+        members = sorted(members, key=lambda pair: pair[0].pressure)
+        sure = [(state, value) for state, value in members if state.facts.get("converged", True)]
+        loose = [(state, value) for state, value in members if not state.facts.get("converged", True)]
+        axes.plot(*_points(sure, factor), label=label, **look)
+        draw_loose(axes, *_points(loose, factor))
+    axes.set_xlabel("mean pressure $P$ (MPa)")
+    axes.set_ylabel(_LABELS[key])
+    axes.grid(color="0.92", linewidth=0.6)
+    style.limits_from_zero(axes)
+
+
+def _points(members, factor):
+    return [state.pressure * 1e-6 for state, _ in members], [factor * value for _, value in members]
+
+
+def _curves(key, states):
+    """[(label, [(state, value)])]: the area and dry friction once, lubricated friction per density."""
+    once = {state.pressure: state for state in reversed(states) if _has(state, key)}.values()
+    curves = [("dry", [(state, state.facts[key]) for state in once])]
+    if key != DRY:
+        return curves
+    densities = dict.fromkeys(state.density for state in states if _has(state, LUBRICATED))
+    for density in densities:
+        members = [state for state in states if state.density == density and _has(state, LUBRICATED)]
+        curves.append((units.density(density), [(state, state.facts[LUBRICATED]) for state in members]))
+    return curves
+
+
+def _columns(states):
+    keys = ["mean_pressure_Pa", "lubricant_density_g_per_m2", AREA, DRY, LUBRICATED, "converged"]
+    return {key: [state.facts.get(key, "") for state in states] for key in keys}
+
+
+def _caption(single, panels):
+    text = f"Real contact area of {single.title} against the mean pressure"
+    if DRY in panels:
+        text += " (left), and Bowden–Tabor friction coefficients, dry and for each amount of lubricant (right)"
+    return text + ". Red rings: states that did not converge."
