@@ -1,0 +1,131 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "reynolds_films.hpp"
+#include "support/refusal.hpp"
+#include "support/validation.hpp"
+
+namespace tabor::lubrication {
+namespace {
+
+using test::expect_within;
+using test::line_problem;
+using test::observed_order;
+using test::relative_error;
+
+constexpr double kViscosity = 0.1;
+constexpr double kRadius = 0.01;
+constexpr double kFilm = 1e-6;
+const double kLength = std::sqrt(2 * kRadius * kFilm);  // x of a parabola twice as high
+
+/// From `inlet` to `outlet` times that length; what lies further off carries 2.5/inlet^2 of the
+/// load.
+FilmProblem cylinder(Index n, double inlet = 80, double outlet = 3) {
+  return line_problem(-inlet * kLength, outlet * kLength, n,
+                      [](double x) { return kFilm + x * x / (2 * kRadius); });
+}
+
+/// The last cell under pressure, refined by the parabola that the pressure is near its end.
+double rupture_position(const FilmProblem& problem, const FilmSolution& solution) {
+  Index last = problem.grid.n_cells();
+  while (last > 2 && solution.pressure[last] <= 0) --last;
+  const double a = std::sqrt(solution.pressure[last - 1]);
+  const double b = std::sqrt(solution.pressure[last]);
+  const double dx = problem.grid.node[last] - problem.grid.node[last - 1];
+  return problem.grid.node[last] + dx * b / (a - b);
+}
+
+TEST(ReynoldsLine, FindsMartinsCylinder) {
+  const FilmProblem problem = cylinder(4000);
+  const FilmSolution solution = solve_film(problem);
+  ASSERT_TRUE(solution.converged);
+  expect_within("EHL", "rigid isoviscous cylinder, Reynolds exit", "load, relative",
+                "Martin 1916: 4.8950 eta u R / h0",
+                relative_error(solution.load, 4.8950 * kViscosity * kRadius / kFilm), 2e-3);
+  expect_within("EHL", "rigid isoviscous cylinder, Reynolds exit", "exit over sqrt(2 R h0)",
+                "Martin 1916: 0.47513",
+                std::abs(rupture_position(problem, solution) / kLength - 0.47513), 2e-3);
+}
+
+TEST(ReynoldsLine, FindsSommerfeldsCylinderWithoutCavitation) {
+  FilmProblem problem = cylinder(8000, 60, 60);
+  problem.cavitation = Cavitation::none;
+  const FilmSolution solution = solve_film(problem);
+  ASSERT_TRUE(solution.converged);
+  EXPECT_NEAR(solution.load, 0, 1e-6 * kViscosity * kRadius / kFilm);
+  const double half =
+      (problem.grid.volume * solution.pressure.segment(1, problem.grid.n_cells()).max(0)).sum();
+  expect_within("EHL", "rigid isoviscous cylinder, half Sommerfeld", "load, relative",
+                "4 eta u R / h0", relative_error(half, 4 * kViscosity * kRadius / kFilm), 3e-3);
+  for (Index i = 1; i <= problem.grid.n_cells(); i += 371) {
+    const double exact = -4 * kViscosity * problem.grid.node[i] / std::pow(problem.film[i], 2);
+    EXPECT_NEAR(solution.pressure[i], exact, 2e-3 * 4 * kViscosity * kLength / (kFilm * kFilm));
+  }
+}
+
+FilmSolution slider(Index n, double ratio) {
+  return solve_film(
+      line_problem(0, 1e-3, n, [=](double x) { return kFilm * (1 + ratio * (1 - x / 1e-3)); }));
+}
+
+/// W h2^2 / (eta U B^2) with U = 2 u of one moving wall.
+double slider_load(double k) { return 6 / (k * k) * (std::log(1 + k) - 2 * k / (2 + k)); }
+
+TEST(ReynoldsLine, FindsTheLinearSliderToSecondOrder) {
+  const double unit = kViscosity * 2 * 1e-3 * 1e-3 / (kFilm * kFilm);
+  for (const double ratio : {0.5, 1.1889, 3.0}) {
+    const double coarse = slider(200, ratio).load / (unit * slider_load(ratio)) - 1;
+    const double fine = slider(400, ratio).load / (unit * slider_load(ratio)) - 1;
+    EXPECT_NEAR(observed_order(coarse, fine), 2, 0.1);
+    expect_within("EHL", fmt::format("linear slider, K = {}, n = 400", ratio), "load, relative",
+                  "Rayleigh 1918", std::abs(fine), 1e-4);
+  }
+  EXPECT_NEAR(slider_load(1.1889), 0.16025, 1e-5);
+}
+
+TEST(ReynoldsLine, TakesTheStepOfRayleighsBearingExactly) {
+  // The step lies on a face: 7182 of 10000 parts of the length are inlet.
+  const double ratio = 1.866;
+  const FilmProblem problem =
+      line_problem(0, 1e-3, 5000, [=](double x) { return x < 0.7182e-3 ? ratio * kFilm : kFilm; });
+  const FilmSolution solution = solve_film(problem);
+  ASSERT_TRUE(solution.converged);
+  const double unit = kViscosity * 2 * 1e-3 * 1e-3 / (kFilm * kFilm);
+  expect_within("EHL", "Rayleigh step at its optimum", "load over eta U B^2/h2^2",
+                "Rayleigh 1918: 4/9 (2 sqrt 3 - 3)",
+                std::abs(solution.load / unit - 4.0 / 9 * (2 * std::sqrt(3.0) - 3)), 1e-6);
+  // Peak at the step: p = 6 eta U (H - 1) l1 l2 / (h2^2 (H^3 l2 + l1)).
+  const double l1 = 0.7182e-3;
+  const double l2 = 1e-3 - l1;
+  const double peak = 6 * kViscosity * 2 * (ratio - 1) * l1 * l2 /
+                      (kFilm * kFilm * (ratio * ratio * ratio * l2 + l1));
+  // Triangular pressure: the load is half the peak times the length, on any grid.
+  EXPECT_NEAR(solution.load, peak * 1e-3 / 2, 1e-7 * solution.load);
+}
+
+TEST(ReynoldsLine, IsTheSameForAMirroredFilmAndSpeed) {
+  FilmProblem there = line_problem(-1e-3, 1e-3, 200, [](double x) { return 2e-6 - 1e-3 * x; });
+  FilmProblem back = line_problem(-1e-3, 1e-3, 200, [](double x) { return 2e-6 + 1e-3 * x; });
+  back.speed = -1;
+  for (const Cavitation cavitation : {Cavitation::reynolds, Cavitation::mass_conserving}) {
+    there.cavitation = back.cavitation = cavitation;
+    const FilmSolution a = solve_film(there);
+    const FilmSolution b = solve_film(back);
+    ASSERT_TRUE(a.converged && b.converged);
+    EXPECT_LT((a.pressure - b.pressure.reverse()).abs().maxCoeff(), 1e-9 * a.pressure.maxCoeff());
+  }
+}
+
+TEST(ReynoldsLine, RefusesWhatIsNoFilm) {
+  FilmProblem problem = cylinder(10);
+  problem.film[3] = 0;
+  EXPECT_THAT(test::refusal([&] { solve_film(problem); }), testing::HasSubstr("more than zero"));
+  problem.film.conservativeResize(5);
+  EXPECT_THAT(test::refusal([&] { solve_film(problem); }), testing::HasSubstr("12 values"));
+  EXPECT_THAT(test::refusal([] { line_grid(1, 0, 10); }), testing::HasSubstr("before the end"));
+  EXPECT_THAT(test::refusal([] { disc_grid(0, 10); }), testing::HasSubstr("more than zero"));
+  EXPECT_THAT(test::refusal([] { disc_grid(1, 1); }), testing::HasSubstr("2 or more"));
+}
+
+}  // namespace
+}  // namespace tabor::lubrication
