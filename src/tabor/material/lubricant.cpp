@@ -1,0 +1,67 @@
+#include "tabor/material/lubricant.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "tabor/core/error.hpp"
+
+namespace tabor::material {
+namespace {
+
+std::span<double> resized(Eigen::ArrayXd& array, std::size_t n) {
+  array.resize(static_cast<Eigen::Index>(n));
+  return {array.data(), n};
+}
+
+std::string in_GPa(double pressure) { return fmt::format("{:.3g} GPa", pressure * 1e-9); }
+
+void check(const char* what, const PressureRange& range, double pressure, const char* remedy) {
+  if (!range.contains(pressure)) {
+    throw InputError(what, in_GPa(pressure),
+                     fmt::format("between {} and {}, where the law has a meaning in numbers",
+                                 in_GPa(range.lowest), in_GPa(range.highest)),
+                     remedy);
+  }
+}
+
+}  // namespace
+
+void evaluate(const Lubricant& lubricant, std::span<const double> pressure, NodeLaws& laws) {
+  const std::size_t n = pressure.size();
+  evaluate(lubricant.viscosity, pressure, resized(laws.viscosity, n),
+           resized(laws.viscosity_by_pressure, n));
+  evaluate(lubricant.density, pressure, resized(laws.density, n),
+           resized(laws.density_by_pressure, n));
+}
+
+PressureRange computable_range(const Lubricant& lubricant) {
+  const PressureRange viscosity = computable_range(lubricant.viscosity);
+  const PressureRange density = computable_range(lubricant.density);
+  return {std::max(viscosity.lowest, density.lowest), std::min(viscosity.highest, density.highest)};
+}
+
+void check_pressure(const Lubricant& lubricant, double pressure) {
+  const auto law = name(law_of(lubricant.viscosity));
+  check(fmt::format("pressure for the viscosity law '{}'", law).c_str(),
+        computable_range(lubricant.viscosity), pressure,
+        "use the law 'roelands', a smaller pressure-viscosity coefficient or a lighter load");
+  check("pressure for the density law", computable_range(lubricant.density), pressure, "");
+}
+
+std::vector<std::string> doubts(const Lubricant& lubricant, double highest_pressure) {
+  std::vector<std::string> lines;
+  const auto add = [&](std::string_view law, const PressureRange& range) {
+    if (highest_pressure > range.highest) {
+      lines.push_back(
+          fmt::format("the pressure reaches {}; the {} law is commonly trusted up to {}",
+                      in_GPa(highest_pressure), law, in_GPa(range.highest)));
+    }
+  };
+  add(fmt::format("{} viscosity", name(law_of(lubricant.viscosity))),
+      trusted_range(lubricant.viscosity));
+  add("density", trusted_range(lubricant.density));
+  return lines;
+}
+
+}  // namespace tabor::material

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tabor/material/lubricant_density.hpp"
+#include "tabor/material/lubricant_shear.hpp"
+#include "tabor/material/lubricant_viscosity.hpp"
+
+namespace tabor::material {
+
+/// Everything a film needs to know about its liquid: three laws, each a small value.
+struct Lubricant {
+  Viscosity viscosity = ConstantViscosity{0.1};
+  RelativeDensity density;  ///< incompressible unless given
+  Shear shear;              ///< Newtonian unless given
+};
+
+/// What a Reynolds solver needs at its nodes, one entry per node in each array. Kept by the caller,
+/// so that a Newton iteration allocates nothing.
+struct NodeLaws {
+  Eigen::ArrayXd viscosity;              ///< eta [Pa s]
+  Eigen::ArrayXd viscosity_by_pressure;  ///< [s]
+  Eigen::ArrayXd density;                ///< rho / rho0 [-]
+  Eigen::ArrayXd density_by_pressure;    ///< [1/Pa]
+};
+
+/// Fills `laws` (resized to the number of pressures [Pa]) with the viscosity at low shear and the
+/// density. Pressures outside computable_range() give values that are infinite, negative or NaN.
+void evaluate(const Lubricant& lubricant, std::span<const double> pressure, NodeLaws& laws);
+
+/// Pressures at which viscosity and density can be computed.
+PressureRange computable_range(const Lubricant& lubricant);
+
+/// Throws InputError, naming the law, if the pressure [Pa] is outside computable_range().
+void check_pressure(const Lubricant& lubricant, double pressure);
+
+/// One line for each law that is believed only up to a pressure below `highest_pressure` [Pa].
+std::vector<std::string> doubts(const Lubricant& lubricant, double highest_pressure);
+
+}  // namespace tabor::material
