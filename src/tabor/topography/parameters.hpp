@@ -1,33 +1,77 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "tabor/core/convergence.hpp"
 #include "tabor/topography/topography.hpp"
 
 namespace tabor::topography {
+
+/// The sets in which ISO 25178-2 orders areal parameters, then spectral moments and profiles.
+enum class ParameterSet { height, hybrid, function, volume, spatial, feature, spectral, profile };
+
+inline constexpr std::array kParameterSets{
+    ParameterSet::height,  ParameterSet::hybrid,  ParameterSet::function, ParameterSet::volume,
+    ParameterSet::spatial, ParameterSet::feature, ParameterSet::spectral, ParameterSet::profile};
+
+std::optional<ParameterSet> parameter_set_from(std::string_view name);  ///< "height", ...
+std::string_view name_of(ParameterSet set);
 
 /// A number with everything needed to compare it with another program's.
 struct Parameter {
   std::string symbol;      ///< "Sq"
   double value = 0;        ///< SI; NaN where it does not exist (Ssk of a flat surface)
-  std::string unit;        ///< "m", "1", "%"
+  std::string unit;        ///< "m", "1", "%", "deg", "1/m^2", ...
   std::string definition;  ///< formula and convention, one line
+  std::string note = {};   ///< a bound ("< 0.05: ..."), a caution, or why there is no value
+  ParameterSet set = ParameterSet::height;  ///< filled in by parameters()
 };
 
-/// Areal parameters (ISO 25178-2) of the surface AS GIVEN: heights about the mean of its valid
-/// points. ISO means them for a levelled surface; level first (`--level plane`).
-/// Order: Sa Sq Ssk Sku Sp Sv Sz Sdq Sdr, then N (valid points). Throws InputError if all are
-/// holes.
-std::vector<Parameter> parameters(const Topography& topography);
+/// Which differences Sdq and the difference moments use.
+/// forward: on the (nx-1)(ny-1) pixels that have a right and a lower neighbour.
+/// seven_point: (z3 - 9 z2 + 45 z1 - 45 z-1 + 9 z-2 - z-3) / (60 dx), pixels with three neighbours
+/// on all four sides.
+enum class SlopeStencil { forward, seven_point };
 
-/// Sdq: root mean square of the gradient, forward differences on the common (nx-1)(ny-1) grid;
-/// cells that touch a hole are left out; a periodic surface uses all nx ny differences. [1]
-double rms_slope(const Topography& topography);
+/// How the cell between four pixels is divided for Sdr: the mean of both splits into two triangles,
+/// or four triangles to the mean of the corners.
+enum class AreaTriangles { two, four };
 
-/// Sdr [%]: developed over projected area minus one, mean of both splits of each cell into two
-/// triangles, over cells without holes.
-double developed_area_ratio(const Topography& topography);
+struct ParameterOptions {
+  std::vector<ParameterSet> sets{kParameterSets.begin(), kParameterSets.end()};
+  SlopeStencil stencil = SlopeStencil::forward;
+  AreaTriangles triangles = AreaTriangles::two;
+  double smr_height = 0;       ///< c of Smr(c) [m], about the mean of the valid points
+  double peak_ratio = 10;      ///< p [%] of Smc(p), Sdc, Vm(p), Vv(p), Vmp, Vmc, Vvc
+  double valley_ratio = 80;    ///< q [%] of Smc(q), Sdc, Vmc, Vvc, Vvv
+  double acf_threshold = 0.2;  ///< s of Sal and Str
+  double pruning = 0.05;       ///< Wolf pruning of the feature parameters, share of Sz
+  std::optional<double> profile_cutoff = {};  ///< lc [m] of the profile set; empty: its default
+  std::optional<double> profile_short_cutoff = {};  ///< ls [m]; empty: its default
+  std::optional<int> profile_sections = {};         ///< sampling lengths; empty: as many as fit
+};
+
+/// The parameters of the chosen sets, of the surface AS GIVEN: heights about the mean of its valid
+/// points. ISO means them for a levelled surface; level first (`--level plane`). The height set
+/// begins with N, the number of valid points. What cannot be computed (one row, one pixel, flat,
+/// holes everywhere between) has the value NaN and a note. Throws InputError if all are holes or
+/// an option makes no sense; Interrupted when the observer stops it.
+std::vector<Parameter> parameters(const Topography& topography,
+                                  const ParameterOptions& options = {},
+                                  const Observer& observer = {});
+
+/// Sdq: root mean square of the gradient over the pixels whose stencil touches no hole; the pixels
+/// beyond the edge are never taken from the other side, periodic or not. NaN without such pixels.
+/// [1]
+double rms_slope(const Topography& topography, SlopeStencil stencil = SlopeStencil::forward);
+
+/// Sdr: developed over projected area minus one, over cells without holes. [%]
+double developed_area_ratio(const Topography& topography,
+                            AreaTriangles triangles = AreaTriangles::two);
 
 /// Sq: root mean square height about the mean of the valid points. [m]
 double rms_height(const Topography& topography);
