@@ -1,0 +1,11 @@
+#pragma once
+
+namespace tabor::elastic {
+
+/// How the pressure runs between the nodes of a profile.
+enum class PressureShape {
+  uniform,  ///< constant around each node, half way to its neighbours
+  linear,   ///< straight from node to node
+};
+
+}  // namespace tabor::elastic
