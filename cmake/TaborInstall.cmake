@@ -3,7 +3,7 @@ include(CMakePackageConfigHelpers)
 get_property(modules GLOBAL PROPERTY TABOR_MODULES)
 install(TARGETS ${modules} tabor_all EXPORT taborTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY src/tabor/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tabor FILES_MATCHING PATTERN "*.hpp"
-        PATTERN "hdf5_library.hpp" EXCLUDE)
+        PATTERN "hdf5_library.hpp" EXCLUDE PATTERN "fftw_library.hpp" EXCLUDE)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/tabor/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tabor)
 install(EXPORT taborTargets NAMESPACE tabor:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/tabor)
 configure_package_config_file(cmake/tabor-config.cmake.in ${PROJECT_BINARY_DIR}/tabor-config.cmake
