@@ -33,8 +33,24 @@ inline std::string current_test_name() {
   return info ? fmt::format("{}.{}", info->test_suite_name(), info->name()) : "";
 }
 
-/// One row of docs/validation.md: appends a JSON line to the file that the environment variable
-/// TABOR_VALIDATION_FILE names; does nothing without it. `tools/validation` gathers the rows.
+/// Appends a JSON line to the file that the environment variable TABOR_VALIDATION_FILE names; does
+/// nothing without it. `tools/validation` gathers the lines.
+inline void append_validation(const std::string& line) {
+  const char* path = std::getenv("TABOR_VALIDATION_FILE");
+  if (!path || !*path) {
+    return;
+  }
+  // One write() in append mode: lines of tests that run side by side do not mix.
+  const int file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
+  const bool written =
+      file >= 0 && write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+  if (file >= 0) {
+    close(file);
+  }
+  EXPECT_TRUE(written) << "cannot append to " << path;
+}
+
+/// One row of docs/validation.md.
 ///
 ///   section           "Contact", "Elastic operator", "Lubricant", ...
 ///   case_name         "Westergaard wave, n = 256"
@@ -45,24 +61,28 @@ inline std::string current_test_name() {
 inline void record_validation(std::string_view section, std::string_view case_name,
                               std::string_view quantity, std::string_view reference_source,
                               double measured_error, double tolerance) {
-  const char* path = std::getenv("TABOR_VALIDATION_FILE");
-  if (!path || !*path) {
-    return;
-  }
-  const std::string line = fmt::format(
+  append_validation(fmt::format(
       "{{\"section\": {}, \"case\": {}, \"quantity\": {}, \"reference\": {}, \"error\": {}, "
       "\"tolerance\": {}, \"test\": {}}}\n",
       json_string(section), json_string(case_name), json_string(quantity),
       json_string(reference_source), json_number(measured_error), json_number(tolerance),
-      json_string(current_test_name()));
-  // One write() in append mode: lines of tests that run side by side do not mix.
-  const int file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
-  const bool written =
-      file >= 0 && write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size());
-  if (file >= 0) {
-    close(file);
-  }
-  EXPECT_TRUE(written) << "cannot append to " << path;
+      json_string(current_test_name())));
+}
+
+/// A number of a measured scan beside the one expected of it; all in `unit`.
+struct Comparison {
+  std::string file, quantity, convention, unit;
+  double expected = 0, ours = 0, tolerance = 0;
+};
+
+/// One row of the table of scans in docs/validation.md.
+inline void record_comparison(const Comparison& row) {
+  append_validation(fmt::format(
+      "{{\"scan\": {}, \"quantity\": {}, \"convention\": {}, \"unit\": {}, \"expected\": {}, "
+      "\"ours\": {}, \"tolerance\": {}}}\n",
+      json_string(row.file), json_string(row.quantity), json_string(row.convention),
+      json_string(row.unit), json_number(row.expected), json_number(row.ours),
+      json_number(row.tolerance)));
 }
 
 /// Asserts error <= tolerance (NaN fails) and records the row.

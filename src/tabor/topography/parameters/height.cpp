@@ -47,6 +47,11 @@ Eigen::Array<double, 5, 1> row_powers(const Field& height, Index y, double mean)
 HeightMoments height_moments(const Field& height) {
   HeightMoments m;
   m.mean = mean_of_valid(height, m.n);
+  m.highest = height.maxCoeff<Eigen::PropagateNumbers>();
+  m.lowest = height.minCoeff<Eigen::PropagateNumbers>();
+  if (m.highest == m.lowest) {
+    return {.n = m.n, .mean = m.highest};  // flat, whatever the rounding of the mean
+  }
   const auto n = static_cast<double>(m.n);
   // One more pass for the mean: a scan 1 m above its datum keeps nanometres only this way.
   m.mean +=
@@ -58,8 +63,8 @@ HeightMoments height_moments(const Field& height) {
   m.second = sums[2] / n;
   m.third = sums[3] / n;
   m.fourth = sums[4] / n;
-  m.highest = height.maxCoeff<Eigen::PropagateNumbers>() - m.mean;
-  m.lowest = height.minCoeff<Eigen::PropagateNumbers>() - m.mean;
+  m.highest -= m.mean;
+  m.lowest -= m.mean;
   return m;
 }
 

@@ -1,8 +1,12 @@
 #include "tabor/topography/parameters.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "tabor/core/error.hpp"
+#include "tabor/topography/features.hpp"
+#include "tabor/topography/parameters/abbott.hpp"
 #include "tabor/topography/parameters/sets.hpp"
 
 namespace tabor::topography {
@@ -11,15 +15,69 @@ namespace {
 constexpr std::array<std::string_view, kParameterSets.size()> kSetNames{
     "height", "hybrid", "function", "volume", "spatial", "feature", "spectral", "profile"};
 
-std::vector<Parameter> of_set(const Topography& topography, ParameterSet set,
-                              const ParameterOptions& options) {
-  switch (set) {
-    case ParameterSet::height:
-      return height_parameters(topography);
-    case ParameterSet::hybrid:
-      return hybrid_parameters(topography, options);
-    default:
-      return {};
+bool needs_curve(ParameterSet set) {
+  return set == ParameterSet::function || set == ParameterSet::volume;
+}
+
+/// Computes set by set and keeps the sorted heights between the two sets that share them.
+class Calculation {
+ public:
+  Calculation(const Topography& topography, const ParameterOptions& options,
+              const Observer& observer)
+      : topography_(topography), options_(options), observer_(observer) {}
+
+  std::vector<Parameter> of(ParameterSet set) {
+    report_progress(observer_, std::string(name_of(set)) + " parameters", kNoValue);
+    if (!needs_curve(set)) curve_.reset();
+    switch (set) {
+      case ParameterSet::height:
+        return height_parameters(topography_);
+      case ParameterSet::hybrid:
+        return hybrid_parameters(topography_, options_);
+      case ParameterSet::function:
+        return function_parameters(curve(), options_);
+      case ParameterSet::volume:
+        return volume_parameters(curve(), options_);
+      case ParameterSet::spatial:
+        return spatial_parameters(topography_, options_, observer_);
+      case ParameterSet::spectral:
+        return spectral_parameters(topography_);
+      case ParameterSet::feature:
+        return feature_parameters(topography_, {.pruning = options_.pruning}, observer_);
+      case ParameterSet::profile:
+        return {};
+    }
+    return {};
+  }
+
+ private:
+  const AbbottCurve& curve() {
+    if (!curve_) curve_.emplace(topography_.height, observer_);
+    return *curve_;
+  }
+
+  const Topography& topography_;
+  const ParameterOptions& options_;
+  const Observer& observer_;
+  std::optional<AbbottCurve> curve_;
+};
+
+void check_share(const char* what, double value, double largest) {
+  if (!(value > 0 && value < largest)) {
+    throw InputError(what, fmt::format("{:g}", value),
+                     fmt::format("a number between 0 and {:g}", largest), "");
+  }
+}
+
+void check(const ParameterOptions& options) {
+  check_share("material ratio p", options.peak_ratio, 100);
+  check_share("material ratio q", options.valley_ratio, 100);
+  check_share("ACF threshold s", options.acf_threshold, 1);
+  if (options.peak_ratio >= options.valley_ratio) {
+    throw InputError(
+        "material ratios",
+        fmt::format("p = {:g} %, q = {:g} %", options.peak_ratio, options.valley_ratio), "p < q",
+        "");
   }
 }
 
@@ -35,13 +93,14 @@ std::string_view name_of(ParameterSet set) { return kSetNames[static_cast<std::s
 
 std::vector<Parameter> parameters(const Topography& topography, const ParameterOptions& options,
                                   const Observer& observer) {
+  check(options);
   if (topography.height.isNaN().all()) {
     throw InputError("surface parameters", "a surface of holes only", "some valid heights", "");
   }
+  Calculation calculation(topography, options, observer);
   std::vector<Parameter> all;
   for (const ParameterSet set : options.sets) {
-    report_progress(observer, std::string(name_of(set)) + " parameters", kNoValue);
-    for (Parameter& parameter : of_set(topography, set, options)) {
+    for (Parameter& parameter : calculation.of(set)) {
       parameter.set = set;
       all.push_back(std::move(parameter));
     }

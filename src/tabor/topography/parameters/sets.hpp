@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,12 +9,21 @@
 
 namespace tabor::topography {
 
+class AbbottCurve;
+
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
 /// One function per set; parameters() calls the chosen ones. Every symbol appears in one set only.
 std::vector<Parameter> height_parameters(const Topography& topography);
 std::vector<Parameter> hybrid_parameters(const Topography& topography,
                                          const ParameterOptions& options);
+std::vector<Parameter> function_parameters(const AbbottCurve& curve,
+                                           const ParameterOptions& options);
+std::vector<Parameter> volume_parameters(const AbbottCurve& curve, const ParameterOptions& options);
+std::vector<Parameter> spatial_parameters(const Topography& topography,
+                                          const ParameterOptions& options,
+                                          const Observer& observer);
+std::vector<Parameter> spectral_parameters(const Topography& topography);
 
 /// Mean over the (nx-1)(ny-1) cells of of_cell(y, x), cells where it is NaN left out; NaN without
 /// cells.

@@ -2,81 +2,28 @@
 
 #include <gmock/gmock.h>
 
-#include <random>
-
-#include "sample_surfaces.hpp"
-#include "support/scans.hpp"
 #include "support/validation.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/topography/file.hpp"
 #include "tabor/topography/filters.hpp"
 #include "tabor/topography/geometry.hpp"
-#include "tabor/topography/levelling.hpp"
+#include "topography/expected/synthetic.hpp"
+#include "topography/sample_surfaces.hpp"
 
 namespace tabor::topography::test {
 namespace {
 
+std::vector<Parameter> height_and_hybrid(const Topography& topography) {
+  return parameters(topography, {.sets = {ParameterSet::height, ParameterSet::hybrid}});
+}
+
 double value(const Topography& topography, const std::string& symbol) {
-  for (const Parameter& parameter : parameters(topography)) {
+  for (const Parameter& parameter : height_and_hybrid(topography)) {
     if (parameter.symbol == symbol) {
       return parameter.value;
     }
   }
   ADD_FAILURE() << "no parameter " << symbol;
   return kHole;
-}
-
-/// NumPy's RandomState(seed).normal(): MT19937 and the polar method.
-class NumpyNormal {
- public:
-  explicit NumpyNormal(std::uint32_t seed) : bits_(seed) {}
-
-  double operator()() {
-    if (has_second_) {
-      has_second_ = false;
-      return second_;
-    }
-    double x = 0, y = 0, square = 0;
-    do {
-      x = 2 * uniform() - 1;
-      y = 2 * uniform() - 1;
-      square = x * x + y * y;
-    } while (square >= 1 || square == 0);
-    const double factor = std::sqrt(-2 * std::log(square) / square);
-    second_ = factor * x;
-    has_second_ = true;
-    return factor * y;
-  }
-
- private:
-  double uniform() {
-    const auto high = static_cast<double>(bits_() >> 5U);
-    const auto low = static_cast<double>(bits_() >> 6U);
-    return (high * 67108864.0 + low) / 9007199254740992.0;
-  }
-
-  std::mt19937 bits_;
-  double second_ = 0;
-  bool has_second_ = false;
-};
-
-/// The synthetic surface whose parameters the surfalize project publishes (also computed with
-/// libgwyddion): a wave of 20 um with ripples of 1 um and noise, pixels of 0.1 um.
-Topography published_surface() {
-  Topography topography;
-  topography.grid = {1000, 700, 100e-6, 70e-6};
-  topography.height.resize(700, 1000);
-  NumpyNormal normal(0);
-  for (Index j = 0; j < 700; ++j) {
-    for (Index i = 0; i < 1000; ++i) {
-      const auto x = static_cast<double>(i), y = static_cast<double>(j);
-      const double ripple = std::sin((std::sin(y / 10) + x) / 10 * 2 * pi);
-      const double z = std::sin(x / 200 * 2 * pi) +
-                       0.5 * (std::sin((x - 100) / 200 * 2 * pi) + 1) * 0.3 * ripple;
-      topography.height(j, i) = 1e-6 * (z + normal() / 5);
-    }
-  }
-  return topography;
 }
 
 void expect_published(const Topography& surface, const std::string& symbol, double expected,
@@ -160,7 +107,7 @@ TEST(Parameters, DoNotSeeHoles) {
   auto holed = noise({40, 30, 4e-5, 3e-5});
   auto part = crop(holed, {0, 0, 40, 18});
   holed.height.bottomRows(12) = kHole;
-  const auto expected = parameters(part), found = parameters(holed);
+  const auto expected = height_and_hybrid(part), found = height_and_hybrid(holed);
   ASSERT_EQ(expected.size(), found.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     EXPECT_NEAR(found[i].value, expected[i].value, 1e-13 * std::abs(expected[i].value))
@@ -171,11 +118,11 @@ TEST(Parameters, DoNotSeeHoles) {
 
 TEST(Parameters, ScaleWithTheUnit) {
   auto rough = noise({40, 30, 4e-5, 3e-5});
-  const auto before = parameters(rough);
+  const auto before = height_and_hybrid(rough);
   rough.height *= 1e6;
   rough.grid.lx *= 1e6;
   rough.grid.ly *= 1e6;
-  const auto after = parameters(rough);
+  const auto after = height_and_hybrid(rough);
   for (std::size_t i = 0; i < before.size(); ++i) {
     const double factor = before[i].unit == "m" ? 1e6 : 1;
     EXPECT_NEAR(after[i].value / (factor * before[i].value), 1, 1e-11) << before[i].symbol;
@@ -208,41 +155,6 @@ TEST(Parameters, RefuseASurfaceOfHolesOnly) {
   holed.height = kHole;
   EXPECT_THROW(parameters(holed), InputError);
 }
-
-/// Published or independently computed values of measured scans (expected.csv beside them).
-struct Measured {
-  std::string file, symbol;
-  bool levelled;
-  double expected, tolerance;
-};
-
-class MeasuredScan : public testing::TestWithParam<Measured> {};
-
-TEST_P(MeasuredScan, HasTheExpectedParameter) {
-  const Measured& row = GetParam();
-  TABOR_NEEDS_SHARED_SCAN(row.file);
-  Topography scan = read(tabor::test::shared_scan(row.file));
-  if (row.levelled) {
-    scan = level(scan, Form::plane);
-  }
-  const double error = std::abs(value(scan, row.symbol) / row.expected - 1);
-  tabor::test::expect_within("Surface parameters", row.file, row.symbol, "expected.csv", error,
-                             row.tolerance);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Expected, MeasuredScan,
-    testing::Values(Measured{"wli_ds_nonsquare.x3p", "Sq", false, 7.728033274e-08, 1e-9},
-                    Measured{"wli_ds_nonsquare.x3p", "Sdq", false, 0.062070074, 1e-9},
-                    Measured{"wli_ds_nonsquare.x3p", "Sdq", true, 0.0620700056324, 1e-11},
-                    Measured{"wli_ds_nonsquare.x3p", "Sdr", true, 0.192026141797, 1e-11},
-                    Measured{"afm_gwyddion_export.txt", "Sdq", false, 0.1923560228, 1e-9},
-                    Measured{"afm_gwyddion_export.txt", "Sdr", true, 1.74748957387, 1e-11},
-                    Measured{"rubber_alicona.x3p", "Sq", true, 3.39837998803e-06, 1e-9},
-                    Measured{"rubber_alicona.x3p", "Sa", true, 2.70450941997e-06, 1e-9},
-                    Measured{"rubber_alicona.x3p", "Ssk", true, 0.736167485418, 1e-9},
-                    Measured{"rubber_alicona.x3p", "Sku", true, 3.68563472639, 1e-9},
-                    Measured{"rubber_alicona.x3p", "Sz", true, 2.55887162139e-05, 1e-9}));
 
 }  // namespace
 }  // namespace tabor::topography::test

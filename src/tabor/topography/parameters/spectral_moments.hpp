@@ -1,0 +1,20 @@
+#pragma once
+
+#include "tabor/topography/topography.hpp"
+
+namespace tabor::topography {
+
+/// Moments of the power spectrum: mean squares of height, slope and curvature. The isotropic ones
+/// are those of a profile in any direction of an isotropic surface with the same gradient and
+/// Laplacian (Longuet-Higgins 1957). NaN where the surface has too few points.
+struct SpectralMoments {
+  double m0 = 0;                      ///< [m^2]
+  double m2_x = 0, m2_y = 0, m2 = 0;  ///< [1]; m2 isotropic
+  double m4_x = 0, m4_y = 0, m4 = 0;  ///< [1/m^2]; m4 isotropic
+};
+
+/// From differences of neighbouring pixels: (z1 - z0)/dx and (z1 - 2 z0 + z-1)/dx^2, pairs and
+/// triples that touch a hole left out. Throws InputError if all are holes.
+SpectralMoments difference_moments(const Topography& topography);
+
+}  // namespace tabor::topography

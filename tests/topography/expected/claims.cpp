@@ -1,0 +1,288 @@
+#include "claims.hpp"
+
+#include <cmath>
+
+#include "quirks.hpp"
+#include "tabor/core/parallel.hpp"
+#include "tabor/topography/filters.hpp"
+#include "tabor/topography/geometry.hpp"
+#include "tabor/topography/holes.hpp"
+#include "tabor/topography/psd.hpp"
+
+namespace tabor::topography::test {
+namespace {
+
+using Measure = std::function<double(Subject&)>;
+
+// Tolerances of the specification (section 8), relative.
+constexpr double kByDigits = 0;
+constexpr double kMoments = 1e-9;       // of order one: Ssk itself may be near zero
+constexpr double kCoreHeights = 3e-3;   // Sk family
+constexpr double kMaterialRatio = 0.2;  // Smrk1, Smrk2: percentage points
+constexpr double kVolumes = 2e-3;
+constexpr double kDecayLength = 1e-2;    // Sal
+constexpr double kAspectRatio = 3e-2;    // Str
+constexpr double kSurfalizeArea = 1e-5;  // its sum of triangles itself, whose divisor is wrong
+constexpr double kGwyddionArea = 5e-3;   // four triangles, its borders included
+
+struct Source {
+  std::string convention;  ///< begins with this
+  bool (*of_file)(const std::string& file) = nullptr;
+  std::string provenance = "";  ///< begins with this
+};
+
+Claim claim(const Source& source, const std::string& quantity, Measure ours,
+            double tolerance = kByDigits) {
+  const auto applies = [source, quantity](const Row& row) {
+    return row.quantity == quantity && row.convention.starts_with(source.convention) &&
+           row.provenance.starts_with(source.provenance) &&
+           (!source.of_file || source.of_file(row.file));
+  };
+  return {applies, std::move(ours), tolerance, 0, {}};
+}
+
+Measure value(Form form, ParameterSet set, const std::string& symbol) {
+  return [=](Subject& subject) { return subject.parameter(form, set, symbol).value; };
+}
+
+/// rms over all rows (x) or columns (y) about their own means: that of their spectra.
+Measure profile_rms(Form form, Spectrum PowerSpectra::*axis) {
+  return [=](Subject& subject) {
+    PsdOptions options;
+    options.window = PsdWindow::none;
+    return (power_spectra(subject.levelled(form), options).*axis).rms_height;
+  };
+}
+
+Measure quirk(Form form, double (*of_surface)(const Topography&)) {
+  return [=](Subject& subject) { return of_surface(subject.levelled(form)); };
+}
+
+Claim wrong(Claim claim, Measure true_value) {
+  claim.true_value = std::move(true_value);
+  return claim;
+}
+
+bool is_synthetic(const std::string& file) { return file.starts_with("synthetic_surfalize"); }
+bool is_sine(const std::string& file) { return file == "analytic sine"; }
+
+void add_reader_rows(std::vector<Claim>& all) {
+  const auto add = [&](const char* convention, const char* quantity, auto ours) {
+    all.push_back(claim({convention}, quantity,
+                        [ours](Subject& s) { return static_cast<double>(ours(s.as_read())); }));
+  };
+  for (const char* convention : {"size = n*pixel", "header"}) {
+    add(convention, "nx", [](const Topography& t) { return t.grid.nx; });
+    add(convention, "ny", [](const Topography& t) { return t.grid.ny; });
+    add(convention, "size_x", [](const Topography& t) { return t.grid.lx; });
+    add(convention, "size_y", [](const Topography& t) { return t.grid.ly; });
+  }
+  const char* valid = "valid points only";
+  add(valid, "nx", [](const Topography& t) { return t.grid.nx; });
+  add(valid, "ny", [](const Topography& t) { return t.grid.ny; });
+  add(valid, "dx", [](const Topography& t) { return t.grid.dx(); });
+  add(valid, "dy", [](const Topography& t) { return t.grid.dy(); });
+  add(valid, "missing", [](const Topography& t) { return count_holes(t); });
+}
+
+void add_height_rows(std::vector<Claim>& all) {
+  const auto height = [](Form form, const char* symbol) {
+    return value(form, ParameterSet::height, symbol);
+  };
+  const Source valid{"valid points only"}, population{"population std"};
+  all.push_back(claim(valid, "Sq_raw", height(Form::none, "Sq")));
+  all.push_back(claim(valid, "Sq_quad", height(Form::poly2, "Sq")));
+  for (const char* symbol : {"Sq", "Sa", "Sz"}) {
+    all.push_back(claim(valid, std::string(symbol) + "_plane", height(Form::plane, symbol)));
+  }
+  all.push_back(claim(valid, "Sku_plane", height(Form::plane, "Sku")));
+  all.push_back(claim(valid, "Ssk_plane", height(Form::plane, "Ssk")));
+  all.back().absolute_tolerance = kMoments;
+  for (const char* quantity : {"Sq", "Sq um", "Sq nm"}) {
+    all.push_back(claim(population, quantity, height(Form::none, "Sq")));
+  }
+  all.push_back(claim(population, "Sq quad", height(Form::poly2, "Sq")));
+  for (const char* quantity : {"Rq", "Rq_x"}) {
+    all.push_back(claim(population, quantity, profile_rms(Form::none, &PowerSpectra::x)));
+  }
+  all.push_back(claim(population, "Rq_y", profile_rms(Form::none, &PowerSpectra::y)));
+  all.push_back(claim(population, "Rq quad", profile_rms(Form::poly2, &PowerSpectra::x)));
+}
+
+void add_quirks(std::vector<Claim>& all) {
+  const Source source{"UPSTREAM QUIRK"};
+  const auto sq = [](Form form) { return value(form, ParameterSet::height, "Sq"); };
+  const auto of = [&](const char* quantity, Form form, double (*other)(const Topography&)) {
+    all.push_back(wrong(claim(source, quantity, quirk(form, other)), sq(form)));
+  };
+  of("Sq", Form::none, rms_height_over_all_points);
+  of("Sq(n_total)", Form::none, rms_height_over_all_points);
+  of("Sq quad(n_total)", Form::poly2, rms_height_over_all_points);
+  of("Rq(n_total)", Form::none, rms_row_height_over_all_points);
+  of("Rq quad(n_total)", Form::poly2, rms_row_height_over_all_points);
+}
+
+/// Gwyddion's Sdq: both sums over the mean number of differences along x and along y.
+double gwyddion_slope(Subject& subject, Form form) {
+  const Grid& grid = subject.as_read().grid;
+  const auto along_x = static_cast<double>((grid.nx - 1) * grid.ny);
+  const auto along_y = static_cast<double>(grid.nx * (grid.ny - 1));
+  const double x = subject.parameter(form, ParameterSet::spectral, "m2_x").value;
+  const double y = subject.parameter(form, ParameterSet::spectral, "m2_y").value;
+  return std::sqrt((x * along_x + y * along_y) / ((along_x + along_y) / 2));
+}
+
+/// Both sums over their own number of differences: sqrt(m2_x + m2_y).
+double separate_slope(Subject& subject) {
+  return std::sqrt(2 * subject.parameter(Form::plane, ParameterSet::spectral, "m2").value);
+}
+
+double area_of_four(Subject& subject, Form form) {
+  return developed_area_ratio(subject.levelled(form), AreaTriangles::four);
+}
+
+void add_hybrid_rows(std::vector<Claim>& all) {
+  const Measure sdq = value(Form::plane, ParameterSet::hybrid, "Sdq");
+  const Source plane{"after LSQ plane removal"};
+  all.push_back(claim({"forward differences"}, "rms_gradient trunc",
+                      value(Form::none, ParameterSet::hybrid, "Sdq")));
+  all.push_back(claim({"valid points only"}, "Sdq_plane", separate_slope));
+  all.push_back(claim(plane, "Sdq_trunc", sdq));
+  all.push_back(claim(plane, "Sdr_tri2_pct", value(Form::plane, ParameterSet::hybrid, "Sdr")));
+  all.push_back(
+      claim(plane, "Sdr_tri4_pct", [](Subject& s) { return area_of_four(s, Form::plane); }));
+  all.push_back(claim(plane, "gwy_Sdq", [](Subject& s) { return gwyddion_slope(s, Form::plane); }));
+  all.push_back(claim(
+      plane, "gwy_Sdr_pct", [](Subject& s) { return area_of_four(s, Form::plane); },
+      kGwyddionArea));
+}
+
+/// The height, material ratio, volume and spatial parameters, of one source and treatment.
+void add_areal_rows(std::vector<Claim>& all, const Source& source, Form form) {
+  const auto add = [&](ParameterSet set, const char* symbol, double tolerance) {
+    // The list calls Smrk1, Smrk2 by their older names.
+    const std::string quantity = std::string(symbol) == "Smrk1"   ? "Smr1"
+                                 : std::string(symbol) == "Smrk2" ? "Smr2"
+                                                                  : symbol;
+    all.push_back(claim(source, quantity, value(form, set, symbol), tolerance));
+  };
+  for (const char* symbol : {"Sa", "Sq", "Sp", "Sv", "Sz"}) {
+    add(ParameterSet::height, symbol, kByDigits);
+  }
+  add(ParameterSet::height, "Sku", kByDigits);
+  add(ParameterSet::height, "Ssk", kByDigits);
+  all.back().absolute_tolerance = kMoments;
+  for (const char* symbol : {"Sk", "Spk", "Svk", "Spkx", "Svkx", "Sxp"}) {
+    add(ParameterSet::function, symbol, kCoreHeights);
+  }
+  for (const char* symbol : {"Smrk1", "Smrk2"}) {
+    add(ParameterSet::function, symbol, kByDigits);
+    all.back().absolute_tolerance = kMaterialRatio;
+  }
+  for (const char* symbol : {"Vmp", "Vmc", "Vvv", "Vvc"}) {
+    add(ParameterSet::volume, symbol, kVolumes);
+  }
+  add(ParameterSet::spatial, "Sal", kDecayLength);
+}
+
+/// Str; where the ACF never falls to 0.2 along the lay, the list has 0 and we have no value.
+double aspect_ratio_or_zero(Subject& subject) {
+  const Parameter& str = subject.parameter(Form::plane, ParameterSet::spatial, "Str");
+  const bool bounded = std::isnan(str.value) && str.note.starts_with("< ");
+  return bounded ? 0 : str.value;
+}
+
+/// The published Str of the synthetic surface is Sal over the length of the field, which is what we
+/// give as a bound.
+double bound_of_aspect_ratio(Subject& subject) {
+  const std::string& note = subject.parameter(Form::none, ParameterSet::spatial, "Str").note;
+  return note.starts_with("< ") ? std::stod(note.substr(2)) : std::nan("");
+}
+
+Measure after_low_pass(const char* filter) {
+  return [filter](Subject& subject) {
+    // Its reflecting edges are our mirror tiling.
+    const Topography tiled = mirror(crop(subject.as_read(), {0, 0, 1000, 700}));
+    return rms_height(low_pass(tiled, parse_filter(filter)));
+  };
+}
+
+void add_synthetic_rows(std::vector<Claim>& all) {
+  add_areal_rows(all, {"see report 3"}, Form::none);
+  const Source surfalize{"", is_synthetic, "surfalize"};
+  const Source gwyddion{"libgwyddion 2.62", is_synthetic};
+  for (const char* symbol : {"Sa", "Sq", "Ssk", "Sku"}) {
+    all.push_back(claim(gwyddion, symbol, value(Form::none, ParameterSet::height, symbol)));
+  }
+  all.push_back(claim(gwyddion, "avg", [](Subject& s) {
+    return sum(s.as_read().height) / static_cast<double>(s.as_read().grid.size());
+  }));
+  all.push_back(claim(gwyddion, "Sdq", [](Subject& s) { return gwyddion_slope(s, Form::none); }));
+  all.push_back(claim(
+      gwyddion, "surface_area/projected",
+      [](Subject& s) { return 1 + area_of_four(s, Form::none) / 100; }, kGwyddionArea));
+  all.push_back(wrong(claim(surfalize, "Sdq", quirk(Form::none, rms_slope_over_all_points)),
+                      value(Form::none, ParameterSet::hybrid, "Sdq")));
+  all.push_back(wrong(claim(
+                          surfalize, "Sdr",
+                          [](Subject& s) {
+                            const Grid& grid = s.as_read().grid;
+                            const auto cells = static_cast<double>((grid.nx - 1) * (grid.ny - 1));
+                            const auto fewer = static_cast<double>((grid.nx - 2) * (grid.ny - 2));
+                            const double sdr = developed_area_ratio(s.as_read());
+                            return 100 * ((1 + sdr / 100) * cells / fewer - 1);
+                          },
+                          kSurfalizeArea),
+                      value(Form::none, ParameterSet::hybrid, "Sdr")));
+  all.push_back(claim(surfalize, "Str", bound_of_aspect_ratio, kAspectRatio));
+  // Its kernel ends at four sigma, which leaves 6e-5 of the weight out.
+  for (const auto& [length, filter] :
+       {std::pair{"2", "gauss:2um"}, {"5", "gauss:5um"}, {"1.5", "gauss:1.5um"}}) {
+    all.push_back(claim(surfalize, std::string("Sq after Gaussian low-pass lc=") + length + " um",
+                        after_low_pass(filter), 1e-4));
+  }
+}
+
+void add_sine_rows(std::vector<Claim>& all) {
+  const Source sine{"", is_sine};
+  const auto height = [](const char* symbol) {
+    return value(Form::none, ParameterSet::height, symbol);
+  };
+  all.push_back(claim(sine, "Sa/a", height("Sa")));
+  all.push_back(claim(sine, "Sq/a", height("Sq")));
+  all.push_back(claim(sine, "Ssk", height("Ssk")));
+  all.push_back(claim(sine, "Sku", height("Sku")));
+  all.push_back(claim(sine, "Sz/a", height("Sz")));
+  all.push_back(claim(sine, "Sdq", value(Form::none, ParameterSet::hybrid, "Sdq")));
+  all.push_back(claim(sine, "m0/a^2", value(Form::none, ParameterSet::spectral, "m0")));
+  all.push_back(claim(sine, "Smr(c=0)", value(Form::none, ParameterSet::function, "Smr(c)")));
+}
+
+std::vector<Claim> all_claims() {
+  std::vector<Claim> all;
+  add_reader_rows(all);
+  add_height_rows(all);
+  add_quirks(all);
+  add_hybrid_rows(all);
+  add_areal_rows(all, {"after LSQ plane removal"}, Form::plane);
+  all.push_back(claim({"after LSQ plane removal"}, "Str", aspect_ratio_or_zero, kAspectRatio));
+  add_synthetic_rows(all);
+  add_sine_rows(all);
+  return all;
+}
+
+}  // namespace
+
+const std::vector<Claim>& claims() {
+  static const std::vector<Claim> all = all_claims();
+  return all;
+}
+
+std::string unclaimed_reason(const Row& row) {
+  if (row.file.starts_with("(upstream ")) return "the file is not among the scans";
+  if (row.file.find("profile") != std::string::npos) return "profile parameters are to come";
+  if (row.text == "nan") return "the file has no lateral scale: it is refused without --pixel";
+  return "";
+}
+
+}  // namespace tabor::topography::test
