@@ -54,13 +54,6 @@ Field surface(const Row& row) {
   return self_affine(row.n, 0.8, 4, static_cast<double>(row.n) / 8, 1);
 }
 
-double rms_slope(const Field& height) {
-  const auto n = static_cast<double>(height.rows());
-  const auto along_x = height.rightCols(height.cols() - 1) - height.leftCols(height.cols() - 1);
-  const auto along_y = height.bottomRows(height.rows() - 1) - height.topRows(height.rows() - 1);
-  return n * std::sqrt(along_x.square().mean() + along_y.square().mean());
-}
-
 TEST(SolveContact, NeedsNoMoreTransformsThanBefore) {
   const std::vector<Row> rows = table();
   ASSERT_GE(rows.size(), 8U);

@@ -40,6 +40,14 @@ inline Field self_affine(Index n, double hurst, double k_low, double k_high, std
   return height * (static_cast<double>(n) * static_cast<double>(n) / std::sqrt(square_slope));
 }
 
+/// Rms slope of heights on a unit side, by differences of neighbours.
+inline double rms_slope(const Field& height) {
+  const auto n = static_cast<double>(height.rows());
+  const auto along_x = height.rightCols(height.cols() - 1) - height.leftCols(height.cols() - 1);
+  const auto along_y = height.bottomRows(height.rows() - 1) - height.topRows(height.rows() - 1);
+  return n * std::sqrt(along_x.square().mean() + along_y.square().mean());
+}
+
 /// z = amplitude cos(2 pi x) [cos(2 pi y)] on a unit side, sampled at pixel centres.
 inline Field wave(Index n, double amplitude, bool two_dimensional) {
   Field height(n, n);

@@ -32,6 +32,8 @@ struct State {
   Field gap;              ///< [m]
   double separation = 0;  ///< [m]
   Convergence convergence;
+  /// Steps of the fast solver that left long waves alone, since with them bounds led uphill.
+  int compact_steps = 0;
 };
 
 /// Solves the contact problem. Throws InputError for input that makes no sense (P >= p_sat, NaN,

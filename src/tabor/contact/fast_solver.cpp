@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kFirstRefresh = 1e-6;  // certificate below which v is computed afresh in double
 constexpr double kNextRefresh = 1e-4;   // ... and again each time it fell by this factor
+constexpr int kBlockRounds = 3;         // solutions for the long waves of one direction, at most
+constexpr double kSettledShare = 1e-3;  // of the pixels changing between free and held: settled
 constexpr int kPatience = 300;          // iterations without a better certificate before giving up
 constexpr double kUnknownFraction = std::numeric_limits<double>::quiet_NaN();
 
@@ -78,6 +80,8 @@ class ProjectedGradient {
   void find_separation();
   void choose_active_set();
   void find_direction();
+  void add_long_waves();
+  double hold_at_bounds();
   void choose_step();
   double project_step();
   bool move();
@@ -113,6 +117,7 @@ class ProjectedGradient {
   double step_curvature_ = 0;              // <dp, S dp> of the step before [Pa m]
   double refresh_below_ = kFirstRefresh;
   bool residual_is_fresh_ = false;
+  int n_compact_steps_ = 0;
   double best_certificate_ = std::numeric_limits<double>::infinity();
   int best_iteration_ = 0;
 };
@@ -229,18 +234,37 @@ void ProjectedGradient::find_direction() {
     work_.data()[active_[k]] = static_cast<float>(residual_.data()[active_[k]] - separation_);
   });
   preconditioner_.apply(active_, work_, compact_direction_, stiffness_);
+  add_long_waves();
+}
+
+/// Corrects the direction for long waves. Pixels that a bound holds depend on the correction and
+/// the correction on them: a semi-smooth Newton iteration, each round of which holds what the
+/// direction of the round before presses against a bound.
+void ProjectedGradient::add_long_waves() {
   direction_ = compact_direction_;
-  if (!long_waves_.useful()) {
-    return;
+  moved_ = compact_direction_;
+  for (int round = 0; round < kBlockRounds && long_waves_.useful(); ++round) {
+    const double n_changed = hold_at_bounds();
+    if (round > 0 && n_changed <= kSettledShare * static_cast<double>(active_.size())) {
+      break;
+    }
+    direction_ = compact_direction_;
+    long_waves_.correct(active_, stiffness_, moved_, direction_);
   }
-  moved_.resize(active_.size());
-  for_each(active_.size(), [&](std::size_t k) {
+}
+
+/// moved_ := the compact direction, or as much as the bound allows where the direction leads beyond
+/// it. Returns the number of pixels that changed between the two.
+double ProjectedGradient::hold_at_bounds() {
+  return sum_over(active_.size(), [&](std::size_t k) {
     const double p = pressure_.data()[active_[k]];
     const double wanted = p - step_ * static_cast<double>(direction_[k]);
     const double allowed = std::clamp(wanted, 0.0, cap_);
-    moved_[k] = wanted == allowed ? direction_[k] : static_cast<float>((p - allowed) / step_);
+    const bool was_free = moved_[k] == compact_direction_[k];
+    moved_[k] =
+        wanted == allowed ? compact_direction_[k] : static_cast<float>((p - allowed) / step_);
+    return was_free == (wanted == allowed) ? 0.0 : 1.0;
   });
-  long_waves_.correct(active_, stiffness_, moved_, direction_);
 }
 
 /// tau = <dp, S dp> / <S dp, M S dp>; M S dp is the change of the direction since the last step.
@@ -287,6 +311,7 @@ bool ProjectedGradient::move() {
   if (slope >= 0) {  // bounds can turn a corrected direction uphill: leave long waves alone
     direction_ = compact_direction_;
     slope = project_step();
+    n_compact_steps_ += 1;
   }
   const auto change = [&](std::size_t k) { return trial_[k] - pressure_.data()[active_[k]]; };
   if (sum_over(active_.size(), [&](std::size_t k) { return std::abs(change(k)); }) == 0) {
@@ -368,6 +393,7 @@ State ProjectedGradient::run(const Observer& observer) {
   state.displacement = std::move(residual_);
   state.displacement += problem_.height;
   state.convergence = convergence_;
+  state.compact_steps = n_compact_steps_;
   return state;
 }
 
