@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <complex>
@@ -21,16 +22,30 @@ namespace {
 constexpr Index kFar = 4;
 constexpr int kTerms = 12;
 
-/// -(coefficient of offset^(-2 m)) in the mean of ln|offset - s| over an element, in nodes.
-double far_coefficient(PressureShape shape, int m) {
-  return shape == PressureShape::uniform ? std::pow(0.25, m) / (2. * m * (2 * m + 1))
-                                         : 1. / (m * (2. * m + 1) * (2 * m + 2));
+/// -(coefficient of offset^(-2 m)), m = 1 .. kTerms, in the mean of ln|offset - s| over an element,
+/// lengths in spacings.
+constexpr std::array<double, kTerms> far_coefficients(PressureShape shape) {
+  std::array<double, kTerms> result{};
+  double quarter = 1;
+  for (int i = 0; i < kTerms; ++i) {
+    const double m = i + 1;
+    quarter *= 0.25;
+    result[static_cast<std::size_t>(i)] = shape == PressureShape::uniform
+                                              ? quarter / (2 * m * (2 * m + 1))
+                                              : 1 / (m * (2 * m + 1) * (2 * m + 2));
+  }
+  return result;
 }
 
 double far_series(PressureShape shape, double offset) {
+  static constexpr auto kUniform = far_coefficients(PressureShape::uniform);
+  static constexpr auto kLinear = far_coefficients(PressureShape::linear);
+  const auto& coefficients = shape == PressureShape::uniform ? kUniform : kLinear;
+  const double x = 1 / (offset * offset);
   double sum = 0;
-  for (int m = kTerms; m > 0; --m) {
-    sum += far_coefficient(shape, m) * std::pow(offset, -2 * m);
+  for (auto coefficient = coefficients.rbegin(); coefficient != coefficients.rend();
+       ++coefficient) {
+    sum = (sum + *coefficient) * x;
   }
   return sum;
 }
