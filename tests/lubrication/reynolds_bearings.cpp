@@ -116,6 +116,56 @@ TEST(ReynoldsLine, IsTheSameForAMirroredFilmAndSpeed) {
   }
 }
 
+FilmNode compressible_node(double pressure, double film, double distance) {
+  const double viscosity = 0.1 * std::exp(2e-8 * pressure);
+  return {.pressure = pressure,
+          .film = film,
+          .fill = 0.8,
+          .liquid = {.density = 870 * (1 + 0.5e-9 * pressure),
+                     .density_slope = 870 * 0.5e-9,
+                     .viscosity = viscosity,
+                     .viscosity_slope = 2e-8 * viscosity},
+          .distance = distance};
+}
+
+TEST(FaceFlow, HasTheDerivativesOfItsFlow) {
+  for (const double left : {1e5, 3.9e8}) {  // a steep front and a gentle one
+    const double p[2] = {left, 3.99e8};
+    const double h[2] = {1.2e-6, 0.9e-6};
+    const auto flow = [&](double dp0, double dp1, double dh0, double dh1) {
+      return face_flow(compressible_node(p[0] + dp0, h[0] + dh0, 1e-6),
+                       compressible_node(p[1] + dp1, h[1] + dh1, 2e-6), 0.3);
+    };
+    const FaceFlow at = flow(0, 0, 0, 0);
+    const double dp = 100;
+    const double dh = 1e-12;
+    const auto slope = [](const FaceFlow& up, const FaceFlow& down, double step) {
+      return (up.flow - down.flow) / (2 * step);
+    };
+    EXPECT_NEAR(at.by_pressure[0] / slope(flow(dp, 0, 0, 0), flow(-dp, 0, 0, 0), dp), 1, 1e-5);
+    EXPECT_NEAR(at.by_pressure[1] / slope(flow(0, dp, 0, 0), flow(0, -dp, 0, 0), dp), 1, 1e-5);
+    EXPECT_NEAR(at.by_film[0] / slope(flow(0, 0, dh, 0), flow(0, 0, -dh, 0), dh), 1, 1e-5);
+    EXPECT_NEAR(at.by_film[1] / slope(flow(0, 0, 0, dh), flow(0, 0, 0, -dh), dh), 1, 1e-5);
+  }
+}
+
+// The integral of dp/eta from one node to the other is known for Barus' law.
+TEST(FaceFlow, TakesAFrontOfBarussViscosityExactly) {
+  const double alpha = 2e-8;
+  const double low = 1e7;
+  const double high = 9e8;
+  const auto node = [&](double p) {
+    const double viscosity = 0.1 * std::exp(alpha * p);
+    return FilmNode{.pressure = p,
+                    .film = 1e-6,
+                    .liquid = {.viscosity = viscosity, .viscosity_slope = alpha * viscosity},
+                    .distance = 1e-6};
+  };
+  const double exact =
+      1e-18 / (12 * 0.1) * (std::exp(-alpha * low) - std::exp(-alpha * high)) / alpha / 2e-6;
+  EXPECT_NEAR(face_flow(node(high), node(low), 0).flow / exact, 1, 1e-12);
+}
+
 TEST(ReynoldsLine, RefusesWhatIsNoFilm) {
   FilmProblem problem = cylinder(10);
   problem.film[3] = 0;

@@ -85,6 +85,19 @@ inline void record_comparison(const Comparison& row) {
       json_number(row.tolerance)));
 }
 
+/// A number that a source prints although it does not follow from the source's own inputs: ours,
+/// the printed one and the reason stand in a table of their own. Nothing is asserted.
+inline void record_unreproduced(std::string_view section, std::string_view case_name,
+                                std::string_view quantity, std::string_view source, double printed,
+                                double ours, std::string_view reason) {
+  append_validation(fmt::format(
+      "{{\"section\": {}, \"case\": {}, \"quantity\": {}, \"reference\": {}, \"printed\": {}, "
+      "\"ours\": {}, \"reason\": {}, \"test\": {}}}\n",
+      json_string(section), json_string(case_name), json_string(quantity), json_string(source),
+      json_number(printed), json_number(ours), json_string(reason),
+      json_string(current_test_name())));
+}
+
 /// Asserts error <= tolerance (NaN fails) and records the row.
 inline void expect_within(std::string_view section, std::string_view case_name,
                           std::string_view quantity, std::string_view reference_source,

@@ -15,22 +15,36 @@ void check_cells(Index n) {
   if (n < 2) throw InputError("cells of a film", fmt::format("{}", n), "2 or more", "");
 }
 
-/// Half a gap between a node and a face.
-struct Half {
-  double conductance = 0;  ///< k = rho h^3 / (12 eta) [kg/(m Pa s) m]
-  double by_pressure = 0;  ///< of k
-  double by_film = 0;      ///< of k
+/// rho / eta of a liquid, and its derivative by pressure.
+struct Fluidity {
+  double value = 0;
+  double by_pressure = 0;
 };
 
-Half half_of(const FilmNode& node) {
-  const LiquidState& liquid = node.liquid;
-  Half half;
-  half.conductance = liquid.density * node.film * node.film * node.film / (12 * liquid.viscosity);
-  half.by_pressure = half.conductance * (liquid.density_slope / liquid.density -
-                                         liquid.viscosity_slope / liquid.viscosity);
-  half.by_film = 3 * half.conductance / node.film;
-  return half;
+Fluidity fluidity_of(const LiquidState& liquid) {
+  const double value = liquid.density / liquid.viscosity;
+  return {value, value * (liquid.density_slope / liquid.density -
+                          liquid.viscosity_slope / liquid.viscosity)};
 }
+
+/// Mean of a fluidity that is an exponential of the pressure between the nodes, (a - b)/ln(a/b),
+/// and its derivatives by a and b.
+struct LogarithmicMean {
+  double value, by_left, by_right;
+
+  LogarithmicMean(double a, double b) {
+    const double x = std::log(a / b);
+    if (std::abs(x) < 1e-3) {
+      value = (a + b) / 2 * (1 - x * x / 12);
+      by_left = 0.5 - x / 6 + x * x / 24;
+      by_right = 0.5 + x / 6 + x * x / 24;
+      return;
+    }
+    value = (a - b) / x;
+    by_left = (1 - value / a) / x;
+    by_right = (value / b - 1) / x;
+  }
+};
 
 }  // namespace
 
@@ -71,35 +85,38 @@ LiquidLaw constant_liquid(double viscosity, double density) {
   return [=](double) { return LiquidState{.density = density, .viscosity = viscosity}; };
 }
 
-// With the pressure pf of the face eliminated, m = (u g - (pR - pL)) / r where r = sum d/k is the
-// resistance and g = sum rho h d/k: the Couette flow is the mean of both nodes, weighted by d/k.
+// Both halves of the gap are resistances 12 d/h^3 in series, under the same fluidity: at a step of
+// the film the pressure, and with it the viscosity, is the same on both sides. Without the pressure
+// at the face, m = theta u g + (pL - pR) f / r, where r = sum 12 d/h^3 and g, the mean of rho h, is
+// weighted by the parts of r.
 FaceFlow face_flow(const FilmNode& left, const FilmNode& right, double speed) {
   const FilmNode* const nodes[2] = {&left, &right};
-  const Half halves[2] = {half_of(left), half_of(right)};
-  double resistance = 0;
-  double carried = 0;
+  double part[2];
   for (int i = 0; i < 2; ++i) {
-    const double part = nodes[i]->distance / halves[i].conductance;
-    resistance += part;
-    carried += part * nodes[i]->liquid.density * nodes[i]->film;
+    const double film = nodes[i]->film;
+    part[i] = 12 * nodes[i]->distance / (film * film * film);
   }
-  const double fill = speed >= 0 ? left.fill : right.fill;
-  const double mean = carried / resistance;  // rho h of the face
-  const double drop = left.pressure - right.pressure;
+  const Fluidity fluidity[2] = {fluidity_of(left.liquid), fluidity_of(right.liquid)};
+  const LogarithmicMean mean(fluidity[0].value, fluidity[1].value);
+  const double resistance = part[0] + part[1];
+  const double mass[2] = {left.liquid.density * left.film, right.liquid.density * right.film};
+  const double carried = (part[0] * mass[0] + part[1] * mass[1]) / resistance;
+  const double slope = (left.pressure - right.pressure) / resistance;
+  const double wall = (speed >= 0 ? left.fill : right.fill) * speed;
+
   FaceFlow face;
-  face.couette = speed * mean;
-  face.flow = fill * face.couette + drop / resistance;
+  face.couette = speed * carried;
+  face.flow = wall * carried + slope * mean.value;
   for (int i = 0; i < 2; ++i) {
-    const FilmNode& node = *nodes[i];
-    const double part = node.distance / halves[i].conductance;
-    const double mass = node.liquid.density * node.film;
-    // d(part)/dk = -part/k; what a change of `part` does to the flow:
-    const double by_part = (fill * speed * (mass - mean) - drop / resistance) / resistance;
-    const double by_conductance = -by_part * part / halves[i].conductance;
-    const double by_mass = fill * speed * part / resistance;
-    face.by_pressure[i] = (i == 0 ? 1 : -1) / resistance + by_conductance * halves[i].by_pressure +
-                          by_mass * node.liquid.density_slope * node.film;
-    face.by_film[i] = by_conductance * halves[i].by_film + by_mass * node.liquid.density;
+    const double share = part[i] / resistance;
+    const double by_fluidity = slope * (i == 0 ? mean.by_left : mean.by_right);
+    face.by_pressure[i] = (i == 0 ? 1 : -1) * mean.value / resistance +
+                          by_fluidity * fluidity[i].by_pressure +
+                          wall * share * nodes[i]->liquid.density_slope * nodes[i]->film;
+    // A thinner film makes its part of the resistance larger: d(part)/dh = -3 part/h.
+    const double by_part = (wall * (mass[i] - carried) - slope * mean.value) / resistance;
+    face.by_film[i] =
+        -3 * by_part * part[i] / nodes[i]->film + wall * share * nodes[i]->liquid.density;
   }
   return face;
 }

@@ -69,8 +69,9 @@ struct FaceFlow {
   double by_film[2] = {0, 0};
 };
 
-/// Flow between two nodes. The halves of the gap are resistances in series: a step of the film at
-/// the face is taken exactly, a smooth film to second order. The fill is that of the node upstream.
+/// Flow between two nodes. A step of the film at the face is taken exactly, a smooth film to second
+/// order; a viscosity that grows exponentially with pressure (Barus) is exact as well, however
+/// steep the front between the nodes. The fill is that of the node upstream.
 FaceFlow face_flow(const FilmNode& left, const FilmNode& right, double speed);
 
 }  // namespace tabor::lubrication
