@@ -6,6 +6,7 @@
 
 #include "tabor/core/convergence.hpp"
 #include "tabor/topography/parameters.hpp"
+#include "tabor/topography/topography.hpp"
 
 namespace tabor::topography {
 
@@ -31,8 +32,9 @@ struct ProfileOptions {
   std::optional<int> sections = {};         ///< empty: five; 0: as many as fit
   int form_degree = 1;  ///< polynomial removed from each profile first; -1: none, at most 4
   ProfileEnds ends = ProfileEnds::regression;
-  bool filtered = false;    ///< the heights are filtered already: no form, no filter, lc divides
-  double ratio_height = 0;  ///< c of Rmr(c) [m], above the mean line
+  bool filtered = false;  ///< the heights are filtered already: no form, no filter, lc divides
+  bool forward_slopes = false;  ///< Rdq by forward differences, not the seven-point stencil
+  double ratio_height = 0;      ///< c of Rmr(c) [m], above the mean line
 };
 
 /// What is done to every profile along one axis.
@@ -40,6 +42,7 @@ struct ProfileSetting {
   double cutoff = 0;        ///< lc [m]
   double short_cutoff = 0;  ///< ls [m], 0: no S-filter
   int sections = 0;         ///< sampling lengths of lc each (the whole profile if it is shorter)
+  double trim = 0;          ///< [m] left out at either end
   std::string reason;       ///< one line: what was chosen by whom and why
 };
 
@@ -52,12 +55,15 @@ struct ProfileSetting {
 ProfileSetting choose_setting(const Topography& topography, ProfileAxis axis,
                               const ProfileOptions& options = {});
 
-/// Profile parameters along one axis: Ra_x Rq_x ... , each the mean over all profiles, the scatter
-/// (standard deviation over the profiles) and their number in the note. With P or W instead of R
-/// for the primary and the waviness profile. Heights count from the mean line z = 0 that the
-/// filters leave, not centred again. Holes have no weight: in a filter the weights, in a section
-/// the means are renormalised; a section, or a profile, with less than half of its points is left
-/// out. Throws InputError for options that make no sense; Interrupted when the observer stops it.
+/// Profile parameters along one axis: lc_x ls_x sections_x (the setting, its reason in the note of
+/// lc), then Ra Rq Rsk Rku Rp Rv Rz Rzx Rt Rdq RSm Rc Rpd Rk Rpk Rvk Rmrk1 Rmrk2 Rmr(c), each with
+/// _x or _y, P or W instead of R for the primary and the waviness profile (ISO 4287: Rz1max, Mr1,
+/// Mr2). Each is the mean over all profiles, with the standard deviation over the profiles and
+/// their number in the note. The sections lie in the middle of the profile. Heights count from the
+/// mean line z = 0 that the filters leave, not centred again. Holes have no weight: in a filter the
+/// weights, in a section the means are renormalised; a section, or a profile, with less than half
+/// of its points is left out. Throws InputError for options that make no sense; Interrupted when
+/// the observer stops it.
 std::vector<Parameter> profile_parameters(const Topography& topography, ProfileAxis axis,
                                           const ProfileOptions& options = {},
                                           const Observer& observer = {});
