@@ -33,5 +33,14 @@ TEST(ReadJson, SaysWhereTheMistakeIs) {
   }
 }
 
+TEST(ReadJson, SurvivesDeepNesting) {
+  const test::Folder folder;
+  const std::string deep(200000, '[');
+  test::put_bytes(folder / "open.json", deep);
+  EXPECT_THROW(read_json(folder / "open.json"), InputError);
+  test::put_bytes(folder / "closed.json", deep + std::string(deep.size(), ']'));
+  EXPECT_NO_THROW(read_json(folder / "closed.json"));
+}
+
 }  // namespace
 }  // namespace tabor::io

@@ -124,5 +124,36 @@ TEST(Config, TextReadsBackToTheSameValues) {
   EXPECT_EQ(again.tables("scan").size(), 2u);
 }
 
+std::string repeated(const std::string& part, int n) {
+  std::string text;
+  for (int i = 0; i < n; ++i) text += part;
+  return text;
+}
+
+TEST(Config, DeepNestingIsRefused) {
+  constexpr int kDepth = 200000;
+  for (const std::string& text :
+       {"[" + repeated("a.", kDepth) + "a]\n", repeated("a.", kDepth) + "a = 1\n",
+        "k = {" + repeated("'a' . ", kDepth) + "a = 1}\n",
+        "k = " + repeated("[", kDepth) + repeated("]", kDepth) + "\n",
+        "k = " + repeated("{a=", kDepth) + "1" + repeated("}", kDepth) + "\n"}) {
+    EXPECT_THROW(Config::parse(text, "study.toml"), InputError) << text.substr(0, 20);
+  }
+}
+
+TEST(Config, LongLinesAreRefusedNamingTheLine) {
+  try {
+    Config::parse("a = 1\n# " + repeated(".", 20000) + "\n", "study.toml");
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("study.toml:2: got a line of 20002 bytes"));
+  }
+}
+
+TEST(Config, TheLongestKeyIsHandled) {
+  const std::string parts = repeated("a.", 8000);
+  EXPECT_TRUE(Config::parse("[" + parts + "b]\n" + parts + "c = 1\n", "study.toml").has("a"));
+}
+
 }  // namespace
 }  // namespace tabor::io

@@ -81,7 +81,22 @@ void collect_leaves(const toml::table& table, const std::string& prefix,
   }
 }
 
+/// toml++ descends once for each part of a dotted key, however many there are. Keys end with their
+/// line, so that this keeps a forged one from exhausting the stack.
+void check_lines(std::string_view text, const std::string& name) {
+  constexpr std::size_t kMaxLength = 16384;
+  for (int n = 1; !text.empty(); ++n) {
+    const std::size_t length = std::min(text.find('\n'), text.size());
+    if (length > kMaxLength) {
+      throw InputError(fmt::format("{}:{}", name, n), fmt::format("a line of {} bytes", length),
+                       fmt::format("at most {}", kMaxLength), "break it");
+    }
+    text.remove_prefix(std::min(length + 1, text.size()));
+  }
+}
+
 toml::table parse_table(std::string_view text, const std::string& name) {
+  check_lines(text, name);
   try {
     return toml::parse(text, name);
   } catch (const toml::parse_error& error) {
