@@ -80,8 +80,8 @@ double grubin_inlet_integral(double film) {
   // ends: the plain sum over y then converges faster than any power.
   const double step = 0.02;
   double sum = 0;
-  for (double y = -30; y < 4; y += step) {
-    const double t = std::exp(y);
+  for (int i = 0; i < 1700; ++i) {
+    const double t = std::exp(-30 + step * i);
     // sinh(2 t) - 2 t, by its series where the difference would lose its digits.
     const double u = 4 * t * t;
     const double d = t < 0.1 ? 2 * t * u / 6 * (1 + u / 20 * (1 + u / 42 * (1 + u / 72)))
