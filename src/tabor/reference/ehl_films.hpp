@@ -21,7 +21,7 @@ struct LineContactFilm {
   double moes_viscosity() const;  ///< L = G (2 U)^(1/4)
 
   /// Minimum film [m] in the four limits of Moes' chart, h / (R sqrt(2 U)) = 2.45 / M, 2.05 M^-0.2,
-  /// 1.05 L^(2/3), 0.99 M^(-1/8) L^(3/4) (Moes 1992, Journal of Engineering Mathematics 26, 57).
+  /// 1.05 L^(2/3), 0.99 M^(-1/8) L^(3/4) (Moes 1992, Wear 159, 57).
   double rigid_isoviscous() const;
   double elastic_isoviscous() const;
   double rigid_piezoviscous() const;
@@ -70,7 +70,8 @@ struct PointContactFilm {
 
   /// [m] 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 e^(-0.73 k)) Rx and 3.63 U^0.68 G^0.49 W^-0.073
   /// (1 - e^(-0.68 k)) Rx: Hamrock & Dowson 1977, doi:10.1115/1.3453074; k = (Ry/Rx)^(2/pi), 1 for
-  /// a sphere (Hamrock & Brewe 1983). Steel and mineral oil, U of 1e-12 to 1e-10.
+  /// a sphere (Hamrock & Brewe 1983). Fitted for k of 1 to 8, bronze, steel and silicon nitride in
+  /// mineral oils.
   double hamrock_dowson_central() const;
   double hamrock_dowson_min() const;
 };
