@@ -50,5 +50,14 @@ TEST(Numbers, AreShownInEngineeringForm) {
   EXPECT_EQ(si(6.7e-7, "m"), "670 nm");
 }
 
+TEST(Table, WhatAFileCallsItsChannelCannotCommandTheTerminal) {
+  Table table({"channel"});
+  table.row({"a\x1b[2J"});
+  EXPECT_EQ(table.text().find('\x1b'), std::string::npos);
+  Facts facts;
+  facts.fact("channel", "a\x1b[2J\nmissing  none");
+  EXPECT_EQ(facts.text(), "channel  a\\x1b[2J\\x0amissing  none\n");
+}
+
 }  // namespace
 }  // namespace tabor::cli

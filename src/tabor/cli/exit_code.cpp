@@ -7,6 +7,7 @@
 #include <string>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/printable.hpp"
 
 namespace tabor::cli {
 
@@ -15,7 +16,7 @@ namespace {
 int complain(std::ostream& err, const std::string& message, int code) {
   std::string line = message;
   std::replace(line.begin(), line.end(), '\n', ' ');
-  err << "tabor: " << line << '\n';
+  err << "tabor: " << printable(line) << '\n';
   return code;
 }
 

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "tabor/core/printable.hpp"
 #include "tabor/core/units.hpp"
 
 namespace tabor::cli {
@@ -37,6 +38,7 @@ std::string without_trailing_blanks(std::string line) {
 
 void Table::row(std::vector<std::string> cells) {
   cells.resize(headings_.size());
+  for (std::string& cell : cells) cell = printable(cell);
   rows_.push_back(std::move(cells));
 }
 
@@ -68,7 +70,7 @@ std::string Table::text() const {
 }
 
 void Facts::fact(const std::string& label, const std::string& value) {
-  if (!value.empty()) lines_.emplace_back(label, value);
+  if (!value.empty()) lines_.emplace_back(printable(label), printable(value));
 }
 
 std::string Facts::text() const {

@@ -1,5 +1,7 @@
 #include "tabor/core/error.hpp"
 
+#include "tabor/core/printable.hpp"
+
 namespace tabor {
 namespace {
 
@@ -25,6 +27,6 @@ std::string one_line(const std::string& what, const std::string& got, const std:
 
 InputError::InputError(const std::string& what, const std::string& got, const std::string& expected,
                        const std::string& remedy)
-    : Error(one_line(what, got, expected, remedy)) {}
+    : Error(printable(one_line(what, got, expected, remedy))) {}
 
 }  // namespace tabor
