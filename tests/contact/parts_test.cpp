@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "contact/surfaces.hpp"
+#include "tabor/contact/candidate_set.hpp"
 #include "tabor/contact/certificate.hpp"
 #include "tabor/contact/long_waves.hpp"
 #include "tabor/contact/patches.hpp"
@@ -60,6 +61,49 @@ TEST(DualityGap, IsTheDistanceToTheBestFeasibleLoad) {
 TEST(DualityGap, DoesNotDependOnTheLevelOfTheResidual) {
   const double gap = duality_gap({{1, 1, 1}, {2.0, 1.0, 5.0}}, 3, 2);
   EXPECT_NEAR(duality_gap({{1, 1, 1}, {1002.0, 1001.0, 1005.0}}, 3, 2), gap, 1e-11);
+}
+
+// Certificate and separation of the candidates are those of the whole field, whatever the pressure.
+TEST(CandidateSet, LeavesOutNothingThatMatters) {
+  constexpr Index n = 200;
+  const CounterRandom random(12);
+  Field pressure = Field::Zero(n, n);
+  Field residual(n, n);
+  for (Index i = 0; i < n * n; ++i) {
+    const auto key = static_cast<std::uint64_t>(i);
+    residual(i) = random.normal(key);
+    const bool is_pressed = residual(i) < -0.5 && random.uniform(key + 100000) < 0.5;
+    pressure(i) = is_pressed ? random.uniform(key + 200000) : 0.0;
+  }
+  const double load = pressure.sum();
+  const double step = 0.3;
+  const auto separation = [&](const Candidates& values, double cap) {
+    std::vector<double> wanted(values.pressure);
+    for (std::size_t k = 0; k < wanted.size(); ++k) {
+      wanted[k] -= step * values.residual[k];
+    }
+    return -shift_for_load(wanted, load, cap) / step;
+  };
+  const Candidates all{{pressure.data(), pressure.data() + n * n},
+                       {residual.data(), residual.data() + n * n}};
+  for (const double cap : {kNoCap, 1.0, 1.5}) {
+    CandidateSet set = pressed_pixels(pressure);
+    for (std::size_t k = 0; k < set.size(); ++k) {
+      set.values.residual[k] = residual(set.pixels[k]);
+    }
+    const double threshold = candidate_threshold(set, load, cap, step);
+    FieldF change = residual.cast<float>();
+    collect_candidates(
+        residual, &change, threshold, [](Index, Index) {}, set);
+    EXPECT_LT(set.size(), static_cast<std::size_t>(n * n) / 2);
+    EXPECT_NEAR(duality_gap(set.values, load, cap) / duality_gap(all, load, cap), 1, 1e-12);
+    EXPECT_NEAR(separation(set.values, cap), separation(all, cap), 1e-12);
+    EXPECT_EQ(set.response.front(), static_cast<float>(residual(set.pixels.front())));
+    EXPECT_EQ(change.abs().maxCoeff(), 0);
+    Field spread(n, n);
+    spread_pressure(set, spread);
+    EXPECT_TRUE((spread == pressure).all());
+  }
 }
 
 TEST(Preconditioner, DirectSumsArePositiveDefiniteOnAnySet) {

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "tabor/contact/candidate_set.hpp"
 #include "tabor/contact/certificate.hpp"
 #include "tabor/contact/long_waves.hpp"
 #include "tabor/contact/preconditioner.hpp"
@@ -20,7 +22,7 @@ namespace {
 constexpr double kFirstRefresh = 1e-6;  // certificate below which v is computed afresh in double
 constexpr double kNextRefresh = 1e-4;   // ... and again each time it fell by this factor
 constexpr int kBlockRounds = 3;         // solutions for the long waves of one direction, at most
-constexpr double kSettledShare = 1e-3;  // of the pixels changing between free and held: settled
+constexpr double kSettledShare = 1e-4;  // of the pixels changing between free and held: settled
 constexpr int kPatience = 300;          // iterations without a better certificate before giving up
 constexpr double kUnknownFraction = std::numeric_limits<double>::quiet_NaN();
 
@@ -74,8 +76,6 @@ class ProjectedGradient {
 
  private:
   void refresh();
-  double highest_contact() const;
-  void collect_candidates();
   void certify();
   void find_separation();
   void choose_active_set();
@@ -86,7 +86,11 @@ class ProjectedGradient {
   double project_step();
   bool move();
   void accept(double length);
-  Index size() const { return pressure_.size(); }
+  template <typename Residual>
+  void collect(const Residual& residual, FieldF* change,
+               const std::function<void(Index, Index)>& update);
+  double pressure(std::size_t k) const { return candidates_.values.pressure[places_[k]]; }
+  double residual(std::size_t k) const { return candidates_.values.residual[places_[k]]; }
 
   elastic::ElasticOperator& elasticity_;
   const Problem& problem_;
@@ -97,24 +101,20 @@ class ProjectedGradient {
   LongWaves long_waves_;
   Convergence convergence_;
 
-  Field pressure_;  // p [Pa]
   Field residual_;  // v = S p - z [m]
   FieldF work_;     // v - sep on the active set, then dp, then S dp; 0 elsewhere but for S dp
-  PixelList candidate_pixels_;
-  Candidates candidates_;
-  PixelList active_;
-  PixelList previous_active_;
+  CandidateSet candidates_;
   // On the active set, in its order:
-  std::vector<float> response_;            // S dp of the step before [m]
-  std::vector<float> direction_;           // M (v - sep) [Pa]
-  std::vector<float> compact_direction_;   // the same without long waves [Pa]
-  std::vector<float> stiffness_;           // row sums of the compact kernel [Pa/m]
-  std::vector<float> moved_;               // direction as far as the bounds let it through [Pa]
-  std::vector<double> trial_;              // pressures tried [Pa]
-  std::vector<float> previous_direction_;  // on previous_active_ [Pa]
-  double separation_ = 0;                  // [m], in the units of v
-  double step_ = 1;                        // tau
-  double step_curvature_ = 0;              // <dp, S dp> of the step before [Pa m]
+  PixelList places_;                      // among the candidates
+  PixelList active_;                      // pixels
+  std::vector<float> direction_;          // M (v - sep) [Pa]
+  std::vector<float> compact_direction_;  // the same without long waves [Pa]
+  std::vector<float> stiffness_;          // row sums of the compact kernel [Pa/m]
+  std::vector<float> moved_;              // direction as far as the bounds let it through [Pa]
+  std::vector<double> trial_;             // pressures tried [Pa]
+  double separation_ = 0;                 // [m], in the units of v
+  double step_ = 1;                       // tau
+  double step_curvature_ = 0;             // <dp, S dp> of the step before [Pa m]
   double refresh_below_ = kFirstRefresh;
   bool residual_is_fresh_ = false;
   int n_compact_steps_ = 0;
@@ -122,79 +122,48 @@ class ProjectedGradient {
   int best_iteration_ = 0;
 };
 
-/// v = S p - z in double precision. Candidates, which are collected anew after it, make room for
-/// it.
+/// v = S p - z in double precision.
 void ProjectedGradient::refresh() {
-  candidates_ = Candidates();
-  candidate_pixels_ = PixelList();
-  trial_ = std::vector<double>();
-  elasticity_.apply(pressure_, residual_);
+  spread_pressure(candidates_, residual_);
+  elasticity_.apply(residual_, residual_);
+  double* v = residual_.data();
   const double* height = problem_.height.data();
-  parallel_for(size(), kBlock, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      residual_.data()[i] -= height[i];
-    }
-  });
+  collect([&](std::uint32_t pixel) { return v[pixel] - height[pixel]; }, nullptr,
+          [&](Index begin, Index end) {
+            for (Index i = begin; i < end; ++i) {
+              v[i] -= height[i];
+            }
+          });
   convergence_.operator_applications += 1;
   convergence_.fft_pairs += 1;
   residual_is_fresh_ = true;
 }
 
-/// Largest v in contact. Pixels in contact are among the candidates before, once there are some.
-double ProjectedGradient::highest_contact() const {
-  const bool all = candidate_pixels_.empty();
-  const Index n = all ? size() : static_cast<Index>(candidate_pixels_.size());
-  return parallel_max(n, [&](Index begin, Index end) {
-    double highest = -std::numeric_limits<double>::infinity();
-    for (Index k = begin; k < end; ++k) {
-      const Index pixel = all ? k : candidate_pixels_[static_cast<std::size_t>(k)];
-      if (pressure_.data()[pixel] > 0) {
-        highest = std::max(highest, residual_.data()[pixel]);
-      }
-    }
-    return highest;
-  });
-}
-
-/// A pixel without pressure can only matter if its v is at most the largest v in contact.
-void ProjectedGradient::collect_candidates() {
-  const double* v = residual_.data();
-  const double highest = highest_contact();
-  const Index n_blocks = (size() + kBlock - 1) / kBlock;
-  std::vector<PixelList> lists(static_cast<std::size_t>(n_blocks));
-  parallel_for(n_blocks, 1, [&](Index block, Index) {
-    PixelList& list = lists[static_cast<std::size_t>(block)];
-    for (Index i = block * kBlock; i < std::min(size(), (block + 1) * kBlock); ++i) {
-      if (v[i] <= highest) {
-        list.push_back(static_cast<std::uint32_t>(i));
-      }
-    }
-  });
-  std::vector<std::size_t> starts{0};
-  for (const PixelList& list : lists) {
-    starts.push_back(starts.back() + list.size());
+/// Brings v up to date by update(begin, end) and collects the candidates in the same pass.
+/// residual(pixel) is what v will be, change the S dp that it changes by.
+template <typename Residual>
+void ProjectedGradient::collect(const Residual& residual, FieldF* change,
+                                const std::function<void(Index, Index)>& update) {
+  for (std::vector<float>* values : {&compact_direction_, &stiffness_, &moved_}) {
+    *values = {};  // makes room
   }
-  candidate_pixels_.resize(starts.back());
-  candidates_.pressure.resize(starts.back());
-  candidates_.residual.resize(starts.back());
-  parallel_for(n_blocks, 1, [&](Index block, Index) {
-    std::size_t k = starts[static_cast<std::size_t>(block)];
-    for (const std::uint32_t pixel : lists[static_cast<std::size_t>(block)]) {
-      candidate_pixels_[k] = pixel;
-      candidates_.pressure[k] = pressure_.data()[pixel];
-      candidates_.residual[k] = v[pixel];
-      ++k;
-    }
+  trial_ = {};
+  for_each(candidates_.size(), [&](std::size_t k) {
+    candidates_.values.residual[k] = residual(candidates_.pixels[k]);
   });
+  const double threshold =
+      candidate_threshold(candidates_, load_, cap_, step_ * preconditioner_.diagonal());
+  collect_candidates(residual_, change, threshold, update, candidates_);
 }
 
 /// Certificate of contact.md section 2; infinite if the pressure does not carry the load exactly.
 void ProjectedGradient::certify() {
-  const double carried =
-      sum_over(candidates_.pressure.size(), [&](std::size_t k) { return candidates_.pressure[k]; });
-  convergence_.certificate = std::abs(carried / load_ - 1) <= 1e-10
-                                 ? std::max(0.0, duality_gap(candidates_, load_, cap_) / scale_)
-                                 : std::numeric_limits<double>::infinity();
+  const std::vector<double>& pressure = candidates_.values.pressure;
+  const double carried = sum_over(pressure.size(), [&](std::size_t k) { return pressure[k]; });
+  convergence_.certificate =
+      std::abs(carried / load_ - 1) <= 1e-10
+          ? std::max(0.0, duality_gap(candidates_.values, load_, cap_) / scale_)
+          : std::numeric_limits<double>::infinity();
   if (convergence_.certificate < best_certificate_) {
     best_certificate_ = convergence_.certificate;
     best_iteration_ = convergence_.iterations;
@@ -205,33 +174,31 @@ void ProjectedGradient::certify() {
 /// over an elastic contact and the threshold of the bearing area in a saturated one.
 void ProjectedGradient::find_separation() {
   const double diagonal_step = step_ * preconditioner_.diagonal();
-  trial_.resize(candidates_.pressure.size());
-  for_each(trial_.size(), [&](std::size_t k) {
-    trial_[k] = candidates_.pressure[k] - diagonal_step * candidates_.residual[k];
-  });
+  const std::vector<double>& pressure = candidates_.values.pressure;
+  const std::vector<double>& residual = candidates_.values.residual;
+  trial_.resize(pressure.size());
+  for_each(trial_.size(),
+           [&](std::size_t k) { trial_[k] = pressure[k] - diagonal_step * residual[k]; });
   separation_ = -shift_for_load(trial_, load_, cap_) / diagonal_step;
 }
 
 /// Pixels that may move: strictly inside the bounds, or at a bound and pulled inside.
 void ProjectedGradient::choose_active_set() {
-  std::swap(active_, previous_active_);
-  std::swap(direction_, previous_direction_);
+  places_.clear();
   active_.clear();
-  for (std::size_t k = 0; k < candidate_pixels_.size(); ++k) {
-    const double p = candidates_.pressure[k];
-    const double v = candidates_.residual[k] - separation_;
+  for (std::size_t k = 0; k < candidates_.size(); ++k) {
+    const double p = candidates_.values.pressure[k];
+    const double v = candidates_.values.residual[k] - separation_;
     if ((p > 0 || v < 0) && (p < cap_ || v > 0)) {
-      active_.push_back(candidate_pixels_[k]);
+      places_.push_back(static_cast<std::uint32_t>(k));
+      active_.push_back(candidates_.pixels[k]);
     }
   }
-  response_.resize(active_.size());
-  for_each(active_.size(), [&](std::size_t k) { response_[k] = work_.data()[active_[k]]; });
 }
 
 void ProjectedGradient::find_direction() {
-  for_each(static_cast<std::size_t>(size()), [&](std::size_t i) { work_.data()[i] = 0; });
   for_each(active_.size(), [&](std::size_t k) {
-    work_.data()[active_[k]] = static_cast<float>(residual_.data()[active_[k]] - separation_);
+    work_.data()[active_[k]] = static_cast<float>(residual(k) - separation_);
   });
   preconditioner_.apply(active_, work_, compact_direction_, stiffness_);
   add_long_waves();
@@ -257,7 +224,7 @@ void ProjectedGradient::add_long_waves() {
 /// it. Returns the number of pixels that changed between the two.
 double ProjectedGradient::hold_at_bounds() {
   return sum_over(active_.size(), [&](std::size_t k) {
-    const double p = pressure_.data()[active_[k]];
+    const double p = pressure(k);
     const double wanted = p - step_ * static_cast<double>(direction_[k]);
     const double allowed = std::clamp(wanted, 0.0, cap_);
     const bool was_free = moved_[k] == compact_direction_[k];
@@ -269,18 +236,12 @@ double ProjectedGradient::hold_at_bounds() {
 
 /// tau = <dp, S dp> / <S dp, M S dp>; M S dp is the change of the direction since the last step.
 void ProjectedGradient::choose_step() {
-  const double mean = sum_over(response_.size(), [&](std::size_t k) { return response_[k]; }) /
-                      static_cast<double>(active_.size());
-  double curvature = 0;
-  std::size_t before = 0;
-  for (std::size_t k = 0; k < active_.size(); ++k) {
-    while (before < previous_active_.size() && previous_active_[before] < active_[k]) {
-      ++before;
-    }
-    const bool stayed = before < previous_active_.size() && previous_active_[before] == active_[k];
-    const double previous = stayed ? previous_direction_[before] : 0.0;
-    curvature += (static_cast<double>(direction_[k]) - previous) * (response_[k] - mean);
-  }
+  const auto response = [&](std::size_t k) { return candidates_.response[places_[k]]; };
+  const double mean = sum_over(active_.size(), response) / static_cast<double>(active_.size());
+  const double curvature = sum_over(active_.size(), [&](std::size_t k) {
+    const float previous = candidates_.direction[places_[k]];
+    return (static_cast<double>(direction_[k]) - previous) * (response(k) - mean);
+  });
   if (step_curvature_ > 0 && curvature > 0) {
     step_ = step_curvature_ / curvature;
   }
@@ -289,18 +250,16 @@ void ProjectedGradient::choose_step() {
 /// Tries a step along the direction: trial_ within bounds and load, dp into work_. Returns the
 /// slope of the energy along dp [Pa m].
 double ProjectedGradient::project_step() {
-  const double active_load =
-      sum_over(active_.size(), [&](std::size_t k) { return pressure_.data()[active_[k]]; });
+  const double active_load = sum_over(active_.size(), [&](std::size_t k) { return pressure(k); });
   trial_.resize(active_.size());
   for_each(active_.size(), [&](std::size_t k) {
-    trial_[k] = pressure_.data()[active_[k]] - step_ * static_cast<double>(direction_[k]);
+    trial_[k] = pressure(k) - step_ * static_cast<double>(direction_[k]);
   });
   project_on_load(trial_, active_load, cap_);
   return sum_over(active_.size(), [&](std::size_t k) {
-    const std::uint32_t pixel = active_[k];
-    const double change = trial_[k] - pressure_.data()[pixel];
-    work_.data()[pixel] = static_cast<float>(change);
-    return change * (residual_.data()[pixel] - separation_);
+    const double change = trial_[k] - pressure(k);
+    work_.data()[active_[k]] = static_cast<float>(change);
+    return change * (residual(k) - separation_);
   });
 }
 
@@ -313,7 +272,7 @@ bool ProjectedGradient::move() {
     slope = project_step();
     n_compact_steps_ += 1;
   }
-  const auto change = [&](std::size_t k) { return trial_[k] - pressure_.data()[active_[k]]; };
+  const auto change = [&](std::size_t k) { return trial_[k] - pressure(k); };
   if (sum_over(active_.size(), [&](std::size_t k) { return std::abs(change(k)); }) == 0) {
     return false;
   }
@@ -332,27 +291,36 @@ bool ProjectedGradient::move() {
 
 /// p += length * dp and v += length * S dp; a whole step lands on the bounds exactly.
 void ProjectedGradient::accept(double length) {
+  std::fill(candidates_.direction.begin(), candidates_.direction.end(), 0.0F);
   for_each(active_.size(), [&](std::size_t k) {
-    double& p = pressure_.data()[active_[k]];
+    double& p = candidates_.values.pressure[places_[k]];
     p = length == 1 ? trial_[k] : std::clamp(p + length * (trial_[k] - p), 0.0, cap_);
+    candidates_.direction[places_[k]] = direction_[k];
   });
   const auto factor = static_cast<float>(length);
-  for_each(static_cast<std::size_t>(size()), [&](std::size_t i) {
-    work_.data()[i] *= factor;
-    residual_.data()[i] += static_cast<double>(work_.data()[i]);
-  });
+  double* v = residual_.data();
+  float* response = work_.data();
+  collect(
+      [&](std::uint32_t pixel) { return v[pixel] + static_cast<double>(response[pixel] * factor); },
+      &work_,
+      [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+          response[i] *= factor;
+          v[i] += static_cast<double>(response[i]);
+        }
+      });
   residual_is_fresh_ = false;
 }
 
 State ProjectedGradient::run(const Observer& observer) {
   const Index ny = problem_.height.rows();
   const Index nx = problem_.height.cols();
-  pressure_ = starting_pressure(elasticity_, problem_, convergence_.fft_pairs);
+  residual_ = starting_pressure(elasticity_, problem_, convergence_.fft_pairs);
+  candidates_ = pressed_pixels(residual_);
   refresh();
   work_ = FieldF::Zero(ny, nx);
 
   while (true) {
-    collect_candidates();
     certify();
     if (convergence_.certificate <= std::max(refresh_below_, problem_.tolerance) &&
         !residual_is_fresh_) {
@@ -384,12 +352,13 @@ State ProjectedGradient::run(const Observer& observer) {
   }
   if (!residual_is_fresh_) {
     refresh();
-    collect_candidates();
     certify();
     convergence_.converged = convergence_.certificate <= problem_.tolerance;
   }
   State state;
-  state.pressure = std::move(pressure_);
+  work_ = FieldF();
+  state.pressure.resize(ny, nx);
+  spread_pressure(candidates_, state.pressure);
   state.displacement = std::move(residual_);
   state.displacement += problem_.height;
   state.convergence = convergence_;

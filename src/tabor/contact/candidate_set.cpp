@@ -1,0 +1,172 @@
+#include "tabor/contact/candidate_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "tabor/contact/projection.hpp"
+#include "tabor/core/parallel.hpp"
+
+namespace tabor::contact {
+namespace {
+
+constexpr Index kChunk = 64;  // pixels looked at together: hardly any chunk holds a candidate
+
+/// First place in the set whose pixel is not before this one.
+std::size_t place_of(const CandidateSet& set, Index pixel) {
+  return static_cast<std::size_t>(
+      std::lower_bound(set.pixels.begin(), set.pixels.end(), static_cast<std::uint32_t>(pixel)) -
+      set.pixels.begin());
+}
+
+/// The new candidates among the pixels of a block.
+PixelList candidates_in(const CandidateSet& old, const double* v, double threshold, Index begin,
+                        Index end) {
+  PixelList pixels;
+  std::size_t k = place_of(old, begin);
+  for (Index chunk = begin; chunk < end; chunk += kChunk) {
+    const Index n = std::min(kChunk, end - chunk);
+    const bool has_old = k < old.size() && old.pixels[k] < chunk + n;
+    if (!has_old && Eigen::Map<const Eigen::ArrayXd>(v + chunk, n).minCoeff() > threshold) {
+      continue;
+    }
+    for (Index i = chunk; i < chunk + n; ++i) {
+      const bool is_old = k < old.size() && old.pixels[k] == i;
+      if (v[i] <= threshold || (is_old && old.values.pressure[k] > 0)) {
+        pixels.push_back(static_cast<std::uint32_t>(i));
+      }
+      k += is_old ? 1 : 0;
+    }
+  }
+  return pixels;
+}
+
+void resize(CandidateSet& set, std::size_t n) {
+  set.pixels.resize(n);
+  set.values.pressure.resize(n);
+  set.values.residual.resize(n);
+  set.response.resize(n);
+  set.direction.resize(n);
+}
+
+/// Writes pixels into the set from place k on, with what the old set knows of them.
+void join(const PixelList& pixels, const CandidateSet& old, const double* v, const float* change,
+          std::size_t k, CandidateSet& set) {
+  std::size_t before = pixels.empty() ? 0 : place_of(old, pixels.front());
+  for (const std::uint32_t pixel : pixels) {
+    while (before < old.size() && old.pixels[before] < pixel) {
+      ++before;
+    }
+    const bool is_old = before < old.size() && old.pixels[before] == pixel;
+    set.pixels[k] = pixel;
+    set.values.residual[k] = v[pixel];
+    set.values.pressure[k] = is_old ? old.values.pressure[before] : 0.0;
+    set.direction[k] = is_old ? old.direction[before] : 0.0F;
+    set.response[k] = change != nullptr ? change[pixel] : (is_old ? old.response[before] : 0.0F);
+    ++k;
+  }
+}
+
+double mean_residual_under_pressure(const Candidates& values) {
+  const auto n = static_cast<Index>(values.pressure.size());
+  const auto sum_pressed = [&](const auto& term) {
+    return deterministic_sum(n, [&](Index begin, Index end) {
+      double partial = 0;
+      for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+        partial += values.pressure[k] > 0 ? term(k) : 0.0;
+      }
+      return partial;
+    });
+  };
+  return sum_pressed([&](std::size_t k) { return values.residual[k]; }) /
+         sum_pressed([](std::size_t) { return 1.0; });
+}
+
+}  // namespace
+
+CandidateSet pressed_pixels(const Field& pressure) {
+  CandidateSet set;
+  for (Index i = 0; i < pressure.size(); ++i) {
+    if (pressure.data()[i] > 0) {
+      set.pixels.push_back(static_cast<std::uint32_t>(i));
+      set.values.pressure.push_back(pressure.data()[i]);
+    }
+  }
+  resize(set, set.size());
+  return set;
+}
+
+void spread_pressure(const CandidateSet& set, Field& map) {
+  parallel_for(map.size(), kBlock, [&](Index begin, Index end) {
+    std::fill(map.data() + begin, map.data() + end, 0.0);
+    for (std::size_t k = place_of(set, begin); k < set.size() && set.pixels[k] < end; ++k) {
+      map.data()[set.pixels[k]] = set.values.pressure[k];
+    }
+  });
+}
+
+double candidate_threshold(const CandidateSet& set, double load, double saturation_pressure,
+                           double diagonal_step) {
+  const auto& [pressure, residual] = set.values;
+  if (!std::isfinite(saturation_pressure)) {
+    return mean_residual_under_pressure(set.values);
+  }
+  std::vector<double> v;
+  for (std::size_t k = 0; k < set.size(); ++k) {
+    if (pressure[k] > 0) {
+      v.push_back(residual[k]);
+    }
+  }
+  const double highest = *std::max_element(v.begin(), v.end());
+  if (static_cast<double>(v.size()) * saturation_pressure <= load) {
+    return highest;
+  }
+  const auto n_full =
+      std::min(v.size() - 1, static_cast<std::size_t>(std::floor(load / saturation_pressure)));
+  const auto knapsack = v.begin() + static_cast<std::ptrdiff_t>(n_full);
+  std::nth_element(v.begin(), knapsack, v.end());
+  const double threshold = *knapsack;
+  std::vector<double>& wanted = v;
+  wanted.clear();
+  for (std::size_t k = 0; k < set.size(); ++k) {
+    if (pressure[k] > 0) {
+      wanted.push_back(pressure[k] - diagonal_step * residual[k]);
+    }
+  }
+  const double separation = -shift_for_load(wanted, load, saturation_pressure) / diagonal_step;
+  return std::min(highest, std::max(separation, threshold));
+}
+
+void collect_candidates(const Field& residual, FieldF* change, double threshold,
+                        const std::function<void(Index, Index)>& update, CandidateSet& set) {
+  const double* v = residual.data();
+  const Index n_blocks = (residual.size() + kBlock - 1) / kBlock;
+  std::vector<PixelList> lists(static_cast<std::size_t>(n_blocks));
+  parallel_for(residual.size(), kBlock, [&](Index begin, Index end) {
+    update(begin, end);
+    lists[static_cast<std::size_t>(begin / kBlock)] = candidates_in(set, v, threshold, begin, end);
+  });
+  std::vector<std::size_t> starts{0};
+  for (const PixelList& list : lists) {
+    starts.push_back(starts.back() + list.size());
+  }
+  set.values.residual = {};  // makes room
+  float* s = change == nullptr ? nullptr : change->data();
+  if (s != nullptr) {
+    set.response = {};
+  }
+  CandidateSet next;
+  resize(next, starts.back());
+  parallel_for(residual.size(), kBlock, [&](Index begin, Index end) {
+    const auto b = static_cast<std::size_t>(begin / kBlock);
+    join(lists[b], set, v, s, starts[b], next);
+    lists[b] = {};
+    if (s != nullptr) {
+      std::fill(s + begin, s + end, 0.0F);
+    }
+  });
+  set = std::move(next);
+}
+
+}  // namespace tabor::contact
