@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <filesystem>
+#include <optional>
+
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
@@ -10,22 +13,36 @@ namespace tabor::cli {
 
 namespace {
 
+std::string tier_of(const topography::FormatRow& row) {
+  if (row.via_gwyddion) return "through gwyddion";
+  if (row.reads && row.writes) return "read and write";
+  return row.reads ? "read" : "write";
+}
+
+std::string line_about(const std::optional<std::filesystem::path>& gwyddion) {
+  if (gwyddion) return fmt::format("\nGwyddion is installed: {}\n", gwyddion->string());
+  return "\nGwyddion is not installed: sudo apt install gwyddion\n";
+}
+
 int list_formats(Context& context) {
+  const auto gwyddion = topography::gwyddion_program();
   io::Json object = json_head(context);
+  object["gwyddion"] = {{"installed", gwyddion.has_value()},
+                        {"path", gwyddion ? io::Json(gwyddion->string()) : io::Json()}};
   object["formats"] = io::Json::array();
-  Table table({"name", "extensions", "reads", "writes", "description"});
+  Table table({"name", "tier", "extensions", "description"});
   for (const topography::FormatRow& row : topography::formats()) {
     object["formats"].push_back({{"name", row.name},
                                  {"description", row.description},
                                  {"extensions", row.extensions},
                                  {"reads", row.reads},
                                  {"writes", row.writes},
-                                 {"via_gwyddion", row.via_gwyddion}});
-    const std::string reads = !row.reads ? "" : row.via_gwyddion ? "by gwyddion" : "yes";
-    table.row({row.name, fmt::format("{}", fmt::join(row.extensions, " ")), reads,
-               row.writes ? "yes" : "", row.description});
+                                 {"via_gwyddion", row.via_gwyddion},
+                                 {"tier", tier_of(row)}});
+    table.row({row.name, tier_of(row), fmt::format("{}", fmt::join(row.extensions, " ")),
+               row.description});
   }
-  return finish(context, object, table.text());
+  return finish(context, object, table.text() + line_about(gwyddion));
 }
 
 }  // namespace

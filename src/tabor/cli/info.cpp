@@ -122,10 +122,11 @@ std::string text_of(const Scan& scan, const FileInfo& file, const Heights& heigh
 }
 
 /// A sound file that needs a word from the user: what is in it, and what to say.
-int show_incomplete(const ScanRequest& request, const FileInfo& file, const std::string& doubt,
-                    Context& context) {
+int show_incomplete(const ScanRequest& request, const topography::ScanFile& scan_file,
+                    const std::string& doubt, Context& context) {
+  const FileInfo file = scan_file.info();
   io::Json object = json_head(context);
-  object["scan"] = {{"path", request.file}, {"sha256", topography::sha256(request.file)}};
+  object["scan"] = {{"path", request.file}, {"sha256", scan_file.sha256()}};
   object.update({{"file", request.file},
                  {"format", file.format},
                  {"instrument", file.instrument},
@@ -143,15 +144,16 @@ int show_incomplete(const ScanRequest& request, const FileInfo& file, const std:
 }
 
 int show(const ScanRequest& request, Context& context) {
-  const FileInfo file = topography::inspect(request.file, request.read);
+  const topography::ScanFile scan_file(request.file, context.observer());
+  const FileInfo file = scan_file.info();
   try {
-    const Scan scan = load_scan(request, context);
+    const Scan scan = load_scan(scan_file, request, context);
     const Heights heights = heights_of(scan.surface);
     // Doubts have a key and lines of their own here.
     context.warnings.clear();
     return finish(context, json_of(context, scan, file, heights), text_of(scan, file, heights));
   } catch (const IncompleteError& error) {
-    return show_incomplete(request, file, error.what(), context);
+    return show_incomplete(request, scan_file, error.what(), context);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <future>
 
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
@@ -73,12 +74,19 @@ void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment) {
 }
 
 Scan load_scan(const ScanRequest& request, Context& context) {
-  const Observer observer = context.observer();
-  Topography surface = topography::read(request.file, request.read, observer);
+  return load_scan(topography::ScanFile(request.file, context.observer()), request, context);
+}
+
+Scan load_scan(const topography::ScanFile& file, const ScanRequest& request, Context& context) {
+  // A digest is a matter of one thread: it runs beside the reading.
+  std::future<std::string> sha256 =
+      std::async(std::launch::async, [&file] { return file.sha256(); });
+  Topography surface =
+      topography::apply(request.treatment, file.read(request.read), context.observer());
   for (const std::string& doubt : surface.doubts) context.warn(request.file + ": " + doubt);
-  return {.surface = topography::apply(request.treatment, std::move(surface), observer),
+  return {.surface = std::move(surface),
           .path = request.file,
-          .sha256 = topography::sha256(request.file),
+          .sha256 = sha256.get(),
           .treatment = request.treatment};
 }
 

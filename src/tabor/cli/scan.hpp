@@ -30,6 +30,8 @@ void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment = tr
 
 /// Reads and treats. Doubts about the file become warnings.
 Scan load_scan(const ScanRequest& request, Context& context);
+/// The same for a file that is open already.
+Scan load_scan(const topography::ScanFile& file, const ScanRequest& request, Context& context);
 
 /// Warns when a scan that does not close on itself is used as it was read, and says by how much a
 /// plane would change it.

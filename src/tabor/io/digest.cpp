@@ -64,6 +64,16 @@ std::string sha256(std::string_view text) {
 
 std::string md5(std::span<const std::byte> bytes) { return digest_of(EVP_md5(), bytes); }
 
+struct RunningDigest::State {
+  Digest digest;
+};
+
+RunningDigest::RunningDigest(DigestKind kind)
+    : state_(new State{Digest(kind == DigestKind::md5 ? EVP_md5() : EVP_sha256())}) {}
+RunningDigest::~RunningDigest() = default;
+void RunningDigest::add(std::string_view bytes) { state_->digest.add(bytes.data(), bytes.size()); }
+std::string RunningDigest::hexadecimal() { return state_->digest.hexadecimal(); }
+
 std::string sha256_of_file(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::error_code error;

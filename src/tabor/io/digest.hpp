@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,5 +16,22 @@ std::string sha256_of_file(const std::filesystem::path& file);  ///< throws Inpu
 
 /// Only because the X3P format asks for it.
 std::string md5(std::span<const std::byte> bytes);
+
+enum class DigestKind { sha256, md5 };
+
+/// The same digests of bytes that come piece after piece.
+class RunningDigest {
+ public:
+  explicit RunningDigest(DigestKind kind);
+  ~RunningDigest();
+  RunningDigest(const RunningDigest&) = delete;
+  RunningDigest& operator=(const RunningDigest&) = delete;
+  void add(std::string_view bytes);
+  std::string hexadecimal();  ///< once, at the end
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace tabor::io

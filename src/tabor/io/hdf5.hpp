@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -13,6 +14,13 @@ namespace tabor::io {
 
 /// A map of small integers (holes, contact states), same layout as Field.
 using ByteMap = Eigen::Array<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// One value of a compound type: its texts and its numbers (lists laid out one after the other) in
+/// the order of the members.
+struct Hdf5Record {
+  std::vector<std::string> texts;
+  std::vector<double> numbers;
+};
 
 enum class Precision { float64, float32 };
 
@@ -84,11 +92,14 @@ class Hdf5Reader {
   bool is_dataset(const std::string& path) const;
   std::vector<Index> shape(const std::string& path) const;
 
-  Field field(const std::string& path) const;  ///< any numeric two-dimensional dataset
+  /// Any numeric two-dimensional dataset. `progress` is told the share of rows read so far.
+  Field field(const std::string& path,
+              const std::function<void(double share)>& progress = {}) const;
   ByteMap bytes(const std::string& path) const;
   std::vector<double> numbers(const std::string& path) const;  ///< one-dimensional
   std::vector<std::int64_t> integers(const std::string& path) const;
   std::vector<std::string> texts(const std::string& path) const;
+  std::vector<Hdf5Record> records(const std::string& path) const;
 
   bool has_attribute(const std::string& path, const std::string& name) const;
   std::vector<std::string> attribute_names(const std::string& path) const;
@@ -96,11 +107,18 @@ class Hdf5Reader {
   std::int64_t integer(const std::string& path, const std::string& name) const;
   std::string text(const std::string& path, const std::string& name) const;
   std::vector<std::string> attribute_texts(const std::string& path, const std::string& name) const;
+  std::vector<Hdf5Record> attribute_records(const std::string& path, const std::string& name) const;
 
  private:
   struct File;
   std::unique_ptr<File> file_;
 };
+
+/// Whether a copy of this process (fork) gets through `action`, by a result or an exception. The
+/// library trusts what a file says about its lists and texts of variable length and crashes over
+/// damaged ones (H5HG_read of version 1.10.8 checks an index only in debug builds): files of others
+/// are tried in a copy first.
+bool hdf5_survives(const std::function<void()>& action);
 
 /// True if the file begins like HDF5 (at offset 0).
 bool is_hdf5(const std::filesystem::path& file);

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <mutex>
+#include <new>
 #include <utility>
 #include <vector>
 
@@ -16,6 +17,10 @@ namespace tabor::io::hdf5 {
 class Session {
  public:
   Session() : lock_(mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+  /// In a copy of the process made inside a session: a mutex knows its owner by the number of a
+  /// thread, which the copy has not, so it gets a new one.
+  static void renew_in_copy() { new (&mutex()) std::recursive_mutex; }
 
  private:
   static std::recursive_mutex& mutex() {

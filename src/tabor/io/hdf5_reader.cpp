@@ -9,6 +9,7 @@
 #include "tabor/core/resources.hpp"
 #include "tabor/io/hdf5.hpp"
 #include "tabor/io/hdf5_library.hpp"
+#include "tabor/io/hdf5_records.hpp"
 
 namespace tabor::io {
 namespace {
@@ -39,6 +40,17 @@ Described describe(Handle type, Handle space) {
   const std::uint64_t count = count_of(shape);
   const H5T_class_t kind = type.valid() ? H5Tget_class(type) : H5T_NO_CLASS;
   return {std::move(type), std::move(space), std::move(shape), count, kind};
+}
+
+/// Rows of a map to read at once: whole chunks of some 32 MiB.
+hsize_t rows_per_slab(hid_t dataset, const std::vector<hsize_t>& shape) {
+  constexpr hsize_t wanted_bytes = hsize_t{32} << 20;
+  hsize_t chunk[2] = {1, 1};
+  const Handle created(H5Dget_create_plist(dataset), &H5Pclose);
+  if (H5Pget_layout(created) == H5D_CHUNKED) H5Pget_chunk(created, 2, chunk);
+  const hsize_t row_bytes = std::max<hsize_t>(1, shape[1] * sizeof(double));
+  const hsize_t n_chunks = std::max<hsize_t>(1, wanted_bytes / row_bytes / chunk[0]);
+  return n_chunks * chunk[0];
 }
 
 bool is_number(H5T_class_t kind) { return kind == H5T_INTEGER || kind == H5T_FLOAT; }
@@ -119,17 +131,24 @@ struct Hdf5Reader::File {
     }
   }
 
+  /// Refuses what is no dataset of numbers of this rank or does not fit into memory.
+  Described checked_numbers(hid_t dataset, const std::string& path, std::size_t rank,
+                            std::uint64_t bytes_per_value) const {
+    Described what =
+        describe(Handle(H5Dget_type(dataset), &H5Tclose), Handle(H5Dget_space(dataset), &H5Sclose));
+    if (!is_number(what.kind) || what.shape.size() != rank) {
+      fail(path, fmt::format("is not a {}-dimensional dataset of numbers", rank));
+    }
+    check_size(dataset, what, path, bytes_per_value);
+    return what;
+  }
+
   template <typename Value>
   void read_numbers(const std::string& path, std::size_t rank, hid_t memory_type,
                     const std::function<Value*(const std::vector<hsize_t>&)>& allocate) const {
     const Session session;
     const Handle dataset = open_dataset(path);
-    const Described what =
-        describe(Handle(H5Dget_type(dataset), &H5Tclose), Handle(H5Dget_space(dataset), &H5Sclose));
-    if (!is_number(what.kind) || what.shape.size() != rank) {
-      fail(path, fmt::format("is not a {}-dimensional dataset of numbers", rank));
-    }
-    check_size(dataset, what, path, sizeof(Value));
+    const Described what = checked_numbers(dataset, path, rank, sizeof(Value));
     Value* destination = allocate(what.shape);
     if (what.count > 0 &&
         H5Dread(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, destination) < 0) {
@@ -264,8 +283,28 @@ std::vector<Index> Hdf5Reader::shape(const std::string& path) const {
   return shape;
 }
 
-Field Hdf5Reader::field(const std::string& path) const {
-  return file_->read_map<Field>(path, H5T_NATIVE_DOUBLE);
+Field Hdf5Reader::field(const std::string& path,
+                        const std::function<void(double)>& progress) const {
+  const Session session;
+  const Handle dataset = file_->open_dataset(path);
+  const Described what = file_->checked_numbers(dataset, path, 2, sizeof(double));
+  Field map(static_cast<Index>(what.shape[0]), static_cast<Index>(what.shape[1]));
+  const hsize_t n_rows = what.count > 0 ? what.shape[0] : 0;
+  const hsize_t rows_at_once = rows_per_slab(dataset, what.shape);
+  for (hsize_t row = 0; row < n_rows; row += rows_at_once) {
+    const hsize_t start[2] = {row, 0};
+    const hsize_t count[2] = {std::min(rows_at_once, n_rows - row), what.shape[1]};
+    const Handle slab(H5Screate_simple(2, count, nullptr), &H5Sclose);
+    if (H5Sselect_hyperslab(what.space, H5S_SELECT_SET, start, nullptr, count, nullptr) < 0 ||
+        H5Dread(dataset, H5T_NATIVE_DOUBLE, slab, what.space, H5P_DEFAULT,
+                &map(static_cast<Index>(row), 0)) < 0) {
+      file_->fail(path, "is damaged");
+    }
+    if (progress) {
+      progress(static_cast<double>(row + count[0]) / static_cast<double>(n_rows));
+    }
+  }
+  return map;
 }
 
 ByteMap Hdf5Reader::bytes(const std::string& path) const {
@@ -289,6 +328,30 @@ std::vector<std::string> Hdf5Reader::texts(const std::string& path) const {
   return file_->read_texts(what, path, [&](hid_t type, void* data) {
     return H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data);
   });
+}
+
+std::vector<Hdf5Record> Hdf5Reader::records(const std::string& path) const {
+  const Session session;
+  const Handle dataset = file_->open_dataset(path);
+  const Described what =
+      describe(Handle(H5Dget_type(dataset), &H5Tclose), Handle(H5Dget_space(dataset), &H5Sclose));
+  auto records = read_records(what.type, what.space, what.count, [&](hid_t type, void* data) {
+    return H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data);
+  });
+  if (!records) file_->fail(path, "is no table of texts and numbers");
+  return std::move(*records);
+}
+
+std::vector<Hdf5Record> Hdf5Reader::attribute_records(const std::string& path,
+                                                      const std::string& name) const {
+  const Session session;
+  const Handle opened = file_->open_attribute(path, name);
+  const Described what =
+      describe(Handle(H5Aget_type(opened), &H5Tclose), Handle(H5Aget_space(opened), &H5Sclose));
+  auto records = read_records(what.type, what.space, what.count,
+                              [&](hid_t type, void* data) { return H5Aread(opened, type, data); });
+  if (!records) file_->fail(path + "@" + name, "is no table of texts and numbers");
+  return std::move(*records);
 }
 
 bool Hdf5Reader::has_attribute(const std::string& path, const std::string& name) const {

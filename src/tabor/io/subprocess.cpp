@@ -73,11 +73,14 @@ int milliseconds_until(Clock::time_point deadline) {
 }
 
 /// Reads until every writer has closed the pipe (true) or the deadline has passed (false).
-bool drain(int pipe_end, Clock::time_point deadline, std::string& output) {
+bool drain(int pipe_end, Clock::time_point deadline, const std::function<void()>& waiting,
+           std::string& output) {
+  constexpr int kPeriod = 200;  // [ms]
   std::array<char, 4096> buffer;
   while (Clock::now() < deadline) {
+    if (waiting) waiting();
     pollfd ready{pipe_end, POLLIN, 0};
-    if (poll(&ready, 1, milliseconds_until(deadline)) <= 0) continue;
+    if (poll(&ready, 1, std::min(kPeriod, milliseconds_until(deadline))) <= 0) continue;
     const ssize_t n = read(pipe_end, buffer.data(), buffer.size());
     if (n == 0) return true;
     if (n > 0 && output.size() < kMaxOutput) {
@@ -110,7 +113,7 @@ std::optional<std::filesystem::path> find_program(const std::string& name) {
 Completed run_program(const std::filesystem::path& program,
                       const std::vector<std::string>& arguments,
                       const std::map<std::string, std::string>& environment,
-                      std::chrono::milliseconds limit) {
+                      std::chrono::milliseconds limit, const std::function<void()>& waiting) {
   std::array<int, 2> pipe_ends{};
   if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) {
     throw InputError("cannot start " + program.string() + ": " + std::strerror(errno));
@@ -121,7 +124,15 @@ Completed run_program(const std::filesystem::path& program,
   close(pipe_ends[1]);
   Completed completed;
   int status = 0;
-  const bool closed = drain(pipe_ends[0], deadline, completed.output);
+  bool closed = false;
+  try {
+    closed = drain(pipe_ends[0], deadline, waiting, completed.output);
+  } catch (...) {
+    close(pipe_ends[0]);
+    kill(-child, SIGKILL);
+    waitpid(child, &status, 0);
+    throw;
+  }
   close(pipe_ends[0]);
   if (!closed || !wait_for(child, deadline, status)) {
     completed.timed_out = true;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,12 +21,12 @@ struct Completed {
 std::optional<std::filesystem::path> find_program(const std::string& name);
 
 /// Runs a program (no shell: arguments are passed as they are) and waits for it, at most `limit`.
-/// `environment` adds to or replaces variables of this process. Throws InputError if it cannot be
-/// started.
+/// `environment` adds to or replaces variables of this process. `waiting` is called a few times a
+/// second; what it throws ends the program that runs. Throws InputError if it cannot be started.
 Completed run_program(const std::filesystem::path& program,
                       const std::vector<std::string>& arguments,
                       const std::map<std::string, std::string>& environment,
-                      std::chrono::milliseconds limit);
+                      std::chrono::milliseconds limit, const std::function<void()>& waiting = {});
 
 /// A folder that exists as long as this object.
 class TemporaryFolder {

@@ -11,7 +11,6 @@
 namespace tabor::io {
 namespace {
 
-constexpr std::size_t kChunk = std::size_t{1} << 20;
 /// 1980-01-01, the earliest date a ZIP archive can hold.
 constexpr std::time_t kTimeStamp = 315532800;
 
@@ -37,10 +36,22 @@ std::vector<ZipEntry> list(zip_t* archive) {
     zip_stat_t stat;
     if (zip_stat_index(archive, static_cast<zip_uint64_t>(i), 0, &stat) == 0 &&
         (stat.valid & ZIP_STAT_NAME) && (stat.valid & ZIP_STAT_SIZE)) {
-      entries.push_back({stat.name, stat.size, stat.comp_size});
+      entries.push_back({stat.index, stat.name, stat.size, stat.comp_size});
     }
   }
   return entries;
+}
+
+/// Reads until the piece is full or the entry ends; -1 if it is damaged.
+std::int64_t fill(zip_file_t* file, std::string& piece) {
+  std::size_t size = 0;
+  while (size < piece.size()) {
+    const zip_int64_t n = zip_fread(file, piece.data() + size, piece.size() - size);
+    if (n < 0) return -1;
+    if (n == 0) break;
+    size += static_cast<std::size_t>(n);
+  }
+  return static_cast<std::int64_t>(size);
 }
 
 }  // namespace
@@ -70,27 +81,33 @@ ZipReader::ZipReader(ZipReader&&) noexcept = default;
 ZipReader& ZipReader::operator=(ZipReader&&) noexcept = default;
 
 std::string ZipReader::read(const ZipEntry& entry, std::size_t limit) const {
-  const std::string what = name_ + ": " + entry.name;
-  const auto too_large = [&](std::size_t size) {
-    return InputError(what, fmt::format("{} bytes", size), fmt::format("at most {} bytes", limit),
-                      "the archive contradicts its own description");
-  };
-  if (entry.size > limit) throw too_large(entry.size);
-  const File file(zip_fopen(archive_->handle.get(), entry.name.c_str(), 0));
   std::string content;
-  std::string chunk(std::min(kChunk, limit + 1), '\0');
-  zip_int64_t n = -1;
-  while (file && (n = zip_fread(file.get(), chunk.data(), chunk.size())) > 0) {
-    if (content.size() + static_cast<std::size_t>(n) > limit) {
-      throw too_large(content.size() + static_cast<std::size_t>(n));
-    }
-    content.append(chunk, 0, static_cast<std::size_t>(n));
+  read(entry, limit, [&content](std::string_view piece) { content += piece; });
+  return content;
+}
+
+void ZipReader::read(const ZipEntry& entry, std::size_t limit,
+                     const std::function<void(std::string_view)>& accept) const {
+  const std::string what = name_ + ": " + entry.name;
+  const auto check = [&](std::size_t size) {
+    if (size <= limit) return;
+    throw InputError(what, fmt::format("{} bytes", size), fmt::format("at most {} bytes", limit),
+                     "the archive contradicts its own description");
+  };
+  check(entry.size);
+  const File file(zip_fopen_index(archive_->handle.get(), entry.index, 0));
+  std::string piece(std::min(kPiece, limit + 1), '\0');
+  std::size_t size = 0;
+  std::int64_t n = -1;
+  while (file && (n = fill(file.get(), piece)) > 0) {
+    size += static_cast<std::size_t>(n);
+    check(size);
+    accept(std::string_view(piece).substr(0, static_cast<std::size_t>(n)));
   }
-  if (n != 0 || content.size() != entry.size) {
+  if (n != 0 || size != entry.size) {
     throw InputError(what, "an entry that cannot be unpacked", "",
                      "the file is damaged or truncated; export or copy it again");
   }
-  return content;
 }
 
 namespace {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -9,6 +11,7 @@
 namespace tabor::io {
 
 struct ZipEntry {
+  std::uint64_t index = 0;      ///< place in the archive's directory
   std::string name;             ///< as stored, folders separated by '/'
   std::size_t size = 0;         ///< unpacked [bytes], as the archive claims
   std::size_t packed_size = 0;  ///< [bytes]
@@ -28,6 +31,12 @@ class ZipReader {
   /// The unpacked content of an entry. Memory grows only with bytes that were really unpacked and
   /// never beyond `limit`: InputError for larger, damaged or truncated entries.
   std::string read(const ZipEntry& entry, std::size_t limit) const;
+
+  /// The same content piece after piece, so that it need not fit into memory: each of at most
+  /// kPiece bytes, the last one maybe shorter.
+  static constexpr std::size_t kPiece = std::size_t{1} << 20;
+  void read(const ZipEntry& entry, std::size_t limit,
+            const std::function<void(std::string_view piece)>& accept) const;
 
  private:
   struct Archive;

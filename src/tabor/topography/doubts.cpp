@@ -10,6 +10,7 @@
 #include "tabor/core/units.hpp"
 #include "tabor/spectral/fft.hpp"
 #include "tabor/topography/levelling.hpp"
+#include "tabor/topography/rows.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -22,14 +23,22 @@ constexpr double kIntegerTolerance = 0.1;
 /// Resolution of float32: below it a step is rounding, not quantisation.
 constexpr double kFinestShare = 0x1p-24;
 
+void keep_distinct(std::vector<double>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
 /// Every stride-th valid height, ascending, without repetition.
 std::vector<double> distinct_heights(const Field& height, Index stride) {
+  constexpr std::size_t kMany = 2 * static_cast<std::size_t>(kSample);
   std::vector<double> values;
   for (Index i = 0; i < height.size(); i += stride) {
     if (std::isfinite(height.data()[i])) values.push_back(height.data()[i]);
+    // Where a small stride is needed there are few levels: the list must not grow as the map.
+    if (values.size() == kMany) keep_distinct(values);
+    if (values.size() == kMany) break;
   }
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
+  keep_distinct(values);
   return values;
 }
 
@@ -62,33 +71,47 @@ bool all_on_steps(const Field& height, double first, double step) {
   return off <= kIntegerTolerance;
 }
 
-double mean_square(const Field& height) {
-  const auto total = [&](const auto& term) {
-    return deterministic_sum(height.size(), [&](Index begin, Index end) {
-      double sum_of_block = 0;
-      for (Index i = begin; i < end; ++i) {
-        const double z = height.data()[i];
-        if (std::isfinite(z)) sum_of_block += term(z);
-      }
-      return sum_of_block;
-    });
-  };
-  const double n = total([](double) { return 1.0; });
-  if (n == 0) return 0;
-  const double mean = total([](double z) { return z; }) / n;
-  return total([mean](double z) { return (z - mean) * (z - mean); }) / n;
+/// Heights above a plane, computed where they are needed: a levelled copy of a large map would take
+/// as much memory as the map.
+struct Levelled {
+  const Field& height;
+  double at_origin = 0;  ///< [m]
+  double per_column = 0;
+  double per_row = 0;
+
+  double operator()(Index y, Index x) const {
+    return height(y, x) - at_origin - per_row * static_cast<double>(y) -
+           per_column * static_cast<double>(x);
+  }
+};
+
+/// Number of valid points and the sum of term(height above the plane) over them.
+template <typename Term>
+Eigen::Array2d total(const Levelled& levelled, const Term& term) {
+  const Field& height = levelled.height;
+  return sum_over_rows<2>(height.rows(), [&](Index y) {
+    double n = 0;
+    double sum_of_row = 0;
+    for (Index x = 0; x < height.cols(); ++x) {
+      const double z = levelled(y, x);
+      if (!std::isfinite(z)) continue;
+      ++n;
+      sum_of_row += term(z);
+    }
+    return Eigen::Array2d(n, sum_of_row);
+  });
+}
+
+double mean_square(const Levelled& levelled) {
+  const Eigen::Array2d first = total(levelled, [](double z) { return z; });
+  if (first[0] == 0) return 0;
+  const double mean = first[1] / first[0];
+  return total(levelled, [mean](double z) { return (z - mean) * (z - mean); })[1] / first[0];
 }
 
 /// Distance of pixel (y, x) from the mean of its neighbours in x; NaN at holes.
 double bend(const Field& height, Index y, Index x) {
   return std::abs(height(y, x) - (height(y, x - 1) + height(y, x + 1)) / 2);
-}
-
-/// How far pixel (y, x) stands out beyond both its neighbours in x, 0 if it lies between them.
-double protrusion(const Field& height, Index y, Index x) {
-  const double left = height(y, x) - height(y, x - 1);
-  const double right = height(y, x) - height(y, x + 1);
-  return left * right > 0 ? std::min(std::abs(left), std::abs(right)) : 0;
 }
 
 double median_bend(const Field& height) {
@@ -103,6 +126,28 @@ double median_bend(const Field& height) {
   const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
   std::nth_element(bends.begin(), middle, bends.end());
   return *middle;
+}
+
+/// How far pixel (y, x) stands out beyond both its neighbours in x, 0 if it lies between them.
+double protrusion(const Levelled& levelled, Index y, Index x) {
+  const double left = levelled(y, x) - levelled(y, x - 1);
+  const double right = levelled(y, x) - levelled(y, x + 1);
+  return left * right > 0 ? std::min(std::abs(left), std::abs(right)) : 0;
+}
+
+Index count_spikes(const Levelled& levelled, double rms) {
+  constexpr double kFarFromNeighbours = 30;
+  constexpr double kFarFromAll = 5;
+  if (!(rms > 0)) return 0;
+  const Field& height = levelled.height;
+  // A plane does not bend: levelled and raw heights have the same bends.
+  const double limit = std::max(kFarFromNeighbours * median_bend(height), kFarFromAll * rms);
+  const auto n = sum_over_rows<1>(height.rows(), [&](Index y) {
+    double n_in_row = 0;
+    for (Index x = 1; x + 1 < height.cols(); ++x) n_in_row += protrusion(levelled, y, x) > limit;
+    return Eigen::Array<double, 1, 1>(n_in_row);
+  });
+  return static_cast<Index>(n[0]);
 }
 
 void doubt_pixels(const Grid& grid, std::vector<std::string>& list) {
@@ -142,19 +187,32 @@ void doubt_quantum(double quantum, double rms, std::vector<std::string>& list) {
   }
 }
 
-void doubt_spikes(const Field& levelled, std::vector<std::string>& list) {
-  if (const Index spikes = count_spikes(levelled); spikes > 0) {
-    list.push_back(fmt::format("{} isolated spikes: slopes and contact depend on them", spikes));
-  }
+void doubt_spikes(Index spikes, std::vector<std::string>& list) {
+  if (spikes == 0) return;
+  list.push_back(fmt::format("{} isolated spikes: slopes and contact depend on them", spikes));
 }
 
-/// Heights without their least-squares plane; as they are if they do not determine one.
-Field without_plane(const Field& height) {
+/// Heights above their least-squares plane; as they are if they do not determine one. The plane of
+/// large maps is fitted to every k-th row and column: it decides about doubts only.
+Levelled above_plane(const Field& height) {
+  const Index k = static_cast<Index>(std::sqrt(static_cast<double>(height.size()) / kSample)) + 1;
+  const Field sample = height(Eigen::seq(0, Eigen::last, k), Eigen::seq(0, Eigen::last, k));
+  Levelled levelled{.height = height};
   try {
-    return remove_form(height, fit_form(height, 1));
+    const FormFit fit = fit_form(sample, 1);
+    // The fit's axes run from -1 to 1 over the pixels' edges.
+    const double du = 2 / static_cast<double>(sample.cols());
+    const double dv = 2 / static_cast<double>(sample.rows());
+    const double mean = fit.coefficients[0];
+    const double along_x = fit.coefficients[1];
+    const double along_y = fit.coefficients[2];
+    levelled.at_origin = mean + along_x * (du / 2 - 1) + along_y * (dv / 2 - 1);
+    levelled.per_column = along_x * du / static_cast<double>(k);
+    levelled.per_row = along_y * dv / static_cast<double>(k);
   } catch (const InputError&) {
-    return height;
+    // One row, or heights on one line: there is nothing to level.
   }
+  return levelled;
 }
 
 }  // namespace
@@ -174,17 +232,8 @@ double height_quantum(const Field& height) {
 }
 
 Index count_spikes(const Field& height) {
-  constexpr double kFarFromNeighbours = 30;
-  constexpr double kFarFromAll = 5;
-  const double rms = std::sqrt(mean_square(height));
-  const double limit = std::max(kFarFromNeighbours * median_bend(height), kFarFromAll * rms);
-  Index n = 0;
-  for (Index y = 0; y < height.rows(); ++y) {
-    for (Index x = 1; x + 1 < height.cols(); ++x) {
-      if (rms > 0 && protrusion(height, y, x) > limit) ++n;
-    }
-  }
-  return n;
+  const Levelled as_it_is{.height = height};
+  return count_spikes(as_it_is, std::sqrt(mean_square(as_it_is)));
 }
 
 std::vector<std::string> doubts(const Topography& topography) {
@@ -192,15 +241,15 @@ std::vector<std::string> doubts(const Topography& topography) {
   doubt_pixels(topography.grid, list);
   doubt_sizes(topography.grid, list);
   doubt_holes(topography, list);
-  const Field levelled = without_plane(topography.height);
-  const double rms = std::sqrt(mean_square(topography.height));
+  const Levelled levelled = above_plane(topography.height);
+  const double rms = std::sqrt(mean_square({.height = topography.height}));
   const double rms_levelled = std::sqrt(mean_square(levelled));
   if (rms > 2 * rms_levelled && rms_levelled > 0) {
     list.push_back(fmt::format("tilt is larger than roughness: Sq {} becomes {} without its plane",
                                format_si(rms, "m"), format_si(rms_levelled, "m")));
   }
   doubt_quantum(height_quantum(topography.height), rms_levelled, list);
-  doubt_spikes(levelled, list);
+  doubt_spikes(count_spikes(levelled, rms_levelled), list);
   return list;
 }
 

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/io/digest.hpp"
+#include "tabor/io/subprocess.hpp"
 #include "tabor/topography/doubts.hpp"
 #include "tabor/topography/formats/format.hpp"
 #include "tabor/topography/formats/resolve.hpp"
@@ -22,22 +22,6 @@ using format::Contents;
 using format::Document;
 using format::Format;
 using format::Layer;
-
-std::string bytes_of(const fs::path& file) {
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  if (!fs::exists(status)) throw InputError(file.string() + ": no such file");
-  if (!fs::is_regular_file(status)) {
-    throw InputError(file.string(), "a folder or device", "a scan file", "");
-  }
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes(fs::file_size(file), '\0');
-  if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
-    throw InputError(file.string() + ": cannot be read: check its permissions");
-  }
-  if (bytes.empty()) throw InputError(file.string(), "an empty file", "a scan", "copy it again");
-  return bytes;
-}
 
 /// The first format that recognises the content opens it.
 Document open(const Contents& contents) {
@@ -109,36 +93,76 @@ std::vector<FormatRow> formats() {
   return rows;
 }
 
-FileInfo inspect(const fs::path& file, const ReadOptions&) {
-  const std::string bytes = bytes_of(file);
-  const Document document = open({file, bytes});
+std::optional<fs::path> gwyddion_program() { return io::find_program("gwyddion"); }
+
+struct ScanFile::Opened {
+  Opened(const fs::path& file, const Observer& watching)
+      : observer(watching), mapped(file), contents{file, mapped.bytes(), &mapped, &observer} {
+    contents.finished({}, 0);
+    document = open(contents);
+  }
+
+  Observer observer;
+  io::MappedFile mapped;
+  Contents contents;
+  Document document;
+};
+
+ScanFile::ScanFile(const fs::path& file, const Observer& observer)
+    : opened_(std::make_unique<Opened>(file, observer)) {}
+
+ScanFile::~ScanFile() = default;
+ScanFile::ScanFile(ScanFile&&) noexcept = default;
+
+FileInfo ScanFile::info() const {
+  const Document& document = opened_->document;
   return {.format = document.format,
           .instrument = document.instrument,
           .channels = format::channels_of(document)};
 }
 
-Topography read(const fs::path& file, const ReadOptions& options, const Observer& observer) {
-  report_progress(observer, "read", 0);
-  const std::string bytes = bytes_of(file);
-  const Contents contents{file, bytes};
-  Document document = open(contents);
+std::string ScanFile::sha256() const {
+  constexpr std::size_t kPiece = std::size_t{1} << 22;
+  io::RunningDigest digest(io::DigestKind::sha256);
+  for (std::string_view rest = opened_->mapped.bytes(); !rest.empty();) {
+    const std::string_view piece = rest.substr(0, kPiece);
+    digest.add(piece);
+    opened_->mapped.release(piece);
+    rest.remove_prefix(piece.size());
+  }
+  return digest.hexadecimal();
+}
+
+Topography ScanFile::read(const ReadOptions& options) const {
+  const Contents& contents = opened_->contents;
+  const Document& document = opened_->document;
   const Layer& layer = format::choose_layer(contents, document, options);
   Topography topography;
   topography.doubts = document.doubts;
   topography.grid = format::resolve_grid(contents, layer, options, topography.doubts);
   const double factor = format::resolve_height_factor(contents, layer, options, topography.doubts);
   topography.height = heights_of(layer, factor);
+  if (layer.late_doubts) {
+    const std::vector<std::string>& late = *layer.late_doubts;
+    topography.doubts.insert(topography.doubts.end(), late.begin(), late.end());
+  }
   require_heights(contents, topography);
   topography.periodic = document.periodic;
-  topography.source = file.string();
+  topography.source = contents.file.string();
   topography.format = document.format;
   topography.instrument = document.instrument;
   topography.channel = layer.name;
-  topography.metadata = std::move(document.metadata);
-  topography.history = std::move(document.history);
+  topography.metadata = document.metadata;
+  topography.history = document.history;
   for (std::string& doubt : doubts(topography)) topography.doubts.push_back(std::move(doubt));
-  report_progress(observer, "read", 1);
+  contents.finished({}, 1);
   return topography;
+}
+
+FileInfo inspect(const fs::path& file) { return ScanFile(file).info(); }
+
+Topography read(const fs::path& file, const ReadOptions& options, const Observer& observer) {
+  return ScanFile(file, observer).read(options);
 }
 
 void write(const Topography& topography, const fs::path& file) {

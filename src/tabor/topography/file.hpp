@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,8 +50,30 @@ struct FormatRow {
 
 std::vector<FormatRow> formats();
 
-/// Detects the format by content. Throws InputError (file, what was found, what to do).
-FileInfo inspect(const std::filesystem::path& file, const ReadOptions& options = {});
+/// The Gwyddion program that converts files of other formats, if it is installed.
+std::optional<std::filesystem::path> gwyddion_program();
+
+/// A scan file that is open: recognised by its content, described, its heights not yet loaded. The
+/// file must not be changed meanwhile.
+class ScanFile {
+ public:
+  /// Throws InputError (file, what was found, what to do); Interrupted when the observer stops it.
+  explicit ScanFile(const std::filesystem::path& file, const Observer& observer = {});
+  ~ScanFile();
+  ScanFile(ScanFile&&) noexcept;
+  ScanFile& operator=(ScanFile&&) = delete;
+
+  FileInfo info() const;
+  Topography read(const ReadOptions& options = {}) const;
+  std::string sha256() const;  ///< of the file's bytes, hexadecimal
+
+ private:
+  struct Opened;
+  std::unique_ptr<Opened> opened_;
+};
+
+/// The same for a file that is needed once.
+FileInfo inspect(const std::filesystem::path& file);
 Topography read(const std::filesystem::path& file, const ReadOptions& options = {},
                 const Observer& observer = {});
 

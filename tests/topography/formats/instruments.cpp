@@ -1,6 +1,7 @@
 // Instrument files made byte by byte from their published layouts.
 #include <functional>
 
+#include "support/container_files.hpp"
 #include "support/instrument_files.hpp"
 #include "topography/formats/sample.hpp"
 
@@ -68,10 +69,10 @@ TEST_P(Instrument, WithAFlippedBitNeverBreaksTheProgram) {
   ::setenv("PATH", path.c_str(), 1);
 }
 
-Field nms_heights() {
+Field without_hole(double step) {
   Field field(2, 3);
   field << 1, 2, 3, 4, 5, 6;
-  return field * 1e-6;
+  return field * step;
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -81,7 +82,12 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"sur", test::compressed_sur, expected(0.5e-9)}, Case{"al3d", test::al3d, expected(1)},
         Case{"opd", test::opd, expected(0.5e-9)}, Case{"plu", test::plu, expected(1e-6)},
         Case{"metropro", test::metropro, expected(0.5 * 600e-9 / 4096)},
-        Case{"tmd", test::tmd, expected(1e-3)}, Case{"nms", test::nms, nms_heights()}),
+        Case{"tmd", test::tmd, expected(1e-3)}, Case{"plux", test::plux, expected(1e-6)},
+        Case{"vk", test::vk4, without_hole(0.5e-9)}, Case{"vk", test::vk6, without_hole(0.5e-9)},
+        Case{"bcr", test::bcr, expected(0.5e-9)},
+        Case{"bcr", [] { return test::bcrf(false); }, expected(1e-9)},
+        Case{"bcr", [] { return test::bcrf(true); }, expected(1e-9)},
+        Case{"nms", test::nms, without_hole(1e-6)}),
     [](const auto& suite) { return suite.param.format + std::to_string(suite.index); });
 
 TEST(DigitalSurf, LayersWithoutHeightsAreRefused) {

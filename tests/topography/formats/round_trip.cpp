@@ -42,10 +42,10 @@ TEST_P(RoundTrip, LeavesNothingBehindOnAFullDisk) {
 TEST_P(RoundTrip, OfOnePixelRowsWorks) {
   const Folder folder;
   Topography row = test::small_map();
+  // Square pixels: a row of points does not tell how wide it is.
   row.grid = {.nx = 5, .ny = 1, .lx = 5e-6, .ly = 1e-6};
   row.height = Field(row.height.row(1));
   const auto file = folder / (std::string("row") + GetParam());
-  if (std::string(GetParam()) == ".xyz") GTEST_SKIP() << "one row of points is no areal grid";
   write(row, file);
   EXPECT_TRUE(test::same_bits(read(file).height, row.height));
 }

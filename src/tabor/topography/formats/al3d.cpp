@@ -41,11 +41,6 @@ double number(const Contents& contents, const Tags& tags, const std::string& key
   return *value;
 }
 
-Field heights(std::string_view data, const Raster& raster, double invalid) {
-  const Field raw = decode(data, raster);
-  return ((raw - invalid).abs() <= kSameValue * std::abs(invalid)).select(kHole, raw);
-}
-
 }  // namespace
 
 Match identify_al3d(std::string_view head) {
@@ -68,6 +63,9 @@ Document open_al3d(const Contents& contents) {
   const std::size_t row = static_cast<std::size_t>(raster.nx) * sizeof(float);
   raster.row_stride = (row + kRowAlignment - 1) / kRowAlignment * kRowAlignment;
   const std::string_view data = cursor.take(byte_size(raster));
+  const auto is_invalid = [invalid](double z) {
+    return std::abs(z - invalid) <= kSameValue * std::abs(invalid);
+  };
   const auto application = tags.find("CreatingApplication");
   Document document{.format = "al3d", .instrument = "Alicona"};
   if (application != tags.end()) document.metadata["CreatingApplication"] = application->second;
@@ -78,7 +76,9 @@ Document open_al3d(const Contents& contents) {
        .ny = raster.ny,
        .pixel_x = checked_pixel(contents, number(contents, tags, "PixelSizeXMeter")),
        .pixel_y = checked_pixel(contents, number(contents, tags, "PixelSizeYMeter")),
-       .load = [data, raster, invalid] { return heights(data, raster, invalid); }});
+       .load = [contents, data, raster, is_invalid] {
+         return decode(contents, data, raster, holes_where(is_invalid));
+       }});
   return document;
 }
 

@@ -3,24 +3,54 @@
 #include <fmt/format.h>
 
 #include "tabor/core/text.hpp"
+#include "tabor/topography/rows.hpp"
 
 namespace tabor::topography::format {
 namespace {
 
+/// Bytes decoded between two reports of progress.
+constexpr std::size_t kWave = std::size_t{32} << 20;
+
 template <typename T>
-Field decode_as(std::string_view bytes, const Raster& raster) {
-  const std::size_t stride =
-      raster.row_stride ? raster.row_stride : static_cast<std::size_t>(raster.nx) * sizeof(T);
-  Field field(raster.ny, raster.nx);
-  for (Index y = 0; y < raster.ny; ++y) {
-    const char* row = bytes.data() + static_cast<std::size_t>(y) * stride;
-    for (Index x = 0; x < raster.nx; ++x) {
-      T value;
-      std::memcpy(&value, row + static_cast<std::size_t>(x) * sizeof(T), sizeof(T));
-      field(y, x) = static_cast<double>(in_order(value, raster.order));
-    }
+void decode_samples(const char* bytes, std::endian order, Index n, double* values) {
+  for (Index i = 0; i < n; ++i) {
+    T value;
+    std::memcpy(&value, bytes + static_cast<std::size_t>(i) * sizeof(T), sizeof(T));
+    values[i] = static_cast<double>(in_order(value, order));
   }
-  return field;
+}
+
+using Decoder = void (*)(const char* bytes, std::endian order, Index n, double* values);
+
+Decoder decoder_of(Sample sample) {
+  switch (sample) {
+    case Sample::u8:
+      return decode_samples<std::uint8_t>;
+    case Sample::i8:
+      return decode_samples<std::int8_t>;
+    case Sample::u16:
+      return decode_samples<std::uint16_t>;
+    case Sample::i16:
+      return decode_samples<std::int16_t>;
+    case Sample::u32:
+      return decode_samples<std::uint32_t>;
+    case Sample::i32:
+      return decode_samples<std::int32_t>;
+    case Sample::u64:
+      return decode_samples<std::uint64_t>;
+    case Sample::i64:
+      return decode_samples<std::int64_t>;
+    case Sample::f32:
+      return decode_samples<float>;
+    case Sample::f64:
+      break;
+  }
+  return decode_samples<double>;
+}
+
+std::size_t stride_of(const Raster& raster) {
+  return raster.row_stride ? raster.row_stride
+                           : static_cast<std::size_t>(raster.nx) * size_of(raster.sample);
 }
 
 }  // namespace
@@ -78,35 +108,49 @@ std::size_t size_of(Sample sample) {
 bool is_integer(Sample sample) { return sample != Sample::f32 && sample != Sample::f64; }
 
 std::size_t byte_size(const Raster& raster) {
-  const std::size_t row = static_cast<std::size_t>(raster.nx) * size_of(raster.sample);
-  const std::size_t stride = raster.row_stride ? raster.row_stride : row;
-  return static_cast<std::size_t>(raster.ny - 1) * stride + row;
+  return static_cast<std::size_t>(raster.ny - 1) * stride_of(raster) +
+         static_cast<std::size_t>(raster.nx) * size_of(raster.sample);
 }
 
-Field decode(std::string_view bytes, const Raster& raster) {
-  switch (raster.sample) {
-    case Sample::u8:
-      return decode_as<std::uint8_t>(bytes, raster);
-    case Sample::i8:
-      return decode_as<std::int8_t>(bytes, raster);
-    case Sample::u16:
-      return decode_as<std::uint16_t>(bytes, raster);
-    case Sample::i16:
-      return decode_as<std::int16_t>(bytes, raster);
-    case Sample::u32:
-      return decode_as<std::uint32_t>(bytes, raster);
-    case Sample::i32:
-      return decode_as<std::int32_t>(bytes, raster);
-    case Sample::u64:
-      return decode_as<std::uint64_t>(bytes, raster);
-    case Sample::i64:
-      return decode_as<std::int64_t>(bytes, raster);
-    case Sample::f32:
-      return decode_as<float>(bytes, raster);
-    case Sample::f64:
-      return decode_as<double>(bytes, raster);
+Field decode(const Contents& contents, std::string_view bytes, const Raster& raster,
+             const RowStep& step) {
+  const Decoder decoder = decoder_of(raster.sample);
+  const std::size_t stride = stride_of(raster);
+  const Index rows_per_wave = static_cast<Index>(std::max<std::size_t>(1, kWave / stride));
+  Field field(raster.ny, raster.nx);
+  for (Index first = 0; first < raster.ny; first += rows_per_wave) {
+    const Index n_rows = std::min(rows_per_wave, raster.ny - first);
+    const std::string_view wave = bytes.substr(static_cast<std::size_t>(first) * stride);
+    for_each_row(n_rows, [&](Index y) {
+      double* row = &field(first + y, 0);
+      decoder(wave.data() + static_cast<std::size_t>(y) * stride, raster.order, raster.nx, row);
+      if (step) step({row, static_cast<std::size_t>(raster.nx)});
+    });
+    contents.finished(wave.substr(0, static_cast<std::size_t>(n_rows) * stride),
+                      static_cast<double>(first + n_rows) / static_cast<double>(raster.ny));
   }
-  return {};
+  return field;
+}
+
+void RowDecoder::accept(std::string_view bytes) {
+  const Decoder decoder = decoder_of(raster_.sample);
+  const std::size_t size = size_of(raster_.sample);
+  const auto add = [&](std::string_view samples) {
+    const Index n =
+        std::min(static_cast<Index>(samples.size() / size), field_->size() - n_decoded_);
+    decoder(samples.data(), raster_.order, n, field_->data() + n_decoded_);
+    n_decoded_ += n;
+  };
+  if (!rest_.empty()) {
+    const std::size_t missing = std::min(size - rest_.size(), bytes.size());
+    rest_ += bytes.substr(0, missing);
+    bytes.remove_prefix(missing);
+    if (rest_.size() < size) return;
+    add(rest_);
+    rest_.clear();
+  }
+  add(bytes);
+  rest_ = bytes.substr(bytes.size() / size * size);
 }
 
 void put_text(std::string& bytes, std::string_view text, std::size_t width, char fill) {

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <functional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -77,8 +79,38 @@ struct Raster {
 /// Number of bytes the raster covers.
 std::size_t byte_size(const Raster& raster);
 
-/// Decodes `bytes` (at least byte_size(raster), checked before) to numbers, shape (ny, nx).
-Field decode(std::string_view bytes, const Raster& raster);
+/// What is done to one row of decoded samples, for instance making holes of marked values.
+using RowStep = std::function<void(std::span<double> row)>;
+
+/// Makes holes of the samples for which is_hole(sample) is true.
+template <typename IsHole>
+RowStep holes_where(IsHole is_hole) {
+  return [is_hole](std::span<double> row) {
+    for (double& sample : row) {
+      if (is_hole(sample)) sample = kHole;
+    }
+  };
+}
+
+/// Decodes `bytes` (at least byte_size(raster), checked before) to numbers, shape (ny, nx), on all
+/// threads. Pages of the file are given back as they are done with, so that the map does not lie
+/// in memory twice. Throws Interrupted.
+Field decode(const Contents& contents, std::string_view bytes, const Raster& raster,
+             const RowStep& step = {});
+
+/// The same for samples that come piece after piece, as from an archive: accepts the next bytes,
+/// of any length; `field` must have the raster's shape. Rows without gaps only.
+class RowDecoder {
+ public:
+  RowDecoder(const Raster& raster, Field& field) : raster_(raster), field_(&field) {}
+  void accept(std::string_view bytes);
+
+ private:
+  Raster raster_;
+  Field* field_;
+  std::string rest_;     ///< bytes of a sample that is not complete
+  Index n_decoded_ = 0;  ///< samples
+};
 
 /// Appends the little-endian bytes of a number.
 template <typename T>

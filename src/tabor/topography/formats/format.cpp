@@ -5,8 +5,14 @@
 #include <cmath>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/resources.hpp"
 
 namespace tabor::topography::format {
+
+void Contents::finished(std::string_view decoded, double share) const {
+  if (source != nullptr) source->release(decoded);
+  if (observer != nullptr) report_progress(*observer, "read", share);
+}
 
 void refuse(const Contents& contents, const std::string& got, const std::string& expected,
             const std::string& remedy) {
@@ -25,6 +31,11 @@ void check_size(const Contents& contents, double nx, double ny, std::size_t avai
   if (nx * ny > static_cast<double>(available)) {
     refuse(contents, fmt::format("{} samples", available),
            fmt::format("{} x {} as its header says", nx, ny), kDamaged);
+  }
+  const std::size_t memory = available_memory_bytes();
+  if (memory > 0 && nx * ny * sizeof(double) > static_cast<double>(memory)) {
+    refuse(contents, fmt::format("{} x {} pixels", nx, ny), "a map that fits into memory",
+           fmt::format("{:.2g} GB are free", static_cast<double>(memory) * 1e-9));
   }
 }
 

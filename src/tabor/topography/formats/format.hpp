@@ -4,20 +4,33 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tabor/core/convergence.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/io/mapped_file.hpp"
 #include "tabor/topography/file.hpp"
 
 namespace tabor::topography::format {
 
-/// A whole scan file in memory.
+/// A whole scan file, or a part of one with a layout of its own.
 struct Contents {
   std::filesystem::path file;
   std::string_view bytes;
+  const io::MappedFile* source = nullptr;  ///< what `bytes` lie in, if they are a file's
+  const Observer* observer = nullptr;      ///< who follows the reading
+
+  /// The same file with other bytes: an unpacked member, a block.
+  Contents part(std::string_view bytes_of_part) const {
+    return {file, bytes_of_part, source, observer};
+  }
+  /// These bytes are decoded: their memory may be given back, and `share` of the reading is done.
+  /// Throws Interrupted.
+  void finished(std::string_view decoded, double share) const;
 };
 
 /// One image channel as the file describes it. A stored value times `scale` is the height in
@@ -35,6 +48,7 @@ struct Layer {
   std::optional<double> pixel_y = {};  ///< [m]
   std::string pixel_hint = {};  ///< what the file says about the missing pixel, for the message
   std::function<Field()> load = {};  ///< stored values (ny, nx), row 0 on top, NaN = hole
+  std::shared_ptr<std::vector<std::string>> late_doubts = {};  ///< what load() found, or null
 };
 
 /// What a file holds, before any heights are loaded.

@@ -75,7 +75,9 @@ Document open_gsf(const Contents& contents) {
   layer.pixel_x = pixel(contents, header, "XReal", layer.nx);
   layer.pixel_y = pixel(contents, header, "YReal", layer.ny);
   const Raster raster{.sample = Sample::f32, .nx = layer.nx, .ny = layer.ny};
-  layer.load = [data = cursor.take(byte_size(raster)), raster] { return decode(data, raster); };
+  layer.load = [contents, data = cursor.take(byte_size(raster)), raster] {
+    return decode(contents, data, raster);
+  };
   Document document{.format = "gsf"};
   document.metadata = header;
   document.layers.push_back(std::move(layer));

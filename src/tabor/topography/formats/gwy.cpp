@@ -9,6 +9,7 @@
 #include "tabor/topography/formats/bytes.hpp"
 #include "tabor/topography/formats/gwy_object.hpp"
 #include "tabor/topography/formats/readers.hpp"
+#include "tabor/topography/rows.hpp"
 
 namespace tabor::topography::format {
 namespace {
@@ -40,9 +41,20 @@ std::optional<double> pixel(const GwyObject& field, const std::string& real, Ind
 }
 
 /// What Gwyddion shows under a mask is interpolated: those pixels are holes.
-Field masked(std::string_view data, std::string_view mask, const Raster& raster) {
-  Field heights = decode(data, raster);
-  if (!mask.empty()) heights = (decode(mask, raster) > 0.5).select(kHole, heights);
+Field masked(const Contents& contents, std::string_view data, std::string_view mask,
+             const Raster& raster) {
+  Field heights = decode(contents, data, raster);
+  if (mask.empty()) return heights;
+  const auto pitch = static_cast<std::size_t>(raster.nx) * sizeof(double);
+  for_each_row(raster.ny, [&](Index y) {
+    const char* row = mask.data() + static_cast<std::size_t>(y) * pitch;
+    for (Index x = 0; x < raster.nx; ++x) {
+      double value;
+      std::memcpy(&value, row + static_cast<std::size_t>(x) * sizeof value, sizeof value);
+      if (value > 0.5) heights(y, x) = kHole;
+    }
+  });
+  contents.finished(mask, 1);
   return heights;
 }
 
@@ -64,7 +76,7 @@ Layer layer_of(const Contents& contents, const GwyObject& root, const GwyObject&
     mask = data_of(contents, *mask_field, layer.nx, layer.ny);
   }
   const Raster raster{.nx = layer.nx, .ny = layer.ny};
-  layer.load = [data, mask, raster] { return masked(data, mask, raster); };
+  layer.load = [contents, data, mask, raster] { return masked(contents, data, mask, raster); };
   return layer;
 }
 

@@ -87,7 +87,7 @@ GwyObject take_object(const Contents& contents, Cursor& cursor, int depth) {
   GwyObject object;
   object.type = cursor.take_terminated();
   const std::size_t size = cursor.take<std::uint32_t>();
-  const Contents inside{contents.file, cursor.take(size)};
+  const Contents inside = contents.part(cursor.take(size));
   Cursor components(inside);
   while (components.left() > 0) {
     std::string name = components.take_terminated();

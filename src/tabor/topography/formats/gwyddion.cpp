@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <fstream>
+#include <limits>
 #include <memory>
 
 #include "tabor/core/text.hpp"
@@ -23,7 +24,10 @@ std::string convert(const Contents& contents, const std::filesystem::path& progr
   const io::Completed run = io::run_program(
       program,
       {"--convert-to-gwy=" + output.string(), std::filesystem::absolute(contents.file).string()},
-      {{"HOME", folder.path().string()}}, kTimeLimit);
+      {{"HOME", folder.path().string()}}, kTimeLimit, [&contents] {
+        constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+        if (contents.observer) report_progress(*contents.observer, "Gwyddion converts", kUnknown);
+      });
   if (run.timed_out) {
     refuse(contents, fmt::format("no answer from Gwyddion in {} s", kTimeLimit.count()),
            "a converted file", "convert it with Gwyddion yourself and read the .gwy file");
@@ -37,7 +41,7 @@ std::string convert(const Contents& contents, const std::filesystem::path& progr
 Match identify_gwyddion(std::string_view) { return Match::maybe; }
 
 Document open_gwyddion(const Contents& contents) {
-  const auto program = io::find_program("gwyddion");
+  const auto program = gwyddion_program();
   if (!program) {
     throw Unrecognised(contents, "content of no format tabor reads itself",
                        "for about 150 instrument formats install Gwyddion: "
@@ -48,7 +52,7 @@ Document open_gwyddion(const Contents& contents) {
     throw Unrecognised(contents, "content neither tabor nor Gwyddion recognises",
                        "'tabor formats' lists what can be read");
   }
-  Document document = open_gwy({contents.file, *bytes});
+  Document document = open_gwy(contents.part(*bytes));
   document.format = "gwyddion";
   for (Layer& layer : document.layers) {
     layer.load = [load = layer.load, bytes] { return load(); };  // the bytes live as long

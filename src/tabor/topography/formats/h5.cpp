@@ -39,9 +39,10 @@ double pixel(const Contents& contents, const io::Hdf5Reader& reader, const std::
   return pitch(contents, reader.numbers("/surface/" + axis));
 }
 
-Field height_of(const std::filesystem::path& file) {
-  const io::Hdf5Reader reader(file);
-  Field height = reader.field("/surface/height");
+Field height_of(const Contents& contents) {
+  const io::Hdf5Reader reader(contents.file);
+  Field height =
+      reader.field("/surface/height", [&contents](double share) { contents.finished({}, share); });
   if (!reader.exists("/surface/mask")) return height;
   const io::ByteMap mask = reader.bytes("/surface/mask");
   if (mask.rows() == height.rows() && mask.cols() == height.cols()) {
@@ -59,13 +60,7 @@ std::string now_utc() {
   return text;
 }
 
-}  // namespace
-
-Match identify_h5(std::string_view head) {
-  return head.starts_with(kSignature) ? Match::maybe : Match::no;
-}
-
-Document open_h5(const Contents& contents) {
+Document describe(const Contents& contents) {
   const io::Hdf5Reader reader(contents.file);
   if (!reader.exists("/surface/height")) {
     throw Unrecognised(contents, "an HDF5 file without /surface/height",
@@ -89,8 +84,21 @@ Document open_h5(const Contents& contents) {
                              .ny = shape[0],
                              .pixel_x = pixel(contents, reader, "x"),
                              .pixel_y = pixel(contents, reader, "y"),
-                             .load = [file = contents.file] { return height_of(file); }});
+                             .load = [contents] { return height_of(contents); }});
   return document;
+}
+
+}  // namespace
+
+Match identify_h5(std::string_view head) {
+  return head.starts_with(kSignature) ? Match::maybe : Match::no;
+}
+
+Document open_h5(const Contents& contents) {
+  if (!io::hdf5_survives([&] { describe(contents); })) {
+    refuse(contents, "an HDF5 file whose tables are damaged", "a scan", kDamaged);
+  }
+  return describe(contents);
 }
 
 void write_h5(const Topography& topography, const std::filesystem::path& file) {

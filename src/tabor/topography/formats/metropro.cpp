@@ -62,9 +62,8 @@ Document open_metropro(const Contents& contents) {
                       .order = std::endian::big,
                       .nx = static_cast<Index>(nx),
                       .ny = static_cast<Index>(ny)};
-  const auto load = [data = cursor.take(byte_size(raster)), raster]() -> Field {
-    const Field raw = decode(data, raster);
-    return (raw >= kMissing).select(kHole, raw);
+  const auto load = [contents, data = cursor.take(byte_size(raster)), raster] {
+    return decode(contents, data, raster, holes_where([](double z) { return z >= kMissing; }));
   };
   // A file without lateral calibration says 0.
   const bool calibrated = pixel > 0 && std::isfinite(pixel);

@@ -37,8 +37,11 @@ Document open_nms(const Contents& contents) {
   check_size(contents, nx, ny, cursor.left() / sizeof(std::uint16_t));
   const Raster raster{
       .sample = Sample::u16, .nx = static_cast<Index>(nx), .ny = static_cast<Index>(ny)};
-  const auto load = [data = cursor.take(byte_size(raster)), raster, low, high]() -> Field {
-    return low + decode(data, raster) / kFullScale * (high - low);
+  const RowStep to_heights = [low, high](std::span<double> row) {
+    for (double& z : row) z = low + z / kFullScale * (high - low);
+  };
+  const auto load = [contents, data = cursor.take(byte_size(raster)), raster, to_heights] {
+    return decode(contents, data, raster, to_heights);
   };
   Document document{.format = "nms", .instrument = "NanoFocus"};
   document.layers.push_back({.name = "height",

@@ -83,12 +83,12 @@ Document open_npy(const Contents& contents) {
               .nx = static_cast<Index>(shape[1]),
               .ny = static_cast<Index>(shape[0])};
   const std::string_view data = cursor.take(cursor.left());
-  layer.load = [data, type, transposed, nx = layer.nx, ny = layer.ny]() -> Field {
+  layer.load = [contents, data, type, transposed, nx = layer.nx, ny = layer.ny]() -> Field {
     const Raster raster{.sample = type.sample,
                         .order = type.order,
                         .nx = transposed ? ny : nx,
                         .ny = transposed ? nx : ny};
-    const Field stored = decode(data, raster);
+    const Field stored = decode(contents, data, raster);
     return transposed ? Field(stored.transpose()) : stored;
   };
   Document document{.format = "npy"};

@@ -61,10 +61,10 @@ std::string_view height_block(const Contents& contents, const Blocks& blocks) {
 }
 
 /// Stored column after column from the left, each from the bottom up.
-Field heights(std::string_view data, const Raster& columns) {
-  const Field raw = decode(data, columns).transpose().colwise().reverse();
+Field heights(const Contents& contents, std::string_view data, const Raster& columns) {
   const double missing = is_integer(columns.sample) ? kMissingInteger : kMissingFloat;
-  return (raw >= missing || !raw.isFinite()).select(kHole, raw);
+  const auto is_missing = [missing](double z) { return z >= missing || !std::isfinite(z); };
+  return decode(contents, data, columns, holes_where(is_missing)).transpose().colwise().reverse();
 }
 
 }  // namespace
@@ -75,7 +75,7 @@ Match identify_opd(std::string_view head) {
 
 Document open_opd(const Contents& contents) {
   const Blocks blocks = take_blocks(contents);
-  const Contents block{contents.file, height_block(contents, blocks)};
+  const Contents block = contents.part(height_block(contents, blocks));
   Cursor cursor(block);
   const double nx = cursor.take<std::uint16_t>();
   const double ny = cursor.take<std::uint16_t>();
@@ -104,8 +104,8 @@ Document open_opd(const Contents& contents) {
                              .ny = columns.nx,
                              .pixel_x = checked_pixel(contents, pixel),
                              .pixel_y = checked_pixel(contents, pixel * aspect),
-                             .load = [data = cursor.take(byte_size(columns)), columns] {
-                               return heights(data, columns);
+                             .load = [contents, data = cursor.take(byte_size(columns)), columns] {
+                               return heights(contents, data, columns);
                              }});
   return document;
 }

@@ -46,9 +46,8 @@ Document open_plu(const Contents& contents) {
   check_size(contents, nx, ny, cursor.left() / sizeof(float));
   const Raster raster{
       .sample = Sample::f32, .nx = static_cast<Index>(nx), .ny = static_cast<Index>(ny)};
-  const auto load = [data = cursor.take(byte_size(raster)), raster]() -> Field {
-    const Field raw = decode(data, raster);
-    return (raw == kMissing).select(kHole, raw);
+  const auto load = [contents, data = cursor.take(byte_size(raster)), raster] {
+    return decode(contents, data, raster, holes_where([](double z) { return z == kMissing; }));
   };
   document.layers.push_back({.name = "height",
                              .unit = "um",

@@ -53,6 +53,21 @@ Document open_nms(const Contents& contents);
 Match identify_tmd(std::string_view head);
 Document open_tmd(const Contents& contents);
 
+Match identify_plux(std::string_view head);
+Document open_plux(const Contents& contents);
+
+Match identify_vk(std::string_view head);
+Document open_vk(const Contents& contents);
+
+Match identify_bcr(std::string_view head);
+Document open_bcr(const Contents& contents);
+
+Match identify_datx(std::string_view head);
+Document open_datx(const Contents& contents);
+
+Match identify_tiff(std::string_view head);
+Document open_tiff(const Contents& contents);
+
 Match identify_png(std::string_view head);
 Document open_png(const Contents& contents);
 

@@ -93,7 +93,7 @@ double factor_of_unit(const Contents& contents, const std::string& unit) {
 /// A count has no size of its own: only the user's --z-scale gives it one.
 double scale_of_counts(const Contents& contents, const ReadOptions& options) {
   if (!options.z_scale) {
-    ask(contents, "integer counts without a height scale", "the height of one count",
+    ask(contents, "counts without a height scale", "the height of one count",
         "add it, for example --z-scale 1nm");
   }
   if (!(std::abs(*options.z_scale) > 0) || !std::isfinite(*options.z_scale)) {
@@ -141,15 +141,23 @@ Grid resolve_grid(const Contents& contents, const Layer& layer, const ReadOption
       resolve_pixel(contents, layer, 'x', options.pixel_x, options.override_unit, doubts);
   const auto& given_y = options.pixel_y ? options.pixel_y : options.pixel_x;
   const double dy = resolve_pixel(contents, layer, 'y', given_y, options.override_unit, doubts);
+  // Products and quotients of sound numbers may still be zero or infinite.
   return {.nx = layer.nx,
           .ny = layer.ny,
-          .lx = dx * static_cast<double>(layer.nx),
-          .ly = dy * static_cast<double>(layer.ny)};
+          .lx = checked_pixel(contents, dx * static_cast<double>(layer.nx)),
+          .ly = checked_pixel(contents, dy * static_cast<double>(layer.ny))};
 }
 
 double resolve_height_factor(const Contents& contents, const Layer& layer,
                              const ReadOptions& options, std::vector<std::string>& doubts) {
-  if (options.z_scale && (layer.is_count || options.override_unit)) {
+  const bool is_fixed = !layer.is_count && !layer.unit.empty();
+  if (options.z_scale && is_fixed && !options.override_unit) {
+    refuse(contents, flag("--z-scale", *options.z_scale), "heights whose scale the file fixes",
+           "drop --z-scale, or add --override-unit if the file is wrong");
+  }
+  if (options.z_scale) {
+    if (is_fixed)
+      doubts.push_back("height scale overridden: " + flag("--z-scale", *options.z_scale));
     return scale_of_counts(contents, options);
   }
   if (layer.unit.empty() && layer.is_count && !options.unit) {

@@ -38,7 +38,7 @@ Sample sample_of(const Contents& contents, int data_type) {
 }
 
 /// The value that means "not measured": the least signed integer; floats use NaN.
-std::optional<double> missing_value(Sample sample) {
+double missing_value(Sample sample) {
   switch (sample) {
     case Sample::i8:
       return -128.0;
@@ -47,7 +47,7 @@ std::optional<double> missing_value(Sample sample) {
     case Sample::i32:
       return -2147483648.0;
     default:
-      return std::nullopt;
+      return kHole;
   }
 }
 
@@ -100,9 +100,10 @@ bool is_version(std::string_view head, char kind) {
 std::map<std::string, std::string> take_keys(const Contents& contents, std::string_view& text,
                                              std::size_t& n_lines) {
   std::map<std::string, std::string> keys;
-  take_line(text);  // version
+  const char line_end = line_end_of(text);
+  take_line(text, line_end);  // version
   for (n_lines = 1; !text.empty();) {
-    const std::string_view line = trim(take_line(text));
+    const std::string_view line = trim(take_line(text, line_end));
     ++n_lines;
     if (line.starts_with('*')) return keys;
     const std::size_t equals = line.find('=');
@@ -124,7 +125,7 @@ Header header_of(const Contents& contents, std::map<std::string, std::string> ke
   header.x_scale = number("xscale");
   header.y_scale = number("yscale");
   header.z_scale = number("zscale");
-  header.compression = static_cast<int>(parse_number(keys["compression"]).value_or(0));
+  header.compression = parse_number(keys["compression"]).value_or(0) == 0 ? 0 : 1;
   return header;
 }
 
@@ -141,10 +142,9 @@ Document open_sdf(const Contents& contents) {
   raster.nx = layer.nx;
   raster.ny = layer.ny;
   const std::string_view data = cursor.take(byte_size(raster));
-  layer.load = [data, raster]() -> Field {
-    const Field raw = decode(data, raster);
-    const auto missing = missing_value(raster.sample);
-    return missing ? Field((raw == *missing).select(kHole, raw)) : raw;
+  layer.load = [contents, data, raster, missing = missing_value(raster.sample)] {
+    return decode(contents, data, raster,
+                  holes_where([missing](double z) { return z == missing; }));
   };
   return document_of("sdf", header, std::move(layer));
 }

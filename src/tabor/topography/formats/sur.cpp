@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <memory>
 
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
@@ -110,11 +109,23 @@ std::string unpack(const Contents& contents, Cursor& cursor, std::size_t expecte
   return data;
 }
 
-Field heights(std::string_view data, const Raster& raster, const Header& header) {
-  const Field raw = decode(data, raster);
-  const Field z = raw * header.dz + header.z_offset;
-  if (!header.marks_missing) return z;
-  return (raw == static_cast<double>(header.z_min) - 2).select(kHole, z);
+RowStep to_heights(const Header& header) {
+  const double missing = header.marks_missing ? static_cast<double>(header.z_min) - 2 : kHole;
+  return [missing, dz = header.dz, offset = header.z_offset](std::span<double> row) {
+    for (double& z : row) z = z == missing ? kHole : z * dz + offset;
+  };
+}
+
+/// The heights' bytes are only unpacked when they are asked for.
+Field heights(const Contents& contents, std::size_t data_begin, const Raster& raster,
+              const Header& header) {
+  Cursor cursor(contents);
+  cursor.seek(data_begin);
+  if (!contents.bytes.starts_with(kCompressed)) {
+    return decode(contents, cursor.take(byte_size(raster)), raster, to_heights(header));
+  }
+  const std::string unpacked = unpack(contents, cursor, byte_size(raster));
+  return decode(contents, unpacked, raster, to_heights(header));
 }
 
 }  // namespace
@@ -134,22 +145,22 @@ Document open_sur(const Contents& contents) {
   raster.nx = static_cast<Index>(header.nx);
   raster.ny = static_cast<Index>(header.ny);
   Cursor cursor(contents);
-  cursor.seek(512 + header.n_skipped);
-  const auto data = std::make_shared<const std::string>(
-      is_compressed ? unpack(contents, cursor, byte_size(raster))
-                    : std::string(cursor.take(byte_size(raster))));
+  const std::size_t data_begin = 512 + header.n_skipped;
+  cursor.seek(data_begin);
+  if (!is_compressed) cursor.take(byte_size(raster));
   Document document{.format = "sur"};
   if (header.objects > 1) {
     document.doubts.push_back(fmt::format("only the first of {} objects is read", header.objects));
   }
-  document.layers.push_back(
-      {.name = header.name.empty() ? "height" : header.name,
-       .unit = header.dz_unit,
-       .nx = raster.nx,
-       .ny = raster.ny,
-       .pixel_x = lateral(contents, header.dx, header.dx_unit),
-       .pixel_y = lateral(contents, header.dy, header.dy_unit),
-       .load = [data, raster, header] { return heights(*data, raster, header); }});
+  document.layers.push_back({.name = header.name.empty() ? "height" : header.name,
+                             .unit = header.dz_unit,
+                             .nx = raster.nx,
+                             .ny = raster.ny,
+                             .pixel_x = lateral(contents, header.dx, header.dx_unit),
+                             .pixel_y = lateral(contents, header.dy, header.dy_unit),
+                             .load = [contents, data_begin, raster, header] {
+                               return heights(contents, data_begin, raster, header);
+                             }});
   return document;
 }
 

@@ -31,8 +31,9 @@ struct GridLine {
   }
 };
 
-/// The grid line behind column `offset` of `stride` columns, if all coordinates lie on one. The
-/// spacing is the smallest step between consecutive points.
+/// The grid line behind column `offset` of `stride` columns, if all coordinates lie on one: a
+/// single node if they are all the same. The spacing is the smallest step between consecutive
+/// points.
 std::optional<GridLine> find_grid_line(const std::vector<double>& values, std::size_t stride,
                                        std::size_t offset) {
   double low = values[offset];
@@ -42,7 +43,9 @@ std::optional<GridLine> find_grid_line(const std::vector<double>& values, std::s
     low = std::min(low, values[i]);
     high = std::max(high, values[i]);
   }
+  if (high == low) return GridLine{low, 1, 1};
   double step = high - low;
+  if (!std::isfinite(step)) return std::nullopt;
   for (std::size_t i = offset + stride; i < values.size(); i += stride) {
     const double difference = std::abs(values[i] - values[i - stride]);
     if (difference > 1e-9 * (high - low)) step = std::min(step, difference);
@@ -62,23 +65,35 @@ std::optional<double> pixel_of(double step, const std::string& unit) {
   return factor ? std::optional(step * *factor) : std::nullopt;
 }
 
-/// A layer over values that are already complete.
-Layer layer_of(const TextHeader& header, Field heights) {
-  const auto shared = std::make_shared<const Field>(std::move(heights));
+struct Shape {
+  Index ny;
+  Index nx;
+};
+
+Layer layer_of(const TextHeader& header, Shape shape) {
   return {.name = header.channel.empty() ? "height" : header.channel,
           .unit = header.unit,
           .scale = header.scale,
-          .nx = shared->cols(),
-          .ny = shared->rows(),
-          .load = [shared] { return *shared; }};
+          .nx = shape.nx,
+          .ny = shape.ny};
+}
+
+/// A layer over values that are already complete.
+Layer layer_of(const TextHeader& header, Field heights) {
+  const auto shared = std::make_shared<const Field>(std::move(heights));
+  Layer layer = layer_of(header, Shape{shared->rows(), shared->cols()});
+  layer.load = [shared] { return *shared; };
+  return layer;
 }
 
 /// Points on a regular grid in any order, each node at most once; nodes without a point are holes.
 std::optional<Layer> as_xyz(const TextNumbers& numbers, const TextHeader& header) {
-  if (numbers.n_columns() != 3 || numbers.columns.size() < 4 || header.is_map) return std::nullopt;
+  // Few points without a word about their columns may as well be a small matrix.
+  const std::size_t least = header.x_unit.empty() ? 4 : 2;
+  if (numbers.n_columns() != 3 || numbers.n_rows() < least || header.is_map) return std::nullopt;
   const auto x = find_grid_line(numbers.values, 3, 0);
   const auto y = find_grid_line(numbers.values, 3, 1);
-  if (!x || !y || x->n * y->n > 2 * static_cast<Index>(numbers.columns.size())) {
+  if (!x || !y || x->n * y->n < 2 || x->n * y->n > 2 * static_cast<Index>(numbers.n_rows())) {
     return std::nullopt;
   }
   Field heights = Field::Constant(y->n, x->n, kHole);
@@ -91,8 +106,9 @@ std::optional<Layer> as_xyz(const TextNumbers& numbers, const TextHeader& header
     heights(row, column) = numbers.values[i + 2];
   }
   Layer layer = layer_of(header, std::move(heights));
-  layer.pixel_x = pixel_of(x->step, header.x_unit);
-  layer.pixel_y = pixel_of(y->step, header.y_unit);
+  // A single row does not tell how wide it is: square pixels are assumed, and said (open_text).
+  layer.pixel_x = x->n > 1 ? pixel_of(x->step, header.x_unit) : pixel_of(y->step, header.y_unit);
+  layer.pixel_y = y->n > 1 ? pixel_of(y->step, header.y_unit) : layer.pixel_x;
   layer.pixel_hint =
       fmt::format("coordinates in steps of {:g} and {:g} without a unit", x->step, y->step);
   return layer;
@@ -100,9 +116,9 @@ std::optional<Layer> as_xyz(const TextNumbers& numbers, const TextHeader& header
 
 /// Two columns with an evenly rising first one: a profile, read as a map of one row.
 std::optional<Layer> as_profile(const TextNumbers& numbers, const TextHeader& header) {
-  if (numbers.n_columns() != 2 || numbers.columns.size() < 4 || header.is_map) return std::nullopt;
+  if (numbers.n_columns() != 2 || numbers.n_rows() < 4 || header.is_map) return std::nullopt;
   const auto x = find_grid_line(numbers.values, 2, 0);
-  if (!x || x->n != static_cast<Index>(numbers.columns.size())) return std::nullopt;
+  if (!x || x->n != static_cast<Index>(numbers.n_rows())) return std::nullopt;
   Field heights(1, x->n);
   for (Index i = 0; i < x->n; ++i) {
     if (x->index_of(numbers.values[static_cast<std::size_t>(2 * i)]) != i) return std::nullopt;
@@ -114,11 +130,6 @@ std::optional<Layer> as_profile(const TextNumbers& numbers, const TextHeader& he
   layer.pixel_hint = fmt::format("coordinates in steps of {:g} without a unit", x->step);
   return layer;
 }
-
-struct Shape {
-  Index ny;
-  Index nx;
-};
 
 /// Rows and columns of a matrix: the header's, a square for exports without line structure, else
 /// the lines themselves.
@@ -132,7 +143,7 @@ Shape shape_of(const Contents& contents, const TextNumbers& numbers, const TextH
     }
     return {static_cast<Index>(*header.ny), static_cast<Index>(*header.nx)};
   }
-  if (header.one_per_line && (numbers.columns.size() == 1 || numbers.n_columns() == 1)) {
+  if (header.one_per_line && (numbers.n_rows() == 1 || numbers.n_columns() == 1)) {
     const auto side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(n))));
     if (side * side != n) {
       refuse(contents, fmt::format("{} numbers without line structure", n), "a square map",
@@ -140,19 +151,21 @@ Shape shape_of(const Contents& contents, const TextNumbers& numbers, const TextH
     }
     return {static_cast<Index>(side), static_cast<Index>(side)};
   }
-  for (std::size_t i = 0; i < numbers.columns.size(); ++i) {
-    if (numbers.columns[i] != numbers.n_columns()) {
-      refuse(contents, fmt::format("{} numbers on line {}", numbers.columns[i], numbers.lines[i]),
-             fmt::format("{} as on line {}", numbers.n_columns(), numbers.lines.front()), kDamaged);
-    }
+  if (const TextRows* odd = numbers.odd_rows()) {
+    refuse(contents, fmt::format("{} numbers on line {}", odd->n_columns, odd->first_line),
+           fmt::format("{} as on line {}", numbers.n_columns(), numbers.rows.front().first_line),
+           kDamaged);
   }
-  return {static_cast<Index>(numbers.columns.size()), static_cast<Index>(numbers.n_columns())};
+  return {static_cast<Index>(numbers.n_rows()), static_cast<Index>(numbers.n_columns())};
 }
 
 Layer as_matrix(const Contents& contents, TextNumbers numbers, const TextHeader& header) {
   const Shape shape = shape_of(contents, numbers, header);
-  Layer layer =
-      layer_of(header, Eigen::Map<const Field>(numbers.values.data(), shape.ny, shape.nx));
+  const auto values = std::make_shared<const std::vector<double>>(std::move(numbers.values));
+  Layer layer = layer_of(header, shape);
+  layer.load = [values, shape]() -> Field {
+    return Eigen::Map<const Field>(values->data(), shape.ny, shape.nx);
+  };
   layer.pixel_x = header.pixel;
   layer.pixel_y = header.pixel;
   if (header.width) layer.pixel_x = *header.width / static_cast<double>(shape.nx);
@@ -170,11 +183,13 @@ bool has_binary(std::string_view head) {
 }  // namespace
 
 Match identify_text(std::string_view head) {
+  if (const auto utf8 = utf8_from_utf16(head)) return identify_text(*utf8);
   if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
   if (has_binary(head)) return Match::no;
   bool has_header = false;
+  const char line_end = line_end_of(head);
   while (!head.empty()) {
-    const std::string_view line = take_line(head);
+    const std::string_view line = take_line(head, line_end);
     if (starts_with_number(line)) return Match::yes;
     if (!is_header_line(line)) return Match::no;
     has_header = true;
@@ -183,14 +198,18 @@ Match identify_text(std::string_view head) {
 }
 
 Document open_text(const Contents& contents) {
+  if (const auto utf8 = utf8_from_utf16(contents.bytes)) return open_text(contents.part(*utf8));
   std::string_view text = contents.bytes;
   const TextHeader header = take_header(contents, text);
   TextNumbers numbers = parse_numbers(contents, text, header.n_lines + 1);
   if (numbers.values.empty()) refuse(contents, "no numbers", "a matrix or x y z", kDamaged);
   Document document{.format = "matrix"};
-  const bool rectangular = numbers.is_rectangular();
+  const bool rectangular = numbers.odd_rows() == nullptr;
   if (auto xyz = rectangular ? as_xyz(numbers, header) : std::nullopt) {
     document.format = "xyz";
+    if (xyz->nx == 1 || xyz->ny == 1) {
+      document.doubts.push_back("a single row of points: square pixels are assumed");
+    }
     document.layers.push_back(std::move(*xyz));
   } else if (auto profile = rectangular ? as_profile(numbers, header) : std::nullopt) {
     document.format = "profile";
@@ -201,7 +220,7 @@ Document open_text(const Contents& contents) {
       refuse(contents, "points that are not on a regular grid", "evenly spaced x and y",
              "put the points on a regular grid first, for example with Gwyddion");
     }
-    if (header.one_per_line && numbers.columns.size() != numbers.n_columns()) {
+    if (header.one_per_line && numbers.n_rows() != numbers.n_columns()) {
       document.doubts.push_back("a square map is assumed: the file does not tell its rows");
     }
     document.layers.push_back(as_matrix(contents, std::move(numbers), header));

@@ -121,9 +121,10 @@ TextHeader take_header(const Contents& contents, std::string_view& text) {
   constexpr std::string_view kNanoscope = "\\Exported image units:";
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte order mark
   TextHeader header;
+  const char line_end = line_end_of(text);
   while (!text.empty()) {
     std::string_view rest = text;
-    const std::string_view line = trim(take_line(rest));
+    const std::string_view line = trim(take_line(rest, line_end));
     if (starts_with_number(line)) return header;
     if (!is_header_line(line)) {
       refuse(contents, fmt::format("'{}' on line {}", line.substr(0, 40), header.n_lines + 1),

@@ -3,15 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 
+#include "tabor/core/parallel.hpp"
 #include "tabor/core/text.hpp"
 
 namespace tabor::topography::format {
 namespace {
-
-constexpr std::string_view kBlanks = " \t\r";
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -48,8 +48,9 @@ bool has_decimal_commas(std::string_view text) {
     return false;
   }
   bool several_fields = false;
+  const char line_end = line_end_of(text);
   while (!text.empty()) {
-    const std::string_view line = trim(take_line(text));
+    const std::string_view line = trim(take_line(text, line_end));
     several_fields |= line.find_first_of(" \t;") != std::string_view::npos;
     std::size_t commas = 0;
     for (std::size_t i = 0; i < line.size(); ++i) {
@@ -65,77 +66,250 @@ bool has_decimal_commas(std::string_view text) {
   return several_fields;
 }
 
-/// Splits a line into fields. Blanks separate; so does one hard separator (';' or ','), between two
-/// of which an empty field means a missing value.
+/// What separates fields. Blanks do; so does one hard separator (';' or ','), between two of which
+/// an empty field means a missing value.
+struct Separators {
+  explicit Separators(bool comma_is_decimal) : decimal_comma(comma_is_decimal) {
+    for (const char c : {' ', '\t', '\r'}) kinds[static_cast<unsigned char>(c)] = Kind::blank;
+    kinds[static_cast<unsigned char>(';')] = Kind::hard;
+    if (!decimal_comma) kinds[static_cast<unsigned char>(',')] = Kind::hard;
+  }
+  enum class Kind : unsigned char { none, blank, hard };
+  Kind kind(char c) const { return kinds[static_cast<unsigned char>(c)]; }
+
+  bool decimal_comma;
+  std::array<Kind, 256> kinds{};
+};
+
+/// Takes field after field from a line.
 class Fields {
  public:
-  Fields(std::string_view line, bool decimal_comma)
-      : line_(trim(line)), hard_(decimal_comma ? ";" : ";,") {}
-
-  bool next(std::string_view& field) {
-    if (line_.empty()) return false;
-    const std::size_t end =
-        std::min(line_.find_first_of(hard_ == ";" ? " \t\r;" : " \t\r;,"), line_.size());
-    field = line_.substr(0, end);
-    line_.remove_prefix(end);
+  Fields(std::string_view line, const Separators& separators)
+      : at_(line.data()), end_(line.data() + line.size()), separators_(&separators) {
     skip_blanks();
-    if (!line_.empty() && hard_.find(line_.front()) != std::string_view::npos) {
-      line_.remove_prefix(1);
-      skip_blanks();
-    }
-    return true;
+  }
+
+  bool at_end() const { return at_ == end_; }
+
+  /// The next field as a number if it is a plain one, which nearly all are.
+  std::optional<double> take_plain_number() {
+    double value = 0;
+    const auto [stop, error] = std::from_chars(at_, end_, value);
+    const bool whole = stop == end_ || separators_->kind(*stop) != Separators::Kind::none;
+    if (error != std::errc{} || !whole) return std::nullopt;
+    at_ = stop;
+    skip_separator();
+    return value;
+  }
+
+  std::string_view take() {
+    const char* begin = at_;
+    while (at_ != end_ && separators_->kind(*at_) == Separators::Kind::none) ++at_;
+    const std::string_view field(begin, static_cast<std::size_t>(at_ - begin));
+    skip_separator();
+    return field;
   }
 
  private:
   void skip_blanks() {
-    line_.remove_prefix(std::min(line_.find_first_not_of(kBlanks), line_.size()));
+    while (at_ != end_ && separators_->kind(*at_) == Separators::Kind::blank) ++at_;
   }
-  std::string_view line_;
-  std::string_view hard_;
+  void skip_separator() {
+    skip_blanks();
+    if (at_ != end_ && separators_->kind(*at_) == Separators::Kind::hard) {
+      ++at_;
+      skip_blanks();
+    }
+  }
+  const char* at_;
+  const char* end_;
+  const Separators* separators_;
 };
+
+/// Some lines of the text, parsed on their own.
+struct Block {
+  std::string_view text = {};
+  TextNumbers numbers = {};     ///< lines counted from 0
+  std::size_t n_lines = 0;      ///< parsed
+  std::string_view wrong = {};  ///< the field on line n_lines that is no number, or empty
+};
+
+void add_row(TextNumbers& numbers, std::size_t line, std::size_t n_columns) {
+  if (!numbers.rows.empty()) {
+    TextRows& last = numbers.rows.back();
+    if (last.n_columns == n_columns && last.first_line + last.n_rows == line) {
+      ++last.n_rows;
+      return;
+    }
+  }
+  numbers.rows.push_back({line, 1, n_columns});
+}
+
+/// Adds the numbers of one line; the field that is none, or "".
+std::string_view parse_line(std::string_view line, const Separators& separators,
+                            std::vector<double>& values) {
+  Fields fields(line, separators);
+  while (!fields.at_end()) {
+    if (const auto plain = fields.take_plain_number()) {
+      values.push_back(std::isfinite(*plain) ? *plain : kHole);
+      continue;
+    }
+    const std::string_view field = fields.take();
+    const auto value = number(field, separators.decimal_comma);
+    if (!value && !field.empty() && !is_missing(field)) return field;
+    values.push_back(value && std::isfinite(*value) ? *value : kHole);
+  }
+  return {};
+}
+
+void parse(Block& block, const Separators& separators, char line_end) {
+  // No number takes less than a digit and a separator; what is not used is never touched.
+  block.numbers.values.reserve(block.text.size() / 2 + 1);
+  std::string_view rest = block.text;
+  for (; !rest.empty(); ++block.n_lines) {
+    const std::size_t before = block.numbers.values.size();
+    block.wrong = parse_line(take_line(rest, line_end), separators, block.numbers.values);
+    if (!block.wrong.empty()) return;
+    const std::size_t n_columns = block.numbers.values.size() - before;
+    if (n_columns > 0) add_row(block.numbers, block.n_lines, n_columns);
+  }
+}
+
+/// Whole lines of about kBlockBytes.
+std::string_view take_block(std::string_view& text, char line_end) {
+  constexpr std::size_t kBlockBytes = std::size_t{1} << 20;
+  const std::size_t end =
+      text.size() > kBlockBytes ? text.find(line_end, kBlockBytes) : text.size();
+  const std::string_view block = text.substr(0, end == std::string_view::npos ? end : end + 1);
+  text.remove_prefix(block.size());
+  return block;
+}
+
+void append(TextNumbers& numbers, Block& block, std::size_t first_line) {
+  if (numbers.values.capacity() == 0) {
+    numbers.values = std::move(block.numbers.values);
+  } else {
+    numbers.values.insert(numbers.values.end(), block.numbers.values.begin(),
+                          block.numbers.values.end());
+  }
+  block.numbers.values = {};
+  for (TextRows rows : block.numbers.rows) {
+    rows.first_line += first_line;
+    const bool continues =
+        !numbers.rows.empty() && numbers.rows.back().n_columns == rows.n_columns &&
+        numbers.rows.back().first_line + numbers.rows.back().n_rows == rows.first_line;
+    if (continues) {
+      numbers.rows.back().n_rows += rows.n_rows;
+    } else {
+      numbers.rows.push_back(rows);
+    }
+  }
+}
+
+/// Room for the numbers of these blocks and, so that they are not copied again, for all that the
+/// rest of the text will give if it goes on like the `share` that is parsed.
+void make_room(TextNumbers& numbers, const std::vector<Block>& blocks, double share) {
+  constexpr double kMargin = 1.02;
+  std::size_t n = numbers.values.size();
+  for (const Block& block : blocks) n += block.numbers.values.size();
+  if (n <= numbers.values.capacity()) return;
+  numbers.values.reserve(static_cast<std::size_t>(kMargin * static_cast<double>(n) / share) + 1);
+}
 
 }  // namespace
 
-bool TextNumbers::is_rectangular() const {
-  return std::all_of(columns.begin(), columns.end(),
-                     [this](std::size_t n) { return n == n_columns(); });
+std::size_t TextNumbers::n_rows() const {
+  std::size_t n = 0;
+  for (const TextRows& some : rows) n += some.n_rows;
+  return n;
 }
 
-std::string_view take_line(std::string_view& text) {
-  const std::size_t end = std::min(text.find('\n'), text.size());
+const TextRows* TextNumbers::odd_rows() const {
+  const auto odd = std::find_if(rows.begin(), rows.end(), [this](const TextRows& some) {
+    return some.n_columns != n_columns();
+  });
+  return odd == rows.end() ? nullptr : &*odd;
+}
+
+char line_end_of(std::string_view text) {
+  const std::size_t first = text.find_first_of("\r\n");
+  const bool is_old_macintosh = first != std::string_view::npos && text[first] == '\r' &&
+                                first + 1 < text.size() && text[first + 1] != '\n';
+  return is_old_macintosh ? '\r' : '\n';
+}
+
+std::string_view take_line(std::string_view& text, char line_end) {
+  const std::size_t end = std::min(text.find(line_end), text.size());
   const std::string_view line = text.substr(0, end);
   text.remove_prefix(std::min(end + 1, text.size()));
   return line;
 }
 
 bool starts_with_number(std::string_view line) {
-  std::string_view field;
-  if (!Fields(line, true).next(field)) return false;
+  const Separators separators(true);
+  Fields fields(trim(line), separators);
+  if (fields.at_end()) return false;
+  const std::string_view field = fields.take();
   if (is_missing(field)) return true;
   const std::size_t comma = field.find(',');
   return number(field, true).has_value() || number(field.substr(0, comma), false).has_value();
 }
 
 TextNumbers parse_numbers(const Contents& contents, std::string_view text, std::size_t first_line) {
-  const bool decimal_comma = has_decimal_commas(text);
+  constexpr std::size_t kBlocksPerWave = 32;
+  const Separators separators(has_decimal_commas(text));
+  const char line_end = line_end_of(text);
+  const double n_bytes = static_cast<double>(text.size());
   TextNumbers numbers;
-  for (std::size_t line_number = first_line; !text.empty(); ++line_number) {
-    Fields fields(take_line(text), decimal_comma);
-    std::string_view field;
-    const std::size_t before = numbers.values.size();
-    while (fields.next(field)) {
-      const auto value = number(field, decimal_comma);
-      if (!value && !field.empty() && !is_missing(field)) {
-        refuse(contents, fmt::format("'{}' on line {}", field.substr(0, 40), line_number),
-               "a number", "remove or comment what is not data");
-      }
-      numbers.values.push_back(value && std::isfinite(*value) ? *value : kHole);
+  while (!text.empty()) {
+    const std::string_view before = text;
+    std::vector<Block> blocks;
+    while (!text.empty() && blocks.size() < kBlocksPerWave) {
+      blocks.push_back({.text = take_block(text, line_end)});
     }
-    if (numbers.values.size() == before) continue;
-    numbers.columns.push_back(numbers.values.size() - before);
-    numbers.lines.push_back(line_number);
+    parallel_for(std::ssize(blocks), 1, [&](Index begin, Index) {
+      parse(blocks[static_cast<std::size_t>(begin)], separators, line_end);
+    });
+    const double share = 1 - static_cast<double>(text.size()) / n_bytes;
+    if (blocks.size() > 1 || !text.empty()) make_room(numbers, blocks, share);
+    for (Block& block : blocks) {
+      if (!block.wrong.empty()) {
+        refuse(
+            contents,
+            fmt::format("'{}' on line {}", block.wrong.substr(0, 40), first_line + block.n_lines),
+            "a number", "remove or comment what is not data");
+      }
+      append(numbers, block, first_line);
+      first_line += block.n_lines;
+    }
+    contents.finished(before.substr(0, before.size() - text.size()), share);
   }
   return numbers;
+}
+
+std::optional<std::string> utf8_from_utf16(std::string_view text) {
+  const bool little = text.starts_with("\xFF\xFE");
+  if (!little && !text.starts_with("\xFE\xFF")) return std::nullopt;
+  const auto unit = [&](std::size_t i) -> unsigned {
+    const auto first = static_cast<unsigned char>(text[i]);
+    const auto second = static_cast<unsigned char>(text[i + 1]);
+    return little ? first | second << 8 : second | first << 8;
+  };
+  std::string utf8;
+  for (std::size_t i = 2; i + 1 < text.size(); i += 2) {
+    const unsigned code = unit(i);
+    if (code < 0x80) {
+      utf8 += static_cast<char>(code);
+    } else if (code < 0x800) {
+      utf8 += static_cast<char>(0xC0 | code >> 6);
+      utf8 += static_cast<char>(0x80 | (code & 0x3F));
+    } else {  // halves of a surrogate pair too: no header or number has one
+      utf8 += static_cast<char>(0xE0 | code >> 12);
+      utf8 += static_cast<char>(0x80 | (code >> 6 & 0x3F));
+      utf8 += static_cast<char>(0x80 | (code & 0x3F));
+    }
+  }
+  return utf8;
 }
 
 }  // namespace tabor::topography::format

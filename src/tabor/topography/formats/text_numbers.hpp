@@ -7,25 +7,40 @@
 
 namespace tabor::topography::format {
 
-/// Numbers of a text file, line after line.
-struct TextNumbers {
-  std::vector<double> values;        ///< NaN = hole (NaN, NM, BAD, an empty field, ...)
-  std::vector<std::size_t> columns;  ///< numbers on each line that has any
-  std::vector<std::size_t> lines;    ///< and its number in the file, from 1
+/// Consecutive lines with equally many numbers.
+struct TextRows {
+  std::size_t first_line = 0;  ///< its number in the file, from 1
+  std::size_t n_rows = 0;
+  std::size_t n_columns = 0;
+};
 
-  bool is_rectangular() const;
-  std::size_t n_columns() const { return columns.empty() ? 0 : columns.front(); }
+/// Numbers of a text file, line after line; lines without any do not count.
+struct TextNumbers {
+  std::vector<double> values;  ///< NaN = hole (NaN, NM, BAD, an empty field, ...)
+  std::vector<TextRows> rows;
+
+  std::size_t n_rows() const;
+  std::size_t n_columns() const { return rows.empty() ? 0 : rows.front().n_columns; }
+  /// The first lines with another count of numbers than the first one; null if there are none.
+  const TextRows* odd_rows() const;
 };
 
 /// True if the line starts with a number or with a word for a missing value.
 bool starts_with_number(std::string_view line);
 
-/// Removes the first line from `text` and returns it without its end.
-std::string_view take_line(std::string_view& text);
+/// What ends the lines of a text: '\n', or '\r' as old Macintosh programs write.
+char line_end_of(std::string_view text);
 
-/// Parses all of `text`, whose first line is line `first_line` of the file. Fields are separated by
-/// blanks, tabs, ';' or ','; where ',' must be a decimal comma it is one. Throws InputError with
-/// the line of the first field that is no number.
+/// Removes the first line from `text` and returns it without its end.
+std::string_view take_line(std::string_view& text, char line_end = '\n');
+
+/// Parses all of `text`, whose first line is line `first_line` of the file, on all threads. Fields
+/// are separated by blanks, tabs, ';' or ','; where ',' must be a decimal comma it is one. Pages of
+/// the file are given back as they are done with. Throws InputError with the line of the first
+/// field that is no number; Interrupted.
 TextNumbers parse_numbers(const Contents& contents, std::string_view text, std::size_t first_line);
+
+/// UTF-8 of a text that begins with the byte order mark of UTF-16; nullopt for every other.
+std::optional<std::string> utf8_from_utf16(std::string_view text);
 
 }  // namespace tabor::topography::format

@@ -28,8 +28,8 @@ Document open_tmd(const Contents& contents) {
   check_size(contents, nx, ny, cursor.left() / sizeof(float));
   const Raster raster{
       .sample = Sample::f32, .nx = static_cast<Index>(nx), .ny = static_cast<Index>(ny)};
-  const auto load = [data = cursor.take(byte_size(raster)), raster] {
-    return decode(data, raster);
+  const auto load = [contents, data = cursor.take(byte_size(raster)), raster] {
+    return decode(contents, data, raster);
   };
   document.layers.push_back({.name = "height",
                              .unit = "mm",

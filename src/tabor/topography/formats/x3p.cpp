@@ -5,17 +5,17 @@
 #include <memory>
 
 #include "tabor/core/text.hpp"
-#include "tabor/io/atomic_file.hpp"
 #include "tabor/io/digest.hpp"
 #include "tabor/io/xml.hpp"
-#include "tabor/io/zip.hpp"
+#include "tabor/topography/formats/archive.hpp"
 #include "tabor/topography/formats/bytes.hpp"
 #include "tabor/topography/formats/readers.hpp"
+#include "tabor/topography/rows.hpp"
 
 namespace tabor::topography::format {
 namespace {
 
-constexpr std::size_t kMaxXml = std::size_t{64} << 20;
+constexpr const char* kMain = "main.xml";
 
 struct Axis {
   std::string type;  ///< I = incremental, A = absolute
@@ -31,34 +31,6 @@ struct Matrix {
   Index ny = 0;
   Index n_layers = 1;
   std::size_t size() const { return static_cast<std::size_t>(nx * ny * n_layers); }
-};
-
-/// The archive and its main.xml, wherever the folder of the latter is.
-struct Archive {
-  const Contents* contents;
-  io::ZipReader zip;
-  std::string folder;
-
-  const io::ZipEntry* find(std::string link) const {
-    std::replace(link.begin(), link.end(), '\\', '/');
-    while (link.starts_with("./") || link.starts_with("/")) link.erase(0, link.find('/') + 1);
-    for (const io::ZipEntry& entry : zip.entries()) {
-      if (entry.name == folder + link) return &entry;
-    }
-    return nullptr;
-  }
-
-  std::string read(const std::string& link, std::size_t size) const {
-    const io::ZipEntry* entry = find(link);
-    if (entry == nullptr) {
-      refuse(*contents, "no entry '" + link + "'", "the data main.xml links to", kDamaged);
-    }
-    if (entry->size != size) {
-      refuse(*contents, fmt::format("{} of {} bytes", link, entry->size),
-             fmt::format("{} bytes as main.xml says", size), kDamaged);
-    }
-    return zip.read(*entry, size);
-  }
 };
 
 /// Empty and missing numbers mean the default (ISO 25178-72 makes both optional).
@@ -112,10 +84,14 @@ Matrix describe(const Contents& contents, const io::XmlElement& root) {
   const double nx = number(contents, dimension.at("SizeX"), 0);
   const double ny = number(contents, dimension.at("SizeY"), 0);
   const double n_layers = number(contents, dimension.at("SizeZ"), 1);
-  // A deflate stream unpacks to at most 1032 times its size; no sample is smaller than a byte.
-  const std::size_t most = 1032 * contents.bytes.size();
+  // No sample is smaller than a byte.
+  const std::size_t most = kLargestDeflateRatio * contents.bytes.size();
   check_size(contents, nx, ny, most);
   check_size(contents, nx * ny, n_layers, most);
+  constexpr double kMostLayers = 1000;  // far more than instruments write; each takes memory
+  if (n_layers > kMostLayers) {
+    refuse(contents, fmt::format("{} layers", n_layers), fmt::format("at most {}", kMostLayers));
+  }
   matrix.nx = static_cast<Index>(nx);
   matrix.ny = static_cast<Index>(ny);
   matrix.n_layers = static_cast<Index>(n_layers);
@@ -140,51 +116,80 @@ std::vector<double> listed(const Contents& contents, const io::XmlElement& list,
   return values;
 }
 
-void apply_valid_points(std::vector<double>& values, const std::string& bits) {
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const bool valid = (static_cast<unsigned char>(bits[i / 8]) >> (i % 8)) & 1u;
-    if (!valid) values[i] = kHole;
+/// Entries of the archive that hold the heights.
+struct Links {
+  const io::ZipEntry* data = nullptr;
+  const io::ZipEntry* valid = nullptr;  ///< null: all points are valid
+  std::string digest = {};              ///< MD5 of the data in hexadecimal, "" if there is none
+};
+
+Raster raster_of(const Matrix& matrix) {
+  return {.sample = matrix.z.sample, .nx = matrix.nx, .ny = matrix.ny};
+}
+
+Links links_of(const Archive& archive, const io::XmlElement& link, const Matrix& matrix) {
+  const std::size_t size = byte_size(raster_of(matrix)) * static_cast<std::size_t>(matrix.n_layers);
+  Links links{.data = &archive.entry(link.at("PointDataLink").text(), size)};
+  const std::string valid = link.at("ValidPointsLink").text();
+  if (!valid.empty()) links.valid = &archive.entry(valid, (matrix.size() + 7) / 8);
+  const std::string digest = lower(link.at("MD5ChecksumPointData").text());
+  constexpr std::size_t kDigits = 32;
+  if (digest.size() == kDigits) links.digest = digest;
+  return links;
+}
+
+/// One bit per point of all layers, lowest bit first, 1 = valid.
+void apply_valid_points(Field& field, const std::string& bits, Index first_point) {
+  for (Index i = 0; i < field.size(); ++i) {
+    const auto point = static_cast<std::size_t>(first_point + i);
+    const bool valid = (static_cast<unsigned char>(bits[point / 8]) >> (point % 8)) & 1u;
+    if (!valid) field.data()[i] = kHole;
   }
 }
 
-void compare_digest(const std::string& bytes, const io::XmlElement& expected, Document& document) {
-  const std::string digest = io::md5(std::as_bytes(std::span(bytes)));
-  if (expected.text().size() == digest.size() && lower(expected.text()) != digest) {
-    document.doubts.push_back("the data do not match their MD5 checksum: changed after export");
+/// Unpacks layer k, which follows the layers before it in the same entry.
+Field unpack(const Archive& archive, const Links& links, const Matrix& matrix, Index k,
+             std::vector<std::string>& doubts) {
+  Field field(matrix.ny, matrix.nx);
+  RowDecoder decoder(raster_of(matrix), field);
+  io::RunningDigest digest(io::DigestKind::md5);
+  std::size_t n_before = byte_size(raster_of(matrix)) * static_cast<std::size_t>(k);
+  archive.read(*links.data, [&](std::string_view piece) {
+    if (!links.digest.empty()) digest.add(piece);
+    const std::size_t n_skipped = std::min(n_before, piece.size());
+    n_before -= n_skipped;
+    decoder.accept(piece.substr(n_skipped));
+  });
+  if (!links.digest.empty() && digest.hexadecimal() != links.digest) {
+    doubts.push_back("the data do not match their MD5 checksum: changed after export");
   }
+  if (links.valid != nullptr) {
+    apply_valid_points(field, archive.read(*links.valid), k * matrix.nx * matrix.ny);
+  }
+  return field;
 }
 
-std::vector<double> linked(const Archive& archive, const io::XmlElement& link, const Matrix& matrix,
-                           Document& document) {
-  const Raster raster{
-      .sample = matrix.z.sample, .nx = matrix.nx, .ny = matrix.ny * matrix.n_layers};
-  const std::string bytes = archive.read(link.at("PointDataLink").text(), byte_size(raster));
-  compare_digest(bytes, link.at("MD5ChecksumPointData"), document);
-  const Field decoded = decode(bytes, raster);
-  std::vector<double> values(decoded.data(), decoded.data() + decoded.size());
-  const std::string valid_link = link.at("ValidPointsLink").text();
-  if (!valid_link.empty()) {
-    apply_valid_points(values, archive.read(valid_link, (matrix.size() + 7) / 8));
-  }
-  return values;
-}
+/// Stored values of layer k.
+using Load = std::function<Field(Index k, std::vector<std::string>& doubts)>;
 
 void add_layers(Document& document, const Contents& contents, const Matrix& matrix,
-                std::vector<double> values) {
-  const auto shared = std::make_shared<const std::vector<double>>(std::move(values));
+                const Load& load) {
   for (Index k = 0; k < matrix.n_layers; ++k) {
-    const auto load = [shared, matrix, k]() -> Field {
-      const Index n = matrix.nx * matrix.ny;
-      const Field raw = Eigen::Map<const Field>(shared->data() + k * n, matrix.ny, matrix.nx);
-      return raw * matrix.z.increment + matrix.z.offset;
+    Layer layer{.name = matrix.n_layers > 1 ? fmt::format("layer {}", k) : "height",
+                .unit = "m",
+                .nx = matrix.nx,
+                .ny = matrix.ny,
+                .pixel_x = checked_pixel(contents, matrix.x.increment),
+                .pixel_y = checked_pixel(contents, matrix.y.increment)};
+    layer.late_doubts = std::make_shared<std::vector<std::string>>();
+    layer.load = [load, k, z = matrix.z, doubts = layer.late_doubts] {
+      Field field = load(k, *doubts);
+      for_each_row(field.rows(), [&](Index y) {
+        for (Index x = 0; x < field.cols(); ++x) field(y, x) = field(y, x) * z.increment + z.offset;
+      });
+      return field;
     };
-    document.layers.push_back({.name = matrix.n_layers > 1 ? fmt::format("layer {}", k) : "height",
-                               .unit = "m",
-                               .nx = matrix.nx,
-                               .ny = matrix.ny,
-                               .pixel_x = checked_pixel(contents, matrix.x.increment),
-                               .pixel_y = checked_pixel(contents, matrix.y.increment),
-                               .load = load});
+    document.layers.push_back(std::move(layer));
   }
 }
 
@@ -209,122 +214,34 @@ void add_metadata(Document& document, const io::XmlElement& root) {
   }
 }
 
-Archive open_archive(const Contents& contents) {
-  Archive archive{&contents, io::ZipReader(contents.bytes, contents.file.string()), ""};
-  for (const io::ZipEntry& entry : archive.zip.entries()) {
-    const bool is_main = entry.name == "main.xml" || entry.name.ends_with("/main.xml");
-    if (is_main && !entry.name.starts_with("__MACOSX")) {
-      archive.folder = entry.name.substr(0, entry.name.size() - std::string("main.xml").size());
-      return archive;
-    }
-  }
-  throw Unrecognised(contents, "a ZIP archive without main.xml, so no X3P file",
-                     "unpack it if it holds several files");
-}
-
 }  // namespace
 
-Match identify_x3p(std::string_view head) {
-  return head.starts_with("PK\x03\x04") ? Match::maybe : Match::no;
-}
+Match identify_x3p(std::string_view head) { return is_zip(head) ? Match::maybe : Match::no; }
 
 Document open_x3p(const Contents& contents) {
-  const Archive archive = open_archive(contents);
-  const std::string text = archive.zip.read(*archive.find("main.xml"), kMaxXml);
-  const io::XmlDocument xml(text, contents.file.string() + ": main.xml");
+  const auto archive = std::make_shared<const Archive>(contents, kMain, "X3P");
+  const io::XmlDocument xml(archive->main(), contents.file.string() + ": main.xml");
   const io::XmlElement root = xml.root();
   Document document{.format = "x3p", .instrument = instrument_of(root)};
   add_metadata(document, root);
   const Matrix matrix = describe(contents, root);
   const io::XmlElement link = root.at("Record3/DataLink");
   const io::XmlElement list = root.at("Record3/DataList");
-  if (!link && !list) refuse(contents, "no data in main.xml", "DataLink or DataList", kDamaged);
-  add_layers(document, contents, matrix,
-             link ? linked(archive, link, matrix, document) : listed(contents, list, matrix));
+  if (link) {
+    const Links links = links_of(*archive, link, matrix);
+    add_layers(document, contents, matrix, [archive, links, matrix](Index k, auto& doubts) {
+      return unpack(*archive, links, matrix, k, doubts);
+    });
+  } else if (list) {
+    const auto values = std::make_shared<const std::vector<double>>(listed(contents, list, matrix));
+    add_layers(document, contents, matrix, [values, matrix](Index k, auto&) -> Field {
+      return Eigen::Map<const Field>(values->data() + k * matrix.nx * matrix.ny, matrix.ny,
+                                     matrix.nx);
+    });
+  } else {
+    refuse(contents, "no data in main.xml", "DataLink or DataList", kDamaged);
+  }
   return document;
-}
-
-namespace {
-
-std::string axis_xml(const char* name, char type, double increment) {
-  return fmt::format(
-      "      <{0}>\n        <AxisType>{1}</AxisType>\n        <DataType>D</DataType>\n"
-      "        <Increment>{2:.17g}</Increment>\n        <Offset>0</Offset>\n      </{0}>\n",
-      name, type, increment);
-}
-
-std::string record1(const Grid& grid) {
-  return "  <Record1>\n    <Revision>ISO5436 - 2000</Revision>\n"
-         "    <FeatureType>SUR</FeatureType>\n    <Axes>\n" +
-         axis_xml("CX", 'I', grid.dx()) + axis_xml("CY", 'I', grid.dy()) + axis_xml("CZ", 'A', 1) +
-         "    </Axes>\n  </Record1>\n";
-}
-
-std::string record2(const Topography& topography) {
-  const auto date = topography.metadata.find("Date");
-  const std::string when = date == topography.metadata.end() ? "1970-01-01T00:00:00" : date->second;
-  return fmt::format(
-      "  <Record2>\n    <Date>{0}</Date>\n    <Instrument>\n"
-      "      <Manufacturer>{1}</Manufacturer>\n      <Model>not available</Model>\n"
-      "      <Serial>not available</Serial>\n      <Version>not available</Version>\n"
-      "    </Instrument>\n    <CalibrationDate>{0}</CalibrationDate>\n    <ProbingSystem>\n"
-      "      <Type>Software</Type>\n      <Identification>not available</Identification>\n"
-      "    </ProbingSystem>\n    <Comment>{2}</Comment>\n  </Record2>\n",
-      io::xml_escape(when),
-      io::xml_escape(topography.instrument.empty() ? "not available" : topography.instrument),
-      io::xml_escape(topography.source));
-}
-
-std::string record3(const Grid& grid, const std::string& data, const std::string& valid) {
-  const auto digest = [](const std::string& bytes) {
-    return io::md5(std::as_bytes(std::span(bytes)));
-  };
-  std::string links = fmt::format(
-      "      <PointDataLink>bindata/data.bin</PointDataLink>\n"
-      "      <MD5ChecksumPointData>{}</MD5ChecksumPointData>\n",
-      digest(data));
-  if (!valid.empty()) {
-    links += fmt::format(
-        "      <ValidPointsLink>bindata/valid.bin</ValidPointsLink>\n"
-        "      <MD5ChecksumValidPoints>{}</MD5ChecksumValidPoints>\n",
-        digest(valid));
-  }
-  return fmt::format(
-      "  <Record3>\n    <MatrixDimension>\n      <SizeX>{}</SizeX>\n      <SizeY>{}</SizeY>\n"
-      "      <SizeZ>1</SizeZ>\n    </MatrixDimension>\n    <DataLink>\n{}    </DataLink>\n"
-      "  </Record3>\n",
-      grid.nx, grid.ny, links);
-}
-
-/// One bit per pixel, lowest bit first, 1 = valid; empty if there are no holes.
-std::string valid_bits(const Topography& topography) {
-  if (count_holes(topography) == 0) return "";
-  const Field& height = topography.height;
-  std::string bits(static_cast<std::size_t>(height.size() + 7) / 8, '\0');
-  for (Index i = 0; i < height.size(); ++i) {
-    char& byte = bits[static_cast<std::size_t>(i / 8)];
-    if (!std::isnan(height.data()[i])) byte = static_cast<char>(byte | (1 << (i % 8)));
-  }
-  return bits;
-}
-
-}  // namespace
-
-void write_x3p(const Topography& topography, const std::filesystem::path& file) {
-  std::string data;
-  put_field(data, topography.height);
-  std::string valid = valid_bits(topography);
-  const std::string xml =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-      "<p:ISO5436_2 xmlns:p=\"http://www.opengps.eu/2008/ISO5436_2\">\n" +
-      record1(topography.grid) + record2(topography) + record3(topography.grid, data, valid) +
-      "  <Record4>\n    <ChecksumFile>md5checksum.hex</ChecksumFile>\n  </Record4>\n"
-      "</p:ISO5436_2>\n";
-  const std::string checksum = io::md5(std::as_bytes(std::span(xml))) + " *main.xml\n";
-  std::vector<io::ZipContent> files{{"main.xml", xml}, {"md5checksum.hex", checksum}};
-  if (!valid.empty()) files.push_back({"bindata/valid.bin", std::move(valid)});
-  files.push_back({"bindata/data.bin", std::move(data)});
-  io::write_file(file, std::string_view(io::zip(files)));
 }
 
 }  // namespace tabor::topography::format

@@ -1,0 +1,87 @@
+#include "tabor/topography/formats/archive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tabor/core/resources.hpp"
+
+namespace tabor::topography::format {
+namespace {
+
+constexpr std::size_t kMaxMain = std::size_t{64} << 20;
+/// Parsed XML takes some ten times its text, so a small archive must not hold a huge one. Heights
+/// listed as text pack to a tenth; only repetition packs to a hundredth.
+constexpr std::size_t kAnyMain = std::size_t{1} << 20;
+constexpr std::size_t kMainRatio = 100;
+
+bool names(const std::string& path, const std::string& name) {
+  return !path.starts_with("__MACOSX") && (path == name || path.ends_with("/" + name));
+}
+
+}  // namespace
+
+bool is_zip(std::string_view head) { return head.starts_with("PK\x03\x04"); }
+
+Archive::Archive(const Contents& contents, const std::string& main, const std::string& format_name)
+    : contents_(contents), zip_(contents.bytes, contents.file.string()), main_(main) {
+  const auto& entries = zip_.entries();
+  const auto found = std::find_if(entries.begin(), entries.end(),
+                                  [&](const auto& entry) { return names(entry.name, main); });
+  if (found == entries.end()) {
+    throw Unrecognised(contents,
+                       fmt::format("a ZIP archive without {} (so not {})", main, format_name),
+                       "unpack it if it holds several files");
+  }
+  folder_ = found->name.substr(0, found->name.size() - main.size());
+}
+
+std::string Archive::main() const {
+  const io::ZipEntry& entry = find(main_);
+  const std::size_t likely = std::max(kAnyMain, kMainRatio * contents_.bytes.size());
+  return zip_.read(entry, std::min(kMaxMain, likely));
+}
+
+const io::ZipEntry& Archive::find(std::string link) const {
+  std::replace(link.begin(), link.end(), '\\', '/');
+  while (link.starts_with("./") || link.starts_with("/")) link.erase(0, link.find('/') + 1);
+  const io::ZipEntry* found = nullptr;
+  for (const io::ZipEntry& entry : zip_.entries()) {
+    if (entry.name != folder_ + link) continue;
+    if (found != nullptr) {
+      refuse(contents_, "two entries named '" + link + "'", "one", kDamaged);
+    }
+    found = &entry;
+  }
+  if (found == nullptr) {
+    refuse(contents_, "no entry '" + link + "'", "the data " + main_ + " links to", kDamaged);
+  }
+  return *found;
+}
+
+const io::ZipEntry& Archive::entry(const std::string& link, std::size_t size) const {
+  const io::ZipEntry& entry = find(link);
+  if (entry.size != size) {
+    refuse(contents_, fmt::format("{} of {} bytes", link, entry.size),
+           fmt::format("{} bytes as {} says", size, main_), kDamaged);
+  }
+  return entry;
+}
+
+std::string Archive::read(const io::ZipEntry& entry) const {
+  const std::size_t likely = kLargestDeflateRatio * contents_.bytes.size();
+  const std::size_t memory = available_memory_bytes();
+  return zip_.read(entry, memory > 0 ? std::min(likely, memory / 2) : likely);
+}
+
+void Archive::read(const io::ZipEntry& entry,
+                   const std::function<void(std::string_view)>& accept) const {
+  std::size_t n_read = 0;
+  zip_.read(entry, entry.size, [&](std::string_view piece) {
+    accept(piece);
+    n_read += piece.size();
+    contents_.finished({}, static_cast<double>(n_read) / static_cast<double>(entry.size));
+  });
+}
+
+}  // namespace tabor::topography::format
