@@ -164,7 +164,9 @@ TEST(LongWaves, CompleteThePreconditionerToTheInverseOfTheOperatorOnLongWaves) {
     std::vector<float> row_sums;
     preconditioner.apply(everywhere, residual, direction, row_sums);
     const std::vector<float> compact = direction;
-    long_waves.correct(everywhere, row_sums, compact, direction);
+    long_waves.start_anew();
+    long_waves.correct(everywhere, row_sums, compact, compact, LongWaves::Accuracy::full,
+                       direction);
     const auto gain = [&](const std::vector<float>& answer) {
       return (Eigen::Map<const FieldF>(answer.data(), n, n) * residual).sum() /
              residual.square().sum();
@@ -179,7 +181,9 @@ TEST(LongWaves, LeaveAloneWhatBoundsHold) {
   const Grid grid{64, 64, 1.0, 1.0};
   LongWaves long_waves(grid, 1.0, 10.0, true);
   std::vector<float> direction{1.0F, 2.0F};
-  long_waves.correct({100, 2000}, {5.0F, 5.0F}, {0.0F, 0.0F}, direction);
+  long_waves.start_anew();
+  long_waves.correct({100, 2000}, {5.0F, 5.0F}, {0.0F, 0.0F}, {1.0F, 2.0F},
+                     LongWaves::Accuracy::full, direction);
   EXPECT_EQ(direction, (std::vector<float>{1.0F, 2.0F}));
 }
 

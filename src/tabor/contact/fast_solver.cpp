@@ -210,13 +210,14 @@ void ProjectedGradient::find_direction() {
 void ProjectedGradient::add_long_waves() {
   direction_ = compact_direction_;
   moved_ = compact_direction_;
+  long_waves_.start_anew();
   for (int round = 0; round < kBlockRounds && long_waves_.useful(); ++round) {
     const double n_changed = hold_at_bounds();
-    if (round > 0 && n_changed <= kSettledShare * static_cast<double>(active_.size())) {
+    if (round > 1 && n_changed <= kSettledShare * static_cast<double>(active_.size())) {
       break;
     }
-    direction_ = compact_direction_;
-    long_waves_.correct(active_, stiffness_, moved_, direction_);
+    const auto accuracy = round == 0 ? LongWaves::Accuracy::rough : LongWaves::Accuracy::full;
+    long_waves_.correct(active_, stiffness_, moved_, compact_direction_, accuracy, direction_);
   }
 }
 

@@ -12,6 +12,7 @@ constexpr Index kPixelsPerBlock = 8;  // the reach of the compact kernel
 /// Least energy of the error, as a share of the first. The correction cancels long waves of the
 /// direction that are hundreds of times too large: what it leaves must be small against that.
 constexpr double kTolerance = 1e-12;
+constexpr double kRoughTolerance = 1e-6;
 constexpr int kMostSteps = 100;
 
 /// Even, so that bands of pixels between two rows of blocks can be gathered in two colours.
@@ -21,11 +22,9 @@ Index block_count(Index n_pixels) {
 
 double product(const FieldF& a, const FieldF& b) {
   return deterministic_sum(a.size(), [&](Index begin, Index end) {
-    double partial = 0;
-    for (Index i = begin; i < end; ++i) {
-      partial += static_cast<double>(a.data()[i]) * static_cast<double>(b.data()[i]);
-    }
-    return partial;
+    const Eigen::Map<const Eigen::ArrayXf> one(a.data() + begin, end - begin);
+    const Eigen::Map<const Eigen::ArrayXf> other(b.data() + begin, end - begin);
+    return (one.cast<double>() * other.cast<double>()).sum();
   });
 }
 
@@ -86,37 +85,60 @@ std::vector<LongWaves::Neighbours> LongWaves::neighbours(Index n_pixels, Index n
   return list;
 }
 
+/// What the pixels of one row between the same two columns of blocks add, before the weights of
+/// the row.
+struct LongWaves::Sums {
+  float load[2] = {0, 0};          // of the lower and the upper block
+  float stiffness[3] = {0, 0, 0};  // lower to lower, lower to upper, upper to upper
+};
+
+void LongWaves::add(const Sums& sums, const Neighbours& row, const Neighbours& column) {
+  const float wy[2] = {1 - row.weight, row.weight};
+  const Index y[2] = {row.lower, row.upper};
+  const Index x[2] = {column.lower, column.upper};
+  for (Index i = 0; i < 4; ++i) {
+    load_(y[i / 2], x[i % 2]) += wy[i / 2] * sums.load[i % 2];
+    for (Index j = 0; j < 4; ++j) {
+      stiffness_(slot(j / 2 - i / 2, j % 2 - i % 2) * blocks_y_ + y[i / 2], x[i % 2]) +=
+          wy[i / 2] * wy[j / 2] * sums.stiffness[i % 2 + j % 2];
+    }
+  }
+}
+
+void LongWaves::gather_row(const PixelList& set, const std::vector<float>& stiffness,
+                           const std::vector<float>& moved, const std::vector<float>& compact,
+                           Index y) {
+  const Index first = y * grid_.nx;
+  auto k = static_cast<std::size_t>(
+      std::lower_bound(set.begin(), set.end(), static_cast<std::uint32_t>(first)) - set.begin());
+  const auto in_row = [&] { return k < set.size() && set[k] < first + grid_.nx; };
+  while (in_row()) {
+    const Neighbours& columns = columns_[static_cast<std::size_t>(set[k] - first)];
+    Sums sums;
+    for (; in_row(); ++k) {
+      const Neighbours& column = columns_[static_cast<std::size_t>(set[k] - first)];
+      if (column.lower != columns.lower || column.upper != columns.upper) {
+        break;
+      }
+      const float upper = column.weight;
+      const float lower = 1 - upper;
+      const float m = moved[k] == compact[k] ? stiffness[k] : 0.0F;
+      sums.load[0] += lower * moved[k];
+      sums.load[1] += upper * moved[k];
+      sums.stiffness[0] += lower * lower * m;
+      sums.stiffness[1] += lower * upper * m;
+      sums.stiffness[2] += upper * upper * m;
+    }
+    add(sums, rows_[static_cast<std::size_t>(y)], columns);
+  }
+}
+
 /// load_ = P^T moved, stiffness_ = K. Pixels of one band between two rows of blocks add to these
 /// two rows only: even bands first, then odd ones, each in parallel.
 void LongWaves::gather(const PixelList& set, const std::vector<float>& stiffness,
-                       const std::vector<float>& moved, const std::vector<float>& direction) {
+                       const std::vector<float>& moved, const std::vector<float>& compact) {
   load_ = FieldF::Zero(blocks_y_, blocks_x_);
-  stiffness_ = FieldF::Zero(blocks_y_ * blocks_x_, 9);
-  const auto add = [&](std::size_t k, Index y, Index x) {
-    const Neighbours& row = rows_[static_cast<std::size_t>(y)];
-    const Neighbours& column = columns_[static_cast<std::size_t>(x)];
-    const float wy[2] = {1 - row.weight, row.weight};
-    const float wx[2] = {1 - column.weight, column.weight};
-    const bool is_free = moved[k] == direction[k];
-    for (Index i = 0; i < 4; ++i) {
-      const float weight = wy[i / 2] * wx[i % 2];
-      const Index block = (i / 2 == 0 ? row.lower : row.upper) * blocks_x_ +
-                          (i % 2 == 0 ? column.lower : column.upper);
-      load_.data()[block] += weight * moved[k];
-      for (Index j = 0; is_free && j < 4; ++j) {
-        stiffness_(block, slot(j / 2 - i / 2, j % 2 - i % 2)) +=
-            weight * wy[j / 2] * wx[j % 2] * stiffness[k];
-      }
-    }
-  };
-  const auto add_row = [&](Index y) {
-    const auto first = static_cast<std::uint32_t>(y * grid_.nx);
-    const auto last = static_cast<std::uint32_t>((y + 1) * grid_.nx);
-    for (auto it = std::lower_bound(set.begin(), set.end(), first); it != set.end() && *it < last;
-         ++it) {
-      add(static_cast<std::size_t>(it - set.begin()), y, static_cast<Index>(*it - first));
-    }
-  };
+  stiffness_ = FieldF::Zero(9 * blocks_y_, blocks_x_);
   std::vector<std::vector<Index>> bands(static_cast<std::size_t>(blocks_y_));
   for (Index y = 0; y < grid_.ny; ++y) {
     bands[static_cast<std::size_t>(rows_[static_cast<std::size_t>(y)].lower)].push_back(y);
@@ -124,7 +146,7 @@ void LongWaves::gather(const PixelList& set, const std::vector<float>& stiffness
   for (const Index colour : {0, 1}) {
     parallel_for(blocks_y_ / 2, 1, [&](Index half, Index) {
       for (const Index y : bands[static_cast<std::size_t>(2 * half + colour)]) {
-        add_row(y);
+        gather_row(set, stiffness, moved, compact, y);
       }
     });
   }
@@ -143,34 +165,45 @@ void LongWaves::apply_compliance(const FieldF& load, FieldF& displacement) {
 void LongWaves::apply_stiffness(const FieldF& displacement, FieldF& load) const {
   load.resize(blocks_y_, blocks_x_);
   const auto wrapped = [](Index k, Index n) { return k < 0 ? k + n : (k < n ? k : k - n); };
+  const Index inside = blocks_x_ - 2;
   parallel_for(blocks_y_, 16, [&](Index begin, Index end) {
     for (Index y = begin; y < end; ++y) {
-      for (Index x = 0; x < blocks_x_; ++x) {
-        float sum = 0;
-        for (Index dy = -1; dy <= 1; ++dy) {
-          for (Index dx = -1; dx <= 1; ++dx) {
-            sum += stiffness_(y * blocks_x_ + x, slot(dy, dx)) *
-                   displacement(wrapped(y + dy, blocks_y_), wrapped(x + dx, blocks_x_));
+      load.row(y).setZero();
+      for (Index dy = -1; dy <= 1; ++dy) {
+        const auto from = displacement.row(wrapped(y + dy, blocks_y_));
+        for (Index dx = -1; dx <= 1; ++dx) {
+          const auto weight = stiffness_.row(slot(dy, dx) * blocks_y_ + y);
+          load.row(y).segment(1, inside) +=
+              weight.segment(1, inside) * from.segment(1 + dx, inside);
+          for (const Index x : {Index{0}, blocks_x_ - 1}) {
+            load(y, x) += weight(x) * from(wrapped(x + dx, blocks_x_));
           }
         }
-        load(y, x) = sum;
       }
     }
   });
 }
 
-/// (I + S_c K) e = S_c load.
-void LongWaves::solve() {
+void LongWaves::start_anew() {
+  displacement_ = FieldF::Zero(blocks_y_, blocks_x_);
+  first_square_ = 0;
+}
+
+/// (I + S_c K) e = S_c load, from the e known so far.
+void LongWaves::solve(double tolerance) {
   FieldF residual;
   FieldF stiff_residual;
-  apply_compliance(load_, residual);
+  FieldF image;
+  apply_stiffness(displacement_, image);
+  image = load_ - image;
+  apply_compliance(image, residual);
+  residual -= displacement_;
   apply_stiffness(residual, stiff_residual);
   FieldF step = residual;
   FieldF stiff_step = stiff_residual;
-  FieldF image;
-  displacement_ = FieldF::Zero(blocks_y_, blocks_x_);
   double square = product(residual, stiff_residual);
-  const double enough = kTolerance * square;
+  first_square_ = std::max(first_square_, square);
+  const double enough = tolerance * first_square_;
   for (int k = 0; k < kMostSteps && square > enough; ++k) {
     apply_compliance(stiff_step, image);
     image += step;
@@ -191,19 +224,21 @@ void LongWaves::solve() {
 }
 
 void LongWaves::correct(const PixelList& set, const std::vector<float>& stiffness,
-                        const std::vector<float>& moved, std::vector<float>& direction) {
-  gather(set, stiffness, moved, direction);
-  solve();
+                        const std::vector<float>& moved, const std::vector<float>& compact,
+                        Accuracy accuracy, std::vector<float>& direction) {
+  gather(set, stiffness, moved, compact);
+  solve(accuracy == Accuracy::rough ? kRoughTolerance : kTolerance);
+  direction.resize(set.size());
   parallel_for(static_cast<Index>(set.size()), kBlock, [&](Index begin, Index end) {
     for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-      const Neighbours& row = rows_[set[k] / static_cast<std::size_t>(grid_.nx)];
-      const Neighbours& column = columns_[set[k] % static_cast<std::size_t>(grid_.nx)];
+      const Neighbours& row = rows_[set[k] / static_cast<std::uint32_t>(grid_.nx)];
+      const Neighbours& column = columns_[set[k] % static_cast<std::uint32_t>(grid_.nx)];
       const auto along_x = [&](Index y) {
         return (1 - column.weight) * displacement_(y, column.lower) +
                column.weight * displacement_(y, column.upper);
       };
-      direction[k] -=
-          stiffness[k] * ((1 - row.weight) * along_x(row.lower) + row.weight * along_x(row.upper));
+      direction[k] = compact[k] - stiffness[k] * ((1 - row.weight) * along_x(row.lower) +
+                                                  row.weight * along_x(row.upper));
     }
   });
 }

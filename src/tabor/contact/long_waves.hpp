@@ -25,11 +25,19 @@ class LongWaves {
   /// False for grids of a few blocks, on which nothing is left to correct.
   bool useful() const { return blocks_y_ >= kLeastBlocks && blocks_x_ >= kLeastBlocks; }
 
-  /// Corrects direction[k] at pixel set[k]. stiffness: m [Pa/m]; moved: the part of the direction
-  /// that the bounds on the pressure let through. A pixel where the two differ is held by a bound:
-  /// it adds to the load of its block but not to its stiffness.
+  /// How far the equation on the blocks is solved: `rough` tells which pixels a bound will hold.
+  enum class Accuracy { rough, full };
+
+  /// Forgets e: the next solution starts from nothing.
+  void start_anew();
+
+  /// direction[k] = compact[k] - (m P e)[k] at pixel set[k], with e found from the e before.
+  /// compact: the direction M gives; stiffness: m [Pa/m]; moved: the part of the direction that the
+  /// bounds on the pressure let through. A pixel where it differs from the compact direction is
+  /// held by a bound: it adds to the load of its block but not to its stiffness.
   void correct(const PixelList& set, const std::vector<float>& stiffness,
-               const std::vector<float>& moved, std::vector<float>& direction);
+               const std::vector<float>& moved, const std::vector<float>& compact,
+               Accuracy accuracy, std::vector<float>& direction);
 
  private:
   static constexpr Index kLeastBlocks = 4;
@@ -42,10 +50,14 @@ class LongWaves {
 
   static std::vector<Neighbours> neighbours(Index n_pixels, Index n_blocks, bool wraps);
   void gather(const PixelList& set, const std::vector<float>& stiffness,
-              const std::vector<float>& moved, const std::vector<float>& direction);
+              const std::vector<float>& moved, const std::vector<float>& compact);
+  void gather_row(const PixelList& set, const std::vector<float>& stiffness,
+                  const std::vector<float>& moved, const std::vector<float>& compact, Index y);
+  struct Sums;
+  void add(const Sums& sums, const Neighbours& row, const Neighbours& column);
   void apply_compliance(const FieldF& load, FieldF& displacement);
   void apply_stiffness(const FieldF& displacement, FieldF& load) const;
-  void solve();
+  void solve(double tolerance);
 
   Grid grid_;
   Index blocks_y_;
@@ -54,8 +66,9 @@ class LongWaves {
   std::vector<Neighbours> columns_;  // of every pixel column
   FieldF compliance_;                // S_c [m/Pa], shape (half spectrum of x, half spectrum of y)
   FieldF load_;                      // P^T moved [Pa]
-  FieldF stiffness_;                 // K [Pa/m], shape (blocks, 9): to the 3 x 3 blocks around
+  FieldF stiffness_;                 // K [Pa/m], 9 maps: to each of the 3 x 3 blocks around
   FieldF displacement_;              // e [m]
+  double first_square_ = 0;          // energy of the error for e = 0
   spectral::Convolution<float> convolution_;
 };
 
