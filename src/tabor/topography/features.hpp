@@ -3,7 +3,8 @@
 #include <vector>
 
 #include "tabor/core/convergence.hpp"
-#include "tabor/topography/parameters.hpp"
+#include "tabor/topography/parameter.hpp"
+#include "tabor/topography/topography.hpp"
 
 namespace tabor::topography {
 

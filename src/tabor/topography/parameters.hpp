@@ -1,35 +1,13 @@
 #pragma once
 
-#include <array>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include "tabor/core/convergence.hpp"
+#include "tabor/topography/parameter.hpp"
+#include "tabor/topography/profile.hpp"
 #include "tabor/topography/topography.hpp"
 
 namespace tabor::topography {
-
-/// The sets in which ISO 25178-2 orders areal parameters, then spectral moments and profiles.
-enum class ParameterSet { height, hybrid, function, volume, spatial, feature, spectral, profile };
-
-inline constexpr std::array kParameterSets{
-    ParameterSet::height,  ParameterSet::hybrid,  ParameterSet::function, ParameterSet::volume,
-    ParameterSet::spatial, ParameterSet::feature, ParameterSet::spectral, ParameterSet::profile};
-
-std::optional<ParameterSet> parameter_set_from(std::string_view name);  ///< "height", ...
-std::string_view name_of(ParameterSet set);
-
-/// A number with everything needed to compare it with another program's.
-struct Parameter {
-  std::string symbol;      ///< "Sq"
-  double value = 0;        ///< SI; NaN where it does not exist (Ssk of a flat surface)
-  std::string unit;        ///< "m", "1", "%", "deg", "1/m^2", ...
-  std::string definition;  ///< formula and convention, one line
-  std::string note = {};   ///< a bound ("< 0.05: ..."), a caution, or why there is no value
-  ParameterSet set = ParameterSet::height;  ///< filled in by parameters()
-};
 
 /// Which differences Sdq and the difference moments use.
 /// forward: on the (nx-1)(ny-1) pixels that have a right and a lower neighbour.
@@ -50,9 +28,7 @@ struct ParameterOptions {
   double valley_ratio = 80;    ///< q [%] of Smc(q), Sdc, Vmc, Vvc, Vvv
   double acf_threshold = 0.2;  ///< s of Sal and Str
   double pruning = 0.05;       ///< Wolf pruning of the feature parameters, share of Sz
-  std::optional<double> profile_cutoff = {};  ///< lc [m] of the profile set; empty: its default
-  std::optional<double> profile_short_cutoff = {};  ///< ls [m]; empty: its default
-  std::optional<int> profile_sections = {};         ///< sampling lengths; empty: as many as fit
+  ProfileOptions profile = {};
 };
 
 /// The parameters of the chosen sets, of the surface AS GIVEN: heights about the mean of its valid

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tabor/core/convergence.hpp"
-#include "tabor/topography/parameters.hpp"
+#include "tabor/topography/parameter.hpp"
 #include "tabor/topography/topography.hpp"
 
 namespace tabor::topography {
@@ -48,10 +48,11 @@ struct ProfileSetting {
 
 /// Cut-offs after ISO 21920-3: the setting class of the surface's Rz (0.08, 0.25, 0.8, 2.5, 8 mm
 /// below Rz of 0.16, 0.8, 16, 80 um and above), Rz being the mean range of the fifths of the
-/// profiles before filtering; the next smaller class as long as five lc do not fit; a fifth of the
-/// profile where no class fits. ls: 2.5, 2.5, 2.5, 8, 25 um, or lc/30 where no class fits; none
-/// where ls is below two pixels. What the options fix stays.
-/// Throws InputError for options that make no sense.
+/// profiles before filtering (of both axes the larger); the next smaller class as long as five lc
+/// do not fit; a fifth of the profile where no class fits. ls: 2.5, 2.5, 2.5, 8, 25 um, or lc/30
+/// where no class fits; none where ls is below two pixels. What the options fix stays. "The
+/// profile" is the shorter side of the map, so that both axes have one lc, unless it is less than a
+/// quarter of the other. Throws InputError for options that make no sense.
 ProfileSetting choose_setting(const Topography& topography, ProfileAxis axis,
                               const ProfileOptions& options = {});
 

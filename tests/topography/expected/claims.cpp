@@ -1,12 +1,14 @@
 #include "claims.hpp"
 
 #include <cmath>
+#include <stdexcept>
 
 #include "quirks.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/topography/filters.hpp"
 #include "tabor/topography/geometry.hpp"
 #include "tabor/topography/holes.hpp"
+#include "tabor/topography/profile.hpp"
 #include "tabor/topography/psd.hpp"
 
 namespace tabor::topography::test {
@@ -17,6 +19,8 @@ using Measure = std::function<double(Subject&)>;
 // Tolerances of the specification (section 8), relative.
 constexpr double kByDigits = 0;
 constexpr double kMoments = 1e-9;       // of order one: Ssk itself may be near zero
+constexpr double kDifferences = 1e-12;  // Sdq, Sdr of the same definition
+constexpr double kArea = 1e-12;         // in per cent: the list's Sdr is a ratio of areas minus one
 constexpr double kCoreHeights = 3e-3;   // Sk family
 constexpr double kMaterialRatio = 0.2;  // Smrk1, Smrk2: percentage points
 constexpr double kVolumes = 2e-3;
@@ -38,7 +42,7 @@ Claim claim(const Source& source, const std::string& quantity, Measure ours,
            row.provenance.starts_with(source.provenance) &&
            (!source.of_file || source.of_file(row.file));
   };
-  return {applies, std::move(ours), tolerance, 0, {}};
+  return {applies, std::move(ours), tolerance, 0, false, {}};
 }
 
 Measure value(Form form, ParameterSet set, const std::string& symbol) {
@@ -145,13 +149,18 @@ void add_hybrid_rows(std::vector<Claim>& all) {
   const Measure sdq = value(Form::plane, ParameterSet::hybrid, "Sdq");
   const Source plane{"after LSQ plane removal"};
   all.push_back(claim({"forward differences"}, "rms_gradient trunc",
-                      value(Form::none, ParameterSet::hybrid, "Sdq")));
-  all.push_back(claim({"valid points only"}, "Sdq_plane", separate_slope));
-  all.push_back(claim(plane, "Sdq_trunc", sdq));
-  all.push_back(claim(plane, "Sdr_tri2_pct", value(Form::plane, ParameterSet::hybrid, "Sdr")));
+                      value(Form::none, ParameterSet::hybrid, "Sdq"), kDifferences));
+  all.push_back(claim({"valid points only"}, "Sdq_plane", separate_slope, kDifferences));
+  all.push_back(claim(plane, "Sdq_trunc", sdq, kDifferences));
   all.push_back(
-      claim(plane, "Sdr_tri4_pct", [](Subject& s) { return area_of_four(s, Form::plane); }));
-  all.push_back(claim(plane, "gwy_Sdq", [](Subject& s) { return gwyddion_slope(s, Form::plane); }));
+      claim(plane, "Sdr_tri2_pct", value(Form::plane, ParameterSet::hybrid, "Sdr"), kDifferences));
+  all.back().absolute_tolerance = kArea;
+  all.push_back(claim(
+      plane, "Sdr_tri4_pct", [](Subject& s) { return area_of_four(s, Form::plane); },
+      kDifferences));
+  all.back().absolute_tolerance = kArea;
+  all.push_back(claim(
+      plane, "gwy_Sdq", [](Subject& s) { return gwyddion_slope(s, Form::plane); }, kDifferences));
   all.push_back(claim(
       plane, "gwy_Sdr_pct", [](Subject& s) { return area_of_four(s, Form::plane); },
       kGwyddionArea));
@@ -258,6 +267,55 @@ void add_sine_rows(std::vector<Claim>& all) {
   all.push_back(claim(sine, "Smr(c=0)", value(Form::none, ParameterSet::function, "Smr(c)")));
 }
 
+Measure profile_value(const ProfileOptions& options, const std::string& symbol) {
+  return [=](Subject& subject) {
+    for (const Parameter& found : profile_parameters(subject.as_read(), ProfileAxis::x, options)) {
+      if (found.symbol == symbol + "_x") return found.value;
+    }
+    throw std::out_of_range("no profile parameter " + symbol);
+  };
+}
+
+/// The file holds the roughness profile, as filtered by the instrument.
+void add_instrument_rows(std::vector<Claim>& all) {
+  const Source source{"ISO 1997"};
+  ProfileOptions options;
+  options.standard = ProfileStandard::iso4287;
+  options.cutoff = 2.5e-3;
+  options.sections = 4;
+  options.filtered = true;
+  for (const char* symbol : {"Ra", "Rq", "Rp", "Rv", "Rz", "Rt", "Rz1max", "Rsk", "Rku", "Rdq"}) {
+    all.push_back(claim(source, symbol, profile_value(options, symbol)));
+  }
+  // The instrument's own come from the second filter of ISO 13565-1, which the file does not hold;
+  // the list's are those of the plain curve.
+  for (const char* symbol : {"Rk", "Rpk", "Rvk"}) {
+    all.push_back(claim(source, symbol, profile_value(options, symbol), kCoreHeights));
+    all.back().against_recomputed = true;
+  }
+  for (const char* symbol : {"Mr1", "Mr2"}) {
+    all.push_back(claim(source, symbol, profile_value(options, symbol)));
+    all.back().absolute_tolerance = kMaterialRatio;
+    all.back().against_recomputed = true;
+  }
+  // Areas of the triangles of Rpk and Rvk, from the numbers printed beside them.
+  all.push_back(claim(source, "A1", [](Subject&) { return 2.912e-6 * 5.822 / 2; }));
+  all.push_back(claim(source, "A2", [](Subject&) { return 3.98e-6 * (100 - 92.617) / 2; }));
+}
+
+/// Published about the mean, with forward differences for the slope.
+void add_synthetic_profile_rows(std::vector<Claim>& all) {
+  const Source source{"RandomState(0)"};
+  ProfileOptions options;
+  options.cutoff = 20e-6;
+  options.sections = 5;
+  options.filtered = true;
+  options.forward_slopes = true;
+  for (const char* symbol : {"Ra", "Rq", "Rp", "Rv", "Rz", "Rt", "Rsk", "Rku", "Rdq"}) {
+    all.push_back(claim(source, symbol, profile_value(options, symbol)));
+  }
+}
+
 std::vector<Claim> all_claims() {
   std::vector<Claim> all;
   add_reader_rows(all);
@@ -268,6 +326,8 @@ std::vector<Claim> all_claims() {
   all.push_back(claim({"after LSQ plane removal"}, "Str", aspect_ratio_or_zero, kAspectRatio));
   add_synthetic_rows(all);
   add_sine_rows(all);
+  add_instrument_rows(all);
+  add_synthetic_profile_rows(all);
   return all;
 }
 
@@ -280,7 +340,6 @@ const std::vector<Claim>& claims() {
 
 std::string unclaimed_reason(const Row& row) {
   if (row.file.starts_with("(upstream ")) return "the file is not among the scans";
-  if (row.file.find("profile") != std::string::npos) return "profile parameters are to come";
   if (row.text == "nan") return "the file has no lateral scale: it is refused without --pixel";
   return "";
 }

@@ -16,6 +16,8 @@ struct Claim {
   /// Relative; 0: half a unit of the last printed digit, at least 1e-9 (moments).
   double tolerance = 0;
   double absolute_tolerance = 0;  ///< in the row's unit, where that is what is asked
+  /// The published number cannot be had from the file; the list's own is compared.
+  bool against_recomputed = false;
   /// For a number that is known to be wrong: ours above is what reproduces it, and this is our
   /// value, which must be another one.
   std::function<double(Subject&)> true_value = {};

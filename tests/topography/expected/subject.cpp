@@ -11,6 +11,10 @@ namespace {
 ReadOptions options_for(const std::string& file) {
   ReadOptions options;
   if (file == "afm_512_nm_matrix.txt") options.pixel_x = 1e-6;
+  if (file.starts_with("profile_")) {
+    options.pixel_x = 1.5e-6;
+    options.unit = "um";
+  }
   if (file.starts_with("nanovea")) {
     options.pixel_x = 5e-6;
     options.unit = "um";

@@ -143,17 +143,40 @@ TEST(Parameters, OfAFlatSurfaceHaveNoSkewness) {
   EXPECT_EQ(value(flat, "Sdr"), 0);
 }
 
-TEST(Parameters, CarryUnitAndDefinition) {
-  for (const Parameter& parameter : parameters(noise({8, 8, 1, 1}))) {
-    EXPECT_FALSE(parameter.unit.empty()) << parameter.symbol;
-    EXPECT_GT(parameter.definition.size(), 15u) << parameter.symbol;
-  }
+TEST(RmsSlope, OfSevenPointsIsOfSixthOrder) {
+  // 40 pixels a wave; the 200 inner columns are five whole waves
+  const double phase = 2 * pi / 40;
+  const auto wave =
+      surface({206, 9, 206, 9}, [&](double x, double) { return std::sin(phase * x); });
+  const double error = rms_slope(wave, SlopeStencil::seven_point) * std::numbers::sqrt2 / phase - 1;
+  const double leading = -std::pow(phase, 6) / 140;
+  EXPECT_NEAR(error / leading, 1, 0.05);
 }
 
-TEST(Parameters, RefuseASurfaceOfHolesOnly) {
-  auto holed = noise({4, 4, 1, 1});
-  holed.height = kHole;
-  EXPECT_THROW(parameters(holed), InputError);
+TEST(RmsSlope, SkipsWhatItsStencilDoesNotReach) {
+  auto plane = surface({9, 7, 9e-6, 14e-6}, [](double x, double y) { return 0.3 * x + 0.4 * y; });
+  EXPECT_NEAR(rms_slope(plane, SlopeStencil::seven_point), 0.5, 1e-13);
+  plane.height(3, 4) = kHole;  // in the middle: every inner pixel of the one inner row sees it
+  EXPECT_TRUE(std::isnan(rms_slope(plane, SlopeStencil::seven_point)));
+  EXPECT_NEAR(rms_slope(plane), 0.5, 1e-13);
+}
+
+TEST(DevelopedArea, OfAFacetIsExactForBothTriangulations) {
+  const auto facet = surface({6, 5, 6, 10}, [](double x, double y) { return 1.5 * x - 0.5 * y; });
+  const double exact = 100 * (std::sqrt(1 + 1.5 * 1.5 + 0.5 * 0.5) - 1);
+  EXPECT_NEAR(developed_area_ratio(facet, AreaTriangles::two), exact, 1e-11);
+  EXPECT_NEAR(developed_area_ratio(facet, AreaTriangles::four), exact, 1e-11);
+}
+
+TEST(DevelopedArea, OfARoofCellDependsOnTheTriangles) {
+  // One corner up by one: two triangles hold it and the flat diagonal, or both others.
+  const auto cell =
+      surface({2, 2, 2, 2}, [](double x, double y) { return x > 1 && y > 1 ? 1.0 : 0.0; });
+  const double split = (1 + std::sqrt(3.0)) / 2, other = std::sqrt(2.0);
+  EXPECT_NEAR(developed_area_ratio(cell), 100 * ((split + other) / 2 - 1), 1e-12);
+  // The centre is at 1/4: half a pixel from the flat edges 1/4 up, from the rising ones 1/4 down.
+  const double four = (std::sqrt(1 + 0.25) + std::sqrt(1 + 1 + 0.25)) / 2;
+  EXPECT_NEAR(developed_area_ratio(cell, AreaTriangles::four), 100 * (four - 1), 1e-12);
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ class Calculation {
       case ParameterSet::feature:
         return feature_parameters(topography_, {.pruning = options_.pruning}, observer_);
       case ParameterSet::profile:
-        return {};
+        return profile_parameters(topography_, options_.profile, observer_);
     }
     return {};
   }

@@ -75,9 +75,10 @@ void append_moments(const SpectralMoments& m, const Wording& by, const std::stri
 }
 
 /// Nayak's parameter and the statistics of summits, from the isotropic moments.
-void append_summits(const SpectralMoments& m, const Wording& by, std::vector<Parameter>& found) {
+void append_summits(const SpectralMoments& m, const Wording& by, const std::string& why_not,
+                    std::vector<Parameter>& found) {
   const bool exists = m.m2 > 0 && m.m4 > 0;
-  const std::string note = exists ? "" : "needs a rough surface of three by three valid points";
+  const std::string note = exists ? "" : why_not;
   const auto add = [&](const char* symbol, double value, const char* unit, const char* formula) {
     found.push_back({symbol + by.suffix, exists ? value : kNoValue, unit, formula + by.how, note});
   };
@@ -91,6 +92,11 @@ void append_summits(const SpectralMoments& m, const Wording& by, std::vector<Par
       "contact");
   add("sigma_sum", variance >= 0 ? std::sqrt(variance) : kNoValue, "m",
       "rms summit height sqrt((1 - 0.8968/alpha) m0) for Greenwood-Williamson contact");
+  if (exists && variance < 0) found.back().note = "alpha < 0.8968, which no Gaussian surface has";
+}
+
+SpectralMoments no_moments() {
+  return {kNoValue, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue, kNoValue};
 }
 
 }  // namespace
@@ -105,10 +111,20 @@ SpectralMoments difference_moments(const Topography& topography) {
 
 std::vector<Parameter> spectral_parameters(const Topography& topography) {
   std::vector<Parameter> found;
-  const Wording by{"", "; neighbouring pixels' differences, those touching a hole left out"};
-  const SpectralMoments moments = difference_moments(topography);
-  append_moments(moments, by, "needs three valid points in a row", found);
-  append_summits(moments, by, found);
+  const Wording by_differences{
+      "", "; neighbouring pixels' differences, those touching a hole left out"};
+  const SpectralMoments differences = difference_moments(topography);
+  append_moments(differences, by_differences, "needs three valid points in a row", found);
+  append_summits(differences, by_differences, "needs a rough surface of three by three points",
+                 found);
+  const bool complete = count_holes(topography) == 0;
+  const Wording by_spectrum{
+      "_psd", std::string("; sum over the power spectrum, ") +
+                  (topography.periodic ? "no window" : "Hann window along both axes")};
+  const std::string note = complete ? "" : "needs a surface without holes (--fill harmonic)";
+  const SpectralMoments spectrum = complete ? spectrum_moments(topography) : no_moments();
+  append_moments(spectrum, by_spectrum, note, found);
+  append_summits(spectrum, by_spectrum, complete ? "needs a rough surface" : note, found);
   return found;
 }
 

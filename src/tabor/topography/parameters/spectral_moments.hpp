@@ -17,4 +17,9 @@ struct SpectralMoments {
 /// triples that touch a hole left out. Throws InputError if all are holes.
 SpectralMoments difference_moments(const Topography& topography);
 
+/// Sums of |F|^2 q^n over the discrete power spectrum, of the heights about their mean times a Hann
+/// window along both axes (none if the surface is periodic), normalised so that <z^2> is (2 pi)^-2
+/// times the integral of C2D (Jacobs, Junge & Pastewka 2017). Needs a surface without holes.
+SpectralMoments spectrum_moments(const Topography& topography);
+
 }  // namespace tabor::topography
