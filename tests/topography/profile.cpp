@@ -373,6 +373,15 @@ TEST(ProfileSetting, OfAShortScanSaysWhatItTook) {
   EXPECT_THAT(fifth.reason, HasSubstr("a fifth of the profile"));
 }
 
+TEST(ProfileSetting, IsOneForBothAxesOfAMapThatIsNoStrip) {
+  const auto map = noise({200, 120, 200e-6, 120e-6});
+  EXPECT_EQ(choose_setting(map, ProfileAxis::x).cutoff, 120e-6 / 5);
+  EXPECT_EQ(choose_setting(map, ProfileAxis::y).cutoff, 120e-6 / 5);
+  const auto strip = noise({200, 40, 200e-6, 40e-6});
+  EXPECT_EQ(choose_setting(strip, ProfileAxis::x).cutoff, 200e-6 / 5);
+  EXPECT_EQ(choose_setting(strip, ProfileAxis::y).cutoff, 40e-6 / 5);
+}
+
 TEST(ProfileSetting, TakesWhatIsAskedAsFarAsItFits) {
   ProfileOptions options;
   options.cutoff = 0.8e-3;
@@ -392,6 +401,19 @@ TEST(ProfileParameters, OfAScanShorterThanTheCutoffExist) {
   const auto found = along_x(noise({64, 64, 64e-6, 64e-6}), options);
   EXPECT_GT(found.at("Ra").value, 0);
   EXPECT_THAT(found.at("lc").note, HasSubstr("shorter than lc"));
+}
+
+TEST(ProfileParameters, OfAFarTooLongCutoffAreThoseAboutTheMean) {
+  const auto map = noise({300, 1, 300e-6, 1e-6});
+  ProfileOptions options;
+  options.short_cutoff = 0;
+  options.cutoff = 1000;  // metres: must not need weights a kilometre long
+  const auto found = along_x(map, options);
+  EXPECT_THAT(found.at("lc").note, HasSubstr("100 profile lengths"));
+  auto unfiltered = options;
+  unfiltered.kind = ProfileKind::primary;
+  const double about_line = value(map, unfiltered, "Pq");
+  EXPECT_NEAR(found.at("Rq").value / about_line, 1, 1e-3);
 }
 
 TEST(ProfileParameters, OfTinyMapsAreNotNumbersButDoNotFail) {

@@ -1,6 +1,7 @@
 #include "tabor/topography/profile_filter.hpp"
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -47,8 +48,10 @@ Eigen::ArrayXd without_form(const Eigen::ArrayXd& z, int degree) {
 
 Eigen::ArrayXd low_pass_profile(const Eigen::ArrayXd& z, double spacing, double cutoff,
                                 bool periodic) {
+  const double length = spacing * static_cast<double>(z.size());
+  cutoff = std::min(cutoff, kLongestCutoff * length);
   // A map of one row, so wide that the filter across it does nothing.
-  const Grid row{z.size(), 1, spacing * static_cast<double>(z.size()), 10 * cutoff};
+  const Grid row{z.size(), 1, length, 10 * cutoff};
   const Field height = Eigen::Map<const Field>(z.data(), 1, z.size());
   return low_pass(height, row, {.kind = FilterKind::gauss, .wavelength = cutoff}, 0, periodic)
       .row(0)

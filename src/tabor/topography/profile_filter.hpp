@@ -13,7 +13,12 @@ Eigen::ArrayXd profile_of(const Field& height, ProfileAxis axis, Index number);
 /// determine it. Degree -1 leaves it alone.
 Eigen::ArrayXd without_form(const Eigen::ArrayXd& z, int degree);
 
-/// Gaussian low-pass of ISO 16610-21, weights renormalised at the ends and over holes.
+/// Longer cut-offs than so many profile lengths pass the mean of the profile like this one, within
+/// 1e-3 of its height, but would need weights without end.
+inline constexpr double kLongestCutoff = 100;
+
+/// Gaussian low-pass of ISO 16610-21, weights renormalised at the ends and over holes; cutoff [m]
+/// at most kLongestCutoff profile lengths.
 Eigen::ArrayXd low_pass_profile(const Eigen::ArrayXd& z, double spacing, double cutoff,
                                 bool periodic);
 

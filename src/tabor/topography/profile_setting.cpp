@@ -1,6 +1,7 @@
 // Cut-offs and sampling lengths of profile parameters.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -33,7 +34,7 @@ void check(const ProfileOptions& options, double spacing) {
   };
   if (options.cutoff && !(*options.cutoff >= 2 * spacing && std::isfinite(*options.cutoff))) {
     refuse("cut-off lc", format_si(*options.cutoff, "m"),
-           fmt::format("at least two pixels ({})", format_si(2 * spacing, "m")));
+           fmt::format("at least two pixels ({} along this axis)", format_si(2 * spacing, "m")));
   }
   if (options.short_cutoff &&
       !(*options.short_cutoff >= 0 && std::isfinite(*options.short_cutoff))) {
@@ -69,6 +70,21 @@ double estimate_rz(const Topography& topography, ProfileAxis axis, const Profile
     return sum;
   });
   return sums[1] > 0 ? sums[0] / sums[1] : 0;
+}
+
+/// What the default cut-off goes by. Both axes share it, so that their numbers compare: the larger
+/// Rz and the shorter side; a side less than a quarter of the other stands for itself.
+struct Basis {
+  double rz = 0;      ///< [m]
+  double length = 0;  ///< [m]
+};
+
+Basis basis_of(const Topography& topography, ProfileAxis axis, const ProfileOptions& options) {
+  const Grid& grid = topography.grid;
+  const double shorter = std::min(grid.lx, grid.ly), longer = std::max(grid.lx, grid.ly);
+  const auto rz = [&](ProfileAxis along) { return estimate_rz(topography, along, options); };
+  if (4 * shorter < longer) return {rz(axis), axis == ProfileAxis::x ? grid.lx : grid.ly};
+  return {std::max(rz(ProfileAxis::x), rz(ProfileAxis::y)), shorter};
 }
 
 std::string length(double metres) { return format_si(metres, "m", 3); }
@@ -123,6 +139,9 @@ void choose_sections(ProfileSetting& setting, const ProfileOptions& options, dou
   setting.sections = std::max(1, wanted == 0 ? fitting : std::min(wanted, fitting));
   if (fitting < 1) {
     setting.reason += fmt::format("; the profile of {} is shorter than lc", length(available));
+    if (setting.cutoff > kLongestCutoff * available) {
+      setting.reason += fmt::format(", filtered with {:g} profile lengths", kLongestCutoff);
+    }
   } else if (wanted > fitting) {
     setting.reason += fmt::format("; {} of {} sections fit", fitting, wanted);
   }
@@ -142,7 +161,8 @@ ProfileSetting choose_setting(const Topography& topography, ProfileAxis axis,
     setting.cutoff = *options.cutoff;
     setting.reason = fmt::format("lc = {} as asked", length(setting.cutoff));
   } else {
-    choose_cutoff(setting, estimate_rz(topography, axis, options), profile_length);
+    const Basis basis = basis_of(topography, axis, options);
+    choose_cutoff(setting, basis.rz, basis.length);
   }
   if (options.filtered) {
     setting.reason += "; filtered before, no filter";
