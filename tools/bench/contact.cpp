@@ -1,6 +1,6 @@
 // Counts and times of the contact solvers on generated surfaces.
 //
-//   bench_contact [n] [--baseline] [--surface edt|self-affine] [--threads N] [--seed S]
+//   bench_contact [n] [--baseline] [--surface edt|self-affine|ground] [--threads N] [--seed S]
 //                 [--loads X,X...]   elastic only, at these P / (E* rms slope)
 //
 // Prints one row per case: solver iterations, operator applications and FFT pairs are
@@ -108,6 +108,17 @@ Surface self_affine_surface(const Options& options) {
   return surface;
 }
 
+Surface ground_surface(const Options& options) {
+  topography::Ground recipe;
+  recipe.grid = edt_grid(options.n);
+  recipe.seed = options.seed;
+  Surface surface{recipe.grid, {}, {}};
+  surface.problem.height = topography::ground(recipe).height;
+  const double unit = aluminium() * rms_slope(surface.problem.height, surface.grid);
+  add_elastic_loads(surface, "ground elastic", unit, options, {0.0025, 0.01, 0.025, 0.1});
+  return surface;
+}
+
 template <typename Work>
 double best_seconds(const Work& work) {
   double best = 1e9;
@@ -199,11 +210,15 @@ int main(int argc, char** argv) {
   fmt::print("{:<20} {:<13} {:>8} {:>8} {:>6} {:>6} {:>8} {:>9} {:>5} {:>8} {:>8} {:>6} {:>7}\n",
              "surface", "solver", "P [MPa]", "area [%]", "iter", "S p", "pairs", "certif.", "conv",
              "seconds", "s/pair", "t/fft", "B/px");
-  if (options.surface != "self-affine") {
+  const bool all = options.surface == "all";
+  if (all || options.surface == "edt") {
     run_all(edt_surface(options), options.baseline, pair);
   }
-  if (options.surface != "edt") {
+  if (all || options.surface == "self-affine") {
     run_all(self_affine_surface(options), options.baseline, pair);
+  }
+  if (options.surface == "ground") {  // only when asked for
+    run_all(ground_surface(options), options.baseline, pair);
   }
   return 0;
 }
