@@ -137,6 +137,57 @@ TEST(GaussianFilter, AgreesWithTheDefinitionAroundHoles) {
   }
 }
 
+/// A slow, direct Gaussian with mirrored ends and weights up to 4 standard deviations.
+double reflected_mean(const Field& height, Index y, Index x, double sigma) {
+  const auto reach = static_cast<Index>(4 * sigma + 0.5);
+  const auto mirrored = [](Index i, Index n) {
+    return i < 0 ? -1 - i : i >= n ? 2 * n - 1 - i : i;
+  };
+  double sum = 0, weights = 0;
+  for (Index v = -reach; v <= reach; ++v) {
+    for (Index u = -reach; u <= reach; ++u) {
+      const double weight = std::exp(-static_cast<double>(u * u + v * v) / (2 * sigma * sigma));
+      sum += weight * height(mirrored(y + v, height.rows()), mirrored(x + u, height.cols()));
+      weights += weight;
+    }
+  }
+  return sum / weights;
+}
+
+TEST(GaussianFilter, MirrorsHeightsAtTheEdgesWhenAsked) {
+  const auto rough = noise({60, 50, 60e-6, 50e-6});
+  const Field out = low_pass(rough, parse_filter("gauss-reflect:12um")).height;
+  const double sigma = 12 * std::sqrt(std::log(2.0) / 2) / pi;
+  for (const auto& [y, x] : {std::pair<Index, Index>{0, 0}, {49, 3}, {25, 30}, {2, 59}}) {
+    EXPECT_NEAR(out(y, x), reflected_mean(rough.height, y, x, sigma), 1e-20);
+  }
+}
+
+TEST(GaussianFilter, MirrorsBeyondTheSizeOfASmallScan) {
+  const auto flat = surface({5, 4, 5e-6, 4e-6}, [](double, double) { return 3e-6; });
+  EXPECT_LT((low_pass(flat, parse_filter("gauss-reflect:40um")).height - 3e-6).abs().maxCoeff(),
+            1e-20);
+}
+
+TEST(Filters, DoubtACutoffThatDoesNothingOrEverything) {
+  const auto rough = noise(kGrid);
+  EXPECT_TRUE(low_pass(rough, parse_filter("gauss:8um")).doubts.empty());
+  EXPECT_TRUE(low_pass(rough, parse_filter("hann:512/L")).doubts.empty());
+  EXPECT_THAT(low_pass(rough, parse_filter("gauss:1.5um")).doubts,
+              testing::ElementsAre(HasSubstr("below two pixels")));
+  EXPECT_THAT(high_pass(rough, parse_filter("gauss:90um")).doubts,
+              testing::ElementsAre(HasSubstr("longer than the scan")));
+  EXPECT_THAT(low_pass(rough, parse_filter("hann:0.5/L")).doubts,
+              testing::ElementsAre(HasSubstr("longer than the scan")));
+}
+
+TEST(Filters, RefuseACutoffFarBeyondTheScan) {
+  const auto rough = noise(kGrid);
+  for (const std::string text : {"gauss:8m", "hann:8km", "gauss-reflect:1/1000km"}) {
+    EXPECT_THROW(low_pass(rough, parse_filter(text)), InputError) << text;
+  }
+}
+
 TEST(GaussianFilter, WrapsRoundOnlyWhereTheSurfaceIsPeriodic) {
   auto rough = noise(kGrid);
   const auto filter = parse_filter("gauss:20um");

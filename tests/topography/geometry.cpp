@@ -5,6 +5,7 @@
 #include "sample_surfaces.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/topography/parameters.hpp"
+#include "tabor/topography/treatment.hpp"
 
 namespace tabor::topography::test {
 namespace {
@@ -40,6 +41,25 @@ TEST(Crop, RefusesWindowsOutsideTheScan) {
                                     {huge, 0, huge, 1}}) {
     EXPECT_THROW(crop(rough, window), InputError);
   }
+}
+
+TEST(Trim, CutsAMarginOffAllSides) {
+  const auto rough = noise({20, 14, 20e-6, 28e-6});
+  const auto cut = trim_margins(rough, 4, 2);
+  EXPECT_EQ(cut.grid.nx, 12);
+  EXPECT_EQ(cut.grid.ny, 10);
+  EXPECT_DOUBLE_EQ(cut.grid.lx, 12e-6);
+  EXPECT_DOUBLE_EQ(cut.grid.ly, 20e-6);
+  EXPECT_TRUE(same_bits(cut.height, rough.height.block(2, 4, 10, 12)));
+  EXPECT_TRUE(same_bits(apply({"trim=4um"}, rough).height, cut.height));  // rows are 2 um high
+}
+
+TEST(Trim, RefusesToLeaveNothing) {
+  const auto rough = noise({20, 14, 20e-6, 28e-6});
+  EXPECT_THROW(trim_margins(rough, 10, 0), InputError);
+  EXPECT_THROW(trim_margins(rough, 0, 7), InputError);
+  EXPECT_THROW(trim_margins(rough, -1, 0), InputError);
+  EXPECT_THROW(apply({"trim=1m"}, rough), InputError);
 }
 
 TEST(Mirror, IsContinuousAcrossItsSeams) {

@@ -56,7 +56,7 @@ void StripTransform<Real>::for_columns(std::span<Strip* const> strips, ColumnRan
   const Plans& p = *plans_;
   const Index n = p.columns.n(), width = range.size(), n_maps = std::ssize(strips);
   const Index stride = column_stride<Real>(n);
-  parallel_for(width, kColumnsPerBlock, [&](Index begin, Index end) {
+  parallel_for(width, kColumnsPerStripBlock, [&](Index begin, Index end) {
     const Index n_columns = end - begin;
     Buffer<Complex, Real> block(stride * n_columns * n_maps);
     const auto column = [&](Index map, Index x) {

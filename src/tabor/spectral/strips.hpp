@@ -17,6 +17,10 @@ using RowSource = std::function<void(Index y, std::span<Real> row)>;
 /// Rows with the same y / kRowsPerStripBlock are handled by one thread, in their order.
 inline constexpr Index kRowsPerStripBlock = 16;
 
+/// Columns with the same (kx - begin of the range) / kColumnsPerStripBlock are shown by one thread,
+/// in their order.
+inline constexpr Index kColumnsPerStripBlock = 16;
+
 /// Columns begin <= kx < end of a half spectrum.
 struct ColumnRange {
   Index begin = 0;

@@ -20,11 +20,12 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr std::array<std::pair<std::string_view, FilterKind>, 4> kKinds{
+constexpr std::array<std::pair<std::string_view, FilterKind>, 5> kKinds{
     {{"hann", FilterKind::hann},
      {"hann-full", FilterKind::hann_full},
      {"hann-separable", FilterKind::hann_separable},
-     {"gauss", FilterKind::gauss}}};
+     {"gauss", FilterKind::gauss},
+     {"gauss-reflect", FilterKind::gauss_reflect}}};
 
 std::string_view name_of(FilterKind kind) { return kKinds[static_cast<std::size_t>(kind)].first; }
 
@@ -37,7 +38,7 @@ FilterKind parse_kind(std::string_view name, std::string_view step) {
     names.emplace_back(known);
   }
   throw InputError(fmt::format("filter of {}", step), fmt::format("'{}'", name),
-                   "hann, hann-full, hann-separable or gauss, then ':' and a cutoff",
+                   "hann, hann-full, hann-separable, gauss or gauss-reflect, then ':' and a cutoff",
                    fmt::format("e.g. {}=hann:512/L{}", step, suggestion(name, names)));
 }
 
@@ -101,25 +102,54 @@ Field hann_low_pass(const Field& height, const Grid& grid, FilterKind kind, doub
   return smooth;
 }
 
-/// Gaussian weights w_0, w_1, ... of ISO 16610-21: exp(-pi (x / (alpha lc))^2) with
-/// alpha = sqrt(ln 2 / pi), down to 1e-11 of the largest.
-std::vector<double> gaussian_weights(double spacing, double wavelength) {
-  constexpr double reach = 1.35;  // cutoff wavelengths
+/// What a row is beyond its ends.
+enum class Beyond { nothing, row_again, mirror_image };
+
+/// How a Gaussian is applied: what lies beyond the edges, and where its weights end [cutoff
+/// wavelengths].
+struct Gaussian {
+  double wavelength = 0;  ///< [m]
+  Beyond beyond = Beyond::nothing;
+  double reach = 1.35;  ///< there weights are 1e-11 of the largest; mirrored: to the next pixel
+};
+
+/// Standard deviation over cutoff wavelength, sqrt(ln 2 / 2) / pi.
+constexpr double kSigmaOfCutoff = 0.1873906251292776;
+
+Gaussian gaussian_of(const Filter& filter, double wavelength, bool periodic) {
+  if (filter.kind == FilterKind::gauss_reflect) {
+    return {wavelength, Beyond::mirror_image, 4 * kSigmaOfCutoff};
+  }
+  return {wavelength, periodic ? Beyond::row_again : Beyond::nothing};
+}
+
+/// Weights w_0, w_1, ... of ISO 16610-21: exp(-pi (x / (alpha lc))^2), alpha = sqrt(ln 2 / pi).
+std::vector<double> gaussian_weights(double spacing, const Gaussian& gaussian) {
   const double alpha = std::sqrt(std::numbers::ln2 / pi);
+  const bool mirrored = gaussian.beyond == Beyond::mirror_image;
+  const double reach = gaussian.reach * gaussian.wavelength + (mirrored ? spacing / 2 : 0);
   std::vector<double> weights;
-  for (Index k = 0; static_cast<double>(k) * spacing <= reach * wavelength; ++k) {
-    const double x = static_cast<double>(k) * spacing / (alpha * wavelength);
+  for (Index k = 0; static_cast<double>(k) * spacing <= reach; ++k) {
+    const double x = static_cast<double>(k) * spacing / (alpha * gaussian.wavelength);
     weights.push_back(std::exp(-pi * x * x));
   }
   return weights;
 }
 
-/// Weighted sums along one row; beyond its ends nothing, or the row again if periodic.
-void smooth_row(double* row, Index n, const std::vector<double>& weights, bool periodic) {
+/// Pixel of the row that stands for position x beyond its ends.
+Index inside(Index x, Index n, Beyond beyond) {
+  const Index period = beyond == Beyond::mirror_image ? 2 * n : n;
+  x = ((x % period) + period) % period;
+  return x < n ? x : period - 1 - x;
+}
+
+/// Weighted sums along one row.
+void smooth_row(double* row, Index n, const std::vector<double>& weights, Beyond beyond) {
   const auto halo = static_cast<Index>(weights.size()) - 1;
+  const bool open = beyond == Beyond::nothing;
   Eigen::ArrayXd extended = Eigen::ArrayXd::Zero(n + 2 * halo);
-  for (Index x = periodic ? -halo : 0; x < (periodic ? n + halo : n); ++x) {
-    extended[x + halo] = row[((x % n) + n) % n];
+  for (Index x = open ? 0 : -halo; x < (open ? n : n + halo); ++x) {
+    extended[x + halo] = row[inside(x, n, beyond)];
   }
   Eigen::Map<Eigen::ArrayXd> result(row, n);
   result = weights[0] * extended.segment(halo, n);
@@ -130,34 +160,35 @@ void smooth_row(double* row, Index n, const std::vector<double>& weights, bool p
 }
 
 /// A Gaussian along both axes, without normalisation.
-Field smooth_both(Field field, const Grid& grid, double wavelength, bool periodic) {
+Field smooth_both(Field field, const Grid& grid, const Gaussian& gaussian) {
   for (const double spacing : {grid.dx(), grid.dy()}) {
-    const auto weights = gaussian_weights(spacing, wavelength);
-    for_each_row(field.rows(),
-                 [&](Index y) { smooth_row(&field(y, 0), field.cols(), weights, periodic); });
+    const auto weights = gaussian_weights(spacing, gaussian);
+    for_each_row(field.rows(), [&](Index y) {
+      smooth_row(&field(y, 0), field.cols(), weights, gaussian.beyond);
+    });
     field = Field(field.transpose());  // twice: back in the original order at the end
   }
   return field;
 }
 
 /// Without holes the sum of weights is a product of one factor per axis.
-Eigen::ArrayXd weight_sums(Index n, double spacing, double wavelength, bool periodic) {
+Eigen::ArrayXd weight_sums(Index n, double spacing, const Gaussian& gaussian) {
   Eigen::ArrayXd sums = Eigen::ArrayXd::Ones(n);
-  smooth_row(sums.data(), n, gaussian_weights(spacing, wavelength), periodic);
+  smooth_row(sums.data(), n, gaussian_weights(spacing, gaussian), gaussian.beyond);
   return sums;
 }
 
-Field gaussian_low_pass(const Field& height, const Grid& grid, double wavelength, bool periodic) {
+Field gaussian_low_pass(const Field& height, const Grid& grid, const Gaussian& gaussian) {
   if (!height.hasNaN()) {
-    Field smooth = smooth_both(height, grid, wavelength, periodic);
-    smooth.rowwise() /= weight_sums(grid.nx, grid.dx(), wavelength, periodic).transpose();
-    smooth.colwise() /= weight_sums(grid.ny, grid.dy(), wavelength, periodic);
+    Field smooth = smooth_both(height, grid, gaussian);
+    smooth.rowwise() /= weight_sums(grid.nx, grid.dx(), gaussian).transpose();
+    smooth.colwise() /= weight_sums(grid.ny, grid.dy(), gaussian);
     return smooth;
   }
   const auto missing = height.isNaN();
-  Field smooth = smooth_both(missing.select(0, height), grid, wavelength, periodic);
+  Field smooth = smooth_both(missing.select(0, height), grid, gaussian);
   Field weight = 1 - missing.cast<double>();
-  smooth /= smooth_both(std::move(weight), grid, wavelength, periodic);
+  smooth /= smooth_both(std::move(weight), grid, gaussian);
   return missing.select(height, smooth);
 }
 
@@ -177,6 +208,8 @@ std::string cutoff_text(const Filter& filter, double side) {
       return "H(kx) H(ky), " + text;
     case FilterKind::gauss:
       break;
+    case FilterKind::gauss_reflect:
+      text += ", mirrored at the edges, weights cut at 4 sigma";
   }
   return "50 % at the " + text;
 }
@@ -192,12 +225,45 @@ std::string describe(std::string_view step, const Filter& filter, double side,
       format_si(rms_height(after), "m"), rms_slope(before), rms_slope(after));
 }
 
+bool is_gaussian(FilterKind kind) {
+  return kind == FilterKind::gauss || kind == FilterKind::gauss_reflect;
+}
+
+/// Far beyond the scan a cutoff is a typing error, and its weights would not fit into memory.
+void check_cutoff(const Filter& filter, double wavelength, const Grid& grid) {
+  const double side = std::max(grid.lx, grid.ly);
+  if (!(wavelength <= 100 * side)) {
+    throw InputError("cutoff of a filter", format_si(wavelength, "m"),
+                     fmt::format("at most the size of the scan, {}", format_si(side, "m")),
+                     fmt::format("is the unit in {} right?", to_string(filter)));
+  }
+}
+
+/// What to think of a cutoff that does nearly nothing, or nearly everything; "" if neither.
+std::string doubt_about(const Filter& filter, double wavelength, const Grid& grid) {
+  if (wavelength > std::min(grid.lx, grid.ly)) {
+    return fmt::format(
+        "the cutoff of {} is longer than the scan ({} x {}): hardly more than a mean passes",
+        to_string(filter), format_si(grid.lx, "m"), format_si(grid.ly, "m"));
+  }
+  const double pixel = std::max(grid.dx(), grid.dy());
+  if (is_gaussian(filter.kind) && wavelength < 2 * pixel) {
+    return fmt::format("the cutoff of {} is below two pixels ({}): it changes hardly anything",
+                       to_string(filter), format_si(2 * pixel, "m"));
+  }
+  return "";
+}
+
 Topography filtered(Topography topography, const Filter& filter, double side, bool high) {
   side = side > 0 ? side : scan_side(topography.grid);
   Topography result = topography;
   result.height = low_pass(topography.height, topography.grid, filter, side, topography.periodic);
   if (high) {
     result.height = topography.height - result.height;
+  }
+  const auto doubt = doubt_about(filter, filter.cutoff_wavelength(side), topography.grid);
+  if (!doubt.empty()) {
+    result.doubts.push_back(doubt);
   }
   result.history.push_back(
       describe(high ? "highpass" : "lowpass", filter, side, topography, result));
@@ -229,8 +295,10 @@ double scan_side(const Grid& grid) { return std::sqrt(grid.lx * grid.ly); }
 Field low_pass(const Field& height, const Grid& grid, const Filter& filter, double side,
                bool periodic) {
   const double wavelength = filter.cutoff_wavelength(side);
-  return filter.kind == FilterKind::gauss ? gaussian_low_pass(height, grid, wavelength, periodic)
-                                          : hann_low_pass(height, grid, filter.kind, wavelength);
+  check_cutoff(filter, wavelength, grid);
+  return is_gaussian(filter.kind)
+             ? gaussian_low_pass(height, grid, gaussian_of(filter, wavelength, periodic))
+             : hann_low_pass(height, grid, filter.kind, wavelength);
 }
 
 Topography low_pass(Topography topography, const Filter& filter, double side) {

@@ -12,8 +12,10 @@ namespace tabor::topography {
 /// hann_full:      the same with kc/2: the full width of the window is kc
 /// hann_separable: the product of both axes' windows
 /// gauss:          ISO 16610-61, 50 % at the cutoff wavelength; weights renormalised over valid
-/// points
-enum class FilterKind { hann, hann_full, hann_separable, gauss };
+/// points (regression of order 0), at edges as around holes
+/// gauss_reflect:  the same curve as image processing applies it: heights mirrored beyond the edges
+///                 (d c b a | a b c d), weights cut at 4 standard deviations
+enum class FilterKind { hann, hann_full, hann_separable, gauss, gauss_reflect };
 
 /// A low-pass filter and its cutoff: either a wavelength or a count of cycles per scan side.
 struct Filter {
@@ -38,11 +40,13 @@ double scan_side(const Grid& grid);
 
 /// The smoothed heights. Hann windows act on the discrete Fourier transform and need a field
 /// without holes (InputError naming `--fill harmonic`); the Gaussian keeps holes as holes without
-/// weight and wraps round only where `periodic`.
+/// weight and wraps round only where `periodic`. Throws InputError for a cutoff of more than 100
+/// scan sides.
 Field low_pass(const Field& height, const Grid& grid, const Filter& filter, double side,
                bool periodic);
 
-/// Low-pass (S-filter) and its complement z - low-pass (L-filter), with a line in the history.
+/// Low-pass (S-filter) and its complement z - low-pass (L-filter), with a line in the history, and
+/// a doubt where the cutoff is longer than the scan or too short to change anything.
 /// `side` is the L of "512/L"; 0 means scan_side(grid). After mirror tiling give the side before
 /// it.
 Topography low_pass(Topography topography, const Filter& filter, double side = 0);

@@ -38,6 +38,19 @@ Topography crop(Topography topography, const PixelWindow& window) {
   return topography;
 }
 
+Topography trim_margins(Topography topography, Index mx, Index my) {
+  const Grid grid = topography.grid;
+  if (mx < 0 || my < 0 || 2 * mx >= grid.nx || 2 * my >= grid.ny) {
+    throw InputError("trim", fmt::format("{} columns and {} rows on each side", mx, my),
+                     fmt::format("less than half of the {} x {} pixels", grid.nx, grid.ny), "");
+  }
+  topography = crop(std::move(topography), {mx, my, grid.nx - 2 * mx, grid.ny - 2 * my});
+  topography.history.back() =
+      fmt::format("trim: {} columns and {} rows off each side, {} x {} pixels left", mx, my,
+                  topography.grid.nx, topography.grid.ny);
+  return topography;
+}
+
 Topography mirror(Topography topography) {
   const Field& z = topography.height;
   Field tiled(2 * z.rows(), 2 * z.cols());

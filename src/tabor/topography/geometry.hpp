@@ -16,10 +16,41 @@ struct PixelWindow {
 /// the window is empty or leaves the scan.
 Topography crop(Topography topography, const PixelWindow& window);
 
+/// Without a margin of mx columns and my rows on every side. Throws InputError when nothing is
+/// left.
+Topography trim_margins(Topography topography, Index mx, Index my);
+
 /// The same area on nx * ny pixels: per axis the area average when there are fewer pixels than
 /// before, a cubic spline through the pixel centres (natural ends, or periodic) when there are
 /// more. Area averages use the valid part of each cell; splines need a field without holes.
 Topography resample(Topography topography, Index nx, Index ny);
+
+/// Points over a map, in its pixels: the centre of pixel (i, j) is x = i, y = j.
+struct Lattice {
+  double x0 = 0;  ///< of the first point
+  double y0 = 0;
+  double step_x = 1;
+  double step_y = 1;
+  Index nx = 0;
+  Index ny = 0;
+};
+
+/// Heights between the pixels, by cubic splines along both axes.
+class Interpolant {
+ public:
+  explicit Interpolant(const Field& height);
+  /// Shape (lattice.ny, lattice.nx). NaN beyond the outermost pixel centres and where one of the
+  /// four nearest pixels is a hole.
+  Field at(const Lattice& lattice) const;
+
+ private:
+  Field whole_;  ///< holes filled, so that splines pass them undisturbed
+  Mask missing_;
+};
+
+/// Means over cells of width_x * width_y pixels (1 or more), from the top left corner; a rest too
+/// narrow for a cell is left out. A cell that is valid by less than half is a hole.
+Field cell_means(const Field& height, double width_x, double width_y);
 
 /// 2 x 2 tiling with its mirror images: twice the size, continuous across the edges, periodic.
 Topography mirror(Topography topography);

@@ -88,6 +88,31 @@ HurstFit fit_hurst(const std::vector<double>& q, const std::vector<double>& dens
   return fit;
 }
 
+DifferenceHurst fit_hurst(const HeightDifference& differences, double mean_square) {
+  DifferenceHurst result;
+  result.hurst = result.standard_error = std::numeric_limits<double>::quiet_NaN();
+  if (differences.lag.size() < 3) {
+    return result;
+  }
+  std::size_t last = 1;
+  while (last + 1 < differences.lag.size() &&
+         differences.mean_square[last + 1] <= 0.2 * 2 * mean_square) {
+    ++last;
+  }
+  result.lag_min = differences.lag[1];
+  result.lag_max = differences.lag[last];
+  // The slope over the inverse lag, rising like a wavevector.
+  std::vector<double> inverse(differences.lag.rbegin(), differences.lag.rend());
+  std::transform(inverse.begin(), inverse.end(), inverse.begin(), [](double r) { return 1 / r; });
+  const std::vector<double> squares(differences.mean_square.rbegin(),
+                                    differences.mean_square.rend());
+  const HurstFit fit = fit_hurst(inverse, squares, 0, 1 / result.lag_max, 1 / result.lag_min);
+  result.hurst = fit.hurst;
+  result.standard_error = fit.standard_error;
+  result.n_bins = fit.n_bins;
+  return result;
+}
+
 FitRange find_fit_range(const std::vector<double>& q, const std::vector<double>& density,
                         double offset) {
   if (q.empty()) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tabor/topography/correlation.hpp"
 #include "tabor/topography/topography.hpp"
 
 namespace tabor::topography {
@@ -65,6 +66,19 @@ PowerSpectra power_spectra(const Topography& topography, const PsdOptions& optio
 /// Fits H to a density that falls as q^-(offset + 2 H); offset 1 for C1D, 2 for C2D.
 HurstFit fit_hurst(const std::vector<double>& q, const std::vector<double>& density, double offset,
                    double q_min, double q_max);
+
+/// Hurst exponent of <(z(r + lag) - z(r))^2> ~ lag^(2 H), fitted like that of a spectrum from two
+/// pixels to the lag at which a fifth of the plateau 2 Sq^2 is reached: nearer to the plateau the
+/// curve bends, so that H is found too small on surfaces without a long range of scales.
+struct DifferenceHurst {
+  double hurst = 0;           ///< NaN if fewer than 3 bins
+  double standard_error = 0;  ///< from the scatter about the line; neighbouring lags share pairs,
+                              ///< so that it is a lower bound
+  double lag_min = 0;         ///< [m]
+  double lag_max = 0;         ///< [m]
+  int n_bins = 0;
+};
+DifferenceHurst fit_hurst(const HeightDifference& differences, double mean_square);
 
 /// Where a power law can be expected: from twice the wavevector at which q^offset density peaks
 /// (the roll-off) to half the largest wavevector, or to 0.4 of the one from which the

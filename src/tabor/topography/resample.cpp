@@ -2,18 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "tabor/core/error.hpp"
 #include "tabor/topography/geometry.hpp"
+#include "tabor/topography/holes.hpp"
 #include "tabor/topography/rows.hpp"
 
 namespace tabor::topography {
 namespace {
 
 /// One row averaged over n equal cells: each pixel counts by its overlap with the cell.
-void average_row(const double* row, Index n_old, double* result, Index n_new) {
-  const double width = static_cast<double>(n_old) / static_cast<double>(n_new);
+void average_row(const double* row, Index n_old, double* result, Index n_new, double width) {
   for (Index cell = 0; cell < n_new; ++cell) {
     const double begin = static_cast<double>(cell) * width;
     const double end = std::min(begin + width, static_cast<double>(n_old));
@@ -42,10 +43,12 @@ std::vector<double> natural_moments(const std::vector<double>& z) {
   return moment;
 }
 
-/// The spline through the pixel centres at the centres of n new pixels. `halo` extra samples on
-/// either side (the row again if periodic, else its ends' tangents continue) make ends harmless:
-/// what a wrong end does decays by 0.27 per pixel.
-void spline_row(const double* row, Index n_old, double* result, Index n_new, bool periodic) {
+/// The spline through the pixel centres at n new points, the k-th at position(k). `halo` extra
+/// samples on either side (the row again if periodic, else its ends' tangents continue) make ends
+/// harmless: what a wrong end does decays by 0.27 per pixel.
+template <typename Position>
+void spline_row(const double* row, Index n_old, double* result, Index n_new, bool periodic,
+                const Position& position) {
   const Index halo = periodic ? 32 : 1;
   std::vector<double> z(static_cast<std::size_t>(n_old + 2 * halo));
   for (Index i = -halo; i < n_old + halo; ++i) {
@@ -57,9 +60,7 @@ void spline_row(const double* row, Index n_old, double* result, Index n_new, boo
   }
   const auto moment = natural_moments(z);
   for (Index k = 0; k < n_new; ++k) {
-    const double x =
-        (static_cast<double>(k) + 0.5) * static_cast<double>(n_old) / static_cast<double>(n_new) -
-        0.5 + static_cast<double>(halo);
+    const double x = position(k) + static_cast<double>(halo);
     const auto i = std::min(static_cast<std::size_t>(x), z.size() - 2);
     const double b = x - static_cast<double>(i), a = 1 - b;
     result[k] = a * z[i] + b * z[i + 1] +
@@ -74,10 +75,12 @@ Field along_rows(const Field& field, Index n, bool periodic) {
   }
   Field result(field.rows(), n);
   for_each_row(field.rows(), [&](Index y) {
+    const auto n_old = static_cast<double>(field.cols()), n_new = static_cast<double>(n);
     if (n < field.cols()) {
-      average_row(&field(y, 0), field.cols(), &result(y, 0), n);
+      average_row(&field(y, 0), field.cols(), &result(y, 0), n, n_old / n_new);
     } else {
-      spline_row(&field(y, 0), field.cols(), &result(y, 0), n, periodic);
+      spline_row(&field(y, 0), field.cols(), &result(y, 0), n, periodic,
+                 [&](Index k) { return (static_cast<double>(k) + 0.5) * n_old / n_new - 0.5; });
     }
   });
   return result;
@@ -111,7 +114,83 @@ void check_size(const Topography& topography, Index nx, Index ny) {
   }
 }
 
+/// Cells of the given width along rows.
+Field means_along_rows(const Field& field, double width) {
+  const auto n = static_cast<Index>(static_cast<double>(field.cols()) / width + 1e-9);
+  Field result(field.rows(), n);
+  for_each_row(field.rows(),
+               [&](Index y) { average_row(&field(y, 0), field.cols(), &result(y, 0), n, width); });
+  return result;
+}
+
+/// Points of a lattice along one axis of n pixels; those beyond it stand at its ends.
+struct Positions {
+  double first;
+  double step;
+  Index n;
+  double operator()(Index k) const {
+    return std::clamp(first + static_cast<double>(k) * step, 0.0, static_cast<double>(n - 1));
+  }
+  bool is_inside(Index k) const {
+    const double x = first + static_cast<double>(k) * step;
+    return x >= 0 && x <= static_cast<double>(n - 1);
+  }
+};
+
+Field splines_along_rows(const Field& field, const Positions& positions, Index n) {
+  Field result(field.rows(), n);
+  for_each_row(field.rows(), [&](Index y) {
+    spline_row(&field(y, 0), field.cols(), &result(y, 0), n, false, positions);
+  });
+  return result;
+}
+
+/// Makes holes of points outside, or next to a hole.
+void blank(Field& result, const Mask& missing, const Positions& x, const Positions& y) {
+  for_each_row(result.rows(), [&](Index j) {
+    const auto v = static_cast<Index>(y(j));
+    const Index below = std::min(v + 1, missing.rows() - 1);
+    for (Index i = 0; i < result.cols(); ++i) {
+      const auto u = static_cast<Index>(x(i));
+      const Index right = std::min(u + 1, missing.cols() - 1);
+      const bool near_hole =
+          missing(v, u) || missing(v, right) || missing(below, u) || missing(below, right);
+      if (!x.is_inside(i) || !y.is_inside(j) || near_hole) {
+        result(j, i) = std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+  });
+}
+
 }  // namespace
+
+Field cell_means(const Field& height, double width_x, double width_y) {
+  const auto both = [&](const Field& field) {
+    const Field rows = means_along_rows(field, width_x).transpose();
+    return Field(means_along_rows(rows, width_y).transpose());
+  };
+  const auto missing = height.isNaN();
+  const Field share = both(1 - missing.cast<double>());
+  const Field total = both(missing.select(0, height));
+  return (share >= 0.5).select(total / share, std::numeric_limits<double>::quiet_NaN());
+}
+
+Interpolant::Interpolant(const Field& height) : whole_(height), missing_(height.isNaN()) {
+  if (missing_.any()) {
+    const Grid pixels{height.cols(), height.rows(), static_cast<double>(height.cols()),
+                      static_cast<double>(height.rows())};
+    whole_ = fill_holes(height, pixels, Fill::harmonic).height;
+  }
+}
+
+Field Interpolant::at(const Lattice& lattice) const {
+  const Positions x{lattice.x0, lattice.step_x, whole_.cols()};
+  const Positions y{lattice.y0, lattice.step_y, whole_.rows()};
+  const Field rows = splines_along_rows(whole_, x, lattice.nx).transpose();
+  Field result = splines_along_rows(rows, y, lattice.ny).transpose();
+  blank(result, missing_, x, y);
+  return result;
+}
 
 Topography resample(Topography topography, Index nx, Index ny) {
   check_size(topography, nx, ny);

@@ -14,6 +14,7 @@
 #include "tabor/topography/geometry.hpp"
 #include "tabor/topography/holes.hpp"
 #include "tabor/topography/levelling.hpp"
+#include "tabor/topography/spikes.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -124,6 +125,22 @@ Action parse_crop(const std::string& argument) {
   };
 }
 
+Action parse_trim(const std::string& argument) {
+  const auto c =
+      parse_coordinates("trim", argument, 1, "a margin in pixels or as a length (125um)");
+  return [margin = c[0]](Topography t, ChainState& state) {
+    state.tiles = 1;
+    const Index mx = margin.pixels(t.grid.dx()), my = margin.pixels(t.grid.dy());
+    return trim_margins(std::move(t), mx, my);
+  };
+}
+
+Action parse_despike(const std::string& argument) {
+  return [rule = parse_spike_rule(argument)](Topography t, ChainState&) {
+    return remove_spikes(std::move(t), rule);
+  };
+}
+
 Action parse_resample(const std::string& argument) {
   const auto c = parse_coordinates("resample", argument, 2, "nx,ny in pixels (1024,1024)");
   if (c[0].is_length || c[1].is_length) {
@@ -153,15 +170,21 @@ Action parse_flip(const std::string& argument) {
   };
 }
 
-const std::array<Step, 8>& steps() {
-  static const std::array<Step, 8> table{{
+const std::array<Step, 10>& steps() {
+  static const std::array<Step, 10> table{{
       {{"crop", "x0,y0,nx,ny", "keep a rectangle, in pixels or lengths"}, parse_crop},
+      {{"trim", "MARGIN", "cut a margin off all sides, in pixels or as a length (half a cutoff)"},
+       parse_trim},
+      {{"despike", "auto|8|8,7|8,7,median",
+        "make holes (or medians) of spikes: robust sigmas off the median, window [6,5]"},
+       parse_despike},
       {{"level", "none|mean|plane|poly2|poly3|poly4",
         "subtract a least-squares polynomial (total degree) over the valid points"},
        parse_level},
       {{"fill", "harmonic|nearest|mean", "replace holes; harmonic = Laplace from each hole's rim"},
        parse_fill},
-      {{"lowpass", "hann:512/L|hann-full:512/L|hann-separable:512/L|hann:8um|gauss:8um",
+      {{"lowpass",
+        "hann:512/L|hann-full:512/L|hann-separable:512/L|hann:8um|gauss:8um|gauss-reflect:8um",
         "smooth: Hann window in frequency (L = scan side) or ISO Gaussian S-filter"},
        parse_low_pass},
       {{"highpass", "gauss:250um|hann:8/L", "subtract the low-pass (ISO Gaussian L-filter)"},

@@ -11,8 +11,8 @@ namespace tabor::topography {
 
 /// A treatment chain is an ordered list of steps in canonical text, exactly as a study file writes
 /// them: "level=plane", "fill=harmonic", "lowpass=hann:512/L", "lowpass=gauss:8um",
-/// "highpass=gauss:250um", "crop=x0,y0,nx,ny", "resample=nx,ny", "mirror", "flip=x". The command
-/// line's `--level plane` is the step "level=plane".
+/// "highpass=gauss:250um", "crop=x0,y0,nx,ny", "trim=125um", "despike=6,5", "resample=nx,ny",
+/// "mirror", "flip=x". The command line's `--level plane` is the step "level=plane".
 using Treatment = std::vector<std::string>;
 
 /// Names of all steps with the form of their argument and one line of help each (for options.md,

@@ -1,0 +1,78 @@
+#include "tabor/topography/robust_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "tabor/core/error.hpp"
+
+namespace tabor::topography {
+namespace {
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+double robust_spread(const Field& height) {
+  std::vector<double> values;
+  std::copy_if(height.data(), height.data() + height.size(), std::back_inserter(values),
+               [](double z) { return !std::isnan(z); });
+  if (values.empty()) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const double middle = median(values);
+  for (double& value : values) {
+    value = std::abs(value - middle);
+  }
+  return 1.482602218505602 * median(values);
+}
+
+Field remove_plane(const Field& height, const RobustPlane& plane) {
+  Field result(height.rows(), height.cols());
+  for_each_row(height.rows(), [&](Index y) {
+    const double v = across(y, height.rows());
+    for (Index x = 0; x < height.cols(); ++x) {
+      result(y, x) =
+          height(y, x) - plane.offset - plane.tilt_x * across(x, height.cols()) - plane.tilt_y * v;
+    }
+  });
+  return result;
+}
+
+RobustPlane fit_robust_plane(const Field& height) {
+  constexpr int most_steps = 30;
+  const auto columns = [&](Index y, Index x) {
+    return Eigen::Vector3d(1, across(x, height.cols()), across(y, height.rows()));
+  };
+  RobustPlane plane;
+  double cutoff = 0;  // the first fit takes every height
+  for (int step = 0; step < most_steps; ++step) {
+    const Field residual = remove_plane(height, plane);
+    const auto equations = normal_equations<3>(residual, cutoff, columns);
+    if (equations.n_points < 9) {
+      throw InputError("fit of a plane", fmt::format("{} heights", equations.n_points),
+                       "at least 9 valid heights", "");
+    }
+    const Eigen::Vector3d change = equations.solution();
+    plane.offset += change[0];
+    plane.tilt_x += change[1];
+    plane.tilt_y += change[2];
+    plane.spread = robust_spread(remove_plane(height, plane));
+    if (step > 0 && change.cwiseAbs().maxCoeff() <= 1e-6 * plane.spread) {
+      break;
+    }
+    // Heights that are a plane but for rounding all count.
+    const double rounding = 1e-12 * (std::abs(plane.offset) + std::abs(plane.tilt_x) +
+                                     std::abs(plane.tilt_y));
+    cutoff = kBiweightReach * std::max(plane.spread, rounding);
+  }
+  return plane;
+}
+
+}  // namespace tabor::topography

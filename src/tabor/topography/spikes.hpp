@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string_view>
+
+#include "tabor/topography/topography.hpp"
+
+namespace tabor::topography {
+
+/// What counts as a spike and what becomes of it. A height is a spike when it lies further from
+/// the median of the window around it than `threshold` times BOTH the spread in that window and
+/// the usual distance from such a median all over the scan. Spreads are robust: 1.4826 times the
+/// median absolute deviation, the standard deviation of a Gaussian. Steps and steep flanks have a
+/// wide spread of their own and stay; so do spikes that fill more than half of a window.
+struct SpikeRule {
+  double threshold = 6;           ///< in standard deviations
+  Index window = 5;               ///< pixels along x and y, odd
+  bool fill_with_median = false;  ///< else spikes become holes
+};
+
+/// "auto", "8", "8,7", "8,7,median": threshold, window, and what to put in place. Throws
+/// InputError.
+SpikeRule parse_spike_rule(std::string_view text);
+
+/// True where a valid height is a spike. Heights with fewer than 5 valid neighbours are left alone.
+Mask find_spikes(const Field& height, const SpikeRule& rule = {});
+
+/// Without spikes; their number is in the history and, if any, among the doubts.
+Topography remove_spikes(Topography topography, const SpikeRule& rule = {});
+
+}  // namespace tabor::topography

@@ -1,0 +1,146 @@
+#include "tabor/topography/spikes.hpp"
+
+#include <gmock/gmock.h>
+
+#include <set>
+
+#include "sample_surfaces.hpp"
+#include "support/refusal.hpp"
+#include "support/scans.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/topography/file.hpp"
+#include "tabor/topography/levelling.hpp"
+#include "tabor/topography/synthesis.hpp"
+#include "tabor/topography/treatment.hpp"
+
+namespace tabor::topography::test {
+namespace {
+
+using testing::HasSubstr;
+
+Topography rough_surface(double hurst, std::uint64_t seed, Index n = 256) {
+  SelfAffine recipe;
+  const double side = static_cast<double>(n) * 1e-6;
+  recipe.grid = {n, n, side, side};
+  recipe.hurst = hurst;
+  recipe.rms_height = 1e-6;
+  recipe.random_amplitudes = true;
+  recipe.seed = seed;
+  return self_affine(recipe);
+}
+
+std::set<Index> found(const Mask& mask) {
+  std::set<Index> pixels;
+  for (Index i = 0; i < mask.size(); ++i) {
+    if (mask.data()[i]) {
+      pixels.insert(i);
+    }
+  }
+  return pixels;
+}
+
+/// Single pixels and pairs, up and down, also in a corner.
+std::set<Index> plant_spikes(Topography& surface, double height) {
+  std::set<Index> planted;
+  const Index n = surface.grid.nx;
+  for (const Index pixel : {Index{0}, 40 * n + 17, 40 * n + 18, 130 * n + 200, 200 * n + n - 1}) {
+    surface.height.data()[pixel] += pixel % 2 == 0 ? height : -height;
+    planted.insert(pixel);
+  }
+  return planted;
+}
+
+class SpikesOnRoughSurfaces : public testing::TestWithParam<double> {};
+
+TEST_P(SpikesOnRoughSurfaces, AreFoundAndNothingElse) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    auto rough = rough_surface(GetParam(), seed);
+    const auto planted = plant_spikes(rough, 5e-6);
+    EXPECT_EQ(found(find_spikes(rough.height)), planted) << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Exponents, SpikesOnRoughSurfaces, testing::Values(0.3, 0.8, 1.0));
+
+TEST(Spikes, AreNotSeenInGaussianNoise) {
+  EXPECT_EQ(find_spikes(noise({2000, 1000, 2e-3, 1e-3}).height).count(), 0);  // 2 million heights
+}
+
+TEST(Spikes, AreNotTheEdgesOfSteps) {
+  const auto steps = surface({200, 150, 200e-6, 150e-6}, [](double x, double y) {
+    return (std::fmod(x, 40e-6) < 20e-6 ? 5e-6 : 0) + 1e-9 * std::sin(3e5 * x) * std::cos(2e5 * y);
+  });
+  EXPECT_EQ(find_spikes(steps.height).count(), 0);
+}
+
+TEST(Spikes, StandOutOfAFlat) {
+  auto flat = surface({50, 40, 50e-6, 40e-6}, [](double, double) { return 2e-6; });
+  EXPECT_EQ(find_spikes(flat.height).count(), 0);
+  flat.height(20, 10) = 3e-6;
+  EXPECT_EQ(found(find_spikes(flat.height)), std::set<Index>{20 * 50 + 10});
+}
+
+TEST(Spikes, BecomeHolesOrMedians) {
+  auto rough = rough_surface(0.8, 3);
+  const Field clean = rough.height;
+  const auto planted = plant_spikes(rough, 5e-6);
+  const auto holed = apply({"despike=auto"}, rough);
+  EXPECT_EQ(found(holes(holed)), planted);
+  EXPECT_THAT(holed.history.back(), HasSubstr("5 of 65536 heights"));
+  EXPECT_THAT(holed.doubts, testing::ElementsAre(HasSubstr("5 spikes")));
+  const auto mended = apply({"despike=6,5,median"}, rough);
+  EXPECT_EQ(count_holes(mended), 0);
+  EXPECT_LT((mended.height - clean).abs().maxCoeff(), 0.3e-6);
+  EXPECT_EQ(((mended.height - rough.height).abs() > 0).count(), 5);
+}
+
+TEST(Spikes, DoNotDependOnUnitsOrTilt) {
+  auto rough = rough_surface(0.6, 9);
+  plant_spikes(rough, 4e-6);
+  const auto before = found(find_spikes(rough.height));
+  rough.height *= 1e6;
+  EXPECT_EQ(found(find_spikes(rough.height)), before);
+}
+
+TEST(Spikes, LeaveHolesAndLonelyHeightsAlone) {
+  auto rough = noise({64, 48, 64e-6, 48e-6});
+  punch_holes(rough, 0.95);
+  const auto after = remove_spikes(rough);
+  EXPECT_TRUE((holes(after) || !holes(rough)).all());
+}
+
+TEST(Spikes, GiveTheSameBitsOnAnyNumberOfThreads) {
+  auto rough = rough_surface(0.5, 2);
+  plant_spikes(rough, 5e-6);
+  expect_same_bits_on_any_threads([&] { return remove_spikes(rough).height; });
+}
+
+TEST(Spikes, OfAMeasuredScanGoAtOnce) {
+  TABOR_NEEDS_SHARED_SCAN("polished_cyl_missing.sur");
+  const auto scan = level(read(tabor::test::shared_scan("polished_cyl_missing.sur")), Form::plane);
+  // About 2 in 100 pixels are single heights some 7 nm off a ground that is smooth to 0.6 nm.
+  const auto after = remove_spikes(scan);
+  EXPECT_GT(count_holes(after) - count_holes(scan), 1000);
+  EXPECT_LT(count_holes(after), scan.grid.size() / 30);
+  // Pairs that hid each other stand out now; fewer than before.
+  EXPECT_LT(find_spikes(after.height).count(), count_holes(after) - count_holes(scan));
+}
+
+TEST(ParseSpikeRule, ReadsEveryForm) {
+  EXPECT_EQ(parse_spike_rule("auto").threshold, SpikeRule{}.threshold);
+  EXPECT_EQ(parse_spike_rule("4.5").threshold, 4.5);
+  EXPECT_EQ(parse_spike_rule("8,7").window, 7);
+  EXPECT_TRUE(parse_spike_rule("auto, 3, median").fill_with_median);
+  EXPECT_FALSE(parse_spike_rule("8,7,hole").fill_with_median);
+}
+
+TEST(ParseSpikeRule, RefusesWhatItCannotRead) {
+  for (const std::string text : {"", "x", "0", "-3", "nan", "inf", "6,4", "6,1", "6,101", "6,5.5",
+                                 "6,5,mean", "6,5,hole,1", "6,1e300"}) {
+    EXPECT_THROW(parse_spike_rule(text), InputError) << text;
+  }
+  EXPECT_THAT(tabor::test::refusal([] { parse_spike_rule("6,4"); }), HasSubstr("odd number"));
+}
+
+}  // namespace
+}  // namespace tabor::topography::test
