@@ -162,8 +162,8 @@ std::vector<Parameter> profile_parameters(const Topography& topography, ProfileA
     } else if (quantity.name == "mr(c)") {
       definition += fmt::format(" = {} from the mean line", format_si(options.ratio_height, "m"));
     }
-    list.push_back(parameter(symbol + "_" + name, statistics.mean, quantity.unit,
-                             definition + means,
+    list.push_back(parameter(fmt::format("{}_{}", symbol, name), statistics.mean, quantity.unit,
+                             definition.append(means),
                              scatter_text(statistics, quantity.unit, values.rows())));
   }
   return list;

@@ -179,6 +179,7 @@ ProfileValues profile_values(const Eigen::ArrayXd& z, double spacing, int sectio
   const Moments whole = moments_of(z);
   const auto parts = sections_of(z, sections);
   std::vector<Moments> of_parts;
+  of_parts.reserve(parts.size());
   for (const Eigen::ArrayXd& part : parts) of_parts.push_back(moments_of(part));
   const auto over = [&](double Moments::*value) {
     return by_section ? mean_of(of_parts, [&](const Moments& m) { return m.*value; })
