@@ -16,7 +16,7 @@ struct Unit {
   std::string file;  ///< name inside DIR/store
 };
 
-inline constexpr int kAlgorithms = 2;
+inline constexpr int kAlgorithms = 3;
 
 /// The treated scan; `scan_sha256` is of the scan file's bytes.
 Unit surface_unit(const Study& study, const Scan& scan, const std::string& scan_sha256);
