@@ -48,7 +48,9 @@ inline std::string bytes_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+/// A new file each time: overwriting one makes some file systems write it to the disk at once.
 inline void put_bytes(const std::filesystem::path& file, const std::string& bytes) {
+  std::filesystem::remove(file);
   std::ofstream(file, std::ios::binary).write(bytes.data(), std::ssize(bytes));
 }
 

@@ -1,6 +1,7 @@
 // The only file that knows libpng.
 #include "tabor/io/png.hpp"
 
+#include <fmt/format.h>
 #include <png.h>
 
 #include <algorithm>
@@ -71,6 +72,21 @@ void write_to(std::FILE* stream, const Picture& picture, std::string name) {
   png_write_end(writer.png, writer.info);
 }
 
+/// Refuses sizes that the file's own bytes cannot hold: deflate unpacks to at most 1032 times its
+/// size (zlib technical note).
+void check_size(const Reader& reader, const std::filesystem::path& file) {
+  constexpr double kLargestRatio = 1032;
+  const auto nx = png_get_image_width(reader.png, reader.info);
+  const auto ny = png_get_image_height(reader.png, reader.info);
+  const double bytes =
+      static_cast<double>(png_get_rowbytes(reader.png, reader.info)) * static_cast<double>(ny);
+  if (bytes > kLargestRatio * static_cast<double>(std::filesystem::file_size(file))) {
+    throw InputError(file.string(), fmt::format("{} x {} pixels in its header", nx, ny),
+                     "as many as its data can hold",
+                     "the file is damaged or truncated: export or copy it again");
+  }
+}
+
 void check_grey(const Reader& reader, const std::string& name) {
   const int colour = png_get_color_type(reader.png, reader.info);
   if (colour != PNG_COLOR_TYPE_GRAY && colour != PNG_COLOR_TYPE_GRAY_ALPHA) {
@@ -110,6 +126,7 @@ GreyImage read_png(const std::filesystem::path& file) {
   const Reader reader(&name);
   png_init_io(reader.png, stream.get());
   png_read_info(reader.png, reader.info);
+  check_size(reader, file);
   check_grey(reader, name);
   GreyImage image;
   image.bits = png_get_bit_depth(reader.png, reader.info);

@@ -133,5 +133,48 @@ TEST_F(NoConverter, DeeplyNestedGwyObjectsAreRefused) {
   EXPECT_NE(test::refusal(folder, root.bytes() + object).find("nested"), std::string::npos);
 }
 
+/// HDF5 1.10 never returns from a global heap whose first object is free and has no size.
+TEST_F(NoConverter, AnEndlessHdf5HeapIsRefused) {
+  const Folder folder;
+  std::string bytes = written_bytes(folder, ".h5");
+  const std::size_t heap = bytes.find("GCOL");
+  ASSERT_NE(heap, std::string::npos);
+  bytes.replace(heap + 16, 2, std::string(2, '\0'));  // index of the first object: free
+  bytes.replace(heap + 24, 8, std::string(8, '\0'));  // its size
+  EXPECT_NE(test::refusal(folder, bytes).find("tables are damaged"), std::string::npos);
+}
+
+TEST_F(NoConverter, CoordinatesWithoutAFiniteSpanAreNoGrid) {
+  const Folder folder;
+  const char* text = "-1e308 0 1\n1e308 0 2\n-1e308 1 3\n1e308 1 4\n";
+  EXPECT_EQ(test::read_bytes(folder, text, test::micrometres()).format, "matrix");
+}
+
+TEST_F(NoConverter, FieldsWithoutAFiniteSizeAreRefused) {
+  const Folder folder;
+  for (const char* size : {"inf m", "1e-323 nm"}) {
+    const std::string width = std::string("# Width: ") + size;
+    const std::string text = width + "\n# Height: 1e308 m\n# Value units: m\n1 2\n3 4\n";
+    EXPECT_NE(test::refusal(folder, text), "") << size;
+  }
+}
+
+TEST_F(NoConverter, AnAbsurdCompressionIsRefused) {
+  const Folder folder;
+  std::string sdf = written_bytes(folder, ".asdf");
+  sdf.replace(sdf.find("Compression = 0"), 15, "Compression = 1e300");
+  EXPECT_NE(test::refusal(folder, sdf).find("compressed"), std::string::npos);
+}
+
+TEST_F(NoConverter, APngThatClaimsMoreThanItHoldsIsRefusedBeforeAllocating) {
+  const Folder folder;
+  // The head of a grey PNG of 100 000 x 100 000 pixels of 16 bits, with its checksum.
+  const std::string bytes(
+      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\1\x86\xa0\0\1\x86\xa0\x10\0\0\0\0\xdd\xa9\x88\x57"
+      "\0\0\0\0IDAT\x35\xaf\x06\x1e",
+      45);
+  EXPECT_NE(test::refusal(folder, bytes).find("100000 x 100000"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace tabor::topography
