@@ -2,13 +2,15 @@
 
 from pathlib import Path
 
-from tabor_report import example, hdf, output, page, single, study, style
+from tabor_report import ehl, example, hdf, output, page, single, study, style
 from tabor_report.errors import InputError
 from tabor_report.figures import (
     contact_area,
     contact_clusters,
     contact_map,
     dry_friction,
+    ehl_curves,
+    ehl_impact,
     lubricant_map,
     lubricated_friction,
     psd,
@@ -23,6 +25,8 @@ def open_result(path):
     path = Path(path)
     path = path / "results.h5" if path.is_dir() else path
     file = hdf.open_file(path)
+    if ehl.is_ehl(file):
+        return ehl.load(path, file)
     if "scans" in file or "table" in file:
         return study.load(path, file)
     return single.load(path, file)
@@ -40,7 +44,7 @@ def build(source, folder, options, command):
     style.apply()
     folder = Path(folder)
     output.make_folder(folder / "figures")
-    drawings = study_figures(source, options) if source.kind == "study" else single_figures(source)
+    drawings = _drawings(source, options)
     saved, paths = [], []
     for drawn in drawings:
         png, svg = style.png(drawn.figure), style.svg(drawn.figure)
@@ -52,6 +56,18 @@ def build(source, folder, options, command):
         output.write(folder / "report.html", page.render(source, saved, command))
         paths.append(folder / "report.html")
     return paths
+
+
+def _drawings(source, options):
+    if source.kind == "study":
+        return study_figures(source, options)
+    return ehl_figures(source) if source.kind == "ehl" else single_figures(source)
+
+
+def ehl_figures(source):
+    if source.is_sweep:
+        return ehl_curves.sweep(source)
+    return {"impact": ehl_impact.draw, "squeeze": ehl_curves.squeeze}[source.program](source)
 
 
 def study_figures(source, options):

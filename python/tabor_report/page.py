@@ -7,14 +7,15 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup, escape
 
-from tabor_report import citations, page_single, page_study, style
+from tabor_report import citations, page_ehl, page_single, page_study, style
 
+_PAGES = {"study": page_study, "single": page_single, "ehl": page_ehl}
 SCREEN_PIXELS_PER_INCH = 115  # letters of the figures a little larger than on paper
 
 
 def render(source, figures, command):
     """HTML text. figures: [(Drawn, png bytes, svg bytes)]."""
-    sections = page_study.sections(source) if source.kind == "study" else page_single.sections(source)
+    sections = _PAGES[source.kind].sections(source)
     return _template().render(
         title=source.title,
         subtitle=_subtitle(source),
@@ -52,6 +53,8 @@ def _subtitle(source):
     if source.kind == "study":
         scans, cases = len(source.scans), len(source.table)
         return f"{scans} scan{'s' * (scans != 1)}, {cases} case{'s' * (cases != 1)}"
+    if source.kind == "ehl":
+        return "a sweep" if source.is_sweep else "one case"
     return f"{len(source.states)} state{'s' * (len(source.states) != 1)} of one scan"
 
 

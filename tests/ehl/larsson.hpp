@@ -4,7 +4,7 @@
 
 namespace tabor::test {
 
-/// The ball of Safa and Gohar as Larsson and Högberg compute it (first paper): a steel ball on
+/// The ball of Safa and Gohar as Larsson and Höglund compute it (first paper): a steel ball on
 /// glass with a mineral oil, all equations from the start, a domain of 15 Hertz radii of the ball's
 /// weight.
 inline ehl::ImpactProblem safa_gohar(double domain_in_radii = 15) {

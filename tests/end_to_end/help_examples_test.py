@@ -9,7 +9,7 @@ import unittest
 from program import ALUMINIUM, SOURCE, ProgramTest
 
 VERBS = ["info", "convert", "params", "psd", "generate", "contact", "lubricate", "friction", "sweep",
-         "report", "formats", "cite", "options"]
+         "ehl", "report", "formats", "cite", "options"]
 
 
 def examples_of(help_text):
@@ -21,6 +21,7 @@ class HelpExamples(ProgramTest):
         super().setUp()
         shutil.copytree(SOURCE / "surfaces", self.folder / "surfaces",
                         ignore=lambda _, names: [n for n in names if not n.startswith("edt_before")])
+        shutil.copytree(SOURCE / "examples", self.folder / "examples")
 
     def run_examples(self, verb):
         done = self.tabor(verb, "--help")

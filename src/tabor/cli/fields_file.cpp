@@ -31,6 +31,21 @@ void write_attribute(io::Hdf5Writer& writer, const std::string& path, const std:
 
 }  // namespace
 
+void write_result_head(io::Hdf5Writer& writer, const Context& context,
+                       const std::string& config_toml, const std::vector<std::string>& methods) {
+  writer.attribute("/", "format", "tabor");
+  writer.attribute("/", "format_version", 1);
+  writer.attribute("/", "software_version", kVersion);
+  writer.attribute("/", "command", context.command_line);
+  writer.attribute("/", "config_toml", config_toml);
+  writer.attribute("/", "created", now_utc());
+  writer.attribute("/", "methods", methods);
+}
+
+void write_scalars(io::Hdf5Writer& writer, const std::string& group, const io::Json& scalars) {
+  for (const auto& [key, value] : scalars.items()) write_attribute(writer, group, key, value);
+}
+
 std::string toml_of(const io::Json& settings) {
   std::string text;
   // Numbers, strings and arrays are written alike in JSON and TOML.
@@ -55,14 +70,8 @@ FieldsFile::FieldsFile(const std::filesystem::path& file, const Context& context
 
 void FieldsFile::write_root(const Context& context, const Scan& scan, const io::Json& settings,
                             const std::vector<std::string>& methods) {
-  writer_.attribute("/", "format", "tabor");
-  writer_.attribute("/", "format_version", 1);
-  writer_.attribute("/", "software_version", kVersion);
-  writer_.attribute("/", "command", context.command_line);
-  writer_.attribute("/", "config_toml", toml_of(settings));
-  writer_.attribute("/", "created", now_utc());
+  write_result_head(writer_, context, toml_of(settings), methods);
   writer_.attribute("/", "input_sha256", scan.sha256);
-  writer_.attribute("/", "methods", methods);
   writer_.attribute("/", "default", "surface");
 }
 
@@ -78,7 +87,7 @@ void FieldsFile::add_state(std::size_t number, const io::Json& scalars,
     writer_.attach_axes(path);
   }
   writer_.nxdata(group, fields.front().name);
-  for (const auto& [key, value] : scalars.items()) write_attribute(writer_, group, key, value);
+  write_scalars(writer_, group, scalars);
 }
 
 }  // namespace tabor::cli

@@ -42,6 +42,13 @@ class FieldsFile {
 /// Pressure, displacement and gap of a contact.
 std::vector<StateField> fields_of(const contact::State& state);
 
+/// The attributes every result file begins with; `methods` are keys of references.bib.
+void write_result_head(io::Hdf5Writer& writer, const Context& context,
+                       const std::string& config_toml, const std::vector<std::string>& methods);
+
+/// Numbers, texts and switches of a flat object as attributes of a group; the rest is left out.
+void write_scalars(io::Hdf5Writer& writer, const std::string& group, const io::Json& scalars);
+
 /// A flat JSON object as TOML lines; nulls are left out.
 std::string toml_of(const io::Json& settings);
 

@@ -13,6 +13,7 @@ Verb contact_verb();
 Verb lubricate_verb();
 Verb friction_verb();
 Verb sweep_verb();
+Verb ehl_verb();
 Verb report_verb();
 Verb formats_verb();
 Verb cite_verb();

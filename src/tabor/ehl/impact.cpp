@@ -24,6 +24,7 @@ constexpr double kGrowth = 1.5;          // of the step, after one that worked
 constexpr double kChange = 3e-4;         // of the pressure against its trend, per step
 constexpr double kLongestStep = 8;
 constexpr double kNoForce = 1e-4;         // of the maximum: the impact is over
+constexpr double kNoPressure = 1e-9;      // of the largest
 constexpr double kNoSpeed = 1e-3;         // of the speed of approach: the ball has stopped
 constexpr double kWideDomain = 2;         // dry contact radii: less makes a result doubtful
 constexpr double kLongestContacts = 100;  // dry contact times until we give up waiting
@@ -78,6 +79,7 @@ class Impact {
   Impact(const ImpactProblem& problem, const Observer& observer)
       : problem_(problem), observer_(observer), dry_(dry_impact(problem)) {
     nominal_step_ = problem.time_step > 0 ? problem.time_step : dry_.contact_time / 400;
+    result_.time_step = nominal_step_;
   }
 
   ImpactResult solve() {
@@ -221,36 +223,46 @@ class Impact {
   void record(const BallState& state) {
     // The end of the rigid stage is the beginning of the full one.
     if (!result_.history.empty() && result_.history.back().time == state.time) return;
-    Index last = state.pressure.size() - 1;
-    while (last > 0 && state.pressure[last] <= 0) --last;
-    result_.history.push_back(
-        {.time = state.time,
-         .force = state.force,
-         .speed = state.speed,
-         .separation = state.separation,
-         .central_film = state.film[0],
-         .min_film = smallest_film(state.film),
-         .deformation = state.film[0] - state.separation,
-         .central_pressure = state.pressure[0],
-         .max_pressure = state.pressure.maxCoeff(),
-         .film_radius = state.pressure[last] > 0 ? film_.grid.face[last + 1] : 0.0});
+    result_.history.push_back({.time = state.time,
+                               .force = state.force,
+                               .speed = state.speed,
+                               .separation = state.separation,
+                               .central_film = state.film[0],
+                               .min_film = smallest_film(state.film),
+                               .deformation = state.film[0] - state.separation,
+                               .central_pressure = state.pressure[0],
+                               .max_pressure = state.pressure.maxCoeff(),
+                               .film_radius = film_radius(state.pressure)});
   }
 
-  /// Profiles at the asked times between two states, by linear interpolation.
+  /// Up to the first torn ring, counted from the centre. Rings outside it may hold specks of
+  /// pressure as small as what Newton's method leaves.
+  double film_radius(const Eigen::ArrayXd& pressure) const {
+    const double nothing = kNoPressure * pressure.maxCoeff();
+    Index n_full = 0;
+    while (n_full < pressure.size() && pressure[n_full] > nothing) ++n_full;
+    return film_.grid.face[n_full];
+  }
+
+  /// Profiles at the asked times between two states, by linear interpolation; or all.
   void keep_profiles(const BallState& before, const BallState& now) {
+    if (problem_.keeps_all_profiles) return keep_profile(before, now, now.time);
     for (; n_profiles_ < problem_.profile_times.size(); ++n_profiles_) {
       const double time = problem_.profile_times[n_profiles_];
       if (time > now.time) return;
-      if (time < before.time) continue;
-      const double share = (time - before.time) / (now.time - before.time);
-      ImpactProfile profile;
-      profile.time = time;
-      profile.film = (1 - share) * before.film + share * now.film;
-      profile.pressure = Eigen::ArrayXd::Zero(now.film.size());
-      profile.pressure.head(now.pressure.size()) =
-          (1 - share) * before.pressure + share * now.pressure;
-      result_.profiles.push_back(std::move(profile));
+      if (time >= before.time) keep_profile(before, now, time);
     }
+  }
+
+  void keep_profile(const BallState& before, const BallState& now, double time) {
+    const double share = (time - before.time) / (now.time - before.time);
+    ImpactProfile profile;
+    profile.time = time;
+    profile.film = (1 - share) * before.film + share * now.film;
+    profile.pressure = Eigen::ArrayXd::Zero(now.film.size());
+    profile.pressure.head(now.pressure.size()) =
+        (1 - share) * before.pressure + share * now.pressure;
+    result_.profiles.push_back(std::move(profile));
   }
 
   ImpactResult finished() {
@@ -260,8 +272,12 @@ class Impact {
   }
 
   void add_doubts() {
-    // The spike at the end is narrower than any grid: the contact's own pressure is what counts.
-    result_.doubts = material::doubts(problem_.lubricant, dry_.max_pressure);
+    // The spike at the end is narrower than any grid: what counts is the centre under load.
+    double pressure = 0;
+    for (const ImpactInstant& at : result_.history) {
+      if (at.force >= result_.max_force / 2) pressure = std::max(pressure, at.central_pressure);
+    }
+    result_.doubts = material::doubts(problem_.lubricant, pressure);
     const double radii = result_.domain_radius / dry_.max_radius;
     if (result_.end != ImpactEnd::rebound || radii >= kWideDomain) return;
     result_.doubts.push_back(fmt::format(

@@ -11,7 +11,7 @@ namespace tabor::ehl {
 
 /// How an impact begins.
 enum class ImpactStart {
-  rigid,  ///< in closed form, until the bodies deform (Larsson & Högberg's second paper)
+  rigid,  ///< in closed form, until the bodies deform (Larsson & Höglund 1994)
   full,   ///< all equations from the moment the ball touches the layer
 };
 
@@ -30,6 +30,7 @@ struct ImpactProblem {
   /// [s], the longest step unless the pressure follows its trend; 0: the dry contact time over 400
   double time_step = 0;
   std::vector<double> profile_times = {};  ///< [s], in ascending order
+  bool keeps_all_profiles = false;         ///< at every instant instead
   bool refactor_always = false;            ///< one factorization per Newton iteration (benchmarks)
 };
 
@@ -44,7 +45,7 @@ struct ImpactInstant {
   double deformation = 0;       ///< in the centre [m]
   double central_pressure = 0;  ///< [Pa]
   double max_pressure = 0;      ///< [Pa]
-  double film_radius = 0;       ///< [m] of the outermost cell under pressure
+  double film_radius = 0;       ///< [m] of the film that has not torn
 };
 
 /// Film and pressure along the radius at one time.
@@ -81,6 +82,7 @@ struct ImpactResult {
   std::vector<ImpactInstant> history;  ///< at least one
   std::vector<ImpactProfile> profiles;
   Eigen::ArrayXd radius;  ///< [m] of the nodes of the profiles, n + 1
+  double time_step = 0;   ///< [s], nominal
   int n_steps = 0;
   int n_cut_steps = 0;
   StepCount count;

@@ -10,7 +10,8 @@ void measure(const ImpactProblem& problem, ImpactResult& result);
 
 double highest_pressure(const ImpactResult& result);  ///< [Pa] anywhere, at any time
 
-/// The seven groups of Larsson & Högberg's second paper and its results; NaN where there is none.
+/// The seven groups of Larsson & Höglund 1994 (Journal of Tribology 116, 770) and its results; NaN
+/// where there is none.
 struct ImpactGroups {
   double layer = 0;             ///< H00 = h00 / R
   double speed = 0;             ///< V0 = eta0 v / (E' R), E' = 2 E*

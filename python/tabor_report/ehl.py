@@ -1,0 +1,56 @@
+"""A result file of `tabor ehl`: one case with its histories and profiles, or the numbers of a sweep."""
+
+import tomllib
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from tabor_report import hdf
+
+
+@dataclass
+class Ehl:
+    path: Path
+    file: object
+    facts: dict
+    warnings: list = field(default_factory=list)
+
+    kind = "ehl"
+
+    @property
+    def title(self):
+        return f"{self.facts['kind']}: {self.path.stem}"
+
+    @property
+    def program(self):
+        return self.facts["kind"].split()[1]
+
+    @property
+    def is_sweep(self):
+        return "sweep" in self.file
+
+    @property
+    def settings(self):
+        try:
+            return tomllib.loads(hdf.text(self.file.attrs.get("config_toml", "")))
+        except tomllib.TOMLDecodeError:
+            return {}
+
+    @property
+    def scalars(self):
+        return hdf.attributes(self.file["result"]) if "result" in self.file else {}
+
+    def curves(self, group):
+        """{name: values} of the one-dimensional datasets of a group, {} if it is absent."""
+        node = self.file.get(group)
+        return {name: node[name][()] for name in node if node[name].ndim == 1} if node else {}
+
+
+def is_ehl(file):
+    return hdf.text(file.attrs.get("kind", "")).startswith("ehl ")
+
+
+def load(path, file):
+    source = Ehl(path, file, hdf.attributes(file))
+    if not source.scalars.get("converged", True):
+        source.warnings.append("The computation did not converge; its numbers are those of where it ended.")
+    return source

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tabor/cli/verb.hpp"
+#include "tabor/io/hdf5.hpp"
+#include "tabor/io/json.hpp"
+#include "tabor/io/toml.hpp"
+
+namespace tabor::cli {
+
+/// What an elastohydrodynamic program found out about one case.
+struct EhlAnswer {
+  io::Json scalars;  ///< the keys of its JSON object, in their order
+  std::string text;  ///< for a person
+  bool converged = false;
+  std::vector<std::string> warnings = {};
+  /// Writes histories and profiles into a result file that has its head and scalars already.
+  std::function<void(io::Hdf5Writer&)> write = {};
+};
+
+/// A column of the table of a sweep or a study.
+struct EhlColumn {
+  std::string key;      ///< of the JSON object
+  std::string heading;  ///< "force"
+  std::string unit;     ///< "N", "" for a plain number
+};
+
+/// A study of how far a result depends on something that is not physics.
+struct EhlStudy {
+  std::string name;    ///< "grid"
+  std::string key;     ///< of the case, "grid.nodes"
+  std::string scalar;  ///< of the JSON object, where the value in force stands
+  std::string unit;    ///< of both, "" for a whole number
+  std::vector<double> factors;
+  bool has_limit = true;  ///< values tend to a limit that can be extrapolated
+};
+
+/// One sub-verb of `tabor ehl`.
+struct EhlProgram {
+  std::string name;
+  std::string summary;
+  std::vector<std::string> keys;  ///< of the case
+  std::vector<EhlColumn> columns;
+  std::vector<EhlStudy> studies;
+  std::vector<std::string> methods;  ///< keys of references.bib
+  std::function<EhlAnswer(const io::Config& config, Context& context)> solve;
+};
+
+EhlProgram impact_program();
+EhlProgram squeeze_program();
+
+}  // namespace tabor::cli

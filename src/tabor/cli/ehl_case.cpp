@@ -1,0 +1,111 @@
+#include "tabor/cli/ehl_case.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tabor/core/error.hpp"
+#include "tabor/material/solid.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+/// Runs a reader of the modules below and says at which key its complaint arose.
+template <typename Read>
+auto at_key(const io::Config& config, std::string_view key, Read read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    throw InputError(config.place(key) + ": " + error.what());
+  }
+}
+
+material::Solid read_solid(const io::Config& config, const std::string& prefix) {
+  material::Solid solid;
+  solid.youngs_modulus = positive_quantity(config, prefix + "youngs_modulus", dimension::pressure);
+  solid.poissons_ratio = config.number(prefix + "poissons_ratio");
+  return solid;
+}
+
+}  // namespace
+
+double positive_quantity(const io::Config& config, std::string_view key, Dimension dimension) {
+  const double value = config.quantity(key, dimension);
+  if (!(value > 0) || !std::isfinite(value)) {
+    throw InputError(config.place(key), fmt::format("{}", value), "a value above zero", "");
+  }
+  return value;
+}
+
+double positive_quantity_or(const io::Config& config, std::string_view key, Dimension dimension,
+                            double otherwise) {
+  return config.has(key) ? positive_quantity(config, key, dimension) : otherwise;
+}
+
+std::string text_or(const io::Config& config, std::string_view key, const std::string& otherwise) {
+  return config.has(key) ? config.text(key) : otherwise;
+}
+
+bool flag_or(const io::Config& config, std::string_view key, bool otherwise) {
+  return config.has(key) ? config.flag(key) : otherwise;
+}
+
+double read_effective_modulus(const io::Config& config) {
+  const bool has_modulus = config.has("solids.youngs_modulus");
+  if (config.has("solids.e_prime")) {
+    if (has_modulus) {
+      throw InputError(config.place("solids.e_prime"), "beside youngs_modulus", "one of the two",
+                       "e_prime is 2/[(1 - nu1^2)/E1 + (1 - nu2^2)/E2]");
+    }
+    return positive_quantity(config, "solids.e_prime", dimension::pressure) / 2;
+  }
+  return at_key(config, "solids", [&] {
+    const material::Solid solid = read_solid(config, "solids.");
+    if (!config.has("solids.counter_youngs_modulus")) return material::effective_modulus(solid);
+    return material::effective_modulus(solid, read_solid(config, "solids.counter_"));
+  });
+}
+
+const std::vector<std::string>& solids_keys() {
+  static const std::vector<std::string> keys = {
+      "solids.e_prime", "solids.youngs_modulus", "solids.poissons_ratio",
+      "solids.counter_youngs_modulus", "solids.counter_poissons_ratio"};
+  return keys;
+}
+
+material::Lubricant read_lubricant(const io::Config& config, const std::string& usual_law) {
+  material::Lubricant lubricant;
+  const double ambient = positive_quantity(config, "lubricant.viscosity", dimension::viscosity);
+  const auto law = at_key(config, "lubricant.viscosity_law", [&] {
+    return material::parse_viscosity_law(text_or(config, "lubricant.viscosity_law", usual_law));
+  });
+  const double coefficient =
+      law == material::ViscosityLaw::constant
+          ? 0.0
+          : config.quantity("lubricant.pressure_viscosity", dimension::per_pressure);
+  lubricant.viscosity = at_key(config, "lubricant.viscosity",
+                               [&] { return material::make_viscosity(law, ambient, coefficient); });
+  lubricant.density = at_key(config, "lubricant.density_law", [&] {
+    return material::relative_density(
+        material::parse_density_law(text_or(config, "lubricant.density_law", "constant")));
+  });
+  return lubricant;
+}
+
+const std::vector<std::string>& lubricant_keys() {
+  static const std::vector<std::string> keys = {"lubricant.viscosity", "lubricant.viscosity_law",
+                                                "lubricant.pressure_viscosity",
+                                                "lubricant.density_law"};
+  return keys;
+}
+
+std::vector<std::string> joined(std::vector<std::string> keys,
+                                const std::vector<std::vector<std::string>>& more) {
+  for (const std::vector<std::string>& list : more) {
+    keys.insert(keys.end(), list.begin(), list.end());
+  }
+  return keys;
+}
+
+}  // namespace tabor::cli

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tabor/io/toml.hpp"
+#include "tabor/material/lubricant.hpp"
+
+/// What the cases of all elastohydrodynamic programs have in common.
+namespace tabor::cli {
+
+/// Quantities of a case; a wrong one throws InputError with file, line and key.
+double positive_quantity(const io::Config& config, std::string_view key, Dimension dimension);
+double positive_quantity_or(const io::Config& config, std::string_view key, Dimension dimension,
+                            double otherwise);
+std::string text_or(const io::Config& config, std::string_view key, const std::string& otherwise);
+bool flag_or(const io::Config& config, std::string_view key, bool otherwise);
+
+/// [solids]: e_prime (2 E*), or youngs_modulus and poissons_ratio with those of the counter body
+/// (rigid unless given). Returns E* [Pa].
+double read_effective_modulus(const io::Config& config);
+const std::vector<std::string>& solids_keys();
+
+/// [lubricant]: viscosity, viscosity_law, pressure_viscosity, density_law. `usual_law` is the
+/// viscosity law where the case names none.
+material::Lubricant read_lubricant(const io::Config& config, const std::string& usual_law);
+const std::vector<std::string>& lubricant_keys();
+
+/// Key lists one after the other.
+std::vector<std::string> joined(std::vector<std::string> keys,
+                                const std::vector<std::vector<std::string>>& more);
+
+}  // namespace tabor::cli

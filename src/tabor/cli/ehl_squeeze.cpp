@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tabor/cli/ehl.hpp"
+#include "tabor/cli/ehl_case.hpp"
+#include "tabor/cli/table.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/ehl/squeeze.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+constexpr Dimension kMassPerLength{-1, 1, 0, 0};
+constexpr Dimension kDampingPerLength{-1, 1, -1, 0};  // N s/m^2
+
+ehl::SqueezeProblem read_problem(const io::Config& config) {
+  ehl::SqueezeProblem problem;
+  problem.mass = positive_quantity(config, "roller.mass_per_length", kMassPerLength);
+  problem.radius = positive_quantity(config, "roller.effective_radius", dimension::length);
+  problem.spring = positive_quantity(config, "roller.spring", dimension::pressure);
+  problem.speed = positive_quantity(config, "roller.speed", dimension::speed);
+  const std::string law = text_or(config, "lubricant.viscosity_law", "barus");
+  if (law != "barus" && law != "constant") {
+    throw InputError(config.place("lubricant.viscosity_law"), "'" + law + "'",
+                     "barus or constant" + suggestion(law, {"barus", "constant"}),
+                     "the film is known in closed form for these two only");
+  }
+  const material::Lubricant lubricant = read_lubricant(config, "barus");
+  problem.viscosity = material::ambient_viscosity(lubricant.viscosity);
+  problem.pressure_coefficient = material::pressure_coefficient(lubricant.viscosity);
+  problem.layer = positive_quantity(config, "lubricant.layer", dimension::length);
+  if (config.has("motion.sliding_speed")) {
+    problem.sliding_speed = config.quantity("motion.sliding_speed", dimension::speed);
+  }
+  if (!flag_or(config, "motion.gravity", true)) problem.gravity = 0;
+  problem.time_step = positive_quantity_or(config, "grid.time_step", dimension::time, 0);
+  return problem;
+}
+
+io::Json scalars_of(const ehl::SqueezeResult& result) {
+  return {{"max_force_N_per_m", io::number(result.max_force)},
+          {"time_max_force_s", io::number(result.time_max_force)},
+          {"min_film_m", io::number(result.min_film)},
+          {"time_min_film_s", io::number(result.time_min_film)},
+          {"turning_time_s", io::number(result.turning_time)},
+          {"lag_s", io::number(result.lag)},
+          {"gap_closing_at_turning", result.gap_closing_at_turning},
+          {"n_steps", result.history.size() - 1},
+          {"converged", result.converged}};
+}
+
+std::string text_of(const ehl::SqueezeResult& result) {
+  Facts facts;
+  facts.fact("largest force",
+             fmt::format("{} at {}", si(result.max_force, "N/m"), si(result.time_max_force, "s")));
+  facts.fact("smallest film",
+             fmt::format("{} at {}", si(result.min_film, "m"), si(result.time_min_film, "s")));
+  facts.fact("film behind force", si(result.lag, "s"));
+  facts.fact("roller turns", si(result.turning_time, "s"));
+  facts.fact("gap closes then",
+             std::isnan(result.turning_time) ? "-" : yes_no(result.gap_closing_at_turning));
+  facts.fact("end", result.reason);
+  return facts.text();
+}
+
+void write_history(io::Hdf5Writer& writer, const std::vector<ehl::SqueezeInstant>& history) {
+  using Instant = ehl::SqueezeInstant;
+  struct Curve {
+    const char* name;
+    const char* unit;
+    const char* long_name;
+    double Instant::*value;
+  };
+  const Curve curves[] = {{"time", "s", "time since the roller touched the layer", &Instant::time},
+                          {"force", "N/m", "force per width", &Instant::force},
+                          {"min_film", "m", "smallest film thickness", &Instant::film},
+                          {"film_speed", "m/s", "rate of the film", &Instant::film_speed},
+                          {"roller", "m", "place of the roller", &Instant::roller},
+                          {"speed", "m/s", "speed of the roller", &Instant::roller_speed}};
+  writer.group("/history");
+  for (const Curve& curve : curves) {
+    std::vector<double> values;
+    for (const Instant& at : history) values.push_back(at.*curve.value);
+    const std::string path = std::string("/history/") + curve.name;
+    writer.write(path, values);
+    writer.describe(path, curve.unit, curve.long_name);
+  }
+}
+
+/// The film as a spring and a damper, in closed form, under the same keys.
+EhlAnswer solve_linear(const io::Config& config) {
+  ehl::LinearSqueeze linear;
+  linear.mass = positive_quantity(config, "roller.mass_per_length", kMassPerLength);
+  linear.stiffness = positive_quantity(config, "roller.spring", dimension::pressure);
+  linear.damping = positive_quantity(config, "roller.damping", kDampingPerLength);
+  linear.speed = positive_quantity(config, "roller.speed", dimension::speed);
+  const double layer = positive_quantity(config, "lubricant.layer", dimension::length);
+  if (linear.damping >= 2 * std::sqrt(linear.stiffness * linear.mass)) {
+    throw InputError(config.place("roller.damping"), fmt::format("{} N s/m^2", linear.damping),
+                     fmt::format("less than the critical damping, {:.4g} N s/m^2",
+                                 2 * std::sqrt(linear.stiffness * linear.mass)),
+                     "");
+  }
+  ehl::SqueezeResult result;
+  result.time_max_force = linear.time_max_force();
+  result.max_force = linear.force(result.time_max_force);
+  result.time_min_film = result.turning_time = linear.time_max_displacement();
+  result.min_film = layer - linear.displacement(result.time_min_film);
+  result.lag = result.time_min_film - result.time_max_force;
+  result.converged = true;
+  if (result.min_film <= 0) {
+    result.reason = "the film would close: more damping, more stiffness or a thicker layer";
+  }
+  result.history.resize(1);
+  EhlAnswer answer{scalars_of(result), text_of(result), true};
+  if (!result.reason.empty()) answer.warnings.push_back(result.reason);
+  return answer;
+}
+
+EhlAnswer solve(const io::Config& config, Context& context) {
+  const std::string model = text_or(config, "squeeze.model", "hydrodynamic");
+  if (model == "linear") return solve_linear(config);
+  if (model != "hydrodynamic") {
+    throw InputError(config.place("squeeze.model"), "'" + model + "'",
+                     "hydrodynamic or linear" + suggestion(model, {"hydrodynamic", "linear"}), "");
+  }
+  ehl::SqueezeResult result = ehl::solve_squeeze(read_problem(config), context.observer());
+  EhlAnswer answer{scalars_of(result), text_of(result), result.converged};
+  if (!result.reason.empty()) answer.warnings.push_back(result.reason);
+  answer.write = [result = std::move(result)](io::Hdf5Writer& writer) {
+    write_history(writer, result.history);
+  };
+  return answer;
+}
+
+}  // namespace
+
+EhlProgram squeeze_program() {
+  return {.name = "squeeze",
+          .summary = "a roller closes on a sliding flat under a layer of liquid",
+          .keys = joined(
+              {"roller.mass_per_length", "roller.effective_radius", "roller.spring",
+               "roller.damping", "roller.speed", "lubricant.layer", "motion.sliding_speed",
+               "motion.gravity", "grid.time_step", "squeeze.model"},
+              {{"lubricant.viscosity", "lubricant.viscosity_law", "lubricant.pressure_viscosity"}}),
+          .columns = {{"max_force_N_per_m", "force", "N/m"},
+                      {"min_film_m", "smallest film", "m"},
+                      {"time_max_force_s", "time of force", "s"},
+                      {"turning_time_s", "roller turns", "s"},
+                      {"lag_s", "film lags", "s"}},
+          .studies = {},
+          .methods = {"larsson1994"},
+          .solve = solve};
+}
+
+}  // namespace tabor::cli

@@ -1,0 +1,128 @@
+#include "tabor/cli/ehl_sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/core/units.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+constexpr std::size_t kUsualCount = 5;
+constexpr double kMostValues = 10000;
+
+[[noreturn]] void refuse(const std::string& text, const std::string& why) {
+  throw UsageError(fmt::format(
+      "--set {}: {}; write KEY=VALUE, or a range like ball.speed=0.05m/s..1m/s:log:5", text, why));
+}
+
+struct Range {
+  std::string begin, end;
+  bool is_logarithmic = false;
+  std::size_t count = kUsualCount;
+};
+
+Range parse_range(const std::string& text, const std::string& value) {
+  const std::vector<std::string> parts = split(value, ':');
+  Range range;
+  const std::size_t dots = parts.front().find("..");
+  range.begin = parts.front().substr(0, dots);
+  range.end = parts.front().substr(dots + 2);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const std::optional<double> count = parse_number(parts[i]);
+    if (parts[i] == "log" || parts[i] == "lin") {
+      range.is_logarithmic = parts[i] == "log";
+    } else if (count && *count >= 2 && *count <= kMostValues && *count == std::floor(*count)) {
+      range.count = static_cast<std::size_t>(*count);
+    } else {
+      refuse(text, fmt::format("'{}' is neither log, lin nor a number of values", parts[i]));
+    }
+  }
+  return range;
+}
+
+/// What stands behind the number of "0.05 m/s", with a blank before it.
+std::string unit_of(const std::string& value) {
+  const std::size_t digits = value.find_last_of("0123456789.");
+  std::size_t begin = 0;  // behind the longest number at the start
+  for (std::size_t length = 1; length <= digits + 1 && length <= value.size(); ++length) {
+    if (parse_number(trim(value.substr(0, length)))) begin = length;
+  }
+  const std::string unit(trim(value.substr(begin)));
+  return unit.empty() ? "" : " " + unit;
+}
+
+std::vector<std::string> values_of(const std::string& text, const Range& range) {
+  const Quantity begin = parse_quantity(range.begin);
+  const Quantity end = parse_quantity(range.end);
+  if (!(begin.dimension == end.dimension)) refuse(text, "its ends have different units");
+  if (range.is_logarithmic && !(begin.value > 0 && end.value > 0)) {
+    refuse(text, "a logarithmic range needs ends above zero");
+  }
+  // In the unit of the first end, so that a case reads as its user writes.
+  const std::string unit = unit_of(range.begin);
+  const double factor = parse_quantity("1" + unit).value;
+  std::vector<std::string> values;
+  for (std::size_t i = 0; i < range.count; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(range.count - 1);
+    const double value = range.is_logarithmic
+                             ? begin.value * std::pow(end.value / begin.value, share)
+                             : begin.value + share * (end.value - begin.value);
+    values.push_back(fmt::format("{:.6g}{}", value / factor, unit));
+  }
+  return values;
+}
+
+}  // namespace
+
+std::vector<double> SweepAxis::numbers() const {
+  std::vector<double> numbers;
+  for (const std::string& value : values) {
+    try {
+      numbers.push_back(parse_quantity(value).value);
+    } catch (const InputError&) {
+      numbers.push_back(static_cast<double>(numbers.size()));
+    }
+  }
+  return numbers;
+}
+
+SweepAxis parse_axis(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
+    refuse(text, "no key or no value");
+  }
+  SweepAxis axis;
+  axis.key = std::string(trim(text.substr(0, equals)));
+  const std::string value(trim(text.substr(equals + 1)));
+  axis.is_range = value.find("..") != std::string::npos;
+  try {
+    axis.values =
+        axis.is_range ? values_of(text, parse_range(text, value)) : std::vector<std::string>{value};
+  } catch (const InputError& error) {
+    refuse(text, error.what());
+  }
+  return axis;
+}
+
+std::vector<std::vector<std::size_t>> combinations(const std::vector<SweepAxis>& axes) {
+  std::vector<std::vector<std::size_t>> all = {{}};
+  for (const SweepAxis& axis : axes) {
+    std::vector<std::vector<std::size_t>> longer;
+    for (const std::vector<std::size_t>& places : all) {
+      for (std::size_t i = 0; i < axis.values.size(); ++i) {
+        longer.push_back(places);
+        longer.back().push_back(i);
+      }
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+}  // namespace tabor::cli

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "tabor/core/convergence.hpp"
+#include "tabor/core/types.hpp"
+#include "tabor/material/lubricant.hpp"
+#include "tabor/reference/ehl_films.hpp"
+#include "tabor/reference/hertz_line.hpp"
+
+namespace tabor::ehl {
+
+/// What happens where the liquid would be pulled below zero pressure.
+enum class LineCavitation {
+  reynolds,  ///< p >= 0 by complementarity: p = dp/dx = 0 where the film breaks
+  penalty    ///< a source -min(0, p)/eps (Wu 1986); tends to `reynolds` with eps -> 0
+};
+
+/// A cylinder on a flat with a film between, steady, plane strain, flow towards +x. SI units.
+struct LineProblem {
+  double radius = 0;             ///< R [m]
+  double effective_modulus = 0;  ///< E* [Pa]
+  double load = 0;               ///< F [N/m]
+  double entrainment_speed = 0;  ///< u_m [m/s], mean of the speeds of both surfaces, > 0
+  double sliding_speed = 0;      ///< u_s [m/s], their difference, for friction
+  material::Lubricant lubricant;
+  LineCavitation cavitation = LineCavitation::reynolds;
+  double penalty = 1e6;  ///< 1/eps in units of u_m over the pressure of Hertz
+  Index nodes = 1200;
+  double inlet = 0;   ///< [m] before the centre; 0: 4 half widths and 10 sqrt(2 R h), h by Moes
+  double outlet = 0;  ///< [m] behind it; 0: 1.5 half widths and 3 sqrt(2 R h)
+  Eigen::ArrayXd roughness;     ///< s [m] at the nodes, asperities up, at rest; empty: smooth
+  bool dense_jacobian = false;  ///< factorize a full matrix in each iteration (benchmarks)
+};
+
+/// A film. Arrays hold one value per node.
+struct LineResult {
+  Eigen::ArrayXd x;           ///< [m] from the line of closest approach
+  Eigen::ArrayXd pressure;    ///< p [Pa]
+  Eigen::ArrayXd film;        ///< h [m]
+  double separation = 0;      ///< h0 [m], of the undeformed bodies; relative, see LineHalfSpace
+  double min_film = 0;        ///< [m]
+  double central_film = 0;    ///< [m] at x = 0
+  double max_pressure = 0;    ///< [Pa]
+  double rupture = 0;         ///< [m] where the pressure ends
+  double friction_force = 0;  ///< [N/m] of the sheared film where it carries pressure
+  double friction_coefficient = 0;  ///< friction_force over load
+  double load_error = 0;            ///< relative
+  double mass_error = 0;            ///< largest imbalance of a node over the flow in the contact
+  int newton_iterations = 0;
+  int n_products = 0;  ///< with the elastic matrix, by transforms
+  bool converged = false;
+  std::vector<std::string> doubts;
+};
+
+/// Hertz' dry contact and the groups of the lubricated one.
+reference::HertzLineContact hertz_of(const LineProblem& problem);
+reference::LineContactFilm film_groups_of(const LineProblem& problem);
+
+/// Nodes that solve_line() uses [m]: uniform, from -inlet to outlet.
+Eigen::ArrayXd line_nodes(const LineProblem& problem);
+
+/// Fills what follows from x, pressure and film.
+void measure_line(const LineProblem& problem, LineResult& result);
+
+/// Newton's method on pressures and h0 together, the load being one of the equations, from the
+/// pressure of Hertz. Throws InputError for input that makes no sense: values that are not
+/// positive, a domain that does not contain the contact, a grid too coarse for it, a viscosity law
+/// that ends below the pressure of Hertz. Not converging is returned.
+LineResult solve_line(const LineProblem& problem, const Observer& observer = {});
+
+}  // namespace tabor::ehl

@@ -1,0 +1,148 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "run_tabor.hpp"
+#include "support/folder.hpp"
+#include "tabor/cli/ehl_sweep.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/io/hdf5.hpp"
+
+namespace tabor::cli {
+namespace {
+
+using test::json_of;
+using test::Outcome;
+using test::run_tabor;
+using testing::HasSubstr;
+
+const std::string kBall = TABOR_SOURCE_DIR "/examples/10_restitution_map/ball.toml";
+const std::vector<std::string> kQuick = {"ehl", "impact", kBall, "--set", "grid.nodes=80"};
+
+std::vector<std::string> quick(const std::vector<std::string>& more) {
+  std::vector<std::string> words = kQuick;
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST(SweepAxis, ReadsRangesInTheUnitOfTheirBeginning) {
+  const SweepAxis axis = parse_axis("ball.speed=50mm/s..1m/s:log:3");
+  EXPECT_EQ(axis.key, "ball.speed");
+  ASSERT_EQ(axis.values.size(), 3u);
+  EXPECT_EQ(axis.values[0], "50 mm/s");
+  EXPECT_EQ(axis.values[2], "1000 mm/s");
+  EXPECT_NEAR(axis.numbers()[1], std::sqrt(0.05), 1e-6);
+  EXPECT_EQ(parse_axis("grid.nodes=100..300:3").values[1], "200");
+  EXPECT_FALSE(parse_axis("ball.speed=0.1 m/s").is_range);
+}
+
+TEST(SweepAxis, RefusesWhatIsNoRange) {
+  for (const char* text : {"ball.speed", "=1", "ball.speed=1m/s..2kg", "a=1..2:often", "a=0..2:log",
+                           "a=1..2:1", "a=1m/s..2 hollow/s"}) {
+    EXPECT_THROW(parse_axis(text), UsageError) << text;
+  }
+}
+
+TEST(SweepAxis, CombinesAllValuesTheLastFastest) {
+  const auto all = combinations({parse_axis("a=1..2:2"), parse_axis("b=1..3:3")});
+  ASSERT_EQ(all.size(), 6u);
+  EXPECT_EQ(all[1], (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(all[3], (std::vector<std::size_t>{1, 0}));
+}
+
+TEST(EhlImpact, HasItsKeys) {
+  const io::Json json = json_of(kQuick);
+  for (const char* key :
+       {"impact_time_s", "time_max_force_s", "max_force_N", "min_film_m", "time_min_film_s",
+        "turning_time_s", "rebound_speed_m_per_s", "restitution", "max_deformation_m",
+        "primary_center_pressure_Pa", "phase_shift_s"}) {
+    EXPECT_TRUE(json.contains(key) && json[key].is_number()) << key;
+  }
+  for (const char* key : {"H00", "V0", "M", "G", "W", "Pcl", "Hmin", "dT_over_Tr"}) {
+    EXPECT_TRUE(json["groups"].contains(key)) << key;
+  }
+  for (const char* key : {"impact_time_s", "max_force_N", "max_deformation_m", "max_pressure_Pa"}) {
+    EXPECT_TRUE(json["dry"].contains(key)) << key;
+  }
+  EXPECT_EQ(json["converged"], true);
+  EXPECT_TRUE(json.contains("warnings"));
+}
+
+TEST(EhlImpact, KeepsHistoriesAndProfiles) {
+  const test::Folder folder;
+  const std::string file = folder / "impact.h5";
+  ASSERT_EQ(run_tabor(quick({"-o", file})).code, 0);
+  const io::Hdf5Reader reader(file);
+  const auto times = reader.numbers("/history/time");
+  EXPECT_EQ(reader.numbers("/history/force").size(), times.size());
+  const auto shape = reader.shape("/profiles/film");
+  EXPECT_EQ(shape[0], static_cast<Index>(reader.numbers("/profiles/time").size()));
+  EXPECT_EQ(shape[1], 81);
+  EXPECT_THAT(reader.text("/", "config_toml"), HasSubstr("e_prime"));
+}
+
+TEST(EhlImpact, SweepsAndStudies) {
+  const io::Json sweep = json_of(quick({"--set", "ball.speed=0.1m/s..0.4m/s:log:3"}));
+  ASSERT_EQ(sweep["results"].size(), 3u);
+  EXPECT_LT(sweep["results"][0]["restitution"], sweep["results"][2]["restitution"]);
+  const io::Json study = json_of(quick({"--study", "grid"}));
+  EXPECT_EQ(study["results"][2]["nodes"], 160);
+  EXPECT_TRUE(study["limits"].contains("max_force_N"));
+}
+
+TEST(EhlImpact, GoesOnWithASweepBehindACaseThatMakesNoSense) {
+  std::vector<std::string> words = quick({"--set", "ball.speed=0.2m/s..4m/s:2", "--json"});
+  const Outcome outcome = run_tabor(words);
+  EXPECT_EQ(outcome.code, 4);
+  const io::Json results = io::Json::parse(outcome.out)["results"];
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0]["converged"], true);
+  EXPECT_EQ(results[1]["converged"], false);
+  EXPECT_THAT(results[1]["refused"].get<std::string>(), HasSubstr("thicker layer"));
+}
+
+TEST(EhlImpact, SaysThatABallSticks) {
+  const Outcome outcome = run_tabor(quick({"--set", "ball.speed=1mm/s"}));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("sticks"));
+}
+
+TEST(EhlVerb, RefusesWithTheReason) {
+  const auto refused = [](const std::vector<std::string>& words, int code,
+                          const std::string& message) {
+    const Outcome outcome = run_tabor(words);
+    EXPECT_EQ(outcome.code, code) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(message));
+  };
+  refused({"ehl", "impakt", kBall}, 2, "did you mean 'impact'");
+  refused(quick({"--set", "ball.spede=1m/s"}), 3, "ball.speed");
+  refused(quick({"--set", "ball.speed=0.2"}), 3, "unit");
+  refused(quick({"--set", "lubricant.layer=1um"}), 3, "thicker layer");
+  refused(quick({"--set", "lubricant.viscosity_law=baruss"}), 3, "barus");
+  refused(quick({"--set", "lubricant.viscosity=-1 Pa s"}), 3, "above zero");
+  refused(quick({"--study", "gird"}), 2, "did you mean 'grid'");
+  refused({"ehl", "impact", "nowhere.toml"}, 3, "nowhere.toml");
+}
+
+TEST(EhlSqueeze, HasItsKeys) {
+  const test::Folder folder;
+  const std::string file = folder / "roller.toml";
+  test::put_bytes(file,
+                  "[roller]\nmass_per_length = \"30.2 kg/m\"\neffective_radius = \"9.2 mm\"\n"
+                  "spring = \"2.2e10 N/m^2\"\nspeed = \"0.25 m/s\"\n[lubricant]\n"
+                  "viscosity = \"0.5 Pa s\"\npressure_viscosity = \"1.5e-8 1/Pa\"\n"
+                  "layer = \"0.4 mm\"\n[motion]\nsliding_speed = \"5 m/s\"\n"
+                  "[grid]\ntime_step = \"4 us\"\n");
+  const io::Json json = json_of({"ehl", "squeeze", file});
+  for (const char* key : {"max_force_N_per_m", "time_max_force_s", "min_film_m", "time_min_film_s",
+                          "turning_time_s", "lag_s"}) {
+    EXPECT_TRUE(json.contains(key) && json[key].is_number()) << key;
+  }
+  EXPECT_EQ(json["gap_closing_at_turning"], true);
+  EXPECT_EQ(json["converged"], true);
+  const io::Json linear = json_of({"ehl", "squeeze", file, "--set", "squeeze.model=linear", "--set",
+                                   "roller.damping=1e6 N*s/m^2"});
+  EXPECT_GT(linear["lag_s"], 0);
+}
+
+}  // namespace
+}  // namespace tabor::cli

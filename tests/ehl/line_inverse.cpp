@@ -1,0 +1,102 @@
+#include "tabor/ehl/line_inverse.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "tabor/ehl/gmres.hpp"
+
+namespace tabor::ehl {
+namespace {
+
+/// A fixed series of numbers in -1 .. 1.
+double scattered(Index i) { return std::sin(12.9898 * static_cast<double>(i + 1)); }
+
+Eigen::MatrixXd dense_of(const LineBands& bands) {
+  const Index n = bands.diagonal.size();
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+  matrix.diagonal() = bands.diagonal;
+  matrix.diagonal(1) = bands.upper.head(n - 1);
+  matrix.diagonal(-1) = bands.lower.tail(n - 1);
+  return matrix;
+}
+
+TEST(BandedLu, SolvesAMatrixThatNeedsPivots) {
+  const Index n = 40;
+  BandedLu factors(n, 2, 3);
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = std::max<Index>(0, i - 2); j <= std::min(n - 1, i + 3); ++j) {
+      matrix(i, j) = i == j ? 1e-13 : scattered(7 * i + j);
+      factors.at(i, j) = matrix(i, j);
+    }
+  }
+  const Eigen::VectorXd expected = Eigen::VectorXd::LinSpaced(n, -1, 2);
+  Eigen::VectorXd x = matrix * expected;
+  ASSERT_TRUE(factors.factorize());
+  factors.solve(x.data());
+  EXPECT_LE((x - expected).norm(), 1e-10 * expected.norm());
+}
+
+TEST(BandedLu, SaysThatAMatrixIsSingular) {
+  BandedLu factors(3, 1, 1);
+  factors.at(0, 0) = 1;
+  factors.at(2, 2) = 1;
+  EXPECT_FALSE(factors.factorize());
+}
+
+TEST(Gmres, ReachesTheToleranceOrSaysThatItDidNot) {
+  const Index n = 30;
+  Eigen::MatrixXd matrix = 3 * Eigen::MatrixXd::Identity(n, n);
+  for (Index i = 0; i < n * n; ++i) matrix.data()[i] += scattered(i) / 8;
+  const auto product = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return matrix * x; };
+  const auto nothing = [](const Eigen::VectorXd& b) { return b; };
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, 1, -3);
+  int n_products = 0;
+  const auto x = gmres(product, nothing, b, 1e-10, n, n_products);
+  ASSERT_TRUE(x.has_value());
+  EXPECT_LE((b - matrix * *x).norm(), 1.001e-10 * b.norm());
+  EXPECT_GT(n_products, 2);
+  EXPECT_FALSE(gmres(product, nothing, b, 1e-10, 2, n_products).has_value());
+}
+
+/// A Newton step of some film: diffusion by pressure, transport by film.
+class LineInverseTest : public testing::TestWithParam<Index> {};
+
+TEST_P(LineInverseTest, LeavesAFewPerCentToGmres) {
+  const Index n = GetParam();
+  const LineUnits units{.pressure = 1e7, .film = 1e-5, .load = 5e3};
+  const elastic::LineHalfSpace elastic(n, 1e-3 / static_cast<double>(n), 1.2e9);
+  LineBands by_pressure(n);
+  LineBands by_film(n);
+  for (Index i = 0; i < n; ++i) {
+    const double mobility = 1 + 0.5 * scattered(i);
+    by_pressure.diagonal[i] = 2 * mobility;
+    by_pressure.lower[i] = by_pressure.upper[i] = i == 0 || i + 1 == n ? 0 : -mobility;
+    by_film.lower[i] = i == 0 || i + 1 == n ? 0 : -0.5;
+    by_film.upper[i] = -by_film.lower[i];
+    by_film.diagonal[i] = 0.3 * mobility;  // without it h0 would not matter
+  }
+  const Eigen::MatrixXd compliance = units.pressure / units.film * elastic.matrix();
+  Eigen::MatrixXd matrix(n + 1, n + 1);
+  matrix.topLeftCorner(n, n) = dense_of(by_pressure) + dense_of(by_film) * compliance;
+  matrix.topRightCorner(n, 1) = dense_of(by_film) * Eigen::VectorXd::Ones(n);
+  matrix.bottomLeftCorner(1, n).setConstant(elastic.load_weight() * units.pressure / units.load);
+  matrix(n, n) = 0;
+  const LineInverse inverse(elastic, units, by_pressure, by_film);
+  ASSERT_TRUE(inverse.ok());
+  Eigen::VectorXd right(n + 1);
+  for (Index i = 0; i <= n; ++i) right[i] = scattered(3 * i);
+  int n_products = 0;
+  const auto product = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return matrix * x; };
+  const auto x = gmres(product, inverse, right, 1e-6, 60, n_products);
+  ASSERT_TRUE(x.has_value());
+  EXPECT_LE((right - matrix * *x).norm(), 1.001e-6 * right.norm());
+  EXPECT_LE(n_products, 20);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, LineInverseTest, testing::Values(50, 200, 800));
+
+}  // namespace
+}  // namespace tabor::ehl
