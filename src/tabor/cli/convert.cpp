@@ -1,3 +1,6 @@
+#include <chrono>
+#include <future>
+#include <limits>
 #include <memory>
 
 #include "tabor/cli/result.hpp"
@@ -13,10 +16,24 @@ struct Request {
   std::string output;
 };
 
+/// Writes while the observer is told that it takes its time: packing a large map is slow and says
+/// nothing itself. A file that is being written when the user interrupts is finished first.
+void write(const topography::Topography& surface, const std::string& file,
+           const Observer& observer) {
+  constexpr std::chrono::milliseconds kPeriod{200};
+  constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+  std::future<void> writing =
+      std::async(std::launch::async, [&] { topography::write(surface, file); });
+  while (writing.wait_for(kPeriod) != std::future_status::ready) {
+    report_progress(observer, "write " + file, kUnknown);
+  }
+  writing.get();
+}
+
 int convert(const Request& request, Context& context) {
   check_can_write(request.output);
   const Scan scan = load_scan(request.scan, context);
-  topography::write(scan.surface, request.output);
+  write(scan.surface, request.output, context.observer());
   io::Json object = json_head(context, scan);
   object["output"] = request.output;
   object["nx"] = scan.surface.grid.nx;

@@ -117,8 +117,11 @@ double bend(const Field& height, Index y, Index x) {
 double median_bend(const Field& height) {
   std::vector<double> bends;
   const Index stride = std::max<Index>(1, height.size() / kSample);
+  // Of a map of few long rows not every column either.
+  const Index n_rows = (height.rows() + stride - 1) / stride;
+  const Index x_stride = std::max<Index>(1, n_rows * height.cols() / (2 * kSample));
   for (Index y = 0; y < height.rows(); y += stride) {
-    for (Index x = 1; x + 1 < height.cols(); ++x) {
+    for (Index x = 1; x + 1 < height.cols(); x += x_stride) {
       if (const double b = bend(height, y, x); std::isfinite(b)) bends.push_back(b);
     }
   }
@@ -193,10 +196,12 @@ void doubt_spikes(Index spikes, std::vector<std::string>& list) {
 }
 
 /// Heights above their least-squares plane; as they are if they do not determine one. The plane of
-/// large maps is fitted to every k-th row and column: it decides about doubts only.
+/// large maps is fitted to some of their rows and columns: it decides about doubts only.
 Levelled above_plane(const Field& height) {
-  const Index k = static_cast<Index>(std::sqrt(static_cast<double>(height.size()) / kSample)) + 1;
-  const Field sample = height(Eigen::seq(0, Eigen::last, k), Eigen::seq(0, Eigen::last, k));
+  constexpr Index kSide = 1024;
+  const Index kx = 1 + height.cols() / kSide;
+  const Index ky = 1 + height.rows() / kSide;
+  const Field sample = height(Eigen::seq(0, Eigen::last, ky), Eigen::seq(0, Eigen::last, kx));
   Levelled levelled{.height = height};
   try {
     const FormFit fit = fit_form(sample, 1);
@@ -207,8 +212,8 @@ Levelled above_plane(const Field& height) {
     const double along_x = fit.coefficients[1];
     const double along_y = fit.coefficients[2];
     levelled.at_origin = mean + along_x * (du / 2 - 1) + along_y * (dv / 2 - 1);
-    levelled.per_column = along_x * du / static_cast<double>(k);
-    levelled.per_row = along_y * dv / static_cast<double>(k);
+    levelled.per_column = along_x * du / static_cast<double>(kx);
+    levelled.per_row = along_y * dv / static_cast<double>(ky);
   } catch (const InputError&) {
     // One row, or heights on one line: there is nothing to level.
   }

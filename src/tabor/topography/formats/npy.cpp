@@ -88,8 +88,9 @@ Document open_npy(const Contents& contents) {
                         .order = type.order,
                         .nx = transposed ? ny : nx,
                         .ny = transposed ? nx : ny};
-    const Field stored = decode(contents, data, raster);
-    return transposed ? Field(stored.transpose()) : stored;
+    Field stored = decode(contents, data, raster);
+    if (transposed) return stored.transpose();
+    return stored;
   };
   Document document{.format = "npy"};
   document.layers.push_back(std::move(layer));
