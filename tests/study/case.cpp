@@ -38,7 +38,7 @@ TEST(Units, KeyIsTheDigestOfAFixedText) {
   study.treatment = {"level=plane"};
   const Unit surface = surface_unit(study, {}, "abc");
   EXPECT_EQ(surface.text,
-            "tabor surface 2\nscan_sha256 = 3:abc\nchannel = 0:\nunit = 0:\npixel_x_m = 0\n"
+            "tabor surface 3\nscan_sha256 = 3:abc\nchannel = 0:\nunit = 0:\npixel_x_m = 0\n"
             "pixel_y_m = 0\nstep = 11:level=plane\n");
   EXPECT_EQ(surface.file, "surface-" + surface.key + ".h5");
   EXPECT_EQ(surface.key.size(), 16u);
