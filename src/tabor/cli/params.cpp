@@ -1,50 +1,276 @@
-#include <memory>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <ostream>
+
+#include "tabor/cli/params_result.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/io/atomic_file.hpp"
+#include "tabor/io/csv.hpp"
 #include "tabor/topography/parameters.hpp"
 
 namespace tabor::cli {
 
 namespace {
 
-std::string value_of(const topography::Parameter& parameter) {
-  if (parameter.unit == "m") return si(parameter.value, "m");
-  const std::string number = plain(parameter.value, 5);
-  return parameter.unit == "1" || parameter.unit.empty() ? number : number + " " + parameter.unit;
+using topography::ParameterSet;
+
+struct Request {
+  ScanRequest scan;  ///< how each of the files is read and treated
+  std::vector<std::string> files;
+  topography::ParameterOptions options;
+  std::string stencil = "forward";
+  std::string triangles = "two";
+  std::string profile_standard = "iso21920";
+  std::string profile_kind = "roughness";
+  std::string profile_ends = "regression";
+  std::optional<std::uint64_t> profile_sections;
+  bool csv = false;
+  std::optional<std::string> output;
+};
+
+/// One scan read, treated and measured, ready for every kind of output.
+struct Measured {
+  ScanParameters row;
+  io::Json object;
+  std::string facts;
+};
+
+std::vector<ParameterSet> sets_from(const std::string& text) {
+  std::vector<std::string> words;
+  for (const ParameterSet set : topography::kParameterSets) words.emplace_back(name_of(set));
+  std::vector<ParameterSet> sets;
+  for (const std::string& word : io::parse_csv(text + "\n", "--set").columns) {
+    const auto set = topography::parameter_set_from(word);
+    if (!set) {
+      throw UsageError(fmt::format("--set: got '{}'; expected {}{}", word, fmt::join(words, ", "),
+                                   suggestion(word, words)));
+    }
+    if (std::find(sets.begin(), sets.end(), *set) == sets.end()) sets.push_back(*set);
+  }
+  return sets;
 }
 
-int show(const ScanRequest& request, Context& context) {
-  const Scan scan = load_scan(request, context);
-  warn_if_not_levelled(scan, context);
-  io::Json object = json_head(context, scan);
-  object["parameters"] = io::Json::object();
-  Table table({"symbol", "value", "definition"});
-  for (const topography::Parameter& parameter : topography::parameters(scan.surface)) {
-    object["parameters"][parameter.symbol] = {{"value", io::number(parameter.value)},
-                                              {"unit", parameter.unit},
-                                              {"definition", parameter.definition}};
-    table.row({parameter.symbol, value_of(parameter), parameter.definition});
+topography::ProfileOptions profile_options_of(const Request& request) {
+  using topography::ProfileKind;
+  topography::ProfileOptions options = request.options.profile;
+  if (request.profile_standard == "iso4287") {
+    options.standard = topography::ProfileStandard::iso4287;
   }
+  if (request.profile_kind == "primary") options.kind = ProfileKind::primary;
+  if (request.profile_kind == "waviness") options.kind = ProfileKind::waviness;
+  if (request.profile_ends == "trim") options.ends = topography::ProfileEnds::trim;
+  if (request.profile_sections) {
+    options.sections = static_cast<int>(std::min<std::uint64_t>(*request.profile_sections, 1000000));
+  }
+  return options;
+}
+
+topography::ParameterOptions options_of(const Request& request) {
+  topography::ParameterOptions options = request.options;
+  options.profile = profile_options_of(request);
+  if (request.stencil == "seven-point") options.stencil = topography::SlopeStencil::seven_point;
+  if (request.triangles == "four") options.triangles = topography::AreaTriangles::four;
+  return options;
+}
+
+std::string chain_of(const Scan& scan) {
+  return scan.treatment.empty() ? "none" : fmt::format("{}", fmt::join(scan.treatment, ", "));
+}
+
+std::string facts_of(const Scan& scan) {
   Facts facts;
   describe(scan, facts);
-  return finish(context, object, facts.text() + '\n' + table.text());
+  const Index n = scan.surface.grid.size(), holes = topography::count_holes(scan.surface);
+  facts.fact("valid points", fmt::format("{} of {} pixels", n - holes, n));
+  return facts.text();
+}
+
+Measured measure(const Request& request, const std::string& file, Context& context) {
+  ScanRequest one = request.scan;
+  one.file = file;
+  const Scan scan = load_scan(one, context);
+  warn_if_not_levelled(scan, context);
+  Measured measured{.row = {.path = file, .treatment = chain_of(scan)},
+                    .object = json_head(context, scan),
+                    .facts = facts_of(scan)};
+  measured.row.parameters =
+      topography::parameters(scan.surface, options_of(request), context.observer());
+  const Index holes = topography::count_holes(scan.surface);
+  measured.object["valid_points"] = scan.surface.grid.size() - holes;
+  measured.object["parameters"] = json_of(measured.row.parameters);
+  return measured;
+}
+
+/// Warnings about one scan of several say which.
+void name_warnings(Context& context, std::size_t first, const std::string& file) {
+  for (std::size_t i = first; i < context.warnings.size(); ++i) {
+    std::string& warning = context.warnings[i];
+    if (!warning.starts_with(file)) warning = file + ": " + warning;
+  }
+}
+
+/// The same for one of many: what cannot be read is told and does not end the others.
+Measured try_measure(const Request& request, const std::string& file, Context& context) {
+  const std::size_t n_warnings = context.warnings.size();
+  try {
+    Measured measured = measure(request, file, context);
+    name_warnings(context, n_warnings, file);
+    return measured;
+  } catch (const InputError& error) {
+    Measured failed;
+    failed.row.path = file;
+    failed.row.failure = error.what();
+    failed.object = {{"scan", {{"path", file}, {"sha256", nullptr}}}, {"failure", error.what()}};
+    return failed;
+  }
+}
+
+int show_one(const Request& request, Context& context) {
+  const Measured measured = measure(request, request.files.front(), context);
+  if (request.output) io::write_file(*request.output, csv_table({measured.row}));
+  if (request.csv) return finish(context, measured.object, csv_table({measured.row}));
+  return finish(context, measured.object,
+                measured.facts + '\n' + grouped_table(measured.row.parameters));
+}
+
+io::Json json_of(const std::vector<Measured>& all, const Context& context) {
+  io::Json object = json_head(context);
+  object["scans"] = io::Json::array();
+  for (const Measured& measured : all) {
+    io::Json scan = measured.object;
+    scan.erase("tabor_version");
+    scan.erase("command");
+    object["scans"].push_back(scan);
+  }
+  return object;
+}
+
+std::string text_of(const std::vector<Measured>& all, const std::vector<ScanParameters>& rows) {
+  std::string text;
+  for (const Measured& measured : all) {
+    if (!measured.facts.empty()) text += measured.facts + '\n';
+  }
+  return text + comparison_table(rows);
+}
+
+int show_many(const Request& request, Context& context) {
+  std::vector<Measured> all;
+  for (const std::string& file : request.files) all.push_back(try_measure(request, file, context));
+  std::vector<ScanParameters> rows;
+  for (const Measured& measured : all) rows.push_back(measured.row);
+  if (request.output) io::write_file(*request.output, csv_table(rows));
+  int code = kDone;
+  for (const ScanParameters& row : rows) {
+    if (row.failure.empty()) continue;
+    code = kInput;
+    if (!context.json) context.warn("not measured: " + row.failure);
+  }
+  return finish(context, json_of(all, context), request.csv ? csv_table(rows) : text_of(all, rows),
+                code);
+}
+
+int show(const Request& request, Context& context) {
+  if (request.output) check_can_write(*request.output);
+  return request.files.size() == 1 ? show_one(request, context) : show_many(request, context);
+}
+
+/// The options of a scan, with as many scans as one likes.
+void declare_scans(OptionSet& set, Request& request) {
+  OptionSet one;
+  declare_scan(one, request.scan);
+  for (const Option& option : one.options()) {
+    set.group(option.group);
+    if (option.is_positional()) {
+      set.positionals("SCAN", "scan files, see 'tabor formats'; two or more stand side by side",
+                      request.files);
+    } else {
+      set.add(option);
+    }
+  }
+}
+
+void assign_ratios(topography::ParameterOptions& options, const std::string& text) {
+  const std::vector<double> ratios = parse_si_list(text, dimension::none, "--material-ratios");
+  if (ratios.size() != 2) throw UsageError("--material-ratios: expected two per cents, e.g. 10,80");
+  options.peak_ratio = ratios.front();
+  options.valley_ratio = ratios.back();
+}
+
+void declare_parameters(OptionSet& set, Request& request) {
+  topography::ParameterOptions& options = request.options;
+  set.group("Parameters");
+  set.add({.flag = "--set",
+           .placeholder = "SET[,SET...]",
+           .help = "height, hybrid, function, volume, spatial, feature, spectral, profile [all]",
+           .assign = [&options](const std::string& text) { options.sets = sets_from(text); }});
+  set.choice("--stencil", {"forward", "seven-point"}, "differences of Sdq [forward]",
+             request.stencil);
+  set.choice("--triangles", {"two", "four"}, "triangles of each cell for Sdr [two, both ways]",
+             request.triangles);
+  set.add({.flag = "--material-ratios",
+           .placeholder = "P,Q",
+           .help = "material ratios of Sdc, Smc and the volumes, in per cent [10,80]",
+           .assign = [&options](const std::string& text) { assign_ratios(options, text); }});
+  set.quantity("--smr-height", "C", "height of Smr(c) above the mean [0um]", dimension::length,
+               options.smr_height);
+  set.number("--acf-threshold", "S", "where the autocorrelation ends, for Sal and Str [0.2]",
+             options.acf_threshold);
+  set.number("--pruning", "SHARE", "Wolf pruning of hills and dales, share of Sz [0.05]",
+             options.pruning);
+}
+
+void declare_profiles(OptionSet& set, Request& request) {
+  set.group("Profiles along x and y");
+  set.choice("--profile-standard", {"iso21920", "iso4287"},
+             "over the evaluation length, or means of sampling lengths [iso21920]",
+             request.profile_standard);
+  set.choice("--profile-kind", {"roughness", "primary", "waviness"},
+             "R, P or W parameters [roughness]", request.profile_kind);
+  set.choice("--profile-ends", {"regression", "trim"},
+             "filter up to the ends, or leave lc/2 out at either end [regression]",
+             request.profile_ends);
+  set.quantity("--profile-cutoff", "LC", "cut-off lc of the filter [setting class of ISO 21920-3]",
+               dimension::length, request.options.profile.cutoff);
+  set.quantity("--profile-short-cutoff", "LS", "cut-off ls against noise, 0um for none [with lc]",
+               dimension::length, request.options.profile.short_cutoff);
+  set.count("--profile-sections", "sampling lengths of lc, 0 for as many as fit [5]",
+            request.profile_sections);
+}
+
+void declare_output(OptionSet& set, Request& request) {
+  set.group("Output");
+  set.toggle("--csv", "print CSV in SI units, one row per scan", request.csv);
+  set.text("--output", "OUT.csv", "write the same CSV to a file", request.output).short_flag = "-o";
 }
 
 }  // namespace
 
 Verb params_verb() {
   return {.name = "params",
-          .arguments = "SCAN [options]",
-          .summary = "roughness parameters (ISO 25178-2), each with its definition",
-          .details = "",
+          .arguments = "SCAN [SCAN...] [options]",
+          .summary = "roughness parameters (ISO 25178-2, ISO 21920-2), each with its definition",
+          .details =
+              "Several scans stand side by side, each treated in the same way. A scan that cannot "
+              "be read is named, the others are measured all the same, and the exit code is 3.",
           .examples = {"tabor params surfaces/edt_before.x3p --level plane",
                        "tabor params surfaces/edt_before.x3p --level plane --lowpass gauss:8um "
-                       "--json"},
+                       "--set height,function --json",
+                       "tabor params surfaces/edt_before.x3p surfaces/edt_after.x3p --level plane "
+                       "--set height --csv"},
           .declare = [](OptionSet& set) -> Action {
-            const auto request = std::make_shared<ScanRequest>();
-            declare_scan(set, *request);
+            const auto request = std::make_shared<Request>();
+            declare_scans(set, *request);
+            declare_parameters(set, *request);
+            declare_profiles(set, *request);
+            declare_output(set, *request);
             return [request](Context& context) { return show(*request, context); };
           }};
 }

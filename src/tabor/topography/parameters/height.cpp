@@ -76,7 +76,7 @@ std::vector<Parameter> height_parameters(const Topography& topography) {
   const HeightMoments m = height_moments(topography.height);
   const double sq = std::sqrt(m.second);
   const bool rough = sq > 0;
-  const std::string about = "; z about the mean of the valid points of the surface as given";
+  const std::string about = "; z about the mean of the valid points";
   const std::string no_shape = rough ? "" : "a flat surface has none";
   return {
       {"N", static_cast<double>(m.n), "1", "valid points (pixels that are not holes)"},

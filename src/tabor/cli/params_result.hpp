@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tabor/io/json.hpp"
+#include "tabor/topography/parameter.hpp"
+
+namespace tabor::cli {
+
+/// What became of one scan of a batch.
+struct ScanParameters {
+  std::string path;
+  std::string treatment;                               ///< the filter chain, "none" without
+  std::vector<topography::Parameter> parameters = {};  ///< empty if the scan failed
+  std::string failure = {};                            ///< why there are none
+};
+
+/// A length, area, volume or density in a unit that is easy to read.
+struct ReadableUnit {
+  double factor = 1;  ///< readable value = factor * SI value
+  std::string name;   ///< "µm", "1/mm²", "" for plain numbers
+};
+
+/// Unit in which `largest` (SI, of the unit "m", "m^2", "1/m^2", "m^3/m^2", ...) is a number
+/// from 1.
+ReadableUnit readable_unit(const std::string& si_unit, double largest);
+
+/// Symbol, value with unit and definition, one table per set.
+std::string grouped_table(const std::vector<topography::Parameter>& parameters);
+
+/// A row per parameter, a column per scan that has any, all in the row's unit; for exactly two
+/// scans their ratio, or difference where a ratio says nothing (per cent, angles, signed numbers).
+std::string comparison_table(const std::vector<ScanParameters>& scans);
+
+/// One row per scan, one column "symbol [SI unit]" per parameter; empty where there is no value.
+std::string csv_table(const std::vector<ScanParameters>& scans);
+
+/// {"Sq": {"value", "unit", "definition", "note", "set"}, ...}
+io::Json json_of(const std::vector<topography::Parameter>& parameters);
+
+}  // namespace tabor::cli
