@@ -141,4 +141,11 @@ std::string tmd() {
   return file.bytes();
 }
 
+std::vector<InstrumentFile> instrument_files() {
+  return {{"sur", "plain", plain_sur()}, {"sur", "compressed", compressed_sur()},
+          {"al3d", "al3d", al3d()},      {"opd", "opd", opd()},
+          {"plu", "plu", plu()},         {"metropro", "metropro", metropro()},
+          {"nms", "nms", nms()},         {"tmd", "tmd", tmd()}};
+}
+
 }  // namespace tabor::test

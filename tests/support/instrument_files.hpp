@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 /// Tiny scan files of formats that tabor only reads, made byte by byte from their published
 /// layouts: 3 x 2 pixels of 2 um x 4 um with the stored values 1 2 3 / 4 5 hole (nms: 1 to 6, no
@@ -18,5 +19,14 @@ std::string plu();
 std::string metropro();
 std::string nms();
 std::string tmd();
+
+struct InstrumentFile {
+  std::string format;  ///< its name in the format table
+  std::string name;
+  std::string bytes;
+};
+
+/// All of them, for tests of what must hold for every reader.
+std::vector<InstrumentFile> instrument_files();
 
 }  // namespace tabor::test

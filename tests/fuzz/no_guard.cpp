@@ -1,0 +1,9 @@
+// Takes the place of io/hdf5_guard.cpp in the fuzzer: a child process would hide the sanitizers'
+// findings in our own code, and what HDF5 itself does with broken files shall be counted.
+#include "tabor/io/hdf5.hpp"
+
+namespace tabor::io {
+
+bool hdf5_survives(const std::function<void()>&) { return true; }
+
+}  // namespace tabor::io
