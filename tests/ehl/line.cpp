@@ -170,11 +170,13 @@ TEST(SolveLine, ConvergesFromHertzOverTheWholeRange) {
         LineProblem problem = table_6();
         problem.effective_modulus = modulus / (1 - 0.35 * 0.35);
         problem.entrainment_speed = speed;
-        problem.nodes = 2000;
+        problem.nodes = 1200;
         problem.lubricant.viscosity = material::barus_viscosity(viscosity, 5.9e-9);
         const LineResult result = solve_line(problem);
         EXPECT_TRUE(result.converged) << modulus << " " << speed << " " << viscosity;
-        most = std::max(most, result.newton_iterations);if(std::getenv("LDBG"))fmt::print("{} {} {} it {}\n",modulus,speed,viscosity,result.newton_iterations);
+        most = std::max(most, result.newton_iterations);
+        if (std::getenv("LDBG"))
+          fmt::print("{} {} {} it {}\n", modulus, speed, viscosity, result.newton_iterations);
       }
     }
   }

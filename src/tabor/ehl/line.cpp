@@ -88,7 +88,8 @@ double interpolated(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, double at)
 
 std::vector<std::string> doubts_of(const LineProblem& problem, const LineResult& result) {
   std::vector<std::string> doubts = material::doubts(problem.lubricant, result.max_pressure);
-  const double nodes = inlet_length(problem, result.min_film) / (result.x[1] - result.x[0]);
+  const double nodes =
+      inlet_length(problem, film_groups_of(problem).moes_min_film()) / (result.x[1] - result.x[0]);
   if (nodes < 2) {
     doubts.push_back(fmt::format(
         "the grid has {:.2g} nodes where the film is built up: its thickness is uncertain; give "

@@ -16,7 +16,6 @@ constexpr double kTolerance = 1e-8;       // of residuals, over the flow in the 
 constexpr double kLinearAccuracy = 1e-4;  // of each Newton correction
 constexpr int kMaxProducts = 60;
 constexpr int kMaxHalvings = 8;
-const Index kLongestReach = std::getenv("LR")?atoi(std::getenv("LR")):16;
 constexpr double kThinnest = 0.1;  // a step may leave this much of the thinnest film
 
 double spacing_of(const Eigen::ArrayXd& x) {
@@ -56,7 +55,7 @@ LineFilm::LineFilm(const LineProblem& problem)
 
 LineState LineFilm::hertz_start(double min_film) const {
   // Rather too far out: a cavity grows at once but shrinks node by node.
-  const double rupture = pressed_width_ + (std::getenv("RF")?atof(std::getenv("RF")):1.0)*std::sqrt(2 * problem_.radius * film_scale_);
+  const double rupture = pressed_width_ + std::sqrt(2 * problem_.radius * film_scale_);
   LineState state;
   state.cavity.assign(static_cast<std::size_t>(n_), false);
   state.pressure.resize(n_);
@@ -277,8 +276,8 @@ LineFilm::Outcome LineFilm::solve(LineState& state, const LineStorage& storage, 
     linear = linearize(state, storage);
     const bool grows = state.cavity != cavity;
     const bool shrinks = refill(linear, state, reach);
-    // A front that moves by one node in each iteration is made to move faster, until it overshoots.
-    reach = shrinks && !grows ? std::min(2 * reach, kLongestReach) : 1;
+    // A front that retreats node by node is made to go two at once; more would overshoot.
+    reach = shrinks && !grows ? 2 : 1;
     outcome.mass_error = mass_error(linear, state);
     outcome.load_error = std::abs(linear.residual[n_]);
     outcome.converged =
