@@ -68,7 +68,8 @@ topography::ProfileOptions profile_options_of(const Request& request) {
   if (request.profile_kind == "waviness") options.kind = ProfileKind::waviness;
   if (request.profile_ends == "trim") options.ends = topography::ProfileEnds::trim;
   if (request.profile_sections) {
-    options.sections = static_cast<int>(std::min<std::uint64_t>(*request.profile_sections, 1000000));
+    options.sections =
+        static_cast<int>(std::min<std::uint64_t>(*request.profile_sections, 1000000));
   }
   return options;
 }
