@@ -8,6 +8,7 @@ Verb info_verb();
 Verb convert_verb();
 Verb params_verb();
 Verb psd_verb();
+Verb combine_verb();
 Verb generate_verb();
 Verb contact_verb();
 Verb lubricate_verb();

@@ -16,8 +16,6 @@
 namespace tabor::topography {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 constexpr std::array<std::pair<std::string_view, CombineMode>, 3> kModes{
     {{"wear", CombineMode::wear},
      {"difference", CombineMode::difference},

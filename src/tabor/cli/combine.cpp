@@ -1,0 +1,214 @@
+#include "tabor/topography/combine.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "tabor/cli/result.hpp"
+#include "tabor/cli/table.hpp"
+#include "tabor/cli/verbs.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/core/units.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+using topography::Combination;
+using topography::CombineMode;
+using topography::Registration;
+using topography::Volume;
+using topography::WearVolumes;
+
+struct Request {
+  ScanRequest scan;
+  std::string second;
+  std::string mode = "wear";
+  std::string match = "plane";
+  bool no_register = false;
+  std::vector<double> shift;  ///< [m], empty or x, y
+  double threshold = 4;
+  std::optional<std::string> output;
+};
+
+io::Json json_of(const Registration& r) {
+  return {{"shift_x_m", r.shift_x},
+          {"shift_y_m", r.shift_y},
+          {"uncertainty_x_m", r.uncertainty_x},
+          {"uncertainty_y_m", r.uncertainty_y},
+          {"correlation", r.correlation},
+          {"overlap", r.overlap},
+          {"distinction", r.distinction},
+          {"runner_up", r.runner_up},
+          {"iterations", r.iterations}};
+}
+
+io::Json json_of(const Volume& volume) {
+  return {{"volume_m3", volume.value},
+          {"uncertainty_m3", volume.uncertainty},
+          {"area_m2", volume.area}};
+}
+
+io::Json json_of(const WearVolumes& wear) {
+  return {{"worn", json_of(wear.worn)},       {"piled_up", json_of(wear.piled_up)},
+          {"net", json_of(wear.net)},         {"noise_m", wear.noise},
+          {"noise_area_m2", wear.noise_area}, {"noise_floor_m3", wear.noise_floor},
+          {"threshold_m", wear.threshold}};
+}
+
+/// Micrometres cubed: units of volume have no prefixes that anyone reads with ease.
+std::string cubic_um(double volume) { return fmt::format("{:.4g} um^3", volume * 1e18); }
+
+std::vector<std::string> row_of(const std::string& name, const Volume& volume) {
+  return {name, cubic_um(volume.value), cubic_um(volume.uncertainty),
+          fmt::format("{:.4g} um^2", volume.area * 1e12)};
+}
+
+void describe(const Registration& r, Facts& facts) {
+  facts.fact("shift of B",
+             fmt::format("{} ± {} along x, {} ± {} along y", si(r.shift_x, "m"),
+                         si(r.uncertainty_x, "m"), si(r.shift_y, "m"), si(r.uncertainty_y, "m")));
+  facts.fact("match",
+             fmt::format("correlation {:.4f} over {}; stands out {:.1f} times, next best "
+                         "shift {:.0f} % of it",
+                         r.correlation, percent(r.overlap), r.distinction, 100 * r.runner_up));
+}
+
+std::string text_of(const Request& request, const Scan& a, const Scan& b, const Combination& c) {
+  Facts facts;
+  describe(a, facts);
+  describe(b, facts);
+  facts.fact("mode", request.mode);
+  if (c.registration) {
+    describe(*c.registration, facts);
+  } else {
+    facts.fact("shift of B", fmt::format("{} along x, {} along y (not searched)",
+                                         si(c.shift_x, "m"), si(c.shift_y, "m")));
+  }
+  const Grid& grid = c.map.grid;
+  facts.fact("overlap", fmt::format("{} x {} pixels of {}, {} common points", grid.nx, grid.ny,
+                                    si(grid.dx(), "m"), c.n_common));
+  facts.fact("Sq",
+             fmt::format("A {}, B {}, {} {}", si(c.rms_a, "m"), si(c.rms_b, "m"),
+                         request.mode == "composite" ? "A + B" : "A - B", si(c.rms_map, "m")));
+  std::string text = facts.text();
+  if (c.wear) {
+    Table table({"volume", "value", "± (1 sigma)", "over"});
+    table.row(row_of("worn (A above B)", c.wear->worn));
+    table.row(row_of("piled up", c.wear->piled_up));
+    table.row(row_of("net, whole overlap", c.wear->net));
+    Facts noise;
+    noise.fact("noise", fmt::format("{} rms, correlated over {:.3g} um^2", si(c.wear->noise, "m"),
+                                    c.wear->noise_area * 1e12));
+    noise.fact("counted from", si(c.wear->threshold, "m") + " of the smoothed difference");
+    noise.fact("noise floor", cubic_um(c.wear->noise_floor) + " would be counted without any wear");
+    text += '\n' + table.text() + '\n' + noise.text();
+  }
+  return text;
+}
+
+topography::CombineOptions options_of(const Request& request) {
+  if (!request.shift.empty() && request.shift.size() != 2) {
+    throw UsageError("--shift: expected two lengths, e.g. 12um,-3.5um");
+  }
+  topography::CombineOptions options;
+  options.mode = *topography::combine_mode_from(request.mode);
+  options.level = *topography::level_match_from(request.match);
+  options.search = !request.no_register;
+  options.threshold = request.threshold;
+  if (!request.shift.empty()) {
+    options.shift_x = request.shift[0];
+    options.shift_y = request.shift[1];
+  }
+  return options;
+}
+
+/// A repeating texture fits at several shifts.
+void warn_of_ambiguity(const Combination& c, Context& context) {
+  constexpr double suspicious = 0.8;
+  if (c.registration && c.registration->runner_up > suspicious) {
+    context.warn(
+        fmt::format("another shift matches nearly as well ({:.0f} %): if the texture "
+                    "repeats, check the shift",
+                    100 * c.registration->runner_up));
+  }
+}
+
+int show(const Request& request, Context& context) {
+  const auto options = options_of(request);
+  if (request.output) check_can_write(*request.output);
+  ScanRequest second = request.scan;
+  second.file = request.second;
+  const Scan a = load_scan(request.scan, context);
+  const Scan b = load_scan(second, context);
+  if (options.mode != CombineMode::composite) warn_if_not_levelled(a, context);
+  const Combination c = topography::combine(a.surface, b.surface, options, context.observer());
+  warn_of_ambiguity(c, context);
+  io::Json object = json_head(context, a);
+  object["second_scan"] = {{"path", b.path}, {"sha256", b.sha256}};
+  object["second_treatment_history"] = b.surface.history;
+  object["mode"] = request.mode;
+  object["shift_x_m"] = c.shift_x;
+  object["shift_y_m"] = c.shift_y;
+  object["registration"] = c.registration ? json_of(*c.registration) : io::Json();
+  object["level_match"] = request.match;
+  object["nx"] = c.map.grid.nx;
+  object["ny"] = c.map.grid.ny;
+  object["common_points"] = c.n_common;
+  object["rms_height_first_m"] = c.rms_a;
+  object["rms_height_second_m"] = c.rms_b;
+  object["rms_height_m"] = c.rms_map;
+  object["correlation"] = io::number(c.correlation);
+  if (c.wear) object["wear"] = json_of(*c.wear);
+  std::string text = text_of(request, a, b, c);
+  if (request.output) {
+    topography::write(c.map, *request.output);
+    object["output"] = *request.output;
+    text += "written " + *request.output + '\n';
+  }
+  return finish(context, object, text);
+}
+
+void declare_options(OptionSet& set, Request& request) {
+  declare_scan(set, request.scan);
+  set.group("Combination");
+  set.positional("SECOND", "the scan after wear, or the other face", request.second);
+  set.choice("--mode", {"wear", "difference", "composite"},
+             "A - B with volumes, A - B, or A + B turned over: two faces in contact [wear]",
+             request.mode);
+  set.toggle("--no-register", "take the scans as they lie, corner on corner", request.no_register);
+  set.quantities("--shift", "DX,DY",
+                 "shift of B, not searched: what is at x in A is at x + DX in B; --shift=-3um,1um",
+                 dimension::length, request.shift);
+  set.choice("--match", {"none", "offset", "plane"},
+             "what of the difference is not real: fitted to places that did not change [plane]",
+             request.match);
+  set.number("--threshold", "SIGMAS",
+             "a change counts from here on, in deviations of the noise [4]", request.threshold);
+  set.group("Output");
+  set.text("--output", "OUT", "write the map as a scan file, see 'tabor formats'", request.output)
+      .short_flag = "-o";
+}
+
+}  // namespace
+
+Verb combine_verb() {
+  return {.name = "combine",
+          .arguments = "SCAN SECOND [options]",
+          .summary = "register two scans and subtract them (wear volume), or add two faces",
+          .details =
+              "Both scans are read and treated alike. Rotation is not corrected: scans must be "
+              "equally oriented.",
+          .examples = {"tabor combine surfaces/edt_before.x3p surfaces/edt_before.x3p --level "
+                       "plane --mode difference",
+                       "tabor combine surfaces/edt_before.x3p surfaces/edt_after.x3p --level plane "
+                       "--mode composite -o gap.gsf"},
+          .declare = [](OptionSet& set) -> Action {
+            const auto request = std::make_shared<Request>();
+            declare_options(set, *request);
+            return [request](Context& context) { return show(*request, context); };
+          }};
+}
+
+}  // namespace tabor::cli
