@@ -5,6 +5,7 @@ import resource
 import signal
 import subprocess
 import unittest
+import zipfile
 
 from program import ALUMINIUM, ProgramTest
 
@@ -92,6 +93,65 @@ class BrokenFiles(ProgramTest):
         (self.folder / "folder.x3p").mkdir()
         self.assert_refused(self.tabor("info", "folder.x3p"), 3, "folder.x3p")
         self.assert_refused(self.tabor("info", "absent.x3p"), 3, "absent.x3p")
+
+
+class HostileFiles(ProgramTest):
+    """Made to hurt: refused within seconds, in bounded memory, in one line that a terminal can show."""
+
+    def refuse(self, name, *words):
+        done = self.tabor("info", name, *words, preexec_fn=limit_memory, timeout=20)
+        self.assert_refused(done, 3, name)
+        self.assertTrue(all(character.isprintable() for character in done.stderr.rstrip("\n")), done.stderr)
+        return done.stderr
+
+    def archive(self, name, entries):
+        with zipfile.ZipFile(self.folder / name, "w", zipfile.ZIP_DEFLATED) as archive:
+            for entry, content in entries:
+                archive.writestr(entry, content)
+
+    def test_archives_that_unpack_to_gigabytes(self):
+        self.archive("inner.zip", [("main.xml", b" " * (1 << 29))])
+        (self.folder / "inner.zip").rename(self.folder / "bomb.x3p")
+        self.refuse("bomb.x3p")
+        self.archive("nested.x3p", [("main.xml", (self.folder / "bomb.x3p").read_bytes())])
+        self.refuse("nested.x3p")
+        self.archive("many.x3p", [(f"{i}/main.txt", b"") for i in range(20000)])
+        self.refuse("many.x3p")
+
+    def test_archives_whose_entries_point_elsewhere(self):
+        (self.folder / "secret.txt").write_text("1 2\n3 4\n")
+        link = zipfile.ZipInfo("main.xml")
+        link.create_system = 3
+        link.external_attr = 0o120777 << 16
+        self.archive("link.x3p", [(link, str(self.folder / "secret.txt"))])
+        self.refuse("link.x3p")
+        self.archive("up.x3p", [("../main.xml", "<a/>"), ("/tmp/main.xml", "<a/>")])
+        before = self.files()
+        self.refuse("up.x3p")
+        self.assertEqual(self.files(), before)
+
+    def test_xml_that_grows_or_nests(self):
+        entities = "".join(f'<!ENTITY e{i} "{f"&e{i - 1};" * 10}">' for i in range(1, 30))
+        self.archive("laughs.x3p", [("main.xml", f'<!DOCTYPE a [<!ENTITY e0 "ha">{entities}]><a>&e29;</a>')])
+        self.refuse("laughs.x3p")
+        self.archive("deep.x3p", [("main.xml", "<a>" * 200000 + "</a>" * 200000)])
+        self.refuse("deep.x3p")
+
+    def test_texts_that_command_the_terminal(self):
+        (self.folder / "escape.txt").write_bytes(b"1 2 3\n4 \x1b]0;owned\x07\x1b[2J 6\n")
+        self.refuse("escape.txt", *MATRIX)
+        (self.folder / "endless.txt").write_text("1 2 3\n4 " + "x" * 1000000 + " 6\n")
+        self.assertLess(len(self.refuse("endless.txt", *MATRIX)), 10000)
+
+    def test_studies_that_nest(self):
+        for name, text in [("keys.toml", "[" + "a." * 200000 + "a]\n"), ("lists.toml", "a = " + "[\n" * 100000)]:
+            (self.folder / name).write_text(text)
+            self.assert_refused(self.tabor("sweep", name, timeout=20), 3, name)
+
+    def test_absurd_scales(self):
+        (self.folder / "plain.txt").write_text("1 2 3\n4 5 6\n7 8 10\n")
+        for code, words in [(3, ["--pixel", "0um"]), (3, ["--pixel=-1um"]), (2, ["--pixel", "nanum"]), (2, ["--pixel", "1e400m"])]:
+            self.assert_refused(self.tabor("info", "plain.txt", "--unit", "nm", *words), code, "--pixel")
 
 
 class Lubricant(ProgramTest):
