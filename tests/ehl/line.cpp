@@ -229,6 +229,21 @@ TEST(SolveLine, DoubtsAGridThatDoesNotSeeTheInlet) {
   EXPECT_THAT(solve_line(problem).doubts, testing::Contains(HasSubstr("as many nodes")));
 }
 
+TEST(SolveLine, AnAsperityRaisesLocalPressureAndStress) {
+  LineProblem problem = table_6();
+  problem.nodes = 1200;
+  LineResult before = solve_line(problem);
+  const double min_film = before.min_film;
+  for (const double height : {0.5, 1.0, 1.5, 2.0}) {
+    problem.roughness = line_asperity(problem, height * min_film, 20e-6, 0);
+    const LineResult now = solve_line(problem);
+    EXPECT_TRUE(now.converged);
+    EXPECT_GT(now.max_pressure, before.max_pressure) << height;
+    EXPECT_GT(now.max_shear_stress, before.max_shear_stress) << height;
+    before = now;
+  }
+}
+
 struct BadLine {
   const char* expected;
   void (*change)(LineProblem&);

@@ -27,7 +27,7 @@ struct Request {
 };
 
 const std::vector<EhlProgram>& programs() {
-  static const std::vector<EhlProgram> all = {impact_program(), squeeze_program()};
+  static const std::vector<EhlProgram> all = {impact_program(), squeeze_program(), line_program()};
   return all;
 }
 

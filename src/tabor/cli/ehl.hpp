@@ -52,5 +52,6 @@ struct EhlProgram {
 
 EhlProgram impact_program();
 EhlProgram squeeze_program();
+EhlProgram line_program();
 
 }  // namespace tabor::cli

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tabor/core/error.hpp"
+#include "tabor/ehl/ball_film.hpp"
 #include "tabor/ehl/line_film.hpp"
 
 namespace tabor::ehl {
@@ -45,29 +47,14 @@ void check_domain(const LineProblem& problem) {
   }
 }
 
-void check(const LineProblem& problem) {
-  check_positive("radius", problem.radius, "m");
-  check_positive("load", problem.load, "N/m");
-  check_positive("effective modulus", problem.effective_modulus, "Pa");
-  check_positive("entrainment speed", problem.entrainment_speed, "m/s");
-  if (problem.cavitation == LineCavitation::penalty) {
-    check_positive("penalty", problem.penalty, "");
+void check_length(const LineProblem& problem, const Eigen::ArrayXd& x, const char* what,
+                  double length) {
+  const double shortest = kMinNodesPerHalfWidth * (x[1] - x[0]);
+  if (!(length >= shortest)) {
+    throw InputError(what, fmt::format("{} m", length),
+                     fmt::format("{} m or more with {} nodes", shortest, problem.nodes),
+                     "give more nodes");
   }
-  if (problem.nodes < 3) {
-    throw InputError("nodes of a line contact", fmt::format("{}", problem.nodes), "3 or more", "");
-  }
-  if (problem.roughness.size() > 0 && problem.roughness.size() != problem.nodes) {
-    throw InputError("roughness", fmt::format("{} values", problem.roughness.size()),
-                     fmt::format("{}, one per node", problem.nodes), "");
-  }
-  const double half_width = hertz_of(problem).half_width;
-  if (!(half_width < problem.radius)) {
-    throw InputError("load of a line contact", fmt::format("{} N/m", problem.load),
-                     fmt::format("a contact narrower than its radius, {} m", problem.radius),
-                     "the theory of small deformations ends before");
-  }
-  material::check_pressure(problem.lubricant, hertz_of(problem).max_pressure);
-  check_domain(problem);
 }
 
 /// Length of the inlet over which the film is built up, where the gap of Hertz is as large as the
@@ -172,9 +159,25 @@ Eigen::ArrayXd line_nodes(const LineProblem& problem) {
   return Eigen::ArrayXd::LinSpaced(problem.nodes, -inlet, outlet);
 }
 
+Eigen::ArrayXd line_asperity(const LineProblem& problem, double height, double width,
+                             double place) {
+  const Eigen::ArrayXd x = line_nodes(problem);
+  check_length(problem, x, "width of an asperity", width);
+  return x.unaryExpr([=](double at) {
+    const double wave = std::cos(std::numbers::pi * (at - place) / width);
+    return std::abs(at - place) < width / 2 ? height * wave * wave : 0.0;
+  });
+}
+
+Eigen::ArrayXd line_waves(const LineProblem& problem, double amplitude, double wavelength) {
+  const Eigen::ArrayXd x = line_nodes(problem);
+  check_length(problem, x, "wavelength of a roughness", wavelength);
+  return amplitude * (2 * std::numbers::pi / wavelength * x).sin();
+}
+
 void measure_line(const LineProblem& problem, LineResult& result) {
   const double spacing = result.x[1] - result.x[0];
-  result.min_film = result.film.minCoeff();
+  result.min_film = smallest_film(result.film);
   result.central_film = interpolated(result.x, result.film, 0);
   result.max_pressure = result.pressure.maxCoeff();
   material::NodeLaws laws;
@@ -185,17 +188,43 @@ void measure_line(const LineProblem& problem, LineResult& result) {
     if (!(result.pressure[i] > 0)) continue;
     result.rupture = result.x[i];
     const double rate = problem.sliding_speed / result.film[i];
-    result.friction_force +=
-        spacing *
+    const double stress =
         material::shear_stress(problem.lubricant.shear, laws.viscosity[i], rate, result.pressure[i])
             .value;
+    result.friction_force += spacing * stress;
+    result.max_shear_stress = std::max(result.max_shear_stress, std::abs(stress));
   }
   result.friction_coefficient = result.friction_force / problem.load;
   result.doubts = doubts_of(problem, result);
 }
 
+void check_line(const LineProblem& problem) {
+  check_positive("radius", problem.radius, "m");
+  check_positive("load", problem.load, "N/m");
+  check_positive("effective modulus", problem.effective_modulus, "Pa");
+  check_positive("entrainment speed", problem.entrainment_speed, "m/s");
+  if (problem.cavitation == LineCavitation::penalty) {
+    check_positive("penalty", problem.penalty, "");
+  }
+  if (problem.nodes < 3) {
+    throw InputError("nodes of a line contact", fmt::format("{}", problem.nodes), "3 or more", "");
+  }
+  if (problem.roughness.size() > 0 && problem.roughness.size() != problem.nodes) {
+    throw InputError("roughness", fmt::format("{} values", problem.roughness.size()),
+                     fmt::format("{}, one per node", problem.nodes), "");
+  }
+  const double half_width = hertz_of(problem).half_width;
+  if (!(half_width < problem.radius)) {
+    throw InputError("load of a line contact", fmt::format("{} N/m", problem.load),
+                     fmt::format("a contact narrower than its radius, {} m", problem.radius),
+                     "the theory of small deformations ends before");
+  }
+  material::check_pressure(problem.lubricant, hertz_of(problem).max_pressure);
+  check_domain(problem);
+}
+
 LineResult solve_line(const LineProblem& problem, const Observer& observer) {
-  check(problem);
+  check_line(problem);
   LineFilm film(problem);
   LineState state;
   const LineFilm::Outcome outcome =

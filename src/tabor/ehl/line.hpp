@@ -47,6 +47,7 @@ struct LineResult {
   double rupture = 0;         ///< [m] where the pressure ends
   double friction_force = 0;  ///< [N/m] of the sheared film where it carries pressure
   double friction_coefficient = 0;  ///< friction_force over load
+  double max_shear_stress = 0;      ///< [Pa] of the film
   double load_error = 0;            ///< relative
   double mass_error = 0;            ///< largest imbalance of a node over the flow in the contact
   int newton_iterations = 0;
@@ -62,8 +63,17 @@ reference::LineContactFilm film_groups_of(const LineProblem& problem);
 /// Nodes that solve_line() uses [m]: uniform, from -inlet to outlet.
 Eigen::ArrayXd line_nodes(const LineProblem& problem);
 
+/// Heights s [m] at the nodes of line_nodes(): one asperity, `height` cos^2(pi (x - place)/width)
+/// within half a width of its place. Throws InputError if the grid has less than 8 nodes for it.
+Eigen::ArrayXd line_asperity(const LineProblem& problem, double height, double width, double place);
+/// Waves s = amplitude sin(2 pi x / wavelength) [m], as in Akchurin's thesis. Throws likewise.
+Eigen::ArrayXd line_waves(const LineProblem& problem, double amplitude, double wavelength);
+
 /// Fills what follows from x, pressure and film.
 void measure_line(const LineProblem& problem, LineResult& result);
+
+/// Throws InputError as solve_line() does.
+void check_line(const LineProblem& problem);
 
 /// Newton's method on pressures and h0 together, the load being one of the equations, from the
 /// pressure of Hertz. Throws InputError for input that makes no sense: values that are not

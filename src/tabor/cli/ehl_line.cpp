@@ -1,0 +1,180 @@
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tabor/cli/ehl.hpp"
+#include "tabor/cli/ehl_case.hpp"
+#include "tabor/cli/table.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/ehl/line.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+constexpr Dimension kForcePerLength{0, 1, -2, 0};
+
+ehl::LineCavitation read_cavitation(const io::Config& config) {
+  const std::string word = text_or(config, "film.cavitation", "reynolds");
+  if (word != "reynolds" && word != "penalty") {
+    throw InputError(config.place("film.cavitation"), "'" + word + "'",
+                     "reynolds or penalty" + suggestion(word, {"reynolds", "penalty"}), "");
+  }
+  return word == "reynolds" ? ehl::LineCavitation::reynolds : ehl::LineCavitation::penalty;
+}
+
+/// [roughness]: an asperity (height, width, place) or waves (amplitude, wavelength), or both.
+Eigen::ArrayXd read_roughness(const io::Config& config, const ehl::LineProblem& problem) {
+  Eigen::ArrayXd roughness;
+  const auto add = [&](const Eigen::ArrayXd& heights) {
+    if (roughness.size() == 0) roughness.setZero(heights.size());
+    roughness += heights;
+  };
+  if (config.has("roughness.height")) {
+    const double place =
+        config.has("roughness.place") ? config.quantity("roughness.place", dimension::length) : 0.0;
+    add(line_asperity(problem, config.quantity("roughness.height", dimension::length),
+                      positive_quantity(config, "roughness.width", dimension::length), place));
+  }
+  if (config.has("roughness.amplitude")) {
+    add(line_waves(problem, config.quantity("roughness.amplitude", dimension::length),
+                   positive_quantity(config, "roughness.wavelength", dimension::length)));
+  }
+  return roughness;
+}
+
+ehl::LineProblem read_problem(const io::Config& config) {
+  ehl::LineProblem problem;
+  problem.radius = positive_quantity(config, "cylinder.radius", dimension::length);
+  problem.load = positive_quantity(config, "cylinder.load_per_length", kForcePerLength);
+  problem.effective_modulus = read_effective_modulus(config);
+  problem.lubricant = read_lubricant(config, "barus");
+  problem.entrainment_speed =
+      positive_quantity(config, "motion.entrainment_speed", dimension::speed);
+  if (config.has("motion.sliding_speed")) {
+    problem.sliding_speed = config.quantity("motion.sliding_speed", dimension::speed);
+  }
+  problem.cavitation = read_cavitation(config);
+  if (config.has("film.penalty")) problem.penalty = config.number("film.penalty");
+  if (config.has("grid.nodes")) problem.nodes = config.integer("grid.nodes");
+  problem.inlet = positive_quantity_or(config, "grid.inlet", dimension::length, 0);
+  problem.outlet = positive_quantity_or(config, "grid.outlet", dimension::length, 0);
+  // The nodes of the roughness are those of a checked problem.
+  ehl::check_line(problem);
+  problem.roughness = read_roughness(config, problem);
+  return problem;
+}
+
+io::Json scalars_of(const ehl::LineProblem& problem, const ehl::LineResult& result) {
+  const reference::HertzLineContact hertz = hertz_of(problem);
+  const reference::LineContactFilm groups = film_groups_of(problem);
+  return {{"min_film_m", io::number(result.min_film)},
+          {"central_film_m", io::number(result.central_film)},
+          {"max_pressure_Pa", io::number(result.max_pressure)},
+          {"rupture_m", io::number(result.rupture)},
+          {"hertz_half_width_m", hertz.half_width},
+          {"hertz_pressure_Pa", hertz.max_pressure},
+          {"friction_force_N_per_m", io::number(result.friction_force)},
+          {"friction_coefficient", io::number(result.friction_coefficient)},
+          {"max_shear_stress_Pa", io::number(result.max_shear_stress)},
+          {"groups",
+           {{"U", groups.speed_group()},
+            {"W", groups.load_group()},
+            {"G", groups.material_group()},
+            {"M", groups.moes_load()},
+            {"L", groups.moes_viscosity()}}},
+          {"moes_min_film_m", groups.moes_min_film()},
+          {"nodes", problem.nodes},
+          {"inlet_m", -result.x[0]},
+          {"outlet_m", result.x[result.x.size() - 1]},
+          {"newton_iterations", result.newton_iterations},
+          {"n_products", result.n_products},
+          {"load_error", io::number(result.load_error)},
+          {"mass_error", io::number(result.mass_error)},
+          {"converged", result.converged}};
+}
+
+std::string text_of(const ehl::LineProblem& problem, const ehl::LineResult& result) {
+  const reference::HertzLineContact hertz = hertz_of(problem);
+  Facts facts;
+  facts.fact("smallest film", si(result.min_film, "m"));
+  facts.fact("film in the centre", si(result.central_film, "m"));
+  facts.fact("largest pressure", si(result.max_pressure, "Pa"));
+  facts.fact("film ends at", si(result.rupture, "m"));
+  facts.fact("friction coefficient", plain(result.friction_coefficient));
+  facts.fact("dry contact", fmt::format("half width {}, {}", si(hertz.half_width, "m"),
+                                        si(hertz.max_pressure, "Pa")));
+  facts.fact("Moes' chart",
+             fmt::format("M = {}, L = {}: {}", plain(film_groups_of(problem).moes_load()),
+                         plain(film_groups_of(problem).moes_viscosity()),
+                         si(film_groups_of(problem).moes_min_film(), "m")));
+  facts.fact("solved", fmt::format("{} iterations, load to {:.1g}, mass to {:.1g}",
+                                   result.newton_iterations, result.load_error, result.mass_error));
+  return facts.text();
+}
+
+void write_profile(io::Hdf5Writer& writer, const ehl::LineProblem& problem,
+                   const ehl::LineResult& result) {
+  const reference::HertzLineContact hertz = hertz_of(problem);
+  const Eigen::ArrayXd dry = result.x.unaryExpr([&](double x) { return hertz.pressure(x); });
+  struct Curve {
+    const char* path;
+    const char* unit;
+    const char* long_name;
+    const Eigen::ArrayXd& values;
+  };
+  writer.group("/profile");
+  for (const Curve& curve :
+       {Curve{"/profile/x", "m", "place along the flow, from the line of closest approach",
+              result.x},
+        Curve{"/profile/pressure", "Pa", "pressure", result.pressure},
+        Curve{"/profile/film", "m", "film thickness", result.film},
+        Curve{"/profile/hertz_pressure", "Pa", "pressure of the dry contact", dry}}) {
+    const double* const begin = curve.values.data();
+    writer.write(curve.path, std::vector<double>(begin, begin + curve.values.size()));
+    writer.describe(curve.path, curve.unit, curve.long_name);
+  }
+}
+
+EhlAnswer solve(const io::Config& config, Context& context) {
+  const ehl::LineProblem problem = read_problem(config);
+  ehl::LineResult result = ehl::solve_line(problem, context.observer());
+  EhlAnswer answer;
+  answer.scalars = scalars_of(problem, result);
+  answer.text = text_of(problem, result);
+  answer.converged = result.converged;
+  answer.warnings = result.doubts;
+  if (!result.converged) {
+    answer.warnings.push_back("the film was not found: more nodes, a lower load or less viscosity");
+  }
+  answer.write = [problem, result = std::move(result)](io::Hdf5Writer& writer) {
+    write_profile(writer, problem, result);
+  };
+  return answer;
+}
+
+}  // namespace
+
+EhlProgram line_program() {
+  return {
+      .name = "line",
+      .summary = "a steady film between a cylinder and a flat",
+      .keys = joined({"cylinder.radius", "cylinder.load_per_length", "motion.entrainment_speed",
+                      "motion.sliding_speed", "film.cavitation", "film.penalty", "roughness.height",
+                      "roughness.width", "roughness.place", "roughness.amplitude",
+                      "roughness.wavelength", "grid.nodes", "grid.inlet", "grid.outlet"},
+                     {solids_keys(), lubricant_keys()}),
+      .columns = {{"min_film_m", "smallest film", "m"},
+                  {"central_film_m", "central film", "m"},
+                  {"max_pressure_Pa", "largest pressure", "Pa"},
+                  {"max_shear_stress_Pa", "largest stress", "Pa"},
+                  {"friction_coefficient", "friction", ""},
+                  {"newton_iterations", "iterations", ""}},
+      .studies = {{"grid", "grid.nodes", "nodes", "", {0.5, 1, 2}},
+                  {"domain", "grid.inlet", "inlet_m", "m", {0.7, 1, 1.4, 2}, false}},
+      .methods = {"moes1992", "evans2000", "johnson1985"},
+      .solve = solve};
+}
+
+}  // namespace tabor::cli

@@ -1,0 +1,80 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "run_tabor.hpp"
+#include "support/folder.hpp"
+#include "tabor/io/hdf5.hpp"
+
+namespace tabor::cli {
+namespace {
+
+using test::json_of;
+using test::Outcome;
+using test::run_tabor;
+using testing::HasSubstr;
+
+std::vector<std::string> quick(const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words = {"ehl", "line",
+                                    TABOR_SOURCE_DIR "/examples/11_hdpe_glycerol/hdpe.toml",
+                                    "--set", "grid.nodes=300"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST(EhlLine, HasItsKeys) {
+  const io::Json json = json_of(quick());
+  for (const char* key : {"min_film_m", "central_film_m", "max_pressure_Pa", "hertz_half_width_m",
+                          "hertz_pressure_Pa", "friction_coefficient", "newton_iterations",
+                          "load_error", "mass_error"}) {
+    EXPECT_TRUE(json.contains(key) && json[key].is_number()) << key;
+  }
+  EXPECT_EQ(json["converged"], true);
+  EXPECT_NEAR(json["min_film_m"].get<double>(), 83.4e-9, 1e-9);
+}
+
+TEST(EhlLine, FilmGrowsWithSpeedInASweep) {
+  const io::Json json = json_of(quick({"--set", "motion.entrainment_speed=1mm/s..10mm/s:log:3"}));
+  ASSERT_EQ(json["results"].size(), 3u);
+  EXPECT_LT(json["results"][0]["min_film_m"], json["results"][1]["min_film_m"]);
+  EXPECT_LT(json["results"][1]["min_film_m"], json["results"][2]["min_film_m"]);
+}
+
+TEST(EhlLine, KeepsItsProfile) {
+  const test::Folder folder;
+  const std::string file = folder / "line.h5";
+  ASSERT_EQ(run_tabor(quick({"-o", file})).code, 0);
+  const io::Hdf5Reader reader(file);
+  EXPECT_TRUE(reader.exists("/profile/pressure"));
+  EXPECT_TRUE(reader.exists("/profile/hertz_pressure"));
+}
+
+TEST(EhlLine, RefusesWithTheReason) {
+  const auto refused = [](const std::string& change, const std::string& message) {
+    const Outcome outcome = run_tabor(quick({"--set", change}));
+    EXPECT_EQ(outcome.code, 3) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(message)) << change;
+  };
+  refused("cylinder.load_per_length=5e9 N/m", "load of a line contact");
+  refused("grid.nodes=20", "more nodes");
+  refused("grid.outlet=50um", "domain");
+  refused("lubricant.viscosity=-1 Pa s", "above zero");
+  refused("lubricant.pressure_viscosity=5e-5 1/Pa", "viscosity");
+  refused("cylinder.radius=2.5", "unit");
+  refused("film.cavitation=penatly", "penalty");
+  refused("roughness.height=10nm", "roughness.width");
+  refused("roughness.amplitude=10nm", "roughness.wavelength");
+}
+
+TEST(EhlLine, ShowsAnAsperityOnlyWithTheNodesForIt) {
+  const Outcome coarse =
+      run_tabor(quick({"--set", "roughness.height=50nm", "--set", "roughness.width=2um"}));
+  EXPECT_EQ(coarse.code, 3);
+  EXPECT_THAT(coarse.err, HasSubstr("more nodes"));
+  const double smooth = json_of(quick())["max_pressure_Pa"];
+  const io::Json rough =
+      json_of(quick({"--set", "roughness.height=80nm", "--set", "roughness.width=40um"}));
+  EXPECT_GT(rough["max_pressure_Pa"], smooth);
+}
+
+}  // namespace
+}  // namespace tabor::cli

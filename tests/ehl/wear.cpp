@@ -1,0 +1,82 @@
+#include "tabor/ehl/wear.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "ehl/akchurin.hpp"
+#include "support/validation.hpp"
+#include "tabor/core/error.hpp"
+
+namespace tabor::ehl {
+namespace {
+
+WearProblem worn_track() {
+  WearProblem problem;
+  problem.contact = test::table_6();
+  problem.contact.nodes = 300;
+  problem.wear_coefficient = 2.8e-15;
+  problem.track_length = 2 * std::numbers::pi * problem.contact.radius;
+  problem.steps_per_cycle = 200;
+  return problem;
+}
+
+TEST(SolveWear, WearsByArchardWhatTheLoadSlides) {
+  const WearProblem problem = worn_track();
+  const WearResult result = solve_wear(problem);
+  ASSERT_TRUE(result.converged);
+  // Volume per width = kw F distance, whatever the film does.
+  const double expected =
+      problem.wear_coefficient * problem.contact.load * result.history.back().distance;
+  test::expect_within("EHL", "wear of a track, one cycle", "worn volume, relative", "Archard 1953",
+                      std::abs(result.worn_area / expected - 1), 1e-6);
+  EXPECT_NEAR(result.history.back().distance, problem.track_length,
+              2 * problem.contact.sliding_speed * result.time_step);
+}
+
+TEST(SolveWear, LeavesTheSteadyFilmWithoutWear) {
+  WearProblem problem = worn_track();
+  problem.wear_coefficient = 0;
+  problem.steps_per_cycle = 60;
+  const WearResult result = solve_wear(problem);
+  ASSERT_TRUE(result.converged);
+  const double steady = solve_line(problem.contact).min_film;
+  for (const WearInstant& at : result.history) EXPECT_NEAR(at.min_film / steady, 1, 1e-6);
+  EXPECT_EQ(result.worn_area, 0);
+}
+
+TEST(SolveWear, FlattensWaves) {
+  WearProblem problem = worn_track();
+  problem.track_length = 4e-3;
+  problem.wave_amplitude = 30e-9;
+  problem.n_waves = 20;
+  problem.steps_per_cycle = 400;
+  problem.cycles_each = 300;
+  const WearResult result = solve_wear(problem);
+  ASSERT_TRUE(result.converged);
+  // Summits, a quarter of a wave behind its beginning, lose more than valleys.
+  double summits = 0;
+  double valleys = 0;
+  const Index n = result.track.size();
+  for (Index i = 0; i < n; ++i) {
+    const double phase =
+        2 * std::numbers::pi * 20 * static_cast<double>(i) / static_cast<double>(n);
+    (std::sin(phase) > 0 ? summits : valleys) += result.depth[i];
+  }
+  EXPECT_GT(summits, 1.01 * valleys);
+}
+
+TEST(SolveWear, RefusesWhatMakesNoSense) {
+  WearProblem problem = worn_track();
+  problem.track_length = 1e-4;
+  EXPECT_THROW(solve_wear(problem), InputError);
+  problem = worn_track();
+  problem.wear_coefficient = -1;
+  EXPECT_THROW(solve_wear(problem), InputError);
+  problem = worn_track();
+  problem.contact.sliding_speed = 0;
+  EXPECT_THROW(solve_wear(problem), InputError);
+}
+
+}  // namespace
+}  // namespace tabor::ehl
