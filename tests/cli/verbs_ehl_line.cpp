@@ -76,5 +76,21 @@ TEST(EhlLine, ShowsAnAsperityOnlyWithTheNodesForIt) {
   EXPECT_GT(rough["max_pressure_Pa"], smooth);
 }
 
+TEST(EhlLine, WearsATrack) {
+  const std::vector<std::string> wear =
+      quick({"--set", "wear.coefficient=2.8e-15 m^2/N", "--set", "wear.track_length=15.7 mm",
+             "--set", "wear.steps=50", "--set", "wear.cycles_each=3600"});
+  const io::Json json = json_of(wear)["wear"];
+  EXPECT_EQ(json["converged"], true);
+  // Archard: kw F times the distance, whatever the film does.
+  EXPECT_NEAR(json["volume_per_width_m2"].get<double>() /
+                  (2.8e-15 * 5000 * json["distance_m"].get<double>()),
+              1, 1e-6);
+  EXPECT_NEAR(json["distance_m"].get<double>(), 3600 * 15.7e-3, 0.03 * 3600 * 15.7e-3);
+  std::vector<std::string> both = wear;
+  both.insert(both.end(), {"--set", "roughness.height=50nm", "--set", "roughness.width=50um"});
+  EXPECT_EQ(run_tabor(both).code, 3);
+}
+
 }  // namespace
 }  // namespace tabor::cli

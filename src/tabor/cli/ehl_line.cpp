@@ -1,19 +1,21 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "tabor/cli/ehl.hpp"
 #include "tabor/cli/ehl_case.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/ehl/line.hpp"
+#include "tabor/ehl/wear.hpp"
 
 namespace tabor::cli {
 
 namespace {
 
 constexpr Dimension kForcePerLength{0, 1, -2, 0};
+constexpr std::int64_t kUsualSteps = 600;  // per cycle
 
 ehl::LineCavitation read_cavitation(const io::Config& config) {
   const std::string word = text_or(config, "film.cavitation", "reynolds");
@@ -64,6 +66,86 @@ ehl::LineProblem read_problem(const io::Config& config) {
   ehl::check_line(problem);
   problem.roughness = read_roughness(config, problem);
   return problem;
+}
+
+std::int64_t integer_or(const io::Config& config, std::string_view key, std::int64_t otherwise) {
+  return config.has(key) ? config.integer(key) : otherwise;
+}
+
+/// [wear]: a track that runs under the cylinder.
+ehl::WearProblem read_wear(const io::Config& config, const ehl::LineProblem& contact) {
+  if (contact.roughness.size() > 0) {
+    throw InputError(config.place("wear.coefficient"), "beside a roughness that stands still",
+                     "one of the two", "wear.wave_amplitude makes the track rough");
+  }
+  ehl::WearProblem problem;
+  problem.contact = contact;
+  problem.wear_coefficient = positive_quantity(config, "wear.coefficient", dimension::per_pressure);
+  problem.track_length = positive_quantity(config, "wear.track_length", dimension::length);
+  problem.steps_per_cycle = integer_or(config, "wear.steps", kUsualSteps);
+  problem.cycles = integer_or(config, "wear.cycles", 1);
+  if (config.has("wear.cycles_each")) problem.cycles_each = config.number("wear.cycles_each");
+  if (config.has("wear.wave_amplitude")) {
+    problem.wave_amplitude = config.quantity("wear.wave_amplitude", dimension::length);
+    problem.n_waves = config.integer("wear.waves");
+  }
+  return problem;
+}
+
+io::Json wear_json(const ehl::WearResult& wear) {
+  const ehl::WearInstant& last = wear.history.back();
+  return {{"time_s", last.time},
+          {"distance_m", last.distance},
+          {"mean_depth_m", last.mean_depth},
+          {"max_depth_m", last.max_depth},
+          {"volume_per_width_m2", wear.worn_area},
+          {"min_film_m", io::number(last.min_film)},
+          {"friction_coefficient", io::number(last.friction_coefficient)},
+          {"time_step_s", wear.time_step},
+          {"n_steps", wear.history.size() - 1},
+          {"newton_iterations", wear.newton_iterations},
+          {"converged", wear.converged}};
+}
+
+std::string wear_text(const ehl::WearResult& wear) {
+  const ehl::WearInstant& last = wear.history.back();
+  Facts facts;
+  facts.fact("slid", fmt::format("{} in {}", si(last.distance, "m"), si(last.time, "s")));
+  facts.fact("worn off", fmt::format("{} on average, {} at most", si(last.mean_depth, "m"),
+                                     si(last.max_depth, "m")));
+  facts.fact("film then", si(last.min_film, "m"));
+  facts.fact("friction then", plain(last.friction_coefficient));
+  return facts.text();
+}
+
+void write_wear(io::Hdf5Writer& writer, const ehl::WearResult& wear) {
+  using Instant = ehl::WearInstant;
+  struct Curve {
+    const char* name;
+    const char* unit;
+    const char* long_name;
+    double Instant::*value;
+  };
+  writer.group("/wear");
+  for (const Curve& curve :
+       {Curve{"time", "s", "time", &Instant::time},
+        Curve{"distance", "m", "distance slid", &Instant::distance},
+        Curve{"mean_depth", "m", "wear depth, mean over the track", &Instant::mean_depth},
+        Curve{"max_depth", "m", "largest wear depth", &Instant::max_depth},
+        Curve{"min_film", "m", "smallest film thickness", &Instant::min_film},
+        Curve{"max_pressure", "Pa", "largest pressure", &Instant::max_pressure},
+        Curve{"friction", "1", "friction coefficient", &Instant::friction_coefficient}}) {
+    std::vector<double> values;
+    for (const Instant& at : wear.history) values.push_back(at.*curve.value);
+    const std::string path = std::string("/wear/") + curve.name;
+    writer.write(path, values);
+    writer.describe(path, curve.unit, curve.long_name);
+  }
+  const auto size = wear.track.size();
+  writer.write("/wear/track", std::vector<double>(wear.track.data(), wear.track.data() + size));
+  writer.describe("/wear/track", "m", "place along the track");
+  writer.write("/wear/depth", std::vector<double>(wear.depth.data(), wear.depth.data() + size));
+  writer.describe("/wear/depth", "m", "wear depth along the track at the end");
 }
 
 io::Json scalars_of(const ehl::LineProblem& problem, const ehl::LineResult& result) {
@@ -148,8 +230,17 @@ EhlAnswer solve(const io::Config& config, Context& context) {
   if (!result.converged) {
     answer.warnings.push_back("the film was not found: more nodes, a lower load or less viscosity");
   }
-  answer.write = [problem, result = std::move(result)](io::Hdf5Writer& writer) {
+  std::optional<ehl::WearResult> wear;
+  if (config.has("wear.coefficient")) {
+    wear = ehl::solve_wear(read_wear(config, problem), context.observer());
+    answer.scalars["wear"] = wear_json(*wear);
+    answer.text += wear_text(*wear);
+    answer.converged = answer.converged && wear->converged;
+    if (!wear->converged) answer.warnings.emplace_back("the film was lost while the track wore");
+  }
+  answer.write = [problem, wear, result = std::move(result)](io::Hdf5Writer& writer) {
     write_profile(writer, problem, result);
+    if (wear) write_wear(writer, *wear);
   };
   return answer;
 }
@@ -157,24 +248,40 @@ EhlAnswer solve(const io::Config& config, Context& context) {
 }  // namespace
 
 EhlProgram line_program() {
-  return {
-      .name = "line",
-      .summary = "a steady film between a cylinder and a flat",
-      .keys = joined({"cylinder.radius", "cylinder.load_per_length", "motion.entrainment_speed",
-                      "motion.sliding_speed", "film.cavitation", "film.penalty", "roughness.height",
-                      "roughness.width", "roughness.place", "roughness.amplitude",
-                      "roughness.wavelength", "grid.nodes", "grid.inlet", "grid.outlet"},
-                     {solids_keys(), lubricant_keys()}),
-      .columns = {{"min_film_m", "smallest film", "m"},
-                  {"central_film_m", "central film", "m"},
-                  {"max_pressure_Pa", "largest pressure", "Pa"},
-                  {"max_shear_stress_Pa", "largest stress", "Pa"},
-                  {"friction_coefficient", "friction", ""},
-                  {"newton_iterations", "iterations", ""}},
-      .studies = {{"grid", "grid.nodes", "nodes", "", {0.5, 1, 2}},
-                  {"domain", "grid.inlet", "inlet_m", "m", {0.7, 1, 1.4, 2}, false}},
-      .methods = {"moes1992", "evans2000", "johnson1985"},
-      .solve = solve};
+  return {.name = "line",
+          .summary = "a steady film between a cylinder and a flat",
+          .keys = joined({"cylinder.radius",
+                          "cylinder.load_per_length",
+                          "motion.entrainment_speed",
+                          "motion.sliding_speed",
+                          "film.cavitation",
+                          "film.penalty",
+                          "roughness.height",
+                          "roughness.width",
+                          "roughness.place",
+                          "roughness.amplitude",
+                          "roughness.wavelength",
+                          "wear.coefficient",
+                          "wear.track_length",
+                          "wear.steps",
+                          "wear.cycles",
+                          "wear.cycles_each",
+                          "wear.wave_amplitude",
+                          "wear.waves",
+                          "grid.nodes",
+                          "grid.inlet",
+                          "grid.outlet"},
+                         {solids_keys(), lubricant_keys()}),
+          .columns = {{"min_film_m", "smallest film", "m"},
+                      {"central_film_m", "central film", "m"},
+                      {"max_pressure_Pa", "largest pressure", "Pa"},
+                      {"max_shear_stress_Pa", "largest stress", "Pa"},
+                      {"friction_coefficient", "friction", ""},
+                      {"newton_iterations", "iterations", ""}},
+          .studies = {{"grid", "grid.nodes", "nodes", "", {0.5, 1, 2}},
+                      {"domain", "grid.inlet", "inlet_m", "m", {0.7, 1, 1.4, 2}, false}},
+          .methods = {"moes1992", "evans2000", "johnson1985"},
+          .solve = solve};
 }
 
 }  // namespace tabor::cli
