@@ -76,6 +76,21 @@ TEST(EhlLine, ShowsAnAsperityOnlyWithTheNodesForIt) {
   EXPECT_GT(rough["max_pressure_Pa"], smooth);
 }
 
+TEST(EhlLine, TakesARowOfAScanAsRoughness) {
+  const std::string scan = TABOR_SOURCE_DIR "/surfaces/edt_before.x3p";
+  const std::vector<std::string> rough =
+      quick({"--set", "roughness.file=" + scan, "--set", "motion.entrainment_speed=10m/s", "--set",
+             "grid.inlet=160um", "--set", "grid.outlet=140um", "--set", "grid.nodes=600"});
+  const io::Json json = json_of(rough);
+  EXPECT_EQ(json["converged"], true);
+  const Outcome far = run_tabor(quick({"--set", "roughness.file=" + scan}));
+  EXPECT_EQ(far.code, 3);
+  EXPECT_THAT(far.err, HasSubstr("longer profile"));
+  std::vector<std::string> outside = rough;
+  outside.insert(outside.end(), {"--set", "roughness.row=512"});
+  EXPECT_EQ(run_tabor(outside).code, 3);
+}
+
 TEST(EhlLine, WearsATrack) {
   const std::vector<std::string> wear =
       quick({"--set", "wear.coefficient=2.8e-15 m^2/N", "--set", "wear.track_length=15.7 mm",

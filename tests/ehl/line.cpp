@@ -244,6 +244,34 @@ TEST(SolveLine, AnAsperityRaisesLocalPressureAndStress) {
   }
 }
 
+TEST(SolveLine, FindsAFilmOverWavesHigherThanItself) {
+  LineProblem problem = table_6();
+  problem.nodes = 1200;
+  problem.roughness = line_waves(problem, 200e-9, 50e-6);
+  const LineResult result = solve_line(problem);
+  EXPECT_TRUE(result.converged);
+  EXPECT_GT(result.min_film, 0);
+  problem.roughness.setZero();
+  EXPECT_LT(result.min_film, solve_line(problem).min_film);
+}
+
+TEST(LineProfile, IsLevelledAndKeepsItsWaves) {
+  LineProblem problem = table_6();
+  const Eigen::ArrayXd x = line_nodes(problem);
+  const Index n = 5000;
+  const double spacing = 2e-3 / static_cast<double>(n - 1);
+  const Eigen::ArrayXd place = Eigen::ArrayXd::LinSpaced(n, 0, 2e-3);
+  const Eigen::ArrayXd tilted = 1e-6 + 1e-3 * place;
+  EXPECT_LE(line_profile(problem, tilted, spacing).abs().maxCoeff(), 1e-15);
+  const Eigen::ArrayXd waves = tilted + 1e-8 * (2e5 * place).sin();
+  const Eigen::ArrayXd profile = line_profile(problem, waves, spacing);
+  EXPECT_NEAR(std::sqrt(profile.square().mean()), 1e-8 / std::sqrt(2.0), 2e-10);
+  EXPECT_THROW(line_profile(problem, waves, spacing / 10), InputError);
+  Eigen::ArrayXd holed = waves;
+  holed[7] = std::nan("");
+  EXPECT_THROW(line_profile(problem, holed, spacing), InputError);
+}
+
 struct BadLine {
   const char* expected;
   void (*change)(LineProblem&);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 #include <optional>
 
 #include "tabor/cli/ehl.hpp"
@@ -9,6 +10,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/ehl/wear.hpp"
+#include "tabor/topography/file.hpp"
 
 namespace tabor::cli {
 
@@ -16,6 +18,10 @@ namespace {
 
 constexpr Dimension kForcePerLength{0, 1, -2, 0};
 constexpr std::int64_t kUsualSteps = 600;  // per cycle
+
+std::int64_t integer_or(const io::Config& config, std::string_view key, std::int64_t otherwise) {
+  return config.has(key) ? config.integer(key) : otherwise;
+}
 
 ehl::LineCavitation read_cavitation(const io::Config& config) {
   const std::string word = text_or(config, "film.cavitation", "reynolds");
@@ -26,8 +32,24 @@ ehl::LineCavitation read_cavitation(const io::Config& config) {
   return word == "reynolds" ? ehl::LineCavitation::reynolds : ehl::LineCavitation::penalty;
 }
 
-/// [roughness]: an asperity (height, width, place) or waves (amplitude, wavelength), or both.
-Eigen::ArrayXd read_roughness(const io::Config& config, const ehl::LineProblem& problem) {
+/// One row of a scan [m]; the file's place is relative to the case's.
+Eigen::ArrayXd read_profile(const io::Config& config, const ehl::LineProblem& problem,
+                            Context& context) {
+  const std::filesystem::path folder = std::filesystem::path(config.name()).parent_path();
+  const topography::Topography scan =
+      topography::read(folder / config.text("roughness.file"), {}, context.observer());
+  const std::int64_t row = integer_or(config, "roughness.row", scan.grid.ny / 2);
+  if (row < 0 || row >= scan.grid.ny) {
+    throw InputError(config.place("roughness.row"), fmt::format("{}", row),
+                     fmt::format("0 to {}", scan.grid.ny - 1), "");
+  }
+  return ehl::line_profile(problem, scan.height.row(row).transpose(), scan.grid.dx());
+}
+
+/// [roughness]: an asperity (height, width, place), waves (amplitude, wavelength), a row of a scan
+/// (file, row), or their sum.
+Eigen::ArrayXd read_roughness(const io::Config& config, const ehl::LineProblem& problem,
+                              Context& context) {
   Eigen::ArrayXd roughness;
   const auto add = [&](const Eigen::ArrayXd& heights) {
     if (roughness.size() == 0) roughness.setZero(heights.size());
@@ -43,10 +65,11 @@ Eigen::ArrayXd read_roughness(const io::Config& config, const ehl::LineProblem& 
     add(line_waves(problem, config.quantity("roughness.amplitude", dimension::length),
                    positive_quantity(config, "roughness.wavelength", dimension::length)));
   }
+  if (config.has("roughness.file")) add(read_profile(config, problem, context));
   return roughness;
 }
 
-ehl::LineProblem read_problem(const io::Config& config) {
+ehl::LineProblem read_problem(const io::Config& config, Context& context) {
   ehl::LineProblem problem;
   problem.radius = positive_quantity(config, "cylinder.radius", dimension::length);
   problem.load = positive_quantity(config, "cylinder.load_per_length", kForcePerLength);
@@ -64,12 +87,8 @@ ehl::LineProblem read_problem(const io::Config& config) {
   problem.outlet = positive_quantity_or(config, "grid.outlet", dimension::length, 0);
   // The nodes of the roughness are those of a checked problem.
   ehl::check_line(problem);
-  problem.roughness = read_roughness(config, problem);
+  problem.roughness = read_roughness(config, problem, context);
   return problem;
-}
-
-std::int64_t integer_or(const io::Config& config, std::string_view key, std::int64_t otherwise) {
-  return config.has(key) ? config.integer(key) : otherwise;
 }
 
 /// [wear]: a track that runs under the cylinder.
@@ -220,7 +239,7 @@ void write_profile(io::Hdf5Writer& writer, const ehl::LineProblem& problem,
 }
 
 EhlAnswer solve(const io::Config& config, Context& context) {
-  const ehl::LineProblem problem = read_problem(config);
+  const ehl::LineProblem problem = read_problem(config, context);
   ehl::LineResult result = ehl::solve_line(problem, context.observer());
   EhlAnswer answer;
   answer.scalars = scalars_of(problem, result);
@@ -259,6 +278,8 @@ EhlProgram line_program() {
                           "roughness.height",
                           "roughness.width",
                           "roughness.place",
+                          "roughness.file",
+                          "roughness.row",
                           "roughness.amplitude",
                           "roughness.wavelength",
                           "wear.coefficient",

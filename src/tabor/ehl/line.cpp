@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "tabor/core/error.hpp"
@@ -32,18 +33,18 @@ void check_domain(const LineProblem& problem) {
   const Eigen::ArrayXd x = line_nodes(problem);
   const double room = std::min(-x[0], x[x.size() - 1]);
   if (!(room > half_width)) {
-    throw InputError("domain of a line contact", fmt::format("{} m beside the centre", room),
-                     fmt::format("more than the half width of Hertz, {} m", half_width),
+    throw InputError("domain of a line contact", fmt::format("{:.4g} m beside the centre", room),
+                     fmt::format("more than the half width of Hertz, {:.4g} m", half_width),
                      "make the domain longer or leave it to the program");
   }
   const double spacing = x[1] - x[0];
   const double film = film_groups_of(problem).moes_min_film();
   const double width = half_width + std::sqrt(2 * problem.radius * film);
   if (!(width >= kMinNodesPerHalfWidth * spacing)) {
-    throw InputError("grid of a line contact",
-                     fmt::format("{} nodes, {} m apart", problem.nodes, spacing),
-                     fmt::format("{} nodes in the half width, {} m", kMinNodesPerHalfWidth, width),
-                     "give more nodes or a shorter domain");
+    throw InputError(
+        "grid of a line contact", fmt::format("{} nodes, {:.4g} m apart", problem.nodes, spacing),
+        fmt::format("{} nodes in the half width, {:.4g} m", kMinNodesPerHalfWidth, width),
+        "give more nodes or a shorter domain");
   }
 }
 
@@ -51,8 +52,8 @@ void check_length(const LineProblem& problem, const Eigen::ArrayXd& x, const cha
                   double length) {
   const double shortest = kMinNodesPerHalfWidth * (x[1] - x[0]);
   if (!(length >= shortest)) {
-    throw InputError(what, fmt::format("{} m", length),
-                     fmt::format("{} m or more with {} nodes", shortest, problem.nodes),
+    throw InputError(what, fmt::format("{:.4g} m", length),
+                     fmt::format("{:.4g} m or more with {} nodes", shortest, problem.nodes),
                      "give more nodes");
   }
 }
@@ -110,29 +111,50 @@ material::Viscosity with_share_of_coefficient(const material::Viscosity& viscosi
                                   share * material::pressure_coefficient(viscosity));
 }
 
-/// From Hertz' pressure; if that fails, from the film of a viscosity that grows less with pressure.
-LineFilm::Outcome solve_cold(LineFilm& film, double moes_film, LineState& state,
-                             const Observer& observer) {
+/// Leads a film from share 0 to share 1 of what `apply` sets, in steps that shrink when one fails.
+LineFilm::Outcome ramp(LineFilm& film, LineState& state, const std::function<void(double)>& apply,
+                       const Observer& observer) {
+  LineFilm::Outcome outcome;
+  double share = 0;
+  for (double step = kFirstStep; share < 1 && step > kSmallestStep;) {
+    LineState next = state;
+    const double aim = std::min(1.0, share + step);
+    apply(aim);
+    outcome = outcome + film.solve(next, {}, kMaxIterations, observer);
+    if (outcome.converged) {
+      state = next;
+      share = aim;
+    }
+    step *= outcome.converged ? 1.5 : 0.5;
+  }
+  apply(1);
+  outcome.converged = share >= 1;
+  return outcome;
+}
+
+/// From Hertz' pressure; if that fails, from the film of smooth bodies and, if that fails too, of a
+/// viscosity that does not grow with pressure.
+LineFilm::Outcome solve_cold(LineFilm& film, const Eigen::ArrayXd& roughness, double moes_film,
+                             LineState& state, const Observer& observer) {
   LineFilm::Outcome outcome = solve_from_hertz(film, moes_film, state, observer);
+  if (outcome.converged) return outcome;
+  if (roughness.size() > 0) {
+    const Eigen::ArrayXd rough = film.shape;
+    film.shape = rough + roughness;
+    outcome = outcome + solve_cold(film, {}, moes_film, state, observer);
+    if (!outcome.converged) return outcome;
+    const auto roughen = [&](double share) { film.shape = rough + (1 - share) * roughness; };
+    return outcome + ramp(film, state, roughen, observer);
+  }
   const material::Viscosity viscosity = film.lubricant.viscosity;
-  if (outcome.converged || !(material::pressure_coefficient(viscosity) > 0)) return outcome;
+  if (!(material::pressure_coefficient(viscosity) > 0)) return outcome;
   film.lubricant.viscosity = with_share_of_coefficient(viscosity, 0);
   outcome = outcome + solve_from_hertz(film, moes_film, state, observer);
-  double share = 0;
-  for (double step = kFirstStep; outcome.converged && share < 1 && step > kSmallestStep;) {
-    LineState next = state;
-    film.lubricant.viscosity = with_share_of_coefficient(viscosity, std::min(1.0, share + step));
-    const LineFilm::Outcome found = film.solve(next, {}, kMaxIterations, observer);
-    outcome = outcome + found;
-    outcome.converged = true;
-    if (found.converged) {
-      state = next;
-      share = std::min(1.0, share + step);
-    }
-    step *= found.converged ? 1.5 : 0.5;
-  }
-  outcome.converged = outcome.converged && share >= 1;
-  return outcome;
+  if (!outcome.converged) return outcome;
+  const auto thicken = [&](double share) {
+    film.lubricant.viscosity = with_share_of_coefficient(viscosity, share);
+  };
+  return outcome + ramp(film, state, thicken, observer);
 }
 
 }  // namespace
@@ -173,6 +195,29 @@ Eigen::ArrayXd line_waves(const LineProblem& problem, double amplitude, double w
   const Eigen::ArrayXd x = line_nodes(problem);
   check_length(problem, x, "wavelength of a roughness", wavelength);
   return amplitude * (2 * std::numbers::pi / wavelength * x).sin();
+}
+
+Eigen::ArrayXd line_profile(const LineProblem& problem, const Eigen::ArrayXd& height,
+                            double spacing) {
+  const Eigen::ArrayXd x = line_nodes(problem);
+  const double length = spacing * static_cast<double>(height.size() - 1);
+  const double needed = x[x.size() - 1] - x[0];
+  if (!(length >= needed)) {
+    throw InputError("profile of a roughness", fmt::format("{:.4g} m long", length),
+                     fmt::format("the domain of the film or more, {:.4g} m", needed),
+                     "a longer profile, or a shorter grid.inlet and grid.outlet");
+  }
+  if (!height.isFinite().all()) {
+    throw InputError("profile of a roughness", "holes", "none", "fill them first: tabor convert");
+  }
+  const Eigen::ArrayXd place = Eigen::ArrayXd::LinSpaced(height.size(), 0, length);
+  const double middle = (length - needed) / 2 - x[0];
+  Eigen::ArrayXd heights =
+      x.unaryExpr([&](double at) { return interpolated(place, height, at + middle); });
+  // Level what is used: a height or a slope of the profile would be taken for one of the cylinder.
+  const Eigen::ArrayXd centred = x - x.mean();
+  heights -= heights.mean();
+  return heights - (heights * centred).sum() / centred.square().sum() * centred;
 }
 
 void measure_line(const LineProblem& problem, LineResult& result) {
@@ -228,7 +273,7 @@ LineResult solve_line(const LineProblem& problem, const Observer& observer) {
   LineFilm film(problem);
   LineState state;
   const LineFilm::Outcome outcome =
-      solve_cold(film, film_groups_of(problem).moes_min_film(), state, observer);
+      solve_cold(film, problem.roughness, film_groups_of(problem).moes_min_film(), state, observer);
   LineResult result;
   result.x = film.x();
   result.pressure = state.pressure;

@@ -69,6 +69,12 @@ Eigen::ArrayXd line_asperity(const LineProblem& problem, double height, double w
 /// Waves s = amplitude sin(2 pi x / wavelength) [m], as in Akchurin's thesis. Throws likewise.
 Eigen::ArrayXd line_waves(const LineProblem& problem, double amplitude, double wavelength);
 
+/// A measured profile, heights [m] `spacing` [m] apart, levelled, its middle in the middle of the
+/// domain, between its points by straight lines. Throws InputError if it is shorter than the domain
+/// or has holes.
+Eigen::ArrayXd line_profile(const LineProblem& problem, const Eigen::ArrayXd& height,
+                            double spacing);
+
 /// Fills what follows from x, pressure and film.
 void measure_line(const LineProblem& problem, LineResult& result);
 
