@@ -39,8 +39,7 @@ void check(const WearProblem& problem) {
 class Track {
  public:
   Track(const WearProblem& problem, double spacing)
-      : spacing_(spacing),
-        n_(static_cast<Index>(std::llround(problem.track_length / spacing))),
+      : n_(static_cast<Index>(std::llround(problem.track_length / spacing))),
         depth_(Eigen::ArrayXd::Zero(n_)) {
     const double phase =
         2 * std::numbers::pi * static_cast<double>(problem.n_waves) / static_cast<double>(n_);
@@ -59,7 +58,6 @@ class Track {
  private:
   Index under(Index i) const { return ((i - shift_) % n_ + n_) % n_; }
 
-  double spacing_;
   Index n_;
   Index shift_ = 0;
   Eigen::ArrayXd height_, depth_;
