@@ -16,8 +16,10 @@ constexpr double kSmallestDecay = 0.3;  // over the number of nodes
 std::vector<double> decays(Index n) {
   std::vector<double> result;
   const double smallest = kSmallestDecay / static_cast<double>(n);
-  for (double decay = kLargestDecay; decay > smallest; decay *= std::exp(-kStep)) {
+  double decay = kLargestDecay;
+  while (decay > smallest) {
     result.push_back(decay);
+    decay *= std::exp(-kStep);
   }
   return result;
 }
