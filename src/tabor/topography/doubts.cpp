@@ -11,6 +11,7 @@
 #include "tabor/spectral/fft.hpp"
 #include "tabor/topography/levelling.hpp"
 #include "tabor/topography/rows.hpp"
+#include "tabor/topography/spikes.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -109,50 +110,6 @@ double mean_square(const Levelled& levelled) {
   return total(levelled, [mean](double z) { return (z - mean) * (z - mean); })[1] / first[0];
 }
 
-/// Distance of pixel (y, x) from the mean of its neighbours in x; NaN at holes.
-double bend(const Field& height, Index y, Index x) {
-  return std::abs(height(y, x) - (height(y, x - 1) + height(y, x + 1)) / 2);
-}
-
-double median_bend(const Field& height) {
-  std::vector<double> bends;
-  const Index stride = std::max<Index>(1, height.size() / kSample);
-  // Of a map of few long rows not every column either.
-  const Index n_rows = (height.rows() + stride - 1) / stride;
-  const Index x_stride = std::max<Index>(1, n_rows * height.cols() / (2 * kSample));
-  for (Index y = 0; y < height.rows(); y += stride) {
-    for (Index x = 1; x + 1 < height.cols(); x += x_stride) {
-      if (const double b = bend(height, y, x); std::isfinite(b)) bends.push_back(b);
-    }
-  }
-  if (bends.empty()) return 0;
-  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
-  std::nth_element(bends.begin(), middle, bends.end());
-  return *middle;
-}
-
-/// How far pixel (y, x) stands out beyond both its neighbours in x, 0 if it lies between them.
-double protrusion(const Levelled& levelled, Index y, Index x) {
-  const double left = levelled(y, x) - levelled(y, x - 1);
-  const double right = levelled(y, x) - levelled(y, x + 1);
-  return left * right > 0 ? std::min(std::abs(left), std::abs(right)) : 0;
-}
-
-Index count_spikes(const Levelled& levelled, double rms) {
-  constexpr double kFarFromNeighbours = 30;
-  constexpr double kFarFromAll = 5;
-  if (!(rms > 0)) return 0;
-  const Field& height = levelled.height;
-  // A plane does not bend: levelled and raw heights have the same bends.
-  const double limit = std::max(kFarFromNeighbours * median_bend(height), kFarFromAll * rms);
-  const auto n = sum_over_rows<1>(height.rows(), [&](Index y) {
-    double n_in_row = 0;
-    for (Index x = 1; x + 1 < height.cols(); ++x) n_in_row += protrusion(levelled, y, x) > limit;
-    return Eigen::Array<double, 1, 1>(n_in_row);
-  });
-  return static_cast<Index>(n[0]);
-}
-
 void doubt_pixels(const Grid& grid, std::vector<std::string>& list) {
   constexpr double kSquare = 1e-3;
   if (std::abs(grid.dx() / grid.dy() - 1) > kSquare && grid.ny > 1) {
@@ -190,9 +147,13 @@ void doubt_quantum(double quantum, double rms, std::vector<std::string>& list) {
   }
 }
 
-void doubt_spikes(Index spikes, std::vector<std::string>& list) {
+void doubt_spikes(const Field& height, std::vector<std::string>& list) {
+  const Index spikes = count_spikes(height);
   if (spikes == 0) return;
-  list.push_back(fmt::format("{} isolated spikes: slopes and contact depend on them", spikes));
+  list.push_back(
+      fmt::format("{} spikes ({:.2g} %): slopes and contact depend on them; --despike auto "
+                  "takes them out",
+                  spikes, 100 * static_cast<double>(spikes) / static_cast<double>(height.size())));
 }
 
 /// Heights above their least-squares plane; as they are if they do not determine one. The plane of
@@ -236,11 +197,6 @@ double height_quantum(const Field& height) {
   return 0;
 }
 
-Index count_spikes(const Field& height) {
-  const Levelled as_it_is{.height = height};
-  return count_spikes(as_it_is, std::sqrt(mean_square(as_it_is)));
-}
-
 std::vector<std::string> doubts(const Topography& topography) {
   std::vector<std::string> list;
   doubt_pixels(topography.grid, list);
@@ -254,7 +210,7 @@ std::vector<std::string> doubts(const Topography& topography) {
                                format_si(rms, "m"), format_si(rms_levelled, "m")));
   }
   doubt_quantum(height_quantum(topography.height), rms_levelled, list);
-  doubt_spikes(count_spikes(levelled, rms_levelled), list);
+  doubt_spikes(topography.height, list);
   return list;
 }
 

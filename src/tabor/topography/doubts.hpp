@@ -16,8 +16,4 @@ std::vector<std::string> doubts(const Topography& topography);
 /// is below 2^-24 of their range.
 double height_quantum(const Field& height);
 
-/// Isolated pixels far above or below both their neighbours in x (30 times the median distance and
-/// 5 Sq).
-Index count_spikes(const Field& height);
-
 }  // namespace tabor::topography

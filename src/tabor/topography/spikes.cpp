@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
+#include <numeric>
 #include <vector>
 
 #include "tabor/core/error.hpp"
@@ -55,50 +57,92 @@ Surroundings around(const Field& height, Index y, Index x, Index window,
   return {middle, kSigmaOfMad * median(values)};
 }
 
-/// Calls found(y, x, surroundings) for every valid height with enough neighbours.
-template <typename Found>
-void for_each_height(const Field& height, Index window, const Found& found) {
-  for_each_row(height.rows(), [&](Index y) {
-    std::vector<double> values;
-    for (Index x = 0; x < height.cols(); ++x) {
-      if (!std::isnan(height(y, x))) {
-        const Surroundings surroundings = around(height, y, x, window, values);
-        if (!std::isnan(surroundings.median)) {
-          found(y, x, surroundings);
-        }
-      }
-    }
-  });
+/// Pixels spread evenly over the scan, at most kSample of them: multiples of the golden ratio, so
+/// that no column or texture is preferred.
+std::vector<Index> sample_pixels(Index size) {
+  constexpr Index kSample = Index{1} << 17;
+  std::vector<Index> pixels(static_cast<std::size_t>(std::min(size, kSample)));
+  for (std::size_t k = 0; k < pixels.size(); ++k) {
+    const double turns = static_cast<double>(k) * (std::numbers::phi - 1);
+    const double share = turns - std::floor(turns);
+    pixels[k] = size <= kSample ? static_cast<Index>(k)
+                                : static_cast<Index>(share * static_cast<double>(size));
+  }
+  return pixels;
 }
 
 /// Usual distance from the surroundings' median over the whole scan. Where more than half of the
 /// heights equal theirs (coarsely digitised scans), the mean distance stands in.
-double usual_distance(const FieldF& distances) {
-  std::vector<float> known;
-  known.reserve(static_cast<std::size_t>(distances.size()));
-  double sum = 0;
-  for (Index i = 0; i < distances.size(); ++i) {
-    if (!std::isnan(distances.data()[i])) {
-      known.push_back(distances.data()[i]);
-      sum += static_cast<double>(distances.data()[i]);
+double usual_distance(const Field& height, Index window) {
+  const std::vector<Index> pixels = sample_pixels(height.size());
+  std::vector<double> known(pixels.size());
+  parallel_for(std::ssize(pixels), 1024, [&](Index begin, Index end) {
+    std::vector<double> values;
+    for (Index k = begin; k < end; ++k) {
+      const Index pixel = pixels[static_cast<std::size_t>(k)];
+      const Index y = pixel / height.cols(), x = pixel % height.cols();
+      known[static_cast<std::size_t>(k)] =
+          std::abs(height(y, x) - around(height, y, x, window, values).median);
     }
-  }
+  });
+  std::erase_if(known, [](double distance) { return std::isnan(distance); });
   if (known.empty()) {
     return std::numeric_limits<double>::infinity();
   }
-  const double mean = sum / static_cast<double>(known.size());
-  const auto middle = static_cast<double>(median(known));
-  return middle > 0 ? kSigmaOfMad * middle : mean * std::sqrt(std::acos(-1.0) / 2);
+  const double mean =
+      std::accumulate(known.begin(), known.end(), 0.0) / static_cast<double>(known.size());
+  const double middle = median(known);
+  return middle > 0 ? kSigmaOfMad * middle : mean * std::sqrt(std::numbers::pi / 2);
 }
+
+/// Decides about one height after the other.
+class SpikeTest {
+ public:
+  SpikeTest(const Field& height, const SpikeRule& rule)
+      : height_(height),
+        rule_(rule),
+        limit_(rule.threshold * usual_distance(height, rule.window)) {}
+
+  /// `values` is room to work in.
+  bool operator()(Index y, Index x, std::vector<double>& values) const {
+    if (std::isnan(height_(y, x)) || most_neighbours_are_near(y, x)) {
+      return false;
+    }
+    const Surroundings s = around(height_, y, x, rule_.window, values);
+    const double distance = std::abs(height_(y, x) - s.median);  // NaN: too few neighbours
+    return distance > limit_ && distance > rule_.threshold * s.spread;
+  }
+
+ private:
+  /// Then their median is near as well. This spares nearly all heights the sorting.
+  bool most_neighbours_are_near(Index y, Index x) const {
+    const Index reach = rule_.window / 2;
+    const Index left = std::max<Index>(0, x - reach);
+    const Index right = std::min(height_.cols() - 1, x + reach);
+    Index n_near = -1, n = -1;  // the height itself does not count
+    for (Index v = std::max<Index>(0, y - reach); v <= std::min(height_.rows() - 1, y + reach);
+         ++v) {
+      for (Index u = left; u <= right; ++u) {
+        n_near += std::abs(height_(y, x) - height_(v, u)) <= limit_ ? 1 : 0;
+        n += std::isnan(height_(v, u)) ? 0 : 1;
+      }
+    }
+    return 2 * n_near > n;
+  }
+
+  const Field& height_;
+  SpikeRule rule_;
+  double limit_;  ///< [m]
+};
 
 void check(const SpikeRule& rule) {
   if (!(rule.threshold > 0) || !std::isfinite(rule.threshold)) {
     throw InputError("despike", fmt::format("a threshold of {}", rule.threshold),
-                     "a positive number of standard deviations", "e.g. despike=6");
+                     "a positive number of standard deviations", "e.g. despike=8");
   }
   if (rule.window < 3 || rule.window > kLargestWindow || rule.window % 2 == 0) {
     throw InputError("despike", fmt::format("a window of {} pixels", rule.window),
-                     fmt::format("an odd number from 3 to {}", kLargestWindow), "e.g. despike=6,5");
+                     fmt::format("an odd number from 3 to {}", kLargestWindow), "e.g. despike=8,5");
   }
 }
 
@@ -109,7 +153,7 @@ SpikeRule parse_spike_rule(std::string_view text) {
   const auto parts = split(std::string(text), ',');
   const auto refuse = [&] {
     throw InputError("despike", text.empty() ? "no value" : fmt::format("'{}'", text),
-                     "auto, or SIGMAS[,WINDOW[,hole|median]]", "e.g. despike=6,5,median");
+                     "auto, or SIGMAS[,WINDOW[,hole|median]]", "e.g. despike=8,5,median");
   };
   if (text.empty() || parts.size() > 3) {
     refuse();
@@ -137,19 +181,29 @@ SpikeRule parse_spike_rule(std::string_view text) {
 
 Mask find_spikes(const Field& height, const SpikeRule& rule) {
   check(rule);
-  constexpr float unknown = std::numeric_limits<float>::quiet_NaN();
-  FieldF distances = FieldF::Constant(height.rows(), height.cols(), unknown);
-  Mask candidates = Mask::Constant(height.rows(), height.cols(), false);
-  for_each_height(height, rule.window, [&](Index y, Index x, const Surroundings& s) {
-    const double distance = std::abs(height(y, x) - s.median);
-    distances(y, x) = static_cast<float>(distance);
-    candidates(y, x) = distance > rule.threshold * s.spread;
-  });
-  const double limit = rule.threshold * usual_distance(distances);
+  const SpikeTest is_spike(height, rule);
+  Mask spikes(height.rows(), height.cols());
   for_each_row(height.rows(), [&](Index y) {
-    candidates.row(y) = candidates.row(y) && distances.row(y).cast<double>() > limit;
+    std::vector<double> values;
+    for (Index x = 0; x < height.cols(); ++x) {
+      spikes(y, x) = is_spike(y, x, values);
+    }
   });
-  return candidates;
+  return spikes;
+}
+
+Index count_spikes(const Field& height, const SpikeRule& rule) {
+  check(rule);
+  const SpikeTest is_spike(height, rule);
+  const auto n = sum_over_rows<1>(height.rows(), [&](Index y) {
+    std::vector<double> values;
+    double n_in_row = 0;
+    for (Index x = 0; x < height.cols(); ++x) {
+      n_in_row += is_spike(y, x, values) ? 1 : 0;
+    }
+    return Eigen::Array<double, 1, 1>(n_in_row);
+  });
+  return static_cast<Index>(n[0]);
 }
 
 Topography remove_spikes(Topography topography, const SpikeRule& rule) {

@@ -8,11 +8,12 @@ namespace tabor::topography {
 
 /// What counts as a spike and what becomes of it. A height is a spike when it lies further from
 /// the median of the window around it than `threshold` times BOTH the spread in that window and
-/// the usual distance from such a median all over the scan. Spreads are robust: 1.4826 times the
-/// median absolute deviation, the standard deviation of a Gaussian. Steps and steep flanks have a
-/// wide spread of their own and stay; so do spikes that fill more than half of a window.
+/// the usual distance from such a median all over the scan (of up to 131072 pixels). Spreads are
+/// robust: 1.4826 times the median absolute deviation, the standard deviation of a Gaussian. Steps
+/// and steep flanks have a wide spread of their own and stay; so do spikes that fill more than half
+/// of a window.
 struct SpikeRule {
-  double threshold = 6;           ///< in standard deviations
+  double threshold = 8;           ///< in standard deviations; why: docs/filters_and_spectra.md
   Index window = 5;               ///< pixels along x and y, odd
   bool fill_with_median = false;  ///< else spikes become holes
 };
@@ -23,6 +24,9 @@ SpikeRule parse_spike_rule(std::string_view text);
 
 /// True where a valid height is a spike. Heights with fewer than 5 valid neighbours are left alone.
 Mask find_spikes(const Field& height, const SpikeRule& rule = {});
+
+/// How many there are, without memory per pixel: fit for a first look at a large scan.
+Index count_spikes(const Field& height, const SpikeRule& rule = {});
 
 /// Without spikes; their number is in the history and, if any, among the doubts.
 Topography remove_spikes(Topography topography, const SpikeRule& rule = {});

@@ -176,7 +176,7 @@ const std::array<Step, 10>& steps() {
       {{"trim", "MARGIN", "cut a margin off all sides, in pixels or as a length (half a cutoff)"},
        parse_trim},
       {{"despike", "auto|8|8,7|8,7,median",
-        "make holes (or medians) of spikes: robust sigmas off the median, window [6,5]"},
+        "make holes (or medians) of spikes: robust sigmas off the median, window [8,5]"},
        parse_despike},
       {{"level", "none|mean|plane|poly2|poly3|poly4",
         "subtract a least-squares polynomial (total degree) over the valid points"},
