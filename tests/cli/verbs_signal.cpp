@@ -58,6 +58,12 @@ TEST_F(SignalVerbs, PsdGivesAutocorrelationAndDifferencesWhenAsked) {
   EXPECT_DOUBLE_EQ(psd.at("trusted").at("shortest_wavelength_m"), 6e-6);
 }
 
+TEST_F(SignalVerbs, PsdSaysWhatToTrust) {
+  EXPECT_THAT(run_tabor({"psd", file("a.sdf")}).out, HasSubstr("wavelengths 4 µm to 24 µm"));
+  const Outcome blunt = run_tabor({"psd", file("a.sdf"), "--tip-radius", "200um"});
+  EXPECT_THAT(blunt.out, HasSubstr("no wavelength: from"));
+}
+
 TEST_F(SignalVerbs, PsdWritesItsCurvesWithUnits) {
   ASSERT_EQ(run_tabor({"psd", file("a.sdf"), "--acf", "--hdf", "-o", file("c.csv")}).code, 0);
   const io::CsvTable table = io::read_csv(file("c.csv"));

@@ -10,6 +10,7 @@
 #include "support/validation.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/topography/file.hpp"
+#include "tabor/topography/height_differences.hpp"
 #include "tabor/topography/levelling.hpp"
 
 namespace tabor::topography::test {

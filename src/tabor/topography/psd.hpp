@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tabor/topography/correlation.hpp"
+#include "tabor/topography/height_differences.hpp"
 #include "tabor/topography/topography.hpp"
 
 namespace tabor::topography {

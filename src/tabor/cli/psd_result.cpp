@@ -1,0 +1,215 @@
+#include "tabor/cli/psd_result.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tabor/cli/result.hpp"
+#include "tabor/cli/table.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+using topography::Autocorrelation;
+using topography::HeightDifference;
+using topography::PowerSpectra;
+using topography::Spectrum;
+
+// Keys name SI units; the unit of the chosen convention stands beside them.
+io::Json json_of(const Spectrum& spectrum, const std::string& density_key) {
+  return {{"q_rad_per_m", spectrum.q},
+          {density_key, spectrum.density},
+          {"unit", spectrum.unit},
+          {"hurst", io::number(spectrum.hurst.hurst)},
+          {"hurst_standard_error", io::number(spectrum.hurst.standard_error)},
+          {"fit_q_min_rad_per_m", spectrum.hurst.q_min},
+          {"fit_q_max_rad_per_m", spectrum.hurst.q_max},
+          {"fit_bins", spectrum.hurst.n_bins}};
+}
+
+std::vector<std::string> row_of(const std::string& name, const Spectrum& spectrum) {
+  const topography::HurstFit& fit = spectrum.hurst;
+  const bool found = std::isfinite(fit.hurst);  // else no range of scales is long enough
+  return {name,
+          found ? plain(fit.hurst, 3) + " ± " + plain(fit.standard_error, 1) : "-",
+          found ? fmt::format("{:.3g} to {:.3g} rad/m", fit.q_min, fit.q_max) : "no range",
+          fmt::format("{}", fit.n_bins),
+          si(spectrum.rms_height, "m"),
+          fmt::format("{} [{}]", spectrum.density.size(), spectrum.unit)};
+}
+
+/// Autocorrelation along an axis, from zero lag.
+std::vector<double> profile(const Autocorrelation& acf, bool along_x) {
+  std::vector<double> values;
+  const Index n = along_x ? acf.grid().nx : acf.grid().ny;
+  for (Index k = 0; k < n; ++k) values.push_back(along_x ? acf(0, k) : acf(k, 0));
+  return values;
+}
+
+std::vector<double> lags(Index n, double pixel) {
+  std::vector<double> values;
+  for (Index k = 0; k < n; ++k) values.push_back(static_cast<double>(k) * pixel);
+  return values;
+}
+
+io::Json json_of(const Autocorrelation& acf) {
+  const auto numbers = [](const std::vector<double>& values) {
+    io::Json list = io::Json::array();
+    for (const double value : values) list.push_back(io::number(value));
+    return list;
+  };
+  const topography::CorrelationLengths lengths = topography::correlation_lengths(acf);
+  const auto aspect = lengths.texture_aspect();
+  return {{"lag_x_m", lags(acf.grid().nx, acf.grid().dx())},
+          {"acf_x", numbers(profile(acf, true))},
+          {"lag_y_m", lags(acf.grid().ny, acf.grid().dy())},
+          {"acf_y", numbers(profile(acf, false))},
+          {"mean_square_m2", acf.mean_square()},
+          {"sal_m", io::number(lengths.shortest)},
+          {"str", aspect ? io::Json(*aspect) : io::Json()},
+          {"str_below", aspect ? io::Json() : io::Json(lengths.texture_bound())}};
+}
+
+io::Json json_of(const HeightDifference& difference, double mean_square) {
+  const topography::DifferenceHurst fit = topography::fit_hurst(difference, mean_square);
+  return {{"lag_m", difference.lag},
+          {"mean_square_m2", difference.mean_square},
+          {"pairs", difference.pairs},
+          {"hurst", io::number(fit.hurst)},
+          {"hurst_standard_error", io::number(fit.standard_error)},
+          {"fit_lag_min_m", fit.lag_min},
+          {"fit_lag_max_m", fit.lag_max},
+          {"fit_bins", fit.n_bins}};
+}
+
+io::Json json_of(const topography::TrustedRange& range) {
+  return {{"shortest_wavelength_m", range.shortest},
+          {"longest_wavelength_m", range.longest},
+          {"shortest_is_limited_by", range.tip_limits ? "tip" : "pixel"}};
+}
+
+std::vector<std::string> row_of(const std::string& name, const HeightDifference& difference,
+                                double mean_square) {
+  const topography::DifferenceHurst fit = topography::fit_hurst(difference, mean_square);
+  return {name,
+          plain(fit.hurst, 3) + " ± " + plain(fit.standard_error, 1),
+          fmt::format("{} to {}", si(fit.lag_min, "m"), si(fit.lag_max, "m")),
+          fmt::format("{}", fit.n_bins),
+          "-",
+          fmt::format("{} [m^2]", difference.lag.size())};
+}
+
+void describe(const PowerSpectra& spectra, Facts& facts) {
+  facts.fact("convention", std::string(name_of(spectra.convention)));
+  facts.fact("window",
+             std::string(name_of(spectra.window)) +
+                 fmt::format(" (changes the variance {:.3g} times)", spectra.window_gain));
+  facts.fact("rms height", si(spectra.rms_height, "m"));
+  facts.fact("rms slope", plain(spectra.rms_slope));
+}
+
+void describe(const topography::TrustedRange& range, bool with_tip, Facts& facts) {
+  const std::string from = range.tip_limits ? "what the tip leaves" : "4 pixels";
+  facts.fact("trust", range.shortest < range.longest
+                          ? fmt::format("wavelengths {} to {} (rule of thumb: {} to a quarter of "
+                                        "the side{})",
+                                        si(range.shortest, "m"), si(range.longest, "m"), from,
+                                        with_tip ? "" : "; --tip-radius judges a probing tip")
+                          : fmt::format("no wavelength: from {} ({}) would be above {}, a quarter "
+                                        "of the side",
+                                        si(range.shortest, "m"), from, si(range.longest, "m")));
+}
+
+/// "m^3" -> "m3", for names of columns.
+std::string in_a_name(std::string unit) {
+  std::erase(unit, '^');
+  return unit;
+}
+
+void add_columns(std::vector<Curve>& columns, const std::string& name, const Spectrum& spectrum) {
+  columns.push_back({"q_" + name + "_rad_per_m", "rad/m", "wavevector, " + name, spectrum.q});
+  columns.push_back({"psd_" + name + "_" + in_a_name(spectrum.unit), spectrum.unit,
+                     "power spectral density, " + name, spectrum.density});
+}
+
+void add_columns(std::vector<Curve>& columns, const std::string& name,
+                 const HeightDifference& difference) {
+  columns.push_back({"lag_hdf_" + name + "_m", "m", "lag, " + name, difference.lag});
+  columns.push_back({"hdf_" + name + "_m2", "m^2", "mean square height difference, " + name,
+                     difference.mean_square});
+}
+
+void add_spectra(io::Json& object, const PowerSpectra& spectra) {
+  object["convention"] = name_of(spectra.convention);
+  object["window"] = name_of(spectra.window);
+  object["window_gain"] = spectra.window_gain;
+  object["x"] = json_of(spectra.x, "c1d_m3");
+  object["y"] = json_of(spectra.y, "c1d_m3");
+  object["radial"] = json_of(spectra.radial, spectra.radial.unit == "m^3" ? "w_m3" : "c2d_m4");
+  object["rms_height_m"] = spectra.rms_height;
+  object["rms_slope"] = spectra.rms_slope;
+}
+
+}  // namespace
+
+void add_curves(io::Json& object, const PsdCurves& curves) {
+  if (curves.spectra) add_spectra(object, *curves.spectra);
+  object["trusted"] = json_of(curves.trusted);
+  if (curves.acf) object["acf"] = json_of(*curves.acf);
+  if (curves.hdf) {
+    object["hdf"] = {{"x", json_of(curves.hdf->x, curves.mean_square)},
+                     {"y", json_of(curves.hdf->y, curves.mean_square)},
+                     {"radial", json_of(curves.hdf->radial, curves.mean_square)}};
+  }
+}
+
+std::string text_of(const Scan& scan, const PsdCurves& curves) {
+  Facts facts;
+  describe(scan, facts);
+  if (curves.spectra) describe(*curves.spectra, facts);
+  describe(curves.trusted, curves.with_tip, facts);
+  if (curves.acf) {
+    const auto lengths = topography::correlation_lengths(*curves.acf);
+    const auto aspect = lengths.texture_aspect();
+    facts.fact("autocorrelation",
+               fmt::format("Sal {}, Str {}", si(lengths.shortest, "m"),
+                           aspect ? plain(*aspect) : "< " + plain(lengths.texture_bound())));
+  }
+  Table table({"curve", "Hurst exponent", "fitted over", "bins", "rms height", "points"});
+  if (curves.spectra) {
+    table.row(row_of("C1D along x", curves.spectra->x));
+    table.row(row_of("C1D along y", curves.spectra->y));
+    table.row(row_of("C2D radial", curves.spectra->radial));
+  }
+  if (curves.hdf) {
+    table.row(row_of("differences along x", curves.hdf->x, curves.mean_square));
+    table.row(row_of("differences along y", curves.hdf->y, curves.mean_square));
+    table.row(row_of("differences, radial", curves.hdf->radial, curves.mean_square));
+  }
+  return facts.text() + (curves.spectra || curves.hdf ? '\n' + table.text() : "");
+}
+
+std::vector<Curve> columns_of(const PsdCurves& curves) {
+  std::vector<Curve> columns;
+  if (curves.spectra) {
+    add_columns(columns, "x", curves.spectra->x);
+    add_columns(columns, "y", curves.spectra->y);
+    add_columns(columns, "radial", curves.spectra->radial);
+  }
+  if (curves.hdf) {
+    add_columns(columns, "x", curves.hdf->x);
+    add_columns(columns, "y", curves.hdf->y);
+    add_columns(columns, "radial", curves.hdf->radial);
+  }
+  if (curves.acf) {
+    const Grid& grid = curves.acf->grid();
+    columns.push_back({"lag_acf_x_m", "m", "lag, x", lags(grid.nx, grid.dx())});
+    columns.push_back({"acf_x", "1", "autocorrelation, x", profile(*curves.acf, true)});
+    columns.push_back({"lag_acf_y_m", "m", "lag, y", lags(grid.ny, grid.dy())});
+    columns.push_back({"acf_y", "1", "autocorrelation, y", profile(*curves.acf, false)});
+  }
+  return columns;
+}
+
+}  // namespace tabor::cli

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tabor/cli/psd_curves.hpp"
+#include "tabor/cli/scan.hpp"
+#include "tabor/io/json.hpp"
+#include "tabor/topography/correlation.hpp"
+#include "tabor/topography/height_differences.hpp"
+#include "tabor/topography/psd.hpp"
+#include "tabor/topography/reliability.hpp"
+
+namespace tabor::cli {
+
+/// Everything that was asked for; without filled holes there are no spectra.
+struct PsdCurves {
+  std::optional<topography::PowerSpectra> spectra;
+  std::optional<topography::Autocorrelation> acf;
+  std::optional<topography::HeightDifferences> hdf;
+  double mean_square = 0;  ///< [m^2], of the valid heights about their mean
+  topography::TrustedRange trusted;
+  bool with_tip = false;  ///< a tip radius was given
+};
+
+/// Adds all curves with their numbers to the JSON object of the verb.
+void add_curves(io::Json& object, const PsdCurves& curves);
+
+/// Facts and a table for people.
+std::string text_of(const Scan& scan, const PsdCurves& curves);
+
+/// The columns of an output file.
+std::vector<Curve> columns_of(const PsdCurves& curves);
+
+}  // namespace tabor::cli
