@@ -8,7 +8,7 @@ import unittest
 
 from program import ALUMINIUM, SOURCE, ProgramTest
 
-VERBS = ["info", "convert", "params", "psd", "generate", "contact", "lubricate", "friction", "sweep",
+VERBS = ["info", "convert", "params", "psd", "combine", "generate", "contact", "lubricate", "friction", "sweep",
          "ehl", "report", "formats", "cite", "options"]
 
 
@@ -19,8 +19,7 @@ def examples_of(help_text):
 class HelpExamples(ProgramTest):
     def setUp(self):
         super().setUp()
-        shutil.copytree(SOURCE / "surfaces", self.folder / "surfaces",
-                        ignore=lambda _, names: [n for n in names if not n.startswith("edt_before")])
+        shutil.copytree(SOURCE / "surfaces", self.folder / "surfaces")
         shutil.copytree(SOURCE / "examples", self.folder / "examples")
 
     def run_examples(self, verb):

@@ -59,6 +59,19 @@ TEST_P(LevelPolynomial, LeavesAHigherDegree) {
   EXPECT_GT(remove_form(form.height, fit_form(form.height, degree)).abs().maxCoeff(), 1e-8);
 }
 
+TEST_P(LevelPolynomial, TheRestHasTheHeightItHadAsAField) {
+  auto rough = noise(kGrid);
+  punch_holes(rough, 0.2);
+  const auto fit = fit_form(rough.height, GetParam());
+  const double before = rms_height(rough);
+  rough.height = remove_form(rough.height, fit);
+  const double after = rms_height(rough);
+  rough = noise(kGrid);
+  punch_holes(rough, 0.2);
+  EXPECT_LT(after, before);
+  EXPECT_NEAR(rms_without_form(rough.height, fit), after, 1e-12 * after);
+}
+
 INSTANTIATE_TEST_SUITE_P(Degrees, LevelPolynomial, testing::Values(1, 2, 3, 4));
 
 TEST(LevelPlane, FindsTheTiltFromTheValidPointsOfOneHalf) {

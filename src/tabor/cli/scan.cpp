@@ -93,8 +93,8 @@ Scan load_scan(const topography::ScanFile& file, const ScanRequest& request, Con
 void warn_if_not_levelled(const Scan& scan, Context& context) {
   if (scan.surface.periodic || is_levelled(scan.treatment)) return;
   const double before = topography::rms_height(scan.surface);
-  const double after =
-      topography::rms_height(topography::level(scan.surface, topography::Form::plane));
+  const Field& height = scan.surface.height;
+  const double after = topography::rms_without_form(height, topography::fit_form(height, 1));
   context.warn(fmt::format(
       "no levelling: heights are used as read (Sq {}, {} without its plane); add --level plane",
       si(before, "m"), si(after, "m")));

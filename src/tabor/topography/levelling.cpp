@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "tabor/core/error.hpp"
@@ -54,6 +55,45 @@ std::vector<Term> terms_of(int degree) {
   return terms;
 }
 
+/// The rows of a height field without a form, one at a time: no second field is needed.
+class FormRows {
+ public:
+  FormRows(const Field& height, const FormFit& fit)
+      : height_(height),
+        fit_(fit),
+        terms_(terms_of(fit.degree)),
+        along_x_(legendre_table(height.cols())),
+        along_y_(legendre_table(height.rows())) {}
+
+  /// Writes z - form of row y to `rest`, which may be that row itself.
+  void subtract(Index y, double* rest) const {
+    const Legendre row = polynomial(along_y_[static_cast<std::size_t>(y)]);
+    const double* z = &height_(y, 0);
+    for (std::size_t x = 0; x < along_x_.size(); ++x) {
+      rest[x] = z[x] - (row * along_x_[x]).sum();
+    }
+  }
+
+  const std::vector<Term>& terms() const { return terms_; }
+  const std::vector<Legendre>& along_x() const { return along_x_; }
+  const Legendre& along_y(Index y) const { return along_y_[static_cast<std::size_t>(y)]; }
+
+ private:
+  /// The form along one row: coefficients of P_i(u).
+  Legendre polynomial(const Legendre& along_y) const {
+    Legendre row = Legendre::Zero();
+    for (std::size_t t = 0; t < terms_.size(); ++t) {
+      row[terms_[t].i] += fit_.coefficients[t] * along_y[terms_[t].j];
+    }
+    return row;
+  }
+
+  const Field& height_;
+  const FormFit& fit_;
+  std::vector<Term> terms_;
+  std::vector<Legendre> along_x_, along_y_;
+};
+
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxTerms, kMaxTerms>;
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxTerms, 1>;
 
@@ -101,20 +141,20 @@ void add_row(NormalEquations& equations, const RowSums& row, const Legendre& alo
   equations.n_valid += row.n_valid;
 }
 
-/// Blocks of rows are summed in their order, so that the result does not depend on the threads.
-NormalEquations normal_equations(const Field& height, int degree) {
-  const auto terms = terms_of(degree);
-  const auto along_x = legendre_table(height.cols());
-  const auto along_y = legendre_table(height.rows());
-  const auto n_terms = static_cast<Index>(terms.size());
+/// Normal equations for what `removed` leaves of the heights. Blocks of rows are summed in their
+/// order, so that the result does not depend on the threads.
+NormalEquations normal_equations(const Field& height, const FormFit& removed) {
+  const FormRows rows(height, removed);
+  const auto n_terms = static_cast<Index>(rows.terms().size());
   std::vector<NormalEquations> blocks(
       static_cast<std::size_t>((height.rows() + kRowsPerBlock - 1) / kRowsPerBlock),
       NormalEquations(n_terms));
   parallel_for(height.rows(), kRowsPerBlock, [&](Index begin, Index end) {
     auto& block = blocks[static_cast<std::size_t>(begin / kRowsPerBlock)];
+    std::vector<double> rest(static_cast<std::size_t>(height.cols()));
     for (Index y = begin; y < end; ++y) {
-      const auto row = row_sums(&height(y, 0), along_x);
-      add_row(block, row, along_y[static_cast<std::size_t>(y)], terms);
+      rows.subtract(y, rest.data());
+      add_row(block, row_sums(rest.data(), rows.along_x()), rows.along_y(y), rows.terms());
     }
   });
   NormalEquations total(n_terms);
@@ -138,16 +178,6 @@ void check_determined(const NormalEquations& equations, int degree) {
         fmt::format("at least {} points not on one curve", equations.right.size()),
         degree > 0 ? "use a lower degree (--level mean)" : "the surface has no valid point");
   }
-}
-
-/// The fitted polynomial along one row: coefficients of P_i(u).
-Legendre row_polynomial(const FormFit& fit, const std::vector<Term>& terms,
-                        const Legendre& along_y) {
-  Legendre row = Legendre::Zero();
-  for (std::size_t t = 0; t < terms.size(); ++t) {
-    row[terms[t].i] += fit.coefficients[t] * along_y[terms[t].j];
-  }
-  return row;
 }
 
 constexpr std::array<std::pair<std::string_view, Form>, 6> kForms{{{"none", Form::none},
@@ -187,39 +217,40 @@ std::string_view name_of(Form form) { return kForms[static_cast<std::size_t>(for
 FormFit fit_form(const Field& height, int degree) {
   FormFit fit;
   fit.degree = degree;
-  Field rest = height;
   // The second pass fits what rounding left behind: a tilt may be a thousand times the roughness.
   for (int pass = 0; pass < 2; ++pass) {
-    const auto equations = normal_equations(rest, degree);
+    const auto equations = normal_equations(height, fit);
     check_determined(equations, degree);
     const Vector correction = equations.matrix.ldlt().solve(equations.right);
-    FormFit step = fit;
     for (Index t = 0; t < correction.size(); ++t) {
-      step.coefficients[static_cast<std::size_t>(t)] = correction[t];
       fit.coefficients[static_cast<std::size_t>(t)] += correction[t];
     }
     fit.n_valid = equations.n_valid;
-    if (pass == 0) {
-      rest = remove_form(rest, step);
-    }
   }
   return fit;
 }
 
-Field remove_form(const Field& height, const FormFit& fit) {
-  const auto terms = terms_of(fit.degree);
-  const auto along_x = legendre_table(height.cols());
-  const auto along_y = legendre_table(height.rows());
-  Field result(height.rows(), height.cols());
-  parallel_for(height.rows(), kRowsPerBlock, [&](Index begin, Index end) {
-    for (Index y = begin; y < end; ++y) {
-      const auto row = row_polynomial(fit, terms, along_y[static_cast<std::size_t>(y)]);
-      for (Index x = 0; x < height.cols(); ++x) {
-        result(y, x) = height(y, x) - (row * along_x[static_cast<std::size_t>(x)]).sum();
-      }
+Field remove_form(Field height, const FormFit& fit) {
+  const FormRows rows(height, fit);
+  for_each_row(height.rows(), [&](Index y) { rows.subtract(y, &height(y, 0)); });
+  return height;
+}
+
+double rms_without_form(const Field& height, const FormFit& fit) {
+  const FormRows rows(height, fit);
+  // n, sum and sum of squares; a fitted form leaves a mean near zero, so nothing is lost in
+  // squares.
+  const auto sums = sum_over_rows<3>(height.rows(), [&](Index y) {
+    std::vector<double> rest(static_cast<std::size_t>(height.cols()));
+    rows.subtract(y, rest.data());
+    Eigen::Array3d row = Eigen::Array3d::Zero();
+    for (const double z : rest) {
+      if (!std::isnan(z)) row += Eigen::Array3d(1, z, z * z);
     }
+    return row;
   });
-  return result;
+  const double mean = sums[1] / sums[0];
+  return std::sqrt(std::max(0.0, sums[2] / sums[0] - mean * mean));
 }
 
 Topography level(Topography topography, Form form) {
@@ -229,7 +260,7 @@ Topography level(Topography topography, Form form) {
   }
   const auto fit = fit_form(topography.height, degree_of(form));
   const double rms_before = rms_height(topography);
-  topography.height = remove_form(topography.height, fit);
+  topography.height = remove_form(std::move(topography.height), fit);
   topography.periodic = topography.periodic && form == Form::mean;  // a tilt does not tile
   topography.history.push_back(
       fmt::format("level={}: {}", name_of(form), describe(topography, fit, rms_before)));

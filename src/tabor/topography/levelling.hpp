@@ -31,8 +31,12 @@ struct FormFit {
 /// Fits the form to all valid points. Throws InputError when they do not determine it.
 FormFit fit_form(const Field& height, int degree);
 
-/// height minus the fitted form; holes stay holes.
-Field remove_form(const Field& height, const FormFit& fit);
+/// height minus the fitted form; holes stay holes. Hand over heights no longer needed by std::move.
+Field remove_form(Field height, const FormFit& fit);
+
+/// Root mean square [m] of what the form leaves, about its mean, over the valid points. Sq of
+/// remove_form() without that field. NaN if all are holes.
+double rms_without_form(const Field& height, const FormFit& fit);
 
 /// F-operator (ISO 25178-3): the topography without its form, with a line in the history.
 Topography level(Topography topography, Form form);
