@@ -21,8 +21,9 @@ enum class LevelMatch { none, offset, plane };
 
 struct CombineOptions {
   CombineMode mode = CombineMode::wear;
-  bool search = true;             ///< for the shift (wear, difference)
-  std::optional<double> shift_x = {};  ///< [m], instead; see Registration. Default without search: 0;
+  bool search = true;  ///< for the shift (wear, difference)
+  std::optional<double> shift_x =
+      {};  ///< [m], instead; see Registration. Default without search: 0;
   std::optional<double> shift_y = {};  ///< composite: centre on centre
   LevelMatch level = LevelMatch::plane;
   double threshold = 4;  ///< a change counts from here on, in standard deviations of the noise
