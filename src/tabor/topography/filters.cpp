@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -145,8 +146,9 @@ Index inside(Index x, Index n, Beyond beyond) {
 
 /// Weighted sums along one row.
 void smooth_row(double* row, Index n, const std::vector<double>& weights, Beyond beyond) {
-  const auto halo = static_cast<Index>(weights.size()) - 1;
   const bool open = beyond == Beyond::nothing;
+  const Index reach = std::ssize(weights) - 1;
+  const Index halo = open ? std::min(reach, n - 1) : reach;  // beyond n - 1 there is nothing to add
   Eigen::ArrayXd extended = Eigen::ArrayXd::Zero(n + 2 * halo);
   for (Index x = open ? 0 : -halo; x < (open ? n : n + halo); ++x) {
     extended[x + halo] = row[inside(x, n, beyond)];
