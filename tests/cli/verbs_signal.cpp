@@ -96,7 +96,7 @@ TEST_F(SignalVerbs, DespikeSaysHowManyItTook) {
   scan.height(40, 60) += 20e-6;
   topography::write(scan, folder_ / "spike.sdf");
   const Outcome told = run_tabor({"params", file("spike.sdf"), "--despike", "auto"});
-  EXPECT_THAT(told.err, HasSubstr("despike took 1 spikes out of 12288 heights"));
+  EXPECT_THAT(told.err, HasSubstr("despike took 1 spike out of 12288 heights"));
   EXPECT_EQ(run_tabor({"params", file("spike.sdf"), "--despike", "6,4"}).code, 2);
 }
 

@@ -151,9 +151,10 @@ void doubt_spikes(const Field& height, std::vector<std::string>& list) {
   const Index spikes = count_spikes(height);
   if (spikes == 0) return;
   list.push_back(
-      fmt::format("{} spikes ({:.2g} %): slopes and contact depend on them; --despike auto "
+      fmt::format("{} spike{} ({:.2g} %): slopes and contact depend on them; --despike auto "
                   "takes them out",
-                  spikes, 100 * static_cast<double>(spikes) / static_cast<double>(height.size())));
+                  spikes, spikes == 1 ? "" : "s",
+                  100 * static_cast<double>(spikes) / static_cast<double>(height.size())));
 }
 
 /// Heights above their least-squares plane; as they are if they do not determine one. The plane of
