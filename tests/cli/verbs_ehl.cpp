@@ -33,6 +33,15 @@ TEST(SweepAxis, ReadsRangesInTheUnitOfTheirBeginning) {
   EXPECT_NEAR(axis.numbers()[1], std::sqrt(0.05), 1e-6);
   EXPECT_EQ(parse_axis("grid.nodes=100..300:3").values[1], "200");
   EXPECT_FALSE(parse_axis("ball.speed=0.1 m/s").is_range);
+  EXPECT_EQ(parse_axis("a=-1..1:3").values[1], "0");
+}
+
+TEST(SweepAxis, TakesTwoDotsInAPathForAFolder) {
+  for (const char* path : {"../scan.x3p", "../../scan 2.x3p", "scans/../scan.x3p", "1..scan.x3p"}) {
+    const SweepAxis axis = parse_axis(std::string("roughness.file=") + path);
+    EXPECT_FALSE(axis.is_range) << path;
+    EXPECT_EQ(axis.values, std::vector<std::string>{path});
+  }
 }
 
 TEST(SweepAxis, RefusesWhatIsNoRange) {

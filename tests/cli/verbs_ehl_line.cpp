@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
 #include "tabor/io/hdf5.hpp"
@@ -63,6 +65,34 @@ TEST(EhlLine, RefusesWithTheReason) {
   refused("film.cavitation=penatly", "penalty");
   refused("roughness.height=10nm", "roughness.width");
   refused("roughness.amplitude=10nm", "roughness.wavelength");
+}
+
+TEST(EhlLine, KnowsTheViscosityOfGlycerolWater) {
+  const test::Folder folder;
+  const std::string file = folder / "mixture.toml";
+  const auto film_of = [&](const std::string& lubricant) {
+    std::ofstream(file) << "cylinder = {radius = \"2.5 mm\", load_per_length = \"5000 N/m\"}\n"
+                           "solids = {youngs_modulus = \"1.05 GPa\", poissons_ratio = 0.35}\n"
+                           "motion = {entrainment_speed = \"7.9 mm/s\"}\ngrid = {nodes = 300}\n"
+                           "[lubricant]\npressure_viscosity = \"5.9e-9 1/Pa\"\n"
+                        << lubricant;
+    return run_tabor({"ehl", "line", file, "--json"});
+  };
+  const std::string mixture = "glycerol_fraction = 0.95\n";
+  const Outcome given = film_of("viscosity = \"374.0 mPa s\"\n");  // Cheng 2008 at 24 degC
+  const Outcome celsius = film_of(mixture + "temperature = \"24 degC\"\n");
+  const Outcome kelvin = film_of(mixture + "temperature = \"297.15 K\"\n");
+  ASSERT_EQ(celsius.code, 0) << celsius.err;
+  const auto film = [](const Outcome& outcome) {
+    return io::Json::parse(outcome.out)["min_film_m"].get<double>();
+  };
+  EXPECT_NEAR(film(celsius) / film(given), 1, 5e-4);
+  EXPECT_DOUBLE_EQ(film(celsius), film(kelvin));
+  for (const char* bad : {"temperature = \"24 degC\"\nviscosity = \"1 Pa s\"\n", "",
+                          "temperature = \"140 degC\"\n", "temperature = \"hot degC\"\n"}) {
+    EXPECT_EQ(film_of(mixture + bad).code, 3) << bad;
+  }
+  EXPECT_EQ(film_of("viscosity = \"1 Pa s\"\ntemperature = \"24 degC\"\n").code, 3);
 }
 
 TEST(EhlLine, ShowsAnAsperityOnlyWithTheNodesForIt) {

@@ -175,8 +175,6 @@ TEST(SolveLine, ConvergesFromHertzOverTheWholeRange) {
         const LineResult result = solve_line(problem);
         EXPECT_TRUE(result.converged) << modulus << " " << speed << " " << viscosity;
         most = std::max(most, result.newton_iterations);
-        if (std::getenv("LDBG"))
-          fmt::print("{} {} {} it {}\n", modulus, speed, viscosity, result.newton_iterations);
       }
     }
   }

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/material/lubricant_mixture.hpp"
 #include "tabor/material/solid.hpp"
 
 namespace tabor::cli {
@@ -74,9 +76,47 @@ const std::vector<std::string>& solids_keys() {
   return keys;
 }
 
+namespace {
+
+constexpr double kIcePoint = 273.15;  // K
+
+/// "24 degC" or a quantity in kelvin. Degrees Celsius are no unit like the others: two of them do
+/// not make twice the temperature.
+double read_temperature(const io::Config& config, std::string_view key) {
+  const std::string text = config.text(key);
+  for (const std::string_view unit : {"degC", "°C"}) {
+    if (!text.ends_with(unit)) continue;
+    const auto celsius = parse_number(trim(text.substr(0, text.size() - unit.size())));
+    if (celsius) return *celsius + kIcePoint;
+  }
+  return positive_quantity(config, key, dimension::temperature);
+}
+
+/// [Pa s]: as given, or of the glycerol-water mixture that is.
+double read_ambient_viscosity(const io::Config& config) {
+  const bool is_mixture = config.has("lubricant.glycerol_fraction");
+  if (is_mixture && config.has("lubricant.viscosity")) {
+    throw InputError(config.place("lubricant.glycerol_fraction"), "beside viscosity",
+                     "one of the two", "glycerol_fraction and temperature give the viscosity");
+  }
+  if (!is_mixture) {
+    if (config.has("lubricant.temperature")) {
+      throw InputError(config.place("lubricant.temperature"), "without glycerol_fraction",
+                       "both or none", "a given viscosity is taken as it is");
+    }
+    return positive_quantity(config, "lubricant.viscosity", dimension::viscosity);
+  }
+  const double kelvin = read_temperature(config, "lubricant.temperature");
+  return at_key(config, "lubricant.glycerol_fraction", [&] {
+    return material::glycerol_water_viscosity(config.number("lubricant.glycerol_fraction"), kelvin);
+  });
+}
+
+}  // namespace
+
 material::Lubricant read_lubricant(const io::Config& config, const std::string& usual_law) {
   material::Lubricant lubricant;
-  const double ambient = positive_quantity(config, "lubricant.viscosity", dimension::viscosity);
+  const double ambient = read_ambient_viscosity(config);
   const auto law = at_key(config, "lubricant.viscosity_law", [&] {
     return material::parse_viscosity_law(text_or(config, "lubricant.viscosity_law", usual_law));
   });
@@ -94,9 +134,9 @@ material::Lubricant read_lubricant(const io::Config& config, const std::string& 
 }
 
 const std::vector<std::string>& lubricant_keys() {
-  static const std::vector<std::string> keys = {"lubricant.viscosity", "lubricant.viscosity_law",
-                                                "lubricant.pressure_viscosity",
-                                                "lubricant.density_law"};
+  static const std::vector<std::string> keys = {
+      "lubricant.viscosity",     "lubricant.glycerol_fraction",  "lubricant.temperature",
+      "lubricant.viscosity_law", "lubricant.pressure_viscosity", "lubricant.density_law"};
   return keys;
 }
 

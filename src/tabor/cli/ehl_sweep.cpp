@@ -21,6 +21,18 @@ constexpr double kMostValues = 10000;
       "--set {}: {}; write KEY=VALUE, or a range like ball.speed=0.05m/s..1m/s:log:5", text, why));
 }
 
+/// Two numbers around "..", with or without units: "../scan.x3p" is a file.
+bool is_range(std::string_view value) {
+  const std::size_t dots = value.find("..");
+  if (dots == std::string_view::npos) return false;
+  const auto begins_with_number = [](std::string_view text) {
+    const std::string_view end = trim(text);
+    const std::size_t digit = end.find_first_not_of("+-.");
+    return digit != std::string_view::npos && digit <= 2 && end[digit] >= '0' && end[digit] <= '9';
+  };
+  return begins_with_number(value.substr(0, dots)) && begins_with_number(value.substr(dots + 2));
+}
+
 struct Range {
   std::string begin, end;
   bool is_logarithmic = false;
@@ -100,7 +112,7 @@ SweepAxis parse_axis(const std::string& text) {
   SweepAxis axis;
   axis.key = std::string(trim(text.substr(0, equals)));
   const std::string value(trim(text.substr(equals + 1)));
-  axis.is_range = value.find("..") != std::string::npos;
+  axis.is_range = is_range(value);
   try {
     axis.values =
         axis.is_range ? values_of(text, parse_range(text, value)) : std::vector<std::string>{value};

@@ -16,7 +16,8 @@ struct SweepAxis {
 };
 
 /// "ball.speed=0.2m/s", "ball.speed=0.05m/s..1m/s:log:5", "grid.nodes=100..300:3" (linear unless it
-/// says log; 5 values unless it says how many). Throws UsageError.
+/// says log; 5 values unless it says how many). Two dots that do not stand between numbers belong
+/// to a path. Throws UsageError.
 SweepAxis parse_axis(const std::string& text);
 
 /// All combinations, the last axis fastest: for each, the place of its value on each axis.
