@@ -2,26 +2,18 @@
 
 #include <cassert>
 
-#include "tabor/material/lubricant_names.hpp"
+#include "tabor/core/names.hpp"
 
 namespace tabor::material {
+namespace {
 
-DensityLaw parse_density_law(std::string_view text) {
-  return detail::parse_name<DensityLaw>(
-      text, "density law", {"constant", "dowson-higginson", "rounded-dowson-higginson"});
-}
+constexpr auto kLaws =
+    names<DensityLaw>("constant", "dowson-higginson", "rounded-dowson-higginson");
 
-std::string_view name(DensityLaw law) {
-  switch (law) {
-    case DensityLaw::constant:
-      return "constant";
-    case DensityLaw::dowson_higginson:
-      return "dowson-higginson";
-    case DensityLaw::rounded_dowson_higginson:
-      return "rounded-dowson-higginson";
-  }
-  return "";
-}
+}  // namespace
+
+DensityLaw parse_density_law(std::string_view text) { return kLaws.parse(text, "density law"); }
+std::string_view name(DensityLaw law) { return kLaws.of(law); }
 
 RelativeDensity relative_density(DensityLaw law) {
   switch (law) {

@@ -6,10 +6,12 @@
 #include <cmath>
 
 #include "tabor/core/error.hpp"
-#include "tabor/material/lubricant_names.hpp"
+#include "tabor/core/names.hpp"
 
 namespace tabor::material {
 namespace {
+
+constexpr auto kLaws = names<ShearLaw>("newtonian", "ree-eyring", "limiting");
 
 // Below this the quotients for the secant lose digits and a series has them all.
 constexpr double kSmall = 1e-2;
@@ -106,21 +108,8 @@ LimitingShear limiting_shear(double ambient_limit, double pressure_coefficient) 
   return {ambient_limit, pressure_coefficient};
 }
 
-ShearLaw parse_shear_law(std::string_view text) {
-  return detail::parse_name<ShearLaw>(text, "shear law", {"newtonian", "ree-eyring", "limiting"});
-}
-
-std::string_view name(ShearLaw law) {
-  switch (law) {
-    case ShearLaw::newtonian:
-      return "newtonian";
-    case ShearLaw::ree_eyring:
-      return "ree-eyring";
-    case ShearLaw::limiting:
-      return "limiting";
-  }
-  return "";
-}
+ShearLaw parse_shear_law(std::string_view text) { return kLaws.parse(text, "shear law"); }
+std::string_view name(ShearLaw law) { return kLaws.of(law); }
 
 ShearLaw law_of(const Shear& shear) {
   return static_cast<ShearLaw>(shear.index());  // same order

@@ -6,10 +6,12 @@
 #include <cmath>
 
 #include "tabor/core/error.hpp"
-#include "tabor/material/lubricant_names.hpp"
+#include "tabor/core/names.hpp"
 
 namespace tabor::material {
 namespace {
+
+constexpr auto kLaws = names<ViscosityLaw>("constant", "barus", "roelands");
 
 constexpr double kPole = 9.67;             // -ln of the viscosity where all isotherms meet [Pa s]
 constexpr double kPressureScale = 5.1e-9;  // [1/Pa], that is 1 / 196 MPa
@@ -122,20 +124,9 @@ RoelandsViscosity roelands_viscosity_from_z(double ambient, double z,
 }
 
 ViscosityLaw parse_viscosity_law(std::string_view text) {
-  return detail::parse_name<ViscosityLaw>(text, "viscosity law", {"constant", "barus", "roelands"});
+  return kLaws.parse(text, "viscosity law");
 }
-
-std::string_view name(ViscosityLaw law) {
-  switch (law) {
-    case ViscosityLaw::constant:
-      return "constant";
-    case ViscosityLaw::barus:
-      return "barus";
-    case ViscosityLaw::roelands:
-      return "roelands";
-  }
-  return "";
-}
+std::string_view name(ViscosityLaw law) { return kLaws.of(law); }
 
 ViscosityLaw law_of(const Viscosity& viscosity) {
   return static_cast<ViscosityLaw>(viscosity.index());  // same order

@@ -3,36 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/names.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/topography/geometry.hpp"
 
 namespace tabor::topography {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, CombineMode>, 3> kModes{
-    {{"wear", CombineMode::wear},
-     {"difference", CombineMode::difference},
-     {"composite", CombineMode::composite}}};
-constexpr std::array<std::pair<std::string_view, LevelMatch>, 3> kMatches{
-    {{"none", LevelMatch::none}, {"offset", LevelMatch::offset}, {"plane", LevelMatch::plane}}};
-
-template <typename Table>
-auto find(const Table& table, std::string_view name)
-    -> std::optional<typename Table::value_type::second_type> {
-  for (const auto& [known, value] : table) {
-    if (known == name) {
-      return value;
-    }
-  }
-  return std::nullopt;
-}
+constexpr auto kModes = names<CombineMode>("wear", "difference", "composite");
+constexpr auto kMatches = names<LevelMatch>("none", "offset", "plane");
 
 /// A on pixels as large as B's, where those are larger by half or more.
 Topography onto_coarser_pixels(Topography a, const Grid& b) {
@@ -136,12 +121,10 @@ std::string line_of(const Combination& c, const CombineOptions& options, const T
 
 }  // namespace
 
-std::optional<CombineMode> combine_mode_from(std::string_view name) { return find(kModes, name); }
-std::string_view name_of(CombineMode mode) { return kModes[static_cast<std::size_t>(mode)].first; }
-std::optional<LevelMatch> level_match_from(std::string_view name) { return find(kMatches, name); }
-std::string_view name_of(LevelMatch match) {
-  return kMatches[static_cast<std::size_t>(match)].first;
-}
+std::optional<CombineMode> combine_mode_from(std::string_view name) { return kModes.find(name); }
+std::string_view name_of(CombineMode mode) { return kModes.of(mode); }
+std::optional<LevelMatch> level_match_from(std::string_view name) { return kMatches.find(name); }
+std::string_view name_of(LevelMatch match) { return kMatches.of(match); }
 
 Combination combine(const Topography& first, const Topography& second,
                     const CombineOptions& options, const Observer& observer) {

@@ -2,20 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/names.hpp"
 #include "tabor/topography/harmonic.hpp"
 #include "tabor/topography/rows.hpp"
 
 namespace tabor::topography {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, Fill>, 3> kFills{
-    {{"harmonic", Fill::harmonic}, {"nearest", Fill::nearest}, {"mean", Fill::mean}}};
+constexpr auto kFills = names<Fill>("harmonic", "nearest", "mean");
 
 constexpr Index kNoRow = -1;
 using RowMap = Eigen::Array<Index, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -125,16 +124,8 @@ std::string describe(const FillResult& result, Fill fill, Index n_pixels) {
 
 }  // namespace
 
-std::optional<Fill> fill_from(std::string_view name) {
-  for (const auto& [known, fill] : kFills) {
-    if (known == name) {
-      return fill;
-    }
-  }
-  return std::nullopt;
-}
-
-std::string_view name_of(Fill fill) { return kFills[static_cast<std::size_t>(fill)].first; }
+std::optional<Fill> fill_from(std::string_view name) { return kFills.find(name); }
+std::string_view name_of(Fill fill) { return kFills.of(fill); }
 
 FillResult fill_holes(const Field& height, const Grid& grid, Fill fill, const Observer& observer) {
   const Index n_missing = height.isNaN().count();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/names.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/topography/parameters.hpp"
@@ -180,12 +181,7 @@ void check_determined(const NormalEquations& equations, int degree) {
   }
 }
 
-constexpr std::array<std::pair<std::string_view, Form>, 6> kForms{{{"none", Form::none},
-                                                                   {"mean", Form::mean},
-                                                                   {"plane", Form::plane},
-                                                                   {"poly2", Form::poly2},
-                                                                   {"poly3", Form::poly3},
-                                                                   {"poly4", Form::poly4}}};
+constexpr auto kForms = names<Form>("none", "mean", "plane", "poly2", "poly3", "poly4");
 
 int degree_of(Form form) { return static_cast<int>(form) - static_cast<int>(Form::mean); }
 
@@ -203,16 +199,8 @@ std::string describe(const Topography& topography, const FormFit& fit, double rm
 
 }  // namespace
 
-std::optional<Form> form_from(std::string_view name) {
-  for (const auto& [known, form] : kForms) {
-    if (known == name) {
-      return form;
-    }
-  }
-  return std::nullopt;
-}
-
-std::string_view name_of(Form form) { return kForms[static_cast<std::size_t>(form)].first; }
+std::optional<Form> form_from(std::string_view name) { return kForms.find(name); }
+std::string_view name_of(Form form) { return kForms.of(form); }
 
 FormFit fit_form(const Field& height, int degree) {
   FormFit fit;

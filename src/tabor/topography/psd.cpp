@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/names.hpp"
 #include "tabor/spectral/fft.hpp"
 #include "tabor/spectral/strips.hpp"
 #include "tabor/topography/rows.hpp"
@@ -23,12 +24,8 @@ using std::numbers::pi;
 using ComplexField =
     Eigen::Array<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr std::array<std::pair<std::string_view, PsdConvention>, 3> kConventions{
-    {{"jacobs", PsdConvention::jacobs},
-     {"persson", PsdConvention::persson},
-     {"gwyddion", PsdConvention::gwyddion}}};
-constexpr std::array<std::pair<std::string_view, PsdWindow>, 2> kWindows{
-    {{"none", PsdWindow::none}, {"hann", PsdWindow::hann}}};
+constexpr auto kConventions = names<PsdConvention>("jacobs", "persson", "gwyddion");
+constexpr auto kWindows = names<PsdWindow>("none", "hann");
 
 /// How often frequency k of a half spectrum of n samples occurs in the full one.
 double multiplicity(Index k, Index n) { return k == 0 || 2 * k == n ? 1 : 2; }
@@ -284,29 +281,14 @@ void check_complete(const Topography& topography) {
   }
 }
 
-template <typename Table>
-auto find(const Table& table, std::string_view name)
-    -> std::optional<typename Table::value_type::second_type> {
-  for (const auto& [known, value] : table) {
-    if (known == name) {
-      return value;
-    }
-  }
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::optional<PsdConvention> psd_convention_from(std::string_view name) {
-  return find(kConventions, name);
+  return kConventions.find(name);
 }
-std::optional<PsdWindow> psd_window_from(std::string_view name) { return find(kWindows, name); }
-std::string_view name_of(PsdConvention convention) {
-  return kConventions[static_cast<std::size_t>(convention)].first;
-}
-std::string_view name_of(PsdWindow window) {
-  return kWindows[static_cast<std::size_t>(window)].first;
-}
+std::optional<PsdWindow> psd_window_from(std::string_view name) { return kWindows.find(name); }
+std::string_view name_of(PsdConvention convention) { return kConventions.of(convention); }
+std::string_view name_of(PsdWindow window) { return kWindows.of(window); }
 
 PowerSpectra power_spectra(const Topography& topography, const PsdOptions& options) {
   check_complete(topography);
