@@ -295,11 +295,12 @@ void declare_options(OptionSet& set, Request& request) {
 Verb ehl_verb() {
   return {.name = "ehl",
           .arguments = "PROGRAM CASE.toml [options]",
-          .summary = "films between elastic bodies: impact on a lubricated flat, squeeze and slide",
+          .summary = "films between elastic bodies: impact, squeeze and slide, line contact with wear",
           .details = details(),
           .examples = {"tabor ehl impact examples/09_ball_drop/safa_gohar.toml -o impact.h5",
                        "tabor ehl impact examples/10_restitution_map/ball.toml "
-                       "--set ball.speed=0.05m/s..1m/s:log:3 --set grid.nodes=100 --json"},
+                       "--set ball.speed=0.05m/s..1m/s:log:3 --set grid.nodes=100 --json",
+                       "tabor ehl line examples/11_hdpe_glycerol/hdpe.toml"},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_options(set, *request);
