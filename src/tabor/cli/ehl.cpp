@@ -295,7 +295,7 @@ void declare_options(OptionSet& set, Request& request) {
 Verb ehl_verb() {
   return {.name = "ehl",
           .arguments = "PROGRAM CASE.toml [options]",
-          .summary = "films between elastic bodies: impact, squeeze and slide, line contact with wear",
+          .summary = "films under load: impact, squeeze and slide, line contact with wear",
           .details = details(),
           .examples = {"tabor ehl impact examples/09_ball_drop/safa_gohar.toml -o impact.h5",
                        "tabor ehl impact examples/10_restitution_map/ball.toml "

@@ -22,8 +22,8 @@ bool flag_or(const io::Config& config, std::string_view key, bool otherwise);
 double read_effective_modulus(const io::Config& config);
 const std::vector<std::string>& solids_keys();
 
-/// [lubricant]: viscosity, or glycerol_fraction and temperature; viscosity_law, pressure_viscosity, density_law. `usual_law` is the
-/// viscosity law where the case names none.
+/// [lubricant]: viscosity, or glycerol_fraction and temperature; viscosity_law, pressure_viscosity,
+/// density_law. `usual_law` is the viscosity law where the case names none.
 material::Lubricant read_lubricant(const io::Config& config, const std::string& usual_law);
 const std::vector<std::string>& lubricant_keys();
 
