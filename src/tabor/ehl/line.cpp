@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "tabor/core/error.hpp"
 #include "tabor/ehl/ball_film.hpp"
@@ -19,6 +18,7 @@ constexpr double kMinNodesPerHalfWidth = 8;
 /// The film of the first guess over Moes': Newton's method comes down safely from a thick film,
 /// where the flow depends on the pressure gradient, and may jump far from a thin one.
 constexpr double kFirstFilms[] = {10, 3, 40};
+constexpr double kFewestInletNodes = 0.1;
 constexpr double kFirstStep = 0.5;  // of the continuation in the pressure coefficient
 constexpr double kSmallestStep = 1.0 / 64;
 
@@ -48,16 +48,6 @@ void check_domain(const LineProblem& problem) {
   }
 }
 
-void check_length(const LineProblem& problem, const Eigen::ArrayXd& x, const char* what,
-                  double length) {
-  const double shortest = kMinNodesPerHalfWidth * (x[1] - x[0]);
-  if (!(length >= shortest)) {
-    throw InputError(what, fmt::format("{:.4g} m", length),
-                     fmt::format("{:.4g} m or more with {} nodes", shortest, problem.nodes),
-                     "give more nodes");
-  }
-}
-
 /// Length of the inlet over which the film is built up, where the gap of Hertz is as large as the
 /// film [m].
 double inlet_length(const LineProblem& problem, double film) {
@@ -67,17 +57,26 @@ double inlet_length(const LineProblem& problem, double film) {
   return std::min(elastic, std::sqrt(2 * problem.radius * film));
 }
 
-double interpolated(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, double at) {
-  const double place = (at - x[0]) / (x[1] - x[0]);
-  const Index i = std::clamp(static_cast<Index>(place), Index{0}, x.size() - 2);
-  const double share = place - static_cast<double>(i);
-  return (1 - share) * y[i] + share * y[i + 1];
+/// Nodes in the inlet of a film of this thickness.
+double inlet_nodes(const LineProblem& problem, double film, double spacing) {
+  return inlet_length(problem, film) / spacing;
+}
+
+/// Whether the inlet of the film that was found exists on the grid. Where it does not, a film a
+/// thousand times too thin can balance as well, and Newton's method may come to it.
+bool sees_inlet(const LineProblem& problem, const LineFilm& film, const LineState& state) {
+  const Eigen::ArrayXd& x = film.x();
+  const double spacing = x[1] - x[0];
+  const double half_width = std::max(spacing, hertz_of(problem).half_width);
+  const Eigen::ArrayXd inside = (x.abs() <= half_width).cast<double>();
+  const double thickness = (inside * state.film).sum() / inside.sum();
+  return state.film.minCoeff() > 0 && inlet_nodes(problem, thickness, spacing) >= kFewestInletNodes;
 }
 
 std::vector<std::string> doubts_of(const LineProblem& problem, const LineResult& result) {
   std::vector<std::string> doubts = material::doubts(problem.lubricant, result.max_pressure);
   const double nodes =
-      inlet_length(problem, film_groups_of(problem).moes_min_film()) / (result.x[1] - result.x[0]);
+      inlet_nodes(problem, film_groups_of(problem).moes_min_film(), result.x[1] - result.x[0]);
   if (nodes < 2) {
     doubts.push_back(fmt::format(
         "the grid has {:.2g} nodes where the film is built up: its thickness is uncertain; give "
@@ -94,12 +93,14 @@ LineFilm::Outcome operator+(const LineFilm::Outcome& before, LineFilm::Outcome n
 }
 
 /// From Hertz' pressure and films of some thickness.
-LineFilm::Outcome solve_from_hertz(const LineFilm& film, double moes_film, LineState& state,
-                                   const Observer& observer) {
+LineFilm::Outcome solve_from_hertz(const LineProblem& problem, const LineFilm& film,
+                                   LineState& state, const Observer& observer) {
+  const double moes_film = film_groups_of(problem).moes_min_film();
   LineFilm::Outcome outcome;
   for (const double first : kFirstFilms) {
     state = film.hertz_start(first * moes_film);
     outcome = outcome + film.solve(state, {}, kMaxIterations, observer);
+    outcome.converged = outcome.converged && sees_inlet(problem, film, state);
     if (outcome.converged) break;
   }
   return outcome;
@@ -134,14 +135,15 @@ LineFilm::Outcome ramp(LineFilm& film, LineState& state, const std::function<voi
 
 /// From Hertz' pressure; if that fails, from the film of smooth bodies and, if that fails too, of a
 /// viscosity that does not grow with pressure.
-LineFilm::Outcome solve_cold(LineFilm& film, const Eigen::ArrayXd& roughness, double moes_film,
-                             LineState& state, const Observer& observer) {
-  LineFilm::Outcome outcome = solve_from_hertz(film, moes_film, state, observer);
+LineFilm::Outcome solve_cold(const LineProblem& problem, LineFilm& film,
+                             const Eigen::ArrayXd& roughness, LineState& state,
+                             const Observer& observer) {
+  LineFilm::Outcome outcome = solve_from_hertz(problem, film, state, observer);
   if (outcome.converged) return outcome;
   if (roughness.size() > 0) {
     const Eigen::ArrayXd rough = film.shape;
     film.shape = rough + roughness;
-    outcome = outcome + solve_cold(film, {}, moes_film, state, observer);
+    outcome = outcome + solve_cold(problem, film, {}, state, observer);
     if (!outcome.converged) return outcome;
     const auto roughen = [&](double share) { film.shape = rough + (1 - share) * roughness; };
     return outcome + ramp(film, state, roughen, observer);
@@ -149,7 +151,7 @@ LineFilm::Outcome solve_cold(LineFilm& film, const Eigen::ArrayXd& roughness, do
   const material::Viscosity viscosity = film.lubricant.viscosity;
   if (!(material::pressure_coefficient(viscosity) > 0)) return outcome;
   film.lubricant.viscosity = with_share_of_coefficient(viscosity, 0);
-  outcome = outcome + solve_from_hertz(film, moes_film, state, observer);
+  outcome = outcome + solve_from_hertz(problem, film, state, observer);
   if (!outcome.converged) return outcome;
   const auto thicken = [&](double share) {
     film.lubricant.viscosity = with_share_of_coefficient(viscosity, share);
@@ -181,49 +183,10 @@ Eigen::ArrayXd line_nodes(const LineProblem& problem) {
   return Eigen::ArrayXd::LinSpaced(problem.nodes, -inlet, outlet);
 }
 
-Eigen::ArrayXd line_asperity(const LineProblem& problem, double height, double width,
-                             double place) {
-  const Eigen::ArrayXd x = line_nodes(problem);
-  check_length(problem, x, "width of an asperity", width);
-  return x.unaryExpr([=](double at) {
-    const double wave = std::cos(std::numbers::pi * (at - place) / width);
-    return std::abs(at - place) < width / 2 ? height * wave * wave : 0.0;
-  });
-}
-
-Eigen::ArrayXd line_waves(const LineProblem& problem, double amplitude, double wavelength) {
-  const Eigen::ArrayXd x = line_nodes(problem);
-  check_length(problem, x, "wavelength of a roughness", wavelength);
-  return amplitude * (2 * std::numbers::pi / wavelength * x).sin();
-}
-
-Eigen::ArrayXd line_profile(const LineProblem& problem, const Eigen::ArrayXd& height,
-                            double spacing) {
-  const Eigen::ArrayXd x = line_nodes(problem);
-  const double length = spacing * static_cast<double>(height.size() - 1);
-  const double needed = x[x.size() - 1] - x[0];
-  if (!(length >= needed)) {
-    throw InputError("profile of a roughness", fmt::format("{:.4g} m long", length),
-                     fmt::format("the domain of the film or more, {:.4g} m", needed),
-                     "a longer profile, or a shorter grid.inlet and grid.outlet");
-  }
-  if (!height.isFinite().all()) {
-    throw InputError("profile of a roughness", "holes", "none", "fill them first: tabor convert");
-  }
-  const Eigen::ArrayXd place = Eigen::ArrayXd::LinSpaced(height.size(), 0, length);
-  const double middle = (length - needed) / 2 - x[0];
-  Eigen::ArrayXd heights =
-      x.unaryExpr([&](double at) { return interpolated(place, height, at + middle); });
-  // Level what is used: a height or a slope of the profile would be taken for one of the cylinder.
-  const Eigen::ArrayXd centred = x - x.mean();
-  heights -= heights.mean();
-  return heights - (heights * centred).sum() / centred.square().sum() * centred;
-}
-
 void measure_line(const LineProblem& problem, LineResult& result) {
   const double spacing = result.x[1] - result.x[0];
   result.min_film = smallest_film(result.film);
-  result.central_film = interpolated(result.x, result.film, 0);
+  result.central_film = value_between_nodes(result.x, result.film, 0);
   result.max_pressure = result.pressure.maxCoeff();
   material::NodeLaws laws;
   const auto n = static_cast<std::size_t>(result.pressure.size());
@@ -272,8 +235,7 @@ LineResult solve_line(const LineProblem& problem, const Observer& observer) {
   check_line(problem);
   LineFilm film(problem);
   LineState state;
-  const LineFilm::Outcome outcome =
-      solve_cold(film, problem.roughness, film_groups_of(problem).moes_min_film(), state, observer);
+  const LineFilm::Outcome outcome = solve_cold(problem, film, problem.roughness, state, observer);
   LineResult result;
   result.x = film.x();
   result.pressure = state.pressure;
@@ -281,7 +243,7 @@ LineResult solve_line(const LineProblem& problem, const Observer& observer) {
   result.separation = state.separation;
   result.newton_iterations = outcome.iterations;
   result.n_products = outcome.n_products;
-  result.converged = outcome.converged;
+  result.converged = outcome.converged && sees_inlet(problem, film, state);
   result.mass_error = outcome.mass_error;
   result.load_error = outcome.load_error;
   measure_line(problem, result);

@@ -24,6 +24,9 @@ struct LineStorage {
   Eigen::ArrayXd old_mass = {};  ///< rho/rho0 h [m] a step ago, n
 };
 
+/// y at a place x, by straight lines between equal nodes; the outer ones go on.
+double value_between_nodes(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, double at);
+
 /// The equations of a line contact at its nodes and their solution by Newton's method.
 class LineFilm {
  public:
