@@ -11,6 +11,7 @@ from tabor_report.figures import (
     dry_friction,
     ehl_curves,
     ehl_impact,
+    ehl_line,
     lubricant_map,
     lubricated_friction,
     psd,
@@ -67,7 +68,8 @@ def _drawings(source, options):
 def ehl_figures(source):
     if source.is_sweep:
         return ehl_curves.sweep(source)
-    return {"impact": ehl_impact.draw, "squeeze": ehl_curves.squeeze}[source.program](source)
+    programs = {"impact": ehl_impact.draw, "line": ehl_line.draw, "squeeze": ehl_curves.squeeze}
+    return programs[source.program](source)
 
 
 def study_figures(source, options):

@@ -42,6 +42,33 @@ def impact_file(path):
         file["profiles/film"] = 1e-6 + 0 * time[:, None] + (radius**2 * 100)[None, :]
 
 
+def line_file(path):
+    """A contact of 100 um half width under 25 MPa, its track worn evenly for 8 h."""
+    x = np.linspace(-5e-4, 2e-4, 701)
+    dry = 25e6 * np.sqrt(np.clip(1 - (x / 1e-4) ** 2, 0, None))
+    time = np.linspace(0, 8 * 3600, 9)
+    with new_file(path) as file:
+        file.attrs["kind"] = "ehl line"
+        file.attrs["config_toml"] = '[cylinder]\nradius = "2.5 mm"\n'
+        file.create_group("result").attrs.update({"converged": 1, "min_film_m": 83e-9})
+        curves = {
+            "profile": {"x": x, "pressure": 0.99 * dry, "film": 1e-7 + x**2 / 5e-3, "hertz_pressure": dry},
+            "wear": {
+                "time": time,
+                "distance": 0.0158 * time,
+                "mean_depth": 1e-10 * time,
+                "max_depth": 2e-10 * time,
+                "min_film": 83e-9 + 0 * time,
+                "friction": 0.003 + 0 * time,
+                "track": np.linspace(0, 1.5e-2, 50),
+                "depth": np.full(50, 2.9e-6),
+            },
+        }
+        for group, values in curves.items():
+            for name, column in values.items():
+                file[f"{group}/{name}"] = column
+
+
 def sweep_file(path):
     with new_file(path) as file:
         file.attrs["kind"] = "ehl impact sweep"
@@ -93,6 +120,17 @@ class Ehl(unittest.TestCase):
         self.assertEqual(len(rows), 6)
         found = {(row["ball.speed"], row["ball.mass"]): float(row["restitution"]) for row in rows}
         self.assertEqual(found[("10", "1")], 0.5)
+
+    def test_a_line_contact_shows_its_film_before_hertz_and_its_wear(self):
+        drawn = self.drawings(line_file)
+        self.assertEqual(set(drawn), {"line_profile", "line_wear", "line_track"})
+        rows = self.rows(drawn["line_profile"])
+        self.assertAlmostEqual(float(rows[500]["hertz_pressure_Pa"]) / 25e6, 1)
+        self.assertAlmostEqual(float(rows[500]["pressure_Pa"]) / 25e6, 0.99)
+        self.assertAlmostEqual(float(self.rows(drawn["line_wear"])[-1]["mean_depth_m"]) / 2.88e-6, 1)
+        top, bottom = drawn["line_wear"].figure.axes
+        self.assertEqual(bottom.get_xlabel(), "time (h)")
+        self.assertGreater(*drawn["line_track"].figure.axes[0].get_ylim())
 
     def test_the_page_of_an_impact_is_written(self):
         path = self.folder / "impact.h5"

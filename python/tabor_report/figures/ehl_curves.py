@@ -57,6 +57,8 @@ def _drawn(dataset, name, keys, axes_values, values):
     if len(keys) == 1:
         axes.plot(axes_values[0], values, marker="o", color=style.COLOURS[0])
         axes.set_ylabel(label)
+        if _scale(axes.set_xscale, axes_values[0]) and values.min() > 0 and values.max() > 10 * values.min():
+            axes.set_yscale("log")
         axes.grid(color="0.92", linewidth=0.6)
     else:
         plane = values.reshape(len(axes_values[0]), len(axes_values[1]), -1)[:, :, 0]
@@ -75,8 +77,10 @@ def _drawn(dataset, name, keys, axes_values, values):
 
 
 def _scale(set_scale, values):
-    """Logarithmic where the values are."""
+    """Logarithmic, and true, where the values are."""
     if len(values) > 2 and (values > 0).all():
         steps = np.diff(np.log(values))
         if np.allclose(steps, steps[0], rtol=1e-3):
             set_scale("log")
+            return True
+    return False
