@@ -166,9 +166,9 @@ TEST(Registration, RefusesScansOfAFewPixels) {
 
 TEST(Registration, GivesTheSameBitsOnAnyNumberOfThreads) {
   const auto large = self_affine_surface(256, 0.8, 4e-6, 2);
-  const auto [a, b] = scans_of(large, 150, 3.3 * kPixel, 2.2 * kPixel);
+  const auto scans = scans_of(large, 150, 3.3 * kPixel, 2.2 * kPixel);
   expect_same_bits_on_any_threads([&] {
-    const auto found = register_scans(a, b);
+    const auto found = register_scans(scans.a, scans.b);
     return Field{{found.shift_x, found.shift_y, found.uncertainty_x, found.correlation}};
   });
 }

@@ -13,7 +13,7 @@
 namespace tabor::cli {
 
 /// What an elastohydrodynamic program found out about one case.
-struct EhlAnswer {
+struct EhlAnswer {   // NOLINT(bugprone-exception-escape): of the JSON library's own moves
   io::Json scalars;  ///< the keys of its JSON object, in their order
   std::string text;  ///< for a person
   bool converged = false;

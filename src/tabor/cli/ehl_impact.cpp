@@ -5,6 +5,7 @@
 
 #include "tabor/cli/ehl.hpp"
 #include "tabor/cli/ehl_case.hpp"
+#include "tabor/cli/ehl_history.hpp"
 #include "tabor/cli/fields_file.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
@@ -137,33 +138,17 @@ std::string text_of(const ehl::ImpactProblem& problem, const ehl::ImpactResult& 
 
 using Instant = ehl::ImpactInstant;
 
-void write_history(io::Hdf5Writer& writer, const std::vector<Instant>& history) {
-  struct Curve {
-    const char* name;
-    const char* unit;
-    const char* long_name;
-    double Instant::*value;
-  };
-  const Curve curves[] = {
-      {"time", "s", "time since the ball touched the layer", &Instant::time},
-      {"force", "N", "force on the ball", &Instant::force},
-      {"speed", "m/s", "speed of the ball, negative towards the flat", &Instant::speed},
-      {"separation", "m", "separation of the undeformed bodies", &Instant::separation},
-      {"central_film", "m", "film thickness in the centre", &Instant::central_film},
-      {"min_film", "m", "smallest film thickness", &Instant::min_film},
-      {"deformation", "m", "elastic deformation in the centre", &Instant::deformation},
-      {"central_pressure", "Pa", "pressure in the centre", &Instant::central_pressure},
-      {"max_pressure", "Pa", "largest pressure", &Instant::max_pressure},
-      {"film_radius", "m", "radius of the film under pressure", &Instant::film_radius}};
-  writer.group("/history");
-  for (const Curve& curve : curves) {
-    std::vector<double> values;
-    for (const Instant& at : history) values.push_back(at.*curve.value);
-    const std::string path = std::string("/history/") + curve.name;
-    writer.write(path, values);
-    writer.describe(path, curve.unit, curve.long_name);
-  }
-}
+constexpr HistoryCurve<Instant> kHistory[] = {
+    {"time", "s", "time since the ball touched the layer", &Instant::time},
+    {"force", "N", "force on the ball", &Instant::force},
+    {"speed", "m/s", "speed of the ball, negative towards the flat", &Instant::speed},
+    {"separation", "m", "separation of the undeformed bodies", &Instant::separation},
+    {"central_film", "m", "film thickness in the centre", &Instant::central_film},
+    {"min_film", "m", "smallest film thickness", &Instant::min_film},
+    {"deformation", "m", "elastic deformation in the centre", &Instant::deformation},
+    {"central_pressure", "Pa", "pressure in the centre", &Instant::central_pressure},
+    {"max_pressure", "Pa", "largest pressure", &Instant::max_pressure},
+    {"film_radius", "m", "radius of the film under pressure", &Instant::film_radius}};
 
 /// All of the profiles that were asked for, else some at about equal times.
 std::vector<const ehl::ImpactProfile*> chosen_profiles(const ehl::ImpactProblem& problem,
@@ -219,7 +204,7 @@ EhlAnswer solve(const io::Config& config, Context& context) {
   answer.warnings = result.doubts;
   if (!result.reason.empty()) answer.warnings.push_back(result.reason);
   answer.write = [problem, dry, result = std::move(result)](io::Hdf5Writer& writer) {
-    write_history(writer, result.history);
+    write_history(writer, "/history", kHistory, result.history);
     write_profiles(writer, problem, result);
     writer.group("/dry");
     write_scalars(writer, "/dry", dry_json(dry));

@@ -4,6 +4,7 @@
 
 #include "tabor/cli/ehl.hpp"
 #include "tabor/cli/ehl_case.hpp"
+#include "tabor/cli/ehl_history.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
@@ -66,29 +67,15 @@ std::string text_of(const ehl::SqueezeResult& result) {
   return facts.text();
 }
 
-void write_history(io::Hdf5Writer& writer, const std::vector<ehl::SqueezeInstant>& history) {
-  using Instant = ehl::SqueezeInstant;
-  struct Curve {
-    const char* name;
-    const char* unit;
-    const char* long_name;
-    double Instant::*value;
-  };
-  const Curve curves[] = {{"time", "s", "time since the roller touched the layer", &Instant::time},
-                          {"force", "N/m", "force per width", &Instant::force},
-                          {"min_film", "m", "smallest film thickness", &Instant::film},
-                          {"film_speed", "m/s", "rate of the film", &Instant::film_speed},
-                          {"roller", "m", "place of the roller", &Instant::roller},
-                          {"speed", "m/s", "speed of the roller", &Instant::roller_speed}};
-  writer.group("/history");
-  for (const Curve& curve : curves) {
-    std::vector<double> values;
-    for (const Instant& at : history) values.push_back(at.*curve.value);
-    const std::string path = std::string("/history/") + curve.name;
-    writer.write(path, values);
-    writer.describe(path, curve.unit, curve.long_name);
-  }
-}
+using Instant = ehl::SqueezeInstant;
+
+constexpr HistoryCurve<Instant> kHistory[] = {
+    {"time", "s", "time since the roller touched the layer", &Instant::time},
+    {"force", "N/m", "force per width", &Instant::force},
+    {"min_film", "m", "smallest film thickness", &Instant::film},
+    {"film_speed", "m/s", "rate of the film", &Instant::film_speed},
+    {"roller", "m", "place of the roller", &Instant::roller},
+    {"speed", "m/s", "speed of the roller", &Instant::roller_speed}};
 
 /// The film as a spring and a damper, in closed form, under the same keys.
 EhlAnswer solve_linear(const io::Config& config) {
@@ -131,7 +118,7 @@ EhlAnswer solve(const io::Config& config, Context& context) {
   EhlAnswer answer{scalars_of(result), text_of(result), result.converged};
   if (!result.reason.empty()) answer.warnings.push_back(result.reason);
   answer.write = [result = std::move(result)](io::Hdf5Writer& writer) {
-    write_history(writer, result.history);
+    write_history(writer, "/history", kHistory, result.history);
   };
   return answer;
 }
