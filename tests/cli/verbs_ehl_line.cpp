@@ -137,5 +137,21 @@ TEST(EhlLine, WearsATrack) {
   EXPECT_EQ(run_tabor(both).code, 3);
 }
 
+TEST(EhlLine, WearsATrackToAndFro) {
+  const std::vector<std::string> wear =
+      quick({"--set", "wear.coefficient=2.8e-15 m^2/N", "--set", "wear.stroke=1 mm", "--set",
+             "wear.steps=100", "--set", "wear.cycles=2"});
+  const io::Json json = json_of(wear)["wear"];
+  EXPECT_EQ(json["converged"], true);
+  EXPECT_NEAR(json["distance_m"].get<double>(), 4e-3, 1e-9);
+  EXPECT_NEAR(json["volume_per_width_m2"].get<double>() / (2.8e-15 * 5000 * 4e-3), 1, 1e-6);
+  EXPECT_LT(json["thinnest_film_m"], json["min_film_m"]);
+  std::vector<std::string> one_way = wear;
+  one_way.insert(one_way.end(), {"--set", "grid.outlet=200um"});
+  const Outcome refused = run_tabor(one_way);
+  EXPECT_EQ(refused.code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("way back"));
+}
+
 }  // namespace
 }  // namespace tabor::cli

@@ -24,10 +24,11 @@ def draw(source):
 
 def _reach(x, pressure, dry):
     """As far as either contact carries pressure worth seeing, and some inlet."""
-    loaded = np.abs(x[(pressure > 1e-3 * pressure.max()) | (dry > 0)])
+    loaded = np.abs(x[pressure > 1e-3 * pressure.max()]).max(initial=0)
     half_width = np.abs(x[dry > 0]).max(initial=0)
-    reach = min(REACH * half_width, 1.1 * loaded.max()) if half_width > 0.3 * loaded.max() else loaded.max()
-    return max(reach, 1.3 * half_width)
+    if half_width < 0.3 * loaded:  # stiff bodies: the film is wider than their contact
+        return loaded
+    return max(min(REACH * half_width, 1.1 * loaded), 1.3 * half_width)
 
 
 def _profile(source, profile):
@@ -117,7 +118,7 @@ def _worn_track(wear):
     return Drawn(
         "line_track",
         "The track at the end",
-        "Depth below the unworn surface; where the cylinder ends, it has passed once more.",
+        "Depth below the unworn surface.",
         figure,
         {"": table_text({"track_m": wear["track"], "depth_m": wear["depth"]})},
     )

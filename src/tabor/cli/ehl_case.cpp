@@ -49,6 +49,10 @@ std::string text_or(const io::Config& config, std::string_view key, const std::s
   return config.has(key) ? config.text(key) : otherwise;
 }
 
+std::int64_t integer_or(const io::Config& config, std::string_view key, std::int64_t otherwise) {
+  return config.has(key) ? config.integer(key) : otherwise;
+}
+
 bool flag_or(const io::Config& config, std::string_view key, bool otherwise) {
   return config.has(key) ? config.flag(key) : otherwise;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,7 @@ double positive_quantity(const io::Config& config, std::string_view key, Dimensi
 double positive_quantity_or(const io::Config& config, std::string_view key, Dimension dimension,
                             double otherwise);
 std::string text_or(const io::Config& config, std::string_view key, const std::string& otherwise);
+std::int64_t integer_or(const io::Config& config, std::string_view key, std::int64_t otherwise);
 bool flag_or(const io::Config& config, std::string_view key, bool otherwise);
 
 /// [solids]: e_prime (2 E*), or youngs_modulus and poissons_ratio with those of the counter body

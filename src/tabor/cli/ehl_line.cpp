@@ -6,10 +6,10 @@
 
 #include "tabor/cli/ehl.hpp"
 #include "tabor/cli/ehl_case.hpp"
+#include "tabor/cli/ehl_line_wear.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/ehl/wear.hpp"
 #include "tabor/topography/file.hpp"
 
 namespace tabor::cli {
@@ -17,11 +17,6 @@ namespace tabor::cli {
 namespace {
 
 constexpr Dimension kForcePerLength{0, 1, -2, 0};
-constexpr std::int64_t kUsualSteps = 600;  // per cycle
-
-std::int64_t integer_or(const io::Config& config, std::string_view key, std::int64_t otherwise) {
-  return config.has(key) ? config.integer(key) : otherwise;
-}
 
 ehl::LineCavitation read_cavitation(const io::Config& config) {
   const std::string word = text_or(config, "film.cavitation", "reynolds");
@@ -89,82 +84,6 @@ ehl::LineProblem read_problem(const io::Config& config, Context& context) {
   ehl::check_line(problem);
   problem.roughness = read_roughness(config, problem, context);
   return problem;
-}
-
-/// [wear]: a track that runs under the cylinder.
-ehl::WearProblem read_wear(const io::Config& config, const ehl::LineProblem& contact) {
-  if (contact.roughness.size() > 0) {
-    throw InputError(config.place("wear.coefficient"), "beside a roughness that stands still",
-                     "one of the two", "wear.wave_amplitude makes the track rough");
-  }
-  ehl::WearProblem problem;
-  problem.contact = contact;
-  problem.wear_coefficient = positive_quantity(config, "wear.coefficient", dimension::per_pressure);
-  problem.track_length = positive_quantity(config, "wear.track_length", dimension::length);
-  problem.steps_per_cycle = integer_or(config, "wear.steps", kUsualSteps);
-  problem.cycles = integer_or(config, "wear.cycles", 1);
-  if (config.has("wear.cycles_each")) problem.cycles_each = config.number("wear.cycles_each");
-  if (config.has("wear.wave_amplitude")) {
-    problem.wave_amplitude = config.quantity("wear.wave_amplitude", dimension::length);
-    problem.n_waves = config.integer("wear.waves");
-  }
-  return problem;
-}
-
-io::Json wear_json(const ehl::WearResult& wear) {
-  const ehl::WearInstant& last = wear.history.back();
-  return {{"time_s", last.time},
-          {"distance_m", last.distance},
-          {"mean_depth_m", last.mean_depth},
-          {"max_depth_m", last.max_depth},
-          {"volume_per_width_m2", wear.worn_area},
-          {"min_film_m", io::number(last.min_film)},
-          {"friction_coefficient", io::number(last.friction_coefficient)},
-          {"time_step_s", wear.time_step},
-          {"n_steps", wear.history.size() - 1},
-          {"newton_iterations", wear.newton_iterations},
-          {"converged", wear.converged}};
-}
-
-std::string wear_text(const ehl::WearResult& wear) {
-  const ehl::WearInstant& last = wear.history.back();
-  Facts facts;
-  facts.fact("slid", fmt::format("{} in {}", si(last.distance, "m"), si(last.time, "s")));
-  facts.fact("worn off", fmt::format("{} on average, {} at most", si(last.mean_depth, "m"),
-                                     si(last.max_depth, "m")));
-  facts.fact("film then", si(last.min_film, "m"));
-  facts.fact("friction then", plain(last.friction_coefficient));
-  return facts.text();
-}
-
-void write_wear(io::Hdf5Writer& writer, const ehl::WearResult& wear) {
-  using Instant = ehl::WearInstant;
-  struct Curve {
-    const char* name;
-    const char* unit;
-    const char* long_name;
-    double Instant::*value;
-  };
-  writer.group("/wear");
-  for (const Curve& curve :
-       {Curve{"time", "s", "time", &Instant::time},
-        Curve{"distance", "m", "distance slid", &Instant::distance},
-        Curve{"mean_depth", "m", "wear depth, mean over the track", &Instant::mean_depth},
-        Curve{"max_depth", "m", "largest wear depth", &Instant::max_depth},
-        Curve{"min_film", "m", "smallest film thickness", &Instant::min_film},
-        Curve{"max_pressure", "Pa", "largest pressure", &Instant::max_pressure},
-        Curve{"friction", "1", "friction coefficient", &Instant::friction_coefficient}}) {
-    std::vector<double> values;
-    for (const Instant& at : wear.history) values.push_back(at.*curve.value);
-    const std::string path = std::string("/wear/") + curve.name;
-    writer.write(path, values);
-    writer.describe(path, curve.unit, curve.long_name);
-  }
-  const auto size = wear.track.size();
-  writer.write("/wear/track", std::vector<double>(wear.track.data(), wear.track.data() + size));
-  writer.describe("/wear/track", "m", "place along the track");
-  writer.write("/wear/depth", std::vector<double>(wear.depth.data(), wear.depth.data() + size));
-  writer.describe("/wear/depth", "m", "wear depth along the track at the end");
 }
 
 io::Json scalars_of(const ehl::LineProblem& problem, const ehl::LineResult& result) {
@@ -284,6 +203,7 @@ EhlProgram line_program() {
                           "roughness.wavelength",
                           "wear.coefficient",
                           "wear.track_length",
+                          "wear.stroke",
                           "wear.steps",
                           "wear.cycles",
                           "wear.cycles_each",

@@ -12,6 +12,7 @@ namespace tabor::ehl {
 namespace {
 
 constexpr int kMaxIterations = 40;
+constexpr int kMaxHalvings = 6;  // of a time step
 
 void check(const WearProblem& problem) {
   check_line(problem.contact);
@@ -27,12 +28,38 @@ void check(const WearProblem& problem) {
           "1 or more");
   require(problem.steps_per_cycle >= 1, "steps per cycle",
           static_cast<double>(problem.steps_per_cycle), "1 or more");
+  require(problem.stroke >= 0 && std::isfinite(problem.stroke), "stroke [m]", problem.stroke,
+          "zero or more");
   const Eigen::ArrayXd x = line_nodes(problem.contact);
-  if (!(problem.track_length >= x[x.size() - 1] - x[0])) {
+  const double needed = x[x.size() - 1] - x[0] + problem.stroke;
+  if (!(problem.track_length >= needed)) {
     throw InputError("track", fmt::format("{} m", problem.track_length),
-                     fmt::format("the domain of the film or more, {} m", x[x.size() - 1] - x[0]),
+                     fmt::format("the domain of the film and the stroke or more, {} m", needed),
                      "a shorter domain or a longer track");
   }
+  if (problem.stroke > 0 && x[x.size() - 1] < -(1 - 1e-9) * x[0]) {
+    throw InputError("outlet of a film that goes to and fro",
+                     fmt::format("{} m", problem.contact.outlet),
+                     fmt::format("as long as the inlet, {} m", -x[0]),
+                     "it is the inlet on the way back; leave it to the program");
+  }
+}
+
+/// With the domain and the track that a stroke needs, where none are given.
+WearProblem completed(WearProblem problem) {
+  if (!(problem.stroke > 0)) return problem;
+  check_line(problem.contact);
+  if (!(problem.contact.outlet > 0)) {
+    problem.contact.inlet = -line_nodes(problem.contact)[0];
+    problem.contact.outlet = problem.contact.inlet;
+  }
+  if (!(problem.track_length > 0)) {
+    const Eigen::ArrayXd x = line_nodes(problem.contact);
+    const double spacing = x[1] - x[0];
+    const double each_side = std::ceil(problem.stroke / 2 / spacing) + 1;
+    problem.track_length = x[x.size() - 1] - x[0] + spacing * (1 + 2 * each_side);
+  }
+  return problem;
 }
 
 /// The worn surface and where it is.
@@ -49,7 +76,7 @@ class Track {
 
   Index size() const { return n_; }
   const Eigen::ArrayXd& depth() const { return depth_; }
-  void move(Index nodes) { shift_ = (shift_ + nodes) % n_; }
+  void move_to(Index nodes) { shift_ = nodes % n_; }
 
   /// Height of the surface [m] under node i of the film.
   double height(Index i) const { return height_[under(i)] - depth_[under(i)]; }
@@ -63,6 +90,54 @@ class Track {
   Eigen::ArrayXd height_, depth_;
 };
 
+/// Where the track is at a time [s].
+class Motion {
+ public:
+  Motion(const WearProblem& problem, Index n_track, double spacing)
+      : speed_(problem.contact.sliding_speed), stroke_(problem.stroke), spacing_(spacing) {
+    if (stroke_ > 0) {
+      rate_ = 2 * speed_ / stroke_;
+      time_step_ = 2 * std::numbers::pi / rate_ / static_cast<double>(problem.steps_per_cycle);
+      n_steps_ = problem.cycles * problem.steps_per_cycle;
+      origin_ = -(n_track - problem.contact.nodes) / 2;
+      return;
+    }
+    const Index nodes_per_step = std::max<Index>(1, n_track / problem.steps_per_cycle);
+    time_step_ = static_cast<double>(nodes_per_step) * spacing / speed_;
+    n_steps_ = (problem.cycles * n_track + nodes_per_step - 1) / nodes_per_step;
+  }
+
+  double time_step() const { return time_step_; }
+  Index n_steps() const { return n_steps_; }
+  /// [m] from where it began.
+  double place(double time) const {
+    return stroke_ > 0 ? stroke_ / 2 * std::sin(rate_ * time) : speed_ * time;
+  }
+  /// Nodes by which the track lies to the right of the film's first one.
+  Index node(double time) const {
+    return origin_ + static_cast<Index>(std::llround(place(time) / spacing_));
+  }
+  /// [m] slid between two times, the way back counting like the way there.
+  double slid(double begin, double end) const {
+    if (!(stroke_ > 0)) return speed_ * (end - begin);
+    const auto travelled = [&](double time) {
+      const double turns = std::floor(rate_ * time / std::numbers::pi + 0.5);
+      const double sign = static_cast<Index>(turns) % 2 == 0 ? 1 : -1;
+      return stroke_ * turns + sign * place(time);
+    };
+    return travelled(end) - travelled(begin);
+  }
+
+ private:
+  double speed_;      // [m/s] in the middle of the stroke
+  double stroke_;     // [m]
+  double spacing_;    // [m]
+  double rate_ = 0;   // [1/s]
+  double time_step_;  // [s]
+  Index n_steps_ = 0;
+  Index origin_ = 0;  // the film begins in the middle of a track that goes to and fro
+};
+
 /// The film over the track as it goes on.
 class Wearing {
  public:
@@ -71,13 +146,11 @@ class Wearing {
         film_(problem.contact),
         smooth_(film_.shape),
         spacing_(film_.x()[1] - film_.x()[0]),
-        track_(problem, spacing_) {
-    nodes_per_step_ = std::max<Index>(1, track_.size() / problem.steps_per_cycle);
-    time_step_ = static_cast<double>(nodes_per_step_) * spacing_ / problem.contact.sliding_speed;
-  }
+        track_(problem, spacing_),
+        motion_(problem, track_.size(), spacing_) {}
 
   bool start(const Observer& observer) {
-    lay_track();
+    lay_track(0);
     LineProblem rough = problem_.contact;
     rough.roughness = smooth_ - film_.shape;
     const LineResult steady = solve_line(rough, observer);
@@ -86,30 +159,18 @@ class Wearing {
     state_.film = steady.film;
     state_.cavity.clear();
     for (Index i = 0; i < film_.n(); ++i) state_.cavity.push_back(!(steady.pressure[i] > 0));
-    record(0);
+    record(0, problem_.contact.sliding_speed);
     result_.newton_iterations = steady.newton_iterations;
     return steady.converged;
   }
 
   /// One step of the track; false if the film was not found.
   bool step() {
-    LineStorage storage{.time_step = time_step_, .old_mass = film_.mass_of(state_)};
-    track_.move(nodes_per_step_);
-    lay_track();
-    const LineFilm::Outcome outcome = film_.solve(state_, storage, kMaxIterations);
-    result_.newton_iterations += outcome.iterations;
-    if (!outcome.converged) return false;
-    const double slid = problem_.cycles_each * problem_.contact.sliding_speed * time_step_;
-    for (Index i = 0; i < film_.n(); ++i) {
-      track_.wear(i, problem_.wear_coefficient * slid * std::max(0.0, state_.pressure[i]));
-    }
-    record(slid);
-    return true;
+    const double end = static_cast<double>(++n_done_) * motion_.time_step();
+    return advance(end, 0);
   }
 
-  Index n_steps() const {
-    return (problem_.cycles * track_.size() + nodes_per_step_ - 1) / nodes_per_step_;
-  }
+  Index n_steps() const { return motion_.n_steps(); }
 
   WearResult finish(bool converged) {
     result_.converged = converged;
@@ -117,26 +178,56 @@ class Wearing {
                                               spacing_ * static_cast<double>(track_.size() - 1));
     result_.depth = track_.depth();
     result_.worn_area = spacing_ * track_.depth().sum();
-    result_.time_step = time_step_;
+    result_.time_step = motion_.time_step();
     return std::move(result_);
   }
 
  private:
-  void lay_track() {
+  /// To a time [s], in halves of the way if the film is not found at once.
+  bool advance(double end, int n_halvings) {
+    const double begin = time_;
+    const double share = (motion_.place(end) - motion_.place(begin)) /
+                         problem_.contact.sliding_speed / (end - begin);
+    const LineStorage storage{.time_step = end - begin, .old_mass = film_.mass_of(state_)};
+    const LineState old = state_;
+    lay_track(end);
+    film_.speed = share * problem_.contact.entrainment_speed;
+    const LineFilm::Outcome outcome = film_.solve(state_, storage, kMaxIterations);
+    result_.newton_iterations += outcome.iterations;
+    if (!outcome.converged) {
+      if (n_halvings == kMaxHalvings) return false;
+      state_ = old;
+      lay_track(begin);
+      return advance((begin + end) / 2, n_halvings + 1) && advance(end, n_halvings + 1);
+    }
+    const double slid = problem_.cycles_each * motion_.slid(begin, end);
+    for (Index i = 0; i < film_.n(); ++i) {
+      track_.wear(i, problem_.wear_coefficient * slid * std::max(0.0, state_.pressure[i]));
+    }
+    time_ = end;
+    record(slid, share * problem_.contact.sliding_speed);
+    return true;
+  }
+
+  void lay_track(double time) {
+    track_.move_to(motion_.node(time));
     for (Index i = 0; i < film_.n(); ++i) film_.shape[i] = smooth_[i] - track_.height(i);
   }
 
-  void record(double slid) {
+  void record(double slid, double speed) {
     LineResult now;
     now.x = film_.x();
     now.pressure = state_.pressure;
     now.film = state_.film;
-    measure_line(problem_.contact, now);
+    LineProblem contact = problem_.contact;
+    contact.sliding_speed = speed;
+    measure_line(contact, now);
     const double distance = (result_.history.empty() ? 0 : result_.history.back().distance) + slid;
-    result_.history.push_back({.time = distance / problem_.contact.sliding_speed,
+    result_.history.push_back({.time = problem_.cycles_each * time_,
                                .distance = distance,
                                .mean_depth = track_.depth().mean(),
                                .max_depth = track_.depth().maxCoeff(),
+                               .sliding_speed = speed,
                                .min_film = now.min_film,
                                .max_pressure = now.max_pressure,
                                .friction_coefficient = now.friction_coefficient});
@@ -147,15 +238,17 @@ class Wearing {
   Eigen::ArrayXd smooth_;  // gap of the undeformed bodies without the track's heights [m]
   double spacing_;
   Track track_;
-  Index nodes_per_step_ = 1;
-  double time_step_ = 0;
+  Motion motion_;
+  Index n_done_ = 0;
+  double time_ = 0;  // [s] computed
   LineState state_;
   WearResult result_;
 };
 
 }  // namespace
 
-WearResult solve_wear(const WearProblem& problem, const Observer& observer) {
+WearResult solve_wear(const WearProblem& given, const Observer& observer) {
+  const WearProblem problem = completed(given);
   check(problem);
   Wearing wearing(problem);
   bool converged = wearing.start(observer);

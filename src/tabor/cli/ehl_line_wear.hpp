@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+
+#include "tabor/ehl/wear.hpp"
+#include "tabor/io/hdf5.hpp"
+#include "tabor/io/json.hpp"
+#include "tabor/io/toml.hpp"
+
+/// The worn track of `tabor ehl line`.
+namespace tabor::cli {
+
+/// [wear]: a track that runs under the cylinder, round and round or to and fro. Throws InputError
+/// beside a roughness that stands still.
+ehl::WearProblem read_wear(const io::Config& config, const ehl::LineProblem& contact);
+
+io::Json wear_json(const ehl::WearResult& wear);
+std::string wear_text(const ehl::WearResult& wear);
+/// The group /wear: histories and the track at the end.
+void write_wear(io::Hdf5Writer& writer, const ehl::WearResult& wear);
+
+}  // namespace tabor::cli
