@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tabor/cli/ehl_case.hpp"
+#include "tabor/cli/ehl_history.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
 
@@ -14,6 +15,17 @@ namespace tabor::cli {
 namespace {
 
 constexpr std::int64_t kUsualSteps = 600;  // per cycle
+
+using Instant = ehl::WearInstant;
+constexpr HistoryCurve<Instant> kHistory[] = {
+    {"time", "s", "time", &Instant::time},
+    {"distance", "m", "distance slid", &Instant::distance},
+    {"mean_depth", "m", "wear depth, mean over the track", &Instant::mean_depth},
+    {"max_depth", "m", "largest wear depth", &Instant::max_depth},
+    {"sliding_speed", "m/s", "sliding speed", &Instant::sliding_speed},
+    {"min_film", "m", "smallest film thickness", &Instant::min_film},
+    {"max_pressure", "Pa", "largest pressure", &Instant::max_pressure},
+    {"friction", "1", "friction coefficient", &Instant::friction_coefficient}};
 
 /// [m], in all the time.
 double thinnest_of(const ehl::WearResult& wear) {
@@ -75,29 +87,7 @@ std::string wear_text(const ehl::WearResult& wear) {
 }
 
 void write_wear(io::Hdf5Writer& writer, const ehl::WearResult& wear) {
-  using Instant = ehl::WearInstant;
-  struct Curve {
-    const char* name;
-    const char* unit;
-    const char* long_name;
-    double Instant::*value;
-  };
-  writer.group("/wear");
-  for (const Curve& curve :
-       {Curve{"time", "s", "time", &Instant::time},
-        Curve{"distance", "m", "distance slid", &Instant::distance},
-        Curve{"mean_depth", "m", "wear depth, mean over the track", &Instant::mean_depth},
-        Curve{"max_depth", "m", "largest wear depth", &Instant::max_depth},
-        Curve{"sliding_speed", "m/s", "sliding speed", &Instant::sliding_speed},
-        Curve{"min_film", "m", "smallest film thickness", &Instant::min_film},
-        Curve{"max_pressure", "Pa", "largest pressure", &Instant::max_pressure},
-        Curve{"friction", "1", "friction coefficient", &Instant::friction_coefficient}}) {
-    std::vector<double> values;
-    for (const Instant& at : wear.history) values.push_back(at.*curve.value);
-    const std::string path = std::string("/wear/") + curve.name;
-    writer.write(path, values);
-    writer.describe(path, curve.unit, curve.long_name);
-  }
+  write_history(writer, "/wear", kHistory, wear.history);
   const auto size = wear.track.size();
   writer.write("/wear/track", std::vector<double>(wear.track.data(), wear.track.data() + size));
   writer.describe("/wear/track", "m", "place along the track");
