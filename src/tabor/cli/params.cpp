@@ -37,7 +37,7 @@ struct Request {
 };
 
 /// One scan read, treated and measured, ready for every kind of output.
-struct Measured {
+struct Measured {  // NOLINT(bugprone-exception-escape): of the JSON library's own moves
   ScanParameters row;
   io::Json object;
   std::string facts;
@@ -45,6 +45,7 @@ struct Measured {
 
 std::vector<ParameterSet> sets_from(const std::string& text) {
   std::vector<std::string> words;
+  words.reserve(topography::kParameterSets.size());
   for (const ParameterSet set : topography::kParameterSets) words.emplace_back(name_of(set));
   std::vector<ParameterSet> sets;
   for (const std::string& word : io::parse_csv(text + "\n", "--set").columns) {
@@ -114,7 +115,7 @@ Measured measure(const Request& request, const std::string& file, Context& conte
 void name_warnings(Context& context, std::size_t first, const std::string& file) {
   for (std::size_t i = first; i < context.warnings.size(); ++i) {
     std::string& warning = context.warnings[i];
-    if (!warning.starts_with(file)) warning = file + ": " + warning;
+    if (!warning.starts_with(file)) warning.insert(0, file + ": ");
   }
 }
 
@@ -164,8 +165,10 @@ std::string text_of(const std::vector<Measured>& all, const std::vector<ScanPara
 
 int show_many(const Request& request, Context& context) {
   std::vector<Measured> all;
+  all.reserve(request.files.size());
   for (const std::string& file : request.files) all.push_back(try_measure(request, file, context));
   std::vector<ScanParameters> rows;
+  rows.reserve(all.size());
   for (const Measured& measured : all) rows.push_back(measured.row);
   if (request.output) io::write_file(*request.output, csv_table(rows));
   int code = kDone;
