@@ -45,7 +45,7 @@ void declare_treatment(OptionSet& set, topography::Treatment& treatment) {
   for (const topography::StepDescription& step : topography::treatment_steps()) {
     const auto assign = [&treatment, name = step.name,
                          is_switch = step.argument.empty()](const std::string& value) {
-      const std::string text = is_switch ? name : name + "=" + value;
+      const std::string text = is_switch ? name : fmt::format("{}={}", name, value);
       topography::check({text});
       treatment.push_back(text);
     };
