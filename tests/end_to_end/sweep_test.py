@@ -38,15 +38,18 @@ class SweepTest(ProgramTest):
     def table(self, directory="out"):
         return (self.folder / directory / "results.csv").read_text()
 
+    def count(self, pattern):
+        return len(list(self.folder.glob(f"out/store/{pattern}")))
+
     def start(self, *words):
         return subprocess.Popen([TABOR, "sweep", "study.toml", *map(str, words)], cwd=self.folder,
                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
-    def stop_after(self, n_contacts, stop, *words):
-        """Starts a sweep, sends `stop` when the store holds n_contacts contacts; returns the ended process."""
+    def stop_after(self, n_contacts, stop, *words, n_cases=0):
+        """Starts a sweep, sends `stop` when the store holds so many contacts and cases; returns the ended process."""
         process = self.start("-o", "out", *words)
         deadline = time.monotonic() + 60
-        while len(list(self.folder.glob("out/store/contact-*.h5"))) < n_contacts:
+        while self.count("contact-*.h5") < n_contacts or self.count("case-*.json") < n_cases:
             self.assertIsNone(process.poll(), "the sweep ended before it could be stopped")
             self.assertLess(time.monotonic(), deadline)
             time.sleep(0.002)
@@ -76,7 +79,7 @@ class Killed(SweepTest):
 class Interrupted(SweepTest):
     def test_by_control_c_ends_with_130_keeps_what_was_finished_and_goes_on(self):
         expected = self.reference()
-        code, _, err = self.stop_after(4, signal.SIGINT)
+        code, _, err = self.stop_after(4, signal.SIGINT, n_cases=1)
         self.assertEqual(code, 130, err)
         self.assertIn("kept in out", err)
         self.assertGreaterEqual(len(self.table().splitlines()), 2)
