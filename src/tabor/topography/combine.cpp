@@ -158,7 +158,8 @@ Combination combine(const Topography& first, const Topography& second,
   }
   result.map.history.push_back(line_of(result, options, b));
   result.map.source = first.source + (composite ? " + " : " - ") + second.source;
-  result.map = crop(std::move(result.map), valid_window(result.map.height));
+  const PixelWindow window = valid_window(result.map.height);  // before the map is moved away
+  result.map = crop(std::move(result.map), window);
   const CommonMoments map_moments = common_moments(result.map.height, result.map.height);
   result.rms_map = std::sqrt(map_moments.variance_a);
   if (options.mode == CombineMode::wear) {
