@@ -42,5 +42,11 @@ TEST(ReadJson, SurvivesDeepNesting) {
   EXPECT_NO_THROW(read_json(folder / "closed.json"));
 }
 
+TEST(ReadJson, RefusesANumberBeyondTheRangeOfDoubles) {
+  const test::Folder folder;
+  test::put_bytes(folder / "large.json", R"({"x": 1e400})");
+  EXPECT_THROW(read_json(folder / "large.json"), InputError);
+}
+
 }  // namespace
 }  // namespace tabor::io

@@ -18,6 +18,8 @@ Json read_json(const std::filesystem::path& file) {
     return Json::parse(read_text(file));
   } catch (const Json::parse_error& error) {
     throw InputError(file.string() + ": not JSON at byte " + std::to_string(error.byte));
+  } catch (const Json::out_of_range&) {
+    throw InputError(file.string() + ": holds a number beyond the range of doubles");
   }
 }
 
