@@ -2,13 +2,13 @@
 
 #include <gmock/gmock.h>
 
+#include "rough_recipe.hpp"
 #include "sample_surfaces.hpp"
 #include "support/refusal.hpp"
 #include "support/validation.hpp"
 #include "tabor/topography/geometry.hpp"
 #include "tabor/topography/levelling.hpp"
 #include "tabor/topography/parameters.hpp"
-#include "tabor/topography/synthesis.hpp"
 
 namespace tabor::topography::test {
 namespace {
@@ -18,13 +18,7 @@ using testing::HasSubstr;
 constexpr double kPixel = 1e-6;
 
 Topography self_affine_surface(Index n, double hurst, double cutoff, std::uint64_t seed) {
-  SelfAffine recipe;
-  const double side = static_cast<double>(n) * kPixel;
-  recipe.grid = {n, n, side, side};
-  recipe.hurst = hurst;
-  recipe.rms_height = 1e-6;
-  recipe.random_amplitudes = true;
-  recipe.seed = seed;
+  SelfAffine recipe = rough_recipe(n, hurst, seed);
   recipe.short_cutoff_wavelength = cutoff;
   return self_affine(recipe);
 }

@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <numeric>
 
+#include "rough_recipe.hpp"
 #include "sample_surfaces.hpp"
 #include "support/validation.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/topography/filters.hpp"
 #include "tabor/topography/geometry.hpp"
 #include "tabor/topography/parameters.hpp"
-#include "tabor/topography/synthesis.hpp"
 
 namespace tabor::topography::test {
 namespace {
@@ -71,12 +71,7 @@ double integral(const Spectrum& spectrum) {
 }
 
 Topography rough_surface(Index n = 256, double hurst = 0.8, double roll_off = 0) {
-  SelfAffine recipe;
-  const double side = static_cast<double>(n) * 1e-6;
-  recipe.grid = {n, n, side, side};
-  recipe.hurst = hurst;
-  recipe.rms_height = 1e-6;
-  recipe.random_amplitudes = true;
+  SelfAffine recipe = rough_recipe(n, hurst);
   recipe.roll_off_wavelength = roll_off;
   return self_affine(recipe);
 }

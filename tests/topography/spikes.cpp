@@ -6,13 +6,13 @@
 #include <set>
 #include <vector>
 
+#include "rough_recipe.hpp"
 #include "sample_surfaces.hpp"
 #include "support/refusal.hpp"
 #include "support/scans.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/topography/file.hpp"
 #include "tabor/topography/levelling.hpp"
-#include "tabor/topography/synthesis.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::topography::test {
@@ -21,14 +21,7 @@ namespace {
 using testing::HasSubstr;
 
 Topography rough_surface(double hurst, std::uint64_t seed, Index n = 256) {
-  SelfAffine recipe;
-  const double side = static_cast<double>(n) * 1e-6;
-  recipe.grid = {n, n, side, side};
-  recipe.hurst = hurst;
-  recipe.rms_height = 1e-6;
-  recipe.random_amplitudes = true;
-  recipe.seed = seed;
-  return self_affine(recipe);
+  return self_affine(rough_recipe(n, hurst, seed));
 }
 
 std::set<Index> found(const Mask& mask) {

@@ -15,6 +15,7 @@ namespace tabor::topography {
 namespace {
 
 using test::Folder;
+using test::x3p_xml;
 
 /// No converter: what no reader of tabor's own takes is refused at once. Every test checks its own
 /// time: two seconds are far more than any of these files needs.
@@ -39,20 +40,11 @@ class Hostile : public ::testing::Test {
   std::string path_;
 };
 
-std::string x3p_xml(const std::string& nx, const std::string& increment,
-                    const std::string& link = "data.bin") {
-  const std::string axis =
-      "<AxisType>I</AxisType><DataType>D</DataType><Increment>" + increment + "</Increment>";
-  return "<ISO5436_2><Record1><FeatureType>SUR</FeatureType><Axes><CX>" + axis + "</CX><CY>" +
-         axis + "</CY><CZ><AxisType>A</AxisType><DataType>D</DataType></CZ></Axes></Record1>" +
-         "<Record3><MatrixDimension><SizeX>" + nx + "</SizeX><SizeY>1</SizeY><SizeZ>1</SizeZ>" +
-         "</MatrixDimension><DataLink><PointDataLink>" + link +
-         "</PointDataLink></DataLink></Record3></ISO5436_2>";
-}
-
 std::string x3p(const std::string& nx, const std::string& increment,
                 const std::string& link = "data.bin") {
-  return io::zip({{"main.xml", x3p_xml(nx, increment, link)}, {"data.bin", std::string(16, '\0')}});
+  return io::zip(
+      {{"main.xml", x3p_xml({.nx = nx, .ny = "1", .increment = increment, .link = link})},
+       {"data.bin", std::string(16, '\0')}});
 }
 
 TEST_F(Hostile, TheHonestFileIsRead) { EXPECT_EQ(refusal(x3p("2", "1e-6")), ""); }

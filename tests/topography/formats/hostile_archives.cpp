@@ -10,6 +10,7 @@ namespace {
 
 using io::ZipContent;
 using test::Folder;
+using test::x3p_xml;
 
 /// Refused, or read, within 2 s of processor time. What it says.
 std::string quick_refusal(const Folder& folder, const std::string& bytes) {
@@ -17,16 +18,6 @@ std::string quick_refusal(const Folder& folder, const std::string& bytes) {
   const std::string message = test::refusal(folder, bytes);
   EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 2.0) << message;
   return message;
-}
-
-std::string x3p_xml(const std::string& data_link, const std::string& size = "2") {
-  const std::string axis =
-      "<AxisType>I</AxisType><DataType>D</DataType><Increment>1e-6</Increment>";
-  return "<p:ISO5436_2 xmlns:p=\"x\"><Record1><FeatureType>SUR</FeatureType><Axes><CX>" + axis +
-         "</CX><CY>" + axis + "</CY><CZ>" + axis + "</CZ></Axes></Record1><Record3>" +
-         "<MatrixDimension><SizeX>" + size + "</SizeX><SizeY>" + size +
-         "</SizeY><SizeZ>1</SizeZ></MatrixDimension><DataLink><PointDataLink>" + data_link +
-         "</PointDataLink></DataLink></Record3></p:ISO5436_2>";
 }
 
 const std::string kHeights(4 * sizeof(double), '\1');
@@ -48,7 +39,7 @@ class HostileArchive : public ::testing::Test {
 };
 
 TEST_F(HostileArchive, SoundOnesAreRead) {
-  EXPECT_EQ(refusal({{"main.xml", x3p_xml("data.bin")}, {"data.bin", kHeights}}), "");
+  EXPECT_EQ(refusal({{"main.xml", x3p_xml({})}, {"data.bin", kHeights}}), "");
 }
 
 TEST_F(HostileArchive, ADocumentThatUnpacksToAHundredMegabytesIsRefused) {
@@ -57,14 +48,14 @@ TEST_F(HostileArchive, ADocumentThatUnpacksToAHundredMegabytesIsRefused) {
 }
 
 TEST_F(HostileArchive, DataThatUnpackToMoreThanTheDocumentSaysAreRefused) {
-  const std::string message = refusal(
-      {{"main.xml", x3p_xml("data.bin")}, {"data.bin", std::string(std::size_t{100} << 20, '\0')}});
+  const std::string message =
+      refusal({{"main.xml", x3p_xml({})}, {"data.bin", std::string(std::size_t{100} << 20, '\0')}});
   EXPECT_NE(message.find("32 bytes as main.xml says"), std::string::npos) << message;
 }
 
 TEST_F(HostileArchive, ADirectoryThatLiesAboutSizesIsRefused) {
-  std::string bytes = io::zip(
-      {{"main.xml", x3p_xml("data.bin")}, {"data.bin", std::string(std::size_t{100} << 20, '\0')}});
+  std::string bytes =
+      io::zip({{"main.xml", x3p_xml({})}, {"data.bin", std::string(std::size_t{100} << 20, '\0')}});
   // Unpacked size in the central directory (ZIP specification 4.3.12: 24 bytes after its
   // signature).
   const std::size_t entry = bytes.rfind("PK\x01\x02");
@@ -77,7 +68,7 @@ TEST_F(HostileArchive, ADirectoryThatLiesAboutSizesIsRefused) {
 }
 
 TEST_F(HostileArchive, NestedArchivesAreNotUnpacked) {
-  std::string bytes = io::zip({{"main.xml", x3p_xml("data.bin")}, {"data.bin", kHeights}});
+  std::string bytes = io::zip({{"main.xml", x3p_xml({})}, {"data.bin", kHeights}});
   for (int depth = 0; depth < 20; ++depth) bytes = io::zip({{"inner.zip", bytes}});
   EXPECT_NE(quick_refusal(folder, bytes), "");
   EXPECT_NE(refusal({{"main.xml", bytes}}), "");
@@ -87,7 +78,7 @@ TEST_F(HostileArchive, OfManyEntriesAreHandledInTime) {
   std::vector<ZipContent> entries;
   for (int i = 0; i < 20000; ++i) entries.push_back({std::to_string(i), ""});
   EXPECT_NE(refusal(entries), "");
-  entries.push_back({"main.xml", x3p_xml("data.bin")});
+  entries.push_back({"main.xml", x3p_xml({})});
   entries.push_back({"data.bin", kHeights});
   EXPECT_EQ(refusal(entries), "");
 }
@@ -96,19 +87,19 @@ TEST_F(HostileArchive, NothingOutsideIsReadOrWritten) {
   test::put_bytes(folder / "data.bin", kHeights);
   for (const std::string& name : {(folder / "data.bin").string(), std::string("../data.bin"),
                                   std::string("..\\data.bin"), std::string("data.bin")}) {
-    const std::string message = refusal({{"main.xml", x3p_xml(name)}});
+    const std::string message = refusal({{"main.xml", x3p_xml({.link = name})}});
     EXPECT_NE(message.find("no entry"), std::string::npos) << message;
   }
   const std::size_t n_files = folder.n_files();
   const std::string outside = "../written-by-tabor";
-  EXPECT_EQ(refusal({{"main.xml", x3p_xml(outside)}, {outside, kHeights}}), "");
+  EXPECT_EQ(refusal({{"main.xml", x3p_xml({.link = outside})}, {outside, kHeights}}), "");
   EXPECT_EQ(folder.n_files(), n_files);
   EXPECT_FALSE(std::filesystem::exists(folder / outside));
 }
 
 TEST_F(HostileArchive, ASymbolicLinkIsNotFollowed) {
   const std::string target = (folder / "main.xml").string();
-  test::put_bytes(target, x3p_xml("data.bin"));
+  test::put_bytes(target, x3p_xml({}));
   std::string bytes = io::zip({{"main.xml", target}, {"data.bin", kHeights}});
   // Made by Unix (version made by, byte 5), mode 0120777 in the external attributes (byte 38).
   const std::size_t entry = bytes.find("PK\x01\x02");
@@ -126,10 +117,10 @@ TEST_F(HostileArchive, EntitiesThatGrowAreNotExpanded) {
     for (int i = 0; i < 10; ++i) entities += std::string("&") + static_cast<char>(c - 1) + ";";
     entities += "\">";
   }
-  const std::string laughs = entities + "]>" + x3p_xml("&z;");
+  const std::string laughs = entities + "]>" + x3p_xml({.link = "&z;"});
   EXPECT_NE(refusal({{"main.xml", laughs}, {"data.bin", kHeights}}), "");
   const std::string outside =
-      "<!DOCTYPE a [<!ENTITY f SYSTEM \"file:///etc/passwd\">]>" + x3p_xml("&f;");
+      "<!DOCTYPE a [<!ENTITY f SYSTEM \"file:///etc/passwd\">]>" + x3p_xml({.link = "&f;"});
   const std::string message = refusal({{"main.xml", outside}, {"data.bin", kHeights}});
   EXPECT_EQ(message.find("root:"), std::string::npos) << message;
 }
@@ -159,7 +150,8 @@ TEST_F(HostileArchive, EndlessListsInXmlAreHandledInTime) {
 TEST_F(HostileArchive, AbsurdSizesAreRefused) {
   for (const char* size :
        {"1e300", "-2", "0", "2.5", "nan", "4294967296", "18446744073709551616"}) {
-    EXPECT_NE(refusal({{"main.xml", x3p_xml("data.bin", size)}, {"data.bin", kHeights}}), "")
+    EXPECT_NE(refusal({{"main.xml", x3p_xml({.nx = size, .ny = size})}, {"data.bin", kHeights}}),
+              "")
         << size;
   }
 }

@@ -13,6 +13,25 @@
 
 namespace tabor::test {
 
+/// What the main.xml of an X3P file says, as text, so that it can lie.
+struct X3pText {
+  std::string nx = "2";
+  std::string ny = "2";
+  std::string increment = "1e-6";
+  std::string link = "data.bin";
+};
+
+/// A surface of float64 heights; no checksum.
+inline std::string x3p_xml(const X3pText& text) {
+  const std::string axis =
+      "<AxisType>I</AxisType><DataType>D</DataType><Increment>" + text.increment + "</Increment>";
+  return "<p:ISO5436_2 xmlns:p=\"x\"><Record1><FeatureType>SUR</FeatureType><Axes><CX>" + axis +
+         "</CX><CY>" + axis + "</CY><CZ><AxisType>A</AxisType><DataType>D</DataType></CZ></Axes>" +
+         "</Record1><Record3><MatrixDimension><SizeX>" + text.nx + "</SizeX><SizeY>" + text.ny +
+         "</SizeY><SizeZ>1</SizeZ></MatrixDimension><DataLink><PointDataLink>" + text.link +
+         "</PointDataLink></DataLink></Record3></p:ISO5436_2>";
+}
+
 /// Same bits at every pixel, holes at the same places.
 inline ::testing::AssertionResult same_bits(const Field& a, const Field& b) {
   if (a.rows() != b.rows() || a.cols() != b.cols()) {
