@@ -115,8 +115,10 @@ FaceFlow face_flow(const FilmNode& left, const FilmNode& right, double speed) {
                           wall * share * nodes[i]->liquid.density_slope * nodes[i]->film;
     // A thinner film makes its part of the resistance larger: d(part)/dh = -3 part/h.
     const double by_part = (wall * (mass[i] - carried) - slope * mean.value) / resistance;
-    face.by_film[i] =
-        -3 * by_part * part[i] / nodes[i]->film + wall * share * nodes[i]->liquid.density;
+    const double thinning = -fluidity[i].value * nodes[i]->viscosity_by_film /
+                            nodes[i]->liquid.viscosity;  // d(rho / eta)/dh
+    face.by_film[i] = -3 * by_part * part[i] / nodes[i]->film +
+                      wall * share * nodes[i]->liquid.density + by_fluidity * thinning;
   }
   return face;
 }

@@ -58,7 +58,8 @@ struct FilmNode {
   double film = 0;      ///< h [m], > 0
   double fill = 1;      ///< theta, 0..1
   LiquidState liquid;
-  double distance = 0;  ///< from the node to the face [m]
+  double distance = 0;           ///< from the node to the face [m]
+  double viscosity_by_film = 0;  ///< [Pa s/m] at the same pressure: shear thinning
 };
 
 /// Mass flow per width through a face, in the direction of x, and its derivatives.

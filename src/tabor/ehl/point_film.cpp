@@ -1,0 +1,325 @@
+#include "tabor/ehl/point_film.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "tabor/ehl/gmres.hpp"
+#include "tabor/ehl/point_inverse.hpp"
+#include "tabor/reference/hertz_ellipse.hpp"
+
+namespace tabor::ehl {
+namespace {
+
+constexpr double kLinearAccuracy = 1e-3;  // of each Newton correction
+constexpr int kMaxProducts = 80;
+constexpr int kMaxHalvings = 8;
+constexpr double kThinnest = 0.1;  // a step may leave this much of the thinnest film
+constexpr double kMayGrow = 1.5;   // the norm of the residual, in a step that is taken
+
+/// The next number whose double has only prime factors that transforms are fast for.
+Index fast_size(Index n) {
+  for (;; ++n) {
+    Index rest = n;
+    for (const Index prime : {2, 3, 5, 7, 13}) {
+      while (rest % prime == 0) rest /= prime;
+    }
+    if (rest == 1) return n;
+  }
+}
+
+Index lower_node(double place, Index n) {
+  return std::clamp(static_cast<Index>(place), Index{0}, n - 2);
+}
+
+}  // namespace
+
+/// The half-space on a grid that is a little larger, where transforms are fast.
+struct PointFilm::Elastic {
+  Grid grid;
+  std::unique_ptr<elastic::ElasticOperator> space;
+  Field pressure, displacement;
+  PointInfluence influence;  // in units of film over pressure
+
+  Elastic(const Grid& film, double effective_modulus)
+      : grid{.nx = fast_size(film.nx), .ny = fast_size(film.ny)} {
+    grid.lx = film.dx() * static_cast<double>(grid.nx);
+    grid.ly = film.dy() * static_cast<double>(grid.ny);
+    space = elastic::make_free(grid, effective_modulus);
+    pressure = Field::Zero(grid.ny, grid.nx);
+  }
+};
+
+struct PointFilm::Linear {
+  PointBalance balance;
+  double load = 0;  // (load carried - load) / load
+};
+
+PointFilm::~PointFilm() = default;
+PointFilm::PointFilm(PointFilm&&) noexcept = default;
+PointFilm& PointFilm::operator=(PointFilm&&) noexcept = default;
+
+PointFilm::PointFilm(const PointProblem& problem)
+    : lubricant(problem.lubricant),
+      load(problem.load),
+      speed(problem.entrainment_speed),
+      problem_(problem),
+      grid_(point_grid(problem)),
+      x_(point_x(problem)),
+      y_(point_y(problem)),
+      elastic_(std::make_unique<Elastic>(grid_, problem.effective_modulus)) {
+  shape = (y_.square() / (2 * problem.radius_y)).replicate(1, x_.size()) +
+          (x_.square() / (2 * problem.radius_x)).transpose().replicate(y_.size(), 1);
+  if (problem.roughness.size() > 0) shape -= problem.roughness;
+  problem_.roughness.resize(0, 0);
+  const reference::HertzEllipse hertz = hertz_of(problem);
+  film_scale_ = film_groups_of(problem).nijenbanning_central();
+  pressed_width_x_ = std::max(hertz.half_axis_x, std::sqrt(2 * problem.radius_x * film_scale_));
+  pressed_width_y_ = std::max(hertz.half_axis_y, std::sqrt(2 * problem.radius_y * film_scale_));
+  units_.pressure = 1.5 * load / (std::numbers::pi * pressed_width_x_ * pressed_width_y_);
+  units_.film = std::max(hertz.half_axis_x * hertz.half_axis_x / problem.radius_x, film_scale_);
+  units_.load = load;
+  const double unit = units_.pressure / units_.film;
+  elastic_->influence.resize(kPointReach, kPointReach);
+  for (Index j = 0; j < kPointReach; ++j) {
+    for (Index i = 0; i < kPointReach; ++i) {
+      elastic_->influence(j, i) =
+          unit * elastic::love_coefficient(static_cast<double>(i) * grid_.dx(),
+                                           static_cast<double>(j) * grid_.dy(), grid_.dx(),
+                                           grid_.dy(), problem.effective_modulus);
+    }
+  }
+}
+
+PointState PointFilm::hertz_start(double min_film) const {
+  // The cavity begins rather too far out: it grows at once but shrinks node by node.
+  const double rupture = pressed_width_x_ + std::sqrt(2 * problem_.radius_x * film_scale_);
+  PointState state;
+  state.pressure.resize(y_.size(), x_.size());
+  state.cavity.resize(y_.size(), x_.size());
+  for (Index j = 0; j < y_.size(); ++j) {
+    for (Index i = 0; i < x_.size(); ++i) {
+      const double inside =
+          1 - std::pow(x_[i] / pressed_width_x_, 2) - std::pow(y_[j] / pressed_width_y_, 2);
+      state.pressure(j, i) = units_.pressure * std::sqrt(std::max(0.0, inside));
+      state.cavity(j, i) = x_[i] >= rupture;
+    }
+  }
+  state.film = film_of(state);
+  state.separation = min_film - state.film.minCoeff();
+  state.film += state.separation;
+  return state;
+}
+
+PointState PointFilm::resampled(const PointState& state, const Grid& from) const {
+  PointState result;
+  result.separation = state.separation;
+  result.pressure.resize(grid_.ny, grid_.nx);
+  result.cavity.resize(grid_.ny, grid_.nx);
+  // Both grids span the domain from node to node.
+  const double step_x = static_cast<double>(from.nx - 1) / static_cast<double>(grid_.nx - 1);
+  const double step_y = static_cast<double>(from.ny - 1) / static_cast<double>(grid_.ny - 1);
+  for (Index j = 0; j < grid_.ny; ++j) {
+    const double v = static_cast<double>(j) * step_y;
+    const Index b = lower_node(v, from.ny);
+    const double t = v - static_cast<double>(b);
+    for (Index i = 0; i < grid_.nx; ++i) {
+      const double u = static_cast<double>(i) * step_x;
+      const Index a = lower_node(u, from.nx);
+      const double s = u - static_cast<double>(a);
+      const auto p = state.pressure.block<2, 2>(b, a);
+      result.pressure(j, i) =
+          (1 - t) * ((1 - s) * p(0, 0) + s * p(0, 1)) + t * ((1 - s) * p(1, 0) + s * p(1, 1));
+      result.cavity(j, i) = state.cavity.block<2, 2>(b, a).all();
+    }
+  }
+  result.film = film_of(result);
+  return result;
+}
+
+Field PointFilm::deflection(const Field& pressure) const {
+  elastic_->pressure.topLeftCorner(pressure.rows(), pressure.cols()) = pressure;
+  elastic_->space->apply(elastic_->pressure, elastic_->displacement);
+  return elastic_->displacement.topLeftCorner(pressure.rows(), pressure.cols());
+}
+
+Field PointFilm::film_of(const PointState& state) const {
+  const bool shared = solid.pressure.size() > 0;
+  Field film = deflection(shared ? Field(state.pressure + solid.pressure) : state.pressure);
+  film += shape + state.separation;
+  if (solid.plastic_depth.size() > 0) film += solid.plastic_depth;
+  return film;
+}
+
+Field PointFilm::mass_of(const PointState& state) const {
+  return state.film *
+         state.pressure.unaryExpr([&](double p) { return lubricant.density.at(p).value; });
+}
+
+/// Nodes whose pressure is given.
+Mask PointFilm::held(const PointState& state) const {
+  Mask held = state.cavity;
+  held.row(0) = held.row(held.rows() - 1) = true;
+  held.col(0) = held.col(held.cols() - 1) = true;
+  if (solid.touching.size() > 0) held = held || solid.touching;
+  return held;
+}
+
+PointFilm::Linear PointFilm::linearize(const PointState& state, const PointStorage& storage) const {
+  Linear linear;
+  linear.balance = point_balance({.grid = grid_,
+                                  .lubricant = lubricant,
+                                  .speed = speed,
+                                  .sliding_speed = problem_.sliding_speed,
+                                  .pressure = state.pressure,
+                                  .film = state.film,
+                                  .touching = solid.touching},
+                                 storage, units_);
+  const double solid_load = solid.pressure.size() > 0 ? solid.pressure.sum() : 0;
+  linear.load = (grid_.pixel_area() * (state.pressure.sum() + solid_load) - load) / units_.load;
+  return linear;
+}
+
+/// Jacobian times a step, with the whole elastic kernel. Held nodes keep what they are given.
+Eigen::VectorXd PointFilm::product(const Linear& linear, const Mask& held,
+                                   const Eigen::VectorXd& step) const {
+  const Index n = grid_.size();
+  const Eigen::Map<const Field> given(step.data(), grid_.ny, grid_.nx);
+  const Field pressure = held.select(0, given);
+  const Field film = units_.pressure / units_.film * deflection(pressure) + step[n];
+  Field result = Field::Zero(grid_.ny, grid_.nx);
+  linear.balance.by_pressure.add_product(pressure, result);
+  linear.balance.by_film.add_product(film, result);
+  Eigen::VectorXd all(n + 1);
+  Eigen::Map<Field>(all.data(), grid_.ny, grid_.nx) = held.select(given, result);
+  all[n] = grid_.pixel_area() * units_.pressure / units_.load * pressure.sum();
+  return all;
+}
+
+/// Empty if the linear equations cannot be solved.
+Eigen::VectorXd PointFilm::newton_step(const Linear& linear, const PointState& state,
+                                       Outcome& outcome) const {
+  const Index n = grid_.size();
+  const Mask held = this->held(state);
+  const PointInverse inverse(linear.balance, held, elastic_->influence);
+  ++outcome.n_factorizations;
+  if (!inverse.ok()) return {};
+  // The separation moves all films alike.
+  Field by_separation = Field::Zero(grid_.ny, grid_.nx);
+  linear.balance.by_film.add_product(Field::Ones(grid_.ny, grid_.nx), by_separation);
+  by_separation = held.select(0, by_separation);
+  const Field answer = inverse(by_separation);
+  const double weight = grid_.pixel_area() * units_.pressure / units_.load;
+  const double border = -weight * answer.sum();
+  const auto precondition = [&](const Eigen::VectorXd& right) -> Eigen::VectorXd {
+    Eigen::VectorXd result(n + 1);
+    const Field pressure = inverse(Eigen::Map<const Field>(right.data(), grid_.ny, grid_.nx));
+    result[n] = (right[n] - weight * held.select(0, pressure).sum()) / border;
+    Eigen::Map<Field>(result.data(), grid_.ny, grid_.nx) = pressure - result[n] * answer;
+    return result;
+  };
+  const auto multiply = [&](const Eigen::VectorXd& step) { return product(linear, held, step); };
+  Eigen::VectorXd right(n + 1);
+  Eigen::Map<Field>(right.data(), grid_.ny, grid_.nx) = held.select(0, -linear.balance.residual);
+  right[n] = -linear.load;
+  return gmres(multiply, precondition, right, kLinearAccuracy, kMaxProducts, outcome.n_products)
+      .value_or(Eigen::VectorXd());
+}
+
+/// Norm of what is not yet balanced: of the film, and of cavity that gains liquid.
+double PointFilm::merit(const Linear& linear, const PointState& state) const {
+  const Mask held = this->held(state);
+  const Field& residual = linear.balance.residual;
+  Field open = held.select(state.cavity.select(residual.min(0), 0), residual);
+  if (solid.touching.size() > 0) open = solid.touching.select(0, open);
+  const double relative = units_.film / film_scale_;
+  return std::sqrt(open.square().sum() * relative * relative / static_cast<double>(x_.size()) +
+                   linear.load * linear.load);
+}
+
+/// The state a share of the step away; false where the gap would close or a law would end.
+bool PointFilm::step_to(const PointState& old, const Eigen::VectorXd& step, double share,
+                        PointState& state) const {
+  const Index n = grid_.size();
+  const Eigen::Map<const Field> change(step.data(), grid_.ny, grid_.nx);
+  state.pressure = old.pressure + share * units_.pressure * change;
+  state.separation = old.separation + share * units_.film * step[n];
+  // What falls below zero joins the cavity at once.
+  state.cavity = old.cavity || state.pressure < 0;
+  state.pressure = state.pressure.max(0);
+  if (!material::computable_range(lubricant).contains(state.pressure.maxCoeff())) return false;
+  state.film = film_of(state);
+  return least_film(state) > kThinnest * least_film(old);
+}
+
+/// Where solids do not touch [m].
+double PointFilm::least_film(const PointState& state) const {
+  if (solid.touching.size() == 0) return state.film.minCoeff();
+  return solid.touching.select(state.film.maxCoeff(), state.film).minCoeff();
+}
+
+/// Applies a Newton correction, halved until the gap stays open and the residual does not grow
+/// much. False if that does not help.
+bool PointFilm::correct(const Eigen::VectorXd& step, const PointStorage& storage, PointState& state,
+                        Linear& linear, Outcome& outcome) const {
+  if (step.size() == 0 || !step.allFinite()) return false;
+  const PointState old = state;
+  const double before = merit(linear, old);
+  double share = 1;
+  for (int i = 0; i <= kMaxHalvings; ++i, share /= 2) {
+    ++outcome.n_products;
+    if (!step_to(old, step, share, state)) continue;
+    linear = linearize(state, storage);
+    if (merit(linear, state) <= kMayGrow * before) return true;
+  }
+  state = old;
+  return false;
+}
+
+/// Nodes of the cavity that gain liquid leave it; true if there are any.
+bool PointFilm::refill(const Linear& linear, PointState& state) const {
+  const double surplus = 0.1 * problem_.tolerance * film_scale_ / units_.film;
+  const Mask held = this->held(state);
+  bool changed = false;
+  for (Index k = 0; k < held.size(); ++k) {
+    if (!state.cavity.data()[k] || !(linear.balance.residual.data()[k] < -surplus)) continue;
+    state.cavity.data()[k] = false;
+    changed = true;
+  }
+  return changed;
+}
+
+void PointFilm::measure(const Linear& linear, const PointState& state, Outcome& outcome) const {
+  const Field open = held(state).select(0, linear.balance.residual);
+  outcome.mass_error = open.abs().maxCoeff() * units_.film / film_scale_;
+  outcome.load_error = std::abs(linear.load);
+}
+
+PointFilm::Outcome PointFilm::solve(PointState& state, const PointStorage& storage,
+                                    const Observer& observer) {
+  Outcome outcome;
+  state.pressure = held(state).select(0, state.pressure);
+  state.film = film_of(state);
+  if (!(least_film(state) > 0)) return outcome;
+  Linear linear = linearize(state, storage);
+  while (outcome.iterations < problem_.max_iterations && !outcome.converged) {
+    ++outcome.iterations;
+    const Mask cavity = state.cavity;
+    if (!correct(newton_step(linear, state, outcome), storage, state, linear, outcome)) break;
+    const bool grows = (state.cavity != cavity).any();
+    const bool shrinks = refill(linear, state);
+    measure(linear, state, outcome);
+    outcome.converged = !grows && !shrinks && outcome.mass_error <= problem_.tolerance &&
+                        outcome.load_error <= problem_.tolerance;
+    const Convergence now = {.iterations = outcome.iterations,
+                             .operator_applications = outcome.n_products,
+                             .certificate = std::max(outcome.mass_error, outcome.load_error),
+                             .tolerance = problem_.tolerance,
+                             .converged = outcome.converged};
+    if (observer && !observer({.stage = "point contact", .convergence = &now})) break;
+  }
+  return outcome;
+}
+
+}  // namespace tabor::ehl

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "tabor/ehl/point.hpp"
+#include "tabor/ehl/point_balance.hpp"
+#include "tabor/elastic/half_space.hpp"
+
+namespace tabor::ehl {
+
+/// The unknowns of a point contact and what follows from them. Arrays have shape (ny, nx).
+struct PointState {
+  Field pressure;         ///< p [Pa] of the liquid, zero on the border and where solids touch
+  double separation = 0;  ///< h00 [m]
+  Field film;             ///< h [m]
+  Mask cavity;            ///< nodes where p = 0 is given and the film may lack liquid
+};
+
+/// What the solids do beside the film, given while the film is solved for: their pressure adds to
+/// the deflection and to the load but not to the flow; where they touch, the liquid has no pressure
+/// and nothing flows through the faces of the cell, so that mass is conserved; the film there is
+/// what the surfaces leave, of either sign. Empty arrays: none.
+struct SolidPart {
+  Field pressure;       ///< P_num [Pa], >= 0
+  Field plastic_depth;  ///< h_plast [m], >= 0, adds to the film
+  Mask touching;
+};
+
+/// The equations of a point contact at the nodes of one grid and their solution by Newton's method:
+///
+///   shape + h00 + h_plast + K (p + P_num) = h ,  balances of cells(p, h) = 0 ,
+///   sum (p + P_num) dx dy = load ,  p >= 0
+///
+/// with K by zero-padded transforms (elastic::make_free) and Reynolds' condition where the film
+/// breaks. A loop over the contact of asperities sets `solid` and calls solve() with the state of
+/// the last pass.
+class PointFilm {
+ public:
+  explicit PointFilm(const PointProblem& problem);
+  ~PointFilm();
+  PointFilm(PointFilm&&) noexcept;
+  PointFilm& operator=(PointFilm&&) noexcept;
+
+  const Grid& grid() const { return grid_; }
+  const Eigen::ArrayXd& x() const { return x_; }
+  const Eigen::ArrayXd& y() const { return y_; }
+  const PointUnits& units() const { return units_; }
+  double film_scale() const { return film_scale_; }  ///< [m] what errors of mass compare with
+
+  Field shape;  ///< gap of the undeformed bodies [m]: x^2/(2 Rx) + y^2/(2 Ry) - s
+  SolidPart solid;
+  material::Lubricant lubricant;
+  double load = 0;   ///< [N]
+  double speed = 0;  ///< u_m [m/s], > 0
+
+  /// Hertz' pressure, spread wider where the bodies are so stiff that the film is wider than their
+  /// contact, and h00 such that the film is `min_film` [m] where it is thinnest.
+  PointState hertz_start(double min_film) const;
+  /// A state of another grid of the same domain in half axes, between its nodes.
+  PointState resampled(const PointState& state, const Grid& from) const;
+  /// u [m] under a pressure [Pa] on all nodes.
+  Field deflection(const Field& pressure) const;
+  /// h [m] of a state: shape + h00 + h_plast + K (p + P_num).
+  Field film_of(const PointState& state) const;
+  Field mass_of(const PointState& state) const;  ///< rho/rho0 h [m]
+
+  struct Outcome {
+    int iterations = 0;
+    int n_products = 0;
+    int n_factorizations = 0;
+    double mass_error = 0;  ///< largest imbalance of a cell over the flow through the contact
+    double load_error = 0;  ///< relative
+    bool converged = false;
+  };
+  /// Advances `state` to a solution; leaves it where Newton's method stopped if there is none.
+  Outcome solve(PointState& state, const PointStorage& storage, const Observer& observer = {});
+
+ private:
+  struct Linear;
+  struct Elastic;
+  Linear linearize(const PointState& state, const PointStorage& storage) const;
+  Mask held(const PointState& state) const;
+  void measure(const Linear& linear, const PointState& state, Outcome& outcome) const;
+  double merit(const Linear& linear, const PointState& state) const;
+  bool refill(const Linear& linear, PointState& state) const;
+  double least_film(const PointState& state) const;
+  bool step_to(const PointState& old, const Eigen::VectorXd& step, double share,
+               PointState& state) const;
+  bool correct(const Eigen::VectorXd& step, const PointStorage& storage, PointState& state,
+               Linear& linear, Outcome& outcome) const;
+  Eigen::VectorXd product(const Linear& linear, const Mask& held,
+                          const Eigen::VectorXd& step) const;
+  Eigen::VectorXd newton_step(const Linear& linear, const PointState& state,
+                              Outcome& outcome) const;
+
+  PointProblem problem_;
+  Grid grid_;
+  Eigen::ArrayXd x_, y_;
+  std::unique_ptr<Elastic> elastic_;
+  PointUnits units_;
+  double pressed_width_x_, pressed_width_y_;  // [m], half axes of the pressed ellipse
+  double film_scale_;                         // [m]
+};
+
+}  // namespace tabor::ehl

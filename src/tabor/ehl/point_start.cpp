@@ -1,0 +1,155 @@
+#include "tabor/ehl/point_start.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace tabor::ehl {
+namespace {
+
+constexpr Index kCoarsest = 48;  // nodes along a side of a grid that is not coarsened further
+/// The film of the first guess over that of Nijenbanning's formula: Newton's method comes down
+/// safely from a thick film, where the flow depends on the pressure gradient.
+constexpr double kFirstFilms[] = {3, 10, 1, 30};
+constexpr double kFirstStep = 0.5;  // of a continuation
+constexpr double kSmallestStep = 1.0 / 64;
+
+PointFilm::Outcome solve_from_hertz(const PointProblem& problem, PointFilm& film, PointState& state,
+                                    const Observer& observer) {
+  const double scale = film_groups_of(problem).nijenbanning_central();
+  PointFilm::Outcome outcome;
+  for (const double first : kFirstFilms) {
+    state = film.hertz_start(first * scale);
+    outcome = outcome + film.solve(state, {}, observer);
+    if (outcome.converged) break;
+  }
+  return outcome;
+}
+
+material::Viscosity with_share_of_coefficient(const material::Viscosity& viscosity, double share) {
+  return material::make_viscosity(material::law_of(viscosity),
+                                  material::ambient_viscosity(viscosity),
+                                  share * material::pressure_coefficient(viscosity));
+}
+
+/// Leads a film from share 0 to share 1 of what `apply` sets, in steps that shrink when one fails.
+PointFilm::Outcome ramp(PointFilm& film, PointState& state,
+                        const std::function<void(double)>& apply, const Observer& observer) {
+  PointFilm::Outcome outcome;
+  double share = 0;
+  for (double step = kFirstStep; share < 1 && step > kSmallestStep;) {
+    PointState next = state;
+    const double aim = std::min(1.0, share + step);
+    apply(aim);
+    outcome = outcome + film.solve(next, {}, observer);
+    if (outcome.converged) {
+      state = next;
+      share = aim;
+    }
+    step *= outcome.converged ? 1.5 : 0.5;
+  }
+  apply(1);
+  outcome.converged = share >= 1;
+  return outcome;
+}
+
+PointFilm::Outcome solve_smooth(const PointProblem& problem, PointFilm& film, PointState& state,
+                                const Observer& observer);
+
+/// From the solution on a grid of twice the spacing, if there is one.
+PointFilm::Outcome solve_nested(const PointProblem& problem, PointFilm& film, PointState& state,
+                                const Observer& observer) {
+  PointProblem coarse = problem;
+  coarse.nodes_x = (problem.nodes_x + 1) / 2;
+  coarse.nodes_y = (problem.nodes_y + 1) / 2;
+  if (std::min(coarse.nodes_x, coarse.nodes_y) < kCoarsest) return {};
+  PointFilm coarse_film(coarse);
+  coarse_film.lubricant = film.lubricant;
+  const PointFilm::Outcome before = solve_smooth(coarse, coarse_film, state, observer);
+  if (!before.converged) return before;
+  state = film.resampled(state, coarse_film.grid());
+  return before + film.solve(state, {}, observer);
+}
+
+PointFilm::Outcome solve_smooth(const PointProblem& problem, PointFilm& film, PointState& state,
+                                const Observer& observer) {
+  PointFilm::Outcome outcome = solve_nested(problem, film, state, observer);
+  if (!outcome.converged) outcome = outcome + solve_from_hertz(problem, film, state, observer);
+  const material::Viscosity viscosity = film.lubricant.viscosity;
+  if (outcome.converged || !(material::pressure_coefficient(viscosity) > 0)) return outcome;
+  film.lubricant.viscosity = with_share_of_coefficient(viscosity, 0);
+  outcome = outcome + solve_from_hertz(problem, film, state, observer);
+  const auto thicken = [&](double share) {
+    film.lubricant.viscosity = with_share_of_coefficient(viscosity, share);
+  };
+  if (outcome.converged) return outcome + ramp(film, state, thicken, observer);
+  thicken(1);
+  return outcome;
+}
+
+std::vector<std::string> doubts_of(const PointProblem& problem, const PointResult& result) {
+  std::vector<std::string> doubts = material::doubts(problem.lubricant, result.pressure.maxCoeff());
+  const Index nx = result.grid.nx;
+  const double inside = result.pressure.col(1).maxCoeff();
+  if (inside > 0.01 * result.pressure.maxCoeff()) {
+    doubts.push_back(fmt::format(
+        "the pressure is {:.2g} of its maximum where the domain begins: give a longer inlet",
+        inside / result.pressure.maxCoeff()));
+  }
+  if (result.pressure.col(nx - 2).maxCoeff() > 0) {
+    doubts.emplace_back("the film reaches the end of the domain: give a longer outlet");
+  }
+  return doubts;
+}
+
+}  // namespace
+
+PointFilm::Outcome operator+(const PointFilm::Outcome& before, PointFilm::Outcome now) {
+  now.iterations += before.iterations;
+  now.n_products += before.n_products;
+  now.n_factorizations += before.n_factorizations;
+  return now;
+}
+
+PointFilm::Outcome solve_cold(const PointProblem& problem, PointFilm& film, PointState& state,
+                              const Observer& observer) {
+  PointProblem smooth = problem;
+  smooth.roughness.resize(0, 0);
+  if (problem.roughness.size() == 0) return solve_smooth(smooth, film, state, observer);
+  const Field rough = film.shape;
+  film.shape = rough + problem.roughness;
+  PointFilm::Outcome outcome = solve_smooth(smooth, film, state, observer);
+  const auto roughen = [&](double share) { film.shape = rough + (1 - share) * problem.roughness; };
+  if (outcome.converged) return outcome + ramp(film, state, roughen, observer);
+  roughen(1);
+  return outcome;
+}
+
+PointState state_of(const PointFilm& film, const PointResult& result) {
+  return film.resampled({.pressure = result.pressure,
+                         .separation = result.separation,
+                         .film = result.film,
+                         .cavity = result.pressure <= 0},
+                        result.grid);
+}
+
+PointResult result_of(const PointProblem& problem, const PointFilm& film, const PointState& state,
+                      const PointFilm::Outcome& outcome) {
+  PointResult result{.grid = film.grid(),
+                     .pressure = state.pressure,
+                     .contact_pressure = film.solid.pressure,
+                     .film = state.film,
+                     .plastic_depth = film.solid.plastic_depth,
+                     .separation = state.separation,
+                     .load_error = outcome.load_error,
+                     .mass_error = outcome.mass_error,
+                     .newton_iterations = outcome.iterations,
+                     .n_products = outcome.n_products,
+                     .converged = outcome.converged,
+                     .doubts = {}};
+  result.doubts = doubts_of(problem, result);
+  return result;
+}
+
+}  // namespace tabor::ehl
