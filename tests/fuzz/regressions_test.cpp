@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <set>
 
+#include "fuzz/png.hpp"
 #include "fuzz/seeds.hpp"
 #include "fuzz/targets.hpp"
 #include "support/folder.hpp"
+#include "tabor/io/png.hpp"
 
 namespace tabor::fuzz {
 namespace {
@@ -22,6 +24,18 @@ TEST(Fuzz, EveryTargetHasASeed) {
 TEST(Fuzz, SeedsRun) {
   for (const Seed& seed : seeds()) {
     EXPECT_NO_THROW(target(seed.target).run(seed.bytes)) << seed.target << "/" << seed.name;
+  }
+}
+
+/// Else the fuzzer would see nothing but libpng's refusals.
+TEST(Fuzz, ARepairedPngIsRead) {
+  const test::Folder folder;
+  for (const int interlace : {0, 1}) {
+    test::put_bytes(folder / "a.png", repaired_png(plain_png(16, 0, interlace)));
+    const io::GreyImage image = io::read_png(folder / "a.png");
+    EXPECT_EQ(image.bits, 16);
+    EXPECT_EQ(image.counts.rows(), 3);
+    EXPECT_TRUE((image.counts == 0).all());
   }
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "fuzz/archive.hpp"
+#include "fuzz/png.hpp"
 #include "study/example_study.hpp"
 #include "support/container_files.hpp"
 #include "support/folder.hpp"
@@ -39,6 +40,11 @@ void add_instruments(std::vector<Seed>& seeds) {
     seeds.push_back({file.format, file.name, file.bytes});
   }
   seeds.push_back({"png", "grey", grey_png()});
+  for (const int bits : {1, 2, 4, 8, 16}) {
+    seeds.push_back({"png", std::to_string(bits) + "-bits", plain_png(bits, 0, 0)});
+  }
+  seeds.push_back({"png", "with-alpha", plain_png(16, 4, 0)});
+  seeds.push_back({"png", "interlaced", plain_png(8, 0, 1)});
 }
 
 void add_containers(std::vector<Seed>& seeds) {

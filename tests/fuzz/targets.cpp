@@ -7,6 +7,7 @@
 
 #include "fuzz/archive.hpp"
 #include "fuzz/memory_file.hpp"
+#include "fuzz/png.hpp"
 #include "support/folder.hpp"
 #include "support/sample_map.hpp"
 #include "tabor/core/error.hpp"
@@ -81,7 +82,7 @@ void read_every_channel(const std::filesystem::path& file) {
 void run_reader(const topography::format::Format& format, std::string_view bytes) {
   using namespace topography::format;
   if (format.identify(bytes.substr(0, kHeadSize)) == Match::no) return;
-  const MemoryFile file(bytes);
+  const MemoryFile file(format.name == "png" ? repaired_png(bytes) : std::string(bytes));
   read_every_channel(file.path());
 }
 
