@@ -61,8 +61,9 @@ class Hdf5Writer {
   /// `units` and `long_name` of a dataset.
   void describe(const std::string& path, const std::string& units, const std::string& long_name);
 
-  /// Writes cell-centre coordinates `x` and `y` [m] of a grid into a group, as dimension scales.
-  void axes(const std::string& group, const Grid& grid);
+  /// Writes cell-centre coordinates `x` and `y` [m] of a grid into a group, as dimension scales;
+  /// (left, top) [m] is the grid's corner.
+  void axes(const std::string& group, const Grid& grid, double left = 0, double top = 0);
   /// Attaches the scales `y`, `x` of the map's own group.
   void attach_axes(const std::string& map);
   /// Makes the group NeXus NXdata with this default signal over (y, x).

@@ -196,13 +196,14 @@ void Hdf5Writer::describe(const std::string& path, const std::string& units,
   attribute(path, "long_name", long_name);
 }
 
-void Hdf5Writer::axes(const std::string& group, const Grid& grid) {
+void Hdf5Writer::axes(const std::string& group, const Grid& grid, double left, double top) {
   const Session session;
   for (const bool along_x : {true, false}) {
     const Index n = along_x ? grid.nx : grid.ny;
     const double spacing = along_x ? grid.dx() : grid.dy();
     const std::string name = along_x ? "x" : "y";
-    const Eigen::ArrayXd centres = (Eigen::ArrayXd::LinSpaced(n, 0, double(n - 1)) + 0.5) * spacing;
+    const Eigen::ArrayXd centres =
+        (along_x ? left : top) + (Eigen::ArrayXd::LinSpaced(n, 0, double(n - 1)) + 0.5) * spacing;
     const std::string path = group + "/" + name;
     write(path, std::vector<double>(centres.begin(), centres.end()));
     const Handle scale(H5Dopen2(file_->id, path.c_str(), H5P_DEFAULT), &H5Dclose);
