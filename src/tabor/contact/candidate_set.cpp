@@ -86,14 +86,11 @@ double mean_residual_under_pressure(const Candidates& values) {
 }  // namespace
 
 CandidateSet pressed_pixels(const Field& pressure) {
+  const double* p = pressure.data();
   CandidateSet set;
-  for (Index i = 0; i < pressure.size(); ++i) {
-    if (pressure.data()[i] > 0) {
-      set.pixels.push_back(static_cast<std::uint32_t>(i));
-      set.values.pressure.push_back(pressure.data()[i]);
-    }
-  }
+  set.pixels = list_where(pressure.size(), [p](Index i) { return p[i] > 0; });
   resize(set, set.size());
+  for_each(set.size(), [&](std::size_t k) { set.values.pressure[k] = p[set.pixels[k]]; });
   return set;
 }
 

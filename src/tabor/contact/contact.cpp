@@ -13,11 +13,20 @@
 #include "tabor/contact/polonsky_keer.hpp"
 #include "tabor/contact/scale.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/core/large_pages.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/units.hpp"
 
 namespace tabor::contact {
 namespace {
+
+bool all_finite(const Field& map) {
+  const double n_finite = deterministic_sum(map.size(), [&](Index begin, Index end) {
+    const Eigen::Map<const Eigen::ArrayXd> block(map.data() + begin, end - begin);
+    return static_cast<double>(block.isFinite().count());
+  });
+  return n_finite == static_cast<double>(map.size());
+}
 
 void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
   const Grid& grid = elasticity.grid();
@@ -27,7 +36,7 @@ void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
         fmt::format("heights of {} x {} pixels", problem.height.cols(), problem.height.rows()),
         fmt::format("{} x {} as the elastic operator", grid.nx, grid.ny), "");
   }
-  if (!problem.height.isFinite().all()) {
+  if (!all_finite(problem.height)) {
     throw InputError("contact", "a surface with holes or infinite heights",
                      "a height at every pixel", "fill the holes first (--fill harmonic)");
   }
@@ -48,13 +57,27 @@ void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
 
 /// Rms slope by forward differences, without wrapping around.
 double rms_slope(const Field& height, const Grid& grid) {
-  const auto mean_square = [](const auto& difference, double spacing) {
-    return difference.size() == 0 ? 0.0 : difference.square().mean() / (spacing * spacing);
+  Eigen::ArrayXd along_x(grid.ny);
+  Eigen::ArrayXd along_y(grid.ny);
+  parallel_for(grid.ny, 16, [&](Index begin, Index end) {
+    for (Index y = begin; y < end; ++y) {
+      const auto row = height.row(y);
+      const auto below = height.row(std::min(y + 1, grid.ny - 1));
+      along_x(y) = (row.tail(grid.nx - 1) - row.head(grid.nx - 1)).square().sum();
+      along_y(y) = (below - row).square().sum();
+    }
+  });
+  const auto mean_square = [](double sum, Index n, double spacing) {
+    return n == 0 ? 0.0 : sum / (static_cast<double>(n) * spacing * spacing);
   };
-  const Index nx = grid.nx;
-  const Index ny = grid.ny;
-  return std::sqrt(mean_square(height.rightCols(nx - 1) - height.leftCols(nx - 1), grid.dx()) +
-                   mean_square(height.bottomRows(ny - 1) - height.topRows(ny - 1), grid.dy()));
+  return std::sqrt(mean_square(along_x.sum(), (grid.nx - 1) * grid.ny, grid.dx()) +
+                   mean_square(along_y.sum(), (grid.ny - 1) * grid.nx, grid.dy()));
+}
+
+double highest(const Field& map) {
+  return parallel_max(map.size(), [&](Index begin, Index end) {
+    return Eigen::Map<const Eigen::ArrayXd>(map.data() + begin, end - begin).maxCoeff();
+  });
 }
 
 /// Rms pressure [Pa] that full contact needs to flatten the surface: E* / 2 * rms slope.
@@ -116,7 +139,7 @@ State run_capped(elastic::ElasticOperator& elasticity, const Problem& problem, S
     elastic_problem.saturation_pressure = kNoSaturation;
     state = run(elasticity, elastic_problem, solver, observer);
     pairs_spent += state.convergence.fft_pairs;
-    cap_is_idle = state.pressure.maxCoeff() <= cap;
+    cap_is_idle = highest(state.pressure) <= cap;
     return cap_is_idle;
   };
   State state;
@@ -138,26 +161,37 @@ State run_capped(elastic::ElasticOperator& elasticity, const Problem& problem, S
 /// largest overlap-free level. The gap is then set exactly complementary to the pressure, which
 /// moves it by no more than the certificate's error.
 void finish_state(const Problem& problem, double cap, State& state) {
-  double total = 0;
-  double n_free = 0;
-  double saturated_level = -std::numeric_limits<double>::infinity();
-  for (Index i = 0; i < state.pressure.size(); ++i) {
-    const double p = state.pressure(i);
-    const double residual = state.displacement(i) - problem.height(i);
-    if (p > 0 && p < cap) {
-      total += residual;
-      n_free += 1;
-    } else if (p >= cap) {
-      saturated_level = std::max(saturated_level, residual);
-    }
+  const double* p = state.pressure.data();
+  const double* displacement = state.displacement.data();
+  const double* height = problem.height.data();
+  const auto sum_over_free = [&](const auto& term) {
+    return deterministic_sum(state.pressure.size(), [&](Index begin, Index end) {
+      double partial = 0;
+      for (Index i = begin; i < end; ++i) {
+        partial += p[i] > 0 && p[i] < cap ? term(i) : 0.0;
+      }
+      return partial;
+    });
+  };
+  const double n_free = sum_over_free([](Index) { return 1.0; });
+  if (n_free > 0) {
+    state.separation = sum_over_free([&](Index i) { return height[i] - displacement[i]; }) / n_free;
+  } else {
+    constexpr double none = -std::numeric_limits<double>::infinity();
+    state.separation = -parallel_max(state.pressure.size(), [&](Index begin, Index end) {
+      double level = none;
+      for (Index i = begin; i < end; ++i) {
+        level = std::max(level, p[i] > 0 ? displacement[i] - height[i] : none);
+      }
+      return level;
+    });
   }
-  state.separation = -(n_free > 0 ? total / n_free : saturated_level);
-  state.gap.resizeLike(state.pressure);
+  state.gap = uninitialised_map<Field>(state.pressure.rows(), state.pressure.cols());
+  double* to = state.gap.data();
   parallel_for(state.gap.size(), kBlock, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
-      const double gap = state.separation + state.displacement(i) - problem.height(i);
-      const double p = state.pressure(i);
-      state.gap(i) = p <= 0 ? std::max(gap, 0.0) : (p < cap ? 0.0 : std::min(gap, 0.0));
+      const double gap = state.separation + displacement[i] - height[i];
+      to[i] = p[i] <= 0 ? std::max(gap, 0.0) : (p[i] < cap ? 0.0 : std::min(gap, 0.0));
     }
   });
 }

@@ -10,10 +10,12 @@
 #include "tabor/contact/candidate_set.hpp"
 #include "tabor/contact/certificate.hpp"
 #include "tabor/contact/long_waves.hpp"
+#include "tabor/contact/pixel_list.hpp"
 #include "tabor/contact/preconditioner.hpp"
 #include "tabor/contact/projection.hpp"
 #include "tabor/contact/scale.hpp"
 #include "tabor/contact/start.hpp"
+#include "tabor/core/large_pages.hpp"
 #include "tabor/core/parallel.hpp"
 
 namespace tabor::contact {
@@ -38,14 +40,13 @@ double sum_over(std::size_t n, const Term& term) {
   });
 }
 
-/// body(k) for every k < n.
-template <typename Body>
-void for_each(std::size_t n, const Body& body) {
-  parallel_for(static_cast<Index>(n), kBlock, [&](Index begin, Index end) {
-    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-      body(k);
-    }
-  });
+/// A map of zeros, written on all threads.
+FieldF zeros(Index ny, Index nx) {
+  auto map = uninitialised_map<FieldF>(ny, nx);
+  float* values = map.data();
+  parallel_for(map.size(), kBlock,
+               [&](Index begin, Index end) { std::fill(values + begin, values + end, 0.0F); });
+  return map;
 }
 
 /// Projected gradient on the pressure with one operator application an iteration:
@@ -184,16 +185,14 @@ void ProjectedGradient::find_separation() {
 
 /// Pixels that may move: strictly inside the bounds, or at a bound and pulled inside.
 void ProjectedGradient::choose_active_set() {
-  places_.clear();
-  active_.clear();
-  for (std::size_t k = 0; k < candidates_.size(); ++k) {
+  places_ = list_where(static_cast<Index>(candidates_.size()), [&](Index i) {
+    const auto k = static_cast<std::size_t>(i);
     const double p = candidates_.values.pressure[k];
     const double v = candidates_.values.residual[k] - separation_;
-    if ((p > 0 || v < 0) && (p < cap_ || v > 0)) {
-      places_.push_back(static_cast<std::uint32_t>(k));
-      active_.push_back(candidates_.pixels[k]);
-    }
-  }
+    return (p > 0 || v < 0) && (p < cap_ || v > 0);
+  });
+  active_.resize(places_.size());
+  for_each(active_.size(), [&](std::size_t k) { active_[k] = candidates_.pixels[places_[k]]; });
 }
 
 void ProjectedGradient::find_direction() {
@@ -319,7 +318,7 @@ State ProjectedGradient::run(const Observer& observer) {
   residual_ = starting_pressure(elasticity_, problem_, convergence_.fft_pairs);
   candidates_ = pressed_pixels(residual_);
   refresh();
-  work_ = FieldF::Zero(ny, nx);
+  work_ = zeros(ny, nx);
 
   while (true) {
     certify();
@@ -358,10 +357,13 @@ State ProjectedGradient::run(const Observer& observer) {
   }
   State state;
   work_ = FieldF();
-  state.pressure.resize(ny, nx);
+  state.pressure = uninitialised_map<Field>(ny, nx);
   spread_pressure(candidates_, state.pressure);
   state.displacement = std::move(residual_);
-  state.displacement += problem_.height;
+  double* displacement = state.displacement.data();
+  const double* height = problem_.height.data();
+  for_each(static_cast<std::size_t>(state.displacement.size()),
+           [=](std::size_t i) { displacement[i] += height[i]; });
   state.convergence = convergence_;
   state.compact_steps = n_compact_steps_;
   return state;

@@ -204,17 +204,28 @@ void LongWaves::solve(double tolerance) {
   double square = product(residual, stiff_residual);
   first_square_ = std::max(first_square_, square);
   const double enough = tolerance * first_square_;
+  const auto n = static_cast<std::size_t>(load_.size());
+  float* const e = displacement_.data();
+  float* const r = residual.data();
+  float* const mr = stiff_residual.data();
+  float* const d = step.data();
+  float* const md = stiff_step.data();
+  float* const s = image.data();
   for (int k = 0; k < kMostSteps && square > enough; ++k) {
     apply_compliance(stiff_step, image);
-    image += step;
+    for_each(n, [=](std::size_t i) { s[i] += d[i]; });
     const auto length = static_cast<float>(square / product(image, stiff_step));
-    displacement_ += length * step;
-    residual -= length * image;
+    for_each(n, [=](std::size_t i) {
+      e[i] += length * d[i];
+      r[i] -= length * s[i];
+    });
     apply_stiffness(residual, stiff_residual);
     const double next = product(residual, stiff_residual);
     const auto momentum = static_cast<float>(next / square);
-    step = residual + momentum * step;
-    stiff_step = stiff_residual + momentum * stiff_step;
+    for_each(n, [=](std::size_t i) {
+      d[i] = r[i] + momentum * d[i];
+      md[i] = mr[i] + momentum * md[i];
+    });
     square = next;
   }
   // One more round through S_c smooths what the inner product does not see: blocks out of contact.

@@ -1,13 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
+#include "tabor/contact/pixel_list.hpp"
 #include "tabor/core/types.hpp"
 
 namespace tabor::contact {
-
-using PixelList = std::vector<std::uint32_t>;  ///< linear pixel indices, ascending
 
 /// Approximate inverse of the elastic operator on a set of pixels: the kernel of E* |q| / 2 on the
 /// grid, times a triangular taper in x and y. The taper keeps it positive definite (product of two

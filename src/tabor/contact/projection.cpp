@@ -29,10 +29,16 @@ std::pair<double, double> load_and_slope(const std::vector<double>& x, double sh
 }  // namespace
 
 double shift_for_load(const std::vector<double>& x, double load, double cap) {
-  const auto [smallest, largest] = std::minmax_element(x.begin(), x.end());
+  const auto block = [&](Index begin, Index end) {
+    return Eigen::Map<const Eigen::ArrayXd>(x.data() + begin, end - begin);
+  };
+  const auto n = static_cast<Index>(x.size());
+  const double smallest =
+      -parallel_max(n, [&](Index begin, Index end) { return -block(begin, end).minCoeff(); });
   // At `low` the sum is at least the load, at `high` it is zero.
-  double low = *smallest - std::min(cap, load);
-  double high = *largest;
+  double low = smallest - std::min(cap, load);
+  double high =
+      parallel_max(n, [&](Index begin, Index end) { return block(begin, end).maxCoeff(); });
   double shift = std::clamp(0.0, low, high);
   constexpr int most_steps = 200;
   for (int step = 0; step < most_steps; ++step) {
@@ -54,9 +60,11 @@ double shift_for_load(const std::vector<double>& x, double load, double cap) {
 
 void project_on_load(std::vector<double>& x, double load, double cap) {
   const double shift = shift_for_load(x, load, cap);
-  for (double& value : x) {
-    value = std::clamp(value - shift, 0.0, cap);
-  }
+  parallel_for(static_cast<Index>(x.size()), kBlock, [&](Index begin, Index end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      x[i] = std::clamp(x[i] - shift, 0.0, cap);
+    }
+  });
 }
 
 }  // namespace tabor::contact

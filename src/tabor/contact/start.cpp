@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <vector>
 
 #include "tabor/contact/fast_solver.hpp"
+#include "tabor/contact/pixel_list.hpp"
 #include "tabor/contact/projection.hpp"
+#include "tabor/core/large_pages.hpp"
 #include "tabor/core/parallel.hpp"
 
 namespace tabor::contact {
@@ -17,7 +20,7 @@ constexpr double kCoarseTolerance = 1e-3;  // tighter coarse solutions save noth
 
 /// Means of 2 x 2 pixels; the last row and column of odd sizes stand for themselves.
 Field halved(const Field& fine) {
-  Field coarse((fine.rows() + 1) / 2, (fine.cols() + 1) / 2);
+  auto coarse = uninitialised_map<Field>((fine.rows() + 1) / 2, (fine.cols() + 1) / 2);
   parallel_for(coarse.rows(), 16, [&](Index begin, Index end) {
     for (Index y = begin; y < end; ++y) {
       const Index below = std::min(2 * y + 1, fine.rows() - 1);
@@ -32,7 +35,7 @@ Field halved(const Field& fine) {
 }
 
 Field doubled(const Field& coarse, Index ny, Index nx) {
-  Field fine(ny, nx);
+  auto fine = uninitialised_map<Field>(ny, nx);
   parallel_for(ny, 16, [&](Index begin, Index end) {
     for (Index y = begin; y < end; ++y) {
       for (Index x = 0; x < nx; ++x) {
@@ -65,35 +68,22 @@ Field bearing_pressure(const Problem& problem) {
 
 void fit_to_load(Field& pressure, double mean_pressure, double saturation_pressure) {
   const double load = mean_pressure * static_cast<double>(pressure.size());
-  std::vector<double> values;
-  std::vector<Index> support;
-  const auto collect = [&](bool everywhere) {
-    values.clear();
-    support.clear();
-    for (Index i = 0; i < pressure.size(); ++i) {
-      if (everywhere || pressure.data()[i] > 0) {
-        values.push_back(pressure.data()[i]);
-        support.push_back(i);
-      }
-    }
-  };
-  collect(false);
-  if (values.empty() || saturation_pressure * static_cast<double>(values.size()) <= load) {
-    collect(true);
+  double* p = pressure.data();
+  PixelList support = list_where(pressure.size(), [p](Index i) { return p[i] > 0; });
+  if (support.empty() || saturation_pressure * static_cast<double>(support.size()) <= load) {
+    support = list_where(pressure.size(), [](Index) { return true; });
   }
-  double carried = 0;
-  for (const double value : values) {
-    carried += value;
-  }
+  std::vector<double> values(support.size());
+  for_each(values.size(), [&](std::size_t k) { values[k] = p[support[k]]; });
+  const auto n = static_cast<Index>(values.size());
+  const double carried = deterministic_sum(n, [&](Index begin, Index end) {
+    return std::accumulate(values.begin() + begin, values.begin() + end, 0.0);
+  });
   if (!std::isfinite(saturation_pressure) && carried > 0) {
-    for (double& value : values) {
-      value *= load / carried;
-    }
+    for_each(values.size(), [&](std::size_t k) { values[k] *= load / carried; });
   }
   project_on_load(values, load, saturation_pressure);
-  for (std::size_t k = 0; k < support.size(); ++k) {
-    pressure.data()[support[k]] = values[k];
-  }
+  for_each(values.size(), [&](std::size_t k) { p[support[k]] = values[k]; });
 }
 
 Field starting_pressure(const elastic::ElasticOperator& elasticity, const Problem& problem,

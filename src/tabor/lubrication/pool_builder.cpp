@@ -1,11 +1,10 @@
 #include "tabor/lubrication/pool_builder.hpp"
+#include "tabor/core/large_pages.hpp"
 
 #include <algorithm>
 #include <array>
 #include <unordered_map>
 #include <utility>
-
-#include "tabor/lubrication/large_pages.hpp"
 
 namespace tabor::lubrication {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "tabor/lubrication/large_pages.hpp"
+#include "tabor/core/large_pages.hpp"
 #include "tabor/lubrication/pool_builder.hpp"
 
 namespace tabor::lubrication {

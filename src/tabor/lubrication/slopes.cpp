@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include "tabor/lubrication/large_pages.hpp"
+#include "tabor/core/large_pages.hpp"
 
 namespace tabor::lubrication {
 namespace {

@@ -9,6 +9,7 @@
 #include <new>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/large_pages.hpp"
 #include "tabor/core/parallel.hpp"
 
 namespace tabor::spectral {
@@ -59,6 +60,7 @@ class Buffer {
     if (data_ == nullptr) {
       throw std::bad_alloc();
     }
+    ask_for_large_pages(data_, static_cast<std::size_t>(n));
   }
   ~Buffer() { Fftw<Real>::release(data_); }
   Buffer(const Buffer&) = delete;
