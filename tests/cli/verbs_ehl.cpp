@@ -36,6 +36,19 @@ TEST(SweepAxis, ReadsRangesInTheUnitOfTheirBeginning) {
   EXPECT_EQ(parse_axis("a=-1..1:3").values[1], "0");
 }
 
+TEST(SweepAxis, ReadsLists) {
+  const SweepAxis nodes = parse_axis("grid.nodes=65, 97,145");
+  EXPECT_TRUE(nodes.is_range);
+  EXPECT_EQ(nodes.values, (std::vector<std::string>{"65", "97", "145"}));
+  EXPECT_FALSE(nodes.has_words());
+  const SweepAxis words = parse_axis("impact.start=rigid,full");
+  EXPECT_TRUE(words.has_words());
+  EXPECT_EQ(words.numbers(), (std::vector<double>{0, 1}));
+  for (const char* value : {"[\"1 us\", \"2 us\"]", "\"a,b.x3p\""}) {
+    EXPECT_EQ(parse_axis(std::string("a.b=") + value).values, std::vector<std::string>{value});
+  }
+}
+
 TEST(SweepAxis, TakesTwoDotsInAPathForAFolder) {
   for (const char* path : {"../scan.x3p", "../../scan 2.x3p", "scans/../scan.x3p", "1..scan.x3p"}) {
     const SweepAxis axis = parse_axis(std::string("roughness.file=") + path);
@@ -46,7 +59,7 @@ TEST(SweepAxis, TakesTwoDotsInAPathForAFolder) {
 
 TEST(SweepAxis, RefusesWhatIsNoRange) {
   for (const char* text : {"ball.speed", "=1", "ball.speed=1m/s..2kg", "a=1..2:often", "a=0..2:log",
-                           "a=1..2:1", "a=1m/s..2 hollow/s"}) {
+                           "a=1..2:1", "a=1m/s..2 hollow/s", "a=1,,2", "a=1,"}) {
     EXPECT_THROW(parse_axis(text), UsageError) << text;
   }
 }
@@ -96,6 +109,24 @@ TEST(EhlImpact, SweepsAndStudies) {
   const io::Json study = json_of(quick({"--study", "grid"}));
   EXPECT_EQ(study["results"][2]["nodes"], 160);
   EXPECT_TRUE(study["limits"].contains("max_force_N"));
+}
+
+TEST(EhlImpact, ASweepOverThreeGridsShowsTheLimit) {
+  const io::Json sweep = json_of(quick({"--set", "grid.nodes=40,57,80"}));
+  ASSERT_EQ(sweep["results"].size(), 3u);
+  EXPECT_TRUE(sweep["limits"]["max_deformation_m"].is_number());
+  EXPECT_GT(sweep["orders"]["max_deformation_m"], 0);
+  EXPECT_FALSE(json_of(quick({"--set", "ball.speed=0.2m/s,0.3m/s,0.4m/s"})).contains("limits"));
+}
+
+TEST(EhlImpact, KeepsTheWordsOfASweep) {
+  const test::Folder folder;
+  const std::string file = folder / "start.h5";
+  ASSERT_EQ(run_tabor(quick({"--set", "impact.start=rigid,full", "-o", file})).code, 0);
+  const io::Hdf5Reader reader(file);
+  EXPECT_EQ(reader.attribute_texts("/sweep/axes/impact.start", "words"),
+            (std::vector<std::string>{"rigid", "full"}));
+  EXPECT_EQ(reader.numbers("/sweep/converged"), (std::vector<double>{1, 1}));
 }
 
 TEST(EhlImpact, GoesOnWithASweepBehindACaseThatMakesNoSense) {

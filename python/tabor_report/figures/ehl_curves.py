@@ -41,7 +41,7 @@ def sweep(source):
     keys = [key.decode() if isinstance(key, bytes) else str(key) for key in np.atleast_1d(node.attrs["axes"])]
     axes_values = [node["axes"][key][()] for key in keys]
     for name in node:
-        if name in ("axes", "shape"):
+        if name in ("axes", "shape", "converged"):
             continue
         values = node[name][()].reshape([len(axis) for axis in axes_values])
         if not np.isfinite(values).any():

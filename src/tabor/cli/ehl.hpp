@@ -24,9 +24,10 @@ struct EhlAnswer {   // NOLINT(bugprone-exception-escape): of the JSON library's
 
 /// A column of the table of a sweep or a study.
 struct EhlColumn {
-  std::string key;      ///< of the JSON object
-  std::string heading;  ///< "force"
-  std::string unit;     ///< "N", "" for a plain number
+  std::string key;           ///< of the JSON object; "wear.mean_depth_m" of the object "wear" in it
+  std::string heading;       ///< "force"
+  std::string unit;          ///< "N", "" for a plain number
+  bool is_optional = false;  ///< left out where no case has the key
 };
 
 /// A study of how far a result depends on something that is not physics.
@@ -36,8 +37,14 @@ struct EhlStudy {
   std::string scalar;  ///< of the JSON object, where the value in force stands
   std::string unit;    ///< of both, "" for a whole number
   std::vector<double> factors;
-  bool has_limit = true;  ///< values tend to a limit that can be extrapolated
+  bool has_limit = true;         ///< values tend to a limit that can be extrapolated
+  bool is_count = unit.empty();  ///< of nodes: the spacing is one over the cells between them
+  int end_nodes = 0;             ///< nodes that are not cells
+  int cells_by = 1;              ///< cells come in multiples of it
 };
+
+/// Solves one case; may remember it as the start of the next.
+using EhlSolver = std::function<EhlAnswer(const io::Config& config, Context& context)>;
 
 /// One sub-verb of `tabor ehl`.
 struct EhlProgram {
@@ -47,7 +54,10 @@ struct EhlProgram {
   std::vector<EhlColumn> columns;
   std::vector<EhlStudy> studies;
   std::vector<std::string> methods;  ///< keys of references.bib
-  std::function<EhlAnswer(const io::Config& config, Context& context)> solve;
+  EhlSolver solve;
+  /// Of the cases of a sweep, each of which may start from the one before; empty: solve.
+  std::function<EhlSolver()> make_series_solver = {};
+  std::vector<std::string> downwards = {};  ///< keys whose largest value is the easiest
 };
 
 EhlProgram impact_program();

@@ -144,6 +144,38 @@ const std::vector<std::string>& lubricant_keys() {
   return keys;
 }
 
+material::Shear read_shear(const io::Config& config) {
+  const bool is_limited = config.has("lubricant.limiting_stress");
+  if (config.has("lubricant.eyring_stress")) {
+    if (is_limited) {
+      throw InputError(config.place("lubricant.limiting_stress"), "beside eyring_stress",
+                       "one of the two", "");
+    }
+    return material::ree_eyring_shear(
+        positive_quantity(config, "lubricant.eyring_stress", dimension::pressure));
+  }
+  if (is_limited) {
+    return at_key(config, "lubricant.limiting_coefficient", [&] {
+      return material::limiting_shear(
+          positive_quantity(config, "lubricant.limiting_stress", dimension::pressure),
+          config.has("lubricant.limiting_coefficient")
+              ? config.number("lubricant.limiting_coefficient")
+              : 0.0);
+    });
+  }
+  if (config.has("lubricant.limiting_coefficient")) {
+    throw InputError(config.place("lubricant.limiting_coefficient"), "without limiting_stress",
+                     "both or none", "");
+  }
+  return material::NewtonianShear{};
+}
+
+const std::vector<std::string>& shear_keys() {
+  static const std::vector<std::string> keys = {
+      "lubricant.eyring_stress", "lubricant.limiting_stress", "lubricant.limiting_coefficient"};
+  return keys;
+}
+
 std::vector<std::string> joined(std::vector<std::string> keys,
                                 const std::vector<std::vector<std::string>>& more) {
   for (const std::vector<std::string>& list : more) {

@@ -29,6 +29,10 @@ const std::vector<std::string>& solids_keys();
 material::Lubricant read_lubricant(const io::Config& config, const std::string& usual_law);
 const std::vector<std::string>& lubricant_keys();
 
+/// [lubricant]: eyring_stress, or limiting_stress with limiting_coefficient; Newtonian without.
+material::Shear read_shear(const io::Config& config);
+const std::vector<std::string>& shear_keys();
+
 /// Key lists one after the other.
 std::vector<std::string> joined(std::vector<std::string> keys,
                                 const std::vector<std::vector<std::string>>& more);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -17,8 +18,10 @@ constexpr std::size_t kUsualCount = 5;
 constexpr double kMostValues = 10000;
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
-  throw UsageError(fmt::format(
-      "--set {}: {}; write KEY=VALUE, or a range like ball.speed=0.05m/s..1m/s:log:5", text, why));
+  throw UsageError(
+      fmt::format("--set {}: {}; write KEY=VALUE, a list KEY=V1,V2 or a range like "
+                  "ball.speed=0.05m/s..1m/s:log:5",
+                  text, why));
 }
 
 /// Two numbers around "..", with or without units: "../scan.x3p" is a file.
@@ -31,6 +34,17 @@ bool is_range(std::string_view value) {
     return digit != std::string_view::npos && digit <= 2 && end[digit] >= '0' && end[digit] <= '9';
   };
   return begins_with_number(value.substr(0, dots)) && begins_with_number(value.substr(dots + 2));
+}
+
+/// The values of "65,97,145", one value if there is no list.
+std::vector<std::string> listed(const std::string& text, const std::string& value) {
+  if (value.find_first_of("\"'[{") != std::string::npos) return {value};
+  std::vector<std::string> values;
+  for (const std::string& part : split(value, ',')) {
+    values.emplace_back(trim(part));
+    if (values.back().empty()) refuse(text, "a value of the list is missing");
+  }
+  return values;
 }
 
 struct Range {
@@ -90,18 +104,28 @@ std::vector<std::string> values_of(const std::string& text, const Range& range) 
   return values;
 }
 
+/// [SI]
+std::optional<double> number_in(const std::string& value) {
+  try {
+    return parse_quantity(value).value;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
 }  // namespace
 
 std::vector<double> SweepAxis::numbers() const {
   std::vector<double> numbers;
   for (const std::string& value : values) {
-    try {
-      numbers.push_back(parse_quantity(value).value);
-    } catch (const InputError&) {
-      numbers.push_back(static_cast<double>(numbers.size()));
-    }
+    numbers.push_back(number_in(value).value_or(static_cast<double>(numbers.size())));
   }
   return numbers;
+}
+
+bool SweepAxis::has_words() const {
+  return std::any_of(values.begin(), values.end(),
+                     [](const std::string& value) { return !number_in(value); });
 }
 
 SweepAxis parse_axis(const std::string& text) {
@@ -112,10 +136,14 @@ SweepAxis parse_axis(const std::string& text) {
   SweepAxis axis;
   axis.key = std::string(trim(text.substr(0, equals)));
   const std::string value(trim(text.substr(equals + 1)));
-  axis.is_range = is_range(value);
+  if (!is_range(value)) {
+    axis.values = listed(text, value);
+    axis.is_range = axis.values.size() > 1;
+    return axis;
+  }
+  axis.is_range = true;
   try {
-    axis.values =
-        axis.is_range ? values_of(text, parse_range(text, value)) : std::vector<std::string>{value};
+    axis.values = values_of(text, parse_range(text, value));
   } catch (const InputError& error) {
     refuse(text, error.what());
   }

@@ -9,15 +9,17 @@ namespace tabor::cli {
 struct SweepAxis {
   std::string key;                  ///< "ball.speed"
   std::vector<std::string> values;  ///< as TOML: "0.05 m/s", "300"
-  bool is_range = false;            ///< false: one value, as given
+  bool is_range = false;            ///< or a list; false: one value, as given
 
   /// The values in SI, for tables and files. Texts without a number are counted from 0.
   std::vector<double> numbers() const;
+  bool has_words() const;  ///< a value is no number
 };
 
 /// "ball.speed=0.2m/s", "ball.speed=0.05m/s..1m/s:log:5", "grid.nodes=100..300:3" (linear unless it
-/// says log; 5 values unless it says how many). Two dots that do not stand between numbers belong
-/// to a path. Throws UsageError.
+/// says log; 5 values unless it says how many), "grid.nodes=65,97,145". Two dots that do not stand
+/// between numbers belong to a path; commas beside quotes, brackets or braces to a TOML value.
+/// Throws UsageError.
 SweepAxis parse_axis(const std::string& text);
 
 /// All combinations, the last axis fastest: for each, the place of its value on each axis.
