@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "tabor/ehl/gmres.hpp"
-#include "tabor/ehl/point_inverse.hpp"
+#include "tabor/ehl/point_multigrid.hpp"
 #include "tabor/reference/hertz_ellipse.hpp"
 
 namespace tabor::ehl {
@@ -16,49 +16,15 @@ constexpr double kLinearAccuracy = 1e-3;  // of each Newton correction
 constexpr int kMaxProducts = 80;
 constexpr int kMaxHalvings = 8;
 constexpr double kThinnest = 0.1;  // a step may leave this much of the thinnest film
-constexpr double kMayGrow = 1.5;   // the norm of the residual, in a step that is taken
-
-/// The next number whose double has only prime factors that transforms are fast for.
-Index fast_size(Index n) {
-  for (;; ++n) {
-    Index rest = n;
-    for (const Index prime : {2, 3, 5, 7, 13}) {
-      while (rest % prime == 0) rest /= prime;
-    }
-    if (rest == 1) return n;
-  }
-}
-
-Index lower_node(double place, Index n) {
-  return std::clamp(static_cast<Index>(place), Index{0}, n - 2);
-}
+constexpr double kAllCavity = 1 - 1e-9;
+constexpr double kMayGrow = 1.5;  // the norm of the residual, in a step that is taken
 
 }  // namespace
-
-/// The half-space on a grid that is a little larger, where transforms are fast.
-struct PointFilm::Elastic {
-  Grid grid;
-  std::unique_ptr<elastic::ElasticOperator> space;
-  Field pressure, displacement;
-  PointInfluence influence;  // in units of film over pressure
-
-  Elastic(const Grid& film, double effective_modulus)
-      : grid{.nx = fast_size(film.nx), .ny = fast_size(film.ny)} {
-    grid.lx = film.dx() * static_cast<double>(grid.nx);
-    grid.ly = film.dy() * static_cast<double>(grid.ny);
-    space = elastic::make_free(grid, effective_modulus);
-    pressure = Field::Zero(grid.ny, grid.nx);
-  }
-};
 
 struct PointFilm::Linear {
   PointBalance balance;
   double load = 0;  // (load carried - load) / load
 };
-
-PointFilm::~PointFilm() = default;
-PointFilm::PointFilm(PointFilm&&) noexcept = default;
-PointFilm& PointFilm::operator=(PointFilm&&) noexcept = default;
 
 PointFilm::PointFilm(const PointProblem& problem)
     : lubricant(problem.lubricant),
@@ -67,8 +33,7 @@ PointFilm::PointFilm(const PointProblem& problem)
       problem_(problem),
       grid_(point_grid(problem)),
       x_(point_x(problem)),
-      y_(point_y(problem)),
-      elastic_(std::make_unique<Elastic>(grid_, problem.effective_modulus)) {
+      y_(point_y(problem)) {
   shape = (y_.square() / (2 * problem.radius_y)).replicate(1, x_.size()) +
           (x_.square() / (2 * problem.radius_x)).transpose().replicate(y_.size(), 1);
   if (problem.roughness.size() > 0) shape -= problem.roughness;
@@ -80,16 +45,7 @@ PointFilm::PointFilm(const PointProblem& problem)
   units_.pressure = 1.5 * load / (std::numbers::pi * pressed_width_x_ * pressed_width_y_);
   units_.film = std::max(hertz.half_axis_x * hertz.half_axis_x / problem.radius_x, film_scale_);
   units_.load = load;
-  const double unit = units_.pressure / units_.film;
-  elastic_->influence.resize(kPointReach, kPointReach);
-  for (Index j = 0; j < kPointReach; ++j) {
-    for (Index i = 0; i < kPointReach; ++i) {
-      elastic_->influence(j, i) =
-          unit * elastic::love_coefficient(static_cast<double>(i) * grid_.dx(),
-                                           static_cast<double>(j) * grid_.dy(), grid_.dx(),
-                                           grid_.dy(), problem.effective_modulus);
-    }
-  }
+  levels_ = point_levels(grid_, problem.effective_modulus, units_.pressure / units_.film);
 }
 
 PointState PointFilm::hertz_start(double min_film) const {
@@ -113,35 +69,17 @@ PointState PointFilm::hertz_start(double min_film) const {
 }
 
 PointState PointFilm::resampled(const PointState& state, const Grid& from) const {
-  PointState result;
-  result.separation = state.separation;
-  result.pressure.resize(grid_.ny, grid_.nx);
-  result.cavity.resize(grid_.ny, grid_.nx);
-  // Both grids span the domain from node to node.
-  const double step_x = static_cast<double>(from.nx - 1) / static_cast<double>(grid_.nx - 1);
-  const double step_y = static_cast<double>(from.ny - 1) / static_cast<double>(grid_.ny - 1);
-  for (Index j = 0; j < grid_.ny; ++j) {
-    const double v = static_cast<double>(j) * step_y;
-    const Index b = lower_node(v, from.ny);
-    const double t = v - static_cast<double>(b);
-    for (Index i = 0; i < grid_.nx; ++i) {
-      const double u = static_cast<double>(i) * step_x;
-      const Index a = lower_node(u, from.nx);
-      const double s = u - static_cast<double>(a);
-      const auto p = state.pressure.block<2, 2>(b, a);
-      result.pressure(j, i) =
-          (1 - t) * ((1 - s) * p(0, 0) + s * p(0, 1)) + t * ((1 - s) * p(1, 0) + s * p(1, 1));
-      result.cavity(j, i) = state.cavity.block<2, 2>(b, a).all();
-    }
-  }
+  const PointTransfer transfer(grid_, from);
+  PointState result{.pressure = transfer.to_fine(state.pressure),
+                    .separation = state.separation,
+                    .film = {},
+                    .cavity = transfer.to_fine(state.cavity.cast<double>()) > kAllCavity};
   result.film = film_of(result);
   return result;
 }
 
 Field PointFilm::deflection(const Field& pressure) const {
-  elastic_->pressure.topLeftCorner(pressure.rows(), pressure.cols()) = pressure;
-  elastic_->space->apply(elastic_->pressure, elastic_->displacement);
-  return elastic_->displacement.topLeftCorner(pressure.rows(), pressure.cols());
+  return units_.film * levels_.front().elastic(pressure / units_.pressure);
 }
 
 Field PointFilm::film_of(const PointState& state) const {
@@ -166,16 +104,18 @@ Mask PointFilm::held(const PointState& state) const {
   return held;
 }
 
+PointFlow PointFilm::flow_of(const PointState& state) const {
+  return {.grid = grid_,
+          .lubricant = lubricant,
+          .speed = speed,
+          .sliding_speed = problem_.sliding_speed,
+          .pressure = state.pressure,
+          .film = state.film,
+          .touching = solid.touching};
+}
+
 PointFilm::Linear PointFilm::linearize(const PointState& state, const PointStorage& storage) const {
-  Linear linear;
-  linear.balance = point_balance({.grid = grid_,
-                                  .lubricant = lubricant,
-                                  .speed = speed,
-                                  .sliding_speed = problem_.sliding_speed,
-                                  .pressure = state.pressure,
-                                  .film = state.film,
-                                  .touching = solid.touching},
-                                 storage, units_);
+  Linear linear{.balance = point_balance(flow_of(state), storage, units_)};
   const double solid_load = solid.pressure.size() > 0 ? solid.pressure.sum() : 0;
   linear.load = (grid_.pixel_area() * (state.pressure.sum() + solid_load) - load) / units_.load;
   return linear;
@@ -187,7 +127,7 @@ Eigen::VectorXd PointFilm::product(const Linear& linear, const Mask& held,
   const Index n = grid_.size();
   const Eigen::Map<const Field> given(step.data(), grid_.ny, grid_.nx);
   const Field pressure = held.select(0, given);
-  const Field film = units_.pressure / units_.film * deflection(pressure) + step[n];
+  const Field film = levels_.front().elastic(pressure) + step[n];
   Field result = Field::Zero(grid_.ny, grid_.nx);
   linear.balance.by_pressure.add_product(pressure, result);
   linear.balance.by_film.add_product(film, result);
@@ -197,34 +137,53 @@ Eigen::VectorXd PointFilm::product(const Linear& linear, const Mask& held,
   return all;
 }
 
+/// The inverse of the whole system, with the separation and the load, from that of the balances.
+class PointFilm::Bordered {
+ public:
+  Bordered(const PointMultigrid& inverse, const PointBalance& balance, const Mask& held,
+           double load_weight)
+      : inverse_(inverse), held_(held), load_weight_(load_weight) {
+    Field by_separation = Field::Zero(held.rows(), held.cols());
+    balance.by_film.add_product(Field::Ones(held.rows(), held.cols()), by_separation);
+    answer_ = inverse(held.select(0, by_separation));
+    border_ = -load_weight * answer_.sum();
+  }
+
+  Eigen::VectorXd operator()(const Eigen::VectorXd& right) const {
+    const Index n = held_.size();
+    Eigen::VectorXd result(n + 1);
+    const Field pressure =
+        inverse_(Eigen::Map<const Field>(right.data(), held_.rows(), held_.cols()));
+    result[n] = (right[n] - load_weight_ * held_.select(0, pressure).sum()) / border_;
+    Eigen::Map<Field>(result.data(), held_.rows(), held_.cols()) = pressure - result[n] * answer_;
+    return result;
+  }
+
+ private:
+  const PointMultigrid& inverse_;
+  const Mask& held_;
+  double load_weight_;
+  Field answer_;  // of the pressures to a separation of one unit
+  double border_ = 0;
+};
+
 /// Empty if the linear equations cannot be solved.
 Eigen::VectorXd PointFilm::newton_step(const Linear& linear, const PointState& state,
-                                       Outcome& outcome) const {
-  const Index n = grid_.size();
+                                       const PointStorage& storage, Outcome& outcome) const {
   const Mask held = this->held(state);
-  const PointInverse inverse(linear.balance, held, elastic_->influence);
-  ++outcome.n_factorizations;
+  const PointMultigrid inverse(levels_, linear.balance, held, flow_of(state), storage, units_);
   if (!inverse.ok()) return {};
-  // The separation moves all films alike.
-  Field by_separation = Field::Zero(grid_.ny, grid_.nx);
-  linear.balance.by_film.add_product(Field::Ones(grid_.ny, grid_.nx), by_separation);
-  by_separation = held.select(0, by_separation);
-  const Field answer = inverse(by_separation);
-  const double weight = grid_.pixel_area() * units_.pressure / units_.load;
-  const double border = -weight * answer.sum();
-  const auto precondition = [&](const Eigen::VectorXd& right) -> Eigen::VectorXd {
-    Eigen::VectorXd result(n + 1);
-    const Field pressure = inverse(Eigen::Map<const Field>(right.data(), grid_.ny, grid_.nx));
-    result[n] = (right[n] - weight * held.select(0, pressure).sum()) / border;
-    Eigen::Map<Field>(result.data(), grid_.ny, grid_.nx) = pressure - result[n] * answer;
-    return result;
-  };
+  const double load_weight = grid_.pixel_area() * units_.pressure / units_.load;
+  const Bordered precondition(inverse, linear.balance, held, load_weight);
   const auto multiply = [&](const Eigen::VectorXd& step) { return product(linear, held, step); };
-  Eigen::VectorXd right(n + 1);
+  Eigen::VectorXd right(grid_.size() + 1);
   Eigen::Map<Field>(right.data(), grid_.ny, grid_.nx) = held.select(0, -linear.balance.residual);
-  right[n] = -linear.load;
-  return gmres(multiply, precondition, right, kLinearAccuracy, kMaxProducts, outcome.n_products)
-      .value_or(Eigen::VectorXd());
+  right[grid_.size()] = -linear.load;
+  const int before = outcome.n_products;
+  const auto step =
+      gmres(multiply, precondition, right, kLinearAccuracy, kMaxProducts, outcome.n_products);
+  outcome.n_linear_iterations += outcome.n_products - before;
+  return step.value_or(Eigen::VectorXd());
 }
 
 /// Norm of what is not yet balanced: of the film, and of cavity that gains liquid.
@@ -306,7 +265,8 @@ PointFilm::Outcome PointFilm::solve(PointState& state, const PointStorage& stora
   while (outcome.iterations < problem_.max_iterations && !outcome.converged) {
     ++outcome.iterations;
     const Mask cavity = state.cavity;
-    if (!correct(newton_step(linear, state, outcome), storage, state, linear, outcome)) break;
+    if (!correct(newton_step(linear, state, storage, outcome), storage, state, linear, outcome))
+      break;
     const bool grows = (state.cavity != cavity).any();
     const bool shrinks = refill(linear, state);
     measure(linear, state, outcome);

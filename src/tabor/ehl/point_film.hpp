@@ -1,12 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <vector>
 
 #include "tabor/ehl/point.hpp"
 #include "tabor/ehl/point_balance.hpp"
-#include "tabor/elastic/half_space.hpp"
+#include "tabor/ehl/point_multigrid.hpp"
 
 namespace tabor::ehl {
 
@@ -39,9 +38,6 @@ struct SolidPart {
 class PointFilm {
  public:
   explicit PointFilm(const PointProblem& problem);
-  ~PointFilm();
-  PointFilm(PointFilm&&) noexcept;
-  PointFilm& operator=(PointFilm&&) noexcept;
 
   const Grid& grid() const { return grid_; }
   const Eigen::ArrayXd& x() const { return x_; }
@@ -68,10 +64,10 @@ class PointFilm {
 
   struct Outcome {
     int iterations = 0;
-    int n_products = 0;
-    int n_factorizations = 0;
-    double mass_error = 0;  ///< largest imbalance of a cell over the flow through the contact
-    double load_error = 0;  ///< relative
+    int n_products = 0;           ///< with the elastic operator on the film's own grid
+    int n_linear_iterations = 0;  ///< of GMRES
+    double mass_error = 0;        ///< largest imbalance of a cell over the flow through the contact
+    double load_error = 0;        ///< relative
     bool converged = false;
   };
   /// Advances `state` to a solution; leaves it where Newton's method stopped if there is none.
@@ -79,7 +75,8 @@ class PointFilm {
 
  private:
   struct Linear;
-  struct Elastic;
+  class Bordered;
+  PointFlow flow_of(const PointState& state) const;
   Linear linearize(const PointState& state, const PointStorage& storage) const;
   Mask held(const PointState& state) const;
   void measure(const Linear& linear, const PointState& state, Outcome& outcome) const;
@@ -93,12 +90,12 @@ class PointFilm {
   Eigen::VectorXd product(const Linear& linear, const Mask& held,
                           const Eigen::VectorXd& step) const;
   Eigen::VectorXd newton_step(const Linear& linear, const PointState& state,
-                              Outcome& outcome) const;
+                              const PointStorage& storage, Outcome& outcome) const;
 
   PointProblem problem_;
   Grid grid_;
   Eigen::ArrayXd x_, y_;
-  std::unique_ptr<Elastic> elastic_;
+  std::vector<PointLevel> levels_;
   PointUnits units_;
   double pressed_width_x_, pressed_width_y_;  // [m], half axes of the pressed ellipse
   double film_scale_;                         // [m]

@@ -108,7 +108,7 @@ std::vector<std::string> doubts_of(const PointProblem& problem, const PointResul
 PointFilm::Outcome operator+(const PointFilm::Outcome& before, PointFilm::Outcome now) {
   now.iterations += before.iterations;
   now.n_products += before.n_products;
-  now.n_factorizations += before.n_factorizations;
+  now.n_linear_iterations += before.n_linear_iterations;
   return now;
 }
 
