@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,10 +94,16 @@ class Hdf5Reader {
   /// True for a dataset, false for a group.
   bool is_dataset(const std::string& path) const;
   std::vector<Index> shape(const std::string& path) const;
+  /// Rows and columns of what field() and rows() read, once it is known that the file's bytes can
+  /// hold them and that they fit into memory.
+  std::array<Index, 2> map_shape(const std::string& path) const;
 
   /// Any numeric two-dimensional dataset. `progress` is told the share of rows read so far.
   Field field(const std::string& path,
               const std::function<void(double share)>& progress = {}) const;
+  /// The same in pieces of some 32 MiB, whole chunks each: accept(first_row, rows).
+  void for_rows(const std::string& path,
+                const std::function<void(Index first_row, const Field& rows)>& accept) const;
   ByteMap bytes(const std::string& path) const;
   std::vector<double> numbers(const std::string& path) const;  ///< one-dimensional
   std::vector<std::int64_t> integers(const std::string& path) const;
@@ -115,11 +123,18 @@ class Hdf5Reader {
   std::unique_ptr<File> file_;
 };
 
-/// Whether a copy of this process (fork) gets through `action`, by a result or an exception. The
-/// library trusts what a file says about its lists and texts of variable length and crashes over
-/// damaged ones (H5HG_read of version 1.10.8 checks an index only in debug builds): files of others
-/// are tried in a copy first.
-bool hdf5_survives(const std::function<void()>& action);
+/// Whether a copy of this process (fork) gets through `action`, by a result or an exception, in 2 s
+/// of processor time and in memory for the file. The library trusts what a file says about its
+/// lists, sizes and texts and crashes over damaged ones (H5HG_read of version 1.10.8 checks an
+/// index only in debug builds) or asks for gigabytes: files of others are tried in a copy first.
+bool hdf5_survives(const std::filesystem::path& file, const std::function<void()>& action);
+
+/// The map of this shape that `send` makes, run in a copy of this process: pieces of rows from the
+/// top, handed over to its argument. Nullopt if the copy breaks, sends less, or needs far more
+/// memory or processor time than a map of this size. `progress` is told the share received so far.
+using SendRows = std::function<void(const std::function<void(const Field& rows)>& accept)>;
+std::optional<Field> hdf5_map_from_copy(std::array<Index, 2> shape, const SendRows& send,
+                                        const std::function<void(double share)>& progress);
 
 /// True if the file begins like HDF5 (at offset 0).
 bool is_hdf5(const std::filesystem::path& file);

@@ -1,11 +1,14 @@
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
+#include <cerrno>
+#include <fstream>
+#include <new>
 
 #include "tabor/io/hdf5.hpp"
 #include "tabor/io/hdf5_library.hpp"
@@ -13,47 +16,174 @@
 namespace tabor::io {
 namespace {
 
+/// What a copy of the process may take beyond what it has.
+struct Limits {
+  rlim_t bytes;    ///< of address space
+  rlim_t seconds;  ///< of processor time: a slow disk is no damage
+};
+
+/// Room for the library's own tables and buffers.
+constexpr rlim_t kLibraryBytes = rlim_t{256} << 20;
 /// The tables of a sound file are read in milliseconds; a forged global heap keeps HDF5 1.10 busy
 /// for ever.
-constexpr std::chrono::seconds kLimit{2};
+constexpr rlim_t kSeconds = 2;
 
-[[noreturn]] void run_in_child(const std::function<void()>& action) {
-  hdf5::Session::renew_in_copy();
-  const int nowhere = ::open("/dev/null", O_WRONLY);
+/// Address space of this process [bytes]; 0 if the system does not say.
+rlim_t address_space() {
+  std::ifstream file("/proc/self/statm");
+  rlim_t pages = 0;
+  file >> pages;
+  return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+}
+
+void apply(const Limits& limits) {
+  const rlimit seconds{limits.seconds, limits.seconds};
+  ::setrlimit(RLIMIT_CPU, &seconds);
+  rlimit bytes{};
+  const rlim_t now = address_space();
+  if (now == 0 || ::getrlimit(RLIMIT_AS, &bytes) != 0) return;
+  bytes.rlim_cur = std::min(bytes.rlim_cur, now + limits.bytes);
+  ::setrlimit(RLIMIT_AS, &bytes);
+}
+
+/// The library would call a file damaged, by an ordinary error, for which it had too little memory:
+/// that is a failure of the copy.
+herr_t end_without_memory(hid_t stack, void*) {
+  const auto judge = [](unsigned, const H5E_error2_t* error, void*) -> herr_t {
+    if (error->min_num == H5E_NOSPACE || error->min_num == H5E_CANTALLOC) ::_exit(1);
+    return 0;
+  };
+  H5Ewalk2(stack, H5E_WALK_UPWARD, judge, nullptr);
+  return 0;
+}
+
+[[noreturn]] void run_in_copy(const Limits& limits, const std::function<void()>& action) {
+  hdf5::Session::renew_in_copy(&end_without_memory);
+  const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
-  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGILL}) ::signal(signal, SIG_DFL);
+  for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGILL, SIGPIPE, SIGXCPU}) {
+    ::signal(signal, SIG_DFL);
+  }
+  apply(limits);
   try {
     action();
+  } catch (const std::bad_alloc&) {
+    ::_exit(1);
   } catch (...) {  // refusing the file is not crashing over it
   }
   ::_exit(0);
 }
 
-/// True if the child ended by itself and in time.
-bool wait_for(pid_t child) {
-  const auto deadline = std::chrono::steady_clock::now() + kLimit;
-  int status = 0;
-  auto pause = std::chrono::microseconds(50);
-  while (::waitpid(child, &status, WNOHANG) == 0) {
-    if (std::chrono::steady_clock::now() > deadline) {
-      ::kill(child, SIGKILL);
-      ::waitpid(child, &status, 0);
-      return false;
-    }
-    std::this_thread::sleep_for(pause);
-    pause = std::min(pause * 2, std::chrono::microseconds(5000));
+/// A running copy of this process, ended with this object.
+class Copy {
+ public:
+  /// Runs action(pipe), whose descriptor leads to receive().
+  Copy(const Limits& limits, const std::function<void(int)>& action) {
+    // The copy has one thread, this one: it must be the one that may use the library. Nor may
+    // another copy be made meanwhile, or it would keep this one's pipe open.
+    const hdf5::Session session;
+    int ends[2] = {-1, -1};
+    if (::pipe2(ends, O_CLOEXEC) != 0) return;
+    number_ = ::fork();
+    if (number_ == 0) run_in_copy(limits, [&] { action(ends[1]); });
+    ::close(ends[1]);
+    pipe_ = ends[0];
   }
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  ~Copy() {
+    if (number_ > 0) {
+      ::kill(number_, SIGKILL);
+      ended_well();
+    }
+    if (pipe_ >= 0) ::close(pipe_);
+  }
+  Copy(const Copy&) = delete;
+  Copy& operator=(const Copy&) = delete;
+
+  /// False if there could be no copy: too many processes.
+  bool started() const { return number_ > 0; }
+
+  /// Up to `size` bytes; 0 at the end.
+  std::size_t receive(char* bytes, std::size_t size) const {
+    for (;;) {
+      const ssize_t n = ::read(pipe_, bytes, size);
+      if (n >= 0) return static_cast<std::size_t>(n);
+      if (errno != EINTR) return 0;
+    }
+  }
+
+  /// Waits for the end: true if the copy came to it by itself.
+  bool ended_well() {
+    int status = 0;
+    while (::waitpid(number_, &status, 0) < 0 && errno == EINTR) {
+    }
+    number_ = -1;
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  }
+
+ private:
+  pid_t number_ = -1;
+  int pipe_ = -1;
+};
+
+/// Ends the copy when nobody receives.
+void send(int pipe, const Field& rows) {
+  const auto* bytes = reinterpret_cast<const char*>(rows.data());
+  std::size_t left = static_cast<std::size_t>(rows.size()) * sizeof(double);
+  while (left > 0) {
+    const ssize_t n = ::write(pipe, bytes, left);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) ::_exit(1);
+    bytes += n;
+    left -= static_cast<std::size_t>(n);
+  }
+}
+
+Field map_of_this_process(std::array<Index, 2> shape, const SendRows& send_rows) {
+  Field map(shape[0], shape[1]);
+  Index first = 0;
+  send_rows([&](const Field& rows) {
+    map.middleRows(first, rows.rows()) = rows;
+    first += rows.rows();
+  });
+  return map;
+}
+
+/// Limits for a map of so many bytes: chunks may be as large as the map, and are unpacked, sorted
+/// and converted one after the other; 20 MB/s is slow for that.
+Limits limits_for(std::size_t map_bytes) {
+  constexpr std::size_t kSlowest = 20'000'000;  // bytes per second
+  return {kLibraryBytes + 4 * map_bytes, kSeconds + map_bytes / kSlowest};
 }
 
 }  // namespace
 
-bool hdf5_survives(const std::function<void()>& action) {
-  // The copy has one thread, this one: it must be the one that may use the library.
-  const hdf5::Session session;
-  const pid_t child = ::fork();
-  if (child == 0) run_in_child(action);
-  return child < 0 || wait_for(child);
+bool hdf5_survives(const std::filesystem::path& file, const std::function<void()>& action) {
+  std::error_code unknown;
+  const auto size = std::filesystem::file_size(file, unknown);
+  Copy copy({kLibraryBytes + (unknown ? 0 : 4 * size), kSeconds}, [&](int) { action(); });
+  return !copy.started() || copy.ended_well();
+}
+
+std::optional<Field> hdf5_map_from_copy(std::array<Index, 2> shape, const SendRows& send_rows,
+                                        const std::function<void(double)>& progress) {
+  constexpr std::size_t kPiece = std::size_t{1} << 22;
+  Field map(shape[0], shape[1]);
+  const std::size_t size = static_cast<std::size_t>(map.size()) * sizeof(double);
+  Copy copy(limits_for(size),
+            [&](int pipe) { send_rows([pipe](const Field& rows) { send(pipe, rows); }); });
+  if (!copy.started()) return map_of_this_process(shape, send_rows);
+  auto* bytes = reinterpret_cast<char*>(map.data());
+  std::size_t received = 0, told = 0;
+  while (received < size) {
+    const std::size_t n = copy.receive(bytes + received, std::min(kPiece, size - received));
+    if (n == 0) return std::nullopt;
+    received += n;
+    if (progress && (received - told >= kPiece || received == size)) {
+      told = received;
+      progress(static_cast<double>(received) / static_cast<double>(size));
+    }
+  }
+  return copy.ended_well() ? std::optional(std::move(map)) : std::nullopt;
 }
 
 }  // namespace tabor::io

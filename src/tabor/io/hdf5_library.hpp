@@ -16,13 +16,21 @@ namespace tabor::io::hdf5 {
 /// keeps the library from printing its own error stack: what fails is said by an exception.
 class Session {
  public:
-  Session() : lock_(mutex()) { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+  Session() : lock_(mutex()) { H5Eset_auto2(H5E_DEFAULT, on_error(), nullptr); }
 
   /// In a copy of the process made inside a session: a mutex knows its owner by the number of a
-  /// thread, which the copy has not, so it gets a new one.
-  static void renew_in_copy() { new (&mutex()) std::recursive_mutex; }
+  /// thread, which the copy has not, so it gets a new one. From now on `handler` is told of every
+  /// failing call.
+  static void renew_in_copy(H5E_auto2_t handler) {
+    new (&mutex()) std::recursive_mutex;
+    on_error() = handler;
+  }
 
  private:
+  static H5E_auto2_t& on_error() {
+    static H5E_auto2_t instance = nullptr;
+    return instance;
+  }
   static std::recursive_mutex& mutex() {
     static std::recursive_mutex instance;
     return instance;

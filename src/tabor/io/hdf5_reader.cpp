@@ -42,15 +42,33 @@ Described describe(Handle type, Handle space) {
   return {std::move(type), std::move(space), std::move(shape), count, kind};
 }
 
+/// A two-dimensional dataset of numbers.
+struct OpenMap {
+  Handle dataset;
+  Described what;
+  Index ny() const { return static_cast<Index>(what.shape[0]); }
+  Index nx() const { return static_cast<Index>(what.shape[1]); }
+};
+
 /// Rows of a map to read at once: whole chunks of some 32 MiB.
-hsize_t rows_per_slab(hid_t dataset, const std::vector<hsize_t>& shape) {
+hsize_t rows_per_slab(const OpenMap& map) {
   constexpr hsize_t wanted_bytes = hsize_t{32} << 20;
   hsize_t chunk[2] = {1, 1};
-  const Handle created(H5Dget_create_plist(dataset), &H5Pclose);
+  const Handle created(H5Dget_create_plist(map.dataset), &H5Pclose);
   if (H5Pget_layout(created) == H5D_CHUNKED) H5Pget_chunk(created, 2, chunk);
-  const hsize_t row_bytes = std::max<hsize_t>(1, shape[1] * sizeof(double));
+  const hsize_t row_bytes = std::max<hsize_t>(1, map.what.shape[1] * sizeof(double));
   const hsize_t n_chunks = std::max<hsize_t>(1, wanted_bytes / row_bytes / chunk[0]);
   return n_chunks * chunk[0];
+}
+
+/// Calls action(first_row, n_rows) for such pieces, from the top.
+template <typename Action>
+void for_slabs(const OpenMap& map, const Action& action) {
+  const hsize_t n_rows = map.what.count > 0 ? map.what.shape[0] : 0;
+  const hsize_t at_once = rows_per_slab(map);
+  for (hsize_t row = 0; row < n_rows; row += at_once) {
+    action(static_cast<Index>(row), static_cast<Index>(std::min(at_once, n_rows - row)));
+  }
 }
 
 bool is_number(H5T_class_t kind) { return kind == H5T_INTEGER || kind == H5T_FLOAT; }
@@ -141,6 +159,24 @@ struct Hdf5Reader::File {
     }
     check_size(dataset, what, path, bytes_per_value);
     return what;
+  }
+
+  OpenMap open_map(const std::string& path) const {
+    Handle dataset = open_dataset(path);
+    Described what = checked_numbers(dataset, path, 2, sizeof(double));
+    return {std::move(dataset), std::move(what)};
+  }
+
+  void read_rows(const OpenMap& map, const std::string& path, Index first, Index n,
+                 double* destination) const {
+    const hsize_t start[2] = {static_cast<hsize_t>(first), 0};
+    const hsize_t count[2] = {static_cast<hsize_t>(n), map.what.shape[1]};
+    const Handle slab(H5Screate_simple(2, count, nullptr), &H5Sclose);
+    const hid_t space = map.what.space;
+    if (H5Sselect_hyperslab(space, H5S_SELECT_SET, start, nullptr, count, nullptr) < 0 ||
+        H5Dread(map.dataset, H5T_NATIVE_DOUBLE, slab, space, H5P_DEFAULT, destination) < 0) {
+      fail(path, "is damaged");
+    }
   }
 
   template <typename Value>
@@ -283,28 +319,33 @@ std::vector<Index> Hdf5Reader::shape(const std::string& path) const {
   return shape;
 }
 
+std::array<Index, 2> Hdf5Reader::map_shape(const std::string& path) const {
+  const Session session;
+  const OpenMap map = file_->open_map(path);
+  return {map.ny(), map.nx()};
+}
+
 Field Hdf5Reader::field(const std::string& path,
                         const std::function<void(double)>& progress) const {
   const Session session;
-  const Handle dataset = file_->open_dataset(path);
-  const Described what = file_->checked_numbers(dataset, path, 2, sizeof(double));
-  Field map(static_cast<Index>(what.shape[0]), static_cast<Index>(what.shape[1]));
-  const hsize_t n_rows = what.count > 0 ? what.shape[0] : 0;
-  const hsize_t rows_at_once = rows_per_slab(dataset, what.shape);
-  for (hsize_t row = 0; row < n_rows; row += rows_at_once) {
-    const hsize_t start[2] = {row, 0};
-    const hsize_t count[2] = {std::min(rows_at_once, n_rows - row), what.shape[1]};
-    const Handle slab(H5Screate_simple(2, count, nullptr), &H5Sclose);
-    if (H5Sselect_hyperslab(what.space, H5S_SELECT_SET, start, nullptr, count, nullptr) < 0 ||
-        H5Dread(dataset, H5T_NATIVE_DOUBLE, slab, what.space, H5P_DEFAULT,
-                &map(static_cast<Index>(row), 0)) < 0) {
-      file_->fail(path, "is damaged");
-    }
-    if (progress) {
-      progress(static_cast<double>(row + count[0]) / static_cast<double>(n_rows));
-    }
-  }
-  return map;
+  const OpenMap map = file_->open_map(path);
+  Field field(map.ny(), map.nx());
+  for_slabs(map, [&](Index first, Index n) {
+    file_->read_rows(map, path, first, n, &field(first, 0));
+    if (progress) progress(static_cast<double>(first + n) / static_cast<double>(map.ny()));
+  });
+  return field;
+}
+
+void Hdf5Reader::for_rows(const std::string& path,
+                          const std::function<void(Index, const Field&)>& accept) const {
+  const Session session;
+  const OpenMap map = file_->open_map(path);
+  for_slabs(map, [&](Index first, Index n) {
+    Field rows(n, map.nx());
+    file_->read_rows(map, path, first, n, rows.data());
+    accept(first, rows);
+  });
 }
 
 ByteMap Hdf5Reader::bytes(const std::string& path) const {

@@ -1,13 +1,16 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string_view>
 
 namespace tabor::io {
 
 /// The bytes of a file, read only, as pages of the file itself: nothing is copied, and a page takes
-/// memory only from its first use until release(). The file must not be cut short as long as this
-/// object lives (the system then ends the program with a bus error).
+/// memory only from its first use until release(). Another program may cut the file short or write
+/// it anew meanwhile; check() tells. Touching a page that is gone raises the signal SIGBUS, for
+/// which the first of these objects installs a handler: it puts zeros there, and leaves what is no
+/// page of these to the handler before it.
 class MappedFile {
  public:
   /// Throws InputError: no such file, a folder, device or pipe (none of which is waited for), no
@@ -23,7 +26,12 @@ class MappedFile {
   /// What is not part of this file is left alone.
   void release(std::string_view part) const;
 
+  /// Throws InputError if the file is no longer what was opened: then nor is what was read of it.
+  void check() const;
+
  private:
+  struct Opened;
+  std::unique_ptr<Opened> opened_;
   std::string_view bytes_;
 };
 

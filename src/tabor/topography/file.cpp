@@ -130,6 +130,7 @@ std::string ScanFile::sha256() const {
     opened_->mapped.release(piece);
     rest.remove_prefix(piece.size());
   }
+  opened_->mapped.check();
   return digest.hexadecimal();
 }
 
@@ -142,6 +143,7 @@ Topography ScanFile::read(const ReadOptions& options) const {
   topography.grid = format::resolve_grid(contents, layer, options, topography.doubts);
   const double factor = format::resolve_height_factor(contents, layer, options, topography.doubts);
   topography.height = heights_of(layer, factor);
+  opened_->mapped.check();
   if (layer.late_doubts) {
     const std::vector<std::string>& late = *layer.late_doubts;
     topography.doubts.insert(topography.doubts.end(), late.begin(), late.end());

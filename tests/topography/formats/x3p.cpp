@@ -115,6 +115,20 @@ TEST(X3p, SizesThatContradictTheDataAreRefusedBeforeAllocating) {
   }
 }
 
+/// Each layer becomes a channel: a million of them would be listed for minutes.
+TEST(X3p, MoreLayersThanAnyInstrumentWritesAreRefused) {
+  const Folder folder;
+  const std::string zeros(std::size_t{1001} * 4 * sizeof(double), '\0');
+  Parts most;
+  most.size = "<SizeX>2</SizeX><SizeY>2</SizeY><SizeZ>1000</SizeZ>";
+  test::put_bytes(folder / "scan.bin", archive(most, zeros.substr(4 * sizeof(double))));
+  EXPECT_EQ(inspect(folder / "scan.bin").channels.size(), 1000u);
+  Parts more;
+  more.size = "<SizeX>2</SizeX><SizeY>2</SizeY><SizeZ>1001</SizeZ>";
+  EXPECT_NE(test::refusal(folder, archive(more, zeros)).find("1001 layers; expected at most 1000"),
+            std::string::npos);
+}
+
 TEST(X3p, ZipWithoutMainXmlIsRefusedByName) {
   const Folder folder;
   const std::string message = test::refusal(folder, io::zip({{"readme.txt", "hello"}}));

@@ -4,10 +4,9 @@
 
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/io/hdf5.hpp"
 #include "tabor/topography/formats/bytes.hpp"
+#include "tabor/topography/formats/hdf5_scan.hpp"
 #include "tabor/topography/formats/readers.hpp"
-#include "tabor/topography/rows.hpp"
 
 namespace tabor::topography::format {
 namespace {
@@ -63,15 +62,11 @@ std::string unit_of(const io::Hdf5Reader& reader, const std::string& path) {
   return texts.front();
 }
 
-Field height_of(const Contents& contents, const std::string& path, double no_data) {
-  const io::Hdf5Reader reader(contents.file);
-  Field height = reader.field(path, [&contents](double share) { contents.finished({}, share); });
-  for_each_row(height.rows(), [&](Index y) {
-    for (Index x = 0; x < height.cols(); ++x) {
-      if (height(y, x) == no_data) height(y, x) = kHole;
-    }
-  });
-  return height;
+/// Sends the heights with holes where the file has no value.
+void send_heights(const std::filesystem::path& file, const std::string& path, double no_data,
+                  const std::function<void(const Field& rows)>& send) {
+  io::Hdf5Reader(file).for_rows(
+      path, [&](Index, const Field& rows) { send((rows == no_data).select(kHole, rows)); });
 }
 
 Document describe(const Contents& contents) {
@@ -81,21 +76,21 @@ Document describe(const Contents& contents) {
                        "tabor reads the HDF5 files it writes and Zygo's");
   }
   const std::string path = surface_path(contents, reader.records(kMetaData));
-  const std::vector<Index> shape = reader.shape(path);
-  if (shape.size() != 2 || shape[0] < 1 || shape[1] < 1) {
-    refuse(contents, "heights that are no map", "two dimensions", kDamaged);
-  }
+  const std::array<Index, 2> shape = reader.map_shape(path);
   const double no_data =
       reader.has_attribute(path, "No Data") ? reader.number(path, "No Data") : kHole;
   Document document{.format = "datx", .instrument = "Zygo"};
-  document.layers.push_back(
-      {.name = "Surface",
-       .unit = unit_of(reader, path),
-       .nx = shape[1],
-       .ny = shape[0],
-       .pixel_x = pixel(contents, reader, path, "X Converter"),
-       .pixel_y = pixel(contents, reader, path, "Y Converter"),
-       .load = [contents, path, no_data] { return height_of(contents, path, no_data); }});
+  document.layers.push_back({.name = "Surface",
+                             .unit = unit_of(reader, path),
+                             .nx = shape[1],
+                             .ny = shape[0],
+                             .pixel_x = pixel(contents, reader, path, "X Converter"),
+                             .pixel_y = pixel(contents, reader, path, "Y Converter"),
+                             .load = [contents, shape, path, no_data] {
+                               return heights_from_copy(contents, shape, [&](const auto& send) {
+                                 send_heights(contents.file, path, no_data, send);
+                               });
+                             }});
   return document;
 }
 
@@ -106,9 +101,7 @@ Match identify_datx(std::string_view head) {
 }
 
 Document open_datx(const Contents& contents) {
-  if (!io::hdf5_survives([&] { describe(contents); })) {
-    refuse(contents, "an HDF5 file whose tables are damaged", "a scan", kDamaged);
-  }
+  require_survival(contents, [&] { describe(contents); });
   return describe(contents);
 }
 

@@ -5,13 +5,14 @@
 #include <ctime>
 
 #include "tabor/core/version.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/topography/formats/hdf5_scan.hpp"
 #include "tabor/topography/formats/readers.hpp"
 #include "tabor/topography/surface_group.hpp"
 
 namespace tabor::topography::format {
 namespace {
 
+constexpr const char* kHeight = "/surface/height";
 constexpr std::string_view kSignature{"\x89HDF\r\n\x1a\n", 8};
 
 std::string text_or_empty(const io::Hdf5Reader& reader, const std::string& name) {
@@ -39,16 +40,18 @@ double pixel(const Contents& contents, const io::Hdf5Reader& reader, const std::
   return pitch(contents, reader.numbers("/surface/" + axis));
 }
 
-Field height_of(const Contents& contents) {
-  const io::Hdf5Reader reader(contents.file);
-  Field height =
-      reader.field("/surface/height", [&contents](double share) { contents.finished({}, share); });
-  if (!reader.exists("/surface/mask")) return height;
-  const io::ByteMap mask = reader.bytes("/surface/mask");
-  if (mask.rows() == height.rows() && mask.cols() == height.cols()) {
-    height = (mask != 0).select(kHole, height);
-  }
-  return height;
+/// Sends the heights, NaN where the mask is set.
+void send_heights(const std::filesystem::path& file,
+                  const std::function<void(const Field& rows)>& send) {
+  const io::Hdf5Reader reader(file);
+  const auto [ny, nx] = reader.map_shape(kHeight);
+  io::ByteMap mask;
+  if (reader.exists("/surface/mask")) mask = reader.bytes("/surface/mask");
+  const bool is_masked = mask.rows() == ny && mask.cols() == nx;
+  reader.for_rows(kHeight, [&](Index first, const Field& rows) {
+    if (!is_masked) return send(rows);
+    send((mask.middleRows(first, rows.rows()) != 0).select(kHole, rows));
+  });
 }
 
 std::string now_utc() {
@@ -62,12 +65,11 @@ std::string now_utc() {
 
 Document describe(const Contents& contents) {
   const io::Hdf5Reader reader(contents.file);
-  if (!reader.exists("/surface/height")) {
+  if (!reader.exists(kHeight)) {
     throw Unrecognised(contents, "an HDF5 file without /surface/height",
                        "tabor reads the HDF5 files it writes");
   }
-  const std::vector<Index> shape = reader.shape("/surface/height");
-  if (shape.size() != 2) refuse(contents, "heights that are no map", "two dimensions", kDamaged);
+  const std::array<Index, 2> shape = reader.map_shape(kHeight);
   Document document{.format = "h5",
                     .instrument = text_or_empty(reader, "instrument"),
                     .history = texts_or_none(reader, "treatment")};
@@ -84,7 +86,11 @@ Document describe(const Contents& contents) {
                              .ny = shape[0],
                              .pixel_x = pixel(contents, reader, "x"),
                              .pixel_y = pixel(contents, reader, "y"),
-                             .load = [contents] { return height_of(contents); }});
+                             .load = [contents, shape] {
+                               return heights_from_copy(contents, shape, [&](const auto& send) {
+                                 send_heights(contents.file, send);
+                               });
+                             }});
   return document;
 }
 
@@ -95,9 +101,7 @@ Match identify_h5(std::string_view head) {
 }
 
 Document open_h5(const Contents& contents) {
-  if (!io::hdf5_survives([&] { describe(contents); })) {
-    refuse(contents, "an HDF5 file whose tables are damaged", "a scan", kDamaged);
-  }
+  require_survival(contents, [&] { describe(contents); });
   return describe(contents);
 }
 

@@ -1,0 +1,22 @@
+// What scans in HDF5 files share: the library does not survive every damaged file, tabor does.
+#include "tabor/topography/formats/hdf5_scan.hpp"
+
+namespace tabor::topography::format {
+
+void require_survival(const Contents& contents, const std::function<void()>& describe) {
+  if (!io::hdf5_survives(contents.file, describe)) {
+    refuse(contents, "an HDF5 file whose tables are damaged", "a scan", kDamaged);
+  }
+}
+
+Field heights_from_copy(const Contents& contents, std::array<Index, 2> shape,
+                        const io::SendRows& send) {
+  auto heights = io::hdf5_map_from_copy(
+      shape, send, [&contents](double share) { contents.finished({}, share); });
+  if (!heights) {
+    refuse(contents, "heights in damaged HDF5 blocks", "a scan", kDamaged);
+  }
+  return std::move(*heights);
+}
+
+}  // namespace tabor::topography::format

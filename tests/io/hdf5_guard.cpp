@@ -1,0 +1,82 @@
+// What becomes of a copy of the process that reads a file of others.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+#include <vector>
+
+#include "support/folder.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/io/hdf5.hpp"
+
+namespace tabor::io {
+namespace {
+
+using Rows = std::function<void(const Field& rows)>;
+
+const Field kMap = Field::Random(7, 5);
+
+bool survives(const std::function<void()>& action) {
+  const test::Folder folder;
+  test::put_bytes(folder / "a.h5", "a");
+  return hdf5_survives(folder / "a.h5", action);
+}
+
+TEST(Hdf5Guard, ResultsAndRefusalsSurvive) {
+  EXPECT_TRUE(survives([] {}));
+  EXPECT_TRUE(survives([] { throw InputError("no scan"); }));
+}
+
+TEST(Hdf5Guard, CrashesDoNot) {
+  EXPECT_FALSE(survives([] { ::raise(SIGSEGV); }));
+  EXPECT_FALSE(survives([] { std::abort(); }));
+}
+
+#if !defined(__SANITIZE_ADDRESS__)  // whose own memory hides what is asked for
+TEST(Hdf5Guard, NorDoesWantingFarMoreMemoryThanTheFileHas) {
+  EXPECT_FALSE(survives([] { const std::vector<char> large(std::size_t{1} << 30); }));
+  EXPECT_TRUE(survives([] { const std::vector<char> small(std::size_t{1} << 20); }));
+}
+#endif
+
+TEST(Hdf5Guard, AMapComesBackPieceByPiece) {
+  std::vector<double> shares;
+  const auto map = hdf5_map_from_copy(
+      {7, 5},
+      [](const Rows& send) {
+        send(kMap.topRows(3));
+        send(kMap.bottomRows(4));
+      },
+      [&](double share) { shares.push_back(share); });
+  ASSERT_TRUE(map);
+  EXPECT_TRUE((*map == kMap).all());
+  ASSERT_FALSE(shares.empty());
+  EXPECT_EQ(shares.back(), 1);
+}
+
+TEST(Hdf5Guard, NoMapComesFromACopyThatBreaksOrSendsLess) {
+  const auto received = [](const SendRows& send) {
+    return hdf5_map_from_copy({7, 5}, send, {}).has_value();
+  };
+  EXPECT_FALSE(received([](const Rows&) { ::raise(SIGSEGV); }));
+  EXPECT_FALSE(received([](const Rows& send) { send(kMap.topRows(3)); }));
+  EXPECT_FALSE(received([](const Rows& send) {
+    send(kMap.topRows(3));
+    throw InputError("damaged");
+  }));
+  EXPECT_FALSE(received([](const Rows& send) {
+    send(kMap);
+    std::abort();
+  }));
+}
+
+TEST(Hdf5Guard, WhoWatchesMayStopIt) {
+  EXPECT_THROW(hdf5_map_from_copy(
+                   {7, 5}, [](const Rows& send) { send(kMap); },
+                   [](double) { throw std::runtime_error("stop"); }),
+               std::runtime_error);
+}
+
+}  // namespace
+}  // namespace tabor::io
