@@ -30,6 +30,7 @@ PointFilm::PointFilm(const PointProblem& problem)
     : lubricant(problem.lubricant),
       load(problem.load),
       speed(problem.entrainment_speed),
+      tolerance(problem.tolerance),
       problem_(problem),
       grid_(point_grid(problem)),
       x_(point_x(problem)),
@@ -90,6 +91,14 @@ Field PointFilm::film_of(const PointState& state) const {
   return film;
 }
 
+void PointFilm::lift(PointState& state, double min_film) const {
+  state.film = film_of(state);
+  const double lacking = min_film - least_film(state);
+  if (!(lacking > 0)) return;
+  state.separation += lacking;
+  state.film += lacking;
+}
+
 Field PointFilm::mass_of(const PointState& state) const {
   return state.film *
          state.pressure.unaryExpr([&](double p) { return lubricant.density.at(p).value; });
@@ -100,7 +109,7 @@ Mask PointFilm::held(const PointState& state) const {
   Mask held = state.cavity;
   held.row(0) = held.row(held.rows() - 1) = true;
   held.col(0) = held.col(held.cols() - 1) = true;
-  if (solid.touching.size() > 0) held = held || solid.touching;
+  if (closed_.size() > 0) held = held || closed_;
   return held;
 }
 
@@ -191,7 +200,7 @@ double PointFilm::merit(const Linear& linear, const PointState& state) const {
   const Mask held = this->held(state);
   const Field& residual = linear.balance.residual;
   Field open = held.select(state.cavity.select(residual.min(0), 0), residual);
-  if (solid.touching.size() > 0) open = solid.touching.select(0, open);
+  if (closed_.size() > 0) open = closed_.select(0, open);
   const double relative = units_.film / film_scale_;
   return std::sqrt(open.square().sum() * relative * relative / static_cast<double>(x_.size()) +
                    linear.load * linear.load);
@@ -238,11 +247,12 @@ bool PointFilm::correct(const Eigen::VectorXd& step, const PointStorage& storage
 
 /// Nodes of the cavity that gain liquid leave it; true if there are any.
 bool PointFilm::refill(const Linear& linear, PointState& state) const {
-  const double surplus = 0.1 * problem_.tolerance * film_scale_ / units_.film;
+  const double surplus = 0.1 * tolerance * film_scale_ / units_.film;
   const Mask held = this->held(state);
   bool changed = false;
   for (Index k = 0; k < held.size(); ++k) {
     if (!state.cavity.data()[k] || !(linear.balance.residual.data()[k] < -surplus)) continue;
+    if (closed_.size() > 0 && closed_.data()[k]) continue;
     state.cavity.data()[k] = false;
     changed = true;
   }
@@ -258,6 +268,7 @@ void PointFilm::measure(const Linear& linear, const PointState& state, Outcome& 
 PointFilm::Outcome PointFilm::solve(PointState& state, const PointStorage& storage,
                                     const Observer& observer) {
   Outcome outcome;
+  closed_ = solid.touching.size() > 0 ? closed_to_flow(solid.touching) : Mask();
   state.pressure = held(state).select(0, state.pressure);
   state.film = film_of(state);
   if (!(least_film(state) > 0)) return outcome;
@@ -270,12 +281,12 @@ PointFilm::Outcome PointFilm::solve(PointState& state, const PointStorage& stora
     const bool grows = (state.cavity != cavity).any();
     const bool shrinks = refill(linear, state);
     measure(linear, state, outcome);
-    outcome.converged = !grows && !shrinks && outcome.mass_error <= problem_.tolerance &&
-                        outcome.load_error <= problem_.tolerance;
+    outcome.converged =
+        !grows && !shrinks && outcome.mass_error <= tolerance && outcome.load_error <= tolerance;
     const Convergence now = {.iterations = outcome.iterations,
                              .operator_applications = outcome.n_products,
                              .certificate = std::max(outcome.mass_error, outcome.load_error),
-                             .tolerance = problem_.tolerance,
+                             .tolerance = tolerance,
                              .converged = outcome.converged};
     if (observer && !observer({.stage = "point contact", .convergence = &now})) break;
   }

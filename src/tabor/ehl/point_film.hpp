@@ -6,6 +6,7 @@
 #include "tabor/ehl/point.hpp"
 #include "tabor/ehl/point_balance.hpp"
 #include "tabor/ehl/point_multigrid.hpp"
+#include "tabor/ehl/point_solids.hpp"
 
 namespace tabor::ehl {
 
@@ -15,16 +16,6 @@ struct PointState {
   double separation = 0;  ///< h00 [m]
   Field film;             ///< h [m]
   Mask cavity;            ///< nodes where p = 0 is given and the film may lack liquid
-};
-
-/// What the solids do beside the film, given while the film is solved for: their pressure adds to
-/// the deflection and to the load but not to the flow; where they touch, the liquid has no pressure
-/// and nothing flows through the faces of the cell, so that mass is conserved; the film there is
-/// what the surfaces leave, of either sign. Empty arrays: none.
-struct SolidPart {
-  Field pressure;       ///< P_num [Pa], >= 0
-  Field plastic_depth;  ///< h_plast [m], >= 0, adds to the film
-  Mask touching;
 };
 
 /// The equations of a point contact at the nodes of one grid and their solution by Newton's method:
@@ -48,8 +39,9 @@ class PointFilm {
   Field shape;  ///< gap of the undeformed bodies [m]: x^2/(2 Rx) + y^2/(2 Ry) - s
   SolidPart solid;
   material::Lubricant lubricant;
-  double load = 0;   ///< [N]
-  double speed = 0;  ///< u_m [m/s], > 0
+  double load = 0;       ///< [N]
+  double speed = 0;      ///< u_m [m/s], > 0
+  double tolerance = 0;  ///< on the errors of mass and load
 
   /// Hertz' pressure, spread wider where the bodies are so stiff that the film is wider than their
   /// contact, and h00 such that the film is `min_film` [m] where it is thinnest.
@@ -61,6 +53,8 @@ class PointFilm {
   /// h [m] of a state: shape + h00 + h_plast + K (p + P_num).
   Field film_of(const PointState& state) const;
   Field mass_of(const PointState& state) const;  ///< rho/rho0 h [m]
+  /// Raises the separation until the film is `min_film` [m] or more where solids do not touch.
+  void lift(PointState& state, double min_film) const;
 
   struct Outcome {
     int iterations = 0;
@@ -97,6 +91,7 @@ class PointFilm {
   Eigen::ArrayXd x_, y_;
   std::vector<PointLevel> levels_;
   PointUnits units_;
+  Mask closed_;  // to flow, by the touching cells of the current solve(); empty: none
   double pressed_width_x_, pressed_width_y_;  // [m], half axes of the pressed ellipse
   double film_scale_;                         // [m]
 };

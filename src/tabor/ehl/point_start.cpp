@@ -12,7 +12,10 @@ constexpr Index kCoarsest = 48;  // nodes along a side of a grid that is not coa
 /// The film of the first guess over that of Nijenbanning's formula: Newton's method comes down
 /// safely from a thick film, where the flow depends on the pressure gradient.
 constexpr double kFirstFilms[] = {3, 10, 1, 30};
-constexpr double kFirstStep = 0.5;  // of a continuation
+constexpr double kRoughly = 1e-2;    // tolerance where a solution is only a start
+constexpr double kLeastStart = 0.1;  // film of a start, over that in the contact
+constexpr double kFirstThickening = 0.5;
+constexpr double kFirstRoughening = 1;
 constexpr double kSmallestStep = 1.0 / 64;
 
 PointFilm::Outcome solve_from_hertz(const PointProblem& problem, PointFilm& film, PointState& state,
@@ -33,15 +36,20 @@ material::Viscosity with_share_of_coefficient(const material::Viscosity& viscosi
                                   share * material::pressure_coefficient(viscosity));
 }
 
-/// Leads a film from share 0 to share 1 of what `apply` sets, in steps that shrink when one fails.
+/// Leads a film from share 0 to share 1 of what `apply` sets, in steps that shrink when one fails;
+/// those before the last are solved roughly.
 PointFilm::Outcome ramp(PointFilm& film, PointState& state,
-                        const std::function<void(double)>& apply, const Observer& observer) {
+                        const std::function<void(double)>& apply, double first_step,
+                        const Observer& observer) {
   PointFilm::Outcome outcome;
+  const double tolerance = film.tolerance;
   double share = 0;
-  for (double step = kFirstStep; share < 1 && step > kSmallestStep;) {
+  for (double step = first_step; share < 1 && step > kSmallestStep;) {
     PointState next = state;
     const double aim = std::min(1.0, share + step);
     apply(aim);
+    film.lift(next, kLeastStart * film.film_scale());
+    film.tolerance = aim < 1 ? std::max(tolerance, kRoughly) : tolerance;
     outcome = outcome + film.solve(next, {}, observer);
     if (outcome.converged) {
       state = next;
@@ -50,6 +58,7 @@ PointFilm::Outcome ramp(PointFilm& film, PointState& state,
     step *= outcome.converged ? 1.5 : 0.5;
   }
   apply(1);
+  film.tolerance = tolerance;
   outcome.converged = share >= 1;
   return outcome;
 }
@@ -66,6 +75,7 @@ PointFilm::Outcome solve_nested(const PointProblem& problem, PointFilm& film, Po
   if (std::min(coarse.nodes_x, coarse.nodes_y) < kCoarsest) return {};
   PointFilm coarse_film(coarse);
   coarse_film.lubricant = film.lubricant;
+  coarse_film.tolerance = std::max(film.tolerance, kRoughly);
   const PointFilm::Outcome before = solve_smooth(coarse, coarse_film, state, observer);
   if (!before.converged) return before;
   state = film.resampled(state, coarse_film.grid());
@@ -83,7 +93,7 @@ PointFilm::Outcome solve_smooth(const PointProblem& problem, PointFilm& film, Po
   const auto thicken = [&](double share) {
     film.lubricant.viscosity = with_share_of_coefficient(viscosity, share);
   };
-  if (outcome.converged) return outcome + ramp(film, state, thicken, observer);
+  if (outcome.converged) return outcome + ramp(film, state, thicken, kFirstThickening, observer);
   thicken(1);
   return outcome;
 }
@@ -119,9 +129,12 @@ PointFilm::Outcome solve_cold(const PointProblem& problem, PointFilm& film, Poin
   if (problem.roughness.size() == 0) return solve_smooth(smooth, film, state, observer);
   const Field rough = film.shape;
   film.shape = rough + problem.roughness;
+  const double tolerance = film.tolerance;
+  film.tolerance = std::max(tolerance, kRoughly);
   PointFilm::Outcome outcome = solve_smooth(smooth, film, state, observer);
+  film.tolerance = tolerance;
   const auto roughen = [&](double share) { film.shape = rough + (1 - share) * problem.roughness; };
-  if (outcome.converged) return outcome + ramp(film, state, roughen, observer);
+  if (outcome.converged) return outcome + ramp(film, state, roughen, kFirstRoughening, observer);
   roughen(1);
   return outcome;
 }
