@@ -24,7 +24,8 @@ struct Request {
 };
 
 const std::vector<EhlProgram>& programs() {
-  static const std::vector<EhlProgram> all = {impact_program(), squeeze_program(), line_program()};
+  static const std::vector<EhlProgram> all = {impact_program(), squeeze_program(), line_program(),
+                                              point_program()};
   return all;
 }
 
@@ -84,7 +85,8 @@ std::string details() {
   for (const EhlProgram& program : programs()) {
     text += fmt::format(" {} - {}.", program.name, program.summary);
   }
-  return text + " docs/ehl.md lists the keys of their cases.";
+  return text +
+         " docs/ehl.md, docs/ehl_line.md and docs/ehl_point.md list the keys of their cases.";
 }
 
 void declare_options(OptionSet& set, Request& request) {
@@ -94,15 +96,15 @@ void declare_options(OptionSet& set, Request& request) {
   Option& axis = set.add(
       {.flag = "--set",
        .placeholder = "KEY=VALUE",
-       .help =
-           "change one value of the case; a range as in ball.speed=0.05m/s..1m/s:log:5 computes "
-           "all of its values (and all combinations of several ranges)",
+       .help = "change one value of the case; a range as in ball.speed=0.05m/s..1m/s:log:5 or a "
+               "list as in grid.nodes=65,97,145 computes all of its values (and all combinations "
+               "of several)",
        .assign = [&](const std::string& text) { request.axes.push_back(parse_axis(text)); }});
   axis.repeatable = true;
   set.text("--study", "grid|domain|time-step",
            "how far the result depends on the grid, the domain or the time step", request.study);
   set.group("Output");
-  set.text("--output", "OUT.h5", "keep histories and profiles, or the numbers of a sweep",
+  set.text("--output", "OUT.h5", "keep histories, profiles and maps, or the numbers of a sweep",
            request.output)
       .short_flag = "-o";
 }
@@ -112,12 +114,15 @@ void declare_options(OptionSet& set, Request& request) {
 Verb ehl_verb() {
   return {.name = "ehl",
           .arguments = "PROGRAM CASE.toml [options]",
-          .summary = "films under load: impact, squeeze and slide, line contact with wear",
+          .summary = "films under load: impact, squeeze and slide, line and point contacts",
           .details = details(),
           .examples = {"tabor ehl impact examples/09_ball_drop/safa_gohar.toml -o impact.h5",
                        "tabor ehl impact examples/10_restitution_map/ball.toml "
                        "--set ball.speed=0.05m/s..1m/s:log:3 --set grid.nodes=100 --json",
-                       "tabor ehl line examples/11_hdpe_glycerol/hdpe.toml"},
+                       "tabor ehl line examples/11_hdpe_glycerol/hdpe.toml",
+                       "tabor ehl point examples/12_stribeck/ball.toml --set grid.nodes=65,97,129",
+                       "tabor ehl point examples/12_stribeck/ball.toml --set grid.nodes=65 "
+                       "--set motion.speed=0.1m/s..10m/s:log:3"},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_options(set, *request);

@@ -63,5 +63,6 @@ struct EhlProgram {
 EhlProgram impact_program();
 EhlProgram squeeze_program();
 EhlProgram line_program();
+EhlProgram point_program();
 
 }  // namespace tabor::cli

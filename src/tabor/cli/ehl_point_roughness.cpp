@@ -1,0 +1,191 @@
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "tabor/cli/ehl_case.hpp"
+#include "tabor/cli/ehl_point_case.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/ehl/point_roughness.hpp"
+#include "tabor/topography/file.hpp"
+#include "tabor/topography/holes.hpp"
+#include "tabor/topography/synthesis.hpp"
+#include "tabor/topography/treatment.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+using topography::Topography;
+
+constexpr double kMostPixels = 4096;  // of a generated surface, along either side
+
+/// A finish that is generated: Gaussian heights, a self-affine spectrum that is flat beyond the
+/// roll-off. The heights are those that Redlich, Bartel & Deters (2003) print for their surfaces.
+struct Finish {
+  const char* name;
+  double rms_height;  // [m]
+  double roll_off;    // [m]
+};
+constexpr Finish kFinishes[] = {{"lapped-like", 0.15e-6, 12e-6}, {"polished-like", 0.08e-6, 12e-6}};
+constexpr double kHurst = 0.8;
+constexpr double kPixel = 784.3e-9;  // [m], of their measured surfaces
+constexpr const char* kGround = "ground";
+constexpr double kGroundRms = 0.15e-6;     // [m]
+constexpr double kGrooveSpacing = 10e-6;   // [m]
+constexpr double kGrooveSlenderness = 20;  // length over spacing
+
+/// A length of each axis, "10 um" or ["10 um", "5 um"].
+struct Place {
+  double x = 0, y = 0;  // [m]
+};
+
+Place read_place(const io::Config& config, const char* key) {
+  if (!config.has(key)) return {};
+  const std::vector<double> values = config.quantities(key, dimension::length);
+  if (values.size() != 2) {
+    throw InputError(config.place(key), fmt::format("{} lengths", values.size()),
+                     "two: along and across the flow", "[\"10 um\", \"0 um\"]");
+  }
+  return {values[0], values[1]};
+}
+
+void refuse_without(const io::Config& config, const char* owner,
+                    const std::vector<const char*>& keys) {
+  if (config.has(owner)) return;
+  for (const char* key : keys) {
+    if (!config.has(key)) continue;
+    throw InputError(config.place(key), std::string("without ") + owner, "both or none", "");
+  }
+}
+
+/// Pixels that cover the whole domain of the film with what point_map() fades out around it.
+Grid generated_grid(const io::Config& config, const ehl::PointProblem& problem, bool is_turned) {
+  const double pixel = positive_quantity_or(config, "roughness.pixel", dimension::length, kPixel);
+  const reference::HertzEllipse hertz = hertz_of(problem);
+  const auto pixels = [&](double half_length) {
+    const double n = std::ceil(2 * ehl::kMapReach * half_length / pixel) + 2;
+    if (!(n <= kMostPixels)) {
+      throw InputError(config.place("roughness.kind"), fmt::format("{:.0f} pixels", n),
+                       fmt::format("{:.0f} or less along a side", kMostPixels),
+                       "give a larger roughness.pixel");
+    }
+    return static_cast<Index>(n);
+  };
+  Index nx = pixels(std::max(problem.inlet, problem.outlet) * hertz.half_axis_x);
+  Index ny = pixels(problem.half_width * hertz.half_axis_y);
+  if (is_turned) std::swap(nx, ny);
+  return {nx, ny, static_cast<double>(nx) * pixel, static_cast<double>(ny) * pixel};
+}
+
+Topography generate(const io::Config& config, const ehl::PointProblem& problem, bool is_turned,
+                    std::uint64_t seed) {
+  const std::string kind = config.text("roughness.kind");
+  const Grid grid = generated_grid(config, problem, is_turned);
+  const auto rms = [&](double usual) {
+    return positive_quantity_or(config, "roughness.rms", dimension::length, usual);
+  };
+  if (kind == kGround) {
+    const double spacing =
+        positive_quantity_or(config, "roughness.groove_spacing", dimension::length, kGrooveSpacing);
+    return topography::ground({.grid = grid,
+                               .rms_height = rms(kGroundRms),
+                               .groove_spacing = spacing,
+                               .groove_length = kGrooveSlenderness * spacing,
+                               .seed = seed});
+  }
+  std::vector<std::string> names = {kGround};
+  for (const Finish& finish : kFinishes) {
+    names.emplace_back(finish.name);
+    if (kind != finish.name) continue;
+    topography::SelfAffine recipe;
+    recipe.grid = grid;
+    recipe.hurst = kHurst;
+    recipe.rms_height = rms(finish.rms_height);
+    recipe.roll_off_wavelength = finish.roll_off;
+    recipe.random_amplitudes = true;
+    recipe.seed = seed;
+    return topography::self_affine(recipe);
+  }
+  throw InputError(config.place("roughness.kind"), "'" + kind + "'",
+                   fmt::format("{}{}", fmt::join(names, ", "), suggestion(kind, names)), "");
+}
+
+/// Turned by a quarter: what ran along the flow runs across it.
+Field turned(const Field& height) { return height.transpose().rowwise().reverse(); }
+
+/// Heights of a scan or a generated surface, x along the flow unless it is turned.
+Field map_heights(const io::Config& config, const ehl::PointProblem& problem,
+                  const Topography& surface, bool is_turned) {
+  const Place place = read_place(config, "roughness.place");
+  const Grid& grid = surface.grid;
+  return ehl::point_map(problem, {.height = is_turned ? turned(surface.height) : surface.height,
+                                  .spacing_x = is_turned ? grid.dy() : grid.dx(),
+                                  .spacing_y = is_turned ? grid.dx() : grid.dy(),
+                                  .centre_x = place.x,
+                                  .centre_y = place.y});
+}
+
+bool read_is_turned(const io::Config& config) {
+  const std::string word = text_or(config, "roughness.orientation", "longitudinal");
+  const std::vector<std::string> words = {"longitudinal", "transverse"};
+  if (word == words[0] || word == words[1]) return word == words[1];
+  throw InputError(config.place("roughness.orientation"), "'" + word + "'",
+                   "longitudinal or transverse" + suggestion(word, words), "");
+}
+
+Topography read_scan(const io::Config& config, Context& context) {
+  const std::filesystem::path file = point_scan(config);
+  topography::ReadOptions options;
+  if (config.has("roughness.channel")) options.channel = config.text("roughness.channel");
+  topography::Treatment treatment = {"level=plane"};
+  if (config.has("roughness.treatment")) treatment = config.texts("roughness.treatment");
+  Topography scan = topography::apply(
+      treatment, topography::read(file, options, context.observer()), context.observer());
+  for (const std::string& doubt : scan.doubts) context.warn(file.string() + ": " + doubt);
+  if (const Index holes = topography::count_holes(scan); holes > 0) {
+    throw InputError(config.place("roughness.file"), fmt::format("{} missing pixels", holes),
+                     "a height at every pixel", "treatment = [\"fill=harmonic\", \"level=plane\"]");
+  }
+  return scan;
+}
+
+}  // namespace
+
+std::filesystem::path point_scan(const io::Config& config) {
+  return std::filesystem::path(config.name()).parent_path() / config.text("roughness.file");
+}
+
+Field read_point_roughness(const io::Config& config, const ehl::PointProblem& problem,
+                           Context& context) {
+  refuse_without(config, "roughness.file", {"roughness.channel", "roughness.treatment"});
+  refuse_without(
+      config, "roughness.kind",
+      {"roughness.rms", "roughness.pixel", "roughness.seed", "roughness.groove_spacing"});
+  Field roughness;
+  const auto add = [&](const Field& heights) {
+    roughness = roughness.size() == 0 ? heights : Field(roughness + heights);
+  };
+  const bool is_turned = read_is_turned(config);
+  if (config.has("roughness.file")) {
+    add(map_heights(config, problem, read_scan(config, context), is_turned));
+  }
+  if (config.has("roughness.kind")) {
+    const auto seed = static_cast<std::uint64_t>(
+        integer_or(config, "roughness.seed", static_cast<std::int64_t>(context.seed_or_default())));
+    add(map_heights(config, problem, generate(config, problem, is_turned, seed), is_turned));
+  }
+  if (config.has("roughness.bump.height") || config.has("roughness.bump.wavelength")) {
+    const Place place = read_place(config, "roughness.bump.place");
+    add(ehl::point_bump(problem, config.quantity("roughness.bump.height", dimension::length),
+                        positive_quantity(config, "roughness.bump.wavelength", dimension::length),
+                        place.x, place.y));
+  }
+  if (roughness.size() == 0) {
+    refuse_without(config, "roughness.file", {"roughness.orientation", "roughness.place"});
+  }
+  return roughness;
+}
+
+}  // namespace tabor::cli

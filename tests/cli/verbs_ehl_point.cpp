@@ -1,0 +1,219 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "run_tabor.hpp"
+#include "support/folder.hpp"
+#include "tabor/io/hdf5.hpp"
+
+namespace tabor::cli {
+namespace {
+
+using test::json_of;
+using test::Outcome;
+using test::run_tabor;
+using testing::HasSubstr;
+
+/// The ball of Redlich, Bartel & Deters on a grid that is quick rather than fine.
+class EhlPoint : public testing::Test {
+ protected:
+  EhlPoint() {
+    std::ofstream(ball_) << "ball = {radius = \"1.5 mm\", load = \"16.6 N\"}\n"
+                            "solids = {e_prime = \"230.8 GPa\"}\n"
+                            "motion = {speed = \"1 m/s\"}\n[lubricant]\n"
+                            "viscosity = \"0.149 Pa s\"\npressure_viscosity = \"2.131e-8 1/Pa\"\n"
+                            "density_law = \"dowson-higginson\"\neyring_stress = \"6.8 MPa\"\n";
+    std::ofstream(groups_) << "groups = {M = 20, L = 10}\n";
+  }
+
+  std::vector<std::string> words(const std::string& file,
+                                 const std::vector<std::string>& changes = {},
+                                 const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> all = {"ehl", "point", file, "--set", "grid.nodes=33"};
+    for (const std::string& change : changes) all.insert(all.end(), {"--set", change});
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  }
+  std::vector<std::string> ball(const std::vector<std::string>& changes = {},
+                                const std::vector<std::string>& more = {}) const {
+    return words(ball_, changes, more);
+  }
+
+  void refused(const std::vector<std::string>& words, const std::string& message) const {
+    const Outcome outcome = run_tabor(words);
+    EXPECT_EQ(outcome.code, 3) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(message)) << words.back();
+    EXPECT_EQ(test::count_lines(outcome.err), 1u) << outcome.err;
+  }
+
+  test::Folder folder_;
+  std::string ball_ = folder_ / "ball.toml";
+  std::string groups_ = folder_ / "groups.toml";
+};
+
+TEST_F(EhlPoint, HasItsKeys) {
+  const io::Json json = json_of(ball());
+  for (const char* key :
+       {"hertz_radius_m", "hertz_pressure_Pa", "M", "L", "central_film_m", "min_film_m", "Hc", "Hm",
+        "max_pressure_Pa", "solid_contact_fraction", "plastic_fraction", "max_plastic_depth_m",
+        "friction_fluid", "friction_solid", "friction_coefficient", "newton_iterations",
+        "load_error", "mass_error"}) {
+    EXPECT_TRUE(json.contains(key) && json[key].is_number()) << key;
+  }
+  EXPECT_EQ(json["converged"], true);
+  EXPECT_TRUE(json["warnings"].is_array());
+  // Hertz and the groups of the paper's Table 1, here at ten times its speed.
+  EXPECT_NEAR(json["hertz_radius_m"].get<double>(), 54.49e-6, 0.01e-6);
+  EXPECT_NEAR(json["hertz_pressure_Pa"].get<double>(), 2.669e9, 0.001e9);
+  EXPECT_NEAR(json["M"].get<double>(), 1892 * std::pow(10, -0.75), 3);
+  EXPECT_NEAR(json["L"].get<double>(), 12.61 * std::pow(10, 0.25), 0.03);
+}
+
+TEST_F(EhlPoint, TakesMoesGroups) {
+  const io::Json json = json_of(words(groups_, {"grid.nodes=65"}));
+  EXPECT_NEAR(json["M"].get<double>(), 20, 1e-9);
+  EXPECT_NEAR(json["L"].get<double>(), 10, 1e-9);
+  EXPECT_EQ(json["friction_coefficient"], 0);  // it rolls
+  // Of an independent solver on 145 nodes, 0.4265 and 0.2898 a^2/R, extrapolated 0.429 and 0.291.
+  EXPECT_NEAR(json["hertz_units"]["Hc"].get<double>(), 0.429, 0.05 * 0.429);
+  EXPECT_NEAR(json["hertz_units"]["Hm"].get<double>(), 0.291, 0.05 * 0.291);
+  const double per_moes = std::pow(1.5 * 20, 2.0 / 3);
+  EXPECT_NEAR(json["Hc"].get<double>() / json["hertz_units"]["Hc"].get<double>(), per_moes, 1e-6);
+  // The scale is free: another radius has the same film in these units.
+  const io::Json larger = json_of(words(groups_, {"grid.nodes=65", "ball.radius=30mm"}));
+  EXPECT_NEAR(larger["Hc"].get<double>() / json["Hc"].get<double>(), 1, 1e-6);
+}
+
+TEST_F(EhlPoint, GroupsOfAnIsoviscousLiquid) {
+  const io::Json json = json_of(words(groups_, {"groups.L=0", "lubricant.viscosity_law=constant"}));
+  EXPECT_EQ(json["L"], 0);
+  EXPECT_NEAR(json["M"].get<double>(), 20, 1e-9);
+  refused(words(groups_, {"groups.L=5", "lubricant.viscosity_law=constant"}), "groups.L");
+}
+
+TEST_F(EhlPoint, FilmGrowsAcrossAnEllipsoid) {
+  const io::Json round = json_of(words(groups_));
+  const io::Json wide =
+      json_of(words(groups_, {"ball.radius_x=10mm", "ball.radius_y=20mm", "grid.half_width=2"}));
+  EXPECT_EQ(wide["converged"], true);
+  EXPECT_GT(wide["Hc"], round["Hc"]);
+  refused(words(groups_, {"ball.radius_x=10mm"}), "ball.radius_y");
+}
+
+TEST_F(EhlPoint, SweepsTheStribeckCurve) {
+  const std::string file = folder_ / "stribeck.h5";
+  const io::Json json = json_of(ball({"motion.speed=0.1m/s..10m/s:log:3"}, {"-o", file}));
+  ASSERT_EQ(json["results"].size(), 3u);
+  EXPECT_EQ(json["results"][0]["set"]["motion.speed"], "0.1 m/s");
+  EXPECT_LT(json["results"][0]["central_film_m"], json["results"][1]["central_film_m"]);
+  EXPECT_LT(json["results"][1]["central_film_m"], json["results"][2]["central_film_m"]);
+  const io::Hdf5Reader reader(file);
+  EXPECT_EQ(reader.numbers("/sweep/friction_coefficient").size(), 3u);
+}
+
+TEST_F(EhlPoint, FindsTheLimitOfThreeGrids) {
+  const io::Json json = json_of(words(groups_, {"grid.nodes=33,49,73"}));
+  const double extrapolated = 0.429 * std::pow(1.5 * 20, 2.0 / 3);  // as above
+  EXPECT_NEAR(json["limits"]["Hc"].get<double>(), extrapolated, 0.03 * extrapolated);
+  const io::Json study = json_of(words(groups_, {"grid.nodes=73"}, {"--study", "grid"}));
+  EXPECT_EQ(study["results"][0]["nodes_x"], 33);
+  EXPECT_EQ(study["limits"]["Hc"], json["limits"]["Hc"]);
+}
+
+TEST_F(EhlPoint, KeepsMapsAndCurves) {
+  const std::string file = folder_ / "point.h5";
+  const std::vector<std::string> bump = {"roughness.bump.height=20nm",
+                                         "roughness.bump.wavelength=120um", "grid.nodes=41"};
+  ASSERT_EQ(run_tabor(ball(bump, {"-o", file})).code, 0);
+  const io::Hdf5Reader reader(file);
+  EXPECT_EQ(reader.shape("/contact/film"), (std::vector<Index>{41, 41}));
+  const std::vector<double> x = reader.numbers("/contact/x");
+  const std::vector<double> place = reader.numbers("/along/place");
+  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], place[i], 1e-12);
+  EXPECT_NEAR(reader.field("/contact/roughness").maxCoeff(), 20e-9, 1e-9);
+  EXPECT_TRUE(reader.exists("/along/smooth_film"));
+  EXPECT_TRUE(reader.exists("/across/hertz_pressure"));
+  const std::vector<double> share = reader.numbers("/slice_plane/share");
+  EXPECT_EQ(share.front(), 0);
+  EXPECT_EQ(share.back(), 1);
+}
+
+TEST_F(EhlPoint, TakesAScanAsRoughness) {
+  const std::string scan = folder_ / "waves.h5";
+  ASSERT_EQ(run_tabor({"generate", "sinusoid", "--amplitude", "5nm", "--wavelength-x", "80um",
+                       "--pixels", "64", "--pixel", "4um", "-o", scan})
+                .code,
+            0);
+  const auto json = [&](const std::vector<std::string>& changes) {
+    std::vector<std::string> all = {"roughness.file=" + scan, "grid.nodes=41"};
+    all.insert(all.end(), changes.begin(), changes.end());
+    return json_of(ball(all));
+  };
+  const io::Json across = json({});
+  EXPECT_EQ(across["scan"]["sha256"].get<std::string>().size(), 64u);
+  EXPECT_NEAR(across["roughness_rms_m"].get<double>(), 5e-9 / std::sqrt(2), 1e-9);
+  const io::Json along = json({"roughness.orientation=transverse"});
+  EXPECT_NE(along["min_film_m"], across["min_film_m"]);
+  const io::Json elsewhere = json({"roughness.place=[\"20um\", \"0um\"]"});
+  EXPECT_NE(elsewhere["film_at_centre_m"], across["film_at_centre_m"]);
+  const io::Json plane = json({"roughness.treatment=[\"lowpass=gauss:1mm\"]"});
+  EXPECT_LT(plane["roughness_rms_m"], 0.1e-9);
+}
+
+TEST_F(EhlPoint, GeneratesFinishesFromTheirSeed) {
+  const auto rms = [&](const std::vector<std::string>& changes) {
+    std::vector<std::string> all = {"motion.speed=100m/s"};
+    all.insert(all.end(), changes.begin(), changes.end());
+    return json_of(ball(all))["roughness_rms_m"].get<double>();
+  };
+  const double lapped = rms({"roughness.kind=lapped-like"});
+  EXPECT_EQ(lapped, rms({"roughness.kind=lapped-like", "roughness.seed=1"}));
+  EXPECT_NE(lapped, rms({"roughness.kind=lapped-like", "roughness.seed=2"}));
+  EXPECT_GT(lapped, rms({"roughness.kind=polished-like"}));
+  EXPECT_GT(rms({"roughness.kind=ground", "roughness.rms=0.2um"}),
+            rms({"roughness.kind=ground", "roughness.rms=0.1um"}));
+}
+
+TEST_F(EhlPoint, WarnsOfWhatItsEquationsDoNotSee) {
+  std::ofstream(folder_ / "newtonian.toml")
+      << "groups = {M = 200, L = 10}\n[motion]\nsliding_speed = \"1 m/s\"\n";
+  const Outcome newtonian = run_tabor(words(folder_ / "newtonian.toml"));
+  EXPECT_THAT(newtonian.err, HasSubstr("eyring_stress"));
+  const Outcome moving =
+      run_tabor(words(groups_, {"motion.sliding_speed=0m/s", "roughness.bump.height=5nm",
+                                "roughness.bump.wavelength=200um"}));
+  EXPECT_THAT(moving.err, HasSubstr("stand still"));
+}
+
+TEST_F(EhlPoint, RefusesWithTheReason) {
+  refused(ball({"ball.load=0 N"}), "above zero");
+  refused(ball({"ball.load=16.6"}), "unit");
+  refused(ball({"ball.load=1 MN"}), "load of a point contact");
+  refused(ball({"ball.radius_x=1mm"}), "ball.radius");
+  refused(ball({"groups.M=20"}), "beside [groups]");
+  refused(words(groups_, {"groups.M=-1"}), "groups.M");
+  refused(ball({"motion.sliding_speed=1m/s"}), "beside motion.speed");
+  refused(ball({"lubricant.viscosity=-1 Pa s"}), "above zero");
+  refused(ball({"lubricant.viscosity_law=barus", "lubricant.pressure_viscosity=5e-5 1/Pa"}),
+          "viscosity");
+  refused(ball({"lubricant.limiting_stress=1MPa"}), "eyring_stress");
+  refused(ball({"solids.plastic_presure=4GPa"}), "solids.plastic_pressure");
+  refused(ball({"grid.nodes=5"}), "17 to");
+  refused(ball({"grid.inlet=0.5"}), "half axes");
+  refused(ball({"grid.domain=0"}), "factor");
+  refused(ball({"roughness.kind=laped-like"}), "did you mean 'lapped-like'");
+  refused(ball({"roughness.kind=ground", "roughness.orientation=across"}), "transverse");
+  refused(ball({"roughness.kind=ground", "roughness.pixel=1nm"}), "roughness.pixel");
+  refused(ball({"roughness.rms=1um"}), "without roughness.kind");
+  refused(ball({"roughness.bump.height=1um"}), "roughness.bump.wavelength");
+  refused(ball({"roughness.bump.height=1um", "roughness.bump.wavelength=1um"}), "more nodes");
+  refused(ball({"roughness.bump.height=1um", "roughness.bump.wavelength=200um",
+                "roughness.bump.place=3um"}),
+          "two");
+  refused(ball({"roughness.file=nowhere.x3p"}), "nowhere.x3p");
+}
+
+}  // namespace
+}  // namespace tabor::cli
