@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
@@ -43,20 +44,34 @@ std::vector<double> distinct_heights(const Field& height, Index stride) {
   return values;
 }
 
+/// Hands over the values in ascending order until `accept` returns false. Sorts no more of them
+/// than it hands over, or little more.
+void ascending(std::vector<double>& values, const std::function<bool(double)>& accept) {
+  auto begin = values.begin();
+  for (std::ptrdiff_t n = 1024; begin != values.end(); n *= 8) {
+    const auto end = begin + std::min(n, values.end() - begin);
+    std::nth_element(begin, end - 1, values.end());
+    std::sort(begin, end);
+    if (!std::all_of(begin, end, accept)) return;
+    begin = end;
+  }
+}
+
 /// Approximate common divisor of the gaps, ascending: the smallest one, refined by every further
 /// gap that is a multiple of it; 0 if one is not.
 double common_step(const std::vector<double>& heights) {
   std::vector<double> gaps;
+  gaps.reserve(heights.size());
   for (std::size_t i = 1; i < heights.size(); ++i) gaps.push_back(heights[i] - heights[i - 1]);
-  std::sort(gaps.begin(), gaps.end());
   double total = 0;
   double count = 0;
-  for (const double gap : gaps) {
+  ascending(gaps, [&](double gap) {
     const double steps = count > 0 ? std::round(gap * count / total) : 1;
-    if (count > 0 && std::abs(gap * count / total - steps) > kIntegerTolerance) return 0;
+    const bool fits = !(count > 0 && std::abs(gap * count / total - steps) > kIntegerTolerance);
     total += gap;
-    count += steps;
-  }
+    count = fits ? count + steps : 0;
+    return fits;
+  });
   return count > 0 ? total / count : 0;
 }
 
