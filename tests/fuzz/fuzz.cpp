@@ -56,7 +56,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   chosen->run({reinterpret_cast<const char*>(data), size});
   most_bytes = std::max(most_bytes, budget.peak_bytes());
   most_seconds = std::max(most_seconds, budget.seconds());
-  if (budget.peak_bytes() > tabor::fuzz::allowed_bytes(size, chosen->packed)) {
+  const std::size_t most = tabor::fuzz::allowed_bytes(size, chosen->packed) + chosen->library_bytes;
+  if (budget.peak_bytes() > most) {
     complain("too much memory", static_cast<double>(budget.peak_bytes()), size);
   }
   if (budget.seconds() > kMostSeconds) complain("too slow [s]", budget.seconds(), size);

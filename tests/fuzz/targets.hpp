@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,9 @@ struct Target {
   std::string name;  ///< a reader's name in the format table, or what else is read ("study")
   std::function<void(std::string_view)> run;
   bool packed = false;  ///< may unpack compressed data: a small input may rightly need much memory
+  /// What a foreign library may ask for before it notices that a file lies [bytes]: users' files
+  /// are read in a copy of the process with such a limit (io/hdf5_guard.cpp).
+  std::size_t library_bytes = 0;
 };
 
 /// One target per reader of the format table, so that a new format is fuzzed without new code, and
