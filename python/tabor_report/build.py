@@ -12,6 +12,7 @@ from tabor_report.figures import (
     ehl_curves,
     ehl_impact,
     ehl_line,
+    ehl_point,
     lubricant_map,
     lubricated_friction,
     psd,
@@ -67,9 +68,20 @@ def _drawings(source, options):
 
 def ehl_figures(source):
     if source.is_sweep:
-        return ehl_curves.sweep(source)
-    programs = {"impact": ehl_impact.draw, "line": ehl_line.draw, "squeeze": ehl_curves.squeeze}
+        return sweep_figures(source)
+    programs = {
+        "impact": ehl_impact.draw,
+        "line": ehl_line.draw,
+        "point": ehl_point.draw,
+        "squeeze": ehl_curves.squeeze,
+    }
     return programs[source.program](source)
+
+
+def sweep_figures(source):
+    if ehl_point.is_stribeck(source):
+        yield from ehl_point.stribeck(source)
+    yield from ehl_curves.sweep(source)
 
 
 def study_figures(source, options):

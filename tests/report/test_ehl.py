@@ -11,7 +11,7 @@ import numpy as np
 from synthetic_file import new_file
 from tabor_report import build, style
 from tabor_report.cli import _parser
-from tabor_report.figures import ehl_impact
+from tabor_report.figures import ehl_impact, ehl_point
 
 
 def impact_file(path):
@@ -67,6 +67,60 @@ def line_file(path):
         for group, values in curves.items():
             for name, column in values.items():
                 file[f"{group}/{name}"] = column
+
+
+def point_file(path):
+    """A parabolic film of 50 nm in a contact of 50 um under 1 GPa; half of it touches on x < 0."""
+    x, y = np.linspace(-2e-4, 1e-4, 61), np.linspace(-1e-4, 1e-4, 41)
+    radius = np.hypot(x[None, :], y[:, None])
+    film = 5e-8 + 10 * np.clip(radius - 5e-5, 0, None) ** 2
+    dry = 1e9 * np.sqrt(np.clip(1 - (radius / 5e-5) ** 2, 0, None))
+    touches = (radius < 5e-5) & (x[None, :] < 0)
+    with new_file(path) as file:
+        file.attrs["kind"] = "ehl point"
+        file.attrs["config_toml"] = '[roughness.bump]\nheight = "1 um"\nplace = ["1 um", "2 um"]\n'
+        file.create_group("result").attrs.update({"converged": 1, "central_film_m": 5e-8})
+        contact = {
+            "x": x,
+            "y": y,
+            "film": np.where(touches, 0, film),
+            "pressure": np.where(touches, 0, dry),
+            "contact_pressure": np.where(touches, dry, 0),
+            "plastic_depth": np.where(touches, 1e-9, 0),
+            "roughness": 1e-9 * np.sin(1e5 * x)[None, :] + 0 * radius,
+        }
+        for name, values in contact.items():
+            file[f"contact/{name}"] = values
+        for group, place, cut in (("along", x, (20, slice(None))), ("across", y, (slice(None), 40))):
+            for name in ("film", "pressure", "contact_pressure"):
+                file[f"{group}/{name}"] = contact[name][cut]
+            file[f"{group}/place"], file[f"{group}/hertz_pressure"] = place, dry[cut]
+            file[f"{group}/smooth_film"], file[f"{group}/smooth_pressure"] = film[cut], dry[cut]
+        file["slice_plane/level"] = [0, 5e-8, 1e-7]
+        file["slice_plane/share"] = [0.5, 1.0, 1.0]
+        file["slice_plane/smooth_share"] = [0.0, 1.0, 1.0]
+
+
+def stribeck_file(path):
+    """Two surfaces at three speeds, the fastest first."""
+    with new_file(path) as file:
+        file.attrs["kind"] = "ehl point sweep"
+        file.create_group("sweep").attrs["axes"] = ["roughness.kind", "motion.speed"]
+        file["sweep/axes/roughness.kind"] = [0.0, 1.0]
+        file["sweep/axes/roughness.kind"].attrs.update({"words": ["lapped", "polished"], "long_name": "kind"})
+        file["sweep/axes/motion.speed"] = [10.0, 1.0, 0.1]
+        file["sweep/shape"] = [2, 3]
+        columns = {
+            "friction_coefficient": [0.08, 0.09, 0.12, 0.08, 0.07, 0.06],
+            "friction_fluid": [0.08, 0.07, 0.04, 0.08, 0.07, 0.06],
+            "friction_solid": [0.0, 0.02, 0.08, 0.0, 0.0, 0.0],
+            "central_film_m": [8e-7, 1.7e-7, 4e-8, 8e-7, 1.7e-7, 4e-8],
+            "solid_contact_fraction": [0, 0.1, 0.4, 0, 0, 0],
+            "converged": [1, 1, 0, 1, 1, 1],
+        }
+        for name, values in columns.items():
+            file[f"sweep/{name}"] = np.array(values, dtype=float)
+            file[f"sweep/{name}"].attrs.update({"units": "", "long_name": name})
 
 
 def sweep_file(path):
@@ -131,6 +185,50 @@ class Ehl(unittest.TestCase):
         top, bottom = drawn["line_wear"].figure.axes
         self.assertEqual(bottom.get_xlabel(), "time (h)")
         self.assertGreater(*drawn["line_track"].figure.axes[0].get_ylim())
+
+    def test_a_point_contact_has_its_maps_and_curves(self):
+        drawn = self.drawings(point_file)
+        self.assertEqual(
+            set(drawn),
+            {"point_along", "point_across", "point_film", "point_pressure", "point_plastic", "point_roughness",
+             "point_slice_plane"},
+        )
+        rows = self.rows(drawn["point_along"])
+        self.assertAlmostEqual(float(rows[40]["smooth_film_m"]), 5e-8)
+        self.assertEqual(float(rows[36]["contact_pressure_Pa"]), float(rows[36]["hertz_pressure_Pa"]))
+        self.assertIn("pressure of solids", style.entries(drawn["point_along"].figure.axes[0]))
+        self.assertEqual(float(self.rows(drawn["point_slice_plane"])[0]["share"]), 0.5)
+        # Of liquid and solids together the pressure is that of Hertz on either side.
+        self.assertAlmostEqual(drawn["point_pressure"].figure.axes[0].images[0].get_array().max(), 1.0)
+
+    def test_thick_films_show_no_fringes_and_none_is_dark(self):
+        colours = ehl_point.interference(np.full((3, 3), 0.0))
+        np.testing.assert_allclose(colours, 0)
+        np.testing.assert_allclose(ehl_point.interference(np.full((3, 3), 2e-5)), 0.5)
+        half = ehl_point.LIGHT[1] / (4 * ehl_point.REFRACTION)  # of a fringe in green light
+        self.assertGreater(ehl_point.interference(np.full((3, 3), half))[1, 1, 1], 0.9)
+
+    def test_a_stribeck_curve_goes_from_slow_to_fast(self):
+        rows = self.rows(self.drawings(stribeck_file)["stribeck"])
+        self.assertEqual([float(row["motion.speed (m/s)"]) for row in rows], [0.1, 1, 10])
+        self.assertEqual([float(row["lapped friction_coefficient"]) for row in rows], [0.12, 0.09, 0.08])
+        self.assertEqual([row["lapped converged"] for row in rows], ["0", "1", "1"])
+        self.assertEqual(float(rows[0]["polished friction_solid"]), 0)
+
+    def test_words_make_curves_not_maps(self):
+        axes = self.drawings(stribeck_file)["sweep_central_film_m"].figure.axes[0]
+        self.assertEqual(set(style.entries(axes)), {"lapped", "polished"})
+
+    def test_the_page_of_a_point_contact_shows_tables_in_tables(self):
+        path = self.folder / "point.h5"
+        point_file(path)
+        source = build.open_result(path)
+        with source.file:
+            options = _parser().parse_args([str(path)])
+            files = build.build(source, self.folder / "out", options, "tabor report point.h5")
+        text = files[-1].read_text("utf-8")
+        self.assertIn("roughness.bump.height", text)
+        self.assertIn("1 um, 2 um", text)
 
     def test_the_page_of_an_impact_is_written(self):
         path = self.folder / "impact.h5"

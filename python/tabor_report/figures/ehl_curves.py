@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tabor_report import style
+from tabor_report import hdf, style
 from tabor_report.figures import Drawn
 from tabor_report.output import table_text
 
@@ -36,44 +36,91 @@ def squeeze(source):
 
 
 def sweep(source):
-    """One figure per computed number: a curve over one swept value, a map over two."""
+    """One figure per computed number: curves over one swept value, a map over two."""
     node = source.file["sweep"]
-    keys = [key.decode() if isinstance(key, bytes) else str(key) for key in np.atleast_1d(node.attrs["axes"])]
-    axes_values = [node["axes"][key][()] for key in keys]
+    keys = swept_keys(node)
+    shape = [len(node["axes"][key]) for key in keys]
     for name in node:
         if name in ("axes", "shape", "converged"):
             continue
-        values = node[name][()].reshape([len(axis) for axis in axes_values])
-        if not np.isfinite(values).any():
-            continue
-        yield _drawn(node[name], name, keys, axes_values, values)
+        values = node[name][()].reshape(shape)
+        if np.isfinite(values).any():
+            yield _drawn(node, name, keys, values)
 
 
-def _drawn(dataset, name, keys, axes_values, values):
-    heading, unit = dataset.attrs["long_name"], dataset.attrs["units"]
+def swept_keys(node):
+    """Of a sweep, the last one fastest."""
+    return [hdf.text(key) for key in np.atleast_1d(node.attrs["axes"])]
+
+
+def curves_along(node, keys, key):
+    """(index of one curve in an array over all axes, what tells it from the others)."""
+    others = [other for other in keys if other != key]
+    for place in np.ndindex(*[len(node["axes"][other]) for other in others]):
+        words = ", ".join(_word(node["axes"][other], index) for other, index in zip(others, place))
+        index = list(place)
+        index.insert(keys.index(key), slice(None))
+        yield tuple(index), words
+
+
+def _word(axis, index):
+    if "words" in axis.attrs:
+        return hdf.text(axis.attrs["words"][index])
+    return f"{hdf.text(axis.attrs['long_name']).split('.')[-1]} {axis[index]:g}"
+
+
+def _drawn(node, name, keys, values):
+    heading, unit = node[name].attrs["long_name"], node[name].attrs["units"]
     label = f"{heading} ({unit})" if unit else str(heading)
-    figure, grid = style.new_figure(3.6 if len(keys) > 1 else 3.2, width=5.6)
-    axes = grid[0][0]
-    if len(keys) == 1:
-        axes.plot(axes_values[0], values, marker="o", color=style.COLOURS[0])
-        axes.set_ylabel(label)
-        if _scale(axes.set_xscale, axes_values[0]) and values.min() > 0 and values.max() > 10 * values.min():
-            axes.set_yscale("log")
-        axes.grid(color="0.92", linewidth=0.6)
+    axes_values = [node["axes"][key][()] for key in keys]
+    is_map = len(keys) == 2 and min(values.shape) > 1 and not _has_words(node)
+    figure, grid = style.new_figure(3.6 if is_map else 3.2, width=5.6)
+    if is_map:
+        _draw_map(figure, grid[0][0], keys, axes_values, values, label)
     else:
-        plane = values.reshape(len(axes_values[0]), len(axes_values[1]), -1)[:, :, 0]
-        mesh = axes.contourf(axes_values[1], axes_values[0], plane, levels=16, cmap="viridis")
+        _draw_curves(figure, grid[0][0], node, keys, values, label)
+    data = {key: points.ravel() for key, points in zip(keys, np.meshgrid(*axes_values, indexing="ij"))}
+    return Drawn(
+        f"sweep_{name}",
+        str(heading).capitalize(),
+        f"Over {' and '.join(keys)}.",
+        figure,
+        {"": table_text({**data, name: values.ravel()})},
+    )
+
+
+def _has_words(node):
+    return any("words" in axis.attrs for axis in node["axes"].values())
+
+
+def _draw_curves(figure, axes, node, keys, values, label):
+    """Over the axis with most numbers, a curve for every value of the others."""
+    numeric = [key for key in keys if "words" not in node["axes"][key].attrs] or keys
+    key = max(numeric, key=lambda key: len(node["axes"][key]))
+    place = node["axes"][key][()]
+    curves = list(curves_along(node, keys, key))
+    for (index, words), look in zip(curves, style.curve_styles()):
+        axes.plot(place, values[index], label=words or None, **look)
+    finite = values[np.isfinite(values)]
+    if _scale(axes.set_xscale, place) and finite.min() > 0 and finite.max() > 10 * finite.min():
+        axes.set_yscale("log")
+    axes.set_xlabel(f"{key} (SI)")
+    axes.set_ylabel(label)
+    axes.grid(color="0.92", linewidth=0.6)
+    if len(curves) > 1:
+        style.legend_on_top(figure, style.entries(axes))
+
+
+def _draw_map(figure, axes, keys, axes_values, plane, label):
+    mesh = axes.contourf(axes_values[1], axes_values[0], plane, levels=16, cmap="viridis")
+    if np.nanmax(plane) > np.nanmin(plane):
         lines = axes.contour(axes_values[1], axes_values[0], plane, levels=8, colors="white", linewidths=0.6)
         axes.clabel(lines, fontsize=7, fmt="%.3g")
-        figure.colorbar(mesh, ax=axes).set_label(label)
-        _scale(axes.set_yscale, axes_values[0])
-        axes.set_ylabel(f"{keys[0]} (SI)")
-    _scale(axes.set_xscale, axes_values[min(len(keys), 2) - 1])
-    axes.set_xlabel(f"{keys[min(len(keys), 2) - 1]} (SI)")
-    mesh_grid = np.meshgrid(*axes_values, indexing="ij")
-    data = {key: points.ravel() for key, points in zip(keys, mesh_grid)}
-    return Drawn(f"sweep_{name}", str(heading).capitalize(), f"Over {' and '.join(keys)}.", figure,
-                 {"": table_text({**data, name: values.ravel()})})
+    figure.colorbar(mesh, ax=axes).set_label(label)
+    _scale(axes.set_yscale, axes_values[0])
+    _scale(axes.set_xscale, axes_values[1])
+    axes.set_ylabel(f"{keys[0]} (SI)")
+    axes.set_xlabel(f"{keys[1]} (SI)")
 
 
 def _scale(set_scale, values):
