@@ -13,6 +13,7 @@ from tabor_report.figures import (
     ehl_impact,
     ehl_line,
     ehl_point,
+    ehl_stribeck,
     lubricant_map,
     lubricated_friction,
     psd,
@@ -79,8 +80,8 @@ def ehl_figures(source):
 
 
 def sweep_figures(source):
-    if ehl_point.is_stribeck(source):
-        yield from ehl_point.stribeck(source)
+    if ehl_stribeck.is_one(source):
+        yield from ehl_stribeck.draw(source)
     yield from ehl_curves.sweep(source)
 
 

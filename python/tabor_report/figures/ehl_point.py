@@ -1,17 +1,15 @@
-"""A film between a ball and a flat: centre lines, maps, slice-plane graph, Stribeck curve."""
+"""A film between a ball and a flat: centre lines, maps, slice-plane graph."""
 
 import numpy as np
 
 from tabor_report import map_axes, style, units
 from tabor_report.figures import Drawn
-from tabor_report.figures.ehl_curves import curves_along, swept_keys
 from tabor_report.output import matrix_text, table_text
 
 UM, NM, GPA = 1e6, 1e9, 1e-9
 REACH = 1.8  # shown, in half axes of the dry contact
 FILMS_SHOWN = 4  # over the film in the contact
 LINE_LIMIT = 400  # rows or columns of a printed map
-SPEEDS = ("motion.speed", "motion.entrainment_speed")
 REFRACTION = 1.5  # of an oil
 LIGHT = (630e-9, 530e-9, 460e-9)  # m, red, green, blue
 COHERENCE = 1.2e-6  # m of film, beyond which the fringes fade
@@ -272,87 +270,3 @@ def _slice_plane(curves):
 def _shown_level(level, share):
     """Where nearly all of the area has a thinner film."""
     return level[min(np.searchsorted(share, 0.995), len(level) - 1)]
-
-
-def is_stribeck(source):
-    return source.program == "point" and any(key in source.file["sweep/axes"] for key in SPEEDS)
-
-
-def stribeck(source):
-    """Friction, film and solid contact against speed, one colour for every surface of the sweep."""
-    node = source.file["sweep"]
-    keys = swept_keys(node)
-    key = next(key for key in keys if key in SPEEDS)
-    curves = [_Curve(node, keys, key, index, label) for index, label in curves_along(node, keys, key)]
-    figure, grid = style.new_figure(5.6, n_rows=2, width=5.8, sharex=True, height_ratios=[3, 2])
-    top, bottom = grid[0][0], grid[1][0]
-    share = bottom.twinx()
-    for number, curve in enumerate(curves):
-        curve.draw(top, bottom, share, style.COLOURS[number % 7], style.MARKERS[number % 7])
-    _label_stribeck(top, bottom, share, "sliding" if key == SPEEDS[0] else "entrainment")
-    style.legend_on_top(figure, style.entries(top))
-    doubt = "" if all(curve.sure.all() for curve in curves) else " Red crosses: not converged."
-    data = {f"{key} (m/s)": curves[0].speed}
-    for curve in curves:
-        data.update(curve.data())
-    yield Drawn(
-        "stribeck",
-        "Stribeck curve",
-        "Friction of film and solids, central film and solid contact against speed." + doubt,
-        figure,
-        {"": table_text(data)},
-    )
-
-
-class _Curve:
-    """One surface of a Stribeck curve, in the order of the speeds."""
-
-    NAMES = (
-        "friction_coefficient",
-        "friction_fluid",
-        "friction_solid",
-        "central_film_m",
-        "solid_contact_fraction",
-    )
-
-    def __init__(self, node, keys, key, index, label):
-        shape = [len(node["axes"][other]) for other in keys]
-        order = np.argsort(node["axes"][key][()])
-        self.label = label
-        self.speed = node["axes"][key][()][order]
-        self.values = {name: node[name][()].reshape(shape)[index][order] for name in self.NAMES}
-        self.sure = node["converged"][()].reshape(shape)[index][order] > 0
-
-    def data(self):
-        prefix = f"{self.label} " if self.label else ""
-        named = {**self.values, "converged": self.sure}
-        return {f"{prefix}{name}": values for name, values in named.items()}
-
-    def draw(self, top, bottom, share, colour, marker):
-        prefix = f"{self.label}: " if self.label else ""
-        for name, text, look in (
-            ("friction_coefficient", "friction", {"marker": marker}),
-            ("friction_fluid", "of the film", {"linestyle": "--", "linewidth": 1}),
-            ("friction_solid", "of solids", {"linestyle": ":", "linewidth": 1}),
-        ):
-            top.plot(self.speed, self.values[name], color=colour, label=prefix + text, **look)
-        unsure = np.where(self.sure, np.nan, self.values["friction_coefficient"])
-        top.plot(self.speed, unsure, color=style.WARNING, marker="x", linestyle="none", markersize=9)
-        film, solid = self.values["central_film_m"] * NM, 100 * self.values["solid_contact_fraction"]
-        bottom.plot(self.speed, film, color=colour, marker=marker, markersize=4)
-        share.plot(self.speed, solid, color=colour, linestyle="-.", linewidth=1)
-
-
-def _label_stribeck(top, bottom, share, which):
-    top.set_xscale("log")
-    bottom.set_yscale("log")
-    top.set_ylim(bottom=0)
-    highest = share.dataLim.y1
-    share.set_ylim(0, max(5, 1.05 * highest) if np.isfinite(highest) else 5)
-    for axes in (top, bottom):
-        axes.grid(color="0.92", linewidth=0.6)
-    top.set_ylabel("friction coefficient")
-    bottom.set_ylabel("mean central film (nm)")
-    share.set_ylabel("solid contact (%), dash-dotted")
-    share.spines["right"].set_visible(True)
-    bottom.set_xlabel(f"{which} speed (m/s)")
