@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tabor/core/error.hpp"
+#include "tabor/ehl/point_mixed.hpp"
 #include "tabor/ehl/point_start.hpp"
 
 namespace tabor::ehl {
@@ -90,6 +91,7 @@ void check_point(const PointProblem& problem) {
   check_positive("effective modulus", problem.effective_modulus, "Pa");
   check_positive("load", problem.load, "N");
   check_positive("entrainment speed", problem.entrainment_speed, "m/s");
+  check_positive("boundary film", problem.boundary_film, "m");
   check_positive("tolerance", problem.tolerance, "");
   check_positive("plastic pressure",
                  std::min(problem.plastic_pressure, std::numeric_limits<double>::max()), "Pa");
@@ -109,6 +111,9 @@ void check_point(const PointProblem& problem) {
 PointResult solve_point(const PointProblem& problem, const PointResult* start,
                         const Observer& observer) {
   check_point(problem);
+  if (problem.roughness.size() > 0 || std::isfinite(problem.plastic_pressure)) {
+    return solve_point_mixed(problem, start, observer);
+  }
   PointFilm film(problem);
   PointState state;
   PointFilm::Outcome outcome;
@@ -119,7 +124,9 @@ PointResult solve_point(const PointProblem& problem, const PointResult* start,
   if (!outcome.converged) {
     outcome = outcome + solve_cold(problem, film, state, observer);
   }
-  return result_of(problem, film, state, outcome);
+  const PointResult result = result_of(problem, film, state, outcome);
+  const bool would_touch = result.converged && result.film.minCoeff() < problem.boundary_film;
+  return would_touch ? solve_point_mixed(problem, &result, observer) : result;
 }
 
 }  // namespace tabor::ehl

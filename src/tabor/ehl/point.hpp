@@ -25,6 +25,8 @@ struct PointProblem {
   double sliding_speed = 0;      ///< u_s [m/s], their difference, for shear thinning and friction
   material::Lubricant lubricant;
   double plastic_pressure = kNoPlasticLimit;  ///< P_plast [Pa], a cap on the whole pressure
+  double boundary_film =
+      1e-9;  ///< h_b [m], where solids touch the liquid between them is this thin
   Index nodes_x = 257;
   Index nodes_y = 257;
   double inlet = 4.5;       ///< domain before the centre, in half axes of the Hertz ellipse
@@ -36,17 +38,18 @@ struct PointProblem {
 };
 
 /// A film under pressure, part of it perhaps carried by touching solids. p_total = pressure +
-/// contact_pressure; film >= 0; contact_pressure > 0 only where film = 0; plastic_depth > 0 only
-/// where p_total = P_plast.
+/// contact_pressure; film >= 0; contact_pressure > 0 only where film = 0, that is where no more
+/// than the boundary film is left; plastic_depth > 0 only where p_total = P_plast.
 struct PointResult {
-  Grid grid;               ///< cells around the nodes
-  Field pressure;          ///< p [Pa], of the liquid
-  Field contact_pressure;  ///< P_num [Pa], of touching solids; empty if there is none
-  Field film;              ///< h [m]
-  Field plastic_depth;     ///< h_plast [m]; empty without plastic_pressure
-  double separation = 0;   ///< h00 [m]
-  double load_error = 0;   ///< relative
-  double mass_error = 0;   ///< largest imbalance of a cell over the flow through the contact
+  Grid grid;                     ///< cells around the nodes
+  Field pressure;                ///< p [Pa], of the liquid
+  Field contact_pressure;        ///< P_num [Pa], of touching solids; empty if there is none
+  Field film;                    ///< h [m]
+  Field plastic_depth;           ///< h_plast [m]; empty without plastic_pressure
+  double separation = 0;         ///< h00 [m]
+  double entrainment_speed = 0;  ///< u_m [m/s] of a mixed film, else 0
+  double load_error = 0;         ///< relative
+  double mass_error = 0;         ///< largest imbalance of a cell over the flow through the contact
   int newton_iterations = 0;
   int n_products = 0;  ///< with the elastic operator
   bool converged = false;
@@ -67,7 +70,9 @@ Grid point_grid(const PointProblem& problem);
 /// Throws InputError as solve_point() does.
 void check_point(const PointProblem& problem);
 
-/// Newton's method on pressures and h00 together. `start`: a result of the same problem at a nearby
+/// Newton's method on pressures and h00 together; with roughness or a cap on the pressure, or where
+/// the film would be thinner than the boundary film, on plastic depths and contact as well (see
+/// solve_point_mixed()). `start`: a result of the same problem at a nearby
 /// speed or load (continuation), or null. Throws InputError for input that makes no sense; not
 /// converging is returned.
 PointResult solve_point(const PointProblem& problem, const PointResult* start = nullptr,

@@ -35,6 +35,7 @@ class PointFilm {
   const Eigen::ArrayXd& y() const { return y_; }
   const PointUnits& units() const { return units_; }
   double film_scale() const { return film_scale_; }  ///< [m] what errors of mass compare with
+  const std::vector<PointLevel>& levels() const { return levels_; }  ///< the finest is its own grid
 
   Field shape;  ///< gap of the undeformed bodies [m]: x^2/(2 Rx) + y^2/(2 Ry) - s
   SolidPart solid;

@@ -32,19 +32,23 @@ struct InfluenceTable {
 
 }  // namespace
 
-PointLocal::PointLocal(const PointBalance& balance, Mask held, const PointElastic& elastic)
+PointLocal::PointLocal(const PointBalance& balance, Mask held, const PointElastic& elastic,
+                       const Mask& depth)
     : held_(std::move(held)),
+      depth_(depth.size() > 0 ? depth : Mask::Constant(ny(), nx(), false)),
       dipole_(Mask::Constant(ny(), nx(), false)),
       matrix_(static_cast<std::size_t>(held_.size() * kBox), 0.0) {
   choose_dipoles(balance, elastic.influence(0, 0));
   add_deflection(balance, elastic);
   add_pressure(balance);
+  if (depth.size() > 0) add_depth(balance);
 }
 
 void PointLocal::choose_dipoles(const PointBalance& balance, double self_influence) {
   const Field& by_pressure = balance.by_pressure.coefficient[0];
   const Field& by_film = balance.by_film.coefficient[0];
-  dipole_ = !held_ && by_pressure.abs() < kFlowOverElasticity * self_influence * by_film.abs();
+  dipole_ =
+      !held_ && !depth_ && by_pressure.abs() < kFlowOverElasticity * self_influence * by_film.abs();
 }
 
 void PointLocal::add_deflection(const PointBalance& balance, const PointElastic& elastic) {
@@ -56,7 +60,7 @@ void PointLocal::add_deflection(const PointBalance& balance, const PointElastic&
       for (Index dy = -kReach; dy <= kReach; ++dy) {
         // One more upstream, where the liquid comes from.
         for (Index dx = std::max(-kReach - 1, -i); dx <= kReach; ++dx) {
-          if (held_(j + dy, i + dx)) continue;
+          if (!presses(j + dy, i + dx)) continue;
           const InfluenceTable& influence = dipole_(j + dy, i + dx) ? dipole : single;
           double sum = 0;
           for (std::size_t n = 0; n < kPointNeighbours.size(); ++n) {
@@ -77,7 +81,7 @@ void PointLocal::add_pressure(const PointBalance& balance) {
       for (std::size_t n = 0; n < kPointNeighbours.size(); ++n) {
         const PointOffset node = kPointNeighbours[n];
         const double slope = balance.by_pressure.coefficient[n](j, i);
-        if (slope == 0 || held_(j + node.y, i + node.x)) continue;
+        if (slope == 0 || !presses(j + node.y, i + node.x)) continue;
         at(j, i, node.y, node.x) += slope;
         for (const PointOffset beside : kCross) {
           const Index dy = node.y + beside.y;
@@ -89,13 +93,26 @@ void PointLocal::add_pressure(const PointBalance& balance) {
   }
 }
 
+void PointLocal::add_depth(const PointBalance& balance) {
+  for (Index j = 1; j + 1 < ny(); ++j) {
+    for (Index i = 1; i + 1 < nx(); ++i) {
+      if (held_(j, i)) continue;
+      for (std::size_t n = 0; n < kPointNeighbours.size(); ++n) {
+        const PointOffset node = kPointNeighbours[n];
+        const double slope = balance.by_film.coefficient[n](j, i);
+        if (slope != 0 && depth_(j + node.y, i + node.x)) at(j, i, node.y, node.x) += slope;
+      }
+    }
+  }
+}
+
 Field PointLocal::pressure(const Field& q) const {
   Field result = q;
   for (Index j = 1; j + 1 < ny(); ++j) {
     for (Index i = 1; i + 1 < nx(); ++i) {
       if (!dipole_(j, i)) continue;
       for (const PointOffset beside : kCross) {
-        if (!held_(j + beside.y, i + beside.x)) result(j + beside.y, i + beside.x) -= q(j, i) / 4;
+        if (presses(j + beside.y, i + beside.x)) result(j + beside.y, i + beside.x) -= q(j, i) / 4;
       }
     }
   }

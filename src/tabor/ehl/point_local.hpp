@@ -21,8 +21,10 @@ class PointLocal {
   static constexpr Index kRow = kUpstream + kDownstream + 1;
   static constexpr Index kBox = kRow * (2 * kSide + 1);
 
-  /// Held nodes keep their pressure.
-  PointLocal(const PointBalance& balance, Mask held, const PointElastic& elastic);
+  /// Held nodes keep their pressure. `depth`: nodes whose unknown is what is added to their film,
+  /// their pressure being given; empty: none.
+  PointLocal(const PointBalance& balance, Mask held, const PointElastic& elastic,
+             const Mask& depth = {});
 
   const Mask& held() const { return held_; }
   Index nx() const { return held_.cols(); }
@@ -32,7 +34,7 @@ class PointLocal {
   const double* coefficients(Index j, Index i) const {
     return &matrix_[static_cast<std::size_t>((j * nx() + i) * kBox)];
   }
-  /// Pressures that the unknowns q stand for.
+  /// Pressures, or depths, that the unknowns q stand for.
   Field pressure(const Field& q) const;
 
  private:
@@ -40,11 +42,13 @@ class PointLocal {
     return matrix_[static_cast<std::size_t>((j * nx() + i) * kBox + (dy + kSide) * kRow + dx +
                                             kUpstream)];
   }
+  bool presses(Index j, Index i) const { return !held_(j, i) && !depth_(j, i); }
   void choose_dipoles(const PointBalance& balance, double self_influence);
   void add_deflection(const PointBalance& balance, const PointElastic& elastic);
   void add_pressure(const PointBalance& balance);
+  void add_depth(const PointBalance& balance);
 
-  Mask held_, dipole_;
+  Mask held_, depth_, dipole_;
   std::vector<double> matrix_;
 };
 

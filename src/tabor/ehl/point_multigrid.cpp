@@ -18,9 +18,11 @@ void hold_border(Mask& held) {
 
 PointMultigrid::PointMultigrid(const std::vector<PointLevel>& levels, const PointBalance& balance,
                                const Mask& held, const PointFlow& flow, const PointStorage& storage,
-                               const PointUnits& units) {
+                               const PointUnits& units, const PointExceptions& exceptions) {
   stages_.reserve(levels.size());
-  add_stage(levels.front(), balance, held);
+  add_stage(levels.front(), balance, held, exceptions.depth);
+  if (exceptions.depth.size() > 0) uncorrected_ = exceptions.depth || exceptions.contact;
+  Mask fine_held = uncorrected_.size() > 0 ? Mask(held || uncorrected_) : held;
   Field pressure = flow.pressure;
   Field film = flow.film;
   Mask touching = flow.touching;
@@ -31,7 +33,7 @@ PointMultigrid::PointMultigrid(const std::vector<PointLevel>& levels, const Poin
     film = transfer.mean(film);
     touching = mostly(transfer, touching);
     if (stored.time_step > 0) stored.old_mass = transfer.mean(stored.old_mass);
-    Mask coarse_held = mostly(transfer, stages_.back().held);
+    Mask coarse_held = mostly(transfer, fine_held);
     hold_border(coarse_held);
     const PointFlow coarse_flow{.grid = levels[l].grid,
                                 .lubricant = flow.lubricant,
@@ -40,15 +42,18 @@ PointMultigrid::PointMultigrid(const std::vector<PointLevel>& levels, const Poin
                                 .pressure = pressure,
                                 .film = film,
                                 .touching = touching};
-    add_stage(levels[l], point_balance(coarse_flow, stored, units), coarse_held);
+    add_stage(levels[l], point_balance(coarse_flow, stored, units), coarse_held, {});
+    fine_held = std::move(coarse_held);
   }
 }
 
-void PointMultigrid::add_stage(const PointLevel& level, PointBalance balance, const Mask& held) {
-  PointLocal local(balance, held, level.elastic);
+void PointMultigrid::add_stage(const PointLevel& level, PointBalance balance, const Mask& held,
+                               const Mask& depth) {
+  PointLocal local(balance, held, level.elastic, depth);
   Stage stage{.level = &level,
               .balance = std::move(balance),
               .held = held,
+              .depth = depth,
               .lines = nullptr,
               .direct = nullptr};
   if (level.to_coarser) {
@@ -66,18 +71,26 @@ Field PointMultigrid::cycle(std::size_t index, const Field& right) const {
   if (stage.direct) return (*stage.direct)(right);
   const PointLevel& level = *stage.level;
   const Stage& coarse = stages_[index + 1];
-  const auto rest = [&](const Field& pressure) -> Field {
+  const auto rest = [&](const Field& unknown) -> Field {
     Field product = Field::Zero(right.rows(), right.cols());
+    const bool mixed = stage.depth.size() > 0;
+    const Field pressure = mixed ? Field(stage.depth.select(0, unknown)) : unknown;
+    Field film = level.elastic(pressure);
+    if (mixed) film += stage.depth.select(unknown, 0);
     stage.balance.by_pressure.add_product(pressure, product);
-    stage.balance.by_film.add_product(level.elastic(pressure), product);
+    stage.balance.by_film.add_product(film, product);
     return stage.held.select(0, right - product);
+  };
+  const auto corrected = [&](const Field& field) -> Field {
+    const bool all = index > 0 || uncorrected_.size() == 0;
+    return all ? field : Field(uncorrected_.select(0, field));
   };
   Field pressure = (*stage.lines)(right);
   // A balance is a flow through a cell's width: it grows with the length of the cell alone.
   const double scale = level.grid.dy() / coarse.level->grid.dy();
-  const Field missing = scale * level.to_coarser->transposed(rest(pressure));
+  const Field missing = scale * level.to_coarser->transposed(corrected(rest(pressure)));
   const Field correction = cycle(index + 1, coarse.held.select(0, missing));
-  pressure += stage.held.select(0, level.to_coarser->to_fine(correction));
+  pressure += stage.held.select(0, corrected(level.to_coarser->to_fine(correction)));
   pressure += (*stage.lines)(rest(pressure));
   return pressure;
 }
