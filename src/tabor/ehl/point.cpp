@@ -20,19 +20,27 @@ void check_positive(const char* what, double value, const char* unit) {
 }
 
 void check_domain(const PointProblem& problem) {
+  if (problem.nodes_x < 3 || problem.nodes_y < 3) {
+    throw InputError("nodes of a point contact",
+                     fmt::format("{} x {}", problem.nodes_x, problem.nodes_y), "3 x 3 or more", "");
+  }
   const double shortest = std::min({problem.inlet, problem.outlet, problem.half_width});
   if (!(shortest >= 1) || !std::isfinite(problem.inlet + problem.outlet + problem.half_width)) {
     throw InputError("domain of a point contact",
                      fmt::format("{} half axes beside the centre", shortest),
                      "1 or more: the contact of Hertz lies inside", "");
   }
-  const double length = problem.inlet + problem.outlet;
-  const double fewest = std::min(static_cast<double>(problem.nodes_x - 1) / length,
-                                 static_cast<double>(problem.nodes_y - 1) / 2 / problem.half_width);
+  const reference::HertzEllipse hertz = hertz_of(problem);
+  const Grid grid = point_grid(problem);
+  const double film = film_groups_of(problem).nijenbanning_central();
+  const double fewest =
+      std::min((hertz.half_axis_x + std::sqrt(2 * problem.radius_x * film)) / grid.dx(),
+               (hertz.half_axis_y + std::sqrt(2 * problem.radius_y * film)) / grid.dy());
   if (!(fewest >= kMinNodesPerHalfAxis)) {
     throw InputError("grid of a point contact",
-                     fmt::format("{} x {} nodes", problem.nodes_x, problem.nodes_y),
-                     fmt::format("{} or more nodes in each half axis", kMinNodesPerHalfAxis),
+                     fmt::format("{} x {} nodes, {:.3g} in the half axis of the pressed ellipse",
+                                 problem.nodes_x, problem.nodes_y, fewest),
+                     fmt::format("{} or more", kMinNodesPerHalfAxis),
                      "give more nodes or a smaller domain");
   }
   const Field& roughness = problem.roughness;

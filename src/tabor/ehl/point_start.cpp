@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace tabor::ehl {
@@ -14,6 +15,7 @@ constexpr Index kCoarsest = 48;  // nodes along a side of a grid that is not coa
 constexpr double kFirstFilms[] = {3, 10, 1, 30};
 constexpr double kRoughly = 1e-2;    // tolerance where a solution is only a start
 constexpr double kLeastStart = 0.1;  // film of a start, over that in the contact
+constexpr double kInletLengths = 4;
 constexpr double kFirstThickening = 0.5;
 constexpr double kFirstRoughening = 1;
 constexpr double kSmallestStep = 1.0 / 64;
@@ -98,14 +100,23 @@ PointFilm::Outcome solve_smooth(const PointProblem& problem, PointFilm& film, Po
   return outcome;
 }
 
+Index centre_column(const PointProblem& problem) {
+  const double place = problem.inlet / (problem.inlet + problem.outlet);
+  return static_cast<Index>(std::lround(place * static_cast<double>(problem.nodes_x - 1)));
+}
+
 std::vector<std::string> doubts_of(const PointProblem& problem, const PointResult& result) {
   std::vector<std::string> doubts = material::doubts(problem.lubricant, result.pressure.maxCoeff());
   const Index nx = result.grid.nx;
-  const double inside = result.pressure.col(1).maxCoeff();
-  if (inside > 0.01 * result.pressure.maxCoeff()) {
-    doubts.push_back(fmt::format(
-        "the pressure is {:.2g} of its maximum where the domain begins: give a longer inlet",
-        inside / result.pressure.maxCoeff()));
+  const double half_axis = hertz_of(problem).half_axis_x;
+  const double length =
+      std::sqrt(2 * problem.radius_x * result.film(result.grid.ny / 2, centre_column(problem)));
+  const double inlet = (problem.inlet - 1) * half_axis / length;
+  if (inlet < kInletLengths) {
+    doubts.push_back(
+        fmt::format("the inlet is {:.2g} lengths sqrt(2 R h) long: a longer one may change the "
+                    "film by some per cent",
+                    inlet));
   }
   if (result.pressure.col(nx - 2).maxCoeff() > 0) {
     doubts.emplace_back("the film reaches the end of the domain: give a longer outlet");
