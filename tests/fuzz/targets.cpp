@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <stdexcept>
 
 #include "fuzz/archive.hpp"
@@ -65,16 +66,17 @@ void check_map(const topography::Topography& map) {
 
 void read_every_channel(const std::filesystem::path& file) {
   constexpr std::size_t kEnough = 4;
-  topography::FileInfo info;
-  if (!accepted([&] { info = topography::inspect(file); }, file.string())) return;
-  accepted([&] { check_map(topography::read(file)); }, file.string());
+  std::optional<topography::ScanFile> scan;
+  if (!accepted([&] { scan.emplace(file); }, file.string())) return;
+  const topography::FileInfo info = scan->info();
+  accepted([&] { check_map(scan->read()); }, file.string());
   for (std::size_t i = 0; i < std::min(kEnough, info.channels.size()); ++i) {
     ReadOptions options = complete();
     options.channel = std::to_string(info.channels[i].index);
-    accepted([&] { check_map(topography::read(file, options)); }, file.string());
+    accepted([&] { check_map(scan->read(options)); }, file.string());
     options.unit.reset();
     options.z_scale = -1e-9;
-    accepted([&] { check_map(topography::read(file, options)); }, file.string());
+    accepted([&] { check_map(scan->read(options)); }, file.string());
   }
 }
 
