@@ -28,6 +28,7 @@ struct EhlColumn {
   std::string heading;       ///< "force"
   std::string unit;          ///< "N", "" for a plain number
   bool is_optional = false;  ///< left out where no case has the key
+  bool has_limit = true;     ///< on ever finer grids; a count of iterations has none
 };
 
 /// A study of how far a result depends on something that is not physics.

@@ -13,16 +13,6 @@ namespace tabor::cli {
 
 namespace {
 
-/// Runs a reader of the modules below and says at which key its complaint arose.
-template <typename Read>
-auto at_key(const io::Config& config, std::string_view key, Read read) {
-  try {
-    return read();
-  } catch (const InputError& error) {
-    throw InputError(config.place(key) + ": " + error.what());
-  }
-}
-
 material::Solid read_solid(const io::Config& config, const std::string& prefix) {
   material::Solid solid;
   solid.youngs_modulus = positive_quantity(config, prefix + "youngs_modulus", dimension::pressure);

@@ -5,11 +5,22 @@
 #include <string_view>
 #include <vector>
 
+#include "tabor/core/error.hpp"
 #include "tabor/io/toml.hpp"
 #include "tabor/material/lubricant.hpp"
 
 /// What the cases of all elastohydrodynamic programs have in common.
 namespace tabor::cli {
+
+/// Runs a reader of the modules below and says at which key its complaint arose.
+template <typename Read>
+auto at_key(const io::Config& config, std::string_view key, Read read) {
+  try {
+    return read();
+  } catch (const InputError& error) {
+    throw InputError(config.place(key) + ": " + error.what());
+  }
+}
 
 /// Quantities of a case; a wrong one throws InputError with file, line and key.
 double positive_quantity(const io::Config& config, std::string_view key, Dimension dimension);

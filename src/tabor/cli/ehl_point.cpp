@@ -130,10 +130,15 @@ void describe_film(Facts& facts, const PointProblem& problem, const PointMeasure
   facts.fact("film in the centre", with_moes(measures.film_at_centre, unit));
   facts.fact("mean central film", with_moes(measures.central_film, unit));
   facts.fact("smallest film", with_moes(measures.min_film, unit));
-  facts.fact("  Nijenbanning et al.", si(formulas.nijenbanning, "m") + " in the centre, smooth");
-  facts.fact("  Hamrock and Dowson", fmt::format("{} in the centre, {} at least, smooth",
-                                                 si(formulas.hamrock_dowson_central, "m"),
-                                                 si(formulas.hamrock_dowson_min, "m")));
+  if (std::isfinite(formulas.nijenbanning)) {
+    facts.fact("smooth, Newtonian", fmt::format("{} in the centre (Nijenbanning et al.)",
+                                                si(formulas.nijenbanning, "m")));
+  }
+  if (std::isfinite(formulas.hamrock_dowson_min)) {
+    facts.fact(" ", fmt::format("{} in the centre, {} at least (Hamrock and Dowson)",
+                                si(formulas.hamrock_dowson_central, "m"),
+                                si(formulas.hamrock_dowson_min, "m")));
+  }
 }
 
 void describe_solids(Facts& facts, const PointProblem& problem, const PointMeasures& measures) {
@@ -286,7 +291,7 @@ EhlProgram point_program() {
                       {"friction_fluid", "fluid friction", ""},
                       {"friction_solid", "solid friction", ""},
                       {"friction_coefficient", "friction", ""},
-                      {"newton_iterations", "iterations", ""}},
+                      {"newton_iterations", "iterations", "", false, false}},
           .studies = {{.name = "grid",
                        .key = "grid.nodes",
                        .scalar = "nodes_x",

@@ -5,6 +5,7 @@
 
 #include "tabor/cli/ehl_case.hpp"
 #include "tabor/cli/ehl_point_case.hpp"
+#include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/ehl/point_roughness.hpp"
@@ -19,6 +20,7 @@ namespace {
 
 using topography::Topography;
 
+constexpr double kCoarse = 2;         // pixels between nodes
 constexpr double kMostPixels = 4096;  // of a generated surface, along either side
 
 /// A finish that is generated: Gaussian heights, a self-affine spectrum that is flat beyond the
@@ -116,15 +118,28 @@ Topography generate(const io::Config& config, const ehl::PointProblem& problem, 
 Field turned(const Field& height) { return height.transpose().rowwise().reverse(); }
 
 /// Heights of a scan or a generated surface, x along the flow unless it is turned.
-Field map_heights(const io::Config& config, const ehl::PointProblem& problem,
+Field map_heights(const io::Config& config, const char* key, const ehl::PointProblem& problem,
                   const Topography& surface, bool is_turned) {
   const Place place = read_place(config, "roughness.place");
   const Grid& grid = surface.grid;
-  return ehl::point_map(problem, {.height = is_turned ? turned(surface.height) : surface.height,
-                                  .spacing_x = is_turned ? grid.dy() : grid.dx(),
-                                  .spacing_y = is_turned ? grid.dx() : grid.dy(),
-                                  .centre_x = place.x,
-                                  .centre_y = place.y});
+  const ehl::PointMap map = {.height = is_turned ? turned(surface.height) : surface.height,
+                             .spacing_x = is_turned ? grid.dy() : grid.dx(),
+                             .spacing_y = is_turned ? grid.dx() : grid.dy(),
+                             .centre_x = place.x,
+                             .centre_y = place.y};
+  return at_key(config, key, [&] { return ehl::point_map(problem, map); });
+}
+
+/// Contact and pressure depend on short waves, which a coarse grid averages away.
+void warn_of_coarse_nodes(const ehl::PointProblem& problem, const Grid& surface, Context& context) {
+  const Grid nodes = point_grid(problem);
+  const double spacing = std::max(nodes.dx(), nodes.dy());
+  const double pixel = std::min(surface.dx(), surface.dy());
+  if (spacing <= kCoarse * pixel) return;
+  context.warn(
+      fmt::format("nodes are {} apart, pixels {}: roughness shorter than {} is averaged "
+                  "away; give more nodes",
+                  si(spacing, "m"), si(pixel, "m"), si(2 * spacing, "m")));
 }
 
 bool read_is_turned(const io::Config& config) {
@@ -168,13 +183,15 @@ Field read_point_roughness(const io::Config& config, const ehl::PointProblem& pr
     roughness = roughness.size() == 0 ? heights : Field(roughness + heights);
   };
   const bool is_turned = read_is_turned(config);
-  if (config.has("roughness.file")) {
-    add(map_heights(config, problem, read_scan(config, context), is_turned));
-  }
+  const auto add_map = [&](const char* key, const Topography& surface) {
+    add(map_heights(config, key, problem, surface, is_turned));
+    warn_of_coarse_nodes(problem, surface.grid, context);
+  };
+  if (config.has("roughness.file")) add_map("roughness.file", read_scan(config, context));
   if (config.has("roughness.kind")) {
     const auto seed = static_cast<std::uint64_t>(
         integer_or(config, "roughness.seed", static_cast<std::int64_t>(context.seed_or_default())));
-    add(map_heights(config, problem, generate(config, problem, is_turned, seed), is_turned));
+    add_map("roughness.kind", generate(config, problem, is_turned, seed));
   }
   if (config.has("roughness.bump.height") || config.has("roughness.bump.wavelength")) {
     const Place place = read_place(config, "roughness.bump.place");

@@ -18,6 +18,8 @@ namespace tabor::cli {
 
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
 using Places = std::vector<std::size_t>;  ///< of a case's values on their axes
 
 /// The number at a key, "wear.mean_depth_m" being that of an object inside; NaN if there is none.
@@ -25,10 +27,10 @@ double number_of(const io::Json& scalars, const std::string& key) {
   const io::Json* node = &scalars;
   for (const std::string& name : split(key, '.')) {
     const auto found = node->find(name);
-    if (found == node->end()) return std::numeric_limits<double>::quiet_NaN();
+    if (found == node->end()) return kNone;
     node = &*found;
   }
-  return node->is_number() ? node->get<double>() : std::numeric_limits<double>::quiet_NaN();
+  return node->is_number() ? node->get<double>() : kNone;
 }
 
 std::string text_of(double value, const EhlColumn& column) {
@@ -165,7 +167,7 @@ void add_limits(const Columns& columns, const EhlStudy& study, const std::vector
     numbers.reserve(answers.size());
     for (const EhlAnswer& answer : answers)
       numbers.push_back(number_of(answer.scalars, column.key));
-    const GridLimit limit = limit_of(spacing, numbers);
+    const GridLimit limit = column.has_limit ? limit_of(spacing, numbers) : GridLimit{kNone, kNone};
     limit_row.push_back(text_of(limit.value, column));
     order_row.push_back(plain(limit.order, 2));
     limits[column.key] = io::number(limit.value);

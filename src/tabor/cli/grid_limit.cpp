@@ -9,7 +9,7 @@ namespace tabor::cli {
 
 namespace {
 
-constexpr double kLowestOrder = 0.1, kHighestOrder = 10;
+constexpr double kLowestOrder = 0.5, kHighestOrder = 10;
 constexpr double kEqual = 1e-9;  // relative: values that do not depend on the grid
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
