@@ -154,6 +154,74 @@ TEST_F(LubricantVerbs, FrictionKeepsContactAndFilm) {
   }
 }
 
+TEST_F(LubricantVerbs, FlowingOilCarriesLoadAndAddsViscousFriction) {
+  const Words oil = {"--fluid", "reynolds", "--viscosity", "0.2Pa*s"};
+  const io::Json without = json_of(friction("7MPa", "0.9g/m^2")).at("states").at(0);
+  EXPECT_FALSE(without.contains("fluid_load_share"));
+  const io::Json state =
+      json_of(friction("7MPa", "0.9g/m^2") + oil + Words{"--speed", "50mm/s"}).at("states").at(0);
+  ASSERT_TRUE(state.contains("friction_mixed")) << state;
+  EXPECT_TRUE(state.at("converged").get<bool>());
+  // What the contact alone says stays what it was.
+  for (const char* key : {"friction_dry", "friction_lubricated", "contact_area_fraction"}) {
+    EXPECT_EQ(state.at(key), without.at(key)) << key;
+  }
+  const auto number = [&](const char* key) { return state.at(key).get<double>(); };
+  EXPECT_GT(number("fluid_load_share"), 0);
+  EXPECT_LT(number("friction_solid"), number("friction_lubricated") * 1.001);
+  EXPECT_GT(number("friction_viscous"), 0);
+  EXPECT_DOUBLE_EQ(number("friction_mixed"), number("friction_solid") + number("friction_viscous"));
+}
+
+TEST_F(LubricantVerbs, FlowingOilAtRestLeavesFrictionAsItWas) {
+  for (const auto& [density, speed] :
+       {std::pair{"0.9g/m^2", "0m/s"}, std::pair{"0g/m^2", "1m/s"}}) {
+    const io::Json state =
+        json_of(friction("7MPa", density) +
+                Words{"--fluid", "reynolds", "--viscosity", "0.2Pa*s", "--speed", speed})
+            .at("states")
+            .at(0);
+    EXPECT_EQ(state.at("friction_mixed"), state.at("friction_lubricated")) << density;
+    EXPECT_EQ(state.at("fluid_load_share"), 0);
+  }
+}
+
+TEST_F(LubricantVerbs, FlowingOilNeedsSpeedViscosityAndAPatchThatRepeats) {
+  const Words base = friction("7MPa", "0.9g/m^2");
+  const Words fluid = {"--fluid", "reynolds"};
+  const Words speed = {"--speed", "5mm/s"};
+  const Words viscosity = {"--viscosity", "0.2Pa*s"};
+  EXPECT_EQ(run_tabor(base + fluid + speed).code, 2);
+  EXPECT_EQ(run_tabor(base + fluid + viscosity).code, 2);
+  EXPECT_EQ(run_tabor(base + speed).code, 2);
+  EXPECT_EQ(run_tabor(base + viscosity).code, 2);
+  EXPECT_EQ(run_tabor(base + fluid + viscosity + Words{"--speed", "-5mm/s"}).code, 3);
+  EXPECT_EQ(run_tabor(base + fluid + speed + Words{"--viscosity", "0Pa*s"}).code, 3);
+  EXPECT_EQ(run_tabor(base + fluid + speed + viscosity + Words{"--eyring-stress", "0MPa"}).code, 3);
+  EXPECT_EQ(run_tabor(base + fluid + speed + viscosity + Words{"--boundary", "free"}).code, 2);
+}
+
+TEST_F(LubricantVerbs, FrictionKeepsTheFlowingFilm) {
+  const Words words = friction("7MPa", "0.9g/m^2") + Words{"--fluid",
+                                                           "reynolds",
+                                                           "--speed",
+                                                           "50mm/s",
+                                                           "--viscosity",
+                                                           "0.2Pa*s",
+                                                           "--pressure-viscosity",
+                                                           "2e-8/Pa",
+                                                           "--eyring-stress",
+                                                           "5MPa",
+                                                           "-o",
+                                                           file("out.h5")};
+  ASSERT_EQ(run_tabor(words).code, 0);
+  const io::Hdf5Reader result(file("out.h5"));
+  for (const char* map : {"fluid_pressure", "fluid_fill", "fluid_gap", "fluid_solid_pressure"}) {
+    EXPECT_EQ(result.shape(std::string("/states/0000/") + map), (std::vector<Index>{64, 64}));
+  }
+  EXPECT_TRUE(json_of({"cite", file("out.h5")}).at("bibtex").contains("elrod1981"));
+}
+
 TEST_F(LubricantVerbs, ShearStrengthMustBePositive) {
   Words words = friction("7MPa", "0.9g/m^2");
   words.back() = "0MPa";

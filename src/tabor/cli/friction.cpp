@@ -6,6 +6,7 @@
 #include "tabor/cli/contact_request.hpp"
 #include "tabor/cli/fields_file.hpp"
 #include "tabor/cli/film_request.hpp"
+#include "tabor/cli/fluid_request.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/friction/bowden_tabor.hpp"
@@ -21,6 +22,7 @@ struct Request {
   ScanRequest scan;
   ContactRequest contact;
   FilmRequest film;
+  FluidRequest fluid;
   double shear_strength = 0;  ///< [Pa]
   std::string area = "corrected";
   std::optional<std::string> output;
@@ -73,27 +75,63 @@ io::Json state_of(const ContactResult& result, const lubrication::Film& film, do
           {"converged", result.state.convergence.converged}};
 }
 
-std::vector<std::string> row_of(const io::Json& state) {
-  const auto number = [&](const char* key) { return state.at(key).get<double>(); };
-  return {si(number("mean_pressure_Pa"), "Pa"),
-          plain(number("lubricant_density_g_per_m2")) + " g/m²",
-          percent(number("friction_area_fraction")),
-          percent(number("lubricated_share")),
-          percent(number("spill_over_fraction")),
-          plain(number("friction_dry")),
-          plain(number("friction_lubricated")),
-          state.at("certificate").is_null() ? "-" : fmt::format("{:.1e}", number("certificate")),
-          yes_no(state.at("converged").get<bool>())};
+/// What the solids of a film put against the flat, as if they alone were there.
+friction::Estimate solids_of(const friction::FluidFilmState& state, const lubrication::Film& film,
+                             const Grid& grid, const Request& request) {
+  if (state.solid_pressure == 0) return {};
+  ContactResult solids;
+  contact::Problem problem;
+  problem.mean_pressure = state.solid_pressure;
+  problem.saturation_pressure =
+      request.contact.saturation_pressure.value_or(contact::kNoSaturation);
+  solids.summary = contact::summarise(state.contact, problem, grid, request.contact.is_periodic());
+  const double wet_share =
+      friction::lubricated_share(contact::contact_mask(state.contact), film.thickness);
+  return friction::estimate(contact_of(solids, request, wet_share), request.shear_strength,
+                            friction::parse_area(request.area));
 }
 
-Table table() {
-  return Table({"pressure", "lubricant", "contact", "wet share", "spill-over", "friction dry",
-                "friction wet", "certificate", "converged"});
+/// Adds what the oil does when it flows.
+void add_fluid(const friction::FluidFilmState& fluid, const lubrication::Film& film,
+               const Grid& grid, const Request& request, io::Json& state) {
+  state.update(fluid_json(fluid, solids_of(fluid, film, grid, request),
+                          state.at("mean_pressure_Pa").get<double>()));
+  state["converged"] = state.at("converged").get<bool>() && fluid.converged;
+}
+
+std::vector<std::string> row_of(const io::Json& state) {
+  const auto number = [&](const char* key) { return state.at(key).get<double>(); };
+  std::vector<std::string> row = {
+      si(number("mean_pressure_Pa"), "Pa"),
+      plain(number("lubricant_density_g_per_m2")) + " g/m²",
+      percent(number("friction_area_fraction")),
+      percent(number("lubricated_share")),
+      percent(number("spill_over_fraction")),
+      plain(number("friction_dry")),
+      plain(number("friction_lubricated")),
+      state.at("certificate").is_null() ? "-" : fmt::format("{:.1e}", number("certificate")),
+      yes_no(state.at("converged").get<bool>())};
+  if (state.contains("fluid_load_share")) {
+    row.insert(row.end() - 2, {percent(number("fluid_load_share")),
+                               plain(number("friction_viscous")), plain(number("friction_mixed"))});
+  }
+  return row;
+}
+
+Table table(const Request& request) {
+  std::vector<std::string> titles = {"pressure",     "lubricant",   "contact",
+                                     "wet share",    "spill-over",  "friction dry",
+                                     "friction wet", "certificate", "converged"};
+  if (request.fluid.asked()) {
+    titles.insert(titles.end() - 2, {"oil carries", "viscous", "friction mixed"});
+  }
+  return Table(titles);
 }
 
 io::Json all_settings(const Request& request, const Context& context) {
   io::Json settings = settings_json(request.contact);
   settings.update(settings_json(request.film, context));
+  settings.update(settings_json(request.fluid));
   settings["shear_strength_Pa"] = request.shear_strength;
   settings["area"] = request.area;
   return settings;
@@ -103,12 +141,16 @@ std::vector<std::string> all_methods(const Request& request) {
   std::vector<std::string> methods = methods_of(request.contact);
   for (const std::string& method : methods_of(request.film)) methods.push_back(method);
   methods.emplace_back("bowden1950");
+  for (const std::string& method : methods_of(request.fluid)) methods.push_back(method);
   return methods;
 }
 
-std::vector<StateField> maps_of(const contact::State& state, const lubrication::Film& film) {
+std::vector<StateField> maps_of(const contact::State& state, const lubrication::Film& film,
+                                const std::optional<friction::FluidFilmState>& fluid) {
   std::vector<StateField> fields = fields_of(state);
   fields.push_back({"film_thickness", "m", "thickness of the lubricant film", film.thickness});
+  if (!fluid) return fields;
+  for (const StateField& field : fields_of(*fluid)) fields.push_back(field);
   return fields;
 }
 
@@ -118,6 +160,7 @@ std::string text_of(const Scan& scan, const Request& request, const Context& con
   describe(scan, facts);
   describe(request.contact, facts);
   describe(request.film, context, facts);
+  describe(request.fluid, facts);
   facts.fact("friction", fmt::format("shear strength {}, {} contact area",
                                      si(request.shear_strength, "Pa"), request.area));
   return facts.text() + '\n' + rows.text();
@@ -126,6 +169,7 @@ std::string text_of(const Scan& scan, const Request& request, const Context& con
 int show(const Request& request, Context& context) {
   check(request.contact);
   check(request.film);
+  check(request.fluid, request.contact);
   if (request.shear_strength <= 0) {
     throw InputError("--shear-strength", si(request.shear_strength, "Pa"), "more than zero", "");
   }
@@ -144,57 +188,74 @@ int show(const Request& request, Context& context) {
   // Each density is rained once and each pressure solved once, never once per combination.
   const std::vector<lubrication::Film> films = films_of(scan, request, context);
   const auto elasticity = make_operator(request.contact, scan.surface.grid);
-  Table rows = table();
+  Table rows = table(request);
+  bool films_converged = true;
   const int code =
       solve_all(*elasticity, scan, request.contact, context, [&](const ContactResult& result) {
         for (std::size_t i = 0; i < films.size(); ++i) {
-          const io::Json state =
+          io::Json state =
               state_of(result, films[i], request.film.densities[i], scan.surface.grid, request);
+          std::optional<friction::FluidFilmState> fluid;
+          if (request.fluid.asked()) {
+            fluid = solve_fluid(*elasticity, scan.surface.height, result, films[i].thickness,
+                                request.contact, request.fluid, context);
+            add_fluid(*fluid, films[i], scan.surface.grid, request, state);
+            films_converged = films_converged && fluid->converged;
+          }
           if (file)
-            file->add_state(object["states"].size(), state, maps_of(result.state, films[i]));
+            file->add_state(object["states"].size(), state, maps_of(result.state, films[i], fluid));
           object["states"].push_back(state);
           rows.row(row_of(state));
         }
       });
   if (file) file->commit();
-  return finish(context, object, text_of(scan, request, context, rows), code);
+  return finish(context, object, text_of(scan, request, context, rows),
+                code == kDone && !films_converged ? kNotConverged : code);
 }
 
 }  // namespace
 
 Verb friction_verb() {
-  return {
-      .name = "friction",
-      .arguments =
-          "SCAN --pressure P --youngs-modulus E --poisson-ratio NU --density D "
-          "--shear-strength TAU [options]",
-      .summary = "dry and lubricated Bowden-Tabor friction coefficients",
-      .details =
-          "Friction is the real contact area times the shear strength over the pressure; "
-          "contact that stands in liquid carries no shear. '--density 0g/m^2' asks for "
-          "dry friction alone.",
-      .examples = {"tabor friction surfaces/edt_before.x3p --level plane --pressure 2MPa,7MPa "
-                   "--youngs-modulus 70GPa --poisson-ratio 0.33 --saturation-pressure 240MPa "
-                   "--density 0.45g/m^2,0.9g/m^2 --shear-strength 70MPa",
-                   "tabor friction surfaces/edt_before.x3p --level plane --pressure 7MPa "
-                   "--youngs-modulus 70GPa --poisson-ratio 0.33 --saturation-pressure 240MPa "
-                   "--density 0.9g/m^2 --model bottom-fill --shear-strength 70MPa --area pixels "
-                   "--json"},
-      .declare = [](OptionSet& set) -> Action {
-        const auto request = std::make_shared<Request>();
-        declare_scan(set, request->scan);
-        declare_contact(set, request->contact);
-        declare_film(set, request->film);
-        set.group("Friction");
-        set.quantity("--shear-strength", "TAU", "shear strength of the contact, e.g. 70MPa",
-                     dimension::pressure, request->shear_strength)
-            .required = true;
-        set.choice("--area", {"corrected", "pixels"},
-                   "contact area that friction uses: perimeter-corrected or counted [corrected]",
-                   request->area);
-        declare_output(set, request->output);
-        return [request](Context& context) { return show(*request, context); };
-      }};
+  return {.name = "friction",
+          .arguments =
+              "SCAN --pressure P --youngs-modulus E --poisson-ratio NU --density D "
+              "--shear-strength TAU [options]",
+          .summary = "dry and lubricated Bowden-Tabor friction coefficients",
+          .details =
+              "Friction is the real contact area times the shear strength over the pressure; "
+              "contact that stands in liquid carries no shear. '--density 0g/m^2' asks for "
+              "dry friction alone. With --fluid reynolds the deposited oil flows while the flat "
+              "slides: "
+              "it carries part of the load and adds viscous shear.",
+          .examples =
+              {"tabor friction surfaces/edt_before.x3p --level plane --pressure 2MPa,7MPa "
+               "--youngs-modulus 70GPa --poisson-ratio 0.33 --saturation-pressure 240MPa "
+               "--density 0.45g/m^2,0.9g/m^2 --shear-strength 70MPa",
+               "tabor friction surfaces/edt_before.x3p --level plane --pressure 7MPa "
+               "--youngs-modulus 70GPa --poisson-ratio 0.33 --saturation-pressure 240MPa "
+               "--density 0.9g/m^2 --model bottom-fill --shear-strength 70MPa --area pixels "
+               "--json",
+               "tabor friction surfaces/edt_before.x3p --level plane --crop 0,0,128,128 --mirror "
+               "--pressure 2MPa --youngs-modulus 70GPa --poisson-ratio 0.33 "
+               "--saturation-pressure 240MPa --density 0.9g/m^2 --shear-strength 70MPa "
+               "--fluid reynolds --speed 5mm/s --viscosity 0.225Pa*s"},
+          .declare = [](OptionSet& set) -> Action {
+            const auto request = std::make_shared<Request>();
+            declare_scan(set, request->scan);
+            declare_contact(set, request->contact);
+            declare_film(set, request->film);
+            declare_fluid(set, request->fluid);
+            set.group("Friction");
+            set.quantity("--shear-strength", "TAU", "shear strength of the contact, e.g. 70MPa",
+                         dimension::pressure, request->shear_strength)
+                .required = true;
+            set.choice(
+                "--area", {"corrected", "pixels"},
+                "contact area that friction uses: perimeter-corrected or counted [corrected]",
+                request->area);
+            declare_output(set, request->output);
+            return [request](Context& context) { return show(*request, context); };
+          }};
 }
 
 }  // namespace tabor::cli

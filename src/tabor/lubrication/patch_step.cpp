@@ -16,8 +16,8 @@ using Eigen::VectorXd;
 constexpr int kMaxIterations = 30;  // a step that needs more is finished by the next
 constexpr int kMaxProducts = 400;
 constexpr double kRoughTolerance = 1e-5;  // of the flows, while cells still change sides
-constexpr double kTolerance = 1e-10;
-constexpr double kOverfill = 1e-7;  // a fill above 1 by less is rounding
+constexpr double kTolerance = 1e-11;
+constexpr double kOverfill = 1e-6;  // a fill above 1 by less is what the solver leaves
 constexpr double kNearlyFull = 0.9;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
@@ -69,9 +69,6 @@ class Step {
   bool is_reservoir(Index cell) const {
     return cells_.reservoir.size() > 0 && cells_.reservoir.data()[cell];
   }
-  /// The widest place of its room, where oil leaves at ambient pressure.
-  bool is_vent(Index cell) const { return rooms_.widest[at(rooms_.of[at(cell)])] == cell; }
-
   void choose_first_kinds(const Field& guess) {
     const bool guessed = guess.size() == pressure_.size();
     for (Index cell = 0; cell < cells_.size(); ++cell) {
@@ -229,28 +226,39 @@ class Step {
     return solved;
   }
 
-  /// Full cells under suction starve and starved ones that overflow are full; a vent opens above
-  /// its pressure and closes when it would have to draw oil in. Returns how many cells change.
+  /// Full cells under suction starve and starved ones that overflow are full. Once none does, a
+  /// vent opens above its pressure and closes when it would have to draw oil in: together with its
+  /// neighbours it could go to and fro forever. Returns how many cells change.
   Index change_sides() {
     const double suction = -1e-12 * pressure_.maxCoeff();
     Index changes = 0;
     for (Index cell = 0; cell < cells_.size(); ++cell) {
-      ++changes;
       if (kind(cell) == CellKind::full && pressure(cell) < suction) {
         set_kind(cell, CellKind::starved);
-      } else if (kind(cell) == CellKind::full && is_vent(cell) &&
-                 pressure(cell) > cells_.vent_pressure * (1 + 1e-9)) {
-        pin(cell, cells_.vent_pressure);
-      } else if (kind(cell) == CellKind::pinned && !is_reservoir(cell) &&
-                 surplus(cell) < -kOverfill * gap(cell) / time_) {
-        set_kind(cell, CellKind::full);
+        ++changes;
       } else if (kind(cell) == CellKind::starved && fill(cell) > 1 + kOverfill) {
         set_kind(cell, CellKind::full);
-      } else {
-        --changes;
+        ++changes;
       }
     }
+    if (changes == 0) changes = change_vents();
     if (changes > 0) keep_rooms_determined();
+    return changes;
+  }
+
+  Index change_vents() {
+    Index changes = 0;
+    for (const Index cell : rooms_.widest) {
+      if (is_reservoir(cell)) continue;
+      const double flow = gap(cell) / time_ + cells_.carried.data()[cell];
+      if (kind(cell) == CellKind::full && pressure(cell) > cells_.vent_pressure * (1 + kOverfill)) {
+        pin(cell, cells_.vent_pressure);
+        ++changes;
+      } else if (kind(cell) == CellKind::pinned && surplus(cell) < -kOverfill * flow) {
+        set_kind(cell, CellKind::full);
+        ++changes;
+      }
+    }
     return changes;
   }
 

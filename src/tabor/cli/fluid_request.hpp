@@ -1,0 +1,45 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tabor/cli/contact_request.hpp"
+#include "tabor/cli/fields_file.hpp"
+#include "tabor/friction/bowden_tabor.hpp"
+#include "tabor/friction/fluid_film.hpp"
+
+namespace tabor::cli {
+
+/// The options of `friction` for a film that carries part of the load.
+struct FluidRequest {
+  std::string fluid = "none";
+  std::optional<double> speed;               ///< [m/s], sliding
+  std::optional<double> viscosity;           ///< [Pa s]
+  std::optional<double> pressure_viscosity;  ///< [1/Pa], absent: constant viscosity
+  std::optional<double> eyring_stress;       ///< [Pa], absent: Newtonian
+
+  bool asked() const { return fluid != "none"; }
+};
+
+void declare_fluid(OptionSet& set, FluidRequest& request);
+
+/// Refuses what makes no sense, before a scan is read.
+void check(const FluidRequest& request, const ContactRequest& contact);
+
+/// The film of one state of contact and deposited oil. Warns if it did not converge.
+friction::FluidFilmState solve_fluid(elastic::ElasticOperator& elasticity, const Field& height,
+                                     const ContactResult& dry, const Field& film,
+                                     const ContactRequest& contact, const FluidRequest& request,
+                                     Context& context);
+
+/// Friction of solids and oil together; `solids` is the estimate for what the solids carry.
+io::Json fluid_json(const friction::FluidFilmState& state, const friction::Estimate& solids,
+                    double mean_pressure);
+std::vector<StateField> fields_of(const friction::FluidFilmState& state);
+
+io::Json settings_json(const FluidRequest& request);
+void describe(const FluidRequest& request, Facts& facts);
+std::vector<std::string> methods_of(const FluidRequest& request);
+
+}  // namespace tabor::cli
