@@ -110,10 +110,8 @@ double imbalance_while_opening(Cavitation cavitation) {
   FilmProblem problem = line_problem(0, 1e-3, 100, [](double x) { return 1e-6 + 1e-3 * x; });
   problem.cavitation = cavitation;
   problem.left_pressure = problem.right_pressure = 1e5;
-  problem.liquid = [](double p) {
-    return LiquidState{
-        .density = 870 * (1 + 0.6e-9 * p), .density_slope = 870 * 0.6e-9, .viscosity = 0.1};
-  };
+  problem.liquid.density = material::relative_density(material::DensityLaw::dowson_higginson);
+  problem.density = 870;
   problem.time_step = 1e-5;
   problem.old_mass = 870 * problem.film.segment(1, 100);
   double worst = 0;
@@ -145,10 +143,7 @@ FilmProblem barus_cylinder(double film, double alpha) {
   const double length = std::sqrt(2 * 0.01 * film);
   FilmProblem problem =
       line_problem(-20 * length, 5 * length, 2000, [=](double x) { return film + x * x / 0.02; });
-  problem.liquid = [=](double p) {
-    const double viscosity = 0.1 * std::exp(alpha * p);
-    return LiquidState{.viscosity = viscosity, .viscosity_slope = alpha * viscosity};
-  };
+  problem.liquid.viscosity = material::barus_viscosity(0.1, alpha);
   return problem;
 }
 

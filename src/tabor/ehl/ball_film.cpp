@@ -138,10 +138,7 @@ struct BallStepper::Trial {
   lubrication::FilmNode node_at(Index i, Index face) const {
     return {.pressure = i < n ? state.pressure[i] : 0.0,
             .film = state.film[i],
-            .liquid = {.density = laws.density[i],
-                       .density_slope = laws.density_by_pressure[i],
-                       .viscosity = laws.viscosity[i],
-                       .viscosity_slope = laws.viscosity_by_pressure[i]},
+            .liquid = lubrication::liquid_at(laws, i),
             .distance = std::abs(ball.grid.face[face] - ball.grid.node[i + 1])};
   }
 

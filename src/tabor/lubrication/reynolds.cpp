@@ -81,8 +81,24 @@ FilmGrid disc_grid(double radius, Index n) {
   return grid;
 }
 
-LiquidLaw constant_liquid(double viscosity, double density) {
-  return [=](double) { return LiquidState{.density = density, .viscosity = viscosity}; };
+LiquidState liquid_at(const material::Lubricant& lubricant, double pressure, double density) {
+  const auto viscosity = material::viscosity_at(lubricant.viscosity, pressure);
+  const auto relative_density = lubricant.density.at(pressure);
+  return {.density = density * relative_density.value,
+          .density_slope = density * relative_density.by_pressure,
+          .viscosity = viscosity.value,
+          .viscosity_slope = viscosity.by_pressure};
+}
+
+LiquidState liquid_at(const material::NodeLaws& laws, Index i) {
+  return {.density = laws.density[i],
+          .density_slope = laws.density_by_pressure[i],
+          .viscosity = laws.viscosity[i],
+          .viscosity_slope = laws.viscosity_by_pressure[i]};
+}
+
+material::Lubricant constant_liquid(double viscosity) {
+  return {.viscosity = material::constant_viscosity(viscosity), .density = {}, .shear = {}};
 }
 
 // Both halves of the gap are resistances 12 d/h^3 in series, under the same fluidity: at a step of

@@ -2,10 +2,8 @@
 
 #include <Eigen/Core>
 
-#include <functional>
-#include <vector>
-
 #include "tabor/core/types.hpp"
+#include "tabor/material/lubricant.hpp"
 
 /// Reynolds' equation in one dimension by finite volumes, along a line or along the radius of a
 /// disc:
@@ -48,9 +46,13 @@ struct LiquidState {
   double viscosity_slope = 0;  ///< [s]
 };
 
-using LiquidLaw = std::function<LiquidState(double pressure)>;
+/// The liquid at one pressure [Pa]. density: rho0 [kg/m^3], 1 for flows by volume.
+LiquidState liquid_at(const material::Lubricant& lubricant, double pressure, double density = 1);
+/// The liquid at node i of evaluated laws, for flows by volume.
+LiquidState liquid_at(const material::NodeLaws& laws, Index i);
 
-LiquidLaw constant_liquid(double viscosity, double density = 1);
+/// A liquid of one viscosity [Pa s] and density.
+material::Lubricant constant_liquid(double viscosity);
 
 /// What the flow through one face depends on, at one of its two nodes.
 struct FilmNode {

@@ -99,7 +99,8 @@ class FilmSolver {
 
   double penalty_coefficient() const {
     if (problem_.cavitation != Cavitation::penalty) return 0;
-    const LiquidState liquid = problem_.liquid(problem_.cavitation_pressure);
+    const LiquidState liquid =
+        liquid_at(problem_.liquid, problem_.cavitation_pressure, problem_.density);
     const double widest = problem_.film.maxCoeff();
     const double length = problem_.grid.node[n_ + 1] - problem_.grid.node[0];
     return problem_.penalty * liquid.density * widest * widest * widest /
@@ -110,7 +111,7 @@ class FilmSolver {
     return {.pressure = pressure_[i],
             .film = problem_.film[i],
             .fill = fill_[i],
-            .liquid = problem_.liquid(pressure_[i]),
+            .liquid = liquid_at(problem_.liquid, pressure_[i], problem_.density),
             .distance = std::abs(problem_.grid.face[face] - problem_.grid.node[i])};
   }
 
@@ -126,7 +127,8 @@ class FilmSolver {
   }
 
   double mass_at(Index cell) const {
-    return problem_.liquid(pressure_[cell + 1]).density * fill_[cell + 1] * problem_.film[cell + 1];
+    return liquid_at(problem_.liquid, pressure_[cell + 1], problem_.density).density *
+           fill_[cell + 1] * problem_.film[cell + 1];
   }
 
   /// d(rho theta h)/dt times the volume of the cell.
@@ -141,7 +143,7 @@ class FilmSolver {
   }
 
   double storage_by_unknown(Index cell) const {
-    const LiquidState liquid = problem_.liquid(pressure_[cell + 1]);
+    const LiquidState liquid = liquid_at(problem_.liquid, pressure_[cell + 1], problem_.density);
     const double by_unknown =
         in_cavity(cell) ? liquid.density : liquid.density_slope * fill_[cell + 1];
     if (problem_.time_step > 0) {

@@ -25,7 +25,8 @@ struct FilmProblem {
   double cavitation_pressure = 0;
   Cavitation cavitation = Cavitation::reynolds;
   double penalty = 1e6;  ///< 1/eps in units of the largest rho h^3/(12 eta) over length squared
-  LiquidLaw liquid;
+  material::Lubricant liquid;  ///< viscosity and density; flows as if Newtonian
+  double density = 1;          ///< rho0 [kg/m^3]; 1 for flows by volume
 };
 
 struct FilmSolution {
