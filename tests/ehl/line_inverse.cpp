@@ -84,7 +84,8 @@ TEST_P(LineInverseTest, LeavesAFewPerCentToGmres) {
   matrix.topRightCorner(n, 1) = dense_of(by_film) * Eigen::VectorXd::Ones(n);
   matrix.bottomLeftCorner(1, n).setConstant(elastic.load_weight() * units.pressure / units.load);
   matrix(n, n) = 0;
-  const LineInverse inverse(elastic, units, by_pressure, by_film);
+  const LineSystem system{&elastic, units, by_pressure, by_film};
+  const LineInverse inverse(system);
   ASSERT_TRUE(inverse.ok());
   Eigen::VectorXd right(n + 1);
   for (Index i = 0; i <= n; ++i) right[i] = scattered(3 * i);

@@ -64,6 +64,33 @@ Eigen::ArrayXd read_roughness(const io::Config& config, const ehl::LineProblem& 
   return roughness;
 }
 
+/// [asperities]: solids that touch through a boundary film.
+ehl::LineAsperities read_asperities(const io::Config& config) {
+  ehl::LineAsperities asperities;
+  const bool has_coefficient = config.has("asperities.friction_coefficient");
+  const bool has_strength = config.has("asperities.shear_strength");
+  if (!config.has("asperities.boundary_film")) {
+    if (!has_coefficient && !has_strength) return asperities;
+    throw InputError(
+        config.place("asperities"), "no boundary_film", "how near the solids come, such as 10 nm",
+        "in a profile, solids without a film between would stop the liquid, which lifts them");
+  }
+  if (has_coefficient && has_strength) {
+    throw InputError(config.place("asperities.shear_strength"), "beside friction_coefficient",
+                     "one of the two", "");
+  }
+  asperities.boundary_film =
+      positive_quantity(config, "asperities.boundary_film", dimension::length);
+  if (has_coefficient) {
+    asperities.friction_coefficient = config.number("asperities.friction_coefficient");
+  }
+  if (has_strength) {
+    asperities.shear_strength =
+        positive_quantity(config, "asperities.shear_strength", dimension::pressure);
+  }
+  return asperities;
+}
+
 ehl::LineProblem read_problem(const io::Config& config, Context& context) {
   ehl::LineProblem problem;
   problem.radius = positive_quantity(config, "cylinder.radius", dimension::length);
@@ -80,10 +107,26 @@ ehl::LineProblem read_problem(const io::Config& config, Context& context) {
   if (config.has("grid.nodes")) problem.nodes = config.integer("grid.nodes");
   problem.inlet = positive_quantity_or(config, "grid.inlet", dimension::length, 0);
   problem.outlet = positive_quantity_or(config, "grid.outlet", dimension::length, 0);
+  problem.asperities = read_asperities(config);
   // The nodes of the roughness are those of a checked problem.
   ehl::check_line(problem);
   problem.roughness = read_roughness(config, problem, context);
   return problem;
+}
+
+/// What asperities do, where there are any.
+io::Json asperity_scalars(const ehl::LineProblem& problem, const ehl::LineResult& result) {
+  if (result.asperity_pressure.size() == 0) return io::Json::object();
+  const double width = 2 * hertz_of(problem).half_width;
+  return {{"boundary_film_m", problem.asperities.boundary_film},
+          {"asperity_load_share", io::number(result.asperity_load_share)},
+          {"solid_contact_fraction", io::number(result.contact_width / width)},
+          {"contact_width_m", io::number(result.contact_width)},
+          {"max_asperity_pressure_Pa", io::number(result.asperity_pressure.maxCoeff())},
+          {"max_fluid_pressure_Pa", io::number(result.pressure.maxCoeff())},
+          {"friction_fluid", io::number(result.friction_fluid)},
+          {"friction_solid", io::number(result.friction_solid)},
+          {"contact_error", io::number(result.contact_error)}};
 }
 
 io::Json scalars_of(const ehl::LineProblem& problem, const ehl::LineResult& result) {
@@ -123,6 +166,12 @@ std::string text_of(const ehl::LineProblem& problem, const ehl::LineResult& resu
   facts.fact("largest pressure", si(result.max_pressure, "Pa"));
   facts.fact("film ends at", si(result.rupture, "m"));
   facts.fact("friction coefficient", plain(result.friction_coefficient));
+  if (result.asperity_pressure.size() > 0) {
+    facts.fact("asperities",
+               fmt::format("{} of the load on {}, friction {} beside {} of the liquid",
+                           plain(result.asperity_load_share), si(result.contact_width, "m"),
+                           plain(result.friction_solid), plain(result.friction_fluid)));
+  }
   facts.fact("dry contact", fmt::format("half width {}, {}", si(hertz.half_width, "m"),
                                         si(hertz.max_pressure, "Pa")));
   facts.fact("Moes' chart",
@@ -149,8 +198,11 @@ void write_profile(io::Hdf5Writer& writer, const ehl::LineProblem& problem,
        {Curve{"/profile/x", "m", "place along the flow, from the line of closest approach",
               result.x},
         Curve{"/profile/pressure", "Pa", "pressure", result.pressure},
+        Curve{"/profile/asperity_pressure", "Pa", "pressure of asperities",
+              result.asperity_pressure},
         Curve{"/profile/film", "m", "film thickness", result.film},
         Curve{"/profile/hertz_pressure", "Pa", "pressure of the dry contact", dry}}) {
+    if (curve.values.size() == 0) continue;  // no asperities
     const double* const begin = curve.values.data();
     writer.write(curve.path, std::vector<double>(begin, begin + curve.values.size()));
     writer.describe(curve.path, curve.unit, curve.long_name);
@@ -162,6 +214,7 @@ EhlAnswer solve(const io::Config& config, Context& context) {
   ehl::LineResult result = ehl::solve_line(problem, context.observer());
   EhlAnswer answer;
   answer.scalars = scalars_of(problem, result);
+  answer.scalars.update(asperity_scalars(problem, result));
   answer.text = text_of(problem, result);
   answer.converged = result.converged;
   answer.warnings = result.doubts;
@@ -171,9 +224,11 @@ EhlAnswer solve(const io::Config& config, Context& context) {
   std::optional<ehl::WearResult> wear;
   if (config.has("wear.coefficient")) {
     wear = ehl::solve_wear(read_wear(config, problem), context.observer());
-    answer.scalars["wear"] = wear_json(*wear);
+    answer.scalars["wear"] = wear_json(config, *wear);
     answer.text += wear_text(*wear);
+    answer.warnings.insert(answer.warnings.end(), wear->doubts.begin(), wear->doubts.end());
     answer.converged = answer.converged && wear->converged;
+    answer.scalars["converged"] = answer.converged;
     if (!wear->converged) answer.warnings.emplace_back("the film was lost while the track wore");
   }
   answer.write = [problem, wear, result = std::move(result)](io::Hdf5Writer& writer) {
@@ -187,7 +242,7 @@ EhlAnswer solve(const io::Config& config, Context& context) {
 
 EhlProgram line_program() {
   return {.name = "line",
-          .summary = "a steady film between a cylinder and a flat",
+          .summary = "a film between a cylinder and a flat, smooth, rough, touching or worn",
           .keys = joined({"cylinder.radius",
                           "cylinder.load_per_length",
                           "motion.entrainment_speed",
@@ -201,7 +256,12 @@ EhlProgram line_program() {
                           "roughness.row",
                           "roughness.amplitude",
                           "roughness.wavelength",
+                          "asperities.boundary_film",
+                          "asperities.friction_coefficient",
+                          "asperities.shear_strength",
                           "wear.coefficient",
+                          "wear.density",
+                          "wear.width",
                           "wear.track_length",
                           "wear.stroke",
                           "wear.steps",
@@ -218,7 +278,13 @@ EhlProgram line_program() {
                       {"max_pressure_Pa", "largest pressure", "Pa"},
                       {"max_shear_stress_Pa", "largest stress", "Pa"},
                       {"friction_coefficient", "friction", ""},
-                      {"newton_iterations", "iterations", ""}},
+                      {"asperity_load_share", "asperities", "", true},
+                      {"solid_contact_fraction", "contact", "", true},
+                      {"newton_iterations", "iterations", ""},
+                      {"wear.mean_depth_m", "mean wear", "m", true},
+                      {"wear.max_depth_m", "deepest wear", "m", true},
+                      {"wear.mass_kg", "worn mass", "kg", true},
+                      {"wear.thinnest_film_m", "thinnest film", "m", true}},
           .studies = {{"grid", "grid.nodes", "nodes", "", {0.5, 1, 2}},
                       {"domain", "grid.inlet", "inlet_m", "m", {0.7, 1, 1.4, 2}, false}},
           .methods = {"moes1992", "evans2000", "johnson1985"},

@@ -58,20 +58,26 @@ ehl::WearProblem read_wear(const io::Config& config, const ehl::LineProblem& con
   return problem;
 }
 
-io::Json wear_json(const ehl::WearResult& wear) {
+io::Json wear_json(const io::Config& config, const ehl::WearResult& wear) {
   const ehl::WearInstant& last = wear.history.back();
-  return {{"time_s", last.time},
-          {"distance_m", last.distance},
-          {"mean_depth_m", last.mean_depth},
-          {"max_depth_m", last.max_depth},
-          {"volume_per_width_m2", wear.worn_area},
-          {"min_film_m", io::number(last.min_film)},
-          {"thinnest_film_m", io::number(thinnest_of(wear))},
-          {"friction_coefficient", io::number(last.friction_coefficient)},
-          {"time_step_s", wear.time_step},
-          {"n_steps", wear.history.size() - 1},
-          {"newton_iterations", wear.newton_iterations},
-          {"converged", wear.converged}};
+  io::Json json = {{"time_s", last.time},
+                   {"distance_m", last.distance},
+                   {"mean_depth_m", last.mean_depth},
+                   {"max_depth_m", last.max_depth},
+                   {"volume_per_width_m2", wear.worn_area},
+                   {"min_film_m", io::number(last.min_film)},
+                   {"thinnest_film_m", io::number(thinnest_of(wear))},
+                   {"friction_coefficient", io::number(last.friction_coefficient)},
+                   {"time_step_s", wear.time_step},
+                   {"n_steps", wear.history.size() - 1},
+                   {"newton_iterations", wear.newton_iterations},
+                   {"converged", wear.converged}};
+  if (config.has("wear.density") || config.has("wear.width")) {
+    json["mass_kg"] = wear.worn_area *
+                      positive_quantity(config, "wear.density", dimension::density) *
+                      positive_quantity(config, "wear.width", dimension::length);
+  }
+  return json;
 }
 
 std::string wear_text(const ehl::WearResult& wear) {

@@ -14,7 +14,8 @@ namespace tabor::cli {
 /// beside a roughness that stands still.
 ehl::WearProblem read_wear(const io::Config& config, const ehl::LineProblem& contact);
 
-io::Json wear_json(const ehl::WearResult& wear);
+/// With the worn mass where [wear] has `density` and `width`.
+io::Json wear_json(const io::Config& config, const ehl::WearResult& wear);
 std::string wear_text(const ehl::WearResult& wear);
 /// The group /wear: histories and the track at the end.
 void write_wear(io::Hdf5Writer& writer, const ehl::WearResult& wear);

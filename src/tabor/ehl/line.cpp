@@ -18,7 +18,6 @@ constexpr double kMinNodesPerHalfWidth = 8;
 /// The film of the first guess over Moes': Newton's method comes down safely from a thick film,
 /// where the flow depends on the pressure gradient, and may jump far from a thin one.
 constexpr double kFirstFilms[] = {10, 3, 40};
-constexpr double kFewestInletNodes = 0.1;
 constexpr double kFirstStep = 0.5;  // of the continuation in the pressure coefficient
 constexpr double kSmallestStep = 1.0 / 64;
 
@@ -26,6 +25,19 @@ void check_positive(const char* what, double value, const char* unit) {
   if (!(value > 0) || !std::isfinite(value)) {
     throw InputError(what, fmt::format("{} {}", value, unit), "more than zero", "");
   }
+}
+
+void check_not_negative(const char* what, double value, const char* unit) {
+  if (!(value >= 0) || !std::isfinite(value)) {
+    throw InputError(what, fmt::format("{} {}", value, unit), "zero or more", "");
+  }
+}
+
+void check_asperities(const LineProblem& problem) {
+  const LineAsperities& asperities = problem.asperities;
+  check_not_negative("boundary film", asperities.boundary_film, "m");
+  check_not_negative("friction coefficient of asperities", asperities.friction_coefficient, "");
+  check_not_negative("shear strength of asperities", asperities.shear_strength, "Pa");
 }
 
 void check_domain(const LineProblem& problem) {
@@ -48,61 +60,18 @@ void check_domain(const LineProblem& problem) {
   }
 }
 
-/// Length of the inlet over which the film is built up, where the gap of Hertz is as large as the
-/// film [m].
-double inlet_length(const LineProblem& problem, double film) {
-  const double half_width = hertz_of(problem).half_width;
-  const double elastic =
-      std::pow(film * problem.radius / (half_width * half_width), 2.0 / 3) * half_width;
-  return std::min(elastic, std::sqrt(2 * problem.radius * film));
-}
-
-/// Nodes in the inlet of a film of this thickness.
-double inlet_nodes(const LineProblem& problem, double film, double spacing) {
-  return inlet_length(problem, film) / spacing;
-}
-
-/// Whether the inlet of the film that was found exists on the grid. Where it does not, a film a
-/// thousand times too thin can balance as well, and Newton's method may come to it.
-bool sees_inlet(const LineProblem& problem, const LineFilm& film, const LineState& state) {
-  const Eigen::ArrayXd& x = film.x();
-  const double spacing = x[1] - x[0];
-  const double half_width = std::max(spacing, hertz_of(problem).half_width);
-  const Eigen::ArrayXd inside = (x.abs() <= half_width).cast<double>();
-  const double thickness = (inside * state.film).sum() / inside.sum();
-  return state.film.minCoeff() > 0 && inlet_nodes(problem, thickness, spacing) >= kFewestInletNodes;
-}
-
-std::vector<std::string> doubts_of(const LineProblem& problem, const LineResult& result) {
-  std::vector<std::string> doubts = material::doubts(problem.lubricant, result.max_pressure);
-  const double nodes =
-      inlet_nodes(problem, film_groups_of(problem).moes_min_film(), result.x[1] - result.x[0]);
-  if (nodes < 2) {
-    doubts.push_back(fmt::format(
-        "the grid has {:.2g} nodes where the film is built up: its thickness is uncertain; give "
-        "about {:.2g} times as many nodes",
-        nodes, 3 / nodes));
-  }
-  return doubts;
-}
-
 LineFilm::Outcome operator+(const LineFilm::Outcome& before, LineFilm::Outcome now) {
   now.iterations += before.iterations;
   now.n_products += before.n_products;
   return now;
 }
 
-/// From Hertz' pressure and films of some thickness.
-LineFilm::Outcome solve_from_hertz(const LineProblem& problem, const LineFilm& film,
+/// From Hertz' pressure and a film `first` times that of Moes.
+LineFilm::Outcome solve_from_hertz(const LineProblem& problem, const LineFilm& film, double first,
                                    LineState& state, const Observer& observer) {
-  const double moes_film = film_groups_of(problem).moes_min_film();
-  LineFilm::Outcome outcome;
-  for (const double first : kFirstFilms) {
-    state = film.hertz_start(first * moes_film);
-    outcome = outcome + film.solve(state, {}, kMaxIterations, observer);
-    outcome.converged = outcome.converged && sees_inlet(problem, film, state);
-    if (outcome.converged) break;
-  }
+  state = film.hertz_start(first * film_groups_of(problem).moes_min_film());
+  LineFilm::Outcome outcome = film.solve(state, {}, kMaxIterations, observer);
+  outcome.converged = outcome.converged && sees_inlet(problem, film.x(), state.film);
   return outcome;
 }
 
@@ -133,12 +102,28 @@ LineFilm::Outcome ramp(LineFilm& film, LineState& state, const std::function<voi
   return outcome;
 }
 
+/// From the pressure of Hertz; with asperities if they touch, or if that fails.
+LineFilm::Outcome solve_directly(const LineProblem& problem, const LineFilm& film, LineState& state,
+                                 const Observer& observer) {
+  LineFilm::Outcome outcome;
+  for (const double first : kFirstFilms) {
+    outcome = outcome + solve_from_hertz(problem, film, first, state, observer);
+    const bool is_open =
+        outcome.converged && state.film.minCoeff() >= problem.asperities.boundary_film;
+    if (film.has_asperities() && !is_open) {
+      outcome = outcome + film.solve_touching(state, observer);
+    }
+    if (outcome.converged || film.has_asperities()) break;
+  }
+  return outcome;
+}
+
 /// From Hertz' pressure; if that fails, from the film of smooth bodies and, if that fails too, of a
 /// viscosity that does not grow with pressure.
 LineFilm::Outcome solve_cold(const LineProblem& problem, LineFilm& film,
                              const Eigen::ArrayXd& roughness, LineState& state,
                              const Observer& observer) {
-  LineFilm::Outcome outcome = solve_from_hertz(problem, film, state, observer);
+  LineFilm::Outcome outcome = solve_directly(problem, film, state, observer);
   if (outcome.converged) return outcome;
   if (roughness.size() > 0) {
     const Eigen::ArrayXd rough = film.shape;
@@ -151,7 +136,7 @@ LineFilm::Outcome solve_cold(const LineProblem& problem, LineFilm& film,
   const material::Viscosity viscosity = film.lubricant.viscosity;
   if (!(material::pressure_coefficient(viscosity) > 0)) return outcome;
   film.lubricant.viscosity = with_share_of_coefficient(viscosity, 0);
-  outcome = outcome + solve_from_hertz(problem, film, state, observer);
+  outcome = outcome + solve_directly(problem, film, state, observer);
   if (!outcome.converged) return outcome;
   const auto thicken = [&](double share) {
     film.lubricant.viscosity = with_share_of_coefficient(viscosity, share);
@@ -183,32 +168,6 @@ Eigen::ArrayXd line_nodes(const LineProblem& problem) {
   return Eigen::ArrayXd::LinSpaced(problem.nodes, -inlet, outlet);
 }
 
-/// Rounding may leave a trace of pressure in the cavity: the film ends before it.
-constexpr double kFilmEnd = 1e-6;
-
-void measure_line(const LineProblem& problem, LineResult& result) {
-  const double spacing = result.x[1] - result.x[0];
-  result.min_film = smallest_film(result.film);
-  result.central_film = value_between_nodes(result.x, result.film, 0);
-  result.max_pressure = result.pressure.maxCoeff();
-  material::NodeLaws laws;
-  const auto n = static_cast<std::size_t>(result.pressure.size());
-  material::evaluate(problem.lubricant, {result.pressure.data(), n}, laws);
-  result.friction_force = 0;
-  for (Index i = 0; i < result.x.size(); ++i) {
-    if (!(result.pressure[i] > 0)) continue;
-    if (result.pressure[i] > kFilmEnd * result.max_pressure) result.rupture = result.x[i];
-    const double rate = problem.sliding_speed / result.film[i];
-    const double stress =
-        material::shear_stress(problem.lubricant.shear, laws.viscosity[i], rate, result.pressure[i])
-            .value;
-    result.friction_force += spacing * stress;
-    result.max_shear_stress = std::max(result.max_shear_stress, std::abs(stress));
-  }
-  result.friction_coefficient = result.friction_force / problem.load;
-  result.doubts = doubts_of(problem, result);
-}
-
 void check_line(const LineProblem& problem) {
   check_positive("radius", problem.radius, "m");
   check_positive("load", problem.load, "N/m");
@@ -231,6 +190,7 @@ void check_line(const LineProblem& problem) {
                      "the theory of small deformations ends before");
   }
   material::check_pressure(problem.lubricant, hertz_of(problem).max_pressure);
+  check_asperities(problem);
   check_domain(problem);
 }
 
@@ -246,9 +206,13 @@ LineResult solve_line(const LineProblem& problem, const Observer& observer) {
   result.separation = state.separation;
   result.newton_iterations = outcome.iterations;
   result.n_products = outcome.n_products;
-  result.converged = outcome.converged && sees_inlet(problem, film, state);
+  result.converged = outcome.converged && sees_inlet(problem, film.x(), state.film);
   result.mass_error = outcome.mass_error;
   result.load_error = outcome.load_error;
+  result.contact_error = outcome.contact_error;
+  if (film.has_asperities()) {
+    result.asperity_pressure = film.touching_pressure(state);
+  }
   measure_line(problem, result);
   return result;
 }

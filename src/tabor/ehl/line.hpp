@@ -18,6 +18,15 @@ enum class LineCavitation {
   penalty    ///< a source -min(0, p)/eps (Wu 1986); tends to `reynolds` with eps -> 0
 };
 
+/// Solids that touch through a boundary film: where the gap would fall below it, asperities carry
+/// what keeps it there. Liquid goes on through it, as in a real contact it goes round the summits,
+/// which a profile cannot show.
+struct LineAsperities {
+  double boundary_film = 0;         ///< h_b [m]; 0: nothing touches
+  double friction_coefficient = 0;  ///< of what asperities carry
+  double shear_strength = 0;        ///< [Pa] of what touches, besides
+};
+
 /// A cylinder on a flat with a film between, steady, plane strain, flow towards +x. SI units.
 struct LineProblem {
   double radius = 0;             ///< R [m]
@@ -31,25 +40,32 @@ struct LineProblem {
   Index nodes = 1200;
   double inlet = 0;   ///< [m] before the centre; 0: 4 half widths and 10 sqrt(2 R h), h by Moes
   double outlet = 0;  ///< [m] behind it; 0: 1.5 half widths and 3 sqrt(2 R h)
-  Eigen::ArrayXd roughness;     ///< s [m] at the nodes, asperities up, at rest; empty: smooth
+  Eigen::ArrayXd roughness;  ///< s [m] at the nodes, asperities up, at rest; empty: smooth
+  LineAsperities asperities;
   bool dense_jacobian = false;  ///< factorize a full matrix in each iteration (benchmarks)
 };
 
 /// A film. Arrays hold one value per node.
 struct LineResult {
-  Eigen::ArrayXd x;           ///< [m] from the line of closest approach
-  Eigen::ArrayXd pressure;    ///< p [Pa]
-  Eigen::ArrayXd film;        ///< h [m]
+  Eigen::ArrayXd x;                  ///< [m] from the line of closest approach
+  Eigen::ArrayXd pressure;           ///< p [Pa] of the liquid
+  Eigen::ArrayXd film;               ///< h [m], h_b where solids touch
+  Eigen::ArrayXd asperity_pressure;  ///< P [Pa]; empty if nothing can touch
   double separation = 0;      ///< h0 [m], of the undeformed bodies; relative, see LineHalfSpace
   double min_film = 0;        ///< [m]
   double central_film = 0;    ///< [m] at x = 0
-  double max_pressure = 0;    ///< [Pa]
+  double max_pressure = 0;    ///< [Pa] of p + P
   double rupture = 0;         ///< [m] where the pressure ends
-  double friction_force = 0;  ///< [N/m] of the sheared film where it carries pressure
+  double friction_force = 0;  ///< [N/m] of liquid and solids
   double friction_coefficient = 0;  ///< friction_force over load
+  double friction_fluid = 0;        ///< its part from the film sheared where it carries pressure
+  double friction_solid = 0;        ///< its part from asperities
+  double asperity_load_share = 0;   ///< of the load
+  double contact_width = 0;         ///< [m] of all nodes that touch
   double max_shear_stress = 0;      ///< [Pa] of the film
   double load_error = 0;            ///< relative
   double mass_error = 0;            ///< largest imbalance of a node over the flow in the contact
+  double contact_error = 0;         ///< largest P (h - h_b) over pressure and film of the contact
   int newton_iterations = 0;
   int n_products = 0;  ///< with the elastic matrix, by transforms
   bool converged = false;
@@ -82,9 +98,11 @@ void measure_line(const LineProblem& problem, LineResult& result);
 void check_line(const LineProblem& problem);
 
 /// Newton's method on pressures and h0 together, the load being one of the equations, from the
-/// pressure of Hertz. Throws InputError for input that makes no sense: values that are not
-/// positive, a domain that does not contain the contact, a grid too coarse for it, a viscosity law
-/// that ends below the pressure of Hertz. Not converging is returned.
+/// pressure of Hertz. With asperities P >= 0, h >= h_b and P (h - h_b) = 0 are
+/// solved along with it, p + P deflects and carries the load, and P does not enter Reynolds'
+/// equation. Throws InputError for input that makes no sense: values that are not positive, a
+/// domain that does not contain the contact, a grid too coarse for it, a viscosity law that ends
+/// below the pressure of Hertz. Not converging is returned.
 LineResult solve_line(const LineProblem& problem, const Observer& observer = {});
 
 }  // namespace tabor::ehl

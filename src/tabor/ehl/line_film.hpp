@@ -4,18 +4,23 @@
 #include <vector>
 
 #include "tabor/ehl/line.hpp"
-#include "tabor/ehl/line_inverse.hpp"
+#include "tabor/ehl/line_system.hpp"
 #include "tabor/elastic/line.hpp"
 #include "tabor/material/lubricant.hpp"
 
 namespace tabor::ehl {
 
+inline constexpr double kLineTolerance = 1e-8;  ///< of residuals, over the flow in the contact
+
 /// The unknowns of a line contact and what follows from them.
 struct LineState {
   Eigen::ArrayXd pressure;   ///< p [Pa], n, zero at both ends
   double separation = 0;     ///< h0 [m]
-  Eigen::ArrayXd film;       ///< h [m], n
+  Eigen::ArrayXd film;       ///< h [m] of the liquid, n
   std::vector<bool> cavity;  ///< nodes where p = 0 is given and the film may lack liquid
+  /// P [Pa], n, above zero as the film is above h_b; empty without asperities.
+  Eigen::ArrayXd asperity_pressure = {};
+  double touch_product = 0;  ///< P (h - h_b) aimed at, over the units of pressure and film
 };
 
 /// An implicit Euler step of the film; none for a steady one.
@@ -26,6 +31,20 @@ struct LineStorage {
 
 /// y at a place x, by straight lines between equal nodes; the outer ones go on.
 double value_between_nodes(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, double at);
+
+/// Balances and load of a state, in units of u_m times the unit of film, and their derivatives by
+/// the unknowns. Balances of the cavity say what its nodes lack to stay full.
+struct LineLinear {
+  LineSystem system;
+  Eigen::VectorXd residual;  ///< as the right side of the system
+
+  double& load_residual() { return residual[residual.size() - 1]; }
+};
+
+/// Whether the inlet of this film [m] exists on the grid. Where it does not, a film a thousand
+/// times too thin can balance as well, and Newton's method may come to it. Where solids touch, they
+/// set its thickness.
+bool sees_inlet(const LineProblem& problem, const Eigen::ArrayXd& x, const Eigen::ArrayXd& film);
 
 /// The equations of a line contact at its nodes and their solution by Newton's method.
 class LineFilm {
@@ -44,32 +63,41 @@ class LineFilm {
   /// Hertz' pressure, spread wider where the bodies are so stiff that the film is wider than their
   /// contact, and h0 such that the film is `min_film` [m] where it is thinnest.
   LineState hertz_start(double min_film) const;
-  /// h [m] of a state: shape + h0 + K p.
-  Eigen::ArrayXd film_of(const LineState& state) const;
+  bool has_asperities() const { return problem_.asperities.boundary_film > 0; }
   Eigen::ArrayXd mass_of(const LineState& state) const;  ///< rho/rho0 h [m]
+  /// P [Pa] without the traces that the method leaves where nothing touches.
+  Eigen::ArrayXd touching_pressure(const LineState& state) const;
 
   struct Outcome {
     int iterations = 0;
     int n_products = 0;
     double mass_error = 0;
     double load_error = 0;
+    double contact_error = 0;
     bool converged = false;
   };
   /// Advances `state` to a solution; leaves it where Newton's method stopped if there is none.
   Outcome solve(LineState& state, const LineStorage& storage, int max_iterations,
                 const Observer& observer = {}) const;
+  /// The same with asperities that touch. `state` need not hold anything.
+  Outcome solve_touching(LineState& state, const Observer& observer = {}) const;
 
  private:
-  struct Linear;
-  Linear linearize(const LineState& state, const LineStorage& storage) const;
+  LineState asperity_start() const;
+  LineLinear linearize(const LineState& state, const LineStorage& storage) const;
+  void add_touch(const LineState& state, LineLinear& linear) const;
+  void update_film(LineState& state) const;
   Eigen::ArrayXd deflection(const Eigen::ArrayXd& pressure) const;
-  double mass_error(const Linear& linear, const LineState& state) const;
-  Eigen::MatrixXd dense_jacobian(const LineBands& by_pressure, const LineBands& by_film) const;
-  Eigen::VectorXd product(const LineBands& by_pressure, const LineBands& by_film,
-                          const Eigen::VectorXd& step) const;
-  Eigen::VectorXd newton_step(const Linear& linear, const LineState& state, int& n_products) const;
+  double mass_error(const LineLinear& linear, const LineState& state) const;
+  bool is_balanced(const LineState& state, const Outcome& outcome) const;
+  Eigen::ArrayXd overlap_products(const LineState& state) const;
+  Eigen::VectorXd newton_step(LineLinear linear, const LineState& state, int& n_products) const;
   bool correct(const Eigen::VectorXd& step, LineState& state) const;
-  bool refill(const Linear& linear, LineState& state, Index reach) const;
+  void move(const LineState& old, const Eigen::VectorXd& step, double share,
+            LineState& state) const;
+  double share_before_touch(const LineState& old, const Eigen::VectorXd& step) const;
+  bool is_open(const LineState& state, double floor) const;
+  bool refill(const LineLinear& linear, LineState& state, Index reach) const;
 
   LineProblem problem_;
   Index n_;

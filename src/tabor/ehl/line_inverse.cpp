@@ -26,25 +26,18 @@ std::vector<double> decays(Index n) {
 
 }  // namespace
 
-Eigen::ArrayXd LineBands::product(const Eigen::ArrayXd& x) const {
-  const Index n = x.size();
-  Eigen::ArrayXd y = diagonal * x;
-  y.tail(n - 1) += lower.tail(n - 1) * x.head(n - 1);
-  y.head(n - 1) += upper.head(n - 1) * x.tail(n - 1);
-  return y;
-}
-
-LineInverse::LineInverse(const elastic::LineHalfSpace& elastic, const LineUnits& units,
-                         const LineBands& by_pressure, const LineBands& by_film)
-    : n_(elastic.size()),
+LineInverse::LineInverse(const LineSystem& system)
+    : n_(system.n()),
+      has_asperities_(system.has_asperities()),
       decay_(decays(n_)),
-      block_(static_cast<Index>(decay_.size()) + 2),
-      band_(n_ * block_, block_ + 1, block_ + 1),
+      block_(static_cast<Index>(decay_.size()) + (has_asperities_ ? 3 : 2)),
+      band_(n_ * block_, block_ + (has_asperities_ ? 2 : 1), block_ + 1),
       end_row_(n_),
-      load_weight_(elastic.load_weight() * units.pressure / units.load) {
+      load_weight_(system.elastic->load_weight() * system.units.pressure / system.units.load) {
   // g_k tends to second_difference(far) far^2 / k^2.
+  const elastic::LineHalfSpace& elastic = *system.elastic;
   const double far = static_cast<double>(n_ - 1);
-  const double unit = units.pressure / units.film;
+  const double unit = system.units.pressure / system.units.film;
   const double strength = unit * elastic.second_difference(n_ - 1) * far * far;
   central_ = unit * elastic.second_difference(0);
   next_ = unit * elastic.second_difference(1);
@@ -55,31 +48,43 @@ LineInverse::LineInverse(const elastic::LineHalfSpace& elastic, const LineUnits&
   }
   for (Index i = 0; i < n_; ++i) {
     add_elastic_rows(i);
+    add_film_rows(system, i);
+    if (has_asperities_) add_touch_row(system.touch, i);
     end_row_[i] = unit * elastic.influence(i);
-    const Index p = i * block_ + block_ - 2;
-    const LineBands* const bands[2] = {&by_pressure, &by_film};
-    for (Index k = 0; k < 2; ++k) {
-      band_.at(p, p + k) += bands[k]->diagonal[i];
-      if (i > 0) band_.at(p, p + k - block_) += bands[k]->lower[i];
-      if (i + 1 < n_) band_.at(p, p + k + block_) += bands[k]->upper[i];
-    }
   }
   if (!band_.factorize()) return;
-  Eigen::VectorXd one = Eigen::VectorXd::Zero(n_);
-  one[0] = 1;
-  by_first_ = solve_band(one, block_ - 1);
-  by_last_ = solve_band(one.reverse(), block_ - 1);
+  by_first_ = solve_band(unit_film_at(0));
+  by_last_ = solve_band(unit_film_at(n_ - 1));
+  const Eigen::VectorXd first = totals(by_first_);
+  const Eigen::VectorXd last = totals(by_last_);
   const Eigen::VectorXd last_row = end_row_.reverse();
-  border_ << 1 - end_row_.dot(by_first_), -end_row_.dot(by_last_), -1,  //
-      -last_row.dot(by_first_), 1 - last_row.dot(by_last_), -1,         //
-      load_weight_ * by_first_.sum(), load_weight_ * by_last_.sum(), 0;
+  border_ << 1 - end_row_.dot(first), -end_row_.dot(last), -1,  //
+      -last_row.dot(first), 1 - last_row.dot(last), -1,         //
+      load_weight_ * first.sum(), load_weight_ * last.sum(), 0;
   ok_ = by_first_.allFinite() && by_last_.allFinite();
+}
+
+void LineInverse::add_film_rows(const LineSystem& system, Index node) {
+  const Index p = node * block_ + block_ - 2;
+  const LineBands* const bands[2] = {&system.by_pressure, &system.by_film};
+  for (Index k = 0; k < 2; ++k) {
+    band_.at(p, p + k) += bands[k]->diagonal[node];
+    if (node > 0) band_.at(p, p + k - block_) += bands[k]->lower[node];
+    if (node + 1 < n_) band_.at(p, p + k + block_) += bands[k]->upper[node];
+  }
+}
+
+void LineInverse::add_touch_row(const TouchRows& touch, Index node) {
+  const Index p = node * block_ + block_ - 2;
+  band_.at(p - 1, p - 1) = touch.by_pressure[node];
+  band_.at(p - 1, p + 1) = touch.by_film[node];
 }
 
 void LineInverse::add_elastic_rows(Index node) {
   const Index first = node * block_;
   const Index p = first + block_ - 2;
   const Index h = p + 1;
+  const Index first_pressure = has_asperities_ ? p - 1 : p;
   const bool is_end = node == 0 || node + 1 == n_;
   // q = sum over j of exp(-decay |i - j|) p_j; beyond the ends it goes on decaying.
   for (std::size_t m = 0; m < decay_.size(); ++m) {
@@ -88,33 +93,60 @@ void LineInverse::add_elastic_rows(Index node) {
     band_.at(q, q) = is_end ? std::exp(decay_[m]) * scale : 1;
     if (node > 0) band_.at(q, q - block_) = -scale;
     if (node + 1 < n_) band_.at(q, q + block_) = -scale;
-    band_.at(q, p) = -2 * std::sinh(decay_[m]) * scale;
+    for (Index k = first_pressure; k <= p; ++k) {
+      band_.at(q, k) = -2 * std::sinh(decay_[m]) * scale;
+    }
     if (!is_end) band_.at(h, q) = -weight_[m];
   }
   band_.at(h, h) = is_end ? 1 : -2;
   if (is_end) return;
-  band_.at(h, p) = -central_;
-  for (const Index side : {-block_, block_}) {
-    band_.at(h, h + side) = 1;
-    band_.at(h, p + side) = -next_;
+  for (Index k = first_pressure; k <= p; ++k) {
+    band_.at(h, k) = -central_;
+    for (const Index side : {-block_, block_}) band_.at(h, k + side) = -next_;
   }
+  for (const Index side : {-block_, block_}) band_.at(h, h + side) = 1;
 }
 
-Eigen::VectorXd LineInverse::solve_band(const Eigen::VectorXd& by_node, Index place_in_node) const {
-  Eigen::VectorXd all = Eigen::VectorXd::Zero(n_ * block_);
-  for (Index i = 0; i < n_; ++i) all[i * block_ + place_in_node] = by_node[i];
+Eigen::VectorXd LineInverse::unit_film_at(Index node) const {
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(n_ * block_);
+  right[node * block_ + block_ - 1] = 1;
+  return right;
+}
+
+/// The pressures p, and P behind them, that solve the band with this right side.
+Eigen::VectorXd LineInverse::solve_band(const Eigen::VectorXd& right) const {
+  Eigen::VectorXd all = right;
   band_.solve(all.data());
-  Eigen::VectorXd pressure(n_);
-  for (Index i = 0; i < n_; ++i) pressure[i] = all[i * block_ + block_ - 2];
-  return pressure;
+  Eigen::VectorXd pressures(has_asperities_ ? 2 * n_ : n_);
+  for (Index i = 0; i < n_; ++i) {
+    const Index p = i * block_ + block_ - 2;
+    pressures[i] = all[p];
+    if (has_asperities_) pressures[n_ + i] = all[p - 1];
+  }
+  return pressures;
+}
+
+/// p + P.
+Eigen::VectorXd LineInverse::totals(const Eigen::VectorXd& pressures) const {
+  Eigen::VectorXd total = pressures.head(n_);
+  if (has_asperities_) total += pressures.tail(n_);
+  return total;
 }
 
 Eigen::VectorXd LineInverse::operator()(const Eigen::VectorXd& right) const {
-  const Eigen::VectorXd given = solve_band(right.head(n_), block_ - 2);
-  const Eigen::Vector3d lacking(end_row_.dot(given), end_row_.reverse().dot(given),
-                                right[n_] - load_weight_ * given.sum());
+  Eigen::VectorXd rows = Eigen::VectorXd::Zero(n_ * block_);
+  for (Index i = 0; i < n_; ++i) {
+    const Index p = i * block_ + block_ - 2;
+    rows[p] = right[i];
+    if (has_asperities_) rows[p - 1] = right[n_ + i];
+  }
+  const Eigen::VectorXd given = solve_band(rows);
+  const Eigen::VectorXd total = totals(given);
+  const Index h0 = right.size() - 1;
+  const Eigen::Vector3d lacking(end_row_.dot(total), end_row_.reverse().dot(total),
+                                right[h0] - load_weight_ * total.sum());
   const Eigen::Vector3d ends = border_.partialPivLu().solve(lacking);
-  Eigen::VectorXd result(n_ + 1);
+  Eigen::VectorXd result(h0 + 1);
   result << given + ends[0] * by_first_ + ends[1] * by_last_, ends[2];
   return result;
 }

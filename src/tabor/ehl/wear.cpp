@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -28,6 +29,9 @@ void check(const WearProblem& problem) {
           "1 or more");
   require(problem.steps_per_cycle >= 1, "steps per cycle",
           static_cast<double>(problem.steps_per_cycle), "1 or more");
+  require(!(problem.contact.asperities.boundary_film > 0), "boundary film of a worn track [m]",
+          problem.contact.asperities.boundary_film,
+          "none: asperities are followed in steady films");
   require(problem.stroke >= 0 && std::isfinite(problem.stroke), "stroke [m]", problem.stroke,
           "zero or more");
   const Eigen::ArrayXd x = line_nodes(problem.contact);
@@ -60,6 +64,24 @@ WearProblem completed(WearProblem problem) {
     problem.track_length = x[x.size() - 1] - x[0] + spacing * (1 + 2 * each_side);
   }
   return problem;
+}
+
+/// A step that moves the track further than this share of the contact, or of a wave, blurs it.
+constexpr double kLargestMove = 0.25;
+
+std::vector<std::string> doubts_of(const WearProblem& problem, double time_step) {
+  const double move = problem.contact.sliding_speed * time_step;
+  double length = hertz_of(problem.contact).half_width;
+  if (problem.wave_amplitude > 0 && problem.n_waves > 0) {
+    length = std::min(length, problem.track_length / static_cast<double>(problem.n_waves));
+  }
+  const bool varies = problem.stroke > 0 || problem.wave_amplitude > 0;
+  if (!varies || move <= kLargestMove * length) return {};
+  const double factor = move / (kLargestMove * length);
+  return {
+      fmt::format("each step moves the track by {:.2g} of the half width of the contact or of a "
+                  "wave, which blurs the film: give {:.0f} steps per cycle or more",
+                  move / length, std::ceil(factor * static_cast<double>(problem.steps_per_cycle)))};
 }
 
 /// The worn surface and where it is.
@@ -179,6 +201,7 @@ class Wearing {
     result_.depth = track_.depth();
     result_.worn_area = spacing_ * track_.depth().sum();
     result_.time_step = motion_.time_step();
+    result_.doubts = doubts_of(problem_, motion_.time_step());
     return std::move(result_);
   }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "tabor/ehl/line.hpp"
@@ -45,6 +46,7 @@ struct WearResult {
   double worn_area = 0;              ///< [m^2], volume per width
   int newton_iterations = 0;
   bool converged = false;
+  std::vector<std::string> doubts;
 };
 
 /// Follows the film by implicit Euler steps. The nodes of the track move with it from node to node
