@@ -35,6 +35,7 @@ struct PointProblem {
   Field roughness;          ///< s [m], asperities up, at rest; empty: smooth
   double tolerance = 1e-6;  ///< on the largest relative residual: flow, load
   int max_iterations = 60;
+  bool sparse_factors = false;  ///< of the local equations in each iteration (benchmarks)
 };
 
 /// A film under pressure, part of it perhaps carried by touching solids. p_total = pressure +
@@ -51,7 +52,8 @@ struct PointResult {
   double load_error = 0;         ///< relative
   double mass_error = 0;         ///< largest imbalance of a cell over the flow through the contact
   int newton_iterations = 0;
-  int n_products = 0;  ///< with the elastic operator
+  int n_products = 0;           ///< with the elastic operator, beside the inverse's own
+  int n_linear_iterations = 0;  ///< of GMRES
   bool converged = false;
   std::vector<std::string> doubts;
 };

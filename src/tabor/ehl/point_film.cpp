@@ -46,7 +46,8 @@ PointFilm::PointFilm(const PointProblem& problem)
   units_.pressure = 1.5 * load / (std::numbers::pi * pressed_width_x_ * pressed_width_y_);
   units_.film = std::max(hertz.half_axis_x * hertz.half_axis_x / problem.radius_x, film_scale_);
   units_.load = load;
-  levels_ = point_levels(grid_, problem.effective_modulus, units_.pressure / units_.film);
+  levels_ = point_levels(grid_, problem.effective_modulus, units_.pressure / units_.film,
+                         !problem.sparse_factors);
 }
 
 PointState PointFilm::hertz_start(double min_film) const {

@@ -68,12 +68,13 @@ Field PointTransfer::transposed(const Field& fine) const {
   return coarse;
 }
 
-std::vector<PointLevel> point_levels(const Grid& grid, double effective_modulus, double unit) {
+std::vector<PointLevel> point_levels(const Grid& grid, double effective_modulus, double unit,
+                                     bool coarsen) {
   std::vector<PointLevel> levels;
   Grid now = grid;
   for (;;) {
     levels.push_back({now, PointElastic(now, effective_modulus, unit), {}});
-    if (std::max(now.nx, now.ny) <= kCoarsest) return levels;
+    if (!coarsen || std::max(now.nx, now.ny) <= kCoarsest) return levels;
     const Grid next = coarser(now);
     levels.back().to_coarser.emplace(now, next);
     now = next;

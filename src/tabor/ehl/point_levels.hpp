@@ -39,7 +39,8 @@ struct PointLevel {
 };
 
 /// The grid of a film and coarser ones with about half as many nodes along each side. `unit`: as
-/// for PointElastic.
-std::vector<PointLevel> point_levels(const Grid& grid, double effective_modulus, double unit);
+/// for PointElastic. Without `coarsen`, the grid of the film alone.
+std::vector<PointLevel> point_levels(const Grid& grid, double effective_modulus, double unit,
+                                     bool coarsen = true);
 
 }  // namespace tabor::ehl

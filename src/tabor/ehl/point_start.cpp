@@ -170,6 +170,7 @@ PointResult result_of(const PointProblem& problem, const PointFilm& film, const 
                      .mass_error = outcome.mass_error,
                      .newton_iterations = outcome.iterations,
                      .n_products = outcome.n_products,
+                     .n_linear_iterations = outcome.n_linear_iterations,
                      .converged = outcome.converged,
                      .doubts = {}};
   result.doubts = doubts_of(problem, result);
