@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "ehl/akchurin.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/resources.hpp"
 #include "tabor/ehl/wear.hpp"
@@ -24,13 +25,7 @@ constexpr Index kLargestPlain = 1000;
 constexpr int kRepeats = 3;
 
 ehl::LineProblem table_6(Index nodes) {
-  ehl::LineProblem problem;
-  problem.radius = 2.5e-3;
-  problem.effective_modulus = 1.05e9 / (1 - 0.35 * 0.35);
-  problem.load = 5000;
-  problem.entrainment_speed = 7.9e-3;
-  problem.sliding_speed = 15.8e-3;
-  problem.lubricant.viscosity = material::barus_viscosity(0.3638, 5.9e-9);
+  ehl::LineProblem problem = test::table_6();
   problem.nodes = nodes;
   return problem;
 }
