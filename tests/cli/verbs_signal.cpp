@@ -91,6 +91,23 @@ TEST_F(SignalVerbs, PsdLeavesSpectraOutWhereThereAreHoles) {
   EXPECT_THAT(psd.at("warnings").dump(), HasSubstr("--fill harmonic"));
 }
 
+TEST_F(SignalVerbs, TheirFilesSayWhatToCite) {
+  ASSERT_EQ(run_tabor({"psd", file("a.sdf"), "--tip-radius", "1um", "-o", file("c.h5")}).code, 0);
+  const io::Json psd = json_of({"cite", file("c.h5")}).at("bibtex");
+  EXPECT_TRUE(psd.contains("jacobs2017"));
+  EXPECT_TRUE(psd.contains("sanner2022"));
+  EXPECT_FALSE(psd.contains("padfield2012"));
+  ASSERT_EQ(run_tabor({"combine", file("a.sdf"), worn(), "-o", file("loss.h5")}).code, 0);
+  ASSERT_EQ(run_tabor({"convert", file("loss.h5"), file("again.h5")}).code, 0);
+  for (const char* map : {"loss.h5", "again.h5"}) {
+    EXPECT_TRUE(json_of({"cite", file(map)}).at("bibtex").contains("padfield2012")) << map;
+  }
+  const std::vector<std::string> given = {"combine", file("a.sdf"), file("a.sdf"),   "--shift",
+                                          "1um,0um", "-o",          file("moved.h5")};
+  ASSERT_EQ(run_tabor(given).code, 0);
+  EXPECT_FALSE(json_of({"cite", file("moved.h5")}).at("bibtex").contains("padfield2012"));
+}
+
 TEST_F(SignalVerbs, DespikeSaysHowManyItTook) {
   topography::Topography scan = topography::read(file("a.sdf"));
   scan.height(40, 60) += 20e-6;

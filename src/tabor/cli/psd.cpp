@@ -50,6 +50,14 @@ PsdCurves compute(const Request& request, const Scan& scan, Context& context) {
   return curves;
 }
 
+/// Keys of references.bib.
+std::vector<std::string> methods_of(const PsdCurves& curves) {
+  std::vector<std::string> methods;
+  if (curves.spectra) methods = {"jacobs2017", "frigo2005"};
+  if (curves.with_tip) methods.emplace_back("sanner2022");
+  return methods;
+}
+
 int show(const Request& request, Context& context) {
   if (request.output) check_curves_file(*request.output);
   const Scan scan = load_scan(request.scan, context);
@@ -59,7 +67,7 @@ int show(const Request& request, Context& context) {
   add_curves(object, curves);
   std::string text = text_of(scan, curves);
   if (request.output) {
-    write_curves(columns_of(curves), *request.output, context);
+    write_curves(columns_of(curves), *request.output, context, methods_of(curves));
     object["output"] = *request.output;
     text += "written " + *request.output + '\n';
   }

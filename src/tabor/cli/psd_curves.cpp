@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "tabor/cli/fields_file.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/core/version.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/csv.hpp"
 #include "tabor/io/hdf5.hpp"
@@ -43,15 +43,14 @@ void check_curves_file(const std::filesystem::path& file) {
 }
 
 void write_curves(const std::vector<Curve>& curves, const std::filesystem::path& file,
-                  const Context& context) {
+                  const Context& context, const std::vector<std::string>& methods) {
   check_curves_file(file);
   if (file.extension() == ".csv") {
     io::write_file(file, csv_of(curves));
     return;
   }
   io::Hdf5Writer writer(file);
-  writer.attribute("/", "tabor_version", kVersion);
-  writer.attribute("/", "command", context.command_line);
+  write_result_head(writer, context, "", methods);
   for (const Curve& curve : curves) {
     const std::string path = "/curves/" + curve.name;
     writer.write(path, curve.values);

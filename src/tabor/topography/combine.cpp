@@ -157,6 +157,8 @@ Combination combine(const Topography& first, const Topography& second,
     result.map.height = remove_plane(difference, result.plane);
   }
   result.map.history.push_back(line_of(result, options, b));
+  // Replaces what the first scan's file says; `tabor cite` reads it from what is written.
+  result.map.metadata["methods"] = result.registration ? "padfield2012" : "";
   result.map.source = first.source + (composite ? " + " : " - ") + second.source;
   const PixelWindow window = valid_window(result.map.height);  // before the map is moved away
   result.map = crop(std::move(result.map), window);

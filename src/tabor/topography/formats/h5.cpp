@@ -4,6 +4,7 @@
 #include <chrono>
 #include <ctime>
 
+#include "tabor/core/text.hpp"
 #include "tabor/core/version.hpp"
 #include "tabor/topography/formats/hdf5_scan.hpp"
 #include "tabor/topography/formats/readers.hpp"
@@ -76,6 +77,10 @@ Document describe(const Contents& contents) {
   document.periodic =
       reader.has_attribute("/surface", "periodic") && reader.integer("/surface", "periodic") != 0;
   document.metadata["source"] = text_or_empty(reader, "source");
+  if (reader.has_attribute("/", "methods")) {
+    document.metadata["methods"] =
+        fmt::format("{}", fmt::join(reader.attribute_texts("/", "methods"), " "));
+  }
   // Doubts are found anew in the heights; the old ones may have been treated away since.
   for (const std::string& doubt : texts_or_none(reader, "doubts")) {
     document.metadata["earlier doubts"] += doubt + "; ";
@@ -112,6 +117,10 @@ void write_h5(const Topography& topography, const std::filesystem::path& file) {
   writer.attribute("/", "software_version", kVersion);
   writer.attribute("/", "created", now_utc());
   writer.attribute("/", "default", "surface");
+  if (const auto methods = topography.metadata.find("methods");
+      methods != topography.metadata.end() && !methods->second.empty()) {
+    writer.attribute("/", "methods", split(methods->second, ' '));
+  }
   write_surface_group(writer, topography, topography.source);
   writer.commit();
 }
