@@ -84,8 +84,12 @@ def legend_on_top(figure, entries):
     )
 
 
-def entries(axes):
-    """{label: handle} of one panel, curves before guide lines."""
+def entries(*panels):
+    """{label: handle} of one or more panels, in each curves before guide lines."""
+    return {label: handle for axes in panels for label, handle in _entries_of(axes).items()}
+
+
+def _entries_of(axes):
     pairs = zip(*axes.get_legend_handles_labels())
     ordered = sorted(pairs, key=lambda pair: isinstance(pair[0], Line2D))
     return {label: handle for handle, label in ordered}

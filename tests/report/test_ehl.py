@@ -6,6 +6,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import h5py
 import numpy as np
 
 from synthetic_file import new_file
@@ -229,6 +230,17 @@ class Ehl(unittest.TestCase):
         text = files[-1].read_text("utf-8")
         self.assertIn("roughness.bump.height", text)
         self.assertIn("1 um, 2 um", text)
+
+    def test_a_mixed_line_contact_shows_what_asperities_carry(self):
+        def mixed_file(path):
+            line_file(path)
+            with h5py.File(path, "a") as file:
+                file["profile/asperity_pressure"] = 0.5 * file["profile/hertz_pressure"][()]
+
+        drawing = self.drawings(mixed_file)["line_profile"]
+        self.assertAlmostEqual(float(self.rows(drawing)[500]["asperity_pressure_Pa"]) / 12.5e6, 1)
+        labels = [text.get_text() for text in drawing.figure.legends[0].get_texts()]
+        self.assertIn("pressure of asperities", labels)
 
     def test_the_page_of_an_impact_is_written(self):
         path = self.folder / "impact.h5"

@@ -25,7 +25,7 @@ def squeeze(source):
     left.set_ylabel("force per width (kN/m)")
     right.set_ylabel("film thickness (µm)")
     right.spines["right"].set_visible(True)
-    style.legend_on_top(figure, {**style.entries(left), **style.entries(right)})
+    style.legend_on_top(figure, style.entries(left, right))
     yield Drawn(
         "squeeze",
         "Force and film against time",

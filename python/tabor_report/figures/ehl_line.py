@@ -8,6 +8,7 @@ from tabor_report.output import table_text
 
 MM, UM, NM, MPA = 1e3, 1e6, 1e9, 1e-6
 REACH = 2.2  # half widths of the dry contact
+PROFILE = {"x": "m", "pressure": "Pa", "asperity_pressure": "Pa", "film": "m", "hertz_pressure": "Pa"}
 FILMS_SHOWN = 6  # over the film in the contact
 
 
@@ -37,9 +38,12 @@ def _profile(source, profile):
     left = grid[0][0]
     right = left.twinx()
     left.fill_between(x * UM, dry * MPA, color="0.88", linewidth=0, label="Hertz, dry")
-    left.plot(x * UM, pressure * MPA, color=style.COLOURS[1], label="pressure")
+    left.plot(x * UM, pressure * MPA, color=style.COLOURS[1], label="pressure of the liquid")
+    solid = profile.get("asperity_pressure")
+    if solid is not None and solid.any():
+        left.plot(x * UM, solid * MPA, color=style.COLOURS[3], linewidth=0.8, label="pressure of asperities")
     right.plot(x * UM, film * NM, color=style.COLOURS[0], label="film thickness")
-    reach = _reach(x, pressure, dry)
+    reach = _reach(x, pressure if solid is None else pressure + solid, dry)
     left.set_xlim(max(x[0], -reach) * UM, min(x[-1], reach) * UM)
     left.set_ylim(bottom=0)
     inside = np.abs(x) <= 0.5 * reach
@@ -48,13 +52,13 @@ def _profile(source, profile):
     left.set_ylabel("pressure (MPa)")
     right.set_ylabel("film thickness (nm)")
     right.spines["right"].set_visible(True)
-    style.legend_on_top(figure, {**style.entries(left), **style.entries(right)})
+    style.legend_on_top(figure, style.entries(left, right))
     return Drawn(
         "line_profile",
         "Pressure and film along the flow",
         "Grey: the pressure of the same cylinder without liquid. The film is thinnest before the outlet.",
         figure,
-        {"": table_text({"x_m": x, "pressure_Pa": pressure, "film_m": film, "hertz_pressure_Pa": dry})},
+        {"": table_text({f"{name}_{unit}": profile[name] for name, unit in PROFILE.items() if name in profile})},
     )
 
 
@@ -87,7 +91,7 @@ def _wear_history(wear):
     bottom.set_ylabel(f"film thickness ({film_unit})")
     bottom.set_xlabel(f"time ({unit})")
     bottom.set_xlim(time[0], time[-1])
-    style.legend_on_top(figure, {**style.entries(top), **style.entries(bottom)})
+    style.legend_on_top(figure, style.entries(top, bottom))
     names = {
         "time": "time_s",
         "distance": "distance_m",

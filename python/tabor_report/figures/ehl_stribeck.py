@@ -1,4 +1,4 @@
-"""Stribeck curves: friction, film and solid contact of a point contact against speed."""
+"""Stribeck curves: friction, film and solid contact of a point or line contact against speed."""
 
 import numpy as np
 
@@ -12,7 +12,8 @@ SPEEDS = ("motion.speed", "motion.entrainment_speed")
 
 
 def is_one(source):
-    return source.program == "point" and any(key in source.file["sweep/axes"] for key in SPEEDS)
+    sweep = source.file["sweep"]
+    return any(key in sweep["axes"] for key in SPEEDS) and all(name in sweep for name in _Curve.NAMES)
 
 
 def draw(source):
