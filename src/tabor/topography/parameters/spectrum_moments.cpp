@@ -6,6 +6,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/spectral/fft.hpp"
 #include "tabor/spectral/strips.hpp"
+#include "tabor/topography/half_spectrum.hpp"
 #include "tabor/topography/parameters/height_moments.hpp"
 #include "tabor/topography/parameters/spectral_moments.hpp"
 #include "tabor/topography/rows.hpp"
@@ -38,10 +39,9 @@ Sums of_mode(double power, double qx, double qy) {
 
 /// Sums over one column of the spectrum; frequency kx stands for -kx too.
 Sums of_column(const std::complex<double>* column, Index kx, const Grid& grid) {
-  const double multiplicity = kx == 0 || 2 * kx == grid.nx ? 1 : 2;
   const double qx = spectral::wavevector(kx, grid.nx, grid.lx);
-  const double norm =
-      multiplicity / (static_cast<double>(grid.size()) * static_cast<double>(grid.size()));
+  const double norm = multiplicity(kx, grid.nx) /
+                      (static_cast<double>(grid.size()) * static_cast<double>(grid.size()));
   Sums sums = Sums::Zero();
   for (Index ky = kx == 0 ? 1 : 0; ky < grid.ny; ++ky) {
     sums += of_mode(norm * std::norm(column[ky]), qx, spectral::wavevector(ky, grid.ny, grid.ly));
