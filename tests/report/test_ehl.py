@@ -117,6 +117,7 @@ def stribeck_file(path):
             "friction_solid": [0.0, 0.02, 0.08, 0.0, 0.0, 0.0],
             "central_film_m": [8e-7, 1.7e-7, 4e-8, 8e-7, 1.7e-7, 4e-8],
             "solid_contact_fraction": [0, 0.1, 0.4, 0, 0, 0],
+            "plastic_fraction": [0, 0.08, 0.35, 0, 0, 0],
             "converged": [1, 1, 0, 1, 1, 1],
         }
         for name, values in columns.items():

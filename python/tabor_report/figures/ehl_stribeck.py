@@ -36,7 +36,8 @@ def draw(source):
     yield Drawn(
         "stribeck",
         "Stribeck curve",
-        "Friction of film and solids, central film and solid contact against speed." + doubt,
+        "Friction of film and solids; below, the central film and, on the right, how much of the dry contact's "
+        "area is plastic or touches." + doubt,
         figure,
         {"": table_text(data)},
     )
@@ -52,13 +53,15 @@ class _Curve:
         "central_film_m",
         "solid_contact_fraction",
     )
+    OF_SOME = ("plastic_fraction",)
 
     def __init__(self, node, keys, key, index, label):
         shape = [len(node["axes"][other]) for other in keys]
         order = np.argsort(node["axes"][key][()])
         self.label = label
         self.speed = node["axes"][key][()][order]
-        self.values = {name: node[name][()].reshape(shape)[index][order] for name in self.NAMES}
+        names = [*self.NAMES, *(name for name in self.OF_SOME if name in node)]
+        self.values = {name: node[name][()].reshape(shape)[index][order] for name in names}
         self.sure = node["converged"][()].reshape(shape)[index][order] > 0
 
     def data(self):
@@ -76,9 +79,10 @@ class _Curve:
             top.plot(self.speed, self.values[name], color=colour, label=prefix + text, **look)
         unsure = np.where(self.sure, np.nan, self.values["friction_coefficient"])
         top.plot(self.speed, unsure, color=style.WARNING, marker="x", linestyle="none", markersize=9)
-        film, solid = self.values["central_film_m"] * NM, 100 * self.values["solid_contact_fraction"]
-        bottom.plot(self.speed, film, color=colour, marker=marker, markersize=4)
-        share.plot(self.speed, solid, color=colour, linestyle="-.", linewidth=1)
+        bottom.plot(self.speed, self.values["central_film_m"] * NM, color=colour, marker=marker, markersize=4)
+        for name, line in (("plastic_fraction", "-."), ("solid_contact_fraction", ":")):
+            if name in self.values:
+                share.plot(self.speed, 100 * self.values[name], color=colour, linestyle=line, linewidth=1)
 
 
 def _label_stribeck(top, bottom, share, which):
@@ -91,6 +95,6 @@ def _label_stribeck(top, bottom, share, which):
         axes.grid(color="0.92", linewidth=0.6)
     top.set_ylabel("friction coefficient")
     bottom.set_ylabel("mean central film (nm)")
-    share.set_ylabel("solid contact (%), dash-dotted")
+    share.set_ylabel("plastic (dash-dotted), touching (%)")
     share.spines["right"].set_visible(True)
     bottom.set_xlabel(f"{which} speed (m/s)")
