@@ -22,7 +22,6 @@ struct Sample {
   Grid grid{.nx = kNx, .ny = kNy, .lx = 9e-5, .ly = 1.4e-4};
   material::Lubricant lubricant;
   Field pressure{kNy, kNx}, film{kNy, kNx};
-  Mask touching;
   PointStorage storage;
   PointUnits units{.pressure = 3e8, .film = 2e-7, .load = 1};
 
@@ -42,8 +41,7 @@ struct Sample {
                           .speed = 0.3,
                           .sliding_speed = 0.2,
                           .pressure = pressure,
-                          .film = film,
-                          .touching = touching},
+                          .film = film},
                          storage, units);
   }
 };
@@ -82,10 +80,6 @@ TEST(PointBalance, HasTheDerivativesOfDifferences) {
   Sample transient;
   transient.storage = {.time_step = 1e-4, .old_mass = Field::Constant(kNy, kNx, 1e-7)};
   EXPECT_LE(error_of_derivatives(transient), 1e-8);
-  Sample touching;
-  touching.touching = Mask::Constant(kNy, kNx, false);
-  touching.touching(3, 4) = touching.touching(3, 5) = touching.touching(1, 2) = true;
-  EXPECT_LE(error_of_derivatives(touching), 1e-8);
 }
 
 TEST(PointBalance, WhatHappensInsideNeitherMakesNorLosesMass) {
@@ -97,17 +91,8 @@ TEST(PointBalance, WhatHappensInsideNeitherMakesNorLosesMass) {
       sample.film(j, i) *= 0.6;
     }
   }
-  sample.touching = Mask::Constant(kNy, kNx, false);
-  sample.touching(3, 4) = true;
   const Field after = sample.balance().residual;
   EXPECT_NEAR(after.sum(), before, 1e-12 * after.abs().maxCoeff());
-}
-
-TEST(PointBalance, NothingFlowsWhereSolidsTouch) {
-  Sample sample;
-  sample.touching = Mask::Constant(kNy, kNx, false);
-  sample.touching(3, 4) = true;
-  EXPECT_EQ(sample.balance().residual(3, 4), 0);
 }
 
 TEST(PointBalance, CarriesAPositiveMassOverAnyStep) {
@@ -143,14 +128,12 @@ double kapitza_imbalance(Index nodes, double radius_ratio) {
           -12 * kViscosity * kSpeed * place[i] / ((3 + 2 * radius_ratio) * film(j, i) * film(j, i));
     }
   }
-  const Mask touching;
   const PointBalance balance = point_balance({.grid = grid,
                                               .lubricant = lubricant,
                                               .speed = kSpeed,
                                               .sliding_speed = 0,
                                               .pressure = pressure,
-                                              .film = film,
-                                              .touching = touching},
+                                              .film = film},
                                              {}, {.pressure = 1, .film = kFilm, .load = 1});
   // Where the domain begins the film is extrapolated from fewer nodes.
   const Field inner = balance.residual.block(2, 3, nodes - 4, nodes - 5);
@@ -165,42 +148,6 @@ TEST(PointBalance, KapitzasPressureBalancesToSecondOrder) {
     test::expect_within("EHL", "Kapitza, rigid point contact", "imbalance, 97 nodes, relative",
                         "Kapitza 1955", fine, 0.2);
   }
-}
-
-TEST(PointFilm, LiquidGoesRoundTouchingSolids) {
-  const PointProblem problem = compressible(moes_case(100, 8, 49));
-  PointFilm film(problem);
-  film.solid.touching = Mask::Constant(49, 49, false);
-  film.solid.touching.block(23, 34, 3, 3) = true;
-  film.solid.pressure = Field::Zero(49, 49);
-  film.solid.pressure.block(23, 34, 3, 3) = 1e8;
-  PointState state = film.hertz_start(3 * film.film_scale());
-  const PointFilm::Outcome outcome = film.solve(state, {});
-  ASSERT_TRUE(outcome.converged);
-  EXPECT_LE(outcome.mass_error, problem.tolerance);
-  EXPECT_TRUE((state.pressure.block(23, 34, 3, 3) == 0).all());
-  const double carried = (state.pressure + film.solid.pressure).sum() * film.grid().pixel_area();
-  EXPECT_NEAR(carried / problem.load, 1, 1e-6);
-}
-
-TEST(PointFilm, LiquidThatSolidsCloseOffHasNoPressure) {
-  const PointProblem problem = compressible(moes_case(100, 8, 49));
-  PointFilm film(problem);
-  film.solid.touching = Mask::Constant(49, 49, false);
-  film.solid.touching.block(22, 34, 4, 4) = true;
-  film.solid.touching.block(23, 35, 2, 2) = false;
-  PointState state = film.hertz_start(3 * film.film_scale());
-  ASSERT_TRUE(film.solve(state, {}).converged);
-  EXPECT_TRUE((state.pressure.block(22, 34, 4, 4) == 0).all());
-}
-
-TEST(PointFilm, PlasticDepthOpensTheGap) {
-  const PointProblem problem = compressible(moes_case(100, 8, 33));
-  PointFilm film(problem);
-  PointState state = film.hertz_start(3 * film.film_scale());
-  film.solid.plastic_depth = Field::Constant(33, 33, 1e-7);
-  const Field before = state.film;
-  EXPECT_LE((film.film_of(state) - before - 1e-7).abs().maxCoeff(), 1e-18);
 }
 
 TEST(PointFilm, ASteadyFilmStaysWhenTimeGoesOn) {

@@ -30,7 +30,6 @@ class NodeLiquid {
     for (Index k = 0; k < flow.film.size(); ++k) set_viscosities(k);
   }
 
-  bool touches(Index k) const { return flow_.touching.size() > 0 && flow_.touching.data()[k]; }
   double mass(Index k) const { return laws_.density[k] * flow_.film.data()[k]; }
   double density(Index k) const { return laws_.density[k]; }
   double mass_by_pressure(Index k) const {
@@ -51,7 +50,6 @@ class NodeLiquid {
 
  private:
   void set_viscosities(Index k) {
-    if (touches(k)) return;
     const double film = flow_.film.data()[k];
     const double rate = flow_.sliding_speed / film;
     const material::FlowViscosity viscosity = material::flow_viscosity(
@@ -107,7 +105,6 @@ class Assembly {
   void add_flow_along(Index j) {
     for (Index i = 0; i + 1 < nx_; ++i) {
       const Index k = j * nx_ + i;
-      if (liquid_.touches(k) || liquid_.touches(k + 1)) continue;
       add_driven(k, k + 1,
                  lubrication::face_flow(liquid_.node(k, true, dx_ / 2),
                                         liquid_.node(k + 1, true, dx_ / 2), 0),
@@ -120,7 +117,6 @@ class Assembly {
   void add_flow_across(Index j) {
     for (Index i = 1; i + 1 < nx_; ++i) {
       const Index k = j * nx_ + i;
-      if (liquid_.touches(k) || liquid_.touches(k + nx_)) continue;
       add_driven(k, k + nx_,
                  lubrication::face_flow(liquid_.node(k, false, dy_ / 2),
                                         liquid_.node(k + nx_, false, dy_ / 2), 0),
@@ -164,10 +160,6 @@ class Assembly {
     if (i == 0) {  // the mean of both nodes
       add_carried_part(k, 0, 0.5, 0.5 * liquid_.mass(k));
       add_carried_part(k, 1, 0.5, 0.5 * liquid_.mass(k + 1));
-      return;
-    }
-    if (liquid_.touches(k - 1)) {
-      add_carried_part(k, 0, 1, liquid_.mass(k));
       return;
     }
     const CarriedMass mass(liquid_.mass(k), liquid_.mass(k - 1));

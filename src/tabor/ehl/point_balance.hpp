@@ -53,8 +53,7 @@ struct PointFlow {
   double speed = 0;          ///< u_m [m/s], > 0
   double sliding_speed = 0;  ///< [m/s]
   const Field& pressure;     ///< [Pa]
-  const Field& film;         ///< [m], > 0 except where `touching`
-  const Mask& touching;      ///< cells that nothing flows through; empty: none
+  const Field& film;         ///< [m], > 0
 };
 
 /// Finite volumes: every face has one flow, shared by its two cells, so mass is conserved to

@@ -85,19 +85,7 @@ Field PointFilm::deflection(const Field& pressure) const {
 }
 
 Field PointFilm::film_of(const PointState& state) const {
-  const bool shared = solid.pressure.size() > 0;
-  Field film = deflection(shared ? Field(state.pressure + solid.pressure) : state.pressure);
-  film += shape + state.separation;
-  if (solid.plastic_depth.size() > 0) film += solid.plastic_depth;
-  return film;
-}
-
-void PointFilm::lift(PointState& state, double min_film) const {
-  state.film = film_of(state);
-  const double lacking = min_film - least_film(state);
-  if (!(lacking > 0)) return;
-  state.separation += lacking;
-  state.film += lacking;
+  return deflection(state.pressure) + shape + state.separation;
 }
 
 Field PointFilm::mass_of(const PointState& state) const {
@@ -110,7 +98,6 @@ Mask PointFilm::held(const PointState& state) const {
   Mask held = state.cavity;
   held.row(0) = held.row(held.rows() - 1) = true;
   held.col(0) = held.col(held.cols() - 1) = true;
-  if (closed_.size() > 0) held = held || closed_;
   return held;
 }
 
@@ -120,14 +107,12 @@ PointFlow PointFilm::flow_of(const PointState& state) const {
           .speed = speed,
           .sliding_speed = problem_.sliding_speed,
           .pressure = state.pressure,
-          .film = state.film,
-          .touching = solid.touching};
+          .film = state.film};
 }
 
 PointFilm::Linear PointFilm::linearize(const PointState& state, const PointStorage& storage) const {
   Linear linear{.balance = point_balance(flow_of(state), storage, units_)};
-  const double solid_load = solid.pressure.size() > 0 ? solid.pressure.sum() : 0;
-  linear.load = (grid_.pixel_area() * (state.pressure.sum() + solid_load) - load) / units_.load;
+  linear.load = (grid_.pixel_area() * state.pressure.sum() - load) / units_.load;
   return linear;
 }
 
@@ -200,8 +185,7 @@ Eigen::VectorXd PointFilm::newton_step(const Linear& linear, const PointState& s
 double PointFilm::merit(const Linear& linear, const PointState& state) const {
   const Mask held = this->held(state);
   const Field& residual = linear.balance.residual;
-  Field open = held.select(state.cavity.select(residual.min(0), 0), residual);
-  if (closed_.size() > 0) open = closed_.select(0, open);
+  const Field open = held.select(state.cavity.select(residual.min(0), 0), residual);
   const double relative = units_.film / film_scale_;
   return std::sqrt(open.square().sum() * relative * relative / static_cast<double>(x_.size()) +
                    linear.load * linear.load);
@@ -219,13 +203,7 @@ bool PointFilm::step_to(const PointState& old, const Eigen::VectorXd& step, doub
   state.pressure = state.pressure.max(0);
   if (!material::computable_range(lubricant).contains(state.pressure.maxCoeff())) return false;
   state.film = film_of(state);
-  return least_film(state) > kThinnest * least_film(old);
-}
-
-/// Where solids do not touch [m].
-double PointFilm::least_film(const PointState& state) const {
-  if (solid.touching.size() == 0) return state.film.minCoeff();
-  return solid.touching.select(state.film.maxCoeff(), state.film).minCoeff();
+  return state.film.minCoeff() > kThinnest * old.film.minCoeff();
 }
 
 /// Applies a Newton correction, halved until the gap stays open and the residual does not grow
@@ -253,7 +231,6 @@ bool PointFilm::refill(const Linear& linear, PointState& state) const {
   bool changed = false;
   for (Index k = 0; k < held.size(); ++k) {
     if (!state.cavity.data()[k] || !(linear.balance.residual.data()[k] < -surplus)) continue;
-    if (closed_.size() > 0 && closed_.data()[k]) continue;
     state.cavity.data()[k] = false;
     changed = true;
   }
@@ -269,10 +246,9 @@ void PointFilm::measure(const Linear& linear, const PointState& state, Outcome& 
 PointFilm::Outcome PointFilm::solve(PointState& state, const PointStorage& storage,
                                     const Observer& observer) {
   Outcome outcome;
-  closed_ = solid.touching.size() > 0 ? closed_to_flow(solid.touching) : Mask();
   state.pressure = held(state).select(0, state.pressure);
   state.film = film_of(state);
-  if (!(least_film(state) > 0)) return outcome;
+  if (!(state.film.minCoeff() > 0)) return outcome;
   Linear linear = linearize(state, storage);
   while (outcome.iterations < problem_.max_iterations && !outcome.converged) {
     ++outcome.iterations;

@@ -6,13 +6,12 @@
 #include "tabor/ehl/point.hpp"
 #include "tabor/ehl/point_balance.hpp"
 #include "tabor/ehl/point_multigrid.hpp"
-#include "tabor/ehl/point_solids.hpp"
 
 namespace tabor::ehl {
 
 /// The unknowns of a point contact and what follows from them. Arrays have shape (ny, nx).
 struct PointState {
-  Field pressure;         ///< p [Pa] of the liquid, zero on the border and where solids touch
+  Field pressure;         ///< p [Pa], zero on the border
   double separation = 0;  ///< h00 [m]
   Field film;             ///< h [m]
   Mask cavity;            ///< nodes where p = 0 is given and the film may lack liquid
@@ -20,12 +19,10 @@ struct PointState {
 
 /// The equations of a point contact at the nodes of one grid and their solution by Newton's method:
 ///
-///   shape + h00 + h_plast + K (p + P_num) = h ,  balances of cells(p, h) = 0 ,
-///   sum (p + P_num) dx dy = load ,  p >= 0
+///   shape + h00 + K p = h ,  balances of cells(p, h) = 0 ,  sum p dx dy = load ,  p >= 0
 ///
 /// with K by zero-padded transforms (elastic::make_free) and Reynolds' condition where the film
-/// breaks. A loop over the contact of asperities sets `solid` and calls solve() with the state of
-/// the last pass.
+/// breaks: p = 0, and no cell of the cavity gains liquid.
 class PointFilm {
  public:
   explicit PointFilm(const PointProblem& problem);
@@ -38,7 +35,6 @@ class PointFilm {
   const std::vector<PointLevel>& levels() const { return levels_; }  ///< the finest is its own grid
 
   Field shape;  ///< gap of the undeformed bodies [m]: x^2/(2 Rx) + y^2/(2 Ry) - s
-  SolidPart solid;
   material::Lubricant lubricant;
   double load = 0;       ///< [N]
   double speed = 0;      ///< u_m [m/s], > 0
@@ -51,11 +47,9 @@ class PointFilm {
   PointState resampled(const PointState& state, const Grid& from) const;
   /// u [m] under a pressure [Pa] on all nodes.
   Field deflection(const Field& pressure) const;
-  /// h [m] of a state: shape + h00 + h_plast + K (p + P_num).
+  /// h [m] of a state: shape + h00 + K p.
   Field film_of(const PointState& state) const;
   Field mass_of(const PointState& state) const;  ///< rho/rho0 h [m]
-  /// Raises the separation until the film is `min_film` [m] or more where solids do not touch.
-  void lift(PointState& state, double min_film) const;
 
   struct Outcome {
     int iterations = 0;
@@ -77,7 +71,6 @@ class PointFilm {
   void measure(const Linear& linear, const PointState& state, Outcome& outcome) const;
   double merit(const Linear& linear, const PointState& state) const;
   bool refill(const Linear& linear, PointState& state) const;
-  double least_film(const PointState& state) const;
   bool step_to(const PointState& old, const Eigen::VectorXd& step, double share,
                PointState& state) const;
   bool correct(const Eigen::VectorXd& step, const PointStorage& storage, PointState& state,
@@ -92,7 +85,6 @@ class PointFilm {
   Eigen::ArrayXd x_, y_;
   std::vector<PointLevel> levels_;
   PointUnits units_;
-  Mask closed_;  // to flow, by the touching cells of the current solve(); empty: none
   double pressed_width_x_, pressed_width_y_;  // [m], half axes of the pressed ellipse
   double film_scale_;                         // [m]
 };

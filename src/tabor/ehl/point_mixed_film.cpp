@@ -118,14 +118,12 @@ PointResult MixedFilm::result_of(const MixedState& state, const PointFilm::Outco
 }
 
 PointFlow MixedFilm::flow_of(const MixedState& state, const Field& film) const {
-  static const Mask none;  // the boundary film flows: nothing is closed
   return {.grid = film_.grid(),
           .lubricant = film_.lubricant,
           .speed = film_.speed,
           .sliding_speed = sliding_speed_,
           .pressure = state.pressure,
-          .film = film,
-          .touching = none};
+          .film = film};
 }
 
 MixedFilm::Linear MixedFilm::linearize(const MixedState& state) const {

@@ -25,13 +25,11 @@ PointMultigrid::PointMultigrid(const std::vector<PointLevel>& levels, const Poin
   Mask fine_held = uncorrected_.size() > 0 ? Mask(held || uncorrected_) : held;
   Field pressure = flow.pressure;
   Field film = flow.film;
-  Mask touching = flow.touching;
   PointStorage stored = storage;
   for (std::size_t l = 1; l < levels.size(); ++l) {
     const PointTransfer& transfer = *levels[l - 1].to_coarser;
     pressure = transfer.mean(pressure);
     film = transfer.mean(film);
-    touching = mostly(transfer, touching);
     if (stored.time_step > 0) stored.old_mass = transfer.mean(stored.old_mass);
     Mask coarse_held = mostly(transfer, fine_held);
     hold_border(coarse_held);
@@ -40,8 +38,7 @@ PointMultigrid::PointMultigrid(const std::vector<PointLevel>& levels, const Poin
                                 .speed = flow.speed,
                                 .sliding_speed = flow.sliding_speed,
                                 .pressure = pressure,
-                                .film = film,
-                                .touching = touching};
+                                .film = film};
     add_stage(levels[l], point_balance(coarse_flow, stored, units), coarse_held, {});
     fine_held = std::move(coarse_held);
   }

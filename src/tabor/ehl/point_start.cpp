@@ -13,11 +13,9 @@ constexpr Index kCoarsest = 48;  // nodes along a side of a grid that is not coa
 /// The film of the first guess over that of Nijenbanning's formula: Newton's method comes down
 /// safely from a thick film, where the flow depends on the pressure gradient.
 constexpr double kFirstFilms[] = {3, 10, 1, 30};
-constexpr double kRoughly = 1e-2;    // tolerance where a solution is only a start
-constexpr double kLeastStart = 0.1;  // film of a start, over that in the contact
+constexpr double kRoughly = 1e-2;  // tolerance where a solution is only a start
 constexpr double kInletLengths = 4;
-constexpr double kFirstThickening = 0.5;
-constexpr double kFirstRoughening = 1;
+constexpr double kFirstStep = 0.5;
 constexpr double kSmallestStep = 1.0 / 64;
 
 PointFilm::Outcome solve_from_hertz(const PointProblem& problem, PointFilm& film, PointState& state,
@@ -41,16 +39,14 @@ material::Viscosity with_share_of_coefficient(const material::Viscosity& viscosi
 /// Leads a film from share 0 to share 1 of what `apply` sets, in steps that shrink when one fails;
 /// those before the last are solved roughly.
 PointFilm::Outcome ramp(PointFilm& film, PointState& state,
-                        const std::function<void(double)>& apply, double first_step,
-                        const Observer& observer) {
+                        const std::function<void(double)>& apply, const Observer& observer) {
   PointFilm::Outcome outcome;
   const double tolerance = film.tolerance;
   double share = 0;
-  for (double step = first_step; share < 1 && step > kSmallestStep;) {
+  for (double step = kFirstStep; share < 1 && step > kSmallestStep;) {
     PointState next = state;
     const double aim = std::min(1.0, share + step);
     apply(aim);
-    film.lift(next, kLeastStart * film.film_scale());
     film.tolerance = aim < 1 ? std::max(tolerance, kRoughly) : tolerance;
     outcome = outcome + film.solve(next, {}, observer);
     if (outcome.converged) {
@@ -65,9 +61,6 @@ PointFilm::Outcome ramp(PointFilm& film, PointState& state,
   return outcome;
 }
 
-PointFilm::Outcome solve_smooth(const PointProblem& problem, PointFilm& film, PointState& state,
-                                const Observer& observer);
-
 /// From the solution on a grid of twice the spacing, if there is one.
 PointFilm::Outcome solve_nested(const PointProblem& problem, PointFilm& film, PointState& state,
                                 const Observer& observer) {
@@ -78,26 +71,10 @@ PointFilm::Outcome solve_nested(const PointProblem& problem, PointFilm& film, Po
   PointFilm coarse_film(coarse);
   coarse_film.lubricant = film.lubricant;
   coarse_film.tolerance = std::max(film.tolerance, kRoughly);
-  const PointFilm::Outcome before = solve_smooth(coarse, coarse_film, state, observer);
+  const PointFilm::Outcome before = solve_cold(coarse, coarse_film, state, observer);
   if (!before.converged) return before;
   state = film.resampled(state, coarse_film.grid());
   return before + film.solve(state, {}, observer);
-}
-
-PointFilm::Outcome solve_smooth(const PointProblem& problem, PointFilm& film, PointState& state,
-                                const Observer& observer) {
-  PointFilm::Outcome outcome = solve_nested(problem, film, state, observer);
-  if (!outcome.converged) outcome = outcome + solve_from_hertz(problem, film, state, observer);
-  const material::Viscosity viscosity = film.lubricant.viscosity;
-  if (outcome.converged || !(material::pressure_coefficient(viscosity) > 0)) return outcome;
-  film.lubricant.viscosity = with_share_of_coefficient(viscosity, 0);
-  outcome = outcome + solve_from_hertz(problem, film, state, observer);
-  const auto thicken = [&](double share) {
-    film.lubricant.viscosity = with_share_of_coefficient(viscosity, share);
-  };
-  if (outcome.converged) return outcome + ramp(film, state, thicken, kFirstThickening, observer);
-  thicken(1);
-  return outcome;
 }
 
 Index centre_column(const PointProblem& problem) {
@@ -135,18 +112,17 @@ PointFilm::Outcome operator+(const PointFilm::Outcome& before, PointFilm::Outcom
 
 PointFilm::Outcome solve_cold(const PointProblem& problem, PointFilm& film, PointState& state,
                               const Observer& observer) {
-  PointProblem smooth = problem;
-  smooth.roughness.resize(0, 0);
-  if (problem.roughness.size() == 0) return solve_smooth(smooth, film, state, observer);
-  const Field rough = film.shape;
-  film.shape = rough + problem.roughness;
-  const double tolerance = film.tolerance;
-  film.tolerance = std::max(tolerance, kRoughly);
-  PointFilm::Outcome outcome = solve_smooth(smooth, film, state, observer);
-  film.tolerance = tolerance;
-  const auto roughen = [&](double share) { film.shape = rough + (1 - share) * problem.roughness; };
-  if (outcome.converged) return outcome + ramp(film, state, roughen, kFirstRoughening, observer);
-  roughen(1);
+  PointFilm::Outcome outcome = solve_nested(problem, film, state, observer);
+  if (!outcome.converged) outcome = outcome + solve_from_hertz(problem, film, state, observer);
+  const material::Viscosity viscosity = film.lubricant.viscosity;
+  if (outcome.converged || !(material::pressure_coefficient(viscosity) > 0)) return outcome;
+  film.lubricant.viscosity = with_share_of_coefficient(viscosity, 0);
+  outcome = outcome + solve_from_hertz(problem, film, state, observer);
+  const auto thicken = [&](double share) {
+    film.lubricant.viscosity = with_share_of_coefficient(viscosity, share);
+  };
+  if (outcome.converged) return outcome + ramp(film, state, thicken, observer);
+  thicken(1);
   return outcome;
 }
 
@@ -162,9 +138,9 @@ PointResult result_of(const PointProblem& problem, const PointFilm& film, const 
                       const PointFilm::Outcome& outcome) {
   PointResult result{.grid = film.grid(),
                      .pressure = state.pressure,
-                     .contact_pressure = film.solid.pressure,
+                     .contact_pressure = {},
                      .film = state.film,
-                     .plastic_depth = film.solid.plastic_depth,
+                     .plastic_depth = {},
                      .separation = state.separation,
                      .load_error = outcome.load_error,
                      .mass_error = outcome.mass_error,
