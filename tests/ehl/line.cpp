@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "ehl/akchurin.hpp"
 #include "support/validation.hpp"
@@ -159,6 +160,58 @@ TEST(SolveLine, FollowsMoesChartInEveryRegime) {
     expect_within("EHL", fmt::format("line contact, {}", at.name), "smallest film, relative",
                   "Moes 1992, a fit",
                   std::abs(result.min_film / film_groups_of(problem).moes_min_film() - 1), 0.12);
+  }
+}
+
+/// Steel and oil under 2 GPa, an inlet before a contact that the film hardly changes.
+LineProblem steel(double coefficient) {
+  LineProblem problem;
+  problem.radius = 0.01;
+  problem.effective_modulus = 1.15e11;
+  problem.load = 4e5;
+  problem.entrainment_speed = 0.5;
+  problem.lubricant.viscosity = material::barus_viscosity(0.05, coefficient);
+  problem.nodes = 800;
+  problem.inlet = 3 * hertz_of(problem).half_width;
+  problem.outlet = 1.4 * hertz_of(problem).half_width;
+  return problem;
+}
+
+/// The film [m] at which the inlet of Ertel and Grubin raises the reduced pressure to 1/alpha, by
+/// their integral instead of their fit to it.
+double grubin_film_by_integral(const LineProblem& problem) {
+  const reference::LineContactFilm groups = film_groups_of(problem);
+  const double unit = problem.load / (std::numbers::pi * problem.effective_modulus);
+  const double factor = 12 * groups.viscosity * groups.entrainment_speed *
+                        groups.pressure_coefficient * hertz_of(problem).half_width / (unit * unit);
+  double thin = 1e-4;
+  double thick = 1e2;
+  for (int i = 0; i < 60; ++i) {
+    const double film = std::sqrt(thin * thick);
+    (factor * reference::grubin_inlet_integral(film) > 1 ? thin : thick) = film;
+  }
+  return thin * unit;
+}
+
+TEST(SolveLine, TendsToGrubinsFilmWithThePressureCoefficient) {
+  // Grubin takes the viscosity behind the inlet for infinite: his film is too thin, less so the
+  // more the viscosity grows.
+  double before = 1;
+  for (const auto& [coefficient, tolerance] : {std::pair{1e-8, 0.2}, {2e-8, 0.1}}) {
+    const LineProblem problem = steel(coefficient);
+    const LineResult result = solve_line(problem);
+    ASSERT_TRUE(result.converged) << coefficient;
+    const double by_integral = result.central_film / grubin_film_by_integral(problem) - 1;
+    const std::string name =
+        fmt::format("line contact, steel, L = {:.0f}", film_groups_of(problem).moes_viscosity());
+    expect_within("EHL", name, "central film over that of the inlet integral, relative",
+                  "Ertel and Grubin 1949", by_integral, tolerance);
+    expect_within("EHL", name, "central film over Grubin's formula, relative",
+                  "Ertel and Grubin 1949",
+                  result.central_film / film_groups_of(problem).grubin_film() - 1, tolerance);
+    EXPECT_GT(by_integral, 0);
+    EXPECT_LT(by_integral, before);
+    before = by_integral;
   }
 }
 

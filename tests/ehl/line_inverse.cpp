@@ -97,6 +97,35 @@ TEST_P(LineInverseTest, LeavesAFewPerCentToGmres) {
   EXPECT_LE(n_products, 20);
 }
 
+TEST_P(LineInverseTest, KnowsAsperities) {
+  // From hardly touching to hardly apart: rows of P between dh = 0 and dP = 0.
+  const Index n = GetParam();
+  const elastic::LineHalfSpace elastic(n, 1e-3 / static_cast<double>(n), 1.2e9);
+  LineSystem system{
+      &elastic, {.pressure = 1e7, .film = 1e-5, .load = 5e3}, LineBands(n), LineBands(n)};
+  system.by_pressure.diagonal.setConstant(2);
+  system.by_pressure.lower.segment(1, n - 2).setConstant(-1);
+  system.by_pressure.upper.segment(1, n - 2).setConstant(-1);
+  system.by_film.diagonal.setConstant(0.3);
+  system.touch = {Eigen::ArrayXd::Zero(n), Eigen::ArrayXd::Ones(n)};
+  for (Index i = n / 3; i < 2 * n / 3; ++i) {
+    system.touch.by_film[i] = 0.5 + 0.5 * scattered(i);
+    system.touch.by_pressure[i] = 1 - system.touch.by_film[i];
+  }
+  const Eigen::MatrixXd matrix = system.dense();
+  Eigen::VectorXd right(system.size());
+  for (Index i = 0; i < right.size(); ++i) right[i] = scattered(3 * i);
+  EXPECT_LE((matrix * right - system.product(right)).norm(), 1e-12 * (matrix * right).norm());
+  const LineInverse inverse(system);
+  ASSERT_TRUE(inverse.ok());
+  int n_products = 0;
+  const auto product = [&](const Eigen::VectorXd& x) { return system.product(x); };
+  const auto x = gmres(product, inverse, right, 1e-6, 60, n_products);
+  ASSERT_TRUE(x.has_value());
+  EXPECT_LE((right - matrix * *x).norm(), 1.001e-6 * right.norm());
+  EXPECT_LE(n_products, 30);
+}
+
 INSTANTIATE_TEST_SUITE_P(Sizes, LineInverseTest, testing::Values(50, 200, 800));
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "larsson.hpp"
@@ -64,6 +66,56 @@ TEST_P(LarssonHoglundRow, IsReproduced) {
 INSTANTIATE_TEST_SUITE_P(Rows, LarssonHoglundRow, testing::ValuesIn(kRows),
                          [](const auto& row) { return fmt::format("Row{}", row.param.number); });
 
+/// The same rows by an independent computation: finite differences and a marching of its own.
+struct Computed {
+  int number;
+  double force, pressure, min_film, delay, restitution;
+};
+
+constexpr Computed kComputed[] = {
+    {1, 2.320e-7, kNone, 0.274e-4, 1.00, 0.150},  {3, 8.652e-6, 0.0106, 0.721e-4, 0.22, 0.846},
+    {5, 6.973e-5, 0.0203, 1.011e-4, 0.13, 0.966}, {7, 1.869e-6, 0.0074, 0.990e-4, 0.45, 0.453},
+    {9, 5.238e-7, kNone, 0.760e-4, 0.99, 0.088},  {11, 8.612e-6, 0.0113, 0.917e-4, 0.20, 0.849},
+    {16, 9.509e-6, 0.0111, 0.551e-4, 0.16, 0.933}};
+
+class IndependentRow : public testing::TestWithParam<Computed> {};
+
+TEST_P(IndependentRow, IsReproduced) {
+  const Computed& row = GetParam();
+  const auto* const printed = std::find_if(std::begin(kRows), std::end(kRows),
+                                           [&](const Row& at) { return at.number == row.number; });
+  ASSERT_NE(printed, std::end(kRows));
+  const ImpactProblem problem = problem_of(*printed);
+  const ImpactResult result = solve_impact(problem);
+  const ImpactGroups groups = groups_of(problem, result);
+  const auto expect = [&](const char* quantity, double error, double tolerance) {
+    expect_within("EHL", fmt::format("lubricated impact, row {}, computed", row.number), quantity,
+                  "independent computation", error, tolerance);
+  };
+  expect("W, relative", std::abs(groups.force / row.force - 1), 0.003);
+  expect("e, absolute", std::abs(result.restitution - row.restitution), 0.0015);
+  expect("Hmin, relative", std::abs(groups.min_film / row.min_film - 1), 0.005);
+  expect("dT/Tr, absolute", std::abs(groups.delay - row.delay), 0.01);
+  if (row.pressure == kNone) return;
+  expect("Pcl, absolute", std::abs(groups.primary_pressure - row.pressure), 1e-4);
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, IndependentRow, testing::ValuesIn(kComputed),
+                         [](const auto& row) { return fmt::format("Row{}", row.param.number); });
+
+TEST(LubricatedImpact, OfRow9HasThePrintedRestitutionWithTheMassBeforeRounding) {
+  Row row = kRows[4];
+  ASSERT_EQ(row.number, 9);
+  row.mass = 0.7475e13;  // 3.25 g; printed as 0.75
+  const ImpactProblem problem = problem_of(row);
+  const ImpactResult result = solve_impact(problem);
+  expect_within("EHL", "lubricated impact, row 9, M = 0.7475e13", "e, absolute",
+                "independent computation", std::abs(result.restitution - 0.085), 0.0015);
+  expect_within("EHL", "lubricated impact, row 9, M = 0.7475e13", "W, relative",
+                "independent computation", std::abs(groups_of(problem, result).force / 5.17e-7 - 1),
+                0.005);
+}
+
 struct Trend {
   double force_over_dry, restitution, min_film, pressure_over_dry;
 };
@@ -95,6 +147,26 @@ TEST(LubricatedImpact, HasAPressurePeakThatGrowsWithThePressureViscosity) {
   const double printed[] = {1.09, 1.31, 1.39};
   for (int i = 0; i < 3; ++i) {
     EXPECT_NEAR(trend_at(8.70e-12, 7.475e13, materials[i]).pressure_over_dry, printed[i], 0.015);
+  }
+}
+
+TEST(LubricatedImpact, LosesMoreInAThickerLayer) {
+  // The table's layers; rows 16 and 3 print 0.931 and 0.844.
+  double restitution = 1;
+  for (const double layer : {0.00125, 0.0025, 0.005, 0.01, 0.025}) {
+    const double now = solve_impact(test::from_groups(layer, 8.70e-12, 7.475e13, 3500)).restitution;
+    EXPECT_LT(now, restitution) << layer;
+    restitution = now;
+  }
+}
+
+TEST(LubricatedImpact, ReboundsBetterWithTheMass) {
+  // The table's masses; rows 9, 7 and 3 print 0.080, 0.451 and 0.844.
+  double restitution = 0;
+  for (const double mass : {0.7475e13, 1.495e13, 2.99e13, 7.475e13, 14.95e13}) {
+    const double now = trend_at(8.70e-12, mass, 3500).restitution;
+    EXPECT_GT(now, restitution) << mass;
+    restitution = now;
   }
 }
 

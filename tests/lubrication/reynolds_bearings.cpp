@@ -4,6 +4,7 @@
 #include "reynolds_films.hpp"
 #include "support/refusal.hpp"
 #include "support/validation.hpp"
+#include "tabor/reference/bearings.hpp"
 
 namespace tabor::lubrication {
 namespace {
@@ -61,6 +62,23 @@ TEST(ReynoldsLine, FindsSommerfeldsCylinderWithoutCavitation) {
     const double exact = -4 * kViscosity * problem.grid.node[i] / std::pow(problem.film[i], 2);
     EXPECT_NEAR(solution.pressure[i], exact, 2e-3 * 4 * kViscosity * kLength / (kFilm * kFilm));
   }
+}
+
+TEST(ReynoldsLine, FindsKapitzasPressureOfALongBody) {
+  // The middle of an ellipsoid that is a thousand times as long across the flow as along it.
+  const reference::KapitzaFilm body{kRadius, 1e3 * kRadius, kFilm, 1, kViscosity};
+  FilmProblem problem = cylinder(8000, 60, 60);
+  problem.cavitation = Cavitation::none;
+  const FilmSolution solution = solve_film(problem);
+  double peak = 0;
+  double error = 0;
+  for (Index i = 1; i <= problem.grid.n_cells(); ++i) {
+    const double exact = body.pressure(problem.grid.node[i], 0);
+    peak = std::max(peak, exact);
+    error = std::max(error, std::abs(solution.pressure[i] - exact));
+  }
+  expect_within("EHL", "rigid isoviscous body, Rx/Ry = 0.001", "pressure, relative to its peak",
+                "Kapitza 1955", error / peak, 3e-3);
 }
 
 FilmSolution slider(Index n, double ratio) {
