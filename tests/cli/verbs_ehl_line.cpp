@@ -153,5 +153,80 @@ TEST(EhlLine, WearsATrackToAndFro) {
   EXPECT_THAT(refused.err, HasSubstr("way back"));
 }
 
+TEST(EhlLine, WeighsWhatIsWornAndShowsItInASweep) {
+  const std::vector<std::string> wear =
+      quick({"--set", "wear.coefficient=2.8e-15 m^2/N", "--set", "wear.track_length=15.7 mm",
+             "--set", "wear.steps=20", "--set", "wear.density=950 kg/m^3", "--set",
+             "wear.width=1 mm", "--set", "wear.cycles_each=1000..2000:2"});
+  const Outcome table = run_tabor(wear);
+  EXPECT_EQ(table.code, 0) << table.err;
+  EXPECT_THAT(table.out, HasSubstr("mean wear"));
+  EXPECT_THAT(table.out, HasSubstr("worn mass"));
+  const io::Json results = json_of(wear)["results"];
+  for (const io::Json& result : results) {
+    const io::Json& worn = result["wear"];
+    EXPECT_NEAR(
+        worn["mass_kg"].get<double>() / (950 * 1e-3 * worn["volume_per_width_m2"].get<double>()), 1,
+        1e-12);
+  }
+  EXPECT_NEAR(
+      results[1]["wear"]["mass_kg"].get<double>() / results[0]["wear"]["mass_kg"].get<double>(), 2,
+      1e-6);
+  EXPECT_THAT(run_tabor(quick({"--set", "motion.entrainment_speed=8mm/s..9mm/s:2"})).out,
+              testing::Not(HasSubstr("wear")));
+}
+
+TEST(EhlLine, DoubtsAStrokeInTooFewSteps) {
+  const auto warnings = [](const std::string& steps) {
+    return json_of(quick({"--set", "wear.coefficient=2.8e-15 m^2/N", "--set", "wear.stroke=1 mm",
+                          "--set", "wear.steps=" + steps}))["warnings"]
+        .dump();
+  };
+  EXPECT_THAT(warnings("40"), HasSubstr("steps per cycle or more"));
+  EXPECT_THAT(warnings("120"), testing::Not(HasSubstr("steps per cycle")));
+}
+
+std::vector<std::string> mixed(const std::vector<std::string>& more = {}) {
+  std::vector<std::string> words = {"ehl", "line",
+                                    TABOR_SOURCE_DIR "/examples/11_hdpe_glycerol/mixed.toml",
+                                    "--set", "grid.nodes=600"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST(EhlLine, SharesTheLoadWithAsperities) {
+  const test::Folder folder;
+  const std::string file = folder / "mixed.h5";
+  const io::Json json = json_of(mixed({"-o", file}));
+  EXPECT_EQ(json["converged"], true);
+  for (const char* key : {"asperity_load_share", "solid_contact_fraction"}) {
+    EXPECT_GT(json[key], 0.1) << key;
+    EXPECT_LT(json[key], 0.9) << key;
+  }
+  EXPECT_NEAR(json["friction_solid"].get<double>() + json["friction_fluid"].get<double>(),
+              json["friction_coefficient"], 1e-12);
+  EXPECT_NEAR(json["friction_solid"].get<double>(),
+              0.09 * json["asperity_load_share"].get<double>(), 1e-12);
+  EXPECT_TRUE(io::Hdf5Reader(file).exists("/profile/asperity_pressure"));
+  EXPECT_FALSE(json_of(quick()).contains("asperity_load_share"));
+}
+
+TEST(EhlLine, RefusesAsperitiesThatMakeNoSense) {
+  const auto refused = [](std::vector<std::string> words, const std::string& change,
+                          const std::string& message) {
+    words.insert(words.end(), {"--set", change});
+    const Outcome outcome = run_tabor(words);
+    EXPECT_EQ(outcome.code, 3) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(message)) << change;
+  };
+  refused(mixed(), "asperities.boundary_film=0 nm", "above zero");
+  refused(mixed(), "asperities.shear_strength=1 MPa", "one of the two");
+  refused(mixed(), "asperities.friction_coefficient=-0.1", "friction coefficient");
+  refused(mixed(), "motion.sliding_speed=1 mm/s", "one of the two");
+  refused(quick(), "asperities.friction_coefficient=0.1", "boundary_film");
+  refused(quick({"--set", "asperities.boundary_film=30 nm", "--set", "wear.track_length=16 mm"}),
+          "wear.coefficient=1e-15 m^2/N", "boundary film");
+}
+
 }  // namespace
 }  // namespace tabor::cli

@@ -91,6 +91,19 @@ ehl::LineAsperities read_asperities(const io::Config& config) {
   return asperities;
 }
 
+/// [m/s]: as given, or as a part of the mean speed, with which it then changes; 0 if neither.
+double read_sliding_speed(const io::Config& config, double entrainment_speed) {
+  const bool has_ratio = config.has("motion.slide_to_roll_ratio");
+  if (!config.has("motion.sliding_speed")) {
+    return has_ratio ? config.number("motion.slide_to_roll_ratio") * entrainment_speed : 0;
+  }
+  if (has_ratio) {
+    throw InputError(config.place("motion.slide_to_roll_ratio"), "beside sliding_speed",
+                     "one of the two", "");
+  }
+  return config.quantity("motion.sliding_speed", dimension::speed);
+}
+
 ehl::LineProblem read_problem(const io::Config& config, Context& context) {
   ehl::LineProblem problem;
   problem.radius = positive_quantity(config, "cylinder.radius", dimension::length);
@@ -99,9 +112,7 @@ ehl::LineProblem read_problem(const io::Config& config, Context& context) {
   problem.lubricant = read_lubricant(config, "barus");
   problem.entrainment_speed =
       positive_quantity(config, "motion.entrainment_speed", dimension::speed);
-  if (config.has("motion.sliding_speed")) {
-    problem.sliding_speed = config.quantity("motion.sliding_speed", dimension::speed);
-  }
+  problem.sliding_speed = read_sliding_speed(config, problem.entrainment_speed);
   problem.cavitation = read_cavitation(config);
   if (config.has("film.penalty")) problem.penalty = config.number("film.penalty");
   if (config.has("grid.nodes")) problem.nodes = config.integer("grid.nodes");
@@ -247,6 +258,7 @@ EhlProgram line_program() {
                           "cylinder.load_per_length",
                           "motion.entrainment_speed",
                           "motion.sliding_speed",
+                          "motion.slide_to_roll_ratio",
                           "film.cavitation",
                           "film.penalty",
                           "roughness.height",
@@ -278,12 +290,14 @@ EhlProgram line_program() {
                       {"max_pressure_Pa", "largest pressure", "Pa"},
                       {"max_shear_stress_Pa", "largest stress", "Pa"},
                       {"friction_coefficient", "friction", ""},
+                      {"friction_fluid", "of the film", "", true},
+                      {"friction_solid", "of solids", "", true},
                       {"asperity_load_share", "asperities", "", true},
                       {"solid_contact_fraction", "contact", "", true},
                       {"newton_iterations", "iterations", ""},
                       {"wear.mean_depth_m", "mean wear", "m", true},
                       {"wear.max_depth_m", "deepest wear", "m", true},
-                      {"wear.mass_kg", "worn mass", "kg", true},
+                      {"wear.mass_kg", "worn mass [kg]", "", true},
                       {"wear.thinnest_film_m", "thinnest film", "m", true}},
           .studies = {{"grid", "grid.nodes", "nodes", "", {0.5, 1, 2}},
                       {"domain", "grid.inlet", "inlet_m", "m", {0.7, 1, 1.4, 2}, false}},
