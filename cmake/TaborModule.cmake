@@ -40,6 +40,7 @@ function(tabor_test name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gmock_main)
   if(TABOR_PRECOMPILED_TESTS)
+    target_link_libraries(${name} PRIVATE tabor::core)  # compiled as these headers were
     target_precompile_headers(${name} REUSE_FROM tabor_test_headers)
   endif()
   gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} DISCOVERY_TIMEOUT 60)
