@@ -204,7 +204,8 @@ void Hdf5Writer::axes(const std::string& group, const Grid& grid, double left, d
     const std::string name = along_x ? "x" : "y";
     const Eigen::ArrayXd centres =
         (along_x ? left : top) + (Eigen::ArrayXd::LinSpaced(n, 0, double(n - 1)) + 0.5) * spacing;
-    const std::string path = group + "/" + name;
+    std::string path = group;
+    path.append("/").append(name);
     write(path, std::vector<double>(centres.begin(), centres.end()));
     const Handle scale(H5Dopen2(file_->id, path.c_str(), H5P_DEFAULT), &H5Dclose);
     file_->check(scale.valid() && H5DSset_scale(scale, name.c_str()) >= 0, path);

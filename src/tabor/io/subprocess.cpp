@@ -21,7 +21,7 @@ namespace tabor::io {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr std::size_t kMaxOutput = 64 * 1024;
+constexpr std::size_t kMaxOutput = std::size_t{64} * 1024;
 
 std::vector<std::string> merged_environment(const std::map<std::string, std::string>& changes) {
   std::vector<std::string> variables;
@@ -29,12 +29,16 @@ std::vector<std::string> merged_environment(const std::map<std::string, std::str
     const std::string name = split(*entry, '=').front();
     if (!changes.contains(name)) variables.emplace_back(*entry);
   }
-  for (const auto& [name, value] : changes) variables.push_back(name + "=" + value);
+  for (const auto& [name, value] : changes) {
+    std::string& variable = variables.emplace_back(name);
+    variable.append("=").append(value);
+  }
   return variables;
 }
 
 std::vector<char*> pointers(std::vector<std::string>& texts) {
   std::vector<char*> result;
+  result.reserve(texts.size() + 1);
   for (std::string& text : texts) result.push_back(text.data());
   result.push_back(nullptr);
   return result;

@@ -107,12 +107,15 @@ Convert converter(const Tiff& tiff, const TiffDescription& image) {
       tiff.number<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT) == SAMPLEFORMAT_INT;
   if (image.is_float && image.bits == 32) return convert<float>;
   if (image.is_float && image.bits == 64) return convert<double>;
-  if (!image.is_float && image.bits == 8)
+  if (!image.is_float && image.bits == 8) {
     return is_signed ? convert<std::int8_t> : convert<std::uint8_t>;
-  if (!image.is_float && image.bits == 16)
+  }
+  if (!image.is_float && image.bits == 16) {
     return is_signed ? convert<std::int16_t> : convert<std::uint16_t>;
-  if (!image.is_float && image.bits == 32)
+  }
+  if (!image.is_float && image.bits == 32) {
     return is_signed ? convert<std::int32_t> : convert<std::uint32_t>;
+  }
   tiff.refuse(fmt::format("{} bits per sample", image.bits), "8, 16 or 32, or floats");
 }
 
