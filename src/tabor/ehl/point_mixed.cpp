@@ -14,7 +14,8 @@ using Outcome = PointFilm::Outcome;
 
 constexpr double kRoughly = 1e-2;       // tolerance where a solution is only a start
 constexpr double kClearance = 2;        // film of a smooth start, in rms heights
-constexpr double kFastest = 1e4;        // speed of a start over the one asked for, at most
+constexpr double kBoundaryFilms = 5;    // ... or in boundary films
+constexpr double kFastest = 1e6;        // speed of a start over the one asked for, at most
 constexpr double kFilmExponent = 0.67;  // film ~ speed^0.67, Hamrock & Dowson 1977
 constexpr double kLogStep = 1.2;        // of the speed, at first: a factor of 3.3
 constexpr double kSmallestStep = 1.0 / 32;
@@ -60,10 +61,12 @@ double rms_height(const PointProblem& problem) {
   return height.size() == 0 ? 0 : std::sqrt((height - height.mean()).square().mean());
 }
 
-/// u_m [m/s] at which the film of smooth bodies clears the roughness.
+/// u_m [m/s] at which the film of smooth bodies clears the roughness and the boundary film.
 double clear_speed(const PointProblem& problem) {
   const double film = film_groups_of(problem).nijenbanning_central();
-  const double factor = std::pow(kClearance * rms_height(problem) / film, 1 / kFilmExponent);
+  const double clear =
+      std::max(kClearance * rms_height(problem), kBoundaryFilms * problem.boundary_film);
+  const double factor = std::pow(clear / film, 1 / kFilmExponent);
   return problem.entrainment_speed * std::clamp(factor, 1.0, kFastest);
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <optional>
 
 #include "tabor/ehl/point_film.hpp"
 
@@ -69,6 +71,9 @@ class MixedFilm {
   Linear linearize(const MixedState& state) const;
   void set_contact_row(const MixedState& state, Index k, Linear& linear) const;
   Eigen::VectorXd product(const Linear& linear, const Eigen::VectorXd& step) const;
+  using Inverse = std::function<Field(const Field&)>;
+  std::optional<Eigen::VectorXd> solve_linear(const Linear& linear, const Inverse& inverse,
+                                              PointFilm::Outcome& outcome) const;
   Eigen::VectorXd newton_step(const Linear& linear, const MixedState& state,
                               PointFilm::Outcome& outcome) const;
   double merit(const Linear& linear, const MixedState& state) const;
