@@ -164,7 +164,7 @@ TEST_F(EhlPoint, TakesAScanAsRoughness) {
 
 TEST_F(EhlPoint, GeneratesFinishesFromTheirSeed) {
   const auto rms = [&](const std::vector<std::string>& changes) {
-    std::vector<std::string> all = {"motion.speed=100m/s"};
+    std::vector<std::string> all = {"motion.speed=100m/s", "grid.inlet=1.5", "grid.half_width=1.5"};
     all.insert(all.end(), changes.begin(), changes.end());
     return json_of(ball(all))["roughness_rms_m"].get<double>();
   };
@@ -174,6 +174,20 @@ TEST_F(EhlPoint, GeneratesFinishesFromTheirSeed) {
   EXPECT_GT(lapped, rms({"roughness.kind=polished-like"}));
   EXPECT_GT(rms({"roughness.kind=ground", "roughness.rms=0.2um"}),
             rms({"roughness.kind=ground", "roughness.rms=0.1um"}));
+}
+
+TEST_F(EhlPoint, SharesTheLoadWithSolids) {
+  const std::vector<std::string> rough = {"roughness.kind=lapped-like", "grid.nodes=49",
+                                          "grid.inlet=1.6", "grid.half_width=1.6",
+                                          "solids.plastic_pressure=4GPa"};
+  const io::Json json = json_of(ball(rough));
+  EXPECT_EQ(json["converged"], true);
+  EXPECT_EQ(json["max_pressure_Pa"], 4e9);
+  EXPECT_GT(json["plastic_fraction"], 0);
+  EXPECT_GT(json["dry"]["plastic_fraction"], json["plastic_fraction"]);
+  EXPECT_GT(json["dry"]["solid_contact_fraction"], json["solid_contact_fraction"]);
+  EXPECT_NEAR(json["friction_coefficient"].get<double>(),
+              json["friction_fluid"].get<double>() + json["friction_solid"].get<double>(), 1e-12);
 }
 
 TEST_F(EhlPoint, WarnsOfWhatItsEquationsDoNotSee) {

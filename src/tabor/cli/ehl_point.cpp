@@ -11,6 +11,7 @@
 #include "tabor/cli/ehl_point_case.hpp"
 #include "tabor/cli/ehl_point_fields.hpp"
 #include "tabor/cli/table.hpp"
+#include "tabor/ehl/point_dry.hpp"
 #include "tabor/ehl/point_measures.hpp"
 #include "tabor/topography/file.hpp"
 
@@ -240,9 +241,31 @@ EhlAnswer answer_of(const io::Config& config, const PointProblem& problem,
   return answer;
 }
 
+/// The rough bodies without liquid: what the film tends to as the speed vanishes.
+void add_dry(const PointProblem& problem, const Observer& observer, EhlAnswer& answer) {
+  const PointResult result = solve_point_dry(problem, observer);
+  const PointMeasures measures = measure_point(problem, result);
+  answer.scalars["dry"] = {{"solid_contact_fraction", io::number(measures.solid_contact_fraction)},
+                           {"plastic_fraction", io::number(measures.plastic_fraction)},
+                           {"max_pressure_Pa", io::number(measures.max_pressure)},
+                           {"max_plastic_depth_m", io::number(measures.max_plastic_depth)},
+                           {"friction_solid", io::number(measures.friction_solid)},
+                           {"converged", result.converged}};
+  Facts facts;
+  facts.fact("without any liquid",
+             fmt::format("{} of the area touches, {} is plastic, friction {}",
+                         percent(measures.solid_contact_fraction),
+                         percent(measures.plastic_fraction), plain(measures.friction_solid)));
+  answer.text += facts.text();
+  if (!result.converged) answer.warnings.emplace_back("the dry contact was not found");
+}
+
 EhlAnswer solve(const io::Config& config, Context& context) {
   const PointProblem problem = read_problem(config, context);
-  return answer_of(config, problem, solve_point(problem, nullptr, context.observer()), context);
+  const PointResult result = solve_point(problem, nullptr, context.observer());
+  EhlAnswer answer = answer_of(config, problem, result, context);
+  if (problem.roughness.size() > 0) add_dry(problem, context.observer(), answer);
+  return answer;
 }
 
 /// What the next case of a sweep may start from.
