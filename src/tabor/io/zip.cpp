@@ -71,7 +71,7 @@ ZipReader::ZipReader(std::string_view bytes, std::string name) : name_(std::move
     throw InputError(name_, "a damaged or truncated ZIP archive (" + reason + ")", "",
                      "export or copy the file again");
   }
-  source.release();  // the archive owns it now
+  static_cast<void>(source.release());  // the archive owns it now
   archive_ = std::make_unique<Archive>(Archive{ArchiveHandle(opened)});
   entries_ = list(opened);
 }
@@ -122,7 +122,7 @@ void add(zip_t* archive, const ZipContent& file) {
   const zip_int64_t index =
       zip_file_add(archive, file.name.c_str(), source.get(), ZIP_FL_ENC_UTF_8);
   if (index < 0) cannot_zip(zip_strerror(archive));
-  source.release();  // the archive owns it now
+  static_cast<void>(source.release());  // the archive owns it now
   zip_file_set_mtime(archive, static_cast<zip_uint64_t>(index), kTimeStamp, 0);
 }
 
@@ -153,7 +153,7 @@ std::string zip(const std::vector<ZipContent>& files) {
   }
   for (const ZipContent& file : files) add(archive.get(), file);
   if (zip_close(archive.get()) != 0) cannot_zip(zip_strerror(archive.get()));
-  archive.release();  // closed
+  static_cast<void>(archive.release());  // closed
   return content_of(source.get());
 }
 

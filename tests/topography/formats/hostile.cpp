@@ -115,5 +115,29 @@ TEST_F(Hostile, PipesAndDevicesAreRefusedWithoutWaiting) {
   }
 }
 
+/// Another program copies, exports or deletes while tabor reads: pages of the file that are gone
+/// would end the program by a signal.
+TEST_F(Hostile, FilesThatChangeWhileTheyAreOpenAreRefused) {
+  Topography map = test::small_map();
+  map.height = 1e-6 * Field::Random(200, 100);
+  map.grid = {100, 200, 1e-4, 2e-4};
+  ReadOptions generous = test::micrometres();
+  generous.override_unit = true;
+  for (const char* extension : {".gsf", ".sdf", ".gwy", ".npy", ".x3p", ".h5"}) {
+    const std::filesystem::path file = folder_ / (std::string("map") + extension);
+    write(map, file);
+    const ScanFile scan(file);
+    EXPECT_NO_THROW(scan.read(generous)) << extension;
+    std::filesystem::resize_file(file, 5000);
+    try {
+      scan.read(generous);
+      ADD_FAILURE() << extension << " was read";
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("map"), std::string::npos) << error.what();
+    }
+    EXPECT_THROW(scan.sha256(), InputError) << extension;
+  }
+}
+
 }  // namespace
 }  // namespace tabor::topography
