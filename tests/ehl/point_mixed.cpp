@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "ehl/redlich.hpp"
@@ -194,6 +195,37 @@ TEST(SolvePointMixed, KeepsLessLiquidBetweenRidgesAlongTheFlowThanAcrossIt) {
   EXPECT_LT(longitudinal.central_film, transverse.central_film);
   EXPECT_LT(longitudinal.min_film, transverse.min_film);
 }
+
+struct DryShares {
+  const char* name;
+  Finish finish;
+  double contact, plastic;  // of the Hertz area, as printed
+};
+
+class DryFinish : public testing::TestWithParam<DryShares> {};
+
+TEST_P(DryFinish, TouchesAndFlowsOnAboutThePrintedShares) {
+  const auto& [name, finish, contact, plastic] = GetParam();
+  PointProblem problem = test::redlich_dry(257);
+  problem.roughness = rough(problem, finish);
+  const PointResult result = solve_point_dry(problem);
+  EXPECT_TRUE(result.converged);
+  const PointMeasures measures = measure_point(problem, result);
+  expect_within("EHL", std::string("dry point contact, ") + name, "share that touches",
+                "Redlich, Bartel & Deters 2003, a measured surface",
+                std::abs(measures.solid_contact_fraction - contact), 0.1);
+  expect_within("EHL", std::string("dry point contact, ") + name, "share that flows",
+                "Redlich, Bartel & Deters 2003, a measured surface",
+                std::abs(measures.plastic_fraction - plastic), 0.05);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    EHL, DryFinish,
+    testing::Values(DryShares{"lapped-like",
+                              {.rms = 0.15 * kMicro, .longest = 8 * kMicro, .shortest = 0},
+                              0.45,
+                              0.37},
+                    DryShares{"polished-like", kPolished, 0.80, 0.06}));
 
 TEST(SolvePointMixed, SaysWhatDidNotConverge) {
   PointProblem problem = small_case(0.1);
