@@ -68,15 +68,13 @@ Case pressed(const Field& height, double pressure, double oil, double speed,
 TEST(LoadSearch, FindsTheZeroOfIncreasingFunctionsOnBothSides) {
   for (const double root : {0.9, 0.31, 0.02, -0.3, -7.0}) {
     LoadSearch search;
+    double position = 1;
     int n = 0;
-    double value = 1;
-    while (std::abs(value) > 1e-6 && n < 60) {
-      value = std::sinh(search.position() - root);
-      if (std::abs(value) <= 1e-6) break;
-      ASSERT_TRUE(search.advance(value));
+    while (std::abs(std::asinh(3 * (position - root))) > 1e-6 && n < 60) {
+      position = search.next(position, std::asinh(3 * (position - root)));
       ++n;
     }
-    EXPECT_NEAR(search.position(), root, 1e-5);
+    EXPECT_NEAR(position, root, 1e-5);
     EXPECT_LT(n, 25) << root;
   }
 }
@@ -165,11 +163,11 @@ TEST(FluidFilm, LiftsAFloodedWaveOffWhereALineFilmCarriesTheLoad) {
 }
 
 TEST(FluidFilm, GivesWayOnSofterSurfaces) {
-  const Case at = pressed(bumps(32), 5e6, 5e-6, 0.1, 2e9);
+  const Case at = pressed(bumps(32), 20e6, 0.6e-6, 0.2, 8e9);
   const FluidFilmState state = at.solve();
   EXPECT_TRUE(state.converged);
-  EXPECT_GT(state.fluid_pressure, 0.01 * 5e6);
-  EXPECT_NEAR((state.solid_pressure + state.fluid_pressure) / 5e6, 1, 1e-3);
+  EXPECT_GT(state.fluid_pressure, 0.001 * 20e6);
+  EXPECT_NEAR((state.solid_pressure + state.fluid_pressure) / 20e6, 1, 1e-3);
 }
 
 TEST(FluidFilm, SaysWhenItDidNotConverge) {

@@ -16,6 +16,7 @@ namespace {
 
 /// Deflection in the middle of a square pixel under a uniform pressure, over p a/E*: Love 1929.
 const double kPixelCompliance = 4 / std::numbers::pi * std::log(1 + std::sqrt(2.0));
+constexpr double kMuch = 0.05;             // a change of the gap, over its mean
 constexpr double kLargestFeltShare = 0.9;  // of the load
 constexpr double kLeastSolidShare = 1e-6;  // below it the surfaces are taken to just touch
 
@@ -72,19 +73,25 @@ class Solver {
       flow(state);
       if (state.converged || state.evaluations >= problem_.max_evaluations) return state;
       feel(state);
-      if (state.gap_error > problem_.tolerance && mean(felt_) < kLargestFeltShare * load_) {
+      if (state.gap_error > kMuch && mean(felt_) < kLargestFeltShare * load_) {
         // The surface is still giving way: the solids carry what the pressure it has felt does not.
         close(std::sqrt(1 - mean(felt_) / load_), state);
-        continue;
+      } else if (load_fits(state)) {
+        close(position_, state);
+      } else {
+        const double carried = (state.solid_pressure + state.fluid_pressure) / load_;
+        const double next = search.next(position_, std::log(std::max(carried, 1e-300)));
+        if (search.met_a_jump()) return state;
+        close(next, state);
       }
-      const double carried = (state.solid_pressure + state.fluid_pressure) / load_;
-      const bool load_fits = std::abs(state.load_error) <= problem_.tolerance;
-      if (!load_fits && !search.advance(std::log(std::max(carried, 1e-300)))) return state;
-      close(load_fits ? position_ : search.position(), state);
     }
   }
 
  private:
+  bool load_fits(const FluidFilmState& state) const {
+    return std::abs(state.load_error) <= problem_.tolerance;
+  }
+
   /// The contact at a position of the search, on the surface as the film deforms it.
   void close(double position, FluidFilmState& state) {
     position_ = position;
@@ -115,7 +122,8 @@ class Solver {
   /// The film in the gap of `state`, and what follows from it.
   void flow(FluidFilmState& state) {
     ++state.evaluations;
-    const bool has_guess = state.film.pressure.size() > 0;
+    // Elsewhere the oil starts from its deposit again: where it went before must not matter.
+    const bool has_guess = state.evaluations > 1 && load_fits(state);
     const lubrication::PatchProblem patch = patch_of(state);
     state.film = has_guess ? steady_film(patch, problem_.film, state.film, observer_)
                            : steady_film(patch, problem_.film, observer_);
@@ -124,9 +132,9 @@ class Solver {
     state.load_error = (state.solid_pressure + state.fluid_pressure) / load_ - 1;
     state.gap_error = unfelt(state);
     state.viscous_stress = viscous_stress(state);
-    state.converged = std::abs(state.load_error) <= problem_.tolerance &&
-                      state.gap_error <= problem_.tolerance && state.film.converged &&
-                      state.film.steady && state.contact.convergence.converged;
+    state.converged = load_fits(state) && state.gap_error <= problem_.tolerance &&
+                      state.film.converged && state.film.steady &&
+                      state.contact.convergence.converged;
   }
 
   lubrication::PatchProblem patch_of(const FluidFilmState& state) const {

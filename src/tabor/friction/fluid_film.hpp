@@ -14,7 +14,7 @@ struct FluidFilmProblem {
   double sliding_speed = 0;       ///< u [m/s], along +x, >= 0
   material::Lubricant lubricant;  ///< viscosity and shear; the density plays no part
   double tolerance = 1e-3;        ///< of the load balance over P, and of the gap over its mean
-  int max_evaluations = 50;       ///< of contact and film together
+  int max_evaluations = 40;       ///< of contact and film together
 };
 
 struct FluidFilmState {

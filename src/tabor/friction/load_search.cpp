@@ -5,20 +5,16 @@
 
 namespace tabor::friction {
 
-namespace {
-constexpr double kNarrowest = 1e-7;  // bracket in which nothing is left to find
-}
-
 // A film that carries a share of the load at position 1 carries less in a wider gap: what is left
 // for the solids is at least 1 - share. Shares near or above one say nothing and are searched for.
-double LoadSearch::step_down(double value) const {
-  if (position_ == 1) {
+double LoadSearch::step_down(double position, double value) {
+  if (position == 1) {
     const double share = std::expm1(value);
     return share < 0.9 ? std::sqrt(1 - share) : 0.3;
   }
-  if (position_ > 0.25) return 0.5 * position_;
-  if (position_ > 0) return 0;
-  return position_ == 0 ? -0.5 : 2 * position_;
+  if (position > 0.25) return 0.5 * position;
+  if (position > 0) return 0;
+  return position == 0 ? -0.5 : 2 * position;
 }
 
 /// False position, with the value of an end that does not move halved (Illinois: Dowell & Jarratt
@@ -32,17 +28,38 @@ double LoadSearch::between() const {
   return std::clamp(place, low_->position + margin, high_->position - margin);
 }
 
-bool LoadSearch::advance(double value) {
-  if (!std::isfinite(value)) return false;
-  if (value < 0) {
-    low_ = {position_, value};
-    same_side_ = std::max(same_side_, 0) + 1;
-  } else {
-    high_ = {position_, value};
-    same_side_ = std::min(same_side_, 0) - 1;
+/// Where the ends have come close to each other without a zero between them, the older one no
+/// longer tells the truth: it goes where the slope found before puts it.
+void LoadSearch::renew(const Point& latest) {
+  const double width = high_->position - low_->position;
+  const bool narrow = width <= 0.02 * std::max(std::abs(latest.position), 0.05);
+  const bool fresh = std::abs(same_side_) < 2;  // both ends are from the last two calls
+  if (!narrow || fresh) {
+    slope_ = (high_->value - low_->value) / width;
+    return;
   }
-  position_ = low_ && high_ ? between() : step_down(value);
-  return !(low_ && high_) || high_->position - low_->position > kNarrowest;
+  slope_ /= 2;  // farther each time
+  const Point other{latest.position - 2 * latest.value / slope_, -latest.value};
+  (latest.value < 0 ? high_ : low_) = other;
+}
+
+bool LoadSearch::met_a_jump() const {
+  return low_ && high_ && std::abs(same_side_) < 2 &&
+         high_->position - low_->position <= 1e-4 * std::max(std::abs(low_->position), 0.05);
+}
+
+double LoadSearch::next(double position, double value) {
+  if (value < 0) {
+    low_ = {position, value};
+    same_side_ = std::max(same_side_, 0) + 1;
+    if (!high_) return std::min(1.0, position + 0.1);  // the surface has given way meanwhile
+  } else {
+    high_ = {position, value};
+    same_side_ = std::min(same_side_, 0) - 1;
+    if (!low_) return step_down(position, value);
+  }
+  renew({position, value});
+  return std::min(between(), 1.0);
 }
 
 }  // namespace tabor::friction

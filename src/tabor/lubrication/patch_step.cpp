@@ -19,6 +19,10 @@ constexpr double kRoughTolerance = 1e-5;  // of the flows, while cells still cha
 constexpr double kTolerance = 1e-11;
 constexpr double kOverfill = 1e-6;  // a fill above 1 by less is what the solver leaves
 constexpr double kNearlyFull = 0.9;
+// Sets of cells fit if at most one cell in so many still changes sides, which the pressure does not
+// feel by more than this.
+constexpr Index kFewChanges = 20000;
+constexpr double kSamePressure = 1e-4;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -49,8 +53,13 @@ class Step {
     while (!settled && film.iterations < kMaxIterations) {
       ++film.iterations;
       film.balanced = solve_pressures(tolerance, film);
+      const double before = film.mean_pressure;
+      film.mean_pressure = sum(pressure_) / static_cast<double>(pressure_.size());
       const Index changes = change_sides();
-      settled = changes == 0 && tolerance == kTolerance;
+      const bool same = std::abs(film.mean_pressure - before) <= kSamePressure * film.mean_pressure;
+      settled = tolerance == kTolerance &&
+                (changes == 0 || (same && changes <= cells_.size() / kFewChanges));
+      if (settled && changes > 0) film.balanced = solve_pressures(kTolerance, film);
       if (changes <= cells_.size() / 10000) tolerance = kTolerance;
     }
     if (!settled) film.balanced = solve_pressures(kTolerance, film);

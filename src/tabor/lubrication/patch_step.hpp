@@ -16,7 +16,7 @@ struct PatchFilm {
   int iterations = 0;        ///< of the sets of full and starved cells
   int products = 0;          ///< with the matrices of the full cells
   bool balanced = false;     ///< of the last step: every cell's oil is accounted for
-  bool converged = false;    ///< and no cell is full or starved that should not be
+  bool converged = false;    ///< and (almost) no cell is full that should be starved
   bool steady = false;       ///< nothing changes any more
 };
 
