@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "tabor/core/error.hpp"
@@ -173,18 +174,18 @@ std::string doubt_about(const Filter& filter, double wavelength, const Grid& gri
 }
 
 Topography filtered(Topography topography, const Filter& filter, double side, bool high) {
-  side = side > 0 ? side : scan_side(topography.grid);
-  Topography result = topography;
-  result.height = low_pass(topography.height, topography.grid, filter, side, topography.periodic);
+  const Topography before = std::move(topography);
+  side = side > 0 ? side : scan_side(before.grid);
+  Topography result = before;
+  result.height = low_pass(before.height, before.grid, filter, side, before.periodic);
   if (high) {
-    result.height = topography.height - result.height;
+    result.height = before.height - result.height;
   }
-  const auto doubt = doubt_about(filter, filter.cutoff_wavelength(side), topography.grid);
+  const auto doubt = doubt_about(filter, filter.cutoff_wavelength(side), before.grid);
   if (!doubt.empty()) {
     result.doubts.push_back(doubt);
   }
-  result.history.push_back(
-      describe(high ? "highpass" : "lowpass", filter, side, topography, result));
+  result.history.push_back(describe(high ? "highpass" : "lowpass", filter, side, before, result));
   return result;
 }
 
