@@ -253,8 +253,8 @@ PointFilm::Outcome PointFilm::solve(PointState& state, const PointStorage& stora
   while (outcome.iterations < problem_.max_iterations && !outcome.converged) {
     ++outcome.iterations;
     const Mask cavity = state.cavity;
-    if (!correct(newton_step(linear, state, storage, outcome), storage, state, linear, outcome))
-      break;
+    const Eigen::VectorXd step = newton_step(linear, state, storage, outcome);
+    if (!correct(step, storage, state, linear, outcome)) break;
     const bool grows = (state.cavity != cavity).any();
     const bool shrinks = refill(linear, state);
     measure(linear, state, outcome);
