@@ -133,10 +133,8 @@ Field random_waves(const PointProblem& problem, double rms, const CounterRandom&
   const Eigen::ArrayXd x = point_x(problem);
   const Eigen::ArrayXd y = point_y(problem);
   Field height = Field::Zero(problem.nodes_y, problem.nodes_x);
-  for (int k = 0; k < kWaves; ++k) {
-    const auto uniform = [&](int which) {
-      return random.uniform(static_cast<std::uint64_t>(3 * k + which));
-    };
+  for (std::uint64_t k = 0; k < kWaves; ++k) {
+    const auto uniform = [&](std::uint64_t which) { return random.uniform(3 * k + which); };
     const double q = 2 * std::numbers::pi / (half_axis * (0.4 + 0.8 * uniform(0)));
     const double direction = 2 * std::numbers::pi * uniform(1);
     const double phase = 2 * std::numbers::pi * uniform(2);
@@ -156,10 +154,8 @@ TEST_P(RandomPointContacts, Converge) {
   const int threads = thread_count();
   set_thread_count(1);  // the grids are small
   int converged = 0;
-  for (int k = 0; k < kCases; ++k) {
-    const auto uniform = [&](int which) {
-      return random.uniform(static_cast<std::uint64_t>(10 * k + which));
-    };
+  for (std::uint64_t k = 0; k < kCases; ++k) {
+    const auto uniform = [&](std::uint64_t which) { return random.uniform(10 * k + which); };
     PointProblem problem = moes_case(5 * std::pow(400, uniform(0)), 20 * uniform(1), 49);
     if (uniform(2) < 0.5) problem = compressible(problem);
     if (uniform(3) < 0.3) {
@@ -167,9 +163,7 @@ TEST_P(RandomPointContacts, Converge) {
       problem.sliding_speed = problem.entrainment_speed;
     }
     const double rms = GetParam() * uniform(4) * film_groups_of(problem).nijenbanning_central();
-    if (rms > 0)
-      problem.roughness =
-          random_waves(problem, rms, CounterRandom(43, static_cast<std::uint64_t>(k)));
+    if (rms > 0) problem.roughness = random_waves(problem, rms, CounterRandom(43, k));
     const PointResult result = solve_point(problem);
     converged += result.converged ? 1 : 0;
     EXPECT_TRUE(result.film.isFinite().all());
