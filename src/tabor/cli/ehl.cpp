@@ -109,6 +109,13 @@ void declare_options(OptionSet& set, Request& request) {
       .short_flag = "-o";
 }
 
+constexpr const char* kRestitutionMap =
+    "tabor ehl impact examples/10_restitution_map/ball.toml --set ball.speed=0.05m/s..1m/s:log:3 "
+    "--set grid.nodes=100 --json";
+constexpr const char* kStribeckCurve =
+    "tabor ehl point examples/12_stribeck/ball.toml --set grid.nodes=65 "
+    "--set motion.speed=0.1m/s..10m/s:log:3";
+
 }  // namespace
 
 Verb ehl_verb() {
@@ -117,12 +124,9 @@ Verb ehl_verb() {
           .summary = "films under load: impact, squeeze and slide, line and point contacts",
           .details = details(),
           .examples = {"tabor ehl impact examples/09_ball_drop/safa_gohar.toml -o impact.h5",
-                       "tabor ehl impact examples/10_restitution_map/ball.toml "
-                       "--set ball.speed=0.05m/s..1m/s:log:3 --set grid.nodes=100 --json",
-                       "tabor ehl line examples/11_hdpe_glycerol/hdpe.toml",
+                       kRestitutionMap, "tabor ehl line examples/11_hdpe_glycerol/hdpe.toml",
                        "tabor ehl point examples/12_stribeck/ball.toml --set grid.nodes=65,97,129",
-                       "tabor ehl point examples/12_stribeck/ball.toml --set grid.nodes=65 "
-                       "--set motion.speed=0.1m/s..10m/s:log:3"},
+                       kStribeckCurve},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_options(set, *request);

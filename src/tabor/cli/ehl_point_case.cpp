@@ -38,7 +38,7 @@ bool has_roughness(const io::Config& config) {
          config.has("roughness.bump.height");
 }
 
-io::Config with_usual(io::Config config, const Usual& usual) {
+io::Config with_usual(const io::Config& config, const Usual& usual) {
   return config.has(usual.key) ? config : config.with(usual.key, usual.value);
 }
 

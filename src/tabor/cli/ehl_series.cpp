@@ -146,8 +146,9 @@ std::vector<std::string> headings_of(std::vector<std::string> first, const Colum
 
 std::vector<std::string> row_of(std::vector<std::string> first, const Columns& columns,
                                 const io::Json& scalars) {
-  for (const EhlColumn& column : columns)
+  for (const EhlColumn& column : columns) {
     first.push_back(text_of(number_of(scalars, column.key), column));
+  }
   return first;
 }
 
@@ -165,8 +166,9 @@ void add_limits(const Columns& columns, const EhlStudy& study, const std::vector
   for (const EhlColumn& column : columns) {
     std::vector<double> numbers;
     numbers.reserve(answers.size());
-    for (const EhlAnswer& answer : answers)
+    for (const EhlAnswer& answer : answers) {
       numbers.push_back(number_of(answer.scalars, column.key));
+    }
     const GridLimit limit = column.has_limit ? limit_of(spacing, numbers) : GridLimit{kNone, kNone};
     limit_row.push_back(text_of(limit.value, column));
     order_row.push_back(plain(limit.order, 2));
@@ -188,7 +190,7 @@ const EhlStudy* study_of(const EhlProgram& program, const std::vector<SweepAxis>
   return nullptr;
 }
 
-int finish_series(const EhlSeries& series, const Table& table, io::Json object,
+int finish_series(const EhlSeries& series, const Table& table, const io::Json& object,
                   const std::vector<EhlAnswer>& answers, Context& context) {
   const bool converged = all_converged(answers);
   warn_of_many(answers, context);
@@ -261,6 +263,7 @@ int show_sweep(const EhlSeries& series, const std::vector<SweepAxis>& axes, Cont
   const std::vector<Places> all = combinations(axes);
   const std::vector<EhlAnswer> answers = solve_all(series, axes, all, context);
   std::vector<std::string> headings;
+  headings.reserve(axes.size());
   for (const SweepAxis& axis : axes) headings.push_back(axis.key);
   const Columns columns = columns_of(program, answers);
   headings = headings_of(headings, columns);
