@@ -178,7 +178,7 @@ class Step {
   /// A row that is starved all around: the fill of its last cell is what it is carried around with.
   void close_the_loop(Index begin) {
     const Index last = begin + cells_.nx - 1;
-    double result[2];
+    double result[2] = {0, 0};
     for (const double start : {0.0, 1.0}) {
       fill_.data()[last] = start;
       for (Index cell = begin; cell <= last; ++cell) fill_.data()[cell] = fill_from_upstream(cell);
