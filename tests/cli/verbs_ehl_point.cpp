@@ -190,6 +190,41 @@ TEST_F(EhlPoint, SharesTheLoadWithSolids) {
               json["friction_fluid"].get<double>() + json["friction_solid"].get<double>(), 1e-12);
 }
 
+TEST_F(EhlPoint, MovesItsRoughnessWithItsBody) {
+  const std::vector<std::string> bump = {"motion.sliding_speed=0m/s", "roughness.bump.height=50nm",
+                                         "roughness.bump.wavelength=100um",
+                                         "roughness.bump.place=[\"-220um\", \"0um\"]"};
+  std::vector<std::string> moving = bump;
+  moving.emplace_back("motion.duration=1ms");
+  const std::string file = folder_ / "passage.h5";
+  const io::Json json = json_of(words(groups_, moving, {"-o", file}));
+  EXPECT_TRUE(json.at("converged").get<bool>());
+  const io::Json& history = json.at("history");
+  EXPECT_DOUBLE_EQ(history.at("end_s").get<double>(), 1e-3);
+  // Pure rolling: the roughness moves as fast as the liquid is drawn in.
+  EXPECT_DOUBLE_EQ(history.at("roughness_speed_m_per_s").get<double>(),
+                   json.at("entrainment_speed_m_per_s").get<double>());
+  EXPECT_LE(history.at("min_film_m").get<double>(), json.at("min_film_m").get<double>());
+  const io::Hdf5Reader reader(file);
+  EXPECT_EQ(reader.shape("/history/central_film"),
+            std::vector<Index>{history.at("steps").get<Index>() + 1});
+  EXPECT_THAT(run_tabor(words(groups_, bump)).err, HasSubstr("motion.duration lets it move"));
+}
+
+TEST_F(EhlPoint, RefusesPassagesThatCannotBe) {
+  refused(words(groups_, {"motion.duration=1ms", "motion.sliding_speed=0m/s"}), "a [roughness]");
+  refused(words(groups_, {"motion.duration=1ms", "roughness.bump.height=50nm",
+                          "roughness.bump.wavelength=100um"}),
+          "a rough surface at rest");
+  refused(words(groups_, {"motion.duration=1s", "motion.sliding_speed=0m/s", "grid.time_step=1us",
+                          "roughness.bump.height=50nm", "roughness.bump.wavelength=100um"}),
+          "100000 or less");
+  refused(words(groups_,
+                {"motion.duration=1ms", "motion.sliding_speed=0m/s", "solids.plastic_pressure=4GPa",
+                 "roughness.bump.height=50nm", "roughness.bump.wavelength=100um"}),
+          "beside motion.duration");
+}
+
 TEST_F(EhlPoint, WarnsOfWhatItsEquationsDoNotSee) {
   std::ofstream(folder_ / "newtonian.toml")
       << "groups = {M = 200, L = 10}\n[motion]\nsliding_speed = \"1 m/s\"\n";

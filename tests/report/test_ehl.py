@@ -97,6 +97,8 @@ def point_file(path):
                 file[f"{group}/{name}"] = contact[name][cut]
             file[f"{group}/place"], file[f"{group}/hertz_pressure"] = place, dry[cut]
             file[f"{group}/smooth_film"], file[f"{group}/smooth_pressure"] = film[cut], dry[cut]
+        for name in ("time", "central_film", "min_film", "max_pressure"):
+            file[f"history/{name}"] = [0.0, 1.0]
         file["slice_plane/level"] = [0, 5e-8, 1e-7]
         file["slice_plane/share"] = [0.5, 1.0, 1.0]
         file["slice_plane/smooth_share"] = [0.0, 1.0, 1.0]
@@ -193,7 +195,7 @@ class Ehl(unittest.TestCase):
         self.assertEqual(
             set(drawn),
             {"point_along", "point_across", "point_film", "point_pressure", "point_plastic", "point_roughness",
-             "point_slice_plane"},
+             "point_slice_plane", "point_history"},
         )
         rows = self.rows(drawn["point_along"])
         self.assertAlmostEqual(float(rows[40]["smooth_film_m"]), 5e-8)

@@ -6,7 +6,7 @@ from tabor_report import map_axes, style, units
 from tabor_report.figures import Drawn
 from tabor_report.output import matrix_text, table_text
 
-UM, NM, GPA = 1e6, 1e9, 1e-9
+UM, NM, GPA, MS = 1e6, 1e9, 1e-9, 1e3
 REACH = 1.8  # shown, in half axes of the dry contact
 FILMS_SHOWN = 4  # over the film in the contact
 LINE_LIMIT = 400  # rows or columns of a printed map
@@ -29,6 +29,8 @@ def draw(source):
     if contact.has("roughness"):
         yield _roughness_map(contact)
     yield _slice_plane(source.curves("slice_plane"))
+    if history := source.curves("history"):
+        yield _passage(history)
 
 
 class _Contact:
@@ -138,6 +140,32 @@ def _centre_line(source, group, label):
         + (" Dotted: the film without the roughness." if is_rough else ""),
         figure,
         {"": table_text({f"{name}_{_unit(name)}": values for name, values in curves.items()})},
+    )
+
+
+def _passage(history):
+    """What a moving rough surface does to the film."""
+    figure, grid = style.new_figure(3.2, width=5.6)
+    left = grid[0][0]
+    right = left.twinx()
+    time = history["time"] * MS
+    left.plot(time, history["max_pressure"] * GPA, color=style.COLOURS[1], label="largest pressure")
+    right.plot(time, history["central_film"] * NM, color=style.COLOURS[0], label="film in the centre")
+    right.plot(time, history["min_film"] * NM, color=style.COLOURS[0], linestyle="--", label="smallest film")
+    left.set_xlim(time[0], time[-1])
+    left.set_ylim(bottom=0)
+    right.set_ylim(bottom=0)
+    left.set_xlabel("time (ms)")
+    left.set_ylabel("pressure (GPa)")
+    right.set_ylabel("film thickness (nm)")
+    right.spines["right"].set_visible(True)
+    style.legend_on_top(figure, style.entries(left, right))
+    return Drawn(
+        "point_history",
+        "Film and pressure against time",
+        "While the rough surface moves through the contact; the maps are of the last instant.",
+        figure,
+        {"": table_text({f"{name}_{_unit(name) if name != 'time' else 's'}": values for name, values in history.items()})},
     )
 
 

@@ -10,6 +10,7 @@
 #include "tabor/cli/ehl_case.hpp"
 #include "tabor/cli/ehl_point_case.hpp"
 #include "tabor/cli/ehl_point_fields.hpp"
+#include "tabor/cli/ehl_point_passage.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/ehl/point_dry.hpp"
 #include "tabor/ehl/point_measures.hpp"
@@ -190,12 +191,15 @@ std::optional<PointResult> smooth_film(PointProblem problem, const Observer& obs
 
 PointProblem read_problem(const io::Config& config, Context& context) {
   PointProblem problem = read_point(config);
-  problem.roughness = read_point_roughness(config, problem, context);
+  if (const PointRoughness roughness = read_point_roughness(config, problem, 0, context)) {
+    problem.roughness = roughness(0);
+  }
   return problem;
 }
 
 /// What the equations do not see.
-std::vector<std::string> doubts_of(const PointProblem& problem, const PointMeasures& measures) {
+std::vector<std::string> doubts_of(const PointProblem& problem, const PointMeasures& measures,
+                                   bool is_still) {
   std::vector<std::string> doubts;
   const double ratio = measures.max_shear_stress / measures.max_pressure;
   const bool is_newtonian =
@@ -207,11 +211,11 @@ std::vector<std::string> doubts_of(const PointProblem& problem, const PointMeasu
                     si(measures.max_shear_stress, "Pa"), percent(ratio, 2)));
   }
   const double at_rest = 2 * problem.entrainment_speed;
-  if (problem.roughness.size() > 0 &&
+  if (problem.roughness.size() > 0 && is_still &&
       std::abs(std::abs(problem.sliding_speed) - at_rest) > 1e-6 * at_rest) {
     doubts.emplace_back(
         "the roughness is taken to stand still, but its surface moves: only a "
-        "sliding speed of twice the entrainment speed is steady");
+        "sliding speed of twice the entrainment speed is steady; motion.duration lets it move");
   }
   return doubts;
 }
@@ -228,7 +232,9 @@ EhlAnswer answer_of(const io::Config& config, const PointProblem& problem,
   answer.text = text_of(problem, result, measures);
   answer.converged = result.converged;
   answer.warnings = result.doubts;
-  for (std::string& doubt : doubts_of(problem, measures)) answer.warnings.push_back(doubt);
+  for (std::string& doubt : doubts_of(problem, measures, !has_passage(config))) {
+    answer.warnings.push_back(doubt);
+  }
   if (!result.converged) {
     answer.warnings.emplace_back(
         "the film was not found: more nodes, or a sweep that comes down "
@@ -260,7 +266,15 @@ void add_dry(const PointProblem& problem, const Observer& observer, EhlAnswer& a
   if (!result.converged) answer.warnings.emplace_back("the dry contact was not found");
 }
 
+EhlAnswer solve_moving(const io::Config& config, Context& context) {
+  const PointPassage passage = solve_passage(config, context);
+  EhlAnswer answer = answer_of(config, passage.at_end, passage.film.last, context);
+  add_history(passage, answer);
+  return answer;
+}
+
 EhlAnswer solve(const io::Config& config, Context& context) {
+  if (has_passage(config)) return solve_moving(config, context);
   const PointProblem problem = read_problem(config, context);
   const PointResult result = solve_point(problem, nullptr, context.observer());
   EhlAnswer answer = answer_of(config, problem, result, context);
@@ -287,6 +301,7 @@ bool are_neighbours(const PointProblem& a, const PointProblem& b) {
 EhlSolver make_series_solver() {
   return [previous = std::make_shared<std::optional<Previous>>()](const io::Config& config,
                                                                   Context& context) {
+    if (has_passage(config)) return solve_moving(config, context);
     PointProblem problem = read_problem(config, context);
     const bool has_start = previous->has_value() && (*previous)->result.converged &&
                            are_neighbours((*previous)->problem, problem);

@@ -221,6 +221,7 @@ std::vector<std::string> point_keys() {
                  "motion.speed",
                  "motion.entrainment_speed",
                  "motion.sliding_speed",
+                 "motion.duration",
                  "roughness.file",
                  "roughness.channel",
                  "roughness.treatment",
@@ -240,7 +241,8 @@ std::vector<std::string> point_keys() {
                  "grid.inlet",
                  "grid.outlet",
                  "grid.half_width",
-                 "grid.domain"},
+                 "grid.domain",
+                 "grid.time_step"},
                 {solids_keys(), lubricant_keys(), shear_keys()});
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,13 @@ namespace tabor::cli {
 /// speed: a ball on a flat, steel and mineral oil unless the case says otherwise.
 ehl::PointProblem read_point(const io::Config& config);
 
-/// [roughness]: a scan, a bump, a generated finish, or their sum [m] at the nodes of the problem;
-/// empty if the case has none.
-Field read_point_roughness(const io::Config& config, const ehl::PointProblem& problem,
-                           Context& context);
+/// Heights [m] at the nodes of a problem once the surface has moved so far along the flow [m].
+using PointRoughness = std::function<Field(double moved)>;
+
+/// [roughness]: a scan, a bump, a generated finish, or their sum; empty if the case has none. A
+/// generated finish is long enough to move by `travel` [m], of either sign.
+PointRoughness read_point_roughness(const io::Config& config, const ehl::PointProblem& problem,
+                                    double travel, Context& context);
 
 /// The scan that `roughness.file` names, from where the case lies.
 std::filesystem::path point_scan(const io::Config& config);

@@ -64,8 +64,10 @@ void refuse_without(const io::Config& config, const char* owner,
   }
 }
 
-/// Pixels that cover the whole domain of the film with what point_map() fades out around it.
-Grid generated_grid(const io::Config& config, const ehl::PointProblem& problem, bool is_turned) {
+/// Pixels that cover the whole domain of the film with what point_map() fades out around it, while
+/// they move by `travel` [m].
+Grid generated_grid(const io::Config& config, const ehl::PointProblem& problem, bool is_turned,
+                    double travel) {
   const double pixel = positive_quantity_or(config, "roughness.pixel", dimension::length, kPixel);
   const reference::HertzEllipse hertz = hertz_of(problem);
   const auto pixels = [&](double half_length) {
@@ -77,16 +79,17 @@ Grid generated_grid(const io::Config& config, const ehl::PointProblem& problem, 
     }
     return static_cast<Index>(n);
   };
-  Index nx = pixels(std::max(problem.inlet, problem.outlet) * hertz.half_axis_x);
+  Index nx =
+      pixels(std::max(problem.inlet, problem.outlet) * hertz.half_axis_x + std::abs(travel) / 2);
   Index ny = pixels(problem.half_width * hertz.half_axis_y);
   if (is_turned) std::swap(nx, ny);
   return {nx, ny, static_cast<double>(nx) * pixel, static_cast<double>(ny) * pixel};
 }
 
 Topography generate(const io::Config& config, const ehl::PointProblem& problem, bool is_turned,
-                    std::uint64_t seed) {
+                    double travel, std::uint64_t seed) {
   const std::string kind = config.text("roughness.kind");
-  const Grid grid = generated_grid(config, problem, is_turned);
+  const Grid grid = generated_grid(config, problem, is_turned, travel);
   const auto rms = [&](double usual) {
     return positive_quantity_or(config, "roughness.rms", dimension::length, usual);
   };
@@ -119,17 +122,33 @@ Topography generate(const io::Config& config, const ehl::PointProblem& problem, 
 /// Turned by a quarter: what ran along the flow runs across it.
 Field turned(const Field& height) { return height.transpose().rowwise().reverse(); }
 
-/// Heights of a scan or a generated surface, x along the flow unless it is turned.
-Field map_heights(const io::Config& config, const char* key, const ehl::PointProblem& problem,
-                  const Topography& surface, bool is_turned) {
+/// Heights of a scan or a generated surface, x along the flow unless it is turned; its middle is
+/// `behind` [m] the place that the case gives.
+PointRoughness map_heights(const io::Config& config, const char* key,
+                           const ehl::PointProblem& problem, const Topography& surface,
+                           bool is_turned, double behind) {
   const Place place = read_place(config, "roughness.place");
   const Grid& grid = surface.grid;
   const ehl::PointMap map = {.height = is_turned ? turned(surface.height) : surface.height,
                              .spacing_x = is_turned ? grid.dy() : grid.dx(),
                              .spacing_y = is_turned ? grid.dx() : grid.dy(),
-                             .centre_x = place.x,
+                             .centre_x = place.x - behind,
                              .centre_y = place.y};
-  return at_key(config, key, [&] { return ehl::point_map(problem, map); });
+  return [config, key, problem, map](double moved) {
+    ehl::PointMap now = map;
+    now.centre_x += moved;
+    return at_key(config, key, [&] { return ehl::point_map(problem, now); });
+  };
+}
+
+PointRoughness bump_heights(const io::Config& config, const ehl::PointProblem& problem) {
+  const Place place = read_place(config, "roughness.bump.place");
+  const double height = config.quantity("roughness.bump.height", dimension::length);
+  const double wavelength =
+      positive_quantity(config, "roughness.bump.wavelength", dimension::length);
+  return [=](double moved) {
+    return ehl::point_bump(problem, height, wavelength, place.x + moved, place.y);
+  };
 }
 
 /// Contact and pressure depend on short waves, which a coarse grid averages away.
@@ -174,37 +193,36 @@ std::filesystem::path point_scan(const io::Config& config) {
   return std::filesystem::path(config.name()).parent_path() / config.text("roughness.file");
 }
 
-Field read_point_roughness(const io::Config& config, const ehl::PointProblem& problem,
-                           Context& context) {
+PointRoughness read_point_roughness(const io::Config& config, const ehl::PointProblem& problem,
+                                    double travel, Context& context) {
   refuse_without(config, "roughness.file", {"roughness.channel", "roughness.treatment"});
   refuse_without(
       config, "roughness.kind",
       {"roughness.rms", "roughness.pixel", "roughness.seed", "roughness.groove_spacing"});
-  Field roughness;
-  const auto add = [&](const Field& heights) {
-    roughness = roughness.size() == 0 ? heights : Field(roughness + heights);
-  };
+  std::vector<PointRoughness> parts;
   const bool is_turned = read_is_turned(config);
-  const auto add_map = [&](const char* key, const Topography& surface) {
-    add(map_heights(config, key, problem, surface, is_turned));
+  const auto add_map = [&](const char* key, const Topography& surface, double behind) {
+    parts.push_back(map_heights(config, key, problem, surface, is_turned, behind));
     warn_of_coarse_nodes(problem, surface.grid, context);
   };
-  if (config.has("roughness.file")) add_map("roughness.file", read_scan(config, context));
+  if (config.has("roughness.file")) add_map("roughness.file", read_scan(config, context), 0);
   if (config.has("roughness.kind")) {
     const auto seed = static_cast<std::uint64_t>(
         integer_or(config, "roughness.seed", static_cast<std::int64_t>(context.seed_or_default())));
-    add_map("roughness.kind", generate(config, problem, is_turned, seed));
+    add_map("roughness.kind", generate(config, problem, is_turned, travel, seed), travel / 2);
   }
   if (config.has("roughness.bump.height") || config.has("roughness.bump.wavelength")) {
-    const Place place = read_place(config, "roughness.bump.place");
-    add(ehl::point_bump(problem, config.quantity("roughness.bump.height", dimension::length),
-                        positive_quantity(config, "roughness.bump.wavelength", dimension::length),
-                        place.x, place.y));
+    parts.push_back(bump_heights(config, problem));
   }
-  if (roughness.size() == 0) {
+  if (parts.empty()) {
     refuse_without(config, "roughness.file", {"roughness.orientation", "roughness.place"});
+    return {};
   }
-  return roughness;
+  return [parts](double moved) {
+    Field sum = parts.front()(moved);
+    for (std::size_t k = 1; k < parts.size(); ++k) sum += parts[k](moved);
+    return sum;
+  };
 }
 
 }  // namespace tabor::cli

@@ -61,6 +61,10 @@ TransientPointResult solve_point_transient(const TransientPointProblem& problem,
   PointFilm::Outcome outcome = solve_cold(problem.contact, film, state, observer);
   film.shape = shape_at(problem, smooth, 0);
   if (outcome.converged) outcome = outcome + film.solve(state, {}, observer);
+  if (!outcome.converged) {
+    result.history.push_back(moment_of(film, state, 0));
+    result.last = result_of(problem.contact, film, state, outcome);
+  }
   for (int step = 0; outcome.converged; ++step) {
     const double now = step * problem.time_step;
     result.history.push_back(moment_of(film, state, now));

@@ -26,7 +26,7 @@ struct PointMoment {
 };
 
 struct TransientPointResult {
-  std::vector<PointMoment> history;  ///< from t = 0 on
+  std::vector<PointMoment> history;  ///< from t = 0 on, one at least
   PointResult last;                  ///< fields at the last time that was reached
   int newton_iterations = 0;
   bool converged = false;  ///< all steps were

@@ -1,0 +1,114 @@
+#include "tabor/cli/ehl_point_passage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tabor/cli/ehl_case.hpp"
+#include "tabor/cli/ehl_history.hpp"
+#include "tabor/cli/ehl_point_case.hpp"
+#include "tabor/cli/table.hpp"
+#include "tabor/core/error.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+constexpr double kMostSteps = 100000;
+
+using Moment = ehl::PointMoment;
+
+constexpr HistoryCurve<Moment> kHistory[] = {
+    {"time", "s", "time since the surface began to move", &Moment::time},
+    {"central_film", "m", "film thickness in the centre", &Moment::central_film},
+    {"min_film", "m", "smallest film thickness", &Moment::min_film},
+    {"max_pressure", "Pa", "largest pressure", &Moment::max_pressure}};
+
+/// Speed of the rough body [m/s]: the slower one for a positive sliding speed.
+double roughness_speed(const io::Config& config, const ehl::PointProblem& problem) {
+  const double speed = problem.entrainment_speed - problem.sliding_speed / 2;
+  if (std::abs(speed) > 1e-9 * problem.entrainment_speed) return speed;
+  throw InputError(config.place("motion.duration"), "a rough surface at rest",
+                   "motion.entrainment_speed with a motion.sliding_speed that is not twice as much",
+                   "the rough body moves at the entrainment less half of the sliding speed");
+}
+
+void set_steps(const io::Config& config, double speed, ehl::TransientPointProblem& problem) {
+  const double duration = positive_quantity(config, "motion.duration", dimension::time);
+  const double fastest = std::max(std::abs(speed), problem.contact.entrainment_speed);
+  const double longest = positive_quantity_or(config, "grid.time_step", dimension::time,
+                                              point_grid(problem.contact).dx() / fastest);
+  const double steps = std::ceil(duration / longest);
+  if (!(steps <= kMostSteps)) {
+    throw InputError(config.place("motion.duration"), fmt::format("{:.0f} time steps", steps),
+                     fmt::format("{:.0f} or less", kMostSteps),
+                     "a shorter duration or a longer grid.time_step");
+  }
+  problem.steps = static_cast<int>(steps);
+  problem.time_step = duration / steps;
+}
+
+}  // namespace
+
+bool has_passage(const io::Config& config) { return config.has("motion.duration"); }
+
+PointPassage solve_passage(const io::Config& config, Context& context) {
+  ehl::TransientPointProblem problem{.contact = read_point(config), .roughness = {}};
+  if (config.has("solids.plastic_pressure")) {
+    throw InputError(config.place("solids.plastic_pressure"), "beside motion.duration",
+                     "one of the two", "moving solids do not touch or flow in this program");
+  }
+  const double speed = roughness_speed(config, problem.contact);
+  set_steps(config, speed, problem);
+  const double travel = speed * problem.time_step * problem.steps;
+  const PointRoughness roughness = read_point_roughness(config, problem.contact, travel, context);
+  if (!roughness) {
+    throw InputError(config.place("motion.duration"), "a smooth surface", "a [roughness]",
+                     "smooth bodies have a steady film");
+  }
+  roughness(travel);  // a map that is too short is refused before anything is solved
+  problem.roughness = [&](double time) { return roughness(speed * time); };
+  PointPassage passage{.at_end = problem.contact,
+                       .speed = speed,
+                       .film = solve_point_transient(problem, context.observer())};
+  passage.at_end.roughness = problem.roughness(passage.film.history.back().time);
+  return passage;
+}
+
+void add_history(const PointPassage& passage, EhlAnswer& answer) {
+  const std::vector<Moment>& history = passage.film.history;
+  const auto least =
+      std::min_element(history.begin(), history.end(),
+                       [](const Moment& a, const Moment& b) { return a.min_film < b.min_film; });
+  const auto most = std::max_element(
+      history.begin(), history.end(),
+      [](const Moment& a, const Moment& b) { return a.max_pressure < b.max_pressure; });
+  const double end = history.back().time;
+  answer.scalars["history"] = {{"steps", history.size() - 1},
+                               {"end_s", end},
+                               {"roughness_speed_m_per_s", passage.speed},
+                               {"min_film_m", io::number(least->min_film)},
+                               {"time_min_film_s", least->time},
+                               {"max_pressure_Pa", io::number(most->max_pressure)},
+                               {"time_max_pressure_s", most->time}};
+  Facts facts;
+  facts.fact("all this at", fmt::format("{}, after {} steps", si(end, "s"), history.size() - 1));
+  facts.fact("on the way",
+             fmt::format("film down to {} at {}, pressure up to {} at {}", si(least->min_film, "m"),
+                         si(least->time, "s"), si(most->max_pressure, "Pa"), si(most->time, "s")));
+  facts.fact("speed of roughness", si(passage.speed, "m/s"));
+  answer.text += facts.text();
+  answer.converged = passage.film.converged;
+  if (!answer.converged) {
+    answer.warnings.push_back(fmt::format(
+        "no film was found after {}: where solids would touch, the passage ends", si(end, "s")));
+  }
+  answer.write = [fields = answer.write, history](io::Hdf5Writer& writer) {
+    fields(writer);
+    write_history(writer, "/history", kHistory, history);
+  };
+}
+
+}  // namespace tabor::cli
