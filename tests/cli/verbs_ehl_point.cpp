@@ -188,6 +188,11 @@ TEST_F(EhlPoint, SharesTheLoadWithSolids) {
   EXPECT_GT(json["dry"]["solid_contact_fraction"], json["solid_contact_fraction"]);
   EXPECT_NEAR(json["friction_coefficient"].get<double>(),
               json["friction_fluid"].get<double>() + json["friction_solid"].get<double>(), 1e-12);
+  std::vector<std::string> thick = rough;
+  thick.emplace_back("asperities.boundary_film=20nm");
+  const io::Json thickly = json_of(ball(thick));
+  EXPECT_GT(thickly["solid_contact_fraction"], json["solid_contact_fraction"]);
+  EXPECT_GE(thickly["contact_load_share"], json["contact_load_share"]);
 }
 
 TEST_F(EhlPoint, MovesItsRoughnessWithItsBody) {

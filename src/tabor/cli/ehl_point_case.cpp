@@ -197,6 +197,8 @@ ehl::PointProblem read_point(const io::Config& given) {
   problem.effective_modulus = read_effective_modulus(config);
   problem.plastic_pressure = positive_quantity_or(config, "solids.plastic_pressure",
                                                   dimension::pressure, ehl::kNoPlasticLimit);
+  problem.boundary_film = positive_quantity_or(config, "asperities.boundary_film",
+                                               dimension::length, problem.boundary_film);
   problem.lubricant = read_lubricant(config, "roelands");
   problem.lubricant.shear = read_shear(config);
   if (has_groups) {
@@ -218,6 +220,7 @@ std::vector<std::string> point_keys() {
                  "groups.M",
                  "groups.L",
                  "solids.plastic_pressure",
+                 "asperities.boundary_film",
                  "motion.speed",
                  "motion.entrainment_speed",
                  "motion.sliding_speed",
