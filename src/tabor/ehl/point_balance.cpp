@@ -93,8 +93,7 @@ struct CarriedMass {
 class Assembly {
  public:
   Assembly(const PointFlow& flow, const PointUnits& units, PointBalance& balance)
-      : flow_(flow),
-        units_(units),
+      : units_(units),
         nx_(flow.film.cols()),
         dx_(flow.grid.dx()),
         dy_(flow.grid.dy()),
@@ -183,7 +182,6 @@ class Assembly {
     }
   }
 
-  const PointFlow& flow_;
   const PointUnits& units_;
   Index nx_;
   double dx_, dy_, unit_;
