@@ -1,5 +1,6 @@
 // What becomes of a copy of the process that reads a file of others.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -76,6 +77,23 @@ TEST(Hdf5Guard, WhoWatchesMayStopIt) {
                    {7, 5}, [](const Rows& send) { send(kMap); },
                    [](double) { throw std::runtime_error("stop"); }),
                std::runtime_error);
+}
+
+TEST(Hdf5Guard, ACopyThatWaitsForEverIsGivenUp) {
+  const pid_t original = ::getpid();
+  const auto wait_in_copy = [original] {
+    if (::getpid() != original) ::pause();
+  };
+  EXPECT_TRUE(survives(wait_in_copy));
+  const auto map = hdf5_map_from_copy(
+      {7, 5},
+      [&](const Rows& send) {
+        wait_in_copy();
+        send(kMap);
+      },
+      {});
+  ASSERT_TRUE(map);
+  EXPECT_TRUE((*map == kMap).all());
 }
 
 }  // namespace
