@@ -85,13 +85,12 @@ TEST(Hdf5Guard, ACopyThatWaitsForEverIsGivenUp) {
     if (::getpid() != original) ::pause();
   };
   EXPECT_TRUE(survives(wait_in_copy));
-  const auto map = hdf5_map_from_copy(
-      {7, 5},
-      [&](const Rows& send) {
-        wait_in_copy();
-        send(kMap);
-      },
-      {});
+  const auto map = hdf5_map_from_copy({7, 5},
+                                      [&](const Rows& send) {
+                                        wait_in_copy();
+                                        send(kMap);
+                                      },
+                                      {});
   ASSERT_TRUE(map);
   EXPECT_TRUE((*map == kMap).all());
 }
