@@ -16,6 +16,7 @@ from tabor_report.figures import (
     ehl_stribeck,
     lubricant_map,
     lubricated_friction,
+    mixed_friction,
     psd,
     single_curves,
     single_maps,
@@ -101,6 +102,7 @@ def study_figures(source, options):
         yield from _present(lubricant_map.draw(item))
         yield from _present(contact_clusters.draw(item))
     yield from _present(lubricated_friction.draw(source, options.error_bar))
+    yield from _present(mixed_friction.draw(source, options.error_bar))
 
 
 def single_figures(source):

@@ -42,21 +42,14 @@ def number_text(n):
 
 
 def dry(study, group):
-    """Dry friction does not know the density; of equal pressures the row with most scans is taken."""
-    rows = _rows(study, group)
-    best = {}
-    for row in rows.rows():
-        known = best.get(row["mean_pressure_Pa"])
-        if known is None or row["n"] > known["n"]:
-            best[row["mean_pressure_Pa"]] = row
-    return _series(study, group, float("nan"), [best[pressure] for pressure in sorted(best)], "friction_dry")
+    """Dry friction knows neither density nor speed."""
+    return _series(study, group, float("nan"), _by_pressure(_rows(study, group)), "friction_dry")
 
 
 def lubricated(study, group, density):
     rows = _rows(study, group)
     rows = rows.where(rows.equal(DENSITY, density)) if rows else rows
-    ordered = sorted(rows.rows(), key=lambda row: row["mean_pressure_Pa"])
-    return _series(study, group, density, ordered, "friction_lubricated")
+    return _series(study, group, density, _by_pressure(rows), "friction_lubricated")
 
 
 def densities(study):
@@ -160,6 +153,16 @@ def _rows(study, group):
     return study.averages.where(study.averages.equal("group", group)) if study.averages else Table({})
 
 
+def _by_pressure(rows):
+    """Rows by rising pressure; of equal pressures the one with most scans."""
+    best = {}
+    for row in rows.rows():
+        known = best.get(row["mean_pressure_Pa"])
+        if known is None or row["n"] > known["n"]:
+            best[row["mean_pressure_Pa"]] = row
+    return [best[pressure] for pressure in sorted(best)]
+
+
 def _series(study, group, density, rows, name):
     def column(key):
         return np.array([row.get(key, np.nan) for row in rows], dtype=float)
@@ -178,11 +181,17 @@ def _series(study, group, density, rows, name):
 
 
 def _loose(study, group, density, name):
-    """{(pressure, friction)} of the cases that did not converge; dry, equal ones of all densities are one."""
-    table = study.table.where(~converged(study.table)) if study.table else Table({})
+    """{(pressure, friction)} of the cases whose contact did not converge; equal ones are one."""
+    table = study.table.where(~_contact_converged(study.table)) if study.table else Table({})
     if table:
         table = table.where(table.equal("group", group))
     if table and np.isfinite(density):
         table = table.where(table.equal(DENSITY, density))
     found = {(float(row["mean_pressure_Pa"]), float(row[name])) for row in table.rows()}
     return {pair for pair in found if np.isfinite(pair[1])}
+
+
+def _contact_converged(table):
+    """Where the film that flows did not, nothing is said against the contact at rest."""
+    film = table.get("fluid_converged")
+    return converged(table) if film is None else converged(table) | ~film.astype(bool)

@@ -28,6 +28,9 @@ def _highlights(study):
         ("real contact area", _range(table, "contact_area_fraction", lambda value: f"{value:.2%}")),
         ("dry friction", _range(table, "friction_dry", lambda value: units.number(value, 3))),
         ("lubricated friction", _range(table, "friction_lubricated", lambda value: units.number(value, 3))),
+        ("sliding speeds", _range(table, "sliding_speed_m_per_s", lambda value: f"{units.number(value)} m/s")),
+        ("load on the oil", _range(table, "fluid_load_share", lambda value: f"{value:.2%}")),
+        ("friction with flowing oil", _range(table, "friction_mixed", lambda value: units.number(value, 3))),
     ]
     sure = len(table) - table.not_converged()
     found.append(("converged", f"{sure} of {len(table)} rows"))
@@ -93,6 +96,13 @@ def _settings(facts):
         ("shear strength τ_y", facts.get("shear_strength_Pa"), units.pressure),
         ("oil density", facts.get("oil_density_kg_per_m3"), lambda value: f"{units.number(value)} kg/m³"),
         ("area used for friction", facts.get("area"), str),
+        ("oil viscosity η", facts.get("viscosity_Pa_s"), lambda value: f"{units.number(value)} Pa s"),
+        (
+            "pressure-viscosity coefficient α",
+            facts.get("pressure_viscosity_per_Pa"),
+            lambda value: f"{units.number(value * 1e9)} 1/GPa",
+        ),
+        ("Eyring stress", facts.get("eyring_stress_Pa"), units.pressure),
     ]
     shown = [(name, show(value)) for name, value, show in rows if value is not None]
     return shown + [("saturation pressure p_sat", units.pressure(cap) if cap else "none (elastic)")]
@@ -106,6 +116,10 @@ _RESULT_COLUMNS = (
     ("lubricant (g/m²)", "lubricant_density_g_per_m2", units.number),
     ("μ dry", "friction_dry", units.number),
     ("μ lubricated", "friction_lubricated", units.number),
+    ("u (m/s)", "sliding_speed_m_per_s", units.number),
+    ("μ flowing", "friction_mixed", units.number),
+    ("of oil", "friction_viscous", units.number),
+    ("load on oil", "fluid_load_share", units.number),
     ("A/A₀", "contact_area_fraction", units.number),
     ("wet share", "lubricated_share", units.number),
     ("certificate", "certificate", lambda value: units.number(value, 2)),
@@ -153,11 +167,19 @@ def _averages(table):
             ("group", "group", str),
             ("P (MPa)", "mean_pressure_Pa", lambda value: units.number(value * 1e-6)),
             ("lubricant (g/m²)", "lubricant_density_g_per_m2", units.number),
+            ("u (m/s)", "sliding_speed_m_per_s", units.number),
             ("n", "n", lambda value: str(int(value))),
         )
         if name in table
     ]
-    for kind, title in (("friction_dry", "μ dry"), ("friction_lubricated", "μ lubricated")):
+    kinds = (
+        ("friction_dry", "μ dry"),
+        ("friction_lubricated", "μ lubricated"),
+        ("friction_mixed", "μ flowing"),
+        ("friction_viscous", "of oil"),
+        ("fluid_load_share", "load on oil"),
+    )
+    for kind, title in kinds:
         columns += [
             (f"{title}{part}", f"{kind}{suffix}", show)
             for part, suffix, show in _STATISTICS

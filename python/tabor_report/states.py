@@ -37,6 +37,21 @@ class Film:
         return self.node["film_thickness"][()]
 
 
+class Flow:
+    """/fluid of a store file: pressure, fill and gap of a film that flows."""
+
+    def __init__(self, node):
+        self.node = node
+        self.facts = hdf.attributes(node)
+
+    @property
+    def label(self):
+        """'2 MPa, 0.9 g/m², 0.005 m/s'"""
+        pressure = units.pressure(self.facts.get("mean_pressure_Pa"))
+        density = units.density(self.facts.get("lubricant_density_g_per_m2"))
+        return f"{pressure}, {density}, {units.number(self.facts.get('sliding_speed_m_per_s'))} m/s"
+
+
 class SingleState:
     """One member of /states of a `contact -o`, `lubricate -o` or `friction -o` file."""
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from tabor_report import hdf
 from tabor_report.errors import InputError
-from tabor_report.states import Film, StudyContact
+from tabor_report.states import Film, Flow, StudyContact
 from tabor_report.table import Table
 
 
@@ -61,6 +61,10 @@ class Scan:
         """By rising density."""
         found = [Film(node) for node in self._linked_members("films")]
         return sorted(found, key=lambda film: film.density)
+
+    def flows(self):
+        """States whose oil flows, in the order of the study."""
+        return [Flow(node) for node in self._linked_members("fluid")]
 
     def _linked_members(self, name):
         folder = hdf.child(self.node, name)
@@ -172,4 +176,7 @@ def _doubts_about(study):
 
 def _warnings_of_states(scan):
     states = [*scan.contacts(), *scan.films()]
-    return [text for state in states for text in hdf.text_list(state.facts.get("warnings"))]
+    found = [text for state in states for text in hdf.text_list(state.facts.get("warnings"))]
+    return found + [
+        f"{flow.label}: {text}" for flow in scan.flows() for text in hdf.text_list(flow.facts.get("warnings"))
+    ]

@@ -3,6 +3,7 @@
 
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
+#include "tabor/io/csv.hpp"
 
 namespace tabor::test {
 namespace {
@@ -79,6 +80,74 @@ TEST_F(StudyVerbs, CiteKnowsWhatAStudyUsed) {
     EXPECT_TRUE(entries.contains(key)) << key;
   }
   EXPECT_FALSE(entries.contains("barnes2021"));
+}
+
+TEST_F(StudyVerbs, SweepLetsTheOilFlow) {
+  const std::string text = bytes_of(folder_ / "study.toml");
+  const std::string flow =
+      "sliding_speed = [\"10 mm/s\", \"100 mm/s\"]\n"
+      "[lubricant]\nfluid = \"reynolds\"\nviscosity = \"0.2 Pa s\"\n";
+  put_bytes(folder_ / "study.toml", std::string(text).insert(text.find("[[scan]]"), flow));
+  const io::Json result = json_of(sweep());
+  EXPECT_EQ(result.at("n_cases"), 8);
+  EXPECT_EQ(result.at("n_computed_fluids"), 8);
+  const io::Json& averages = result.at("averages");
+  ASSERT_EQ(averages.size(), 4u);
+  EXPECT_EQ(averages.at(1).at("sliding_speed_m_per_s"), 0.1);
+  for (const char* key : {"friction_mixed_mean", "friction_viscous_std", "fluid_load_share_sem"}) {
+    EXPECT_TRUE(averages.at(1).at(key).is_number()) << key;
+  }
+  EXPECT_THAT(run_tabor(sweep()).out,
+              testing::AllOf(HasSubstr("friction mixed"), HasSubstr("100 mm/s")));
+  EXPECT_TRUE(json_of({"cite", file("out/results.h5")}).at("bibtex").contains("elrod1981"));
+
+  // One scan and state by the verb for one state: the same code, from maps of full precision.
+  const io::Json state = json_of({"friction",
+                                  file("1.h5"),
+                                  "--level",
+                                  "plane",
+                                  "--pressure",
+                                  "2MPa",
+                                  "--youngs-modulus",
+                                  "70GPa",
+                                  "--poisson-ratio",
+                                  "0.33",
+                                  "--saturation-pressure",
+                                  "240MPa",
+                                  "--density",
+                                  "0.9g/m^2",
+                                  "--shear-strength",
+                                  "70MPa",
+                                  "--fluid",
+                                  "reynolds",
+                                  "--speed",
+                                  "100mm/s",
+                                  "--viscosity",
+                                  "0.2Pa*s"})
+                             .at("states")
+                             .at(0);
+  const io::CsvTable table = io::read_csv(folder_ / "out" / "results.csv");
+  for (const char* key : {"friction_mixed", "friction_viscous", "fluid_load_share"}) {
+    const double expected = state.at(key).get<double>();
+    EXPECT_NEAR(table.number(1, key), expected, 2e-3 * expected) << key;
+  }
+}
+
+TEST_F(StudyVerbs, FlowThatMakesNoSenseIsBadInput) {
+  const std::string text = bytes_of(folder_ / "study.toml");
+  const auto code_with = [&](const std::string& lines) {
+    put_bytes(folder_ / "study.toml", std::string(text).insert(text.find("[[scan]]"), lines));
+    return run_tabor(sweep()).code;
+  };
+  const std::string speed = "sliding_speed = \"1 m/s\"\n";
+  const std::string oil = "[lubricant]\nfluid = \"reynolds\"\n";
+  const std::string viscosity = "viscosity = \"0.2 Pa s\"\n";
+  EXPECT_EQ(code_with(speed), 3);
+  EXPECT_EQ(code_with(speed + oil), 3);
+  EXPECT_EQ(code_with(oil + viscosity), 3);
+  EXPECT_EQ(code_with("sliding_speed = \"-1 m/s\"\n" + oil + viscosity), 3);
+  EXPECT_EQ(code_with(speed + "[lubricant]\nfluid = \"stokes\"\n" + viscosity), 3);
+  EXPECT_EQ(code_with(speed + oil + viscosity + "[contact]\nboundary = \"free\"\n"), 3);
 }
 
 TEST_F(StudyVerbs, MissingStudyIsBadInput) {

@@ -20,6 +20,8 @@ YOUNG, POISSON, SHEAR_STRENGTH = 70e9, 0.33, 70e6
 RESULT_COLUMNS = tuple("""case_id scan group mean_pressure_Pa lubricant_density_g_per_m2 contact_area_fraction
     contact_area_fraction_pixels saturated_area_fraction mean_gap_m lubricated_share spill_over_fraction
     friction_dry friction_lubricated certificate converged""".split())
+FLOW_COLUMNS = tuple("""sliding_speed_m_per_s fluid_load_share fluid_contact_area_fraction fluid_mean_gap_m
+    friction_solid friction_viscous friction_mixed fluid_load_error fluid_gap_error fluid_converged""".split())
 
 
 @dataclass
@@ -34,6 +36,12 @@ class Recipe:
     missing_cases: tuple = ()  # the same: neither computed nor stored
     doubts: dict = field(default_factory=dict)  # {scan index: text}
     title: str = "EDT aluminium on steel, before sliding"
+    speeds: tuple = ()  # [m/s]: the oil flows
+    unsteady: tuple = ()  # (scan index, speed index) whose film did not converge
+
+    @property
+    def columns(self):
+        return RESULT_COLUMNS + (FLOW_COLUMNS if self.speeds else ())
 
     @property
     def effective_modulus(self):
@@ -50,7 +58,7 @@ def write(folder, recipe=Recipe()):
         scans.append(scan)
         rows.extend(scan["rows"])
     averages = average(rows)
-    write_csv(folder / "results.csv", RESULT_COLUMNS, rows)
+    write_csv(folder / "results.csv", recipe.columns, rows)
     write_csv(folder / "averages.csv", tuple(averages[0]), averages)
     _write_results(folder / "results.h5", recipe, scans, rows, averages)
     return rows
@@ -66,6 +74,7 @@ def _write_scan(folder, recipe, index, group):
         "sha256": _sha256(f"scan {index}"),
         "contacts": {},
         "films": {},
+        "fluid": {},
         "rows": [],
     }
     scan["surface"] = _write_surface(folder, scan)
@@ -139,7 +148,9 @@ def _write_state(folder, recipe, scan, index, step, pressure, films):
         node.attrs.update(facts)
     scan["contacts"][step] = (name, "/contact")
     for density, film in films.items():
-        scan["rows"].append(_row(folder, scan, facts, density, film, state, gap))
+        row = _row(folder, scan, facts, density, film, state, gap)
+        flowing = [_flow(folder, recipe, scan, index, row, place) for place in range(len(recipe.speeds))]
+        scan["rows"].extend(flowing or [row])
 
 
 def _row(folder, scan, facts, density, film, state, gap):
@@ -162,6 +173,27 @@ def _row(folder, scan, facts, density, film, state, gap):
     return row
 
 
+def _flow(folder, recipe, scan, index, row, place):
+    """The row at one speed: oil carries more of the load the faster, as on a Stribeck curve."""
+    speed, sure = recipe.speeds[place], (index, place) not in recipe.unsteady
+    share = 0.6 * speed / (speed + 0.1)
+    solid, viscous = row["friction_lubricated"] * (1 - share), 0.01 * speed**0.5
+    values = (speed, share, row["contact_area_fraction"] * (1 - share), row["mean_gap_m"] * (1 + share))
+    values += (solid, viscous, solid + viscous, 1e-4 if sure else 0.3, 1e-5, sure)
+    flow = {**row, **dict(zip(FLOW_COLUMNS, values)), "converged": row["converged"] and sure}
+    key = f"{scan['file']} {row['mean_pressure_Pa']} {row['lubricant_density_g_per_m2']} {speed}"
+    flow["case_id"] = _sha256(key)[:16]
+    name = f"store/fluid-{flow['case_id']}.h5"
+    with new_file(folder / name) as file:
+        node = add_nxdata(file, "fluid", "fluid_pressure")
+        add_map(node, "fluid_pressure", np.full(recipe.shape, share * row["mean_pressure_Pa"]), "Pa", "oil")
+        for attribute in ("mean_pressure_Pa", "lubricant_density_g_per_m2", "sliding_speed_m_per_s"):
+            node.attrs[attribute] = flow[attribute]
+        node.attrs["warnings"] = [] if sure else ["film NOT CONVERGED"]
+    scan["fluid"][len(scan["fluid"])] = (name, "/fluid")
+    return flow
+
+
 def _write_results(path, recipe, scans, rows, averages):
     with new_file(path) as file:
         file.attrs.update(
@@ -174,7 +206,10 @@ def _write_results(path, recipe, scans, rows, averages):
                 "oil_density_kg_per_m3": OIL_DENSITY,
                 "area": "corrected",
                 "n_cases_done": len(rows),
-                "n_cases": len(recipe.groups) * len(recipe.pressures) * len(recipe.densities),
+                "n_cases": len(recipe.groups)
+                * len(recipe.pressures)
+                * len(recipe.densities)
+                * max(1, len(recipe.speeds)),
             }
         )
         if recipe.saturated:
@@ -206,9 +241,9 @@ def _link_scan(group, scan):
     )
     group["surface"] = h5py.ExternalLink(scan["surface"], "/surface")
     group["psd"] = h5py.ExternalLink(scan["surface"], "/psd")
-    for folder in ("contact", "films"):
+    for folder in ("contact", "films", "fluid"):
         members = group.create_group(folder)
-        for key, (file, inside) in scan["contacts" if folder == "contact" else "films"].items():
+        for key, (file, inside) in scan["contacts" if folder == "contact" else folder].items():
             members[f"{key:04d}"] = h5py.ExternalLink(file, inside)
 
 

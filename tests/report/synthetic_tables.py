@@ -6,35 +6,36 @@ import h5py
 import numpy as np
 
 
+KEYS = ("group", "mean_pressure_Pa", "lubricant_density_g_per_m2", "sliding_speed_m_per_s")
+
+
 def average(rows):
     """averages.csv: mean, standard deviation (n - 1) and standard error over a group's converged scans."""
-    keys = list(
-        dict.fromkeys(
-            (row["group"], row["mean_pressure_Pa"], row["lubricant_density_g_per_m2"]) for row in rows
-        )
-    )
+    keys = list(dict.fromkeys(_key(row) for row in rows))
     result = []
-    for group, pressure, density in keys:
-        members = [
-            row
-            for row in rows
-            if (row["group"], row["mean_pressure_Pa"], row["lubricant_density_g_per_m2"])
-            == (group, pressure, density)
-            and row["converged"]
-        ]
-        line = {
-            "group": group,
-            "mean_pressure_Pa": pressure,
-            "lubricant_density_g_per_m2": density,
-            "n": len(members),
-        }
-        for kind in ("friction_dry", "friction_lubricated"):
-            values = np.array([row[kind] for row in members])
-            spread = values.std(ddof=1) if len(values) > 1 else np.nan
-            line[f"{kind}_mean"] = values.mean() if len(values) else np.nan
-            line |= {f"{kind}_std": spread, f"{kind}_sem": spread / np.sqrt(max(1, len(values)))}
+    for key in keys:
+        members = [row for row in rows if _key(row) == key and row["converged"]]
+        line = dict(zip(KEYS[:3], key)) | {"n": len(members)}
+        line |= _statistics(members, ("friction_dry", "friction_lubricated"))
+        if key[3] is not None:
+            line[KEYS[3]] = key[3]
+            line |= _statistics(members, ("fluid_load_share", "friction_viscous", "friction_mixed"))
         result.append(line)
     return result
+
+
+def _key(row):
+    return tuple(row.get(name) for name in KEYS)
+
+
+def _statistics(members, kinds):
+    line = {}
+    for kind in kinds:
+        values = np.array([row[kind] for row in members])
+        spread = values.std(ddof=1) if len(values) > 1 else np.nan
+        line[f"{kind}_mean"] = values.mean() if len(values) else np.nan
+        line |= {f"{kind}_std": spread, f"{kind}_sem": spread / np.sqrt(max(1, len(values)))}
+    return line
 
 
 def measured(recipe):

@@ -9,7 +9,7 @@ from synthetic_study import Recipe
 from synthetic_tables import average, measured
 from tabor_report import errors, friction_series, style
 from tabor_report.example import choose
-from tabor_report.figures import contact_area, dry_friction
+from tabor_report.figures import contact_area, dry_friction, mixed_friction
 
 
 class Friction(StudyCase):
@@ -75,6 +75,59 @@ class Friction(StudyCase):
     def test_the_saturated_limit_is_drawn_only_if_there_is_one(self):
         self.assertAlmostEqual(dry_friction.limit(self.default), 70 / 240)
         self.assertIsNone(dry_friction.limit(self.study(Recipe(saturated=False))))
+
+
+class FlowingOil(StudyCase):
+    recipe = Recipe(pressures=(2e6, 5e6), speeds=(0.01, 0.1, 1.0), shape=(24, 32))
+
+    def figure(self, recipe):
+        self.source = self.study(recipe)
+        drawn = mixed_friction.draw(self.source)
+        style.close(drawn.figure)
+        return drawn
+
+    def test_a_study_without_flow_has_no_such_figure(self):
+        self.assertNotIn("mixed_friction", self.default_figures)
+
+    def test_plotted_stribeck_curve_is_the_averages(self):
+        drawn = self.figure(self.recipe)
+        self.assertEqual(drawn.title, "Stribeck curve")
+        plotted = rows_of(drawn.data[""])
+        averages = average(self.rows)
+        self.assertEqual(len(plotted), len(averages))
+        names = ("mean_pressure_Pa", "lubricant_density_g_per_m2", "sliding_speed_m_per_s")
+        for line in averages:
+            match = [
+                row
+                for row in plotted
+                if row["group"] == line["group"] and all(float(row[name]) == line[name] for name in names)
+            ]
+            self.assertEqual(len(match), 1)
+            for name in ("friction_mixed_mean", "friction_mixed_std", "fluid_load_share_sem"):
+                self.assertEqual(float(match[0][name]), line[name])
+
+    def test_at_one_speed_it_is_drawn_against_pressure(self):
+        drawn = self.figure(Recipe(speeds=(0.1,), shape=(24, 32)))
+        self.assertEqual(drawn.title, "Friction with oil that flows")
+        self.assertIn("mean pressure", drawn.figure.axes[-1].get_xlabel())
+
+    def test_the_other_curves_hold_each_pressure_once(self):
+        source = self.study(self.recipe)
+        series = friction_series.lubricated(source, "side A", 0.9)
+        self.assertEqual(list(series.pressure), [2e6, 5e6])
+        plain = Recipe(pressures=(2e6, 5e6), shape=(24, 32))
+        np.testing.assert_array_equal(
+            series.mean, friction_series.lubricated(self.study(plain), "side A", 0.9).mean
+        )
+
+    def test_a_film_that_did_not_converge_is_ringed_and_named_and_no_doubt_about_the_contact(self):
+        recipe = Recipe(pressures=(2e6,), densities=(0.9,), speeds=(0.01, 1.0), unsteady=((1, 0),), shape=(24, 32))
+        drawn = self.figure(recipe)
+        self.assertIn("did not converge", drawn.caption)
+        loose = [row for row in rows_of(drawn.data[""]) if row["series"] == "not converged"]
+        self.assertEqual([float(row["sliding_speed_m_per_s"]) for row in loose], [0.01])
+        self.assertEqual(len(friction_series.dry(self.source, "side A").loose_pressure), 0)
+        self.assertTrue(any("0.01 m/s: film NOT CONVERGED" in text for text in self.source.warnings))
 
 
 class Area(StudyCase):

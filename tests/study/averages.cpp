@@ -67,6 +67,51 @@ TEST(AveragesCsv, LeavesCellsWithoutValueEmpty) {
             "\"A, left\",5000000,0,1,0.25,,,0.125,,\n");
 }
 
+Row sliding(double speed, double mixed) {
+  Row made = row("A", 5e6, 0.25);
+  made.fluid.emplace();
+  made.fluid->sliding_speed = speed;
+  made.fluid->load_share = 0.1;
+  made.fluid->friction_viscous = 0.01;
+  made.fluid->friction_mixed = mixed;
+  return made;
+}
+
+TEST(Averages, KeepSpeedsApart) {
+  const std::vector<Average> result =
+      averages({sliding(1, 0.25), sliding(0, 0.5), sliding(1, 0.75)});
+  ASSERT_EQ(result.size(), 2u);
+  ASSERT_TRUE(result[0].fluid.has_value());
+  EXPECT_EQ(result[0].fluid->sliding_speed, 1);
+  EXPECT_EQ(result[0].n, 2u);
+  EXPECT_DOUBLE_EQ(result[0].fluid->friction_mixed.mean, 0.5);
+  EXPECT_DOUBLE_EQ(result[0].fluid->friction_mixed.standard_error, 0.25);
+  EXPECT_EQ(result[1].fluid->sliding_speed, 0);
+  EXPECT_DOUBLE_EQ(result[1].fluid->friction_mixed.mean, 0.5);
+}
+
+TEST(AveragesCsv, AddsColumnsWhereTheOilFlows) {
+  const std::string dry = averages_csv(averages({sliding(0.5, 0.2)}));
+  const std::string flowing = averages_csv(averages({sliding(0.5, 0.2)}), true);
+  EXPECT_EQ(dry.find("speed"), std::string::npos);
+  EXPECT_EQ(flowing,
+            "group,mean_pressure_Pa,lubricant_density_g_per_m2,n,friction_dry_mean,"
+            "friction_dry_std,friction_dry_sem,friction_lubricated_mean,friction_lubricated_std,"
+            "friction_lubricated_sem,sliding_speed_m_per_s,fluid_load_share_mean,"
+            "fluid_load_share_std,fluid_load_share_sem,friction_viscous_mean,friction_viscous_std,"
+            "friction_viscous_sem,friction_mixed_mean,friction_mixed_std,friction_mixed_sem\n"
+            "A,5000000,0,1,0.25,,,0.125,,,0.5,0.1,,,0.01,,,0.2,,\n");
+}
+
+TEST(ResultsCsv, PutsColumnsOfAFlowBehindTheAgreedOnes) {
+  const std::string agreed = results_csv({});
+  const std::string flowing = results_csv({}, true);
+  EXPECT_EQ(flowing, agreed.substr(0, agreed.size() - 1) +
+                         ",sliding_speed_m_per_s,fluid_load_share,fluid_contact_area_fraction,"
+                         "fluid_mean_gap_m,friction_solid,friction_viscous,friction_mixed,"
+                         "fluid_load_error,fluid_gap_error,fluid_converged\n");
+}
+
 TEST(ResultsCsv, HasTheAgreedColumns) {
   EXPECT_EQ(results_csv({}),
             "case_id,scan,group,mean_pressure_Pa,lubricant_density_g_per_m2,contact_area_fraction,"

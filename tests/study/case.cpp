@@ -44,6 +44,66 @@ TEST(Units, KeyIsTheDigestOfAFixedText) {
   EXPECT_EQ(surface.key.size(), 16u);
 }
 
+TEST(Units, TextOfACaseWithoutFlowIsWhatItWasBeforeOilCouldFlow) {
+  Study study;
+  study.shear_strength = 7e7;
+  Unit contact;
+  contact.key = "c";
+  Unit film;
+  film.key = "f";
+  const Scan scan{"", "one", "all", {}};
+  EXPECT_EQ(case_unit(study, scan, contact, film, 9e-4).text,
+            "tabor case 3\nscan = 3:one\ngroup = 3:all\ncontact = 1:c\nfilm = 1:f\n"
+            "lubricant_density_kg_per_m2 = 0.00089999999999999998\n"
+            "shear_strength_Pa = 70000000\narea = 9:corrected\n");
+}
+
+/// Lets the oil of a study flow.
+void let_flow(Study& study) {
+  study.lubricant.flowing = friction::FlowingOil{0.2, {}, {}};
+  study.sliding_speeds = {0.01, 0.1};
+}
+
+TEST(Units, OilThatFlowsChangesOnlyTheCases) {
+  const ScanUnits before = units();
+  const ScanUnits flowing = units_after(let_flow);
+  EXPECT_EQ(flowing.surface.key, before.surface.key);
+  EXPECT_EQ(flowing.film.key, before.film.key);
+  EXPECT_EQ(flowing.contacts[1].key, before.contacts[1].key);
+  ASSERT_EQ(flowing.cases[0].size(), 4u);  // 2 densities x 2 speeds
+  EXPECT_TRUE(before.fluids[0].empty());
+  std::set<std::string> keys{before.cases[0][0].key, before.cases[0][1].key};
+  for (const auto& units : {flowing.cases[0], flowing.fluids[0], flowing.fluids[1]}) {
+    for (const Unit& unit : units) keys.insert(unit.key);
+  }
+  EXPECT_EQ(keys.size(), 14u);
+}
+
+TEST(Units, AFilmThatFlowsDoesNotKnowTheShearStrengthButItsOil) {
+  const ScanUnits before = units_after(let_flow);
+  const ScanUnits stronger = units_after([](Study& study) {
+    let_flow(study);
+    study.shear_strength = 1e6;
+  });
+  EXPECT_EQ(stronger.fluids[0][0].key, before.fluids[0][0].key);
+  EXPECT_NE(stronger.cases[0][0].key, before.cases[0][0].key);
+  for (const friction::FlowingOil& oil :
+       {friction::FlowingOil{0.3, {}, {}}, friction::FlowingOil{0.2, 1e-8, {}},
+        friction::FlowingOil{0.2, {}, 1e6}}) {
+    const ScanUnits other = units_after([&](Study& study) {
+      let_flow(study);
+      study.lubricant.flowing = oil;
+    });
+    EXPECT_NE(other.fluids[0][0].key, before.fluids[0][0].key);
+    EXPECT_NE(other.cases[0][0].key, before.cases[0][0].key);
+  }
+  const ScanUnits faster = units_after([](Study& study) {
+    let_flow(study);
+    study.sliding_speeds = {0.1, 0.2};
+  });
+  EXPECT_EQ(faster.fluids[0][0].key, before.fluids[0][1].key);  // a speed keeps its key
+}
+
 TEST(Units, AllKeysOfAStudyDiffer) {
   std::set<std::string> keys;
   std::size_t n = 0;

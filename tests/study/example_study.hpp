@@ -68,6 +68,22 @@ class ExampleStudy {
   Folder folder;
 };
 
+/// What a study whose oil flows has in front of its [[scan]].
+inline constexpr const char* kFlow =
+    "[lubricant]\nfluid = \"reynolds\"\nviscosity = \"0.2 Pa s\"\n";
+
+/// The example with oil that flows, at the speeds given as TOML.
+inline std::string flowing_study(const std::string& speeds = "[\"0.1 m/s\", \"1 m/s\"]") {
+  std::string text = kStudyText;
+  const auto put_before = [&](const std::string& part, const std::string& added) {
+    const auto at = text.find(part);
+    EXPECT_NE(at, std::string::npos) << part;
+    text.insert(at, added);
+  };
+  put_before("[[scan]]", "sliding_speed = " + speeds + "\n" + kFlow);
+  return text;
+}
+
 /// The message of the InputError that `action` throws.
 template <typename Action>
 std::string message_of(Action action) {

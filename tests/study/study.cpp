@@ -71,6 +71,62 @@ TEST(ReadStudy, ReadsBackWhatItWroteAsText) {
   EXPECT_EQ(example.read().lubricant.edge, lubrication::Edge::open);
 }
 
+TEST(ReadStudy, TakesOilThatFlows) {
+  const ExampleStudy example;
+  EXPECT_FALSE(example.read().flows());
+  std::string text = test::flowing_study();
+  text = replaced(text, "viscosity = ",
+                  "pressure_viscosity = \"20 1/GPa\"\neyring_stress = \"5 MPa\"\nviscosity = ");
+  example.write(text);
+  const Study study = example.read();
+  ASSERT_TRUE(study.flows());
+  EXPECT_EQ(study.lubricant.flowing->viscosity, 0.2);
+  EXPECT_NEAR(study.lubricant.flowing->pressure_viscosity.value(), 2e-8, 1e-20);
+  EXPECT_EQ(study.lubricant.flowing->eyring_stress, 5e6);
+  EXPECT_THAT(study.sliding_speeds, ElementsAre(0.1, 1));
+  EXPECT_EQ(study.n_cases(), 16u);
+  example.write(to_toml(study));
+  EXPECT_EQ(to_toml(example.read()), to_toml(study));
+}
+
+TEST(ReadStudy, TakesOneSpeedAsAValue) {
+  const ExampleStudy example;
+  example.write(test::flowing_study("\"5 mm/s\""));
+  EXPECT_THAT(example.read().sliding_speeds, ElementsAre(0.005));
+}
+
+/// The same as complaint() of the example whose oil flows.
+std::string complaint_of_flow(const std::string& part, const std::string& by) {
+  const ExampleStudy example;
+  example.write(replaced(test::flowing_study(), part, by));
+  return message_of([&] { example.read(); });
+}
+
+TEST(ReadStudy, RefusesAFlowThatMakesNoSense) {
+  EXPECT_THAT(complaint_of_flow("reynolds", "renolds"), HasSubstr("did you mean 'reynolds'?"));
+  EXPECT_THAT(complaint_of_flow("\"1 m/s\"", "\"-1 m/s\""),
+              testing::AllOf(HasSubstr("sweep.sliding_speed"), HasSubstr("zero or more")));
+  EXPECT_THAT(complaint_of_flow("\"1 m/s\"", "\"0.1 m/s\""), HasSubstr("twice"));
+  EXPECT_THAT(complaint_of_flow("\"1 m/s\"", "1"), HasSubstr("without a unit"));
+  EXPECT_THAT(complaint_of_flow("viscosity = \"0.2 Pa s\"\n", ""),
+              HasSubstr("lubricant.viscosity is missing"));
+  EXPECT_THAT(complaint_of_flow("0.2 Pa s", "-0.2 Pa s"), HasSubstr("above zero"));
+  EXPECT_THAT(complaint_of_flow("sliding_speed = [\"0.1 m/s\", \"1 m/s\"]\n", ""),
+              HasSubstr("sweep.sliding_speed is missing"));
+  EXPECT_THAT(complaint_of_flow("viscosity =", "eyring_stress = \"0 MPa\"\nviscosity ="),
+              HasSubstr("lubricant.eyring_stress"));
+  EXPECT_THAT(complaint_of_flow("[sweep]", "[contact]\nboundary = \"free\"\n[sweep]"),
+              testing::AllOf(HasSubstr("contact.boundary"), HasSubstr("repeats")));
+}
+
+TEST(ReadStudy, RefusesKeysOfAFlowWithoutOne) {
+  for (const char* idle : {"none", ""}) {
+    const std::string instead = *idle == '\0' ? "" : "fluid = \"none\"\n";
+    EXPECT_THAT(complaint_of_flow("fluid = \"reynolds\"\n", instead),
+                HasSubstr("lubricant.fluid = \"reynolds\""));
+  }
+}
+
 TEST(ReadStudy, NamesLineAndNearestMatchOfAnUnknownKey) {
   EXPECT_THAT(complaint("youngs_modulus", "young_modulus"),
               HasSubstr("study.toml:4: unknown key 'material.young_modulus'; did you mean "

@@ -23,6 +23,7 @@ Keys keys_of_study(const io::Hdf5Reader& file) {
   if (file.has_attribute("/", "area") && file.text("/", "area") == "corrected") {
     keys.insert("yastrebov2017");
   }
+  if (file.has_attribute("/", "fluid")) keys.insert("elrod1981");
   const std::string config = file.text("/", "config_toml");
   if (config.find("limit") != std::string::npos) keys.insert("barnes2021");
   return keys;

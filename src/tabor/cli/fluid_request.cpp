@@ -8,17 +8,8 @@ namespace tabor::cli {
 
 namespace {
 
-material::Lubricant lubricant_of(const FluidRequest& request) {
-  material::Lubricant lubricant;
-  const double viscosity = request.viscosity.value_or(0);
-  lubricant.viscosity = request.pressure_viscosity
-                            ? material::make_viscosity(material::ViscosityLaw::roelands, viscosity,
-                                                       *request.pressure_viscosity)
-                            : material::constant_viscosity(viscosity);
-  if (request.eyring_stress) {
-    lubricant.shear = material::ree_eyring_shear(*request.eyring_stress);
-  }
-  return lubricant;
+friction::FlowingOil oil_of(const FluidRequest& request) {
+  return {request.viscosity.value_or(0), request.pressure_viscosity, request.eyring_stress};
 }
 
 io::Json optional_number(const std::optional<double>& value) {
@@ -69,16 +60,15 @@ void check(const FluidRequest& request, const ContactRequest& contact) {
     throw InputError("--speed", si(*request.speed, "m/s"), "zero or more",
                      "--mirror or --flip the scan to slide the other way");
   }
-  lubricant_of(request);
+  friction::lubricant_of(oil_of(request));
   if (!contact.is_periodic()) {
     throw UsageError("--fluid reynolds is solved on a patch that repeats: use --boundary periodic");
   }
 }
 
-friction::FluidFilmState solve_fluid(elastic::ElasticOperator& elasticity, const Field& height,
-                                     const ContactResult& dry, const Field& film,
-                                     const ContactRequest& contact, const FluidRequest& request,
-                                     Context& context) {
+FluidResult solve_fluid(elastic::ElasticOperator& elasticity, const Field& height,
+                        const ContactResult& dry, const Field& film, const ContactRequest& contact,
+                        const FluidRequest& request, Context& context) {
   friction::FluidFilmProblem problem;
   problem.contact.height = height;
   problem.contact.mean_pressure = dry.summary.mean_pressure;
@@ -87,46 +77,31 @@ friction::FluidFilmState solve_fluid(elastic::ElasticOperator& elasticity, const
   problem.contact.tolerance = contact.tolerance;
   problem.film = film;
   problem.sliding_speed = *request.speed;
-  problem.lubricant = lubricant_of(request);
-  friction::FluidFilmState state =
-      friction::solve_fluid_film(elasticity, problem, dry.state, context.observer());
-  const std::string at = si(dry.summary.mean_pressure, "Pa") + ": ";
-  if (!state.converged) {
-    context.warn(
-        fmt::format("{}film NOT CONVERGED, load balance {:.1e}, gap {:.1e} instead of {:.0e}", at,
-                    state.load_error, state.gap_error, problem.tolerance));
+  problem.lubricant = friction::lubricant_of(oil_of(request));
+  FluidResult result;
+  result.state = friction::solve_fluid_film(elasticity, problem, dry.state, context.observer());
+  result.summary = friction::summarise(result.state, problem, elasticity.grid());
+  for (const std::string& doubt : friction::doubts(result.state, problem)) {
+    context.warn(si(dry.summary.mean_pressure, "Pa") + ": " + doubt);
   }
-  const double highest = state.film.pressure.maxCoeff();
-  for (const std::string& doubt : material::doubts(problem.lubricant, highest)) {
-    context.warn(at + doubt);
-  }
-  if (contact.saturation_pressure && highest > *contact.saturation_pressure) {
-    context.warn(at + "the oil's pressure reaches " + si(highest, "Pa") +
-                 ", more than the solids bear: the film is too thin for its pixels there");
-  }
-  return state;
+  return result;
 }
 
-io::Json fluid_json(const friction::FluidFilmState& state, const friction::Estimate& solids,
-                    double mean_pressure) {
-  const double solid_share = state.solid_pressure / mean_pressure;
-  const double friction_solid = solids.friction_lubricated * solid_share;
-  const double friction_viscous = state.viscous_stress / mean_pressure;
-  const auto n = static_cast<double>(state.film.pressure.size());
-  return {{"fluid_load_share", state.fluid_pressure / mean_pressure},
-          {"fluid_max_pressure_Pa", state.film.pressure.maxCoeff()},
-          {"fluid_contact_area_fraction", solids.area_fraction},
-          {"fluid_mean_gap_m", state.mean_gap},
-          {"fluid_full_fraction", static_cast<double>((state.film.fill >= 1).count()) / n},
-          {"fluid_outside_film_m", state.film.oil.outside / n},
-          {"friction_solid", friction_solid},
-          {"friction_viscous", friction_viscous},
-          {"friction_mixed", friction_solid + friction_viscous},
-          {"fluid_load_error", state.load_error},
-          {"fluid_gap_error", state.gap_error},
-          {"fluid_evaluations", state.evaluations},
-          {"fluid_iterations", state.film.iterations},
-          {"fluid_converged", state.converged}};
+io::Json fluid_json(const friction::FluidSummary& fluid, const friction::MixedEstimate& mixed) {
+  return {{"fluid_load_share", fluid.load_share},
+          {"fluid_max_pressure_Pa", fluid.max_pressure},
+          {"fluid_contact_area_fraction", mixed.area_fraction},
+          {"fluid_mean_gap_m", fluid.mean_gap},
+          {"fluid_full_fraction", fluid.full_fraction},
+          {"fluid_outside_film_m", fluid.outside_film},
+          {"friction_solid", mixed.friction_solid},
+          {"friction_viscous", mixed.friction_viscous},
+          {"friction_mixed", mixed.friction_mixed},
+          {"fluid_load_error", fluid.load_error},
+          {"fluid_gap_error", fluid.gap_error},
+          {"fluid_evaluations", fluid.evaluations},
+          {"fluid_iterations", fluid.iterations},
+          {"fluid_converged", fluid.converged}};
 }
 
 std::vector<StateField> fields_of(const friction::FluidFilmState& state) {

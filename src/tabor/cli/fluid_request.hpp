@@ -6,8 +6,7 @@
 
 #include "tabor/cli/contact_request.hpp"
 #include "tabor/cli/fields_file.hpp"
-#include "tabor/friction/bowden_tabor.hpp"
-#include "tabor/friction/fluid_film.hpp"
+#include "tabor/friction/mixed_friction.hpp"
 
 namespace tabor::cli {
 
@@ -27,15 +26,17 @@ void declare_fluid(OptionSet& set, FluidRequest& request);
 /// Refuses what makes no sense, before a scan is read.
 void check(const FluidRequest& request, const ContactRequest& contact);
 
-/// The film of one state of contact and deposited oil. Warns if it did not converge.
-friction::FluidFilmState solve_fluid(elastic::ElasticOperator& elasticity, const Field& height,
-                                     const ContactResult& dry, const Field& film,
-                                     const ContactRequest& contact, const FluidRequest& request,
-                                     Context& context);
+struct FluidResult {
+  friction::FluidFilmState state;
+  friction::FluidSummary summary;
+};
 
-/// Friction of solids and oil together; `solids` is the estimate for what the solids carry.
-io::Json fluid_json(const friction::FluidFilmState& state, const friction::Estimate& solids,
-                    double mean_pressure);
+/// The film of one state of contact and deposited oil. Warns of what is doubtful about it.
+FluidResult solve_fluid(elastic::ElasticOperator& elasticity, const Field& height,
+                        const ContactResult& dry, const Field& film, const ContactRequest& contact,
+                        const FluidRequest& request, Context& context);
+
+io::Json fluid_json(const friction::FluidSummary& fluid, const friction::MixedEstimate& mixed);
 std::vector<StateField> fields_of(const friction::FluidFilmState& state);
 
 io::Json settings_json(const FluidRequest& request);

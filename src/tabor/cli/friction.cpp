@@ -75,27 +75,13 @@ io::Json state_of(const ContactResult& result, const lubrication::Film& film, do
           {"converged", result.state.convergence.converged}};
 }
 
-/// What the solids of a film put against the flat, as if they alone were there.
-friction::Estimate solids_of(const friction::FluidFilmState& state, const lubrication::Film& film,
-                             const Grid& grid, const Request& request) {
-  if (state.solid_pressure == 0) return {};
-  ContactResult solids;
-  contact::Problem problem;
-  problem.mean_pressure = state.solid_pressure;
-  problem.saturation_pressure =
-      request.contact.saturation_pressure.value_or(contact::kNoSaturation);
-  solids.summary = contact::summarise(state.contact, problem, grid, request.contact.is_periodic());
-  const double wet_share =
-      friction::lubricated_share(contact::contact_mask(state.contact), film.thickness);
-  return friction::estimate(contact_of(solids, request, wet_share), request.shear_strength,
-                            friction::parse_area(request.area));
-}
-
 /// Adds what the oil does when it flows.
-void add_fluid(const friction::FluidFilmState& fluid, const lubrication::Film& film,
-               const Grid& grid, const Request& request, io::Json& state) {
-  state.update(fluid_json(fluid, solids_of(fluid, film, grid, request),
-                          state.at("mean_pressure_Pa").get<double>()));
+void add_fluid(const friction::FluidSummary& fluid, const Request& request, io::Json& state) {
+  const friction::MixedEstimate mixed =
+      friction::estimate(fluid, state.at("mean_pressure_Pa").get<double>(),
+                         request.contact.saturation_pressure.value_or(contact::kNoSaturation),
+                         request.shear_strength, friction::parse_area(request.area));
+  state.update(fluid_json(fluid, mixed));
   state["converged"] = state.at("converged").get<bool>() && fluid.converged;
 }
 
@@ -146,11 +132,11 @@ std::vector<std::string> all_methods(const Request& request) {
 }
 
 std::vector<StateField> maps_of(const contact::State& state, const lubrication::Film& film,
-                                const std::optional<friction::FluidFilmState>& fluid) {
+                                const std::optional<FluidResult>& fluid) {
   std::vector<StateField> fields = fields_of(state);
   fields.push_back({"film_thickness", "m", "thickness of the lubricant film", film.thickness});
   if (!fluid) return fields;
-  for (const StateField& field : fields_of(*fluid)) fields.push_back(field);
+  for (const StateField& field : fields_of(fluid->state)) fields.push_back(field);
   return fields;
 }
 
@@ -195,12 +181,12 @@ int show(const Request& request, Context& context) {
         for (std::size_t i = 0; i < films.size(); ++i) {
           io::Json state =
               state_of(result, films[i], request.film.densities[i], scan.surface.grid, request);
-          std::optional<friction::FluidFilmState> fluid;
+          std::optional<FluidResult> fluid;
           if (request.fluid.asked()) {
             fluid = solve_fluid(*elasticity, scan.surface.height, result, films[i].thickness,
                                 request.contact, request.fluid, context);
-            add_fluid(*fluid, films[i], scan.surface.grid, request, state);
-            films_converged = films_converged && fluid->converged;
+            add_fluid(fluid->summary, request, state);
+            films_converged = films_converged && fluid->summary.converged;
           }
           if (file)
             file->add_state(object["states"].size(), state, maps_of(result.state, films[i], fluid));

@@ -73,13 +73,25 @@ std::string with_deviation(const io::Json& row, const std::string& name) {
 }
 
 std::string averages_text(const io::Json& rows) {
-  Table table({"group", "pressure", "lubricant", "n", "friction dry", "friction wet"});
+  const bool oil_flows = !rows.empty() && rows.at(0).contains("friction_mixed_mean");
+  std::vector<std::string> titles = {"group", "pressure",     "lubricant",
+                                     "n",     "friction dry", "friction wet"};
+  if (oil_flows) titles.insert(titles.end(), {"speed", "oil carries", "friction mixed"});
+  Table table(titles);
   for (const io::Json& row : rows) {
-    table.row({row.at("group").get<std::string>(),
-               si(row.at("mean_pressure_Pa").get<double>(), "Pa"),
-               plain(row.at("lubricant_density_g_per_m2").get<double>()) + " g/m²",
-               plain(row.at("n").get<double>()), with_deviation(row, "friction_dry"),
-               with_deviation(row, "friction_lubricated")});
+    std::vector<std::string> cells = {
+        row.at("group").get<std::string>(),
+        si(row.at("mean_pressure_Pa").get<double>(), "Pa"),
+        plain(row.at("lubricant_density_g_per_m2").get<double>()) + " g/m²",
+        plain(row.at("n").get<double>()),
+        with_deviation(row, "friction_dry"),
+        with_deviation(row, "friction_lubricated")};
+    if (oil_flows) {
+      cells.insert(cells.end(), {si(row.at("sliding_speed_m_per_s").get<double>(), "m/s"),
+                                 with_deviation(row, "fluid_load_share"),
+                                 with_deviation(row, "friction_mixed")});
+    }
+    table.row(cells);
   }
   return table.text() + "± is the standard deviation over n scans.\n";
 }
@@ -90,9 +102,9 @@ std::string outcome_text(const Request& request, const study::Outcome& outcome) 
   facts.fact("results", request.folder().string());
   facts.fact("cases", fmt::format("{} of {} done, {} failed, {} not converged", outcome.n_done,
                                   outcome.n_cases, outcome.n_failed, outcome.n_not_converged));
-  facts.fact("computed now",
-             fmt::format("{} surfaces, {} contacts, {} films, {} cases", outcome.n_surfaces,
-                         outcome.n_contacts, outcome.n_films, outcome.n_rows));
+  facts.fact("computed now", fmt::format("{} surfaces, {} contacts, {} films, {} flowing, {} cases",
+                                         outcome.n_surfaces, outcome.n_contacts, outcome.n_films,
+                                         outcome.n_fluids, outcome.n_rows));
   return facts.text();
 }
 
@@ -111,6 +123,7 @@ io::Json outcome_json(const Context& context, const Request& request,
                  {"n_computed_surfaces", outcome.n_surfaces},
                  {"n_computed_contacts", outcome.n_contacts},
                  {"n_computed_films", outcome.n_films},
+                 {"n_computed_fluids", outcome.n_fluids},
                  {"n_computed_cases", outcome.n_rows},
                  {"failures", outcome.failures}});
   return object;
@@ -166,7 +179,9 @@ Verb sweep_verb() {
           .summary = "scans x pressures x densities of a study, resumable",
           .details =
               "Finished cases are kept and skipped when the same command runs again; the "
-              "tables are rebuilt each time.",
+              "tables are rebuilt each time. With lubricant.fluid = \"reynolds\", "
+              "lubricant.viscosity and a list sweep.sliding_speed the deposited oil flows, "
+              "carries part of the load and adds viscous friction at each speed.",
           .examples = {"tabor sweep examples/06_study/study.toml -o study_results",
                        "tabor sweep examples/06_study/study.toml -o study_results --jobs 2 --json"},
           .declare = [](OptionSet& set) -> Action {

@@ -1,6 +1,7 @@
 #include "tabor/study/averages.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <tuple>
@@ -8,9 +9,15 @@
 namespace tabor::study {
 namespace {
 
-using Key = std::tuple<std::string, double, double>;
+constexpr double kAtRest = -1;  // stands for the speed of rows whose oil does not flow
 
-Key key_of(const Row& row) { return {row.group, row.mean_pressure, row.lubricant_density}; }
+using Key = std::tuple<std::string, double, double, double>;
+
+double speed_of(const Row& row) { return row.fluid ? row.fluid->sliding_speed : kAtRest; }
+
+Key key_of(const Row& row) {
+  return {row.group, row.mean_pressure, row.lubricant_density, speed_of(row)};
+}
 
 template <typename Value>
 std::size_t position(std::vector<Value>& seen, const Value& value) {
@@ -22,15 +29,18 @@ std::size_t position(std::vector<Value>& seen, const Value& value) {
   return seen.size() - 1;
 }
 
-/// The keys that occur, ordered by the first occurrence of group, then pressure, then density.
+/// The keys that occur, ordered by the first occurrence of group, then pressure, then density,
+/// then speed.
 std::vector<Key> ordered_keys(const std::vector<Row>& rows) {
   std::vector<std::string> groups;
   std::vector<double> pressures;
   std::vector<double> densities;
-  std::vector<std::pair<std::tuple<std::size_t, std::size_t, std::size_t>, Key>> ranked;
+  std::vector<double> speeds;
+  std::vector<std::pair<std::array<std::size_t, 4>, Key>> ranked;
   for (const Row& row : rows) {
-    const std::tuple rank{position(groups, row.group), position(pressures, row.mean_pressure),
-                          position(densities, row.lubricant_density)};
+    const std::array rank{position(groups, row.group), position(pressures, row.mean_pressure),
+                          position(densities, row.lubricant_density),
+                          position(speeds, speed_of(row))};
     ranked.emplace_back(rank, key_of(row));
   }
   std::sort(ranked.begin(), ranked.end());
@@ -40,6 +50,34 @@ std::vector<Key> ordered_keys(const std::vector<Row>& rows) {
     keys.push_back(key);
   }
   return keys;
+}
+
+template <typename Value>
+Mean mean_over(const std::vector<const Row*>& rows, const Value& value) {
+  std::vector<double> values;
+  values.reserve(rows.size());
+  for (const Row* row : rows) values.push_back(value(*row));
+  return mean_of(values);
+}
+
+Average average_over(const Key& key, const std::vector<const Row*>& rows) {
+  Average average;
+  average.group = std::get<0>(key);
+  average.mean_pressure = std::get<1>(key);
+  average.lubricant_density = std::get<2>(key);
+  average.n = rows.size();
+  average.friction_dry = mean_over(rows, [](const Row& row) { return row.friction_dry; });
+  average.friction_lubricated =
+      mean_over(rows, [](const Row& row) { return row.friction_lubricated; });
+  if (std::get<3>(key) == kAtRest) return average;
+  average.fluid.emplace();
+  average.fluid->sliding_speed = std::get<3>(key);
+  average.fluid->load_share = mean_over(rows, [](const Row& row) { return row.fluid->load_share; });
+  average.fluid->friction_viscous =
+      mean_over(rows, [](const Row& row) { return row.fluid->friction_viscous; });
+  average.fluid->friction_mixed =
+      mean_over(rows, [](const Row& row) { return row.fluid->friction_mixed; });
+  return average;
 }
 
 }  // namespace
@@ -66,16 +104,11 @@ Mean mean_of(const std::vector<double>& values) {
 std::vector<Average> averages(const std::vector<Row>& rows) {
   std::vector<Average> result;
   for (const Key& key : ordered_keys(rows)) {
-    std::vector<double> dry;
-    std::vector<double> lubricated;
+    std::vector<const Row*> counted;
     for (const Row& row : rows) {
-      if (key_of(row) == key && !row.failed() && row.converged) {
-        dry.push_back(row.friction_dry);
-        lubricated.push_back(row.friction_lubricated);
-      }
+      if (key_of(row) == key && !row.failed() && row.converged) counted.push_back(&row);
     }
-    result.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), dry.size(),
-                      mean_of(dry), mean_of(lubricated)});
+    result.push_back(average_over(key, counted));
   }
   return result;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,16 @@ struct Mean {
 
 Mean mean_of(const std::vector<double>& values);
 
-/// One row of averages.csv: the scans of one group under one pressure and density.
+/// Means of what only a film that flows has.
+struct FluidAverage {
+  double sliding_speed = 0;  ///< [m/s]
+  Mean load_share;
+  Mean friction_viscous;
+  Mean friction_mixed;
+};
+
+/// One row of averages.csv: the scans of one group under one pressure and density, and at one speed
+/// where the oil flows.
 struct Average {
   std::string group;
   double mean_pressure = 0;      ///< [Pa]
@@ -25,10 +35,11 @@ struct Average {
   std::size_t n = 0;
   Mean friction_dry;
   Mean friction_lubricated;
+  std::optional<FluidAverage> fluid;
 };
 
-/// Groups, pressures and densities in the order of their first row. Rows that failed or did not
-/// converge do not count: n says how many did.
+/// Groups, pressures, densities and speeds in the order of their first row. Rows that failed or did
+/// not converge do not count: n says how many did.
 std::vector<Average> averages(const std::vector<Row>& rows);
 
 }  // namespace tabor::study

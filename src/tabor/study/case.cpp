@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "tabor/core/units.hpp"
 #include "tabor/io/digest.hpp"
 
@@ -23,6 +25,22 @@ Unit unit(std::string_view kind, std::string_view extension, const std::string& 
   made.key = io::sha256(made.text).substr(0, 16);
   made.file = fmt::format("{}-{}.{}", kind, made.key, extension);
   return made;
+}
+
+/// The contact under one pressure, and what is computed from it.
+void add_pressure(const Study& study, const Scan& scan, double pressure, ScanUnits& units) {
+  const Unit contact = contact_unit(study, units.surface, pressure);
+  std::vector<Unit> cases;
+  std::vector<Unit> fluids;
+  for (const Condition& condition : study.conditions()) {
+    if (study.flows()) fluids.push_back(fluid_unit(study, contact, units.film, condition));
+    cases.push_back(case_unit(study, scan, contact, units.film,
+                              study.lubricant_densities[condition.density],
+                              study.flows() ? &fluids.back() : nullptr));
+  }
+  units.contacts.push_back(contact);
+  units.cases.push_back(std::move(cases));
+  units.fluids.push_back(std::move(fluids));
 }
 
 }  // namespace
@@ -65,13 +83,28 @@ Unit film_unit(const Study& study, const Unit& surface) {
   return unit("film", "h5", body);
 }
 
+Unit fluid_unit(const Study& study, const Unit& contact, const Unit& film,
+                const Condition& condition) {
+  const friction::FlowingOil& oil = study.lubricant.flowing.value();
+  std::string body =
+      line("fluid_algorithms", kFluidAlgorithms) + line("contact", contact.key) +
+      line("film", film.key) +
+      line("lubricant_density_kg_per_m2", study.lubricant_densities.at(condition.density)) +
+      line("sliding_speed_m_per_s", study.sliding_speeds.at(condition.speed)) +
+      line("viscosity_Pa_s", oil.viscosity);
+  if (oil.pressure_viscosity) body += line("pressure_viscosity_per_Pa", *oil.pressure_viscosity);
+  if (oil.eyring_stress) body += line("eyring_stress_Pa", *oil.eyring_stress);
+  return unit("fluid", "h5", body);
+}
+
 Unit case_unit(const Study& study, const Scan& scan, const Unit& contact, const Unit& film,
-               double lubricant_density) {
+               double lubricant_density, const Unit* fluid) {
   return unit("case", "json",
               line("scan", scan.label) + line("group", scan.group) + line("contact", contact.key) +
                   line("film", film.key) + line("lubricant_density_kg_per_m2", lubricant_density) +
                   line("shear_strength_Pa", study.shear_strength) +
-                  line("area", friction::name(study.area)));
+                  line("area", friction::name(study.area)) +
+                  (fluid != nullptr ? line("fluid", fluid->key) : ""));
 }
 
 std::vector<ScanUnits> units_of(const Study& study) {
@@ -81,14 +114,7 @@ std::vector<ScanUnits> units_of(const Study& study) {
     units.sha256 = io::sha256_of_file(scan.file);
     units.surface = surface_unit(study, scan, units.sha256);
     units.film = film_unit(study, units.surface);
-    for (const double pressure : study.mean_pressures) {
-      units.contacts.push_back(contact_unit(study, units.surface, pressure));
-      units.cases.emplace_back();
-      for (const double density : study.lubricant_densities) {
-        units.cases.back().push_back(
-            case_unit(study, scan, units.contacts.back(), units.film, density));
-      }
-    }
+    for (const double pressure : study.mean_pressures) add_pressure(study, scan, pressure, units);
     all.push_back(std::move(units));
   }
   return all;

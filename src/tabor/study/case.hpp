@@ -17,6 +17,7 @@ struct Unit {
 };
 
 inline constexpr int kAlgorithms = 3;
+inline constexpr int kFluidAlgorithms = 1;  ///< the same for films that flow alone
 
 /// The treated scan; `scan_sha256` is of the scan file's bytes.
 Unit surface_unit(const Study& study, const Scan& scan, const std::string& scan_sha256);
@@ -27,17 +28,23 @@ Unit contact_unit(const Study& study, const Unit& surface, double mean_pressure)
 /// The films of all densities on one surface.
 Unit film_unit(const Study& study, const Unit& surface);
 
-/// One row of the results. Names of scan and group belong to it: they are columns.
+/// The film that flows between one contact's surfaces, under one condition.
+Unit fluid_unit(const Study& study, const Unit& contact, const Unit& film,
+                const Condition& condition);
+
+/// One row of the results. Names of scan and group belong to it: they are columns. `fluid` is null
+/// where the oil does not flow.
 Unit case_unit(const Study& study, const Scan& scan, const Unit& contact, const Unit& film,
-               double lubricant_density);
+               double lubricant_density, const Unit* fluid = nullptr);
 
 /// Everything a study needs of one scan.
 struct ScanUnits {
   std::string sha256;
   Unit surface;
   Unit film;
-  std::vector<Unit> contacts;            ///< one per pressure
-  std::vector<std::vector<Unit>> cases;  ///< [pressure][density]
+  std::vector<Unit> contacts;             ///< one per pressure
+  std::vector<std::vector<Unit>> cases;   ///< [pressure][condition]
+  std::vector<std::vector<Unit>> fluids;  ///< the same; empty lists where the oil does not flow
 };
 
 /// Reads every scan file once, for its digest. Throws InputError.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "tabor/core/error.hpp"
@@ -16,13 +17,14 @@ namespace {
 
 /// A row that has its place and no numbers yet.
 Row empty_row(const Study& study, const Scan& scan, const Unit& unit, std::size_t pressure,
-              std::size_t density) {
+              const Condition& condition) {
   Row row;
   row.case_id = unit.key;
   row.scan = scan.label;
   row.group = scan.group;
   row.mean_pressure = study.mean_pressures[pressure];
-  row.lubricant_density = study.lubricant_densities[density];
+  row.lubricant_density = study.lubricant_densities[condition.density];
+  if (study.flows()) row.fluid = FluidRow{.sliding_speed = study.sliding_speeds[condition.speed]};
   return row;
 }
 
@@ -53,6 +55,53 @@ void add_friction(const Study& study, Row& row) {
   row.friction_lubricated = estimate.friction_lubricated;
 }
 
+void add_fluid(const Study& study, const StoredFluid& stored, Row& row) {
+  const friction::MixedEstimate mixed =
+      friction::estimate(stored.summary, row.mean_pressure, study.saturation_pressure,
+                         study.shear_strength, study.area);
+  row.fluid->load_share = stored.summary.load_share;
+  row.fluid->contact_area_fraction = mixed.area_fraction;
+  row.fluid->mean_gap = stored.summary.mean_gap;
+  row.fluid->friction_solid = mixed.friction_solid;
+  row.fluid->friction_viscous = mixed.friction_viscous;
+  row.fluid->friction_mixed = mixed.friction_mixed;
+  row.fluid->load_error = stored.summary.load_error;
+  row.fluid->gap_error = stored.summary.gap_error;
+  row.fluid->converged = stored.summary.converged;
+  row.converged = row.converged && stored.summary.converged;
+  row.doubts = stored.doubts;
+}
+
+contact::Problem contact_problem(const Study& study, const topography::Topography& topography,
+                                 double mean_pressure) {
+  contact::Problem problem;
+  problem.height = topography.height;
+  problem.mean_pressure = mean_pressure;
+  problem.saturation_pressure = study.saturation_pressure;
+  problem.tolerance = study.contact.tolerance;
+  return problem;
+}
+
+std::unique_ptr<elastic::ElasticOperator> operator_of(const Study& study, const Grid& grid) {
+  return study.contact.periodic ? elastic::make_periodic(grid, study.effective_modulus())
+                                : elastic::make_free(grid, study.effective_modulus());
+}
+
+contact::State solve_on(elastic::ElasticOperator& elasticity, const Study& study,
+                        const contact::Problem& problem, const Observer& observer) {
+  // A stopped solver returns what it has, which must not be stored as if it were a result.
+  bool stopped = false;
+  const Observer watching = [&](const Progress& progress) {
+    stopped = stopped || (observer && !observer(progress));
+    return !stopped;
+  };
+  contact::State state = contact::solve(elasticity, problem, study.contact.solver, watching);
+  if (stopped) {
+    throw Interrupted();
+  }
+  return state;
+}
+
 }  // namespace
 
 topography::Topography treated_surface(const Study& study, const Scan& scan,
@@ -71,30 +120,21 @@ void compute_surface(const Store& store, const Unit& unit,
   write_surface(store, unit, topography, topography::power_spectra(topography));
 }
 
+contact::State solve_contact(const Study& study, const topography::Topography& topography,
+                             double mean_pressure, const Observer& observer) {
+  return solve_on(*operator_of(study, topography.grid), study,
+                  contact_problem(study, topography, mean_pressure), observer);
+}
+
 void compute_contact(const Store& store, const Unit& unit, const Study& study,
                      const topography::Topography& topography, double mean_pressure,
                      const Observer& observer) {
   const Stopwatch watch;
   const Grid& grid = topography.grid;
-  const bool periodic = study.contact.periodic;
-  const auto elasticity = periodic ? elastic::make_periodic(grid, study.effective_modulus())
-                                   : elastic::make_free(grid, study.effective_modulus());
-  contact::Problem problem;
-  problem.height = topography.height;
-  problem.mean_pressure = mean_pressure;
-  problem.saturation_pressure = study.saturation_pressure;
-  problem.tolerance = study.contact.tolerance;
-  // A stopped solver returns what it has, which must not be stored as if it were a result.
-  bool stopped = false;
-  const Observer watching = [&](const Progress& progress) {
-    stopped = stopped || (observer && !observer(progress));
-    return !stopped;
-  };
-  const contact::State state = contact::solve(*elasticity, problem, study.contact.solver, watching);
-  if (stopped) {
-    throw Interrupted();
-  }
-  const contact::Summary summary = contact::summarise(state, problem, grid, periodic);
+  const auto elasticity = operator_of(study, grid);
+  const contact::Problem problem = contact_problem(study, topography, mean_pressure);
+  const contact::State state = solve_on(*elasticity, study, problem, observer);
+  const contact::Summary summary = contact::summarise(state, problem, grid, study.contact.periodic);
   write_contact(store, unit, grid, problem, state, summary,
                 {elasticity->fft_seconds(), watch.seconds()});
 }
@@ -119,27 +159,47 @@ void compute_film(const Store& store, const Unit& unit, const Study& study,
   file.commit();
 }
 
-void compute_rows(const Store& store, const Study& study, const Scan& scan, const ScanUnits& units,
-                  std::size_t pressure) {
+void compute_fluid(const Store& store, const Study& study, const topography::Topography& topography,
+                   const contact::State& dry, const ScanUnits& units, std::size_t pressure,
+                   std::size_t condition, const Observer& observer) {
+  const Condition under = study.conditions().at(condition);
+  friction::FluidFilmProblem problem;
+  problem.contact = contact_problem(study, topography, study.mean_pressures[pressure]);
+  problem.film = read_film(store, units.film, under.density);
+  problem.sliding_speed = study.sliding_speeds[under.speed];
+  problem.lubricant = friction::lubricant_of(study.lubricant.flowing.value());
+  const auto elasticity = operator_of(study, topography.grid);
+  const friction::FluidFilmState state =
+      friction::solve_fluid_film(*elasticity, problem, dry, observer);
+  const StoredFluid stored{friction::summarise(state, problem, topography.grid),
+                           friction::doubts(state, problem)};
+  write_fluid(
+      store, units.fluids[pressure][condition], topography.grid, state, stored,
+      {{"mean_pressure_Pa", problem.contact.mean_pressure},
+       {"lubricant_density_g_per_m2", in_g_per_m2(study.lubricant_densities[under.density])},
+       {"sliding_speed_m_per_s", problem.sliding_speed}});
+}
+
+void compute_row(const Store& store, const Study& study, const Scan& scan, const ScanUnits& units,
+                 std::size_t pressure, std::size_t condition) {
   const StoredContact stored = read_contact(store, units.contacts[pressure]);
-  for (std::size_t density = 0; density < study.lubricant_densities.size(); ++density) {
-    const Unit& unit = units.cases[pressure][density];
-    Row row = empty_row(study, scan, unit, pressure, density);
-    add_contact(stored, row);
-    add_liquid(stored, read_film(store, units.film, density), study.contact.periodic, row);
-    add_friction(study, row);
-    write_row(store, unit, row);
-  }
+  const Condition under = study.conditions().at(condition);
+  const Unit& unit = units.cases[pressure][condition];
+  Row row = empty_row(study, scan, unit, pressure, under);
+  add_contact(stored, row);
+  add_liquid(stored, read_film(store, units.film, under.density), study.contact.periodic, row);
+  add_friction(study, row);
+  if (study.flows()) add_fluid(study, read_fluid(store, units.fluids[pressure][condition]), row);
+  write_row(store, unit, row);
 }
 
 void record_failure(const Store& store, const Study& study, const Scan& scan,
-                    const ScanUnits& units, std::size_t pressure, const std::string& error) {
-  for (std::size_t density = 0; density < study.lubricant_densities.size(); ++density) {
-    const Unit& unit = units.cases[pressure][density];
-    Row row = empty_row(study, scan, unit, pressure, density);
-    row.error = error;
-    write_row(store, unit, row);
-  }
+                    const ScanUnits& units, std::size_t pressure, std::size_t condition,
+                    const std::string& error) {
+  const Unit& unit = units.cases[pressure][condition];
+  Row row = empty_row(study, scan, unit, pressure, study.conditions().at(condition));
+  row.error = error;
+  write_row(store, unit, row);
 }
 
 }  // namespace tabor::study

@@ -14,7 +14,11 @@ topography::Topography treated_surface(const Study& study, const Scan& scan,
 void compute_surface(const Store& store, const Unit& unit,
                      const topography::Topography& topography);
 
-/// Solves one contact and stores it, converged or not; throws Interrupted if `observer` stops it.
+/// One contact, converged or not. Throws Interrupted if `observer` stops it.
+contact::State solve_contact(const Study& study, const topography::Topography& topography,
+                             double mean_pressure, const Observer& observer);
+
+/// Solves one contact and stores it.
 void compute_contact(const Store& store, const Unit& unit, const Study& study,
                      const topography::Topography& topography, double mean_pressure,
                      const Observer& observer);
@@ -23,12 +27,19 @@ void compute_contact(const Store& store, const Unit& unit, const Study& study,
 void compute_film(const Store& store, const Unit& unit, const Study& study,
                   const topography::Topography& topography, const Observer& observer);
 
-/// The rows of one contact, one per density, from what is in the store.
-void compute_rows(const Store& store, const Study& study, const Scan& scan, const ScanUnits& units,
-                  std::size_t pressure);
+/// Lets the stored film flow between the surfaces of `dry`, the contact as solve_contact() gives
+/// it, and stores the state, converged or not.
+void compute_fluid(const Store& store, const Study& study, const topography::Topography& topography,
+                   const contact::State& dry, const ScanUnits& units, std::size_t pressure,
+                   std::size_t condition, const Observer& observer);
 
-/// The same rows when there is no contact or no film, and why.
+/// One row from what is in the store.
+void compute_row(const Store& store, const Study& study, const Scan& scan, const ScanUnits& units,
+                 std::size_t pressure, std::size_t condition);
+
+/// The same row when there is no contact or no film, and why.
 void record_failure(const Store& store, const Study& study, const Scan& scan,
-                    const ScanUnits& units, std::size_t pressure, const std::string& error);
+                    const ScanUnits& units, std::size_t pressure, std::size_t condition,
+                    const std::string& error);
 
 }  // namespace tabor::study

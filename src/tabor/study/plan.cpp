@@ -27,7 +27,8 @@ class Planner {
       // A contact that could not be solved leaves failed rows and no file: it is not tried again.
       const bool contact_wanted =
           contact == Found::damaged || (contact == Found::absent && !rows.all_failed);
-      if (rows.missing || contact_wanted) {
+      const bool flow_wanted = add_flows(units, pressure, plan);
+      if (rows.missing || contact_wanted || flow_wanted) {
         plan.pressures.push_back(pressure);
       }
       plan.retry[pressure] = rows.not_converged;
@@ -48,6 +49,19 @@ class Planner {
     bool all_failed = true;      ///< each is there and holds an error
     bool not_converged = false;  ///< one is to be tried again
   };
+
+  /// A film that could not flow leaves a failed row and no file, as a contact does.
+  bool add_flows(const ScanUnits& units, std::size_t pressure, ScanPlan& plan) {
+    const std::size_t n_before = plan.flows.size();
+    for (std::size_t i = 0; i < units.fluids[pressure].size(); ++i) {
+      const Rows row = look_at({units.cases[pressure][i]});
+      const Found fluid = find(units.fluids[pressure][i]);
+      if (row.missing || fluid == Found::damaged || (fluid == Found::absent && !row.all_failed)) {
+        plan.flows.push_back({pressure, i, row.not_converged});
+      }
+    }
+    return plan.flows.size() > n_before;
+  }
 
   Rows look_at(const std::vector<Unit>& cases) {
     Rows rows;
@@ -120,9 +134,9 @@ std::vector<ScanPlan> plan(const Store& store, const Study& study,
   return plans;
 }
 
-int jobs_that_fit(Index n_pixels, std::size_t available_bytes, int n_threads) {
+int jobs_that_fit(Index n_pixels, std::size_t available_bytes, int n_threads, bool oil_flows) {
   // Of one unit with its surface; tools/bench/study prints it.
-  constexpr std::size_t bytes_per_pixel = 80;
+  const std::size_t bytes_per_pixel = oil_flows ? 800 : 80;
   const std::size_t fitting =
       available_bytes / 2 /
       (bytes_per_pixel * static_cast<std::size_t>(std::max<Index>(1, n_pixels)));

@@ -9,6 +9,7 @@
 #include "tabor/core/version.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/json.hpp"
+#include "tabor/study/unit_file.hpp"
 #include "tabor/topography/surface_group.hpp"
 
 namespace tabor::study {
@@ -35,27 +36,21 @@ constexpr Member kMembers[] = {
     {"certificate", &Row::certificate},
 };
 
-void attributes(io::Hdf5Writer& writer, const std::string& path, const Scalars& scalars) {
-  for (const auto& [name, value] : scalars) {
-    writer.attribute(path, name, value);
-  }
-}
-
-/// Writes a map with its units, axes and default plot.
-void write_map(io::Hdf5Writer& writer, const std::string& group, const std::string& name,
-               const Field& map, const std::string& long_name) {
-  const std::string path = group + "/" + name;
-  writer.write(path, map, io::Precision::float32);
-  writer.describe(path, "m", long_name);
-  writer.attach_axes(path);
-}
-
-io::Hdf5Writer unit_writer(const Store& store, const Unit& unit, const std::string& plotted) {
-  io::Hdf5Writer writer(store.path(unit));
-  write_root(writer, plotted);
-  writer.attribute("/", "canonical_text", unit.text);
-  return writer;
-}
+struct FluidMember {
+  const char* name;
+  double FluidRow::*value;
+};
+constexpr FluidMember kFluidMembers[] = {
+    {"sliding_speed_m_per_s", &FluidRow::sliding_speed},
+    {"fluid_load_share", &FluidRow::load_share},
+    {"fluid_contact_area_fraction", &FluidRow::contact_area_fraction},
+    {"fluid_mean_gap_m", &FluidRow::mean_gap},
+    {"friction_solid", &FluidRow::friction_solid},
+    {"friction_viscous", &FluidRow::friction_viscous},
+    {"friction_mixed", &FluidRow::friction_mixed},
+    {"fluid_load_error", &FluidRow::load_error},
+    {"fluid_gap_error", &FluidRow::gap_error},
+};
 
 io::ByteMap contact_states(const contact::State& state, double saturation_pressure) {
   return (state.pressure > 0).cast<std::uint8_t>() +
@@ -73,6 +68,10 @@ void write_spectrum(io::Hdf5Writer& writer, const std::string& axis, const std::
   writer.attribute("/psd", "hurst_" + axis, spectrum.hurst.hurst);
 }
 
+double value_or_nan(const io::Json& value) {
+  return value.is_null() ? kNoValue : value.get<double>();
+}
+
 std::string defect_of_row(const Store& store, const Unit& unit) {
   try {
     return read_row(store, unit).case_id == unit.key ? "" : "belongs to another case";
@@ -87,6 +86,9 @@ std::vector<std::string> expected_maps(const Unit& unit, std::size_t n_films) {
   }
   if (unit.file.starts_with("contact-")) {
     return {"/contact/state", "/contact/gap"};
+  }
+  if (unit.file.starts_with("fluid-")) {
+    return {"/fluid/fluid_pressure", "/fluid/fluid_fill", "/fluid/fluid_gap"};
   }
   std::vector<std::string> films;
   for (std::size_t i = 0; i < n_films; ++i) {
@@ -108,6 +110,13 @@ void write_row(const Store& store, const Unit& unit, const Row& row) {
     json[member.name] = io::number(row.*member.value);
   }
   json["converged"] = row.converged;
+  if (row.fluid) {
+    for (const FluidMember& member : kFluidMembers) {
+      json[member.name] = io::number((*row.fluid).*member.value);
+    }
+    json["fluid_converged"] = row.fluid->converged;
+    json["doubts"] = row.doubts;
+  }
   json["error"] = row.error;
   io::write_file(store.path(unit), io::to_text(json) + "\n");
 }
@@ -120,8 +129,15 @@ Row read_row(const Store& store, const Unit& unit) {
     row.scan = json.at("scan").get<std::string>();
     row.group = json.at("group").get<std::string>();
     for (const Member& member : kMembers) {
-      const io::Json& value = json.at(member.name);
-      row.*member.value = value.is_null() ? kNoValue : value.get<double>();
+      row.*member.value = value_or_nan(json.at(member.name));
+    }
+    if (json.contains("sliding_speed_m_per_s")) {
+      row.fluid.emplace();
+      for (const FluidMember& member : kFluidMembers) {
+        (*row.fluid).*member.value = value_or_nan(json.at(member.name));
+      }
+      row.fluid->converged = json.at("fluid_converged").get<bool>();
+      row.doubts = json.at("doubts").get<std::vector<std::string>>();
     }
     row.converged = json.at("converged").get<bool>();
     row.error = json.at("error").get<std::string>();
@@ -185,15 +201,15 @@ void write_contact(const Store& store, const Unit& unit, const Grid& grid,
   writer.write(path, contact_states(state, problem.saturation_pressure));
   writer.describe(path, "1", "0 no contact, 1 contact below saturation, 2 saturated");
   writer.attach_axes(path);
-  write_map(writer, "/contact", "gap", state.gap, "gap between the surfaces");
+  write_map(writer, "/contact", {"gap", "m", "gap between the surfaces"}, state.gap);
   writer.nxdata("/contact", "state");
-  attributes(writer, "/contact", scalars_of(summary, state.convergence));
-  attributes(writer, "/contact",
-             {{"size_x_m", grid.lx},
-              {"size_y_m", grid.ly},
-              {"fft_seconds", cost.fft_seconds},
-              {"seconds", cost.seconds},
-              {"peak_memory_bytes", static_cast<double>(peak_memory_bytes())}});
+  write_attributes(writer, "/contact", scalars_of(summary, state.convergence));
+  write_attributes(writer, "/contact",
+                   {{"size_x_m", grid.lx},
+                    {"size_y_m", grid.ly},
+                    {"fft_seconds", cost.fft_seconds},
+                    {"seconds", cost.seconds},
+                    {"peak_memory_bytes", static_cast<double>(peak_memory_bytes())}});
   writer.commit();
 }
 
@@ -222,9 +238,9 @@ FilmFile::FilmFile(const Store& store, const Unit& unit, const Grid& grid)
 void FilmFile::add(const lubrication::Film& film, double lubricant_density) {
   const std::string group = film_group(film.request);
   writer_.axes(group, grid_);
-  write_map(writer_, group, "film_thickness", film.thickness, "film thickness");
+  write_map(writer_, group, {"film_thickness", "m", "film thickness"}, film.thickness);
   writer_.nxdata(group, "film_thickness");
-  attributes(writer_, group, scalars_of(film, lubricant_density));
+  write_attributes(writer_, group, scalars_of(film, lubricant_density));
   writer_.attribute(group, "warnings", film.warnings);
 }
 
@@ -253,12 +269,5 @@ std::string defect(const Store& store, const Unit& unit, std::size_t n_films, De
 }
 
 std::string film_group(std::size_t density) { return fmt::format("/films/{:04}", density); }
-
-void write_root(io::Hdf5Writer& writer, const std::string& default_group) {
-  writer.attribute("/", "format", "tabor");
-  writer.attribute("/", "format_version", 1);
-  writer.attribute("/", "software_version", kVersion);
-  writer.attribute("/", "default", default_group);
-}
 
 }  // namespace tabor::study

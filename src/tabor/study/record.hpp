@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,20 @@
 namespace tabor::study {
 
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+
+/// What a row holds of a film that flows. Numbers are NaN in a row that failed.
+struct FluidRow {
+  double sliding_speed = 0;                 ///< [m/s]
+  double load_share = kNoValue;             ///< of the load, that the oil carries
+  double contact_area_fraction = kNoValue;  ///< while sliding
+  double mean_gap = kNoValue;               ///< while sliding [m]
+  double friction_solid = kNoValue;
+  double friction_viscous = kNoValue;
+  double friction_mixed = kNoValue;
+  double load_error = kNoValue;
+  double gap_error = kNoValue;
+  bool converged = false;  ///< film and load balance
+};
 
 /// One row of results.csv. Numbers are NaN in a row that failed.
 struct Row {
@@ -37,8 +52,10 @@ struct Row {
   double friction_dry = kNoValue;
   double friction_lubricated = kNoValue;
   double certificate = kNoValue;
-  bool converged = false;
-  std::string error;  ///< why there are no numbers; empty if there are
+  bool converged = false;           ///< contact, and film if it flows
+  std::optional<FluidRow> fluid;    ///< absent where the oil does not flow
+  std::vector<std::string> doubts;  ///< about the film that flows
+  std::string error;                ///< why there are no numbers; empty if there are
 
   bool failed() const { return !error.empty(); }
 };
@@ -84,6 +101,16 @@ class FilmFile {
   io::Hdf5Writer writer_;
 };
 Field read_film(const Store& store, const Unit& unit, std::size_t density);
+
+/// One state whose oil flows: numbers, and maps for the report.
+struct StoredFluid {
+  friction::FluidSummary summary;
+  std::vector<std::string> doubts;
+};
+void write_fluid(const Store& store, const Unit& unit, const Grid& grid,
+                 const friction::FluidFilmState& state, const StoredFluid& stored,
+                 const Scalars& conditions);
+StoredFluid read_fluid(const Store& store, const Unit& unit);
 
 /// How thoroughly a file is looked at.
 enum class Depth {

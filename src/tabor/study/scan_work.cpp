@@ -1,39 +1,28 @@
 #include "tabor/study/scan_work.hpp"
 
+#include <chrono>
 #include <utility>
-
-#include "tabor/core/error.hpp"
 
 namespace tabor::study {
 
 ScanWork::ScanWork(ScanPlan plan, std::size_t n_pressures)
     : plan_(std::move(plan)),
+      contacts_made_(n_pressures),
       n_open_tasks_(plan_.n_tasks()),
+      n_open_flows_(n_pressures, 0),
       contacts_(n_pressures),
-      taken_(n_pressures, false) {}
+      taken_(n_pressures, false) {
+  for (const ScanPlan::Flow& flow : plan_.flows) ++n_open_flows_[flow.pressure];
+}
 
-std::shared_ptr<const topography::Topography> ScanWork::surface(const Make& make) {
-  const std::lock_guard lock(surface_mutex_);
-  if (surface_error_) {
-    throw InputError(*surface_error_);
-  }
-  if (!surface_) {
-    try {
-      surface_ = std::make_shared<const topography::Topography>(make());
-    } catch (const InputError& error) {
-      surface_error_ = error.what();
-      throw;
-    }
-  }
-  return surface_;
+void ScanWork::flow_ended(std::size_t pressure) {
+  const std::lock_guard lock(mutex_);
+  if (--n_open_flows_[pressure] == 0) contacts_made_[pressure].drop();
 }
 
 void ScanWork::task_done() {
   const std::lock_guard lock(mutex_);
-  if (--n_open_tasks_ == 0) {
-    const std::lock_guard surface_lock(surface_mutex_);
-    surface_.reset();
-  }
+  if (--n_open_tasks_ == 0) surface_.drop();
 }
 
 std::vector<ScanWork::Ready> ScanWork::contact_ended(std::size_t pressure,
@@ -49,15 +38,31 @@ std::vector<ScanWork::Ready> ScanWork::film_ended(const std::string& error) {
   return take_ready();
 }
 
+std::string ScanWork::wait_for(std::size_t pressure, const std::function<void()>& keep_waiting) {
+  std::unique_lock lock(mutex_);
+  while (!film_ || !contacts_[pressure]) {
+    ended_.wait_for(lock, std::chrono::milliseconds(100));
+    lock.unlock();
+    keep_waiting();
+    lock.lock();
+  }
+  return outcome(pressure);
+}
+
 std::vector<ScanWork::Ready> ScanWork::take_ready() {
   std::vector<Ready> ready;
   for (std::size_t pressure = 0; film_ && pressure < contacts_.size(); ++pressure) {
     if (contacts_[pressure] && !taken_[pressure]) {
       taken_[pressure] = true;
-      ready.push_back({pressure, contacts_[pressure]->empty() ? *film_ : *contacts_[pressure]});
+      ready.push_back({pressure, outcome(pressure)});
     }
   }
+  ended_.notify_all();
   return ready;
+}
+
+std::string ScanWork::outcome(std::size_t pressure) const {
+  return contacts_[pressure]->empty() ? *film_ : *contacts_[pressure];
 }
 
 }  // namespace tabor::study

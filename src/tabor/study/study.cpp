@@ -1,17 +1,13 @@
 #include "tabor/study/study.hpp"
 
 #include <fmt/format.h>
-#include <glob.h>
 
-#include <algorithm>
-#include <cmath>
-#include <set>
 #include <string_view>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/io/toml.hpp"
+#include "tabor/study/study_keys.hpp"
 
 namespace tabor::study {
 namespace {
@@ -35,31 +31,23 @@ const std::vector<std::string> kKnownKeys{"title",
                                           "contact.tolerance",
                                           "sweep.mean_pressure",
                                           "sweep.lubricant_density",
+                                          "sweep.sliding_speed",
                                           "lubricant.oil_density",
                                           "lubricant.model",
                                           "lubricant.reading",
                                           "lubricant.edge",
                                           "lubricant.droplet",
                                           "lubricant.seed",
+                                          "lubricant.fluid",
+                                          "lubricant.viscosity",
+                                          "lubricant.pressure_viscosity",
+                                          "lubricant.eyring_stress",
                                           "scan[].file",
                                           "scan[].group",
                                           "scan[].channel",
                                           "scan[].pixel",
                                           "scan[].unit",
                                           "experiment.file"};
-
-[[noreturn]] void refuse(const io::Config& config, std::string_view key, const std::string& got,
-                         const std::string& expected) {
-  throw InputError(config.place(key), got, expected, "");
-}
-
-double positive(const io::Config& config, std::string_view key, Dimension expected) {
-  const double value = config.quantity(key, expected);
-  if (!(value > 0) || !std::isfinite(value)) {
-    refuse(config, key, fmt::format("{}", value), "a value above zero");
-  }
-  return value;
-}
 
 /// One of two words, as a bool that is true for the first.
 bool either(const io::Config& config, std::string_view key, std::string_view first,
@@ -71,16 +59,6 @@ bool either(const io::Config& config, std::string_view key, std::string_view fir
                suggestion(word, {std::string(first), std::string(second)}));
   }
   return word == first;
-}
-
-/// Runs a parser of the modules below and says at which key its complaint arose.
-template <typename Parse>
-auto at_key(const io::Config& config, std::string_view key, Parse parse) {
-  try {
-    return parse(config.text(key));
-  } catch (const InputError& error) {
-    throw InputError(config.place(key) + ": " + error.what());
-  }
 }
 
 material::Solid read_solid(const io::Config& config, const std::string& prefix) {
@@ -145,23 +123,6 @@ void read_lubricant(const io::Config& config, LubricantSettings& lubricant) {
   }
 }
 
-/// A sweep axis: every value finite, at least (or above) zero, and named once.
-std::vector<double> read_axis(const io::Config& config, std::string_view key, Dimension expected,
-                              bool zero_allowed) {
-  const std::vector<double> values = config.quantities(key, expected);
-  std::set<double> seen;
-  for (const double value : values) {
-    if (!std::isfinite(value) || value < 0 || (value == 0 && !zero_allowed)) {
-      refuse(config, key, fmt::format("{}", value),
-             zero_allowed ? "values of zero or more" : "values above zero");
-    }
-    if (!seen.insert(value).second) {
-      refuse(config, key, "the same value twice", "each value once");
-    }
-  }
-  return values;
-}
-
 void read_sweep(const io::Config& config, Study& study) {
   study.mean_pressures = read_axis(config, "sweep.mean_pressure", dimension::pressure, false);
   study.lubricant_densities = {0};  // no density asked for: dry friction alone
@@ -178,95 +139,21 @@ void read_sweep(const io::Config& config, Study& study) {
   }
 }
 
-void read_file_options(const io::Config& config, const std::string& prefix,
-                       topography::ReadOptions& options) {
-  if (config.has(prefix + "channel")) {
-    options.channel = config.text(prefix + "channel");
-  }
-  if (config.has(prefix + "unit")) {
-    options.unit = config.text(prefix + "unit");
-  }
-  if (config.has(prefix + "pixel")) {
-    options.pixel_x = options.pixel_y = positive(config, prefix + "pixel", dimension::length);
-  }
-}
-
-/// The characters of a folder's name mean themselves, whatever a pattern would make of them.
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (std::string_view("*?[]\\").find(c) != std::string_view::npos) {
-      result += '\\';
-    }
-    result += c;
-  }
-  return result;
-}
-
-/// Files that a pattern matches, in byte order whatever the locale.
-std::vector<fs::path> matches(const fs::path& folder, const std::string& pattern) {
-  const std::string whole =
-      fs::path(pattern).is_absolute() ? pattern : escaped(folder.string()) + "/" + pattern;
-  glob_t found{};
-  std::vector<fs::path> files;
-  if (::glob(whole.c_str(), GLOB_NOSORT, nullptr, &found) == 0) {
-    files.assign(found.gl_pathv, found.gl_pathv + found.gl_pathc);
-  }
-  ::globfree(&found);
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-std::vector<std::string> names_beside(const fs::path& file) {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::directory_iterator(file.parent_path(), error)) {
-    names.push_back(entry.path().filename().string());
-  }
-  return names;
-}
-
-std::vector<fs::path> find_files(const io::Config& config, const fs::path& folder,
-                                 const std::string& name) {
-  const fs::path exact = folder / name;
-  if (fs::exists(exact)) {
-    return {exact};
-  }
-  std::vector<fs::path> files = matches(folder, name);
-  if (files.empty()) {
-    throw InputError(config.place("file") + ": no file '" + name + "' in " + folder.string() +
-                     suggestion(exact.filename().string(), names_beside(exact)));
-  }
-  return files;
-}
-
-void read_scans(const io::Config& config, const fs::path& folder, Study& study) {
-  topography::ReadOptions common;
-  read_file_options(config, "treatment.", common);
-  std::set<fs::path> seen;
-  for (const io::Config& entry : config.tables("scan")) {
-    topography::ReadOptions options = common;
-    read_file_options(entry, "", options);
-    for (const std::string& name : entry.texts("file")) {
-      for (const fs::path& file : find_files(entry, folder, name)) {
-        if (!seen.insert(fs::weakly_canonical(file)).second) {
-          refuse(entry, "file", "'" + name + "' twice", "each scan once, it would count twice");
-        }
-        study.scans.push_back({file, file.lexically_relative(folder).generic_string(),
-                               entry.has("group") ? entry.text("group") : "all", options});
-      }
-    }
-  }
-  if (study.scans.empty()) {
-    throw InputError(config.name() + ": no [[scan]] with a file");
-  }
-}
-
 }  // namespace
 
 double Study::effective_modulus() const {
   return counter_solid ? material::effective_modulus(solid, *counter_solid)
                        : material::effective_modulus(solid);
+}
+
+std::vector<Condition> Study::conditions() const {
+  std::vector<Condition> all;
+  const std::size_t n_speeds = flows() ? sliding_speeds.size() : 1;
+  all.reserve(lubricant_densities.size() * n_speeds);
+  for (std::size_t density = 0; density < lubricant_densities.size(); ++density) {
+    for (std::size_t speed = 0; speed < n_speeds; ++speed) all.push_back({density, speed});
+  }
+  return all;
 }
 
 double in_g_per_m2(double lubricant_density) {
@@ -288,6 +175,7 @@ Study read_study(const fs::path& file) {
   read_contact(config, study.contact);
   read_lubricant(config, study.lubricant);
   read_sweep(config, study);
+  read_flowing_oil(config, study);
   if (config.has("treatment.steps")) {
     study.treatment = config.texts("treatment.steps");
     try {

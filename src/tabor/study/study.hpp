@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tabor/contact/contact.hpp"
-#include "tabor/friction/bowden_tabor.hpp"
+#include "tabor/friction/mixed_friction.hpp"
 #include "tabor/lubrication/deposition.hpp"
 #include "tabor/material/solid.hpp"
 #include "tabor/study/experiment.hpp"
@@ -39,9 +39,16 @@ struct LubricantSettings {
   lubrication::Edge edge = lubrication::Edge::closed;
   double droplet_height = 1e-7;  ///< [m]
   std::uint64_t seed = 1;
+  std::optional<friction::FlowingOil> flowing;  ///< absent: oil only keeps contact from rubbing
 };
 
-/// Scans x pressures x densities and everything they share. A value; SI throughout.
+/// Under what each contact is repeated: positions in the lists of a study.
+struct Condition {
+  std::size_t density = 0;
+  std::size_t speed = 0;
+};
+
+/// Scans x pressures x densities x speeds and everything they share. A value; SI throughout.
 struct Study {
   std::string title;
   std::filesystem::path file;  ///< the study file
@@ -55,13 +62,15 @@ struct Study {
   LubricantSettings lubricant;
   std::vector<double> mean_pressures;       ///< [Pa]
   std::vector<double> lubricant_densities;  ///< [kg/m^2]
+  std::vector<double> sliding_speeds;       ///< [m/s]; empty unless the oil flows
   std::vector<Scan> scans;
   std::optional<Experiment> experiment;
 
   double effective_modulus() const;  ///< E* [Pa]
-  std::size_t n_cases() const {
-    return scans.size() * mean_pressures.size() * lubricant_densities.size();
-  }
+  bool flows() const { return lubricant.flowing.has_value(); }
+  std::size_t n_cases() const { return scans.size() * mean_pressures.size() * conditions().size(); }
+  /// Densities, and for each all speeds, in the order of the study.
+  std::vector<Condition> conditions() const;
 };
 
 /// Reads a study file. File names in it, which may be patterns ("before_*.x3p"), are relative to

@@ -54,13 +54,27 @@ std::string material_table(const Study& study) {
   return text;
 }
 
+/// Lines of the table [lubricant] that only a film that flows has.
+std::string flowing_lines(const friction::FlowingOil& oil) {
+  std::string text =
+      fmt::format("fluid = \"reynolds\"\nviscosity = {}\n", quantity(oil.viscosity, "Pa s"));
+  if (oil.pressure_viscosity) {
+    text += fmt::format("pressure_viscosity = {}\n", quantity(*oil.pressure_viscosity, "1/Pa"));
+  }
+  if (oil.eyring_stress) {
+    text += fmt::format("eyring_stress = {}\n", quantity(*oil.eyring_stress, "Pa"));
+  }
+  return text;
+}
+
 std::string lubricant_table(const LubricantSettings& lubricant) {
-  return fmt::format(
+  const std::string text = fmt::format(
       "\n[lubricant]\noil_density = {}\nmodel = {}\nreading = {}\nedge = {}\ndroplet = {}\n"
       "seed = {}\n",
       quantity(lubricant.oil_density, "kg/m^3"), toml_text(lubrication::name(lubricant.model)),
       toml_text(lubrication::name(lubricant.reading)), toml_text(lubrication::name(lubricant.edge)),
       quantity(lubricant.droplet_height, "m"), lubricant.seed);
+  return lubricant.flowing ? text + flowing_lines(*lubricant.flowing) : text;
 }
 
 std::string scan_table(const Scan& scan) {
@@ -98,6 +112,9 @@ std::string to_toml(const Study& study) {
   text += fmt::format("\n[sweep]\nmean_pressure = {}\nlubricant_density = {}\n",
                       quantities(study.mean_pressures, "Pa"),
                       quantities(study.lubricant_densities, "kg/m^2"));
+  if (study.flows()) {
+    text += fmt::format("sliding_speed = {}\n", quantities(study.sliding_speeds, "m/s"));
+  }
   text += lubricant_table(study.lubricant);
   for (const Scan& scan : study.scans) {
     text += scan_table(scan);

@@ -29,13 +29,15 @@ struct Outcome {
   std::size_t n_surfaces = 0;       ///< units this run computed
   std::size_t n_contacts = 0;
   std::size_t n_films = 0;
+  std::size_t n_fluids = 0;  ///< states whose oil flows
   std::size_t n_rows = 0;
   std::vector<std::string> failures;  ///< one line per scan and pressure that has no numbers
   std::vector<std::string> warnings;
 };
 
 /// Computes what the store in `directory` does not hold yet: each scan is treated once, each
-/// contact solved once per scan and pressure, each film laid down once per scan for all densities.
+/// contact solved once per scan and pressure, each film laid down once per scan for all densities;
+/// where the oil flows, every condition of a contact is one more unit.
 /// A case that fails is recorded and the rest goes on. results.csv, averages.csv and results.h5 are
 /// rebuilt from the store at the end, also of an interrupted run. Results do not depend on jobs,
 /// shards, threads or interruptions.

@@ -7,6 +7,7 @@
 #include <ctime>
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "tabor/core/error.hpp"
 #include "tabor/io/atomic_file.hpp"
@@ -23,7 +24,7 @@ struct Column {
   std::function<std::string(const Entry&)> text = nullptr;
 };
 
-const std::vector<Column<Row>>& row_columns() {
+const std::vector<Column<Row>>& contact_columns() {
   static const std::vector<Column<Row>> columns{
       {"case_id", nullptr, [](const Row& row) { return row.case_id; }},
       {"scan", nullptr, [](const Row& row) { return row.scan; }},
@@ -45,6 +46,32 @@ const std::vector<Column<Row>>& row_columns() {
   return columns;
 }
 
+/// Of a film that flows; after the others, so that those stay where they are.
+constexpr std::pair<const char*, double FluidRow::*> kFluidColumns[] = {
+    {"sliding_speed_m_per_s", &FluidRow::sliding_speed},
+    {"fluid_load_share", &FluidRow::load_share},
+    {"fluid_contact_area_fraction", &FluidRow::contact_area_fraction},
+    {"fluid_mean_gap_m", &FluidRow::mean_gap},
+    {"friction_solid", &FluidRow::friction_solid},
+    {"friction_viscous", &FluidRow::friction_viscous},
+    {"friction_mixed", &FluidRow::friction_mixed},
+    {"fluid_load_error", &FluidRow::load_error},
+    {"fluid_gap_error", &FluidRow::gap_error}};
+
+std::vector<Column<Row>> row_columns(bool oil_flows) {
+  std::vector<Column<Row>> columns = contact_columns();
+  if (!oil_flows) return columns;
+  for (const auto& [name, member] : kFluidColumns) {
+    columns.push_back({name, [value = member](const Row& row) {
+                         return row.fluid ? (*row.fluid).*value : kNoValue;
+                       }});
+  }
+  columns.push_back({"fluid_converged", nullptr, [](const Row& row) {
+                       return row.fluid && row.fluid->converged ? "true" : "false";
+                     }});
+  return columns;
+}
+
 /// Only in results.h5, so that results.csv keeps its agreed columns.
 const std::vector<Column<Row>>& further_columns() {
   static const std::vector<Column<Row>> columns{
@@ -54,26 +81,35 @@ const std::vector<Column<Row>>& further_columns() {
   return columns;
 }
 
-void add_mean(std::vector<Column<Average>>& columns, const std::string& name, Mean Average::*mean) {
-  columns.push_back({name + "_mean", [mean](const Average& a) { return (a.*mean).mean; }});
+template <typename MeanOf>
+void add_mean(std::vector<Column<Average>>& columns, const std::string& name,
+              const MeanOf& mean_of) {
+  columns.push_back({name + "_mean", [mean_of](const Average& a) { return mean_of(a).mean; }});
   columns.push_back(
-      {name + "_std", [mean](const Average& a) { return (a.*mean).standard_deviation; }});
-  columns.push_back({name + "_sem", [mean](const Average& a) { return (a.*mean).standard_error; }});
+      {name + "_std", [mean_of](const Average& a) { return mean_of(a).standard_deviation; }});
+  columns.push_back(
+      {name + "_sem", [mean_of](const Average& a) { return mean_of(a).standard_error; }});
 }
 
-const std::vector<Column<Average>>& average_columns() {
-  static const std::vector<Column<Average>> columns = [] {
-    std::vector<Column<Average>> made{
-        {"group", nullptr, [](const Average& a) { return a.group; }},
-        {"mean_pressure_Pa", [](const Average& a) { return a.mean_pressure; }},
-        {"lubricant_density_g_per_m2",
-         [](const Average& a) { return in_g_per_m2(a.lubricant_density); }},
-        {"n", [](const Average& a) { return static_cast<double>(a.n); }}};
-    add_mean(made, "friction_dry", &Average::friction_dry);
-    add_mean(made, "friction_lubricated", &Average::friction_lubricated);
-    return made;
-  }();
-  return columns;
+std::vector<Column<Average>> average_columns(bool oil_flows) {
+  std::vector<Column<Average>> made{
+      {"group", nullptr, [](const Average& a) { return a.group; }},
+      {"mean_pressure_Pa", [](const Average& a) { return a.mean_pressure; }},
+      {"lubricant_density_g_per_m2",
+       [](const Average& a) { return in_g_per_m2(a.lubricant_density); }},
+      {"n", [](const Average& a) { return static_cast<double>(a.n); }}};
+  add_mean(made, "friction_dry", [](const Average& a) { return a.friction_dry; });
+  add_mean(made, "friction_lubricated", [](const Average& a) { return a.friction_lubricated; });
+  if (!oil_flows) return made;
+  made.push_back({"sliding_speed_m_per_s",
+                  [](const Average& a) { return a.fluid.value_or(FluidAverage{}).sliding_speed; }});
+  const auto of_fluid = [](Mean FluidAverage::*mean) {
+    return [mean](const Average& a) { return a.fluid.value_or(FluidAverage{}).*mean; };
+  };
+  add_mean(made, "fluid_load_share", of_fluid(&FluidAverage::load_share));
+  add_mean(made, "friction_viscous", of_fluid(&FluidAverage::friction_viscous));
+  add_mean(made, "friction_mixed", of_fluid(&FluidAverage::friction_mixed));
+  return made;
 }
 
 template <typename Entry>
@@ -98,7 +134,7 @@ void write_columns(io::Hdf5Writer& writer, const std::string& group,
                    const std::vector<Column<Entry>>& columns, const std::vector<Entry>& entries) {
   for (const Column<Entry>& column : columns) {
     const std::string path = group + "/" + column.name;
-    if (column.name == "n" || column.name == "converged") {
+    if (column.name == "n" || column.name.ends_with("converged")) {
       std::vector<std::int64_t> values;
       for (const Entry& entry : entries) {
         values.push_back(column.text ? column.text(entry) == "true"
@@ -121,6 +157,15 @@ void write_columns(io::Hdf5Writer& writer, const std::string& group,
   }
 }
 
+void write_oil(io::Hdf5Writer& writer, const friction::FlowingOil& oil) {
+  writer.attribute("/", "fluid", "reynolds");
+  writer.attribute("/", "viscosity_Pa_s", oil.viscosity);
+  if (oil.pressure_viscosity) {
+    writer.attribute("/", "pressure_viscosity_per_Pa", *oil.pressure_viscosity);
+  }
+  if (oil.eyring_stress) writer.attribute("/", "eyring_stress_Pa", *oil.eyring_stress);
+}
+
 void write_settings(io::Hdf5Writer& writer, const Study& study, const std::string& command) {
   write_root(writer, "scans/0000/surface");
   writer.attribute("/", "command", command);
@@ -137,6 +182,7 @@ void write_settings(io::Hdf5Writer& writer, const Study& study, const std::strin
   }
   writer.attribute("/", "oil_density_kg_per_m3", study.lubricant.oil_density);
   writer.attribute("/", "area", std::string(friction::name(study.area)));
+  if (study.flows()) write_oil(writer, *study.lubricant.flowing);
 }
 
 /// What the stored surface says about itself, for readers that look at no map.
@@ -172,6 +218,10 @@ void write_links(io::Hdf5Writer& writer, const std::string& group, const Store& 
   }
   for (std::size_t i = 0; i < n_films; ++i) {
     link(fmt::format("films/{:04}", i), units.film, film_group(i));
+  }
+  std::size_t place = 0;
+  for (const std::vector<Unit>& fluids : units.fluids) {
+    for (const Unit& unit : fluids) link(fmt::format("fluid/{:04}", place++), unit, "/fluid");
   }
 }
 
@@ -218,24 +268,26 @@ std::vector<Row> rows_in(const Store& store, const std::vector<ScanUnits>& units
   return rows;
 }
 
-std::string results_csv(const std::vector<Row>& rows) { return to_csv(row_columns(), rows); }
+std::string results_csv(const std::vector<Row>& rows, bool oil_flows) {
+  return to_csv(row_columns(oil_flows), rows);
+}
 
-std::string averages_csv(const std::vector<Average>& averages) {
-  return to_csv(average_columns(), averages);
+std::string averages_csv(const std::vector<Average>& averages, bool oil_flows) {
+  return to_csv(average_columns(oil_flows), averages);
 }
 
 void write_tables(const Store& store, const Study& study, const std::vector<ScanUnits>& units,
                   const std::vector<Row>& rows, const std::string& command) {
   const std::vector<Average> means = averages(rows);
-  io::write_file(store.directory() / "results.csv", results_csv(rows));
-  io::write_file(store.directory() / "averages.csv", averages_csv(means));
+  io::write_file(store.directory() / "results.csv", results_csv(rows, study.flows()));
+  io::write_file(store.directory() / "averages.csv", averages_csv(means, study.flows()));
   io::Hdf5Writer writer(store.directory() / "results.h5");
   write_settings(writer, study, command);
   writer.attribute("/", "n_cases", static_cast<std::int64_t>(study.n_cases()));
   writer.attribute("/", "n_cases_done", static_cast<std::int64_t>(rows.size()));
-  write_columns(writer, "/table", row_columns(), rows);
+  write_columns(writer, "/table", row_columns(study.flows()), rows);
   write_columns(writer, "/table", further_columns(), rows);
-  write_columns(writer, "/averages", average_columns(), means);
+  write_columns(writer, "/averages", average_columns(study.flows()), means);
   write_scans(writer, store, study, units);
   if (study.experiment) {
     write_experiment(writer, *study.experiment);

@@ -12,9 +12,10 @@ namespace tabor::study {
 /// are left out.
 std::vector<Row> rows_in(const Store& store, const std::vector<ScanUnits>& units);
 
-/// Contents of results.csv and averages.csv; a value that does not exist is an empty cell.
-std::string results_csv(const std::vector<Row>& rows);
-std::string averages_csv(const std::vector<Average>& averages);
+/// Contents of results.csv and averages.csv; a value that does not exist is an empty cell. Where
+/// the oil of the study flows they have more columns.
+std::string results_csv(const std::vector<Row>& rows, bool oil_flows = false);
+std::string averages_csv(const std::vector<Average>& averages, bool oil_flows = false);
 
 /// Writes results.csv, averages.csv and results.h5 into the study's folder from what the store
 /// holds. `command` is the command line that asked for it. Throws OutputError.

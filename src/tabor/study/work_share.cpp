@@ -3,8 +3,9 @@
 namespace tabor::study {
 namespace {
 
-// Seconds a surface, a film and a contact took in the full-size study (tools/bench/study), rounded.
-constexpr std::array<double, 3> kTypical{2, 12, 3};
+// Seconds a surface, a film and a contact took in the full-size study (tools/bench/study), and a
+// film that flows on a patch of that size, rounded.
+constexpr std::array<double, 4> kTypical{2, 12, 3, 100};
 
 }  // namespace
 

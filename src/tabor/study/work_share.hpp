@@ -8,10 +8,12 @@ namespace tabor::study {
 
 /// What a worker of a sweep does at a time.
 struct Task {
-  enum class Kind { surface, film, contact };
+  enum class Kind { surface, film, contact, fluid };
   Kind kind;
   std::size_t scan;
-  std::size_t pressure = 0;  ///< of a contact
+  std::size_t pressure = 0;   ///< of a contact or a film that flows
+  std::size_t condition = 0;  ///< of a film that flows
+  bool retry = false;         ///< of a film that flows: solve again although stored
 };
 
 /// Which share of the time of all tasks has gone. Tasks of a kind take about as long as those of
@@ -25,7 +27,7 @@ class WorkShare {
   double share() const;
 
  private:
-  static constexpr std::size_t kKinds = 3;
+  static constexpr std::size_t kKinds = 4;
   double expected(std::size_t kind) const;
 
   std::vector<std::size_t> kinds_;        // per task

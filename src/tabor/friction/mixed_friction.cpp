@@ -1,0 +1,85 @@
+#include "tabor/friction/mixed_friction.hpp"
+
+#include <fmt/format.h>
+
+#include "tabor/core/units.hpp"
+#include "tabor/friction/wet_contact.hpp"
+
+namespace tabor::friction {
+
+material::Lubricant lubricant_of(const FlowingOil& oil) {
+  material::Lubricant lubricant;
+  lubricant.viscosity = oil.pressure_viscosity
+                            ? material::make_viscosity(material::ViscosityLaw::roelands,
+                                                       oil.viscosity, *oil.pressure_viscosity)
+                            : material::constant_viscosity(oil.viscosity);
+  if (oil.eyring_stress) lubricant.shear = material::ree_eyring_shear(*oil.eyring_stress);
+  return lubricant;
+}
+
+FluidSummary summarise(const FluidFilmState& state, const FluidFilmProblem& problem,
+                       const Grid& grid) {
+  const auto n = static_cast<double>(state.film.pressure.size());
+  const double load = problem.contact.mean_pressure;
+  FluidSummary fluid;
+  fluid.load_share = state.fluid_pressure / load;
+  fluid.solid_share = state.solid_pressure / load;
+  fluid.max_pressure = state.film.pressure.maxCoeff();
+  if (state.solid_pressure > 0) {
+    contact::Problem solids;
+    solids.mean_pressure = state.solid_pressure;
+    solids.saturation_pressure = problem.contact.saturation_pressure;
+    const contact::Summary touching = contact::summarise(state.contact, solids, grid, true);
+    fluid.contact_area_fraction = touching.contact_area_fraction;
+    fluid.contact_area_fraction_pixels = touching.contact_area_fraction_pixels;
+    fluid.lubricated_share = lubricated_share(contact::contact_mask(state.contact), problem.film);
+  }
+  fluid.mean_gap = state.mean_gap;
+  fluid.full_fraction = static_cast<double>((state.film.fill >= 1).count()) / n;
+  fluid.outside_film = state.film.oil.outside / n;
+  fluid.viscous_stress = state.viscous_stress;
+  fluid.load_error = state.load_error;
+  fluid.gap_error = state.gap_error;
+  fluid.evaluations = state.evaluations;
+  fluid.iterations = state.film.iterations;
+  fluid.converged = state.converged;
+  return fluid;
+}
+
+MixedEstimate estimate(const FluidSummary& fluid, double mean_pressure, double saturation_pressure,
+                       double shear_strength, Area area) {
+  MixedEstimate mixed;
+  if (fluid.solid_share > 0) {
+    // As if the solids alone were there, under what they carry; then over the whole load.
+    const Estimate solids =
+        estimate({mean_pressure * fluid.solid_share, fluid.contact_area_fraction,
+                  fluid.contact_area_fraction_pixels, saturation_pressure, fluid.lubricated_share},
+                 shear_strength, area);
+    mixed.area_fraction = solids.area_fraction;
+    mixed.friction_solid = solids.friction_lubricated * fluid.solid_share;
+  }
+  mixed.friction_viscous = fluid.viscous_stress / mean_pressure;
+  mixed.friction_mixed = mixed.friction_solid + mixed.friction_viscous;
+  return mixed;
+}
+
+std::vector<std::string> doubts(const FluidFilmState& state, const FluidFilmProblem& problem) {
+  std::vector<std::string> found;
+  if (!state.converged) {
+    const bool steady = state.film.converged && state.film.steady;
+    found.push_back(fmt::format(
+        "film NOT CONVERGED, load balance {:.1e}, gap {:.1e} instead of {:.0e}{}", state.load_error,
+        state.gap_error, problem.tolerance, steady ? "" : ", oil still on the move"));
+  }
+  const double highest = state.film.pressure.maxCoeff();
+  for (std::string& doubt : material::doubts(problem.lubricant, highest)) {
+    found.push_back(std::move(doubt));
+  }
+  if (highest > problem.contact.saturation_pressure) {
+    found.push_back("the oil's pressure reaches " + format_si(highest, "Pa") +
+                    ", more than the solids bear: the film is too thin for its pixels there");
+  }
+  return found;
+}
+
+}  // namespace tabor::friction

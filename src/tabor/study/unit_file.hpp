@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "tabor/study/record.hpp"
+
+// What the HDF5 files of the store have in common.
+namespace tabor::study {
+
+/// A new file of the unit that states its canonical text; `plotted` is the NeXus default group.
+io::Hdf5Writer unit_writer(const Store& store, const Unit& unit, const std::string& plotted);
+
+struct MapName {
+  const char* name;
+  const char* unit;
+  const char* long_name;
+};
+
+/// Writes a map as float32 with its unit and axes.
+void write_map(io::Hdf5Writer& writer, const std::string& group, const MapName& name,
+               const Field& map);
+
+void write_attributes(io::Hdf5Writer& writer, const std::string& path, const Scalars& scalars);
+
+}  // namespace tabor::study
