@@ -4,6 +4,7 @@
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
 #include "tabor/cli/ehl_sweep.hpp"
+#include "tabor/cli/interrupt.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/io/hdf5.hpp"
 
@@ -138,6 +139,23 @@ TEST(EhlImpact, GoesOnWithASweepBehindACaseThatMakesNoSense) {
   EXPECT_EQ(results[0]["converged"], true);
   EXPECT_EQ(results[1]["converged"], false);
   EXPECT_THAT(results[1]["refused"].get<std::string>(), HasSubstr("thicker layer"));
+}
+
+TEST(EhlImpact, InterruptedBeforeItsFirstCaseLeavesNothing) {
+  const test::Folder folder;
+  const auto interrupted = [&](const std::vector<std::string>& more) {
+    set_interrupted(true);
+    std::vector<std::string> words = quick(more);
+    words.insert(words.end(), {"-o", folder / "out.h5"});
+    const Outcome outcome = run_tabor(words);
+    set_interrupted(false);
+    EXPECT_EQ(outcome.code, 130);
+    EXPECT_EQ(outcome.err, "tabor: interrupted\n");
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(folder.n_files(), 0u);
+  };
+  interrupted({"--set", "ball.speed=0.1m/s,0.2m/s"});
+  interrupted({});
 }
 
 TEST(EhlImpact, SaysThatABallSticks) {

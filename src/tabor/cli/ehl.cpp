@@ -6,6 +6,7 @@
 
 #include "tabor/cli/ehl_series.hpp"
 #include "tabor/cli/fields_file.hpp"
+#include "tabor/cli/interrupt.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
@@ -42,7 +43,7 @@ const EhlProgram& find_program(const std::string& name) {
 int show_one(const EhlProgram& program, const io::Config& config, const Request& request,
              Context& context) {
   config.reject_unknown(program.keys);
-  const EhlAnswer answer = program.solve(config, context);
+  const EhlAnswer answer = solve_whole(program.solve, config, context);
   for (const std::string& warning : answer.warnings) context.warn(warning);
   if (request.output) {
     io::Hdf5Writer writer(*request.output);
@@ -51,6 +52,7 @@ int show_one(const EhlProgram& program, const io::Config& config, const Request&
     writer.group("/result");
     write_scalars(writer, "/result", answer.scalars);
     if (answer.write) answer.write(writer);
+    if (interrupted()) throw Interrupted();
     writer.commit();
   }
   io::Json object = json_head(context);
@@ -86,7 +88,9 @@ std::string details() {
     text += fmt::format(" {} - {}.", program.name, program.summary);
   }
   return text +
-         " docs/ehl.md, docs/ehl_line.md and docs/ehl_point.md list the keys of their cases.";
+         " docs/ehl.md, docs/ehl_line.md and docs/ehl_point.md list the keys of their cases. A "
+         "sweep "
+         "with -o keeps its finished cases: stopped, the same command goes on from there.";
 }
 
 void declare_options(OptionSet& set, Request& request) {
@@ -117,6 +121,12 @@ constexpr const char* kStribeckCurve =
     "--set motion.speed=0.1m/s..10m/s:log:3";
 
 }  // namespace
+
+EhlAnswer solve_whole(const EhlSolver& solve, const io::Config& config, Context& context) {
+  EhlAnswer answer = solve(config, context);
+  if (interrupted()) throw Interrupted();
+  return answer;
+}
 
 Verb ehl_verb() {
   return {.name = "ehl",

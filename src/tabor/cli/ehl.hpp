@@ -44,21 +44,32 @@ struct EhlStudy {
   int cells_by = 1;              ///< cells come in multiples of it
 };
 
-/// Solves one case; may remember it as the start of the next.
 using EhlSolver = std::function<EhlAnswer(const io::Config& config, Context& context)>;
+
+/// Solves a case. Throws Interrupted instead of answering with what an interruption left
+/// unfinished.
+EhlAnswer solve_whole(const EhlSolver& solve, const io::Config& config, Context& context);
+
+/// Solves the cases of a sweep one after the other, each of which may start from the one before.
+struct EhlChain {
+  EhlSolver solve;  ///< remembers what the next one may start from
+  /// Puts that into a file and back, so that a sweep goes on where it was stopped.
+  std::function<void(io::Hdf5Writer&)> write_start = {};
+  std::function<void(const io::Hdf5Reader&)> read_start = {};
+};
 
 /// One sub-verb of `tabor ehl`.
 struct EhlProgram {
   std::string name;
   std::string summary;
-  std::vector<std::string> keys;  ///< of the case
+  std::vector<std::string> keys;        ///< of the case
+  std::vector<std::string> files = {};  ///< keys that name a file, from where the case lies
   std::vector<EhlColumn> columns;
   std::vector<EhlStudy> studies;
   std::vector<std::string> methods;  ///< keys of references.bib
   EhlSolver solve;
-  /// Of the cases of a sweep, each of which may start from the one before; empty: solve.
-  std::function<EhlSolver()> make_series_solver = {};
-  std::vector<std::string> downwards = {};  ///< keys whose largest value is the easiest
+  std::function<EhlChain()> make_chain = {};  ///< of a sweep; empty: each case by itself
+  std::vector<std::string> downwards = {};    ///< keys whose largest value is the easiest
 };
 
 EhlProgram impact_program();

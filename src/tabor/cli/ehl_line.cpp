@@ -285,6 +285,7 @@ EhlProgram line_program() {
                           "grid.inlet",
                           "grid.outlet"},
                          {solids_keys(), lubricant_keys()}),
+          .files = {"roughness.file"},
           .columns = {{"min_film_m", "smallest film", "m"},
                       {"central_film_m", "central film", "m"},
                       {"max_pressure_Pa", "largest pressure", "Pa"},

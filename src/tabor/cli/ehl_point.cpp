@@ -1,316 +1,20 @@
-#include <fmt/format.h>
-
-#include <cmath>
-#include <limits>
-#include <memory>
-#include <optional>
-#include <utility>
-
 #include "tabor/cli/ehl.hpp"
-#include "tabor/cli/ehl_case.hpp"
+#include "tabor/cli/ehl_point_answer.hpp"
 #include "tabor/cli/ehl_point_case.hpp"
-#include "tabor/cli/ehl_point_fields.hpp"
 #include "tabor/cli/ehl_point_passage.hpp"
-#include "tabor/cli/table.hpp"
-#include "tabor/ehl/point_dry.hpp"
-#include "tabor/ehl/point_measures.hpp"
-#include "tabor/topography/file.hpp"
+#include "tabor/cli/ehl_point_series.hpp"
 
 namespace tabor::cli {
 
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-/// Shear stress over pressure beyond which oils give way (Johnson & Tevaarwerk 1977).
-constexpr double kYieldRatio = 0.1;
-
-using ehl::PointMeasures;
-using ehl::PointProblem;
-using ehl::PointResult;
-
-/// Films of formulas for smooth bodies.
-struct Formulas {
-  double nijenbanning = 0;            ///< [m], in the centre, over the density at Hertz' pressure
-  double hamrock_dowson_central = 0;  ///< [m]
-  double hamrock_dowson_min = 0;      ///< [m]
-};
-
-/// Where they hold: ellipses across the flow; Hamrock and Dowson need a piezoviscous liquid.
-Formulas formulas_of(const PointProblem& problem) {
-  const reference::PointContactFilm groups = film_groups_of(problem);
-  const double density = problem.lubricant.density.at(hertz_of(problem).max_pressure).value;
-  const bool is_covered = problem.radius_y >= problem.radius_x;
-  const bool is_piezoviscous = is_covered && groups.pressure_coefficient > 0;
-  return {
-      .nijenbanning = is_covered ? groups.nijenbanning_central() / density : kNone,
-      .hamrock_dowson_central = is_piezoviscous ? groups.hamrock_dowson_central() : kNone,
-      .hamrock_dowson_min = is_piezoviscous ? groups.hamrock_dowson_min() : kNone,
-  };
-}
-
-/// [m] of a film of 1 in Moes' units, h / (Rx sqrt(2 U)).
-double moes_length(const PointProblem& problem) {
-  return problem.radius_x * std::sqrt(2 * film_groups_of(problem).speed_group());
-}
-
-/// [m], over the area of the dry contact; 0 for smooth bodies.
-double rms_roughness(const PointProblem& problem) {
-  if (problem.roughness.size() == 0) return 0;
-  const Mask area = hertz_area(problem);
-  const auto n = static_cast<double>(area.count());
-  const double mean = area.select(problem.roughness, 0.0).sum() / n;
-  return std::sqrt(area.select((problem.roughness - mean).square(), 0.0).sum() / n);
-}
-
-io::Json formulas_json(const PointProblem& problem) {
-  const Formulas formulas = formulas_of(problem);
-  return {{"nijenbanning_central_film_m", io::number(formulas.nijenbanning)},
-          {"hamrock_dowson_central_film_m", io::number(formulas.hamrock_dowson_central)},
-          {"hamrock_dowson_min_film_m", io::number(formulas.hamrock_dowson_min)}};
-}
-
-/// Films in units of a^2 / Rx, a along the flow, as numerical papers scale them.
-io::Json hertz_units_json(const PointProblem& problem, const PointMeasures& measures) {
-  const double a = hertz_of(problem).half_axis_x;
-  const double unit = a * a / problem.radius_x;
-  return {{"Hc", io::number(measures.film_at_centre / unit)},
-          {"Hm", io::number(measures.min_film / unit)}};
-}
-
-io::Json scalars_of(const PointProblem& problem, const PointResult& result,
-                    const PointMeasures& measures) {
-  const reference::PointContactFilm groups = film_groups_of(problem);
-  const double unit = moes_length(problem);
-  return {{"hertz_radius_m", measures.hertz_radius},
-          {"hertz_pressure_Pa", measures.hertz_pressure},
-          {"M", groups.moes_load()},
-          {"L", groups.moes_viscosity()},
-          {"central_film_m", io::number(measures.central_film)},
-          {"min_film_m", io::number(measures.min_film)},
-          {"Hc", io::number(measures.film_at_centre / unit)},
-          {"Hm", io::number(measures.min_film / unit)},
-          {"film_at_centre_m", io::number(measures.film_at_centre)},
-          {"hertz_units", hertz_units_json(problem, measures)},
-          {"max_pressure_Pa", io::number(measures.max_pressure)},
-          {"solid_contact_fraction", io::number(measures.solid_contact_fraction)},
-          {"contact_load_share", io::number(measures.contact_load_share)},
-          {"plastic_fraction", io::number(measures.plastic_fraction)},
-          {"max_plastic_depth_m", io::number(measures.max_plastic_depth)},
-          {"fluid_volume_m3", io::number(measures.fluid_volume)},
-          {"friction_fluid", io::number(measures.friction_fluid)},
-          {"friction_solid", io::number(measures.friction_solid)},
-          {"friction_coefficient", io::number(measures.friction_coefficient)},
-          {"max_shear_stress_Pa", io::number(measures.max_shear_stress)},
-          {"formulas", formulas_json(problem)},
-          {"load_N", problem.load},
-          {"entrainment_speed_m_per_s", problem.entrainment_speed},
-          {"sliding_speed_m_per_s", problem.sliding_speed},
-          {"roughness_rms_m", rms_roughness(problem)},
-          {"nodes_x", problem.nodes_x},
-          {"nodes_y", problem.nodes_y},
-          {"domain", 1},
-          {"spacing_m", result.grid.dx()},
-          {"newton_iterations", result.newton_iterations},
-          {"n_products", result.n_products},
-          {"load_error", io::number(result.load_error)},
-          {"mass_error", io::number(result.mass_error)},
-          {"converged", result.converged}};
-}
-
-std::string with_moes(double film, double unit) {
-  return fmt::format("{} ({} in Moes' units)", si(film, "m"), plain(film / unit));
-}
-
-std::string friction_text(const PointMeasures& measures) {
-  return fmt::format("{}: {} of the film, {} of solids", plain(measures.friction_coefficient),
-                     plain(measures.friction_fluid), plain(measures.friction_solid));
-}
-
-void describe_film(Facts& facts, const PointProblem& problem, const PointMeasures& measures) {
-  const Formulas formulas = formulas_of(problem);
-  const double unit = moes_length(problem);
-  facts.fact("film in the centre", with_moes(measures.film_at_centre, unit));
-  facts.fact("mean central film", with_moes(measures.central_film, unit));
-  facts.fact("smallest film", with_moes(measures.min_film, unit));
-  if (std::isfinite(formulas.nijenbanning)) {
-    facts.fact("smooth, Newtonian", fmt::format("{} in the centre (Nijenbanning et al.)",
-                                                si(formulas.nijenbanning, "m")));
-  }
-  if (std::isfinite(formulas.hamrock_dowson_min)) {
-    facts.fact(" ", fmt::format("{} in the centre, {} at least (Hamrock and Dowson)",
-                                si(formulas.hamrock_dowson_central, "m"),
-                                si(formulas.hamrock_dowson_min, "m")));
-  }
-}
-
-void describe_solids(Facts& facts, const PointProblem& problem, const PointMeasures& measures) {
-  if (problem.roughness.size() > 0) {
-    facts.fact("roughness", si(rms_roughness(problem), "m") + " rms in the contact");
-  }
-  if (problem.roughness.size() > 0 || measures.solid_contact_fraction > 0) {
-    facts.fact("solids touch", fmt::format("{} of the contact's area, {} of the load",
-                                           percent(measures.solid_contact_fraction),
-                                           percent(measures.contact_load_share)));
-  }
-  if (std::isfinite(problem.plastic_pressure)) {
-    facts.fact("plastic",
-               fmt::format("{} of the area, {} deep at most", percent(measures.plastic_fraction),
-                           si(measures.max_plastic_depth, "m")));
-  }
-}
-
-std::string text_of(const PointProblem& problem, const PointResult& result,
-                    const PointMeasures& measures) {
-  const reference::HertzEllipse hertz = hertz_of(problem);
-  const reference::PointContactFilm groups = film_groups_of(problem);
-  Facts facts;
-  facts.fact("load, speeds",
-             fmt::format("{}, entrainment {}, sliding {}", si(problem.load, "N"),
-                         si(problem.entrainment_speed, "m/s"), si(problem.sliding_speed, "m/s")));
-  facts.fact("dry contact", fmt::format("half axes {} x {}, {}", si(hertz.half_axis_x, "m"),
-                                        si(hertz.half_axis_y, "m"), si(hertz.max_pressure, "Pa")));
-  facts.fact("Moes' groups", fmt::format("M = {}, L = {}", plain(groups.moes_load()),
-                                         plain(groups.moes_viscosity())));
-  describe_film(facts, problem, measures);
-  facts.fact("largest pressure", si(measures.max_pressure, "Pa"));
-  describe_solids(facts, problem, measures);
-  if (problem.sliding_speed != 0) facts.fact("friction", friction_text(measures));
-  facts.fact("solved", fmt::format("{} x {} nodes, {} iterations, load to {:.1g}, mass to {:.1g}",
-                                   problem.nodes_x, problem.nodes_y, result.newton_iterations,
-                                   result.load_error, result.mass_error));
-  return facts.text();
-}
-
-/// The film of the same bodies without their roughness, to show behind it; nothing if they have
-/// none.
-std::optional<PointResult> smooth_film(PointProblem problem, const Observer& observer) {
-  if (problem.roughness.size() == 0) return std::nullopt;
-  problem.roughness.resize(0, 0);
-  return solve_point(problem, nullptr, observer);
-}
-
-PointProblem read_problem(const io::Config& config, Context& context) {
-  PointProblem problem = read_point(config);
-  if (const PointRoughness roughness = read_point_roughness(config, problem, 0, context)) {
-    problem.roughness = roughness(0);
-  }
-  return problem;
-}
-
-/// What the equations do not see.
-std::vector<std::string> doubts_of(const PointProblem& problem, const PointMeasures& measures,
-                                   bool is_still) {
-  std::vector<std::string> doubts;
-  const double ratio = measures.max_shear_stress / measures.max_pressure;
-  const bool is_newtonian =
-      material::law_of(problem.lubricant.shear) == material::ShearLaw::newtonian;
-  if (is_newtonian && ratio > kYieldRatio) {
-    doubts.push_back(
-        fmt::format("the film is sheared at {}, {} of the pressure, where oils give "
-                    "way: the friction is too high; give lubricant.eyring_stress",
-                    si(measures.max_shear_stress, "Pa"), percent(ratio, 2)));
-  }
-  const double at_rest = 2 * problem.entrainment_speed;
-  if (problem.roughness.size() > 0 && is_still &&
-      std::abs(std::abs(problem.sliding_speed) - at_rest) > 1e-6 * at_rest) {
-    doubts.emplace_back(
-        "the roughness is taken to stand still, but its surface moves: only a "
-        "sliding speed of twice the entrainment speed is steady; motion.duration lets it move");
-  }
-  return doubts;
-}
-
-EhlAnswer answer_of(const io::Config& config, const PointProblem& problem,
-                    const PointResult& result, const Context& context) {
-  const PointMeasures measures = measure_point(problem, result);
-  EhlAnswer answer;
-  answer.scalars = scalars_of(problem, result, measures);
-  if (config.has("roughness.file")) {
-    const std::filesystem::path scan = point_scan(config);
-    answer.scalars["scan"] = {{"path", scan.string()}, {"sha256", topography::sha256(scan)}};
-  }
-  answer.text = text_of(problem, result, measures);
-  answer.converged = result.converged;
-  answer.warnings = result.doubts;
-  for (std::string& doubt : doubts_of(problem, measures, !has_passage(config))) {
-    answer.warnings.push_back(doubt);
-  }
-  if (!result.converged) {
-    answer.warnings.emplace_back(
-        "the film was not found: more nodes, or a sweep that comes down "
-        "from a higher speed");
-  }
-  answer.write = [problem, result, observer = context.observer()](io::Hdf5Writer& writer) {
-    const std::optional<PointResult> smooth = smooth_film(problem, observer);
-    write_point(writer, problem, result, smooth ? &*smooth : nullptr);
-  };
-  return answer;
-}
-
-/// The rough bodies without liquid: what the film tends to as the speed vanishes.
-void add_dry(const PointProblem& problem, const Observer& observer, EhlAnswer& answer) {
-  const PointResult result = solve_point_dry(problem, observer);
-  const PointMeasures measures = measure_point(problem, result);
-  answer.scalars["dry"] = {{"solid_contact_fraction", io::number(measures.solid_contact_fraction)},
-                           {"plastic_fraction", io::number(measures.plastic_fraction)},
-                           {"max_pressure_Pa", io::number(measures.max_pressure)},
-                           {"max_plastic_depth_m", io::number(measures.max_plastic_depth)},
-                           {"friction_solid", io::number(measures.friction_solid)},
-                           {"converged", result.converged}};
-  Facts facts;
-  facts.fact("without any liquid",
-             fmt::format("{} of the area touches, {} is plastic, friction {}",
-                         percent(measures.solid_contact_fraction),
-                         percent(measures.plastic_fraction), plain(measures.friction_solid)));
-  answer.text += facts.text();
-  if (!result.converged) answer.warnings.emplace_back("the dry contact was not found");
-}
-
-EhlAnswer solve_moving(const io::Config& config, Context& context) {
-  const PointPassage passage = solve_passage(config, context);
-  EhlAnswer answer = answer_of(config, passage.at_end, passage.film.last, context);
-  add_history(passage, answer);
-  return answer;
-}
-
 EhlAnswer solve(const io::Config& config, Context& context) {
-  if (has_passage(config)) return solve_moving(config, context);
-  const PointProblem problem = read_problem(config, context);
-  const PointResult result = solve_point(problem, nullptr, context.observer());
-  EhlAnswer answer = answer_of(config, problem, result, context);
-  if (problem.roughness.size() > 0) add_dry(problem, context.observer(), answer);
+  if (has_passage(config)) return passage_answer(config, context);
+  const ehl::PointProblem problem = read_rough_point(config, context);
+  const ehl::PointResult result = solve_point(problem, nullptr, context.observer());
+  EhlAnswer answer = point_answer(config, problem, result, context);
+  if (problem.roughness.size() > 0) add_dry_contact(problem, context.observer(), answer);
   return answer;
-}
-
-/// What the next case of a sweep may start from.
-struct Previous {
-  PointProblem problem;
-  PointResult result;
-};
-
-/// Cases that differ in speed or load alone.
-bool are_neighbours(const PointProblem& a, const PointProblem& b) {
-  return a.nodes_x == b.nodes_x && a.nodes_y == b.nodes_y && a.inlet == b.inlet &&
-         a.outlet == b.outlet && a.half_width == b.half_width && a.radius_x == b.radius_x &&
-         a.radius_y == b.radius_y && a.effective_modulus == b.effective_modulus &&
-         a.plastic_pressure == b.plastic_pressure && a.roughness.size() == b.roughness.size() &&
-         (a.roughness.size() == 0 || (a.roughness == b.roughness).all());
-}
-
-/// Each film starts from the one before where that is near.
-EhlSolver make_series_solver() {
-  return [previous = std::make_shared<std::optional<Previous>>()](const io::Config& config,
-                                                                  Context& context) {
-    if (has_passage(config)) return solve_moving(config, context);
-    PointProblem problem = read_problem(config, context);
-    const bool has_start = previous->has_value() && (*previous)->result.converged &&
-                           are_neighbours((*previous)->problem, problem);
-    PointResult result =
-        solve_point(problem, has_start ? &(*previous)->result : nullptr, context.observer());
-    EhlAnswer answer = answer_of(config, problem, result, context);
-    *previous = Previous{std::move(problem), std::move(result)};
-    return answer;
-  };
 }
 
 }  // namespace
@@ -319,6 +23,7 @@ EhlProgram point_program() {
   return {.name = "point",
           .summary = "a film between a ball and a flat, smooth or rough, and the friction of both",
           .keys = point_keys(),
+          .files = {"roughness.file"},
           .columns = {{"central_film_m", "central film", "m"},
                       {"min_film_m", "smallest film", "m"},
                       {"Hc", "Hc", ""},
@@ -346,7 +51,7 @@ EhlProgram point_program() {
                        .is_count = false}},
           .methods = {"nijenbanning1994", "hamrock1977", "redlich2003"},
           .solve = solve,
-          .make_series_solver = make_series_solver,
+          .make_chain = make_point_chain,
           .downwards = {"motion.speed", "motion.entrainment_speed"}};
 }
 

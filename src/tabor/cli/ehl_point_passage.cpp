@@ -8,9 +8,11 @@
 
 #include "tabor/cli/ehl_case.hpp"
 #include "tabor/cli/ehl_history.hpp"
+#include "tabor/cli/ehl_point_answer.hpp"
 #include "tabor/cli/ehl_point_case.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/ehl/point_transient.hpp"
 
 namespace tabor::cli {
 
@@ -50,9 +52,12 @@ void set_steps(const io::Config& config, double speed, ehl::TransientPointProble
   problem.time_step = duration / steps;
 }
 
-}  // namespace
-
-bool has_passage(const io::Config& config) { return config.has("motion.duration"); }
+/// The film under a rough surface that moves with its body, at u_m - u_s/2.
+struct PointPassage {
+  ehl::PointProblem at_end;  ///< with the roughness where it was last
+  double speed = 0;          ///< of the roughness [m/s]
+  ehl::TransientPointResult film;
+};
 
 PointPassage solve_passage(const io::Config& config, Context& context) {
   ehl::TransientPointProblem problem{.contact = read_point(config), .roughness = {}};
@@ -77,6 +82,7 @@ PointPassage solve_passage(const io::Config& config, Context& context) {
   return passage;
 }
 
+/// What happened on the way: scalars under "history", lines of text, curves in /history.
 void add_history(const PointPassage& passage, EhlAnswer& answer) {
   const std::vector<Moment>& history = passage.film.history;
   const auto least =
@@ -109,6 +115,17 @@ void add_history(const PointPassage& passage, EhlAnswer& answer) {
     fields(writer);
     write_history(writer, "/history", kHistory, history);
   };
+}
+
+}  // namespace
+
+bool has_passage(const io::Config& config) { return config.has("motion.duration"); }
+
+EhlAnswer passage_answer(const io::Config& config, Context& context) {
+  const PointPassage passage = solve_passage(config, context);
+  EhlAnswer answer = point_answer(config, passage.at_end, passage.film.last, context);
+  add_history(passage, answer);
+  return answer;
 }
 
 }  // namespace tabor::cli

@@ -225,4 +225,12 @@ PointRoughness read_point_roughness(const io::Config& config, const ehl::PointPr
   };
 }
 
+ehl::PointProblem read_rough_point(const io::Config& config, Context& context) {
+  ehl::PointProblem problem = read_point(config);
+  if (const PointRoughness roughness = read_point_roughness(config, problem, 0, context)) {
+    problem.roughness = roughness(0);
+  }
+  return problem;
+}
+
 }  // namespace tabor::cli

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "tabor/core/error.hpp"
@@ -163,6 +164,33 @@ std::vector<std::vector<std::size_t>> combinations(const std::vector<SweepAxis>&
     all = std::move(longer);
   }
   return all;
+}
+
+std::vector<std::size_t> solving_order(const std::vector<SweepAxis>& axes,
+                                       const std::vector<std::vector<std::size_t>>& all,
+                                       const std::vector<std::string>& downwards) {
+  std::vector<double> others_first(all.size() * axes.size() * 2, 0);
+  const std::size_t width = axes.size() * 2;
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    const std::vector<double> numbers = axes[a].numbers();
+    const bool goes_down =
+        std::find(downwards.begin(), downwards.end(), axes[a].key) != downwards.end();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::size_t place = all[i][a];
+      if (goes_down) {
+        others_first[i * width + axes.size() + a] = -numbers[place];
+      } else {
+        others_first[i * width + a] = static_cast<double>(place);
+      }
+    }
+  }
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto key = [&](std::size_t i) { return others_first.begin() + std::ptrdiff_t(i * width); };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::lexicographical_compare(key(a), key(a + 1), key(b), key(b + 1));
+  });
+  return order;
 }
 
 }  // namespace tabor::cli

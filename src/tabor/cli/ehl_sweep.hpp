@@ -25,4 +25,10 @@ SweepAxis parse_axis(const std::string& text);
 /// All combinations, the last axis fastest: for each, the place of its value on each axis.
 std::vector<std::vector<std::size_t>> combinations(const std::vector<SweepAxis>& axes);
 
+/// Which of these combinations to solve first, second, ..., so that each is the best start of the
+/// next: axes of the keys `downwards` last, from their largest value.
+std::vector<std::size_t> solving_order(const std::vector<SweepAxis>& axes,
+                                       const std::vector<std::vector<std::size_t>>& all,
+                                       const std::vector<std::string>& downwards);
+
 }  // namespace tabor::cli

@@ -1,0 +1,87 @@
+"""A sweep of `tabor ehl` may be stopped at any instant: repeated, it says the same to the last bit."""
+
+import itertools
+import json
+import signal
+import subprocess
+import time
+import unittest
+
+import h5py
+import numpy as np
+
+from program import SOURCE, TABOR, ProgramTest
+
+# Solids touch and flow at the lower speeds: films that are not found without the one before.
+STRIBECK = ["ehl", "point", "ball.toml", "--set", "roughness.kind=lapped-like,polished-like", "--set",
+            "motion.speed=0.01m/s..10m/s:log:4", "--set", "grid.nodes=33"]
+IMPACT = ["ehl", "impact", "ball.toml", "--set", "grid.nodes=120", "--set", "ball.speed=0.1m/s..0.5m/s:8"]
+N_CASES = 8
+
+
+class EhlSweepTest(ProgramTest):
+    def copy(self, example):
+        (self.folder / "ball.toml").write_text((SOURCE / "examples" / example / "ball.toml").read_text())
+
+    def n_kept(self):
+        return len(list(self.folder.glob("out.h5.cases/case-*.json")))
+
+    def stop_after(self, n_cases, stop, words):
+        """Starts the sweep and sends `stop` when so many cases are kept; returns the ended process."""
+        process = subprocess.Popen([TABOR, *words, "-o", "out.h5"], cwd=self.folder, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + 120
+        while self.n_kept() < n_cases:
+            self.assertIsNone(process.poll(), "the sweep ended before it could be stopped")
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.002)
+        process.send_signal(stop)
+        out, err = process.communicate(timeout=60)
+        return process.returncode, out, err
+
+    def numbers(self, name):
+        with h5py.File(self.folder / name) as file:
+            found = {}
+            file["sweep"].visititems(lambda path, node: found.update({path: node[()]} if hasattr(node, "shape") else {}))
+            return found
+
+    def results(self, name, words):
+        done = self.tabor(*words, "--json", "-o", name)
+        self.assertIn(done.returncode, (0, 4), done.stderr)
+        said = json.loads(done.stdout)
+        del said["command"]  # names the file
+        return done.returncode, said, done.stderr
+
+    def assert_goes_on(self, words, stops):
+        """Stopped after each of these numbers of cases, the sweep ends as one that nobody stopped."""
+        code, expected, _ = self.results("whole.h5", words)
+        for n_cases, (stop, ending) in zip(stops, itertools.cycle([(signal.SIGKILL, -9), (signal.SIGTERM, 130)])):
+            ended, out, err = self.stop_after(n_cases, stop, words)
+            self.assertEqual(ended, ending, err)
+            self.assertEqual(out, "")
+            self.assertFalse((self.folder / "out.h5").exists())
+            if stop == signal.SIGTERM:
+                self.assertIn("kept in out.h5.cases, the same command goes on", err)
+        again, said, err = self.results("out.h5", words)
+        self.assertRegex(err, rf"[{stops[-1]}-{N_CASES}] of {N_CASES} cases were done, kept in out.h5.cases")
+        self.assertEqual(said, expected)
+        self.assertEqual(again, code)
+        whole, out = self.numbers("whole.h5"), self.numbers("out.h5")
+        self.assertEqual(set(out), set(whole))
+        for name, values in whole.items():
+            np.testing.assert_array_equal(out[name], values, name)
+        self.assertEqual(self.files(), ["ball.toml", "out.h5", "whole.h5"])
+
+
+class Stopped(EhlSweepTest):
+    def test_and_repeated_a_stribeck_curve_has_the_same_bits(self):
+        self.copy("12_stribeck")
+        self.assert_goes_on(STRIBECK, (1, 3, 5))
+
+    def test_and_repeated_so_do_cases_that_do_not_begin_where_another_ended(self):
+        self.copy("10_restitution_map")
+        self.assert_goes_on(IMPACT, (1, 2, 4))
+
+
+if __name__ == "__main__":
+    unittest.main()
