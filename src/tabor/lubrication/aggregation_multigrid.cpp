@@ -113,6 +113,49 @@ CouplingMatrix coarsened(const CouplingMatrix& fine, const Aggregates& groups) {
   return coarse;
 }
 
+/// Puts the neighbours that come before their node first, and returns where in each row the others
+/// begin.
+std::vector<std::int32_t> split_rows(CouplingMatrix& matrix) {
+  std::vector<std::int32_t> middle(at(matrix.size()));
+  std::vector<std::pair<std::int32_t, double>> row;
+  for (Index node = 0; node < matrix.size(); ++node) {
+    row.clear();
+    for_neighbours(matrix, node,
+                   [&](std::int32_t other, double coupling) { row.emplace_back(other, coupling); });
+    const auto split = std::stable_partition(row.begin(), row.end(),
+                                             [&](const auto& link) { return link.first < node; });
+    const std::int32_t begin = matrix.begin[at(node)];
+    middle[at(node)] = begin + static_cast<std::int32_t>(split - row.begin());
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      matrix.neighbour[at(begin) + i] = row[i].first;
+      matrix.coupling[at(begin) + i] = row[i].second;
+    }
+  }
+  return middle;
+}
+
+/// A forward sweep that begins with x = 0 meets only the first parts of the rows, and what it
+/// leaves over, right - A x, is made by the second parts alone: together they read the matrix once.
+void smooth_from_zero(const CouplingMatrix& matrix, const std::vector<std::int32_t>& middle,
+                      const VectorXd& right, VectorXd& x, VectorXd& rest) {
+  x.resize(matrix.size());
+  for (Index node = 0; node < matrix.size(); ++node) {
+    double total = right[node];
+    for (auto k = at(matrix.begin[at(node)]); k < at(middle[at(node)]); ++k) {
+      total += matrix.coupling[k] * x[matrix.neighbour[k]];
+    }
+    x[node] = total / matrix.diagonal[node];
+  }
+  rest.resize(matrix.size());
+  for (Index node = 0; node < matrix.size(); ++node) {
+    double total = 0;
+    for (auto k = at(middle[at(node)]); k < at(matrix.begin[at(node) + 1]); ++k) {
+      total += matrix.coupling[k] * x[matrix.neighbour[k]];
+    }
+    rest[node] = total;
+  }
+}
+
 void smooth_forward(const CouplingMatrix& matrix, const VectorXd& right, VectorXd& x) {
   for (Index node = 0; node < matrix.size(); ++node) {
     double total = right[node];
@@ -153,7 +196,7 @@ void CouplingMatrix::multiply(const VectorXd& x, VectorXd& y) const {
 }
 
 AggregationMultigrid::AggregationMultigrid(CouplingMatrix matrix) {
-  levels_.push_back({std::move(matrix), {}, {}, {}, {}, {}});
+  add_level(std::move(matrix));
   while (levels_.back().matrix.size() > kCoarsestSize) {
     const CouplingMatrix& fine = levels_.back().matrix;
     const Aggregates first = pairs_of(fine);
@@ -165,10 +208,15 @@ AggregationMultigrid::AggregationMultigrid(CouplingMatrix matrix) {
     std::vector<std::int32_t> both(first.of.size());
     for (std::size_t i = 0; i < both.size(); ++i) both[i] = second.of[at(first.of[i])];
     levels_.back().coarse = std::move(both);
-    levels_.push_back({coarsened(between, second), {}, {}, {}, {}, {}});
+    add_level(coarsened(between, second));
   }
   const CouplingMatrix& last = levels_.back().matrix;
   if (last.size() > 0 && last.size() <= kCoarsestSize) coarsest_.compute(dense(last));
+}
+
+void AggregationMultigrid::add_level(CouplingMatrix matrix) {
+  std::vector<std::int32_t> middle = split_rows(matrix);
+  levels_.push_back({std::move(matrix), std::move(middle), {}, {}, {}, {}, {}});
 }
 
 void AggregationMultigrid::cycle(std::size_t number, const VectorXd& r, VectorXd& z) {
@@ -188,11 +236,9 @@ void AggregationMultigrid::cycle(std::size_t number, const VectorXd& r, VectorXd
     return;
   }
   Level& next = levels_[number + 1];
-  z.setZero(n);
-  smooth_forward(level.matrix, r, z);
-  level.matrix.multiply(z, level.rest);
+  smooth_from_zero(level.matrix, level.middle, r, z, level.rest);
   next.right.setZero(next.matrix.size());
-  for (Index i = 0; i < n; ++i) next.right[level.coarse[at(i)]] += r[i] - level.rest[i];
+  for (Index i = 0; i < n; ++i) next.right[level.coarse[at(i)]] += level.rest[i];
   cycle(number + 1, next.right, next.solution);
   if (!next.coarse.empty()) {
     next.matrix.multiply(next.solution, next.rest);

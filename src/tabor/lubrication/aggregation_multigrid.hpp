@@ -37,10 +37,12 @@ class AggregationMultigrid {
  private:
   struct Level {
     CouplingMatrix matrix;
+    std::vector<std::int32_t> middle;  // of each row: its neighbours from here on come after it
     std::vector<std::int32_t> coarse;  // node of the next level, empty on the last
     Eigen::VectorXd right, solution, second_solution, rest;
   };
 
+  void add_level(CouplingMatrix matrix);
   void cycle(std::size_t level, const Eigen::VectorXd& r, Eigen::VectorXd& z);
 
   std::vector<Level> levels_;

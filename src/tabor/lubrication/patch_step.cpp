@@ -15,7 +15,8 @@ using Eigen::VectorXd;
 
 constexpr int kMaxIterations = 30;  // a step that needs more is finished by the next
 constexpr int kMaxProducts = 400;
-constexpr double kRoughTolerance = 1e-5;  // of the flows, while cells still change sides
+constexpr double kRoughTolerance = 1e-4;  // of the flows, while many cells still change sides
+constexpr double kFairTolerance = 1e-6;   // while few do
 constexpr double kTolerance = 1e-11;
 constexpr double kOverfill = 1e-6;  // a fill above 1 by less is what the solver leaves
 constexpr double kNearlyFull = 0.9;
@@ -57,10 +58,11 @@ class Step {
       film.mean_pressure = sum(pressure_) / static_cast<double>(pressure_.size());
       const Index changes = change_sides();
       const bool same = std::abs(film.mean_pressure - before) <= kSamePressure * film.mean_pressure;
-      settled = tolerance == kTolerance &&
-                (changes == 0 || (same && changes <= cells_.size() / kFewChanges));
+      const bool quiet = changes == 0 || (same && changes <= cells_.size() / kFewChanges);
+      settled = quiet && tolerance == kTolerance;
       if (settled && changes > 0) film.balanced = solve_pressures(kTolerance, film);
-      if (changes <= cells_.size() / 10000) tolerance = kTolerance;
+      if (changes <= cells_.size() / 10000) tolerance = std::min(tolerance, kFairTolerance);
+      if (quiet) tolerance = kTolerance;
     }
     if (!settled) film.balanced = solve_pressures(kTolerance, film);
     film.converged = settled && film.balanced;
