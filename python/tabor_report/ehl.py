@@ -4,6 +4,8 @@ import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import numpy as np
+
 from tabor_report import hdf
 
 
@@ -39,6 +41,14 @@ class Ehl:
     def scalars(self):
         return hdf.attributes(self.file["result"]) if "result" in self.file else {}
 
+    @property
+    def axes(self):
+        """{key: dataset} of what a sweep varies, the last one fastest."""
+        if not self.is_sweep:
+            return {}
+        node = self.file["sweep"]
+        return {hdf.text(key): node["axes"][hdf.text(key)] for key in np.atleast_1d(node.attrs["axes"])}
+
     def curves(self, group):
         """{name: values} of the one-dimensional datasets of a group, {} if it is absent."""
         node = self.file.get(group)
@@ -51,6 +61,10 @@ def is_ehl(file):
 
 def load(path, file):
     source = Ehl(path, file, hdf.attributes(file))
+    if source.is_sweep and "converged" in file["sweep"]:
+        converged = file["sweep/converged"][()] > 0
+        if not converged.all():
+            source.warnings.append(f"{(~converged).sum()} of {converged.size} cases did not converge: red in the table.")
     if not source.scalars.get("converged", True):
         source.warnings.append("The computation did not converge; its numbers are those of where it ended.")
     return source

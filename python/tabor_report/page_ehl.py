@@ -1,5 +1,8 @@
 """Facts and tables of a result of `tabor ehl` for the page."""
 
+import numpy as np
+
+from tabor_report import hdf, units
 from tabor_report.page_single import show, words
 
 _HIGHLIGHTS = (
@@ -16,21 +19,67 @@ _HIGHLIGHTS = (
 
 def sections(source):
     scalars = source.scalars
-    rows = [{"sure": True, "cells": [words(key), show(key, value)]} for key, value in sorted(scalars.items())]
     return {
         "highlights": [(words(key), show(key, scalars[key])) for key in _HIGHLIGHTS if key in scalars],
         "scans": [],
         "treatments": [],
-        "settings": list(_settings(source.settings)),
-        "results": {"header": ["", "value"], "rows": rows, "n_total": len(rows), "n_text": 1},
+        "settings": list(_settings(source)),
+        "results": _cases(source) if source.is_sweep else _numbers(scalars),
         "averages": {"header": [], "rows": [], "n_text": 0},
     }
 
 
-def _settings(values, path=""):
-    """(dotted key, text) of every value of a case, tables in tables too."""
+def _numbers(scalars):
+    """One row per number of a case."""
+    rows = [{"sure": True, "cells": [words(key), show(key, value)]} for key, value in sorted(scalars.items())]
+    return {"intro": "", "header": ["", "value"], "rows": rows, "n_total": len(rows), "n_text": 1}
+
+
+def _cases(source):
+    """One row per case of a sweep."""
+    node, axes = source.file["sweep"], source.axes
+    columns = {name: node[name] for name in node if name not in ("axes", "shape", "converged")}
+    sure = node["converged"][()] > 0 if "converged" in node else np.ones(node["shape"][()].prod(), dtype=bool)
+    rows = []
+    for number, place in enumerate(np.ndindex(*node["shape"][()])):
+        values = [_at(axis, index) for axis, index in zip(axes.values(), place)]
+        cells = [_shown(column[number], column.attrs["units"]) for column in columns.values()]
+        rows.append({"sure": bool(sure[number]), "cells": values + cells})
+    header = [*axes, *(hdf.text(column.attrs["long_name"]) for column in columns.values())]
+    intro = "" if sure.all() else "Rows in red did not converge."
+    return {"intro": intro, "header": header, "rows": rows, "n_total": len(rows), "n_text": len(axes)}
+
+
+def _shown(value, unit):
+    return units.si(float(value), hdf.text(unit))
+
+
+def _at(axis, index):
+    """What a sweep took for one value of an axis."""
+    if "words" in axis.attrs:
+        return hdf.text(axis.attrs["words"][index])
+    return _shown(axis[index], "" if axis.attrs.get("units", "SI") == "SI" else axis.attrs["units"])
+
+
+def _range(axis):
+    """'1 mm/s to 10 m/s, 5 values'"""
+    if "words" in axis.attrs:
+        return ", ".join(_at(axis, index) for index in range(len(axis)))
+    values = axis[()]
+    return f"{_at(axis, values.argmin())} to {_at(axis, values.argmax())}, {len(axis)} values"
+
+
+def _settings(source):
+    """(dotted key, text) of every value of a case, and of what a sweep takes instead."""
+    settings = dict(_flat(source.settings))
+    settings.update({key: _range(axis) for key, axis in source.axes.items()})
+    return sorted(settings.items())
+
+
+def _flat(values, path=""):
+    """(dotted key, text) of values, tables in tables too."""
     for key, value in values.items():
         if isinstance(value, dict):
-            yield from _settings(value, f"{path}{key}.")
+            yield from _flat(value, f"{path}{key}.")
         elif path:
             yield f"{path}{key}", ", ".join(map(str, value)) if isinstance(value, list) else show("", value)

@@ -21,6 +21,7 @@ _HIGHLIGHTS = {
     "mean_film_m": ("mean film", units.length),
     "friction_dry": ("dry friction", lambda value: units.number(value, 3)),
     "friction_lubricated": ("lubricated friction", lambda value: units.number(value, 3)),
+    "friction_mixed": ("friction while oil flows", lambda value: units.number(value, 3)),
 }
 
 
@@ -85,15 +86,22 @@ def _results(states):
 
 # Endings of keys: how a value is shown with that unit. Longer endings first.
 _UNITS = {
+    "_m_per_s": lambda value: units.si(value, "m/s"),
+    "_N_per_m": lambda value: units.si(value, "N/m"),
+    "_per_Pa": lambda value: units.si(value, "1/Pa"),
+    "_Pa_s": lambda value: units.si(value, "Pa s"),
     "_kg_per_m3": lambda value: f"{units.number(value)} kg/m³",
     "_g_per_m2": units.density,
     "_J_per_m2": lambda value: f"{units.number(value)} J/m²",
     "_bytes": lambda value: f"{units.number(value / 2**20)} MiB",
     "_m3": lambda value: f"{units.number(value)} m³",
     "_Pa": units.pressure,
+    "_kg": lambda value: units.si(value, "kg"),
+    "_N": lambda value: units.si(value, "N"),
     "_m": units.length,
-    "_s": lambda value: f"{units.number(value)} s",
+    "_s": lambda value: units.si(value, "s"),
 }
+_ANSWERS = ("converged", "gap_closing_at_turning", "load_path")  # ends of keys that are yes or no
 
 
 def words(key):
@@ -106,7 +114,7 @@ def show(key, value):
     """A value in a readable multiple of the SI unit its key ends in."""
     if isinstance(value, list):
         return ", ".join(show(key, item) for item in value)
-    if isinstance(value, bool):
+    if isinstance(value, bool) or (isinstance(value, int) and key.endswith(_ANSWERS)):
         return "yes" if value else "no"
     if isinstance(value, str) or value is None:
         return units.number(value)

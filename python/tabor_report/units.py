@@ -6,6 +6,8 @@ import re
 from tabor_report.errors import InputError
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""))
+_SMALL_PREFIXES = ((1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
+_WHOLE_UNITS = ("", "1", "SI", "kg", "K", "1/Pa", "Pa s")  # shown without a prefix
 _PRESSURES = {"pa": 1.0, "kpa": 1e3, "mpa": 1e6, "gpa": 1e9}
 
 
@@ -45,6 +47,26 @@ def length(value):
         return "\N{EN DASH}"
     factor, unit = length_scale(abs(value))
     return f"{number(value * factor)} {unit}"
+
+
+def scale(largest, unit):
+    """(factor from SI, unit with its prefix) in which `largest` [unit] reads well."""
+    largest = abs(largest)
+    if unit in _WHOLE_UNITS or not 0 < largest < math.inf:
+        return 1.0, unit
+    pairs = (*_PREFIXES, *_SMALL_PREFIXES)
+    if unit.startswith("m"):
+        pairs = pairs[3:]  # nobody reads kilometres here
+    size, prefix = next((pair for pair in pairs if largest >= pair[0] * 0.9995), pairs[-1])
+    return 1 / size, prefix + unit
+
+
+def si(value, unit):
+    """(5e-5, 's') -> '50 µs'"""
+    if value is None or math.isnan(value):
+        return "\N{EN DASH}"
+    factor, shown = scale(value, unit)
+    return f"{number(value * factor)} {shown}".rstrip()
 
 
 def density(value):

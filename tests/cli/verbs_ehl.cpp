@@ -50,6 +50,15 @@ TEST(SweepAxis, ReadsLists) {
   }
 }
 
+TEST(SweepAxis, KnowsTheUnitOfItsNumbers) {
+  EXPECT_EQ(parse_axis("ball.speed=50mm/s..1m/s:log:3").unit(), "m/s");
+  EXPECT_EQ(parse_axis("lubricant.viscosity=1 mPa s, 2 Pa s").unit(), "Pa s");
+  EXPECT_EQ(parse_axis("cylinder.load_per_length=1 kN/m,2 kN/m").unit(), "N/m");
+  EXPECT_EQ(parse_axis("grid.nodes=65,97").unit(), "");
+  EXPECT_EQ(parse_axis("impact.start=rigid,full").unit(), "");
+  EXPECT_EQ(parse_axis("a=1 m^3..2 m^3").unit(), "SI");
+}
+
 TEST(SweepAxis, TakesTwoDotsInAPathForAFolder) {
   for (const char* path : {"../scan.x3p", "../../scan 2.x3p", "scans/../scan.x3p", "1..scan.x3p"}) {
     const SweepAxis axis = parse_axis(std::string("roughness.file=") + path);

@@ -2,6 +2,7 @@
 
 import csv
 import io
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -10,8 +11,7 @@ import h5py
 import numpy as np
 
 from synthetic_file import new_file
-from tabor_report import build, style
-from tabor_report.cli import _parser
+from tabor_report import build, page, style
 from tabor_report.figures import ehl_impact, ehl_point
 
 
@@ -108,10 +108,12 @@ def stribeck_file(path):
     """Two surfaces at three speeds, the fastest first."""
     with new_file(path) as file:
         file.attrs["kind"] = "ehl point sweep"
+        file.attrs["config_toml"] = '[motion]\nspeed = "7 m/s"\n'
         file.create_group("sweep").attrs["axes"] = ["roughness.kind", "motion.speed"]
         file["sweep/axes/roughness.kind"] = [0.0, 1.0]
         file["sweep/axes/roughness.kind"].attrs.update({"words": ["lapped", "polished"], "long_name": "kind"})
         file["sweep/axes/motion.speed"] = [10.0, 1.0, 0.1]
+        file["sweep/axes/motion.speed"].attrs.update({"units": "m/s", "long_name": "motion.speed"})
         file["sweep/shape"] = [2, 3]
         columns = {
             "friction_coefficient": [0.08, 0.09, 0.12, 0.08, 0.07, 0.06],
@@ -124,7 +126,9 @@ def stribeck_file(path):
         }
         for name, values in columns.items():
             file[f"sweep/{name}"] = np.array(values, dtype=float)
-            file[f"sweep/{name}"].attrs.update({"units": "", "long_name": name})
+            unit = "m" if name.endswith("_m") else ""
+            long_name = name.removesuffix("_m").replace("_", " ")
+            file[f"sweep/{name}"].attrs.update({"units": unit, "long_name": long_name})
 
 
 def sweep_file(path):
@@ -146,7 +150,7 @@ class Ehl(unittest.TestCase):
         self.folder = Path(scratch.name)
 
     def drawings(self, make):
-        path = self.folder / "result.h5"
+        path = self.folder / f"{make.__name__}.h5"
         make(path)
         source = build.open_result(path)
         self.addCleanup(source.file.close)
@@ -154,6 +158,16 @@ class Ehl(unittest.TestCase):
         for drawing in drawn.values():
             style.close(drawing.figure)
         return drawn
+
+    def page(self, make):
+        """The text of report.html without its figures."""
+        path = self.folder / "page.h5"
+        make(path)
+        source = build.open_result(path)
+        with source.file:
+            html = page.render(source, [], "tabor report page.h5")
+        body = re.sub("<[^>]*>", " ", html[html.index("<body>") :])
+        return " ".join(body.split())
 
     def rows(self, drawing):
         return list(csv.DictReader(io.StringIO(drawing.data[""])))
@@ -224,15 +238,48 @@ class Ehl(unittest.TestCase):
         self.assertEqual(set(style.entries(axes)), {"lapped", "polished"})
 
     def test_the_page_of_a_point_contact_shows_tables_in_tables(self):
-        path = self.folder / "point.h5"
-        point_file(path)
-        source = build.open_result(path)
-        with source.file:
-            options = _parser().parse_args([str(path)])
-            files = build.build(source, self.folder / "out", options, "tabor report point.h5")
-        text = files[-1].read_text("utf-8")
+        text = self.page(point_file)
         self.assertIn("roughness.bump.height", text)
         self.assertIn("1 um, 2 um", text)
+
+    def test_a_page_without_a_scan_has_no_section_for_it_and_knows_no_certificate(self):
+        for make in (point_file, stribeck_file):
+            text = self.page(make)
+            self.assertNotIn("Scans and treatment", text)
+            self.assertNotIn("certificate", text)
+
+    def test_the_page_of_a_sweep_says_what_was_varied_and_lists_its_cases(self):
+        text = self.page(stribeck_file)
+        self.assertIn("motion.speed 100 mm/s to 10 m/s, 3 values", text)
+        self.assertNotIn("motion.speed 7 m/s", text)  # of the case: no result is of it
+        self.assertIn("roughness.kind lapped, polished", text)
+        self.assertIn("lapped 1 m/s 170 nm 0.09", text)
+        self.assertIn("1 of 6 cases did not converge", text)
+        self.assertIn("Rows in red did not converge.", text)
+
+    def test_axes_of_a_sweep_have_units_that_read_well(self):
+        axes = self.drawings(stribeck_file)["sweep_central_film_m"].figure.axes[0]
+        self.assertEqual(axes.get_xlabel(), "motion.speed (m/s)")
+        self.assertEqual(axes.get_ylabel(), "central film (nm)")
+        self.assertAlmostEqual(axes.lines[0].get_ydata()[0], 800)
+
+    def test_lines_of_equal_film_only_where_the_film_is_smooth(self):
+        def rough_file(path):
+            point_file(path)
+            with h5py.File(path, "a") as file:
+                film = file["contact/film"][()]
+                file["contact/film"][...] = film * (1 + (np.indices(film.shape).sum(axis=0) % 2))
+
+        def lines(make):
+            return len(self.drawings(make)["point_film"].figure.axes[0].collections)
+
+        def smooth_file(path):
+            point_file(path)
+            with h5py.File(path, "a") as file:
+                file["contact/film"][...] = np.maximum(file["contact/film"][()], 5e-8)
+
+        self.assertGreater(lines(smooth_file), 0)
+        self.assertEqual(lines(rough_file), 0)
 
     def test_a_mixed_line_contact_shows_what_asperities_carry(self):
         def mixed_file(path):
@@ -246,15 +293,10 @@ class Ehl(unittest.TestCase):
         self.assertIn("pressure of asperities", labels)
 
     def test_the_page_of_an_impact_is_written(self):
-        path = self.folder / "impact.h5"
-        impact_file(path)
-        source = build.open_result(path)
-        with source.file:
-            options = _parser().parse_args([str(path)])
-            files = build.build(source, self.folder / "out", options, "tabor report impact.h5")
-        text = files[-1].read_text("utf-8")
+        text = self.page(impact_file)
         self.assertIn("restitution", text)
         self.assertIn("ball.radius", text)
+        self.assertIn("50 µs", text)
 
 
 if __name__ == "__main__":

@@ -14,6 +14,7 @@ from tabor_report import cli, dependencies, errors, maps, output, section, units
 from tabor_report.example import richest_window
 from tabor_report.figures import psd
 from tabor_report.map_axes import round_length
+from tabor_report.page_single import show, words
 from tabor_report.table import Table, converged
 
 
@@ -29,6 +30,27 @@ class Units(unittest.TestCase):
         self.assertEqual(units.pressure(78.55e9), "78.55 GPa")
         self.assertEqual(units.length(0.67e-6), "670 nm")
         self.assertEqual(units.length(2.278e-3), "2.278 mm")
+
+    def test_any_unit_takes_the_prefix_that_suits_it(self):
+        self.assertEqual(units.si(5.566e-5, "s"), "55.66 µs")
+        self.assertEqual(units.si(60180.0, "N/m"), "60.18 kN/m")
+        self.assertEqual(units.si(0.0325, "kg"), "0.0325 kg")
+        self.assertEqual(units.si(0.0, "m"), "0 m")
+        self.assertEqual(units.si(-3e-6, "m"), "−3 µm")
+        self.assertEqual(units.si(float("nan"), "m"), "–")
+
+    def test_keys_are_read_with_the_whole_unit_they_end_in(self):
+        for key, value, name, text in (
+            ("sliding_speed_m_per_s", 0.05, "sliding speed", "50 mm/s"),
+            ("viscosity_Pa_s", 0.225, "viscosity", "0.225 Pa s"),
+            ("max_force_N_per_m", 6.018e4, "max force", "60.18 kN/m"),
+            ("load_N", 16.6, "load", "16.6 N"),
+            ("lag_s", 5e-5, "lag", "50 µs"),
+            ("converged", 1, "converged", "yes"),
+            ("fluid_converged", 0, "fluid converged", "no"),
+            ("newton_iterations", 77, "newton iterations", "77"),
+        ):
+            self.assertEqual((words(key), show(key, value)), (name, text))
 
     def test_a_pressure_without_its_unit_is_refused_with_the_corrected_form(self):
         self.assertEqual(units.parse_pressure("7 MPa"), 7e6)

@@ -10,6 +10,8 @@ import xml.etree.ElementTree
 from html.parser import HTMLParser
 from pathlib import Path
 
+import h5py
+
 import synthetic_study
 from synthetic_single import write_single
 from synthetic_study import Recipe
@@ -165,9 +167,12 @@ class SingleReport(unittest.TestCase):
         self.addCleanup(temporary.cleanup)
         self.folder = Path(temporary.name)
 
-    def report(self, pressures=(5e6,), densities=(0.9,), **parts):
+    def report(self, pressures=(5e6,), densities=(0.9,), change=None, **parts):
         recipe = Recipe(shape=(70, 90), pressures=pressures, densities=densities)
         write_single(self.folder / "one.h5", recipe, **parts)
+        if change:
+            with h5py.File(self.folder / "one.h5", "a") as file:
+                change(file["states/0000"])
         done = run(self.folder / "one.h5")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         names = {path.stem for path in (self.folder / "one_report" / "figures").glob("*.png")}
@@ -184,6 +189,17 @@ class SingleReport(unittest.TestCase):
         )
         self.assertIn("one.x3p", page)
         self.assertIn("contact area fraction", page)
+
+    def test_oil_that_flows_shows_its_pressure_and_its_fill(self):
+        def flow(state):
+            gap = state["gap"][()]
+            state["fluid_pressure"], state["fluid_fill"] = 1e6 * (gap > 0), 0.5 + 0 * gap
+            state.attrs.update({"friction_mixed": 0.123, "sliding_speed_m_per_s": 0.005})
+
+        names, page = self.report(change=flow)
+        self.assertTrue({"state0000_fluid_pressure", "state0000_fluid_fill"} <= names)
+        self.assertIn("Fluid pressure map: P = 5 MPa, 0.9 g/m², 5 mm/s", page)
+        self.assertIn("friction while oil flows", page)
 
     def test_a_contact_is_drawn_once_per_pressure_and_a_film_once_per_density(self):
         names, page = self.report(pressures=(5e6, 10e6), densities=(0.45, 0.9))

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tabor_report import hdf, style
+from tabor_report import hdf, style, units
 from tabor_report.figures import Drawn
 from tabor_report.output import table_text
 
@@ -41,7 +41,7 @@ def sweep(source):
     keys = swept_keys(node)
     shape = [len(node["axes"][key]) for key in keys]
     for name in node:
-        if name in ("axes", "shape", "converged"):
+        if name in ("axes", "shape", "converged", "newton_iterations"):
             continue
         values = node[name][()].reshape(shape)
         if np.isfinite(values).any():
@@ -70,23 +70,37 @@ def _word(axis, index):
 
 
 def _drawn(node, name, keys, values):
-    heading, unit = node[name].attrs["long_name"], node[name].attrs["units"]
-    label = f"{heading} ({unit})" if unit else str(heading)
+    heading = hdf.text(node[name].attrs["long_name"])
+    factor, label = _scaled(values, hdf.text(node[name].attrs["units"]), heading)
     axes_values = [node["axes"][key][()] for key in keys]
     is_map = len(keys) == 2 and min(values.shape) > 1 and not _has_words(node)
     figure, grid = style.new_figure(3.6 if is_map else 3.2, width=5.6)
     if is_map:
-        _draw_map(figure, grid[0][0], keys, axes_values, values, label)
+        _draw_map(figure, grid[0][0], node, keys, values * factor, label)
     else:
-        _draw_curves(figure, grid[0][0], node, keys, values, label)
+        _draw_curves(figure, grid[0][0], node, keys, values * factor, label)
     data = {key: points.ravel() for key, points in zip(keys, np.meshgrid(*axes_values, indexing="ij"))}
     return Drawn(
         f"sweep_{name}",
-        str(heading).capitalize(),
+        heading[:1].upper() + heading[1:],
         f"Over {' and '.join(keys)}.",
         figure,
         {"": table_text({**data, name: values.ravel()})},
     )
+
+
+def _scaled(values, unit, what):
+    """(factor, label) in which values [unit] read well on an axis."""
+    finite = np.abs(values[np.isfinite(values)])
+    factor, unit = units.scale(finite.max() if finite.size else 0, unit)
+    return factor, f"{what} ({unit})" if unit not in ("", "1") else what
+
+
+def _scaled_axis(node, key):
+    """(values, label) of what a sweep varies."""
+    axis = node["axes"][key]
+    factor, label = _scaled(axis[()], hdf.text(axis.attrs.get("units", "SI")), key)
+    return axis[()] * factor, label
 
 
 def _has_words(node):
@@ -97,30 +111,31 @@ def _draw_curves(figure, axes, node, keys, values, label):
     """Over the axis with most numbers, a curve for every value of the others."""
     numeric = [key for key in keys if "words" not in node["axes"][key].attrs] or keys
     key = max(numeric, key=lambda key: len(node["axes"][key]))
-    place = node["axes"][key][()]
+    place, place_label = _scaled_axis(node, key)
     curves = list(curves_along(node, keys, key))
     for (index, words), look in zip(curves, style.curve_styles()):
         axes.plot(place, values[index], label=words or None, **look)
     finite = values[np.isfinite(values)]
     if _scale(axes.set_xscale, place) and finite.min() > 0 and finite.max() > 10 * finite.min():
         axes.set_yscale("log")
-    axes.set_xlabel(f"{key} (SI)")
+    axes.set_xlabel(place_label)
     axes.set_ylabel(label)
     axes.grid(color="0.92", linewidth=0.6)
     if len(curves) > 1:
         style.legend_on_top(figure, style.entries(axes))
 
 
-def _draw_map(figure, axes, keys, axes_values, plane, label):
-    mesh = axes.contourf(axes_values[1], axes_values[0], plane, levels=16, cmap="viridis")
+def _draw_map(figure, axes, node, keys, plane, label):
+    (y, y_label), (x, x_label) = (_scaled_axis(node, key) for key in keys)
+    mesh = axes.contourf(x, y, plane, levels=16, cmap="viridis")
     if np.nanmax(plane) > np.nanmin(plane):
-        lines = axes.contour(axes_values[1], axes_values[0], plane, levels=8, colors="white", linewidths=0.6)
+        lines = axes.contour(x, y, plane, levels=8, colors="white", linewidths=0.6)
         axes.clabel(lines, fontsize=7, fmt="%.3g")
     figure.colorbar(mesh, ax=axes).set_label(label)
-    _scale(axes.set_yscale, axes_values[0])
-    _scale(axes.set_xscale, axes_values[1])
-    axes.set_ylabel(f"{keys[0]} (SI)")
-    axes.set_xlabel(f"{keys[1]} (SI)")
+    _scale(axes.set_yscale, y)
+    _scale(axes.set_xscale, x)
+    axes.set_ylabel(y_label)
+    axes.set_xlabel(x_label)
 
 
 def _scale(set_scale, values):

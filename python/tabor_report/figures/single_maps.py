@@ -17,6 +17,7 @@ def draw(single):
             figures += [_pressure(single, state), _contact(single, state), _gap(single, state)]
         if ("film", state.density) not in drawn:
             figures.append(_film(single, state))
+        figures += [_fluid_pressure(single, state), _fluid_fill(single, state)]
         drawn.update({("contact", state.pressure), ("film", state.density)})
         figures.append(_section(single, state))
         yield from (figure for figure in figures if figure is not None)
@@ -82,18 +83,59 @@ def _film(single, state):
     )
 
 
-def _map(single, state, what, values, axis_label, colours, text, ground, label):
+def _flow_label(state):
+    speed = state.facts.get("sliding_speed_m_per_s")
+    return state.label if speed is None else f"{state.label}, {units.si(speed, 'm/s')}"
+
+
+def _fluid_pressure(single, state):
+    pressure = state.map("fluid_pressure")
+    if pressure is None:
+        return None
+    factor, unit = units.scale(float(np.nanmax(pressure)), "Pa")
+    return _map(
+        single,
+        state,
+        "fluid_pressure",
+        np.where(pressure > 0, pressure * factor, np.nan),
+        f"pressure of the oil ({unit})",
+        map_axes.PRESSURE_COLOURS,
+        f"Pressure of the oil while it slides ({unit}), flow along x; white: none",
+        "white",
+        _flow_label(state),
+    )
+
+
+def _fluid_fill(single, state):
+    fill = state.map("fluid_fill")
+    if fill is None:
+        return None
+    return _map(
+        single,
+        state,
+        "fluid_fill",
+        np.where(fill > 0, 100 * fill, np.nan),
+        "share of the gap filled with oil (%)",
+        map_axes.FILM_COLOURS,
+        "How much of the gap oil fills while it slides (%); sand colour: dry",
+        map_axes.DRY_GROUND,
+        _flow_label(state),
+        highest=100.0,
+    )
+
+
+def _map(single, state, what, values, axis_label, colours, text, ground, label, highest=None):
     view = map_axes.MapView(maps.whole(values), single.pixel)
     shown = view.reduced(values)
-    _, high = map_axes.robust_limits(shown)
+    high = highest or map_axes.robust_limits(shown)[1]
     figure, grid = style.new_figure(contact_map.figure_height(view, 4.6), width=6.0)
     map_axes.colour_map(grid[0][0], view, shown, axis_label, colours, (0.0, high), ground)
     grid[0][0].set_title(label.replace("P =", "$P$ ="))
-    caption = f"{text}, at {label}. {view.note}Colours end at the 99.5th percentile of what is drawn."
+    end = "" if highest else "Colours end at the 99.5th percentile of what is drawn."
     return Drawn(
         f"state{state.key}_{what}",
-        f"{what.capitalize()} map: {label}",
-        caption,
+        f"{what.replace('_', ' ').capitalize()} map: {label}",
+        f"{text}, at {label}. {view.note}{end}",
         figure,
         {"": view.csv(shown, axis_label.replace("µ", "u"))},
         is_map=True,

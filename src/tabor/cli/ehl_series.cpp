@@ -79,7 +79,7 @@ void write_sweep(const EhlSeries& series, const std::vector<SweepAxis>& axes,
     keys.push_back(axis.key);
     shape.push_back(static_cast<std::int64_t>(axis.values.size()));
     writer.write(path, axis.numbers());
-    writer.describe(path, "SI", axis.key);
+    writer.describe(path, axis.unit(), axis.key);
     if (axis.has_words()) writer.attribute(path, "words", axis.values);
   }
   writer.attribute("/sweep", "axes", keys);  // the last one fastest

@@ -105,14 +105,31 @@ std::vector<std::string> values_of(const std::string& text, const Range& range) 
   return values;
 }
 
-/// [SI]
-std::optional<double> number_in(const std::string& value) {
+std::optional<Quantity> quantity_in(const std::string& value) {
   try {
-    return parse_quantity(value).value;
+    return parse_quantity(value);
   } catch (const InputError&) {
     return std::nullopt;
   }
 }
+
+/// [SI]
+std::optional<double> number_in(const std::string& value) {
+  const std::optional<Quantity> quantity = quantity_in(value);
+  return quantity ? std::optional(quantity->value) : std::nullopt;
+}
+
+struct NamedDimension {
+  Dimension dimension;
+  const char* unit;
+};
+
+/// Of the keys that cases have.
+constexpr NamedDimension kUnits[] = {
+    {dimension::none, ""},     {dimension::length, "m"},       {dimension::pressure, "Pa"},
+    {dimension::speed, "m/s"}, {dimension::viscosity, "Pa s"}, {dimension::per_pressure, "1/Pa"},
+    {dimension::force, "N"},   {{0, 1, -2, 0}, "N/m"},         {dimension::mass, "kg"},
+    {{-1, 1, 0, 0}, "kg/m"},   {dimension::time, "s"},         {dimension::temperature, "K"}};
 
 }  // namespace
 
@@ -127,6 +144,15 @@ std::vector<double> SweepAxis::numbers() const {
 bool SweepAxis::has_words() const {
   return std::any_of(values.begin(), values.end(),
                      [](const std::string& value) { return !number_in(value); });
+}
+
+std::string SweepAxis::unit() const {
+  const std::optional<Quantity> first = quantity_in(values.front());
+  if (!first) return "";
+  for (const NamedDimension& named : kUnits) {
+    if (named.dimension == first->dimension) return named.unit;
+  }
+  return "SI";
 }
 
 SweepAxis parse_axis(const std::string& text) {

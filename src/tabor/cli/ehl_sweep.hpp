@@ -13,7 +13,8 @@ struct SweepAxis {
 
   /// The values in SI, for tables and files. Texts without a number are counted from 0.
   std::vector<double> numbers() const;
-  bool has_words() const;  ///< a value is no number
+  bool has_words() const;    ///< a value is no number
+  std::string unit() const;  ///< of numbers(): "m/s"; "" for plain numbers and words
 };
 
 /// "ball.speed=0.2m/s", "ball.speed=0.05m/s..1m/s:log:5", "grid.nodes=100..300:3" (linear unless it
