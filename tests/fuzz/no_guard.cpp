@@ -8,13 +8,7 @@ bool hdf5_survives(const std::filesystem::path&, const std::function<void()>&) {
 
 std::optional<Field> hdf5_map_from_copy(std::array<Index, 2> shape, const SendRows& send_rows,
                                         const std::function<void(double)>&) {
-  Field map(shape[0], shape[1]);
-  Index first = 0;
-  send_rows([&](const Field& rows) {
-    map.middleRows(first, rows.rows()) = rows;
-    first += rows.rows();
-  });
-  return map;
+  return hdf5_map_directly(shape, send_rows);
 }
 
 }  // namespace tabor::io

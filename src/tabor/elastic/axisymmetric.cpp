@@ -10,37 +10,16 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
+#include "tabor/reference/elliptic_integrals.hpp"
 
 namespace tabor::elastic {
 namespace {
 
 using std::numbers::pi;
 
-/// Complete elliptic integrals K and E of modulus k, 0 <= k < 1.
-struct EllipticIntegrals {
-  double second;      // E
-  double difference;  // E - (1 - k^2) K, without its cancellation at small k
-};
-
-/// By the arithmetic-geometric mean (Abramowitz & Stegun 17.6): both at once, in some five steps,
-/// and without the four digits that libstdc++ loses near k = 1.
-EllipticIntegrals elliptic_integrals(double k) {
-  double a = 1;
-  double g = std::sqrt((1 - k) * (1 + k));
-  double c = k;
-  double weight = 0.5;              // 2^(n - 1)
-  double tail = 0;                  // sum of 2^(n - 1) c_n^2 from n = 1 on
-  while (std::abs(c) > 1e-9 * a) {  // converges quadratically: c^2 is below rounding
-    c = 0.5 * (a - g);
-    const double mean = 0.5 * (a + g);
-    g = std::sqrt(a * g);
-    a = mean;
-    weight *= 2;
-    tail += weight * c * c;
-  }
-  const double first = 0.5 * std::numbers::pi / a;
-  const double half = 0.5 * k * k;
-  return {first * (1 - half - tail), first * (half - tail)};
+/// Of modulus k, 0 <= k < 1.
+reference::EllipticIntegrals integrals_of(double k) {
+  return reference::elliptic_integrals(k, std::sqrt((1 - k) * (1 + k)));
 }
 
 /// Points and weights of Gauss' rule with 8 points on (0, 1).
@@ -138,9 +117,10 @@ double disc_displacement(double r, double c, double effective_modulus) {
     return scale * c;
   }
   if (r < c) {
-    return scale * c * elliptic_integrals(r / c).second;
+    return scale * c * integrals_of(r / c).second;
   }
-  return scale * r * elliptic_integrals(c / r).difference;
+  const double k = c / r;
+  return scale * c * k * integrals_of(k).narrow;
 }
 
 Eigen::ArrayXd uniform_radii(Index n, double r_max) { return graded_radii(n, r_max, 1); }

@@ -135,6 +135,8 @@ bool hdf5_survives(const std::filesystem::path& file, const std::function<void()
 using SendRows = std::function<void(const std::function<void(const Field& rows)>& accept)>;
 std::optional<Field> hdf5_map_from_copy(std::array<Index, 2> shape, const SendRows& send,
                                         const std::function<void(double share)>& progress);
+/// The same without a copy.
+Field hdf5_map_directly(std::array<Index, 2> shape, const SendRows& send);
 
 /// True if the file begins like HDF5 (at offset 0).
 bool is_hdf5(const std::filesystem::path& file);

@@ -169,16 +169,6 @@ void send(int pipe, const Field& rows) {
   }
 }
 
-Field map_of_this_process(std::array<Index, 2> shape, const SendRows& send_rows) {
-  Field map(shape[0], shape[1]);
-  Index first = 0;
-  send_rows([&](const Field& rows) {
-    map.middleRows(first, rows.rows()) = rows;
-    first += rows.rows();
-  });
-  return map;
-}
-
 /// Limits for a map of so many bytes: chunks may be as large as the map, and are unpacked, sorted
 /// and converted one after the other; 20 MB/s is slow for that.
 Limits limits_for(std::size_t map_bytes) {
@@ -205,12 +195,12 @@ std::optional<Field> hdf5_map_from_copy(std::array<Index, 2> shape, const SendRo
   const std::size_t size = static_cast<std::size_t>(map.size()) * sizeof(double);
   Copy copy(limits_for(size),
             [&](int pipe) { send_rows([pipe](const Field& rows) { send(pipe, rows); }); });
-  if (!copy.started()) return map_of_this_process(shape, send_rows);
+  if (!copy.started()) return hdf5_map_directly(shape, send_rows);
   auto* bytes = reinterpret_cast<char*>(map.data());
   std::size_t received = 0, told = 0;
   while (received < size) {
     const std::size_t n = copy.receive(bytes + received, std::min(kPiece, size - received));
-    if (copy.is_stuck()) return map_of_this_process(shape, send_rows);
+    if (copy.is_stuck()) return hdf5_map_directly(shape, send_rows);
     if (n == 0) return std::nullopt;
     received += n;
     if (progress && (received - told >= kPiece || received == size)) {
