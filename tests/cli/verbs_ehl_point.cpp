@@ -71,6 +71,28 @@ TEST_F(EhlPoint, HasItsKeys) {
   EXPECT_NEAR(json["L"].get<double>(), 12.61 * std::pow(10, 0.25), 0.03);
 }
 
+TEST_F(EhlPoint, TouchingSolidsRubAsTheCaseSays) {
+  const std::vector<std::string> slow = {"motion.speed=0.01mm/s", "grid.inlet=2.5",
+                                         "grid.half_width=1.75"};
+  const auto with = [&](const std::string& change) {
+    std::vector<std::string> changes = slow;
+    changes.push_back(change);
+    return json_of(ball(changes));
+  };
+  const io::Json bare = json_of(ball(slow));
+  ASSERT_GT(bare["contact_load_share"].get<double>(), 0.5);
+  EXPECT_EQ(bare["friction_solid"], 0);
+  const io::Json rubbing = with("asperities.friction_coefficient=0.1");
+  EXPECT_NEAR(rubbing["friction_solid"].get<double>(),
+              0.1 * bare["contact_load_share"].get<double>(), 1e-9);
+  EXPECT_NEAR(rubbing["friction_coefficient"].get<double>(),
+              rubbing["friction_solid"].get<double>() + bare["friction_fluid"].get<double>(), 1e-9);
+  EXPECT_GT(with("asperities.shear_strength=50MPa")["friction_solid"].get<double>(), 0);
+  refused(ball({"asperities.shear_strength=50MPa", "asperities.friction_coefficient=0.1"}),
+          "one of the two");
+  refused(ball({"asperities.friction_coefficient=-0.1"}), "zero or more");
+}
+
 TEST_F(EhlPoint, TakesMoesGroups) {
   const io::Json json = json_of(words(groups_, {"grid.nodes=65"}));
   EXPECT_NEAR(json["M"].get<double>(), 20, 1e-9);

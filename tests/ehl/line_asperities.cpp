@@ -158,15 +158,15 @@ TEST(LineAsperities, OfASmoothContactKeepTheBoundaryFilm) {
 }
 
 TEST(LineAsperities, AreRefusedWhereTheyMakeNoSense) {
-  const auto refused = [](void (*change)(LineAsperities&)) {
+  const auto refused = [](void (*change)(Asperities&)) {
     LineProblem problem = rough_contact(kMixed);
     change(problem.asperities);
     EXPECT_THROW(solve_line(problem), InputError);
   };
-  refused([](LineAsperities& asperities) { asperities.boundary_film = -1e-9; });
-  refused([](LineAsperities& asperities) { asperities.boundary_film = std::nan(""); });
-  refused([](LineAsperities& asperities) { asperities.friction_coefficient = -0.1; });
-  refused([](LineAsperities& asperities) { asperities.shear_strength = -1; });
+  refused([](Asperities& asperities) { asperities.boundary_film = -1e-9; });
+  refused([](Asperities& asperities) { asperities.boundary_film = std::nan(""); });
+  refused([](Asperities& asperities) { asperities.friction_coefficient = -0.1; });
+  refused([](Asperities& asperities) { asperities.shear_strength = -1; });
 }
 
 }  // namespace

@@ -227,6 +227,29 @@ INSTANTIATE_TEST_SUITE_P(
                               0.37},
                     DryShares{"polished-like", kPolished, 0.80, 0.06}));
 
+TEST(MeasurePoint, CountsTheFrictionOfWhatTouchesWithoutFlowing) {
+  PointProblem problem = test::redlich_dry(129);
+  problem.roughness = rough(problem, kLapped);
+  const PointResult result = solve_point_dry(problem);
+  const Mask elastic = result.contact_pressure > 0 && result.plastic_depth <= 0;
+  ASSERT_TRUE(elastic.any() && (result.plastic_depth > 0).any());
+  const double cell = result.grid.pixel_area();
+  const double bonds = measure_point(problem, result).friction_solid;
+  problem.asperities.friction_coefficient = 0.1;
+  EXPECT_NEAR(measure_point(problem, result).friction_solid,
+              bonds + 0.1 * cell * elastic.select(result.contact_pressure, 0).sum() / problem.load,
+              1e-12);
+  problem.asperities = {.boundary_film = 1e-9, .shear_strength = 50e6};
+  EXPECT_NEAR(measure_point(problem, result).friction_solid,
+              bonds + 50e6 * cell * static_cast<double>(elastic.count()) / problem.load, 1e-12);
+}
+
+TEST(SolvePointMixed, RefusesNegativeFrictionOfAsperities) {
+  PointProblem problem = small_case(0.1);
+  problem.asperities.friction_coefficient = -0.1;
+  EXPECT_THAT(refusal([&] { solve_point(problem); }), HasSubstr("friction coefficient"));
+}
+
 TEST(SolvePointMixed, SaysWhatDidNotConverge) {
   PointProblem problem = small_case(0.1);
   problem.roughness = rough(problem, kLapped);
@@ -236,7 +259,7 @@ TEST(SolvePointMixed, SaysWhatDidNotConverge) {
 
 TEST(SolvePointMixed, RefusesABoundaryFilmOfNothing) {
   PointProblem problem = small_case(0.1);
-  problem.boundary_film = 0;
+  problem.asperities.boundary_film = 0;
   EXPECT_THAT(refusal([&] { solve_point(problem); }), HasSubstr("boundary film"));
 }
 

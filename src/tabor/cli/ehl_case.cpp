@@ -166,6 +166,29 @@ const std::vector<std::string>& shear_keys() {
   return keys;
 }
 
+ehl::Asperities read_asperities(const io::Config& config, double usual_film) {
+  ehl::Asperities asperities;
+  asperities.boundary_film =
+      positive_quantity_or(config, "asperities.boundary_film", dimension::length, usual_film);
+  const bool has_coefficient = config.has("asperities.friction_coefficient");
+  if (has_coefficient && config.has("asperities.shear_strength")) {
+    throw InputError(config.place("asperities.shear_strength"), "beside friction_coefficient",
+                     "one of the two", "");
+  }
+  if (has_coefficient) {
+    asperities.friction_coefficient = config.number("asperities.friction_coefficient");
+  }
+  asperities.shear_strength =
+      positive_quantity_or(config, "asperities.shear_strength", dimension::pressure, 0);
+  return asperities;
+}
+
+const std::vector<std::string>& asperity_keys() {
+  static const std::vector<std::string> keys = {
+      "asperities.boundary_film", "asperities.friction_coefficient", "asperities.shear_strength"};
+  return keys;
+}
+
 std::vector<std::string> joined(std::vector<std::string> keys,
                                 const std::vector<std::vector<std::string>>& more) {
   for (const std::vector<std::string>& list : more) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tabor/core/error.hpp"
+#include "tabor/ehl/asperities.hpp"
 #include "tabor/io/toml.hpp"
 #include "tabor/material/lubricant.hpp"
 
@@ -43,6 +44,11 @@ const std::vector<std::string>& lubricant_keys();
 /// [lubricant]: eyring_stress, or limiting_stress with limiting_coefficient; Newtonian without.
 material::Shear read_shear(const io::Config& config);
 const std::vector<std::string>& shear_keys();
+
+/// [asperities]: boundary_film, unless given `usual_film` [m]; friction_coefficient or
+/// shear_strength.
+ehl::Asperities read_asperities(const io::Config& config, double usual_film);
+const std::vector<std::string>& asperity_keys();
 
 /// Key lists one after the other.
 std::vector<std::string> joined(std::vector<std::string> keys,

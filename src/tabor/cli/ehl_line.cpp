@@ -64,29 +64,13 @@ Eigen::ArrayXd read_roughness(const io::Config& config, const ehl::LineProblem& 
   return roughness;
 }
 
-/// [asperities]: solids that touch through a boundary film.
-ehl::LineAsperities read_asperities(const io::Config& config) {
-  ehl::LineAsperities asperities;
-  const bool has_coefficient = config.has("asperities.friction_coefficient");
-  const bool has_strength = config.has("asperities.shear_strength");
-  if (!config.has("asperities.boundary_film")) {
-    if (!has_coefficient && !has_strength) return asperities;
+/// [asperities]; without it nothing touches.
+ehl::Asperities read_line_asperities(const io::Config& config) {
+  const ehl::Asperities asperities = read_asperities(config, 0);
+  if (asperities.boundary_film == 0 && config.has("asperities")) {
     throw InputError(
         config.place("asperities"), "no boundary_film", "how near the solids come, such as 10 nm",
         "in a profile, solids without a film between would stop the liquid, which lifts them");
-  }
-  if (has_coefficient && has_strength) {
-    throw InputError(config.place("asperities.shear_strength"), "beside friction_coefficient",
-                     "one of the two", "");
-  }
-  asperities.boundary_film =
-      positive_quantity(config, "asperities.boundary_film", dimension::length);
-  if (has_coefficient) {
-    asperities.friction_coefficient = config.number("asperities.friction_coefficient");
-  }
-  if (has_strength) {
-    asperities.shear_strength =
-        positive_quantity(config, "asperities.shear_strength", dimension::pressure);
   }
   return asperities;
 }
@@ -118,7 +102,7 @@ ehl::LineProblem read_problem(const io::Config& config, Context& context) {
   if (config.has("grid.nodes")) problem.nodes = config.integer("grid.nodes");
   problem.inlet = positive_quantity_or(config, "grid.inlet", dimension::length, 0);
   problem.outlet = positive_quantity_or(config, "grid.outlet", dimension::length, 0);
-  problem.asperities = read_asperities(config);
+  problem.asperities = read_line_asperities(config);
   // The nodes of the roughness are those of a checked problem.
   ehl::check_line(problem);
   problem.roughness = read_roughness(config, problem, context);
@@ -268,9 +252,6 @@ EhlProgram line_program() {
                           "roughness.row",
                           "roughness.amplitude",
                           "roughness.wavelength",
-                          "asperities.boundary_film",
-                          "asperities.friction_coefficient",
-                          "asperities.shear_strength",
                           "wear.coefficient",
                           "wear.density",
                           "wear.width",
@@ -284,7 +265,7 @@ EhlProgram line_program() {
                           "grid.nodes",
                           "grid.inlet",
                           "grid.outlet"},
-                         {solids_keys(), lubricant_keys()}),
+                         {solids_keys(), lubricant_keys(), asperity_keys()}),
           .files = {"roughness.file"},
           .columns = {{"min_film_m", "smallest film", "m"},
                       {"central_film_m", "central film", "m"},

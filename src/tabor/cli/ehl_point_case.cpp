@@ -197,8 +197,7 @@ ehl::PointProblem read_point(const io::Config& given) {
   problem.effective_modulus = read_effective_modulus(config);
   problem.plastic_pressure = positive_quantity_or(config, "solids.plastic_pressure",
                                                   dimension::pressure, ehl::kNoPlasticLimit);
-  problem.boundary_film = positive_quantity_or(config, "asperities.boundary_film",
-                                               dimension::length, problem.boundary_film);
+  problem.asperities = read_asperities(config, problem.asperities.boundary_film);
   problem.lubricant = read_lubricant(config, "roelands");
   problem.lubricant.shear = read_shear(config);
   if (has_groups) {
@@ -220,7 +219,6 @@ std::vector<std::string> point_keys() {
                  "groups.M",
                  "groups.L",
                  "solids.plastic_pressure",
-                 "asperities.boundary_film",
                  "motion.speed",
                  "motion.entrainment_speed",
                  "motion.sliding_speed",
@@ -246,7 +244,7 @@ std::vector<std::string> point_keys() {
                  "grid.half_width",
                  "grid.domain",
                  "grid.time_step"},
-                {solids_keys(), lubricant_keys(), shear_keys()});
+                {solids_keys(), lubricant_keys(), shear_keys(), asperity_keys()});
 }
 
 }  // namespace tabor::cli

@@ -27,19 +27,6 @@ void check_positive(const char* what, double value, const char* unit) {
   }
 }
 
-void check_not_negative(const char* what, double value, const char* unit) {
-  if (!(value >= 0) || !std::isfinite(value)) {
-    throw InputError(what, fmt::format("{} {}", value, unit), "zero or more", "");
-  }
-}
-
-void check_asperities(const LineProblem& problem) {
-  const LineAsperities& asperities = problem.asperities;
-  check_not_negative("boundary film", asperities.boundary_film, "m");
-  check_not_negative("friction coefficient of asperities", asperities.friction_coefficient, "");
-  check_not_negative("shear strength of asperities", asperities.shear_strength, "Pa");
-}
-
 void check_domain(const LineProblem& problem) {
   const double half_width = hertz_of(problem).half_width;
   const Eigen::ArrayXd x = line_nodes(problem);
@@ -190,7 +177,7 @@ void check_line(const LineProblem& problem) {
                      "the theory of small deformations ends before");
   }
   material::check_pressure(problem.lubricant, hertz_of(problem).max_pressure);
-  check_asperities(problem);
+  check(problem.asperities);
   check_domain(problem);
 }
 

@@ -6,6 +6,7 @@
 
 #include "tabor/core/convergence.hpp"
 #include "tabor/core/types.hpp"
+#include "tabor/ehl/asperities.hpp"
 #include "tabor/material/lubricant.hpp"
 #include "tabor/reference/ehl_films.hpp"
 #include "tabor/reference/hertz_line.hpp"
@@ -16,15 +17,6 @@ namespace tabor::ehl {
 enum class LineCavitation {
   reynolds,  ///< p >= 0 by complementarity: p = dp/dx = 0 where the film breaks
   penalty    ///< a source -min(0, p)/eps (Wu 1986); tends to `reynolds` with eps -> 0
-};
-
-/// Solids that touch through a boundary film: where the gap would fall below it, asperities carry
-/// what keeps it there. Liquid goes on through it, as in a real contact it goes round the summits,
-/// which a profile cannot show.
-struct LineAsperities {
-  double boundary_film = 0;         ///< h_b [m]; 0: nothing touches
-  double friction_coefficient = 0;  ///< of what asperities carry
-  double shear_strength = 0;        ///< [Pa] of what touches, besides
 };
 
 /// A cylinder on a flat with a film between, steady, plane strain, flow towards +x. SI units.
@@ -41,7 +33,9 @@ struct LineProblem {
   double inlet = 0;   ///< [m] before the centre; 0: 4 half widths and 10 sqrt(2 R h), h by Moes
   double outlet = 0;  ///< [m] behind it; 0: 1.5 half widths and 3 sqrt(2 R h)
   Eigen::ArrayXd roughness;  ///< s [m] at the nodes, asperities up, at rest; empty: smooth
-  LineAsperities asperities;
+  /// No boundary film: nothing touches. Liquid goes on through it, as in a real contact it goes
+  /// round the summits, which a profile cannot show.
+  Asperities asperities;
   bool dense_jacobian = false;  ///< factorize a full matrix in each iteration (benchmarks)
 };
 

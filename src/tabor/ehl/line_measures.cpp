@@ -68,9 +68,7 @@ double measure_asperities(const LineProblem& problem, LineResult& result) {
   const double carried = spacing * result.asperity_pressure.sum();
   result.asperity_load_share = carried / problem.load;
   result.contact_width = spacing * static_cast<double>((result.asperity_pressure > 0).count());
-  const LineAsperities& asperities = problem.asperities;
-  const double force =
-      asperities.friction_coefficient * carried + asperities.shear_strength * result.contact_width;
+  const double force = problem.asperities.friction(carried, result.contact_width);
   return problem.sliding_speed == 0 ? 0 : std::copysign(force, problem.sliding_speed);
 }
 

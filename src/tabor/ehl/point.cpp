@@ -99,7 +99,8 @@ void check_point(const PointProblem& problem) {
   check_positive("effective modulus", problem.effective_modulus, "Pa");
   check_positive("load", problem.load, "N");
   check_positive("entrainment speed", problem.entrainment_speed, "m/s");
-  check_positive("boundary film", problem.boundary_film, "m");
+  check_positive("boundary film", problem.asperities.boundary_film, "m");
+  check(problem.asperities);
   check_positive("tolerance", problem.tolerance, "");
   check_positive("plastic pressure",
                  std::min(problem.plastic_pressure, std::numeric_limits<double>::max()), "Pa");
@@ -132,9 +133,12 @@ PointResult solve_point(const PointProblem& problem, const PointResult* start,
   if (!outcome.converged) {
     outcome = outcome + solve_cold(problem, film, state, observer);
   }
-  const PointResult result = result_of(problem, film, state, outcome);
-  const bool would_touch = result.converged && result.film.minCoeff() < problem.boundary_film;
-  return would_touch ? solve_point_mixed(problem, &result, observer) : result;
+  const PointResult smooth = result_of(problem, film, state, outcome);
+  if (smooth.converged && smooth.film.minCoeff() >= problem.asperities.boundary_film) return smooth;
+  // A film this thin may also be why there is no solution without contact.
+  const PointResult mixed =
+      solve_point_mixed(problem, smooth.converged ? &smooth : start, observer);
+  return mixed.converged || smooth.converged ? mixed : smooth;
 }
 
 }  // namespace tabor::ehl

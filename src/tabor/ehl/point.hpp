@@ -6,6 +6,7 @@
 
 #include "tabor/core/convergence.hpp"
 #include "tabor/core/types.hpp"
+#include "tabor/ehl/asperities.hpp"
 #include "tabor/material/lubricant.hpp"
 #include "tabor/reference/ehl_films.hpp"
 #include "tabor/reference/hertz_ellipse.hpp"
@@ -25,8 +26,9 @@ struct PointProblem {
   double sliding_speed = 0;      ///< u_s [m/s], their difference, for shear thinning and friction
   material::Lubricant lubricant;
   double plastic_pressure = kNoPlasticLimit;  ///< P_plast [Pa], a cap on the whole pressure
-  double boundary_film =
-      1e-9;  ///< h_b [m], where solids touch the liquid between them is this thin
+  /// Solids touch where no more than the boundary film is left, which must be > 0; their friction
+  /// is that of what touches without flowing.
+  Asperities asperities{.boundary_film = 1e-9};
   Index nodes_x = 257;
   Index nodes_y = 257;
   double inlet = 4.5;       ///< domain before the centre, in half axes of the Hertz ellipse

@@ -2,29 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <utility>
 
-#include "tabor/ehl/gmres.hpp"
+#include "tabor/ehl/point_bordered.hpp"
 #include "tabor/ehl/point_multigrid.hpp"
 #include "tabor/reference/hertz_ellipse.hpp"
 
 namespace tabor::ehl {
 namespace {
 
-constexpr double kLinearAccuracy = 1e-3;  // of each Newton correction
-constexpr int kMaxProducts = 80;
 constexpr int kMaxHalvings = 8;
 constexpr double kThinnest = 0.1;  // a step may leave this much of the thinnest film
 constexpr double kAllCavity = 1 - 1e-9;
 constexpr double kMayGrow = 1.5;  // the norm of the residual, in a step that is taken
 
 }  // namespace
-
-struct PointFilm::Linear {
-  PointBalance balance;
-  double load = 0;  // (load carried - load) / load
-};
 
 PointFilm::PointFilm(const PointProblem& problem)
     : lubricant(problem.lubricant),
@@ -110,82 +104,29 @@ PointFlow PointFilm::flow_of(const PointState& state) const {
           .film = state.film};
 }
 
-PointFilm::Linear PointFilm::linearize(const PointState& state, const PointStorage& storage) const {
-  Linear linear{.balance = point_balance(flow_of(state), storage, units_)};
-  linear.load = (grid_.pixel_area() * state.pressure.sum() - load) / units_.load;
-  return linear;
+PointLinear PointFilm::linearize(const PointState& state, const PointStorage& storage) const {
+  return {.rows = point_balance(flow_of(state), storage, units_),
+          .held = held(state),
+          .deep = Mask::Constant(grid_.ny, grid_.nx, false),
+          .load = (grid_.pixel_area() * state.pressure.sum() - load) / units_.load};
 }
-
-/// Jacobian times a step, with the whole elastic kernel. Held nodes keep what they are given.
-Eigen::VectorXd PointFilm::product(const Linear& linear, const Mask& held,
-                                   const Eigen::VectorXd& step) const {
-  const Index n = grid_.size();
-  const Eigen::Map<const Field> given(step.data(), grid_.ny, grid_.nx);
-  const Field pressure = held.select(0, given);
-  const Field film = levels_.front().elastic(pressure) + step[n];
-  Field result = Field::Zero(grid_.ny, grid_.nx);
-  linear.balance.by_pressure.add_product(pressure, result);
-  linear.balance.by_film.add_product(film, result);
-  Eigen::VectorXd all(n + 1);
-  Eigen::Map<Field>(all.data(), grid_.ny, grid_.nx) = held.select(given, result);
-  all[n] = grid_.pixel_area() * units_.pressure / units_.load * pressure.sum();
-  return all;
-}
-
-/// The inverse of the whole system, with the separation and the load, from that of the balances.
-class PointFilm::Bordered {
- public:
-  Bordered(const PointMultigrid& inverse, const PointBalance& balance, const Mask& held,
-           double load_weight)
-      : inverse_(inverse), held_(held), load_weight_(load_weight) {
-    Field by_separation = Field::Zero(held.rows(), held.cols());
-    balance.by_film.add_product(Field::Ones(held.rows(), held.cols()), by_separation);
-    answer_ = inverse(held.select(0, by_separation));
-    border_ = -load_weight * answer_.sum();
-  }
-
-  Eigen::VectorXd operator()(const Eigen::VectorXd& right) const {
-    const Index n = held_.size();
-    Eigen::VectorXd result(n + 1);
-    const Field pressure =
-        inverse_(Eigen::Map<const Field>(right.data(), held_.rows(), held_.cols()));
-    result[n] = (right[n] - load_weight_ * held_.select(0, pressure).sum()) / border_;
-    Eigen::Map<Field>(result.data(), held_.rows(), held_.cols()) = pressure - result[n] * answer_;
-    return result;
-  }
-
- private:
-  const PointMultigrid& inverse_;
-  const Mask& held_;
-  double load_weight_;
-  Field answer_;  // of the pressures to a separation of one unit
-  double border_ = 0;
-};
 
 /// Empty if the linear equations cannot be solved.
-Eigen::VectorXd PointFilm::newton_step(const Linear& linear, const PointState& state,
+Eigen::VectorXd PointFilm::newton_step(const PointLinear& linear, const PointState& state,
                                        const PointStorage& storage, Outcome& outcome) const {
-  const Mask held = this->held(state);
-  const PointMultigrid inverse(levels_, linear.balance, held, flow_of(state), storage, units_);
+  const PointMultigrid inverse(levels_, linear.rows, linear.held, flow_of(state), storage, units_);
   if (!inverse.ok()) return {};
-  const double load_weight = grid_.pixel_area() * units_.pressure / units_.load;
-  const Bordered precondition(inverse, linear.balance, held, load_weight);
-  const auto multiply = [&](const Eigen::VectorXd& step) { return product(linear, held, step); };
-  Eigen::VectorXd right(grid_.size() + 1);
-  Eigen::Map<Field>(right.data(), grid_.ny, grid_.nx) = held.select(0, -linear.balance.residual);
-  right[grid_.size()] = -linear.load;
   const int before = outcome.n_products;
   const auto step =
-      gmres(multiply, precondition, right, kLinearAccuracy, kMaxProducts, outcome.n_products);
+      solve_bordered(linear, levels_.front(), units_, std::cref(inverse), outcome.n_products);
   outcome.n_linear_iterations += outcome.n_products - before;
   return step.value_or(Eigen::VectorXd());
 }
 
 /// Norm of what is not yet balanced: of the film, and of cavity that gains liquid.
-double PointFilm::merit(const Linear& linear, const PointState& state) const {
-  const Mask held = this->held(state);
-  const Field& residual = linear.balance.residual;
-  const Field open = held.select(state.cavity.select(residual.min(0), 0), residual);
+double PointFilm::merit(const PointLinear& linear, const PointState& state) const {
+  const Field& residual = linear.rows.residual;
+  const Field open = linear.held.select(state.cavity.select(residual.min(0), 0), residual);
   const double relative = units_.film / film_scale_;
   return std::sqrt(open.square().sum() * relative * relative / static_cast<double>(x_.size()) +
                    linear.load * linear.load);
@@ -209,7 +150,7 @@ bool PointFilm::step_to(const PointState& old, const Eigen::VectorXd& step, doub
 /// Applies a Newton correction, halved until the gap stays open and the residual does not grow
 /// much. False if that does not help.
 bool PointFilm::correct(const Eigen::VectorXd& step, const PointStorage& storage, PointState& state,
-                        Linear& linear, Outcome& outcome) const {
+                        PointLinear& linear, Outcome& outcome) const {
   if (step.size() == 0 || !step.allFinite()) return false;
   const PointState old = state;
   const double before = merit(linear, old);
@@ -225,20 +166,19 @@ bool PointFilm::correct(const Eigen::VectorXd& step, const PointStorage& storage
 }
 
 /// Nodes of the cavity that gain liquid leave it; true if there are any.
-bool PointFilm::refill(const Linear& linear, PointState& state) const {
+bool PointFilm::refill(PointLinear& linear, PointState& state) const {
   const double surplus = 0.1 * tolerance * film_scale_ / units_.film;
-  const Mask held = this->held(state);
   bool changed = false;
-  for (Index k = 0; k < held.size(); ++k) {
-    if (!state.cavity.data()[k] || !(linear.balance.residual.data()[k] < -surplus)) continue;
-    state.cavity.data()[k] = false;
+  for (Index k = 0; k < state.cavity.size(); ++k) {
+    if (!state.cavity.data()[k] || !(linear.rows.residual.data()[k] < -surplus)) continue;
+    state.cavity.data()[k] = linear.held.data()[k] = false;
     changed = true;
   }
   return changed;
 }
 
-void PointFilm::measure(const Linear& linear, const PointState& state, Outcome& outcome) const {
-  const Field open = held(state).select(0, linear.balance.residual);
+void PointFilm::measure(const PointLinear& linear, Outcome& outcome) const {
+  const Field open = linear.held.select(0, linear.rows.residual);
   outcome.mass_error = open.abs().maxCoeff() * units_.film / film_scale_;
   outcome.load_error = std::abs(linear.load);
 }
@@ -249,7 +189,7 @@ PointFilm::Outcome PointFilm::solve(PointState& state, const PointStorage& stora
   state.pressure = held(state).select(0, state.pressure);
   state.film = film_of(state);
   if (!(state.film.minCoeff() > 0)) return outcome;
-  Linear linear = linearize(state, storage);
+  PointLinear linear = linearize(state, storage);
   while (outcome.iterations < problem_.max_iterations && !outcome.converged) {
     ++outcome.iterations;
     const Mask cavity = state.cavity;
@@ -257,7 +197,7 @@ PointFilm::Outcome PointFilm::solve(PointState& state, const PointStorage& stora
     if (!correct(step, storage, state, linear, outcome)) break;
     const bool grows = (state.cavity != cavity).any();
     const bool shrinks = refill(linear, state);
-    measure(linear, state, outcome);
+    measure(linear, outcome);
     outcome.converged =
         !grows && !shrinks && outcome.mass_error <= tolerance && outcome.load_error <= tolerance;
     const Convergence now = {.iterations = outcome.iterations,

@@ -5,7 +5,8 @@
 
 #include "tabor/ehl/point.hpp"
 #include "tabor/ehl/point_balance.hpp"
-#include "tabor/ehl/point_multigrid.hpp"
+#include "tabor/ehl/point_bordered.hpp"
+#include "tabor/ehl/point_levels.hpp"
 
 namespace tabor::ehl {
 
@@ -63,21 +64,17 @@ class PointFilm {
   Outcome solve(PointState& state, const PointStorage& storage, const Observer& observer = {});
 
  private:
-  struct Linear;
-  class Bordered;
   PointFlow flow_of(const PointState& state) const;
-  Linear linearize(const PointState& state, const PointStorage& storage) const;
+  PointLinear linearize(const PointState& state, const PointStorage& storage) const;
   Mask held(const PointState& state) const;
-  void measure(const Linear& linear, const PointState& state, Outcome& outcome) const;
-  double merit(const Linear& linear, const PointState& state) const;
-  bool refill(const Linear& linear, PointState& state) const;
+  void measure(const PointLinear& linear, Outcome& outcome) const;
+  double merit(const PointLinear& linear, const PointState& state) const;
+  bool refill(PointLinear& linear, PointState& state) const;
   bool step_to(const PointState& old, const Eigen::VectorXd& step, double share,
                PointState& state) const;
   bool correct(const Eigen::VectorXd& step, const PointStorage& storage, PointState& state,
-               Linear& linear, Outcome& outcome) const;
-  Eigen::VectorXd product(const Linear& linear, const Mask& held,
-                          const Eigen::VectorXd& step) const;
-  Eigen::VectorXd newton_step(const Linear& linear, const PointState& state,
+               PointLinear& linear, Outcome& outcome) const;
+  Eigen::VectorXd newton_step(const PointLinear& linear, const PointState& state,
                               const PointStorage& storage, Outcome& outcome) const;
 
   PointProblem problem_;

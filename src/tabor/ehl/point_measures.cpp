@@ -75,9 +75,14 @@ void measure_solids(const PointProblem& problem, const PointResult& result,
     measures.max_plastic_depth =
         std::max(measures.max_plastic_depth, value_or_zero(result.plastic_depth, i));
   }
+  const auto elastic_contact = [&](Index i) { return result.film(i) <= 0 && is_plastic(i) == 0; };
+  const double carried =
+      cell * sum_nodes(n, [&](Index i) { return elastic_contact(i) ? contact_pressure(i) : 0.0; });
+  const double area = cell * sum_nodes(n, [&](Index i) { return elastic_contact(i) ? 1.0 : 0.0; });
   const double plastic_area = cell * sum_nodes(n, is_plastic);
-  measures.friction_solid =
-      plastic_area > 0 ? kBondStrength * problem.plastic_pressure * plastic_area / problem.load : 0;
+  const double bonds =
+      plastic_area > 0 ? kBondStrength * problem.plastic_pressure * plastic_area : 0;
+  measures.friction_solid = (bonds + problem.asperities.friction(carried, area)) / problem.load;
 }
 
 }  // namespace

@@ -20,9 +20,10 @@ struct PointMeasures {
   double max_plastic_depth = 0;       ///< [m]
   double fluid_volume = 0;            ///< [m^3] of film over the Hertz area
   double friction_fluid = 0;          ///< shear of the film over load
-  double friction_solid = 0;          ///< P_plast/6 on the plastic area, over load
-  double friction_coefficient = 0;    ///< their sum
-  double max_shear_stress = 0;        ///< [Pa] of the film
+  double friction_solid =
+      0;  ///< P_plast/6 on the plastic area and that of asperities elsewhere, over load
+  double friction_coefficient = 0;  ///< their sum
+  double max_shear_stress = 0;      ///< [Pa] of the film
 };
 
 /// The film is sheared where it carries pressure and no solid touches or flows plastically; there

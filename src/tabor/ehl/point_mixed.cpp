@@ -65,7 +65,7 @@ double rms_height(const PointProblem& problem) {
 double clear_speed(const PointProblem& problem) {
   const double film = film_groups_of(problem).nijenbanning_central();
   const double clear =
-      std::max(kClearance * rms_height(problem), kBoundaryFilms * problem.boundary_film);
+      std::max(kClearance * rms_height(problem), kBoundaryFilms * problem.asperities.boundary_film);
   const double factor = std::pow(clear / film, 1 / kFilmExponent);
   return problem.entrainment_speed * std::clamp(factor, 1.0, kFastest);
 }

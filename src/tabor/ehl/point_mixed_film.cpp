@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 
-#include "tabor/ehl/gmres.hpp"
 #include "tabor/ehl/point_lines.hpp"
 #include "tabor/ehl/point_multigrid.hpp"
 #include "tabor/ehl/point_start.hpp"
@@ -12,8 +11,6 @@
 namespace tabor::ehl {
 namespace {
 
-constexpr double kLinearAccuracy = 1e-3;  // of each Newton correction
-constexpr int kMaxProducts = 80;
 constexpr Index kManyNodes = 40000;
 constexpr int kMaxHalvings = 8;
 constexpr double kThinnest = 0.1;  // a step may leave this much of a film
@@ -36,14 +33,8 @@ bool is_plastic(MixedNode node) {
 }
 
 /// Rows of flow or, where solids touch, of contact.
-struct MixedFilm::Linear {
-  PointBalance rows;
+struct MixedFilm::Linear : PointLinear {
   Field gain;  // of liquid at every node: minus the imbalance of the flow
-  Mask held;   // nothing is unknown
-  Mask deep;   // the plastic depth is unknown
-  double load = 0;
-
-  Mask pressed() const { return !held && !deep; }
 };
 
 MixedFilm::MixedFilm(const PointProblem& problem)
@@ -111,8 +102,8 @@ MixedState MixedFilm::state_from(const PointResult& result) const {
 }
 
 PointResult MixedFilm::result_of(const MixedState& state, const PointFilm::Outcome& outcome) const {
-  const Mask touching =
-      state.nodes != MixedNode::cavity && state.film < kTouchingFilm * problem_.boundary_film;
+  const Mask touching = state.nodes != MixedNode::cavity &&
+                        state.film < kTouchingFilm * problem_.asperities.boundary_film;
   const PointState liquid{.pressure = touching.select(0, state.pressure),
                           .separation = state.separation,
                           .film = touching.select(0, state.film),
@@ -135,7 +126,7 @@ PointFlow MixedFilm::flow_of(const MixedState& state, const Field& film) const {
 
 MixedFilm::Linear MixedFilm::linearize(const MixedState& state) const {
   const Mask touching = state.nodes.unaryExpr(&touches);
-  const Field film = touching.select(problem_.boundary_film, state.film);
+  const Field film = touching.select(problem_.asperities.boundary_film, state.film);
   Linear linear;
   linear.rows = point_balance(flow_of(state, film), {}, film_.units());
   linear.gain = -linear.rows.residual;
@@ -164,54 +155,7 @@ void MixedFilm::set_contact_row(const MixedState& state, Index k, Linear& linear
   }
   linear.rows.by_film.coefficient[0].data()[k] = 1;
   linear.rows.residual.data()[k] =
-      (state.film.data()[k] - problem_.boundary_film) / film_.units().film;
-}
-
-/// Jacobian times a step, with the whole elastic kernel.
-Eigen::VectorXd MixedFilm::product(const Linear& linear, const Eigen::VectorXd& step) const {
-  const Grid& grid = film_.grid();
-  const Eigen::Map<const Field> given(step.data(), grid.ny, grid.nx);
-  const Field pressure = linear.pressed().select(given, 0);
-  const Field film =
-      film_.levels().front().elastic(pressure) + step[grid.size()] + linear.deep.select(given, 0);
-  Field result = Field::Zero(grid.ny, grid.nx);
-  linear.rows.by_pressure.add_product(pressure, result);
-  linear.rows.by_film.add_product(film, result);
-  Eigen::VectorXd all(grid.size() + 1);
-  Eigen::Map<Field>(all.data(), grid.ny, grid.nx) = linear.held.select(given, result);
-  all[grid.size()] =
-      grid.pixel_area() * film_.units().pressure / film_.units().load * pressure.sum();
-  return all;
-}
-
-/// Solves the linear equations with what nearly inverts them but for separation and load.
-std::optional<Eigen::VectorXd> MixedFilm::solve_linear(const Linear& linear, const Inverse& inverse,
-                                                       PointFilm::Outcome& outcome) const {
-  const Grid& grid = film_.grid();
-  const Mask pressed = linear.pressed();
-  const double weight = grid.pixel_area() * film_.units().pressure / film_.units().load;
-  Field by_separation = Field::Zero(grid.ny, grid.nx);
-  linear.rows.by_film.add_product(Field::Ones(grid.ny, grid.nx), by_separation);
-  const Field answer = inverse(linear.held.select(0, by_separation));
-  const double border = -weight * pressed.select(answer, 0).sum();
-  const auto precondition = [&](const Eigen::VectorXd& right) -> Eigen::VectorXd {
-    Eigen::VectorXd result(right.size());
-    const Field part = inverse(Eigen::Map<const Field>(right.data(), grid.ny, grid.nx));
-    const double separation =
-        (right[grid.size()] - weight * pressed.select(part, 0).sum()) / border;
-    result[grid.size()] = separation;
-    Eigen::Map<Field>(result.data(), grid.ny, grid.nx) = part - separation * answer;
-    return result;
-  };
-  const auto multiply = [&](const Eigen::VectorXd& step) { return product(linear, step); };
-  Eigen::VectorXd right(grid.size() + 1);
-  Eigen::Map<Field>(right.data(), grid.ny, grid.nx) = linear.held.select(0, -linear.rows.residual);
-  right[grid.size()] = -linear.load;
-  const int before = outcome.n_products;
-  auto step =
-      gmres(multiply, precondition, right, kLinearAccuracy, kMaxProducts, outcome.n_products);
-  outcome.n_linear_iterations += outcome.n_products - before;
-  return step;
+      (state.film.data()[k] - problem_.asperities.boundary_film) / film_.units().film;
 }
 
 /// Empty if the linear equations cannot be solved. Coarser grids know nothing of plastic and
@@ -221,12 +165,17 @@ Eigen::VectorXd MixedFilm::newton_step(const Linear& linear, const MixedState& s
                                        PointFilm::Outcome& outcome) const {
   const Mask touching = state.nodes.unaryExpr(&touches);
   const bool is_mixed = linear.deep.any() || touching.any();
+  const int before = outcome.n_products;
+  const auto solve = [&](const PointInverse& inverse) {
+    return solve_bordered(linear, film_.levels().front(), film_.units(), inverse,
+                          outcome.n_products);
+  };
   std::optional<Eigen::VectorXd> step;
   if (!is_mixed || film_.grid().size() > kManyNodes) {
-    const Field film = touching.select(problem_.boundary_film, state.film);
+    const Field film = touching.select(problem_.asperities.boundary_film, state.film);
     const PointMultigrid inverse(film_.levels(), linear.rows, linear.held, flow_of(state, film), {},
                                  film_.units(), {.depth = linear.deep, .contact = touching});
-    if (inverse.ok()) step = solve_linear(linear, std::cref(inverse), outcome);
+    if (inverse.ok()) step = solve(std::cref(inverse));
   }
   if (!step) {
     const PointDirect direct(
@@ -234,8 +183,9 @@ Eigen::VectorXd MixedFilm::newton_step(const Linear& linear, const MixedState& s
     const auto inverse = [&](const Field& right) -> Field {
       return linear.held.select(right, direct(right));
     };
-    if (direct.ok()) step = solve_linear(linear, inverse, outcome);
+    if (direct.ok()) step = solve(inverse);
   }
+  outcome.n_linear_iterations += outcome.n_products - before;
   return step.value_or(Eigen::VectorXd());
 }
 
@@ -275,7 +225,7 @@ void MixedFilm::move_node(Index k, double change, MixedState& state) const {
 /// Gives a node the depth or the contact that its gap asks for. False where a film was lost too
 /// fast to believe.
 bool MixedFilm::settle_node(Index k, double old_film, MixedState& state) const {
-  const double boundary = problem_.boundary_film;
+  const double boundary = problem_.asperities.boundary_film;
   MixedNode& node = state.nodes.data()[k];
   double& film = state.film.data()[k];
   double& depth = state.plastic_depth.data()[k];
@@ -345,7 +295,8 @@ bool MixedFilm::change_nodes(const Linear& linear, MixedState& state) const {
     if (!in_domain(k)) continue;
     MixedNode& node = state.nodes.data()[k];
     const double gain = linear.gain.data()[k];
-    const double room = (state.film.data()[k] - problem_.boundary_film) / film_.units().film;
+    const double room =
+        (state.film.data()[k] - problem_.asperities.boundary_film) / film_.units().film;
     const bool thickens = gain + room > surplus;
     if (node == MixedNode::cavity) {
       if (gain > surplus) change(node, MixedNode::liquid);
@@ -368,7 +319,7 @@ void MixedFilm::measure(const Linear& linear, PointFilm::Outcome& outcome) const
 void MixedFilm::lift(MixedState& state) const {
   state.film = gap_of(state);
   const Mask touching = state.nodes.unaryExpr(&touches);
-  const double lacking = kFirstFilm * problem_.boundary_film -
+  const double lacking = kFirstFilm * problem_.asperities.boundary_film -
                          touching.select(state.film.maxCoeff(), state.film).minCoeff();
   if (!(lacking > 0)) return;
   state.separation += lacking;

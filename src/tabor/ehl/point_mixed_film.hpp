@@ -1,8 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
-#include <optional>
 
 #include "tabor/ehl/point_film.hpp"
 
@@ -70,10 +68,6 @@ class MixedFilm {
   PointFlow flow_of(const MixedState& state, const Field& film) const;
   Linear linearize(const MixedState& state) const;
   void set_contact_row(const MixedState& state, Index k, Linear& linear) const;
-  Eigen::VectorXd product(const Linear& linear, const Eigen::VectorXd& step) const;
-  using Inverse = std::function<Field(const Field&)>;
-  std::optional<Eigen::VectorXd> solve_linear(const Linear& linear, const Inverse& inverse,
-                                              PointFilm::Outcome& outcome) const;
   Eigen::VectorXd newton_step(const Linear& linear, const MixedState& state,
                               PointFilm::Outcome& outcome) const;
   double merit(const Linear& linear, const MixedState& state) const;
