@@ -22,6 +22,9 @@ function(tabor_module name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  if(TABOR_PRECOMPILED AND ARG_SOURCES AND "core" IN_LIST ARG_DEPENDS)
+    target_precompile_headers(${target} REUSE_FROM tabor_module_headers)
+  endif()
   list(TRANSFORM ARG_DEPENDS PREPEND tabor::)
   target_link_libraries(${target} ${scope} ${ARG_DEPENDS} ${ARG_PUBLIC})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
@@ -37,12 +40,12 @@ function(tabor_test name)
     return()
   endif()
   add_executable(${name} ${ARG_SOURCES})
-  target_compile_options(${name} PRIVATE ${TABOR_COMPILE_OPTIONS})
+  target_compile_options(${name} PRIVATE ${TABOR_TEST_OPTIONS})
   target_compile_definitions(${name} PRIVATE
     TABOR_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TABOR_SHARED_SCANS="${PROJECT_SOURCE_DIR}/../shared/scans")
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_link_libraries(${name} PRIVATE ${ARG_LINK} GTest::gmock_main)
-  if(TABOR_PRECOMPILED_TESTS)
+  if(TABOR_PRECOMPILED)
     target_link_libraries(${name} PRIVATE tabor::core)  # compiled as these headers were
     target_precompile_headers(${name} REUSE_FROM tabor_test_headers)
   endif()
@@ -54,6 +57,12 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # gcc 12 reports its own AVX-512 intrinsics as uninitialised (gcc bug 105593).
   # It also sees overlapping copies in operator+ of strings (gcc bug 105651).
   list(APPEND TABOR_COMPILE_OPTIONS -Wno-maybe-uninitialized -Wno-restrict)
+  if(TABOR_PRECOMPILED)
+    # Nor does it know any more that precompiled headers of std are the system's, where it sees
+    # accesses beyond arrays (gcc bug 105329), and 105593 turns up as -Wuninitialized with -O1.
+    list(APPEND TABOR_COMPILE_OPTIONS
+      -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-uninitialized)
+  endif()
 endif()
 if(TABOR_WERROR)
   list(APPEND TABOR_COMPILE_OPTIONS -Werror)
@@ -62,4 +71,9 @@ endif()
 add_compile_options(-ffp-contract=off)
 if(TABOR_NATIVE)
   add_compile_options(-march=native)
+endif()
+
+set(TABOR_TEST_OPTIONS ${TABOR_COMPILE_OPTIONS})
+if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  list(APPEND TABOR_TEST_OPTIONS -O1)  # tests take longer to compile than to run
 endif()
