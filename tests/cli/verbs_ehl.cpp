@@ -68,8 +68,9 @@ TEST(SweepAxis, TakesTwoDotsInAPathForAFolder) {
 }
 
 TEST(SweepAxis, RefusesWhatIsNoRange) {
-  for (const char* text : {"ball.speed", "=1", "ball.speed=1m/s..2kg", "a=1..2:often", "a=0..2:log",
-                           "a=1..2:1", "a=1m/s..2 hollow/s", "a=1,,2", "a=1,"}) {
+  for (const char* text :
+       {"ball.speed", "=1", "ball.speed=1m/s..2kg", "a=1..2:often", "a=0..2:log", "a=1..2:1",
+        "a=1...2", "a=1 m/s...10 m/s", "a=1..2:100000", "a=1m/s..2 hollow/s", "a=1,,2", "a=1,"}) {
     EXPECT_THROW(parse_axis(text), UsageError) << text;
   }
 }
@@ -148,6 +149,16 @@ TEST(EhlImpact, GoesOnWithASweepBehindACaseThatMakesNoSense) {
   EXPECT_EQ(results[0]["converged"], true);
   EXPECT_EQ(results[1]["converged"], false);
   EXPECT_THAT(results[1]["refused"].get<std::string>(), HasSubstr("thicker layer"));
+  words.pop_back();
+  EXPECT_THAT(run_tabor(words).err, HasSubstr("1 of 2 cases make no sense, the first: "));
+}
+
+TEST(EhlImpact, RefusesASweepOfWhichNoCaseMakesSense) {
+  const Outcome outcome = run_tabor(quick({"--set", "ball.speed=1..10"}));
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("without a unit"));
+  EXPECT_EQ(test::count_lines(outcome.err), 1u);
+  EXPECT_EQ(outcome.out, "");
 }
 
 TEST(EhlImpact, InterruptedBeforeItsFirstCaseLeavesNothing) {
@@ -182,7 +193,10 @@ TEST(EhlVerb, RefusesWithTheReason) {
   };
   refused({"ehl", "impakt", kBall}, 2, "did you mean 'impact'");
   refused(quick({"--set", "ball.spede=1m/s"}), 3, "ball.speed");
+  refused(quick({"--set", "ball.spede=1m/s"}), 3, "ball.toml: unknown key");
   refused(quick({"--set", "ball.speed=0.2"}), 3, "unit");
+  refused(quick({"--set", "ball.speed=1m/s,2m/s", "--set", "ball.speed=3m/s,4m/s"}), 2,
+          "varied twice");
   refused(quick({"--set", "lubricant.layer=1um"}), 3, "thicker layer");
   refused(quick({"--set", "lubricant.viscosity_law=baruss"}), 3, "barus");
   refused(quick({"--set", "lubricant.viscosity=-1 Pa s"}), 3, "above zero");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <set>
 
 #include "tabor/cli/ehl_series.hpp"
 #include "tabor/cli/fields_file.hpp"
@@ -36,8 +37,8 @@ const EhlProgram& find_program(const std::string& name) {
     if (program.name == name) return program;
     names.push_back(program.name);
   }
-  throw UsageError(fmt::format("unknown program '{}'{}; expected {}; see 'tabor ehl --help'", name,
-                               suggestion(name, names), fmt::join(names, " or ")));
+  throw UsageError(fmt::format("unknown program '{}'; expected {}; see 'tabor ehl --help'{}", name,
+                               fmt::join(names, " or "), suggestion(name, names)));
 }
 
 int show_one(const EhlProgram& program, const io::Config& config, const Request& request,
@@ -66,7 +67,12 @@ int run(const Request& request, Context& context) {
   if (request.output) check_can_write(*request.output);
   io::Config config = io::Config::read(request.file);
   std::vector<SweepAxis> swept;
+  std::set<std::string> seen;
   for (const SweepAxis& axis : request.axes) {
+    if (axis.is_range && !seen.insert(axis.key).second) {
+      throw UsageError("--set " + axis.key + ": varied twice; a list takes all values: --set " +
+                       axis.key + "=V1,V2");
+    }
     if (axis.is_range) {
       swept.push_back(axis);
     } else {

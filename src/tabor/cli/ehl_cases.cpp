@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <ostream>
 #include <utility>
@@ -69,6 +70,15 @@ void say_what_was_found(const KeptCases& kept, std::size_t n_cases, Context& con
   }
 }
 
+/// A sweep of rows without a number says nothing but why.
+void refuse_if_none_makes_sense(const std::vector<EhlAnswer>& answers) {
+  const auto is_refused = [](const EhlAnswer& answer) {
+    return answer.scalars.contains("refused");
+  };
+  if (!std::all_of(answers.begin(), answers.end(), is_refused)) return;
+  throw InputError(answers.front().scalars.at("refused").get<std::string>());
+}
+
 std::vector<std::optional<KeptCase>> take(KeptCases& kept, const EhlChain& chain,
                                           Context& context) {
   std::vector<std::optional<KeptCase>> found = kept.take(chain);
@@ -120,6 +130,7 @@ std::vector<EhlAnswer> solve_cases(const EhlSeries& series, const EhlCases& case
     for (const std::string& notice : solved->notices) context.warn(notice);
     answers[i] = std::move(solved->answer);
   }
+  refuse_if_none_makes_sense(answers);
   return answers;
 }
 

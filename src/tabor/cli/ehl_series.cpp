@@ -21,14 +21,27 @@ namespace {
 
 using Places = std::vector<std::size_t>;  ///< of a case's values on their axes
 
-/// One line for the warnings of many cases; the JSON object has them all.
+/// A line for the cases that make no sense and one for the warnings of the others; the JSON object
+/// has them all.
 void warn_of_many(const std::vector<EhlAnswer>& answers, Context& context) {
-  const auto n_doubtful =
-      std::count_if(answers.begin(), answers.end(),
-                    [](const EhlAnswer& answer) { return !answer.warnings.empty(); });
-  if (n_doubtful == 0) return;
-  context.warn(fmt::format("{} of {} cases come with warnings of their own; --json lists them",
-                           n_doubtful, answers.size()));
+  std::size_t n_refused = 0;
+  std::size_t n_doubtful = 0;
+  std::string reason;
+  for (const EhlAnswer& answer : answers) {
+    if (answer.scalars.contains("refused")) {
+      if (n_refused++ == 0) reason = answer.scalars.at("refused").get<std::string>();
+    } else if (!answer.warnings.empty()) {
+      ++n_doubtful;
+    }
+  }
+  if (n_refused > 0) {
+    context.warn(fmt::format("{} of {} cases make no sense, the first: {}", n_refused,
+                             answers.size(), reason));
+  }
+  if (n_doubtful > 0) {
+    context.warn(fmt::format("{} of {} cases come with warnings of their own; --json lists them",
+                             n_doubtful, answers.size()));
+  }
 }
 
 bool all_converged(const std::vector<EhlAnswer>& answers) {

@@ -58,6 +58,9 @@ Range parse_range(const std::string& text, const std::string& value) {
   const std::vector<std::string> parts = split(value, ':');
   Range range;
   const std::size_t dots = parts.front().find("..");
+  if (parts.front().find("...") != std::string::npos) {
+    refuse(text, "three dots; two stand between the ends, and 0.5 begins with its zero");
+  }
   range.begin = parts.front().substr(0, dots);
   range.end = parts.front().substr(dots + 2);
   for (std::size_t i = 1; i < parts.size(); ++i) {
@@ -67,7 +70,8 @@ Range parse_range(const std::string& text, const std::string& value) {
     } else if (count && *count >= 2 && *count <= kMostValues && *count == std::floor(*count)) {
       range.count = static_cast<std::size_t>(*count);
     } else {
-      refuse(text, fmt::format("'{}' is neither log, lin nor a number of values", parts[i]));
+      refuse(text, fmt::format("'{}' is neither log, lin nor a number of values, 2 to {}", parts[i],
+                               kMostValues));
     }
   }
   return range;

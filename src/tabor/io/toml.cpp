@@ -131,12 +131,19 @@ bool Config::has(std::string_view key) const {
   return table_->values.at_path(key).node() != nullptr;
 }
 
+namespace {
+
+/// "study.toml:7"; no line for what Config::with() added.
+std::string place_of(const std::string& name, const toml::node* node) {
+  const bool is_in_file = node != nullptr && node->source().begin.line > 0;
+  return is_in_file ? fmt::format("{}:{}", name, node->source().begin.line) : name;
+}
+
+}  // namespace
+
 std::string Config::place(std::string_view key) const {
   const toml::node* node = table_->values.at_path(key).node();
-  const std::string where = node != nullptr && node->source().begin.line > 0
-                                ? fmt::format("{}:{}", table_->name, node->source().begin.line)
-                                : table_->name;
-  return where + ": " + table_->prefix + std::string(key);
+  return place_of(table_->name, node) + ": " + table_->prefix + std::string(key);
 }
 
 std::string Config::text(std::string_view key) const {
@@ -220,9 +227,8 @@ void Config::reject_unknown(const std::vector<std::string>& known) const {
   collect_leaves(table_->values, "", leaves);
   for (const auto& [path, node] : leaves) {
     if (std::find(known.begin(), known.end(), path) == known.end()) {
-      throw InputError(fmt::format("{}:{}: unknown key '{}{}'{}", table_->name,
-                                   node->source().begin.line, table_->prefix, path,
-                                   suggestion(path, known)));
+      throw InputError(fmt::format("{}: unknown key '{}{}'{}", place_of(table_->name, node),
+                                   table_->prefix, path, suggestion(path, known)));
     }
   }
 }
