@@ -170,6 +170,25 @@ TEST(FluidFilm, GivesWayOnSofterSurfaces) {
   EXPECT_NEAR((state.solid_pressure + state.fluid_pressure) / 20e6, 1, 1e-3);
 }
 
+TEST(FluidFilm, PressureIsThatOfTheGapItMakes) {
+  for (const double modulus : {80e9, 8e9}) {
+    const Case at = pressed(bumps(32), 20e6, 0.6e-6, 1.0, modulus);
+    const FluidFilmState state = at.solve();
+    ASSERT_TRUE(state.converged) << modulus;
+    ASSERT_GT(state.fluid_pressure, 0.01 * 20e6);
+    Field displacement(32, 32);
+    at.elasticity->apply(state.contact.pressure + state.film.pressure, displacement);
+    lubrication::PatchProblem patch;
+    patch.grid = at.elasticity->grid();
+    patch.gap = state.contact.separation + displacement - at.problem.contact.height;
+    patch.gap = (state.contact.pressure > 0).select(0.0, patch.gap.max(0.0));
+    patch.viscosity = 0.2;
+    patch.entrainment_speed = 0.5;
+    const lubrication::PatchFilm again = lubrication::steady_film(patch, at.problem.film);
+    EXPECT_NEAR(again.mean_pressure / 20e6, state.fluid_pressure / 20e6, 3e-3) << modulus;
+  }
+}
+
 TEST(FluidFilm, SaysWhenItDidNotConverge) {
   Case at = pressed(bumps(32), 20e6, 0.6e-6, 1.0);
   at.problem.max_evaluations = 1;

@@ -109,7 +109,8 @@ TEST(ResultsCsv, PutsColumnsOfAFlowBehindTheAgreedOnes) {
   EXPECT_EQ(flowing, agreed.substr(0, agreed.size() - 1) +
                          ",sliding_speed_m_per_s,fluid_load_share,fluid_contact_area_fraction,"
                          "fluid_mean_gap_m,friction_solid,friction_viscous,friction_mixed,"
-                         "fluid_load_error,fluid_gap_error,fluid_converged\n");
+                         "fluid_load_error,fluid_gap_error,fluid_pressure_error,"
+                         "fluid_converged\n");
 }
 
 TEST(ResultsCsv, HasTheAgreedColumns) {

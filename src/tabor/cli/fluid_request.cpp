@@ -99,6 +99,7 @@ io::Json fluid_json(const friction::FluidSummary& fluid, const friction::MixedEs
           {"friction_mixed", mixed.friction_mixed},
           {"fluid_load_error", fluid.load_error},
           {"fluid_gap_error", fluid.gap_error},
+          {"fluid_pressure_error", fluid.pressure_error},
           {"fluid_evaluations", fluid.evaluations},
           {"fluid_iterations", fluid.iterations},
           {"fluid_converged", fluid.converged}};

@@ -13,8 +13,9 @@ struct FluidFilmProblem {
   Field film;                     ///< oil as deposited [m], shape of the height
   double sliding_speed = 0;       ///< u [m/s], along +x, >= 0
   material::Lubricant lubricant;  ///< viscosity and shear; the density plays no part
-  double tolerance = 1e-3;        ///< of the load balance over P, and of the gap over its mean
-  int max_evaluations = 40;       ///< of contact and film together
+  double tolerance = 1e-3;   ///< of load balance and fluid's pressure over P, of the gap over its
+                             ///< mean
+  int max_evaluations = 40;  ///< of contact and film together
 };
 
 struct FluidFilmState {
@@ -27,6 +28,8 @@ struct FluidFilmState {
   double load_error = 0;      ///< (solid + fluid pressure)/P - 1
   double gap_error = 0;  ///< rms of what the last change of the fluid's pressure moves the gap by,
                          ///< over the mean gap
+  double pressure_error = 0;  ///< mean of what the fluid's pressure is beside the one that the
+                              ///< surface has given way to, over P
   int evaluations = 0;
   bool converged = false;
 };

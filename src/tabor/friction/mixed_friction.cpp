@@ -40,6 +40,7 @@ FluidSummary summarise(const FluidFilmState& state, const FluidFilmProblem& prob
   fluid.viscous_stress = state.viscous_stress;
   fluid.load_error = state.load_error;
   fluid.gap_error = state.gap_error;
+  fluid.pressure_error = state.pressure_error;
   fluid.evaluations = state.evaluations;
   fluid.iterations = state.film.iterations;
   fluid.converged = state.converged;

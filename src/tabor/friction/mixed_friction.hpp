@@ -34,6 +34,7 @@ struct FluidSummary {
   double viscous_stress = 0;                ///< [Pa]
   double load_error = 0;
   double gap_error = 0;
+  double pressure_error = 0;
   int evaluations = 0;
   int iterations = 0;
   bool converged = false;

@@ -67,6 +67,7 @@ void add_fluid(const Study& study, const StoredFluid& stored, Row& row) {
   row.fluid->friction_mixed = mixed.friction_mixed;
   row.fluid->load_error = stored.summary.load_error;
   row.fluid->gap_error = stored.summary.gap_error;
+  row.fluid->pressure_error = stored.summary.pressure_error;
   row.fluid->converged = stored.summary.converged;
   row.converged = row.converged && stored.summary.converged;
   row.doubts = stored.doubts;

@@ -22,6 +22,7 @@ constexpr Member kMembers[] = {
     {"viscous_stress_Pa", &friction::FluidSummary::viscous_stress},
     {"fluid_load_error", &friction::FluidSummary::load_error},
     {"fluid_gap_error", &friction::FluidSummary::gap_error},
+    {"fluid_pressure_error", &friction::FluidSummary::pressure_error},
 };
 
 }  // namespace

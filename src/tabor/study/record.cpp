@@ -50,6 +50,7 @@ constexpr FluidMember kFluidMembers[] = {
     {"friction_mixed", &FluidRow::friction_mixed},
     {"fluid_load_error", &FluidRow::load_error},
     {"fluid_gap_error", &FluidRow::gap_error},
+    {"fluid_pressure_error", &FluidRow::pressure_error},
 };
 
 io::ByteMap contact_states(const contact::State& state, double saturation_pressure) {

@@ -31,6 +31,7 @@ struct FluidRow {
   double friction_mixed = kNoValue;
   double load_error = kNoValue;
   double gap_error = kNoValue;
+  double pressure_error = kNoValue;
   bool converged = false;  ///< film and load balance
 };
 

@@ -56,7 +56,8 @@ constexpr std::pair<const char*, double FluidRow::*> kFluidColumns[] = {
     {"friction_viscous", &FluidRow::friction_viscous},
     {"friction_mixed", &FluidRow::friction_mixed},
     {"fluid_load_error", &FluidRow::load_error},
-    {"fluid_gap_error", &FluidRow::gap_error}};
+    {"fluid_gap_error", &FluidRow::gap_error},
+    {"fluid_pressure_error", &FluidRow::pressure_error}};
 
 std::vector<Column<Row>> row_columns(bool oil_flows) {
   std::vector<Column<Row>> columns = contact_columns();
