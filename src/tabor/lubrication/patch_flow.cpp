@@ -12,7 +12,7 @@ namespace {
 constexpr Index kCoarsest = 48;   // pixels a side below which no coarser patch is solved first
 constexpr double kSteady = 3e-4;  // change of the mean pressure in a step
 constexpr int kMaxSteps = 40;
-constexpr double kFirstStep = 1;  // lengths of the patch
+constexpr double kFirstStep = 1;      // lengths of the patch
 constexpr double kLongestStep = 100;  // oil that is left over leaves slowly
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
