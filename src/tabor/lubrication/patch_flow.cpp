@@ -12,8 +12,12 @@ namespace {
 constexpr Index kCoarsest = 48;   // pixels a side below which no coarser patch is solved first
 constexpr double kSteady = 3e-4;  // change of the mean pressure in a step
 constexpr int kMaxSteps = 40;
-constexpr double kFirstStep = 1;      // lengths of the patch
-constexpr double kLongestStep = 100;  // oil that is left over leaves slowly
+constexpr double kFirstStep = 1;  // lengths of the patch
+constexpr double kLongStep = 10;
+// A film that is not steady after so many steps changes slowly: longer steps, which are harder to
+// solve, are then the shorter way.
+constexpr int kPatience = 10;
+constexpr double kLongestStep = 100;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -127,7 +131,7 @@ PatchFilm slide(const PatchProblem& problem, const PatchCells& cells, const Room
     }
     film = std::move(next);
     if (film.steady && film.converged) break;
-    length = std::min(3 * length, kLongestStep);
+    length = std::min(3 * length, step < kPatience ? kLongStep : kLongestStep);
   }
   return film;
 }

@@ -87,8 +87,8 @@ class Step {
   void find_overfull_rooms() {
     std::vector<double> holds(at(rooms_.count()), 0);
     for (Index cell = 0; cell < cells_.size(); ++cell) {
-      if (cells_.is_open(cell))
-        holds[at(rooms_.of[at(cell)])] += balance_.gap(cell) - balance_.oil(cell);
+      if (!cells_.is_open(cell)) continue;
+      holds[at(rooms_.of[at(cell)])] += balance_.gap(cell) - balance_.oil(cell);
     }
     for (std::size_t room = 0; room < holds.size(); ++room) overfull_[room] = holds[room] <= 0;
   }
@@ -100,8 +100,8 @@ class Step {
     std::vector<Index> lowest(at(rooms_.count()), -1);
     std::vector<bool> determined(at(rooms_.count()), false);
     const auto before = [&](Index a, Index b) {
-      if (balance_.pressure(a) != balance_.pressure(b))
-        return balance_.pressure(a) < balance_.pressure(b);
+      const double lower = balance_.pressure(a) - balance_.pressure(b);
+      if (lower != 0) return lower < 0;
       return balance_.oil(a) * balance_.gap(b) < balance_.oil(b) * balance_.gap(a);
     };
     for (Index cell = 0; cell < cells_.size(); ++cell) {

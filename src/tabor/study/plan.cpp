@@ -135,8 +135,9 @@ std::vector<ScanPlan> plan(const Store& store, const Study& study,
 }
 
 int jobs_that_fit(Index n_pixels, std::size_t available_bytes, int n_threads, bool oil_flows) {
-  // Of one unit with its surface; tools/bench/study prints it.
-  const std::size_t bytes_per_pixel = oil_flows ? 800 : 80;
+  // Of one unit with its surface; tools/bench/study prints it. With oil that flows, what the peak
+  // of `tabor friction --fluid reynolds` grows by with the pixels of a flooded scan, and a little.
+  const std::size_t bytes_per_pixel = oil_flows ? 500 : 80;
   const std::size_t fitting =
       available_bytes / 2 /
       (bytes_per_pixel * static_cast<std::size_t>(std::max<Index>(1, n_pixels)));
