@@ -46,6 +46,7 @@ std::vector<Key> ordered_keys(const std::vector<Row>& rows) {
   std::sort(ranked.begin(), ranked.end());
   ranked.erase(std::unique(ranked.begin(), ranked.end()), ranked.end());
   std::vector<Key> keys;
+  keys.reserve(ranked.size());
   for (const auto& [rank, key] : ranked) {
     keys.push_back(key);
   }

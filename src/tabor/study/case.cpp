@@ -30,9 +30,12 @@ Unit unit(std::string_view kind, std::string_view extension, const std::string& 
 /// The contact under one pressure, and what is computed from it.
 void add_pressure(const Study& study, const Scan& scan, double pressure, ScanUnits& units) {
   const Unit contact = contact_unit(study, units.surface, pressure);
+  const std::vector<Condition> conditions = study.conditions();
   std::vector<Unit> cases;
   std::vector<Unit> fluids;
-  for (const Condition& condition : study.conditions()) {
+  cases.reserve(conditions.size());
+  fluids.reserve(conditions.size());
+  for (const Condition& condition : conditions) {
     if (study.flows()) fluids.push_back(fluid_unit(study, contact, units.film, condition));
     cases.push_back(case_unit(study, scan, contact, units.film,
                               study.lubricant_densities[condition.density],
