@@ -136,8 +136,7 @@ PointResult solve_point(const PointProblem& problem, const PointResult* start,
   PointResult smooth = result_of(problem, film, state, outcome);
   if (smooth.converged && smooth.film.minCoeff() >= problem.asperities.boundary_film) return smooth;
   // A film this thin may also be why there is no solution without contact.
-  PointResult mixed =
-      solve_point_mixed(problem, smooth.converged ? &smooth : start, observer);
+  PointResult mixed = solve_point_mixed(problem, smooth.converged ? &smooth : start, observer);
   return mixed.converged || smooth.converged ? mixed : smooth;
 }
 
