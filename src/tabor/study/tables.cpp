@@ -116,6 +116,7 @@ std::vector<Column<Average>> average_columns(bool oil_flows) {
 template <typename Entry>
 std::string to_csv(const std::vector<Column<Entry>>& columns, const std::vector<Entry>& entries) {
   std::vector<std::string> cells;
+  cells.reserve(columns.size());
   for (const Column<Entry>& column : columns) {
     cells.push_back(column.name);
   }
@@ -137,6 +138,7 @@ void write_columns(io::Hdf5Writer& writer, const std::string& group,
     const std::string path = group + "/" + column.name;
     if (column.name == "n" || column.name.ends_with("converged")) {
       std::vector<std::int64_t> values;
+      values.reserve(entries.size());
       for (const Entry& entry : entries) {
         values.push_back(column.text ? column.text(entry) == "true"
                                      : std::lround(column.number(entry)));
@@ -144,12 +146,14 @@ void write_columns(io::Hdf5Writer& writer, const std::string& group,
       writer.write(path, values);
     } else if (column.text) {
       std::vector<std::string> values;
+      values.reserve(entries.size());
       for (const Entry& entry : entries) {
         values.push_back(column.text(entry));
       }
       writer.write(path, values);
     } else {
       std::vector<double> values;
+      values.reserve(entries.size());
       for (const Entry& entry : entries) {
         values.push_back(column.number(entry));
       }
