@@ -188,8 +188,9 @@ int show(const Request& request, Context& context) {
             add_fluid(fluid->summary, request, state);
             films_converged = films_converged && fluid->summary.converged;
           }
-          if (file)
+          if (file) {
             file->add_state(object["states"].size(), state, maps_of(result.state, films[i], fluid));
+          }
           object["states"].push_back(state);
           rows.row(row_of(state));
         }
