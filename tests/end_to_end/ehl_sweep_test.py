@@ -3,14 +3,12 @@
 import itertools
 import json
 import signal
-import subprocess
-import time
 import unittest
 
 import h5py
 import numpy as np
 
-from program import SOURCE, TABOR, ProgramTest
+from program import SOURCE, ProgramTest
 
 # Solids touch and flow at the lower speeds: films that are not found without the one before.
 STRIBECK = ["ehl", "point", "ball.toml", "--set", "roughness.kind=lapped-like,polished-like", "--set",
@@ -28,16 +26,8 @@ class EhlSweepTest(ProgramTest):
 
     def stop_after(self, n_cases, stop, words):
         """Starts the sweep and sends `stop` when so many cases are kept; returns the ended process."""
-        process = subprocess.Popen([TABOR, *words, "-o", "out.h5"], cwd=self.folder, stdout=subprocess.PIPE,
-                                   stderr=subprocess.PIPE, text=True)
-        deadline = time.monotonic() + 120
-        while self.n_kept() < n_cases:
-            self.assertIsNone(process.poll(), "the sweep ended before it could be stopped")
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.002)
-        process.send_signal(stop)
-        out, err = process.communicate(timeout=60)
-        return process.returncode, out, err
+        process = self.start(*words, "-o", "out.h5")
+        return self.stop_when(lambda: self.n_kept() >= n_cases, stop, process)
 
     def numbers(self, name):
         with h5py.File(self.folder / name) as file:

@@ -5,6 +5,7 @@ import os
 import pathlib
 import subprocess
 import tempfile
+import time
 import unittest
 
 TABOR = os.environ["TABOR"]
@@ -26,6 +27,21 @@ class ProgramTest(unittest.TestCase):
         options.setdefault("timeout", 120)
         return subprocess.run([TABOR, *map(str, words)], cwd=self.folder, text=True,
                               capture_output="stdout" not in options, check=False, **options)
+
+    def start(self, *words):
+        return subprocess.Popen([TABOR, *map(str, words)], cwd=self.folder, stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, text=True)
+
+    def stop_when(self, ready, stop, process):
+        """Sends `stop` as soon as `ready()`; status, output and messages of the ended process."""
+        deadline = time.monotonic() + 120
+        while not ready():
+            self.assertIsNone(process.poll(), "the program ended before it could be stopped")
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.002)
+        process.send_signal(stop)
+        out, err = process.communicate(timeout=60)
+        return process.returncode, out, err
 
     def json(self, *words):
         done = self.tabor(*words, "--json")

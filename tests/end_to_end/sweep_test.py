@@ -41,21 +41,11 @@ class SweepTest(ProgramTest):
     def count(self, pattern):
         return len(list(self.folder.glob(f"out/store/{pattern}")))
 
-    def start(self, *words):
-        return subprocess.Popen([TABOR, "sweep", "study.toml", *map(str, words)], cwd=self.folder,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-
     def stop_after(self, n_contacts, stop, *words, n_cases=0):
         """Starts a sweep, sends `stop` when the store holds so many contacts and cases; returns the ended process."""
-        process = self.start("-o", "out", *words)
-        deadline = time.monotonic() + 60
-        while self.count("contact-*.h5") < n_contacts or self.count("case-*.json") < n_cases:
-            self.assertIsNone(process.poll(), "the sweep ended before it could be stopped")
-            self.assertLess(time.monotonic(), deadline)
-            time.sleep(0.002)
-        process.send_signal(stop)
-        out, err = process.communicate(timeout=60)
-        return process.returncode, out, err
+        process = self.start("sweep", "study.toml", "-o", "out", *words)
+        return self.stop_when(
+            lambda: self.count("contact-*.h5") >= n_contacts and self.count("case-*.json") >= n_cases, stop, process)
 
     def reference(self):
         done = self.tabor("sweep", "study.toml", "-o", "reference")
@@ -90,7 +80,7 @@ class Interrupted(SweepTest):
 
 class TwoSweeps(SweepTest):
     def test_on_one_store_are_refused_while_one_works(self):
-        first = self.start("-o", "out")
+        first = self.start("sweep", "study.toml", "-o", "out")
         while not list(self.folder.glob("out/store/contact-*.h5")):
             self.assertIsNone(first.poll())
             time.sleep(0.002)
@@ -104,7 +94,7 @@ class TwoSweeps(SweepTest):
 
     def test_that_are_shards_share_the_work_and_the_table(self):
         expected = self.reference()
-        shards = [self.start("-o", "out", "--shard", f"{i}/2") for i in (1, 2)]
+        shards = [self.start("sweep", "study.toml", "-o", "out", "--shard", f"{i}/2") for i in (1, 2)]
         for shard in shards:
             _, err = shard.communicate(timeout=120)
             self.assertEqual(shard.returncode, 0, err)

@@ -36,23 +36,6 @@ constexpr Member kMembers[] = {
     {"certificate", &Row::certificate},
 };
 
-struct FluidMember {
-  const char* name;
-  double FluidRow::*value;
-};
-constexpr FluidMember kFluidMembers[] = {
-    {"sliding_speed_m_per_s", &FluidRow::sliding_speed},
-    {"fluid_load_share", &FluidRow::load_share},
-    {"fluid_contact_area_fraction", &FluidRow::contact_area_fraction},
-    {"fluid_mean_gap_m", &FluidRow::mean_gap},
-    {"friction_solid", &FluidRow::friction_solid},
-    {"friction_viscous", &FluidRow::friction_viscous},
-    {"friction_mixed", &FluidRow::friction_mixed},
-    {"fluid_load_error", &FluidRow::load_error},
-    {"fluid_gap_error", &FluidRow::gap_error},
-    {"fluid_pressure_error", &FluidRow::pressure_error},
-};
-
 io::ByteMap contact_states(const contact::State& state, double saturation_pressure) {
   return (state.pressure > 0).cast<std::uint8_t>() +
          (state.pressure >= saturation_pressure).cast<std::uint8_t>();
@@ -112,8 +95,8 @@ void write_row(const Store& store, const Unit& unit, const Row& row) {
   }
   json["converged"] = row.converged;
   if (row.fluid) {
-    for (const FluidMember& member : kFluidMembers) {
-      json[member.name] = io::number((*row.fluid).*member.value);
+    for (const auto& [name, value] : kFluidColumns) {
+      json[name] = io::number((*row.fluid).*value);
     }
     json["fluid_converged"] = row.fluid->converged;
     json["doubts"] = row.doubts;
@@ -134,8 +117,8 @@ Row read_row(const Store& store, const Unit& unit) {
     }
     if (json.contains("sliding_speed_m_per_s")) {
       row.fluid.emplace();
-      for (const FluidMember& member : kFluidMembers) {
-        (*row.fluid).*member.value = value_or_nan(json.at(member.name));
+      for (const auto& [name, value] : kFluidColumns) {
+        (*row.fluid).*value = value_or_nan(json.at(name));
       }
       row.fluid->converged = json.at("fluid_converged").get<bool>();
       row.doubts = json.at("doubts").get<std::vector<std::string>>();

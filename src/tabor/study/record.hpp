@@ -35,6 +35,19 @@ struct FluidRow {
   bool converged = false;  ///< film and load balance
 };
 
+/// Its numbers with their names in rows and tables.
+inline constexpr std::pair<const char*, double FluidRow::*> kFluidColumns[] = {
+    {"sliding_speed_m_per_s", &FluidRow::sliding_speed},
+    {"fluid_load_share", &FluidRow::load_share},
+    {"fluid_contact_area_fraction", &FluidRow::contact_area_fraction},
+    {"fluid_mean_gap_m", &FluidRow::mean_gap},
+    {"friction_solid", &FluidRow::friction_solid},
+    {"friction_viscous", &FluidRow::friction_viscous},
+    {"friction_mixed", &FluidRow::friction_mixed},
+    {"fluid_load_error", &FluidRow::load_error},
+    {"fluid_gap_error", &FluidRow::gap_error},
+    {"fluid_pressure_error", &FluidRow::pressure_error}};
+
 /// One row of results.csv. Numbers are NaN in a row that failed.
 struct Row {
   std::string case_id;

@@ -46,19 +46,7 @@ const std::vector<Column<Row>>& contact_columns() {
   return columns;
 }
 
-/// Of a film that flows; after the others, so that those stay where they are.
-constexpr std::pair<const char*, double FluidRow::*> kFluidColumns[] = {
-    {"sliding_speed_m_per_s", &FluidRow::sliding_speed},
-    {"fluid_load_share", &FluidRow::load_share},
-    {"fluid_contact_area_fraction", &FluidRow::contact_area_fraction},
-    {"fluid_mean_gap_m", &FluidRow::mean_gap},
-    {"friction_solid", &FluidRow::friction_solid},
-    {"friction_viscous", &FluidRow::friction_viscous},
-    {"friction_mixed", &FluidRow::friction_mixed},
-    {"fluid_load_error", &FluidRow::load_error},
-    {"fluid_gap_error", &FluidRow::gap_error},
-    {"fluid_pressure_error", &FluidRow::pressure_error}};
-
+/// Those of a film that flows come after the others, so that these stay where they are.
 std::vector<Column<Row>> row_columns(bool oil_flows) {
   std::vector<Column<Row>> columns = contact_columns();
   if (!oil_flows) return columns;
