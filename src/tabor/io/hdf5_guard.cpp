@@ -40,14 +40,17 @@ rlim_t address_space() {
   return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
 }
 
-void apply(const Limits& limits) {
-  const rlimit seconds{limits.seconds, limits.seconds};
-  ::setrlimit(RLIMIT_CPU, &seconds);
-  rlimit bytes{};
+void limit_seconds(rlim_t seconds) {
+  const rlimit limit{seconds, seconds};
+  ::setrlimit(RLIMIT_CPU, &limit);
+}
+
+void limit_bytes(rlim_t bytes) {
+  rlimit limit{};
   const rlim_t now = address_space();
-  if (now == 0 || ::getrlimit(RLIMIT_AS, &bytes) != 0) return;
-  bytes.rlim_cur = std::min(bytes.rlim_cur, now + limits.bytes);
-  ::setrlimit(RLIMIT_AS, &bytes);
+  if (now == 0 || ::getrlimit(RLIMIT_AS, &limit) != 0) return;
+  limit.rlim_cur = std::min(limit.rlim_cur, now + bytes);
+  ::setrlimit(RLIMIT_AS, &limit);
 }
 
 /// The library would call a file damaged, by an ordinary error, for which it had too little memory:
@@ -62,13 +65,14 @@ herr_t end_without_memory(hid_t stack, void*) {
 }
 
 [[noreturn]] void run_in_copy(const Limits& limits, const std::function<void()>& action) {
+  limit_seconds(limits.seconds);  // first: what follows may wait, busily, for a lock nobody holds
   hdf5::Session::renew_in_copy(&end_without_memory);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
   for (const int signal : {SIGSEGV, SIGBUS, SIGFPE, SIGABRT, SIGILL, SIGPIPE, SIGXCPU}) {
     ::signal(signal, SIG_DFL);
   }
-  apply(limits);
+  limit_bytes(limits.bytes);
   try {
     action();
   } catch (const std::bad_alloc&) {
