@@ -74,6 +74,9 @@ if(TABOR_NATIVE)
 endif()
 
 set(TABOR_TEST_OPTIONS ${TABOR_COMPILE_OPTIONS})
+# Tests take longer to compile than to run; coverage is for the fuzzer, which runs none of them.
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
-  list(APPEND TABOR_TEST_OPTIONS -O1)  # tests take longer to compile than to run
+  list(APPEND TABOR_TEST_OPTIONS -O1)
+elseif(TABOR_FUZZ)
+  list(APPEND TABOR_TEST_OPTIONS -O0 -fno-sanitize=fuzzer-no-link)
 endif()
