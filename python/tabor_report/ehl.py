@@ -1,5 +1,6 @@
 """A result file of `tabor ehl`: one case with its histories and profiles, or the numbers of a sweep."""
 
+import collections
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -42,6 +43,18 @@ class Ehl:
         return hdf.attributes(self.file["result"]) if "result" in self.file else {}
 
     @property
+    def parts(self):
+        """{name: scalars} of the results within a result, as those of the dry contact."""
+        node = self.file.get("result", {})
+        return {name: hdf.attributes(node[name]) for name in node}
+
+    @property
+    def columns(self):
+        """{name: dataset} of what a sweep computed, one number per case."""
+        node = self.file["sweep"]
+        return {name: node[name] for name in node if name not in ("axes", "shape", "converged", "warnings")}
+
+    @property
     def axes(self):
         """{key: dataset} of what a sweep varies, the last one fastest."""
         if not self.is_sweep:
@@ -67,4 +80,13 @@ def load(path, file):
             source.warnings.append(f"{(~converged).sum()} of {converged.size} cases did not converge: red in the table.")
     if not source.scalars.get("converged", True):
         source.warnings.append("The computation did not converge; its numbers are those of where it ended.")
+    source.warnings += hdf.text_list(source.facts.get("warnings"))
+    source.warnings += _warnings_of_cases(file)
     return source
+
+
+def _warnings_of_cases(file):
+    """Each warning once, with the number of cases of a sweep that it is of."""
+    cases = [hdf.text(text).splitlines() for text in file["sweep/warnings"][()]] if "sweep/warnings" in file else []
+    counts = collections.Counter(warning for texts in cases for warning in set(texts))
+    return [f"{warning} ({count} of {len(cases)} cases)" for warning, count in sorted(counts.items())]

@@ -24,21 +24,24 @@ def sections(source):
         "scans": [],
         "treatments": [],
         "settings": list(_settings(source)),
-        "results": _cases(source) if source.is_sweep else _numbers(scalars),
+        "results": _cases(source) if source.is_sweep else _numbers(source),
         "averages": {"header": [], "rows": [], "n_text": 0},
     }
 
 
-def _numbers(scalars):
-    """One row per number of a case."""
-    rows = [{"sure": True, "cells": [words(key), show(key, value)]} for key, value in sorted(scalars.items())]
+def _numbers(source):
+    """One row per number of a case, those of its parts behind its own."""
+    cells = [[words(key), show(key, value)] for key, value in sorted(source.scalars.items())]
+    for name, scalars in source.parts.items():
+        cells += [[f"{words(name)}: {words(key)}", show(key, value)] for key, value in sorted(scalars.items())]
+    rows = [{"sure": True, "cells": row} for row in cells]
     return {"intro": "", "header": ["", "value"], "rows": rows, "n_total": len(rows), "n_text": 1}
 
 
 def _cases(source):
     """One row per case of a sweep."""
     node, axes = source.file["sweep"], source.axes
-    columns = {name: node[name] for name in node if name not in ("axes", "shape", "converged")}
+    columns = source.columns
     sure = node["converged"][()] > 0 if "converged" in node else np.ones(node["shape"][()].prod(), dtype=bool)
     rows = []
     for number, place in enumerate(np.ndindex(*node["shape"][()])):

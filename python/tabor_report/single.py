@@ -49,7 +49,7 @@ def load(path, file):
         SingleState(key, node, _saturation_pressure(settings, hdf.attributes(node))) for key, node in nodes
     ]
     single = Single(path, file, facts, settings, file["surface"], states)
-    single.warnings.extend(_doubts_about(single))
+    single.warnings.extend(dict.fromkeys(_doubts_about(single)))
     return single
 
 

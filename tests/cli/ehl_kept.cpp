@@ -206,6 +206,16 @@ TEST_F(EhlKept, AnInterruptedCaseIsNoCase) {
   EXPECT_TRUE(files("start-").empty());
 }
 
+TEST_F(EhlKept, ASecondSweepOfTheSameResultIsRefusedWhileTheFirstRuns) {
+  {
+    const KeptCases first(cases_, {});
+    EXPECT_THAT([&] { run(1); },
+                testing::ThrowsMessage<InputError>(HasSubstr("another sweep keeps its cases")));
+  }
+  EXPECT_FALSE(std::filesystem::exists(cases_));
+  EXPECT_NO_THROW(run(1));
+}
+
 TEST_F(EhlKept, AFolderThatCannotBeMadeIsSaid) {
   test::put_bytes(cases_, "a file where the folder should be");
   EXPECT_THROW(run(1), OutputError);

@@ -111,6 +111,7 @@ TEST(EhlImpact, KeepsHistoriesAndProfiles) {
   EXPECT_EQ(shape[0], static_cast<Index>(reader.numbers("/profiles/time").size()));
   EXPECT_EQ(shape[1], 81);
   EXPECT_THAT(reader.text("/", "config_toml"), HasSubstr("e_prime"));
+  EXPECT_GT(reader.number("/result/dry", "max_force_N"), 0);
 }
 
 TEST(EhlImpact, SweepsAndStudies) {
@@ -141,7 +142,10 @@ TEST(EhlImpact, KeepsTheWordsOfASweep) {
 }
 
 TEST(EhlImpact, GoesOnWithASweepBehindACaseThatMakesNoSense) {
-  std::vector<std::string> words = quick({"--set", "ball.speed=0.2m/s..4m/s:2", "--json"});
+  const test::Folder folder;
+  const std::string file = folder / "sweep.h5";
+  std::vector<std::string> words =
+      quick({"--set", "ball.speed=0.2m/s..4m/s:2", "-o", file, "--json"});
   const Outcome outcome = run_tabor(words);
   EXPECT_EQ(outcome.code, 4);
   const io::Json results = io::Json::parse(outcome.out)["results"];
@@ -149,6 +153,9 @@ TEST(EhlImpact, GoesOnWithASweepBehindACaseThatMakesNoSense) {
   EXPECT_EQ(results[0]["converged"], true);
   EXPECT_EQ(results[1]["converged"], false);
   EXPECT_THAT(results[1]["refused"].get<std::string>(), HasSubstr("thicker layer"));
+  const std::vector<std::string> warnings = io::Hdf5Reader(file).texts("/sweep/warnings");
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_THAT(warnings[1], HasSubstr("thicker layer"));
   words.pop_back();
   EXPECT_THAT(run_tabor(words).err, HasSubstr("1 of 2 cases make no sense, the first: "));
 }

@@ -81,6 +81,8 @@ def point_file(path):
         file.attrs["kind"] = "ehl point"
         file.attrs["config_toml"] = '[roughness.bump]\nheight = "1 um"\nplace = ["1 um", "2 um"]\n'
         file.create_group("result").attrs.update({"converged": 1, "central_film_m": 5e-8})
+        file.create_group("result/dry").attrs["friction_coefficient"] = 0.125
+        file.attrs["warnings"] = ["nodes are far apart"]
         contact = {
             "x": x,
             "y": y,
@@ -115,6 +117,7 @@ def stribeck_file(path):
         file["sweep/axes/motion.speed"] = [10.0, 1.0, 0.1]
         file["sweep/axes/motion.speed"].attrs.update({"units": "m/s", "long_name": "motion.speed"})
         file["sweep/shape"] = [2, 3]
+        file["sweep/warnings"] = np.array(["thin\nhot", "thin", "", "", "", ""], dtype=h5py.string_dtype())
         columns = {
             "friction_coefficient": [0.08, 0.09, 0.12, 0.08, 0.07, 0.06],
             "friction_fluid": [0.08, 0.07, 0.04, 0.08, 0.07, 0.06],
@@ -241,6 +244,8 @@ class Ehl(unittest.TestCase):
         text = self.page(point_file)
         self.assertIn("roughness.bump.height", text)
         self.assertIn("1 um, 2 um", text)
+        self.assertIn("dry: friction coefficient 0.125", text)
+        self.assertIn("nodes are far apart", text)
 
     def test_a_page_without_a_scan_has_no_section_for_it_and_knows_no_certificate(self):
         for make in (point_file, stribeck_file):
@@ -256,6 +261,7 @@ class Ehl(unittest.TestCase):
         self.assertIn("lapped 1 m/s 170 nm 0.09", text)
         self.assertIn("1 of 6 cases did not converge", text)
         self.assertIn("Rows in red did not converge.", text)
+        self.assertIn("hot (1 of 6 cases) thin (2 of 6 cases)", text)
 
     def test_axes_of_a_sweep_have_units_that_read_well(self):
         axes = self.drawings(stribeck_file)["sweep_central_film_m"].figure.axes[0]

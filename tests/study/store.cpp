@@ -73,7 +73,7 @@ TEST(Store, AUnitLockMakesOtherShardsWait) {
   const Store other(folder / "out", Store::Use::shared);
   int n_asked = 0;
   {
-    const FileLock held = one.lock("film-1", [] {});
+    const auto held = one.lock("film-1", [] {});
     const auto give_up = [&] {
       if (++n_asked == 2) {
         throw Interrupted();

@@ -40,10 +40,10 @@ def sweep(source):
     node = source.file["sweep"]
     keys = swept_keys(node)
     shape = [len(node["axes"][key]) for key in keys]
-    for name in node:
-        if name in ("axes", "shape", "converged", "newton_iterations"):
+    for name, column in source.columns.items():
+        if name == "newton_iterations":
             continue
-        values = node[name][()].reshape(shape)
+        values = column[()].reshape(shape)
         if np.isfinite(values).any():
             yield _drawn(node, name, keys, values)
 

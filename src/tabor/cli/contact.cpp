@@ -83,7 +83,7 @@ int show(const Request& request, Context& context) {
     rows.row(row_of(result));
   };
   const int code = solve_all(*elasticity, scan, request.contact, context, receive);
-  if (file) file->commit();
+  if (file) file->commit(context);
   Facts facts;
   describe(scan, facts);
   describe(request.contact, facts);

@@ -41,6 +41,15 @@ const EhlProgram& find_program(const std::string& name) {
                                fmt::join(names, " or "), suggestion(name, names)));
 }
 
+/// Objects in it as groups of their own.
+void write_result(io::Hdf5Writer& writer, const std::string& group, const io::Json& scalars) {
+  writer.group(group);
+  write_scalars(writer, group, scalars);
+  for (const auto& [key, value] : scalars.items()) {
+    if (value.is_object()) write_result(writer, fmt::format("{}/{}", group, key), value);
+  }
+}
+
 int show_one(const EhlProgram& program, const io::Config& config, const Request& request,
              Context& context) {
   config.reject_unknown(program.keys);
@@ -50,8 +59,8 @@ int show_one(const EhlProgram& program, const io::Config& config, const Request&
     io::Hdf5Writer writer(*request.output);
     write_result_head(writer, context, config.to_text(), program.methods);
     writer.attribute("/", "kind", "ehl " + program.name);
-    writer.group("/result");
-    write_scalars(writer, "/result", answer.scalars);
+    write_result(writer, "/result", answer.scalars);
+    write_warnings(writer, context);
     if (answer.write) answer.write(writer);
     if (interrupted()) throw Interrupted();
     writer.commit();

@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kCasePrefix = "case-";
 constexpr std::string_view kStartPrefix = "start-";
+constexpr const char* kLockName = "lock";
 
 /// Length first, so that no text can look like the lines around it.
 std::string line(std::string_view name, std::string_view value) {
@@ -51,6 +52,15 @@ bool is_case_file(const fs::path& file) {
 bool is_ours(const fs::path& file) {
   return is_case_file(file) || file.filename().string().starts_with(kStartPrefix) ||
          io::is_temporary_name(file);
+}
+
+io::FileLock locked(const fs::path& folder) {
+  io::make_folder(folder);
+  std::optional<io::FileLock> lock =
+      io::FileLock::take(folder / kLockName, io::FileLock::Kind::alone);
+  if (lock) return std::move(*lock);
+  throw InputError(folder.string() +
+                   ": another sweep keeps its cases there; wait for it to end or give another -o");
 }
 
 io::Json to_json(const KeptCase& kept) {
@@ -90,8 +100,17 @@ std::string canonical_text(const EhlProgram& program, const io::Config& config,
 }
 
 KeptCases::KeptCases(fs::path folder, std::vector<std::string> texts)
-    : folder_(std::move(folder)), texts_(std::move(texts)), keys_(texts_.size()) {
+    : folder_(std::move(folder)),
+      lock_(locked(folder_)),
+      texts_(std::move(texts)),
+      keys_(texts_.size()) {
   std::transform(texts_.begin(), texts_.end(), keys_.begin(), key_of);
+}
+
+KeptCases::~KeptCases() {
+  std::error_code ignored;
+  fs::remove(folder_ / kLockName, ignored);
+  fs::remove(folder_, ignored);  // stays if there is anything else in it
 }
 
 fs::path KeptCases::case_file(std::size_t place) const {
@@ -155,7 +174,6 @@ std::vector<std::optional<KeptCase>> KeptCases::take(const EhlChain& chain) {
 }
 
 void KeptCases::keep(std::size_t place, const KeptCase& kept, const EhlChain& chain) {
-  io::make_folder(folder_);
   io::Json json = {{"canonical_text", texts_[place]}};
   json.update(to_json(kept));
   if (chain.write_start) {
@@ -176,7 +194,6 @@ void KeptCases::remove() const {
   for (const fs::path& file : files_in(folder_)) {
     if (is_ours(file)) fs::remove(file, ignored);
   }
-  fs::remove(folder_, ignored);  // stays if there is anything else in it
 }
 
 }  // namespace tabor::cli

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tabor/cli/ehl.hpp"
+#include "tabor/io/file_lock.hpp"
 
 /// Finished cases of a sweep that has not ended: what a killed one leaves for the next.
 namespace tabor::cli {
@@ -24,12 +25,17 @@ struct KeptCase {    // NOLINT(bugprone-exception-escape): of the JSON library's
   std::vector<std::string> notices;
 };
 
-/// A folder with one JSON file per case, named by the digest of its canonical text, and the film of
+/// A folder for one sweep at a time, with one JSON file per case, named by the digest of its canonical text, and the film of
 /// the last one, which the next may start from. Files appear complete or not at all.
 class KeptCases {
  public:
-  /// `texts`: the canonical ones, in the order in which the cases are solved.
+  /// Makes the folder. `texts`: the canonical ones, in the order in which the cases are solved.
+  /// Throws InputError if another sweep works on it, OutputError if it cannot be written.
   KeptCases(std::filesystem::path folder, std::vector<std::string> texts);
+  /// A folder that nothing was put into goes.
+  ~KeptCases();
+  KeptCases(const KeptCases&) = delete;
+  KeptCases& operator=(const KeptCases&) = delete;
 
   const std::filesystem::path& folder() const { return folder_; }
   std::size_t n_kept() const { return n_kept_; }  ///< of these cases, found or added
@@ -45,7 +51,7 @@ class KeptCases {
   /// Adds a case, with what the chain says the next one may start from. Throws OutputError.
   void keep(std::size_t place, const KeptCase& kept, const EhlChain& chain);
 
-  /// Everything, once the result of the whole sweep is written.
+  /// All files of cases, once the result of the whole sweep is written.
   void remove() const;
 
  private:
@@ -55,6 +61,7 @@ class KeptCases {
   bool read_start(std::size_t place, const EhlChain& chain);
 
   std::filesystem::path folder_;
+  io::FileLock lock_;
   std::vector<std::string> texts_;
   std::vector<std::string> keys_;
   std::vector<std::string> complaints_;

@@ -111,6 +111,13 @@ void write_sweep(const EhlSeries& series, const std::vector<SweepAxis>& axes,
   }
   for (std::size_t i = 0; i < answers.size(); ++i) values[i] = answers[i].converged ? 1 : 0;
   write("converged", "", "converged");
+  std::vector<std::string> warnings;
+  warnings.reserve(answers.size());
+  for (const EhlAnswer& answer : answers) {
+    warnings.push_back(fmt::format("{}", fmt::join(answer.warnings, "\n")));
+  }
+  writer.write("/sweep/warnings", warnings);
+  write_warnings(writer, context);
   writer.commit();
 }
 

@@ -42,6 +42,10 @@ void write_result_head(io::Hdf5Writer& writer, const Context& context,
   writer.attribute("/", "methods", methods);
 }
 
+void write_warnings(io::Hdf5Writer& writer, const Context& context) {
+  writer.attribute("/", "warnings", context.warnings);
+}
+
 void write_scalars(io::Hdf5Writer& writer, const std::string& group, const io::Json& scalars) {
   for (const auto& [key, value] : scalars.items()) write_attribute(writer, group, key, value);
 }
@@ -88,6 +92,11 @@ void FieldsFile::add_state(std::size_t number, const io::Json& scalars,
   }
   writer_.nxdata(group, fields.front().name);
   write_scalars(writer_, group, scalars);
+}
+
+void FieldsFile::commit(const Context& context) {
+  write_warnings(writer_, context);
+  writer_.commit();
 }
 
 }  // namespace tabor::cli

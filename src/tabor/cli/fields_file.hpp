@@ -29,7 +29,8 @@ class FieldsFile {
   /// Adds /states/NNNN: scalars as attributes, the first field as what viewers plot.
   void add_state(std::size_t number, const io::Json& scalars,
                  const std::vector<StateField>& fields);
-  void commit() { writer_.commit(); }
+  /// With all warnings so far.
+  void commit(const Context& context);
 
  private:
   void write_root(const Context& context, const Scan& scan, const io::Json& settings,
@@ -45,6 +46,9 @@ std::vector<StateField> fields_of(const contact::State& state);
 /// The attributes every result file begins with; `methods` are keys of references.bib.
 void write_result_head(io::Hdf5Writer& writer, const Context& context,
                        const std::string& config_toml, const std::vector<std::string>& methods);
+
+/// The attribute every result file ends with: what --json says under the same key.
+void write_warnings(io::Hdf5Writer& writer, const Context& context);
 
 /// Numbers, texts and switches of a flat object as attributes of a group; the rest is left out.
 void write_scalars(io::Hdf5Writer& writer, const std::string& group, const io::Json& scalars);

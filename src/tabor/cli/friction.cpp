@@ -195,7 +195,7 @@ int show(const Request& request, Context& context) {
           rows.row(row_of(state));
         }
       });
-  if (file) file->commit();
+  if (file) file->commit(context);
   return finish(context, object, text_of(scan, request, context, rows),
                 code == kDone && !films_converged ? kNotConverged : code);
 }

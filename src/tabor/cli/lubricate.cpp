@@ -57,7 +57,7 @@ int show(const Request& request, Context& context) {
     context.warn("interrupted: only the densities that were finished are shown");
     code = kInterrupted;
   }
-  if (file) file->commit();
+  if (file) file->commit(context);
 
   io::Json object = json_head(context, scan);
   object.update(settings);

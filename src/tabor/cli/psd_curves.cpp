@@ -56,6 +56,7 @@ void write_curves(const std::vector<Curve>& curves, const std::filesystem::path&
     writer.write(path, curve.values);
     writer.describe(path, curve.unit, curve.long_name);
   }
+  write_warnings(writer, context);
   writer.commit();
 }
 

@@ -1,12 +1,6 @@
 #include "tabor/study/store.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <thread>
 #include <utility>
 
@@ -18,27 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-int open_lock_file(const fs::path& file) {
-  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-  if (descriptor < 0) {
-    throw OutputError(file.string() + ": cannot write: " + std::strerror(errno));
-  }
-  return descriptor;
-}
-
-/// True if the lock was taken, false if somebody else has it.
-bool try_lock(int descriptor, int kind, const fs::path& file) {
-  while (::flock(descriptor, kind | LOCK_NB) != 0) {
-    if (errno == EWOULDBLOCK) {
-      return false;
-    }
-    if (errno != EINTR) {
-      throw OutputError(file.string() + ": cannot be locked: " + std::strerror(errno));
-    }
-  }
-  return true;
-}
-
 void remove_leftovers(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (io::is_temporary_name(entry.path())) {
@@ -48,31 +21,23 @@ void remove_leftovers(const fs::path& folder) {
   }
 }
 
-fs::path made_folder(const fs::path& folder) {
+io::FileLock locked_folder(const fs::path& folder, io::FileLock::Kind kind) {
   io::make_folder(folder);
-  return folder;
+  std::optional<io::FileLock> lock = io::FileLock::take(folder / "lock", kind);
+  if (lock) return std::move(*lock);
+  throw InputError(folder.parent_path().string() +
+                   ": another sweep works on these results; wait for it to end, give another -o, "
+                   "or split one study with --shard i/n");
 }
 
 }  // namespace
 
-FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-
-FileLock::~FileLock() {
-  if (descriptor_ >= 0) {
-    ::close(descriptor_);  // drops the lock
-  }
-}
-
 Store::Store(const fs::path& directory, Use use)
     : directory_(directory),
-      folder_(made_folder(directory / "store")),
+      folder_(directory / "store"),
       use_(use),
-      lock_(open_lock_file(folder_ / "lock")) {
-  if (!try_lock(lock_.descriptor_, use == Use::alone ? LOCK_EX : LOCK_SH, folder_ / "lock")) {
-    throw InputError(directory.string() +
-                     ": another sweep works on these results; wait for it to end, give another -o, "
-                     "or split one study with --shard i/n");
-  }
+      lock_(locked_folder(
+          folder_, use == Use::alone ? io::FileLock::Kind::alone : io::FileLock::Kind::shared)) {
   if (use == Use::alone) {
     remove_leftovers(directory_);
     remove_leftovers(folder_);
@@ -87,17 +52,20 @@ void Store::remove(const Unit& unit) const {
   }
 }
 
-FileLock Store::lock(const std::string& name, const std::function<void()>& keep_waiting) const {
+std::optional<io::FileLock> Store::lock(const std::string& name,
+                                        const std::function<void()>& keep_waiting) const {
   if (use_ == Use::alone) {
-    return FileLock(-1);
+    return std::nullopt;
   }
   const fs::path file = folder_ / (name + ".lock");
-  FileLock lock(open_lock_file(file));
-  while (!try_lock(lock.descriptor_, LOCK_EX, file)) {
+  for (;;) {
+    std::optional<io::FileLock> lock = io::FileLock::take(file, io::FileLock::Kind::alone);
+    if (lock) {
+      return lock;
+    }
     keep_waiting();
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
-  return lock;
 }
 
 }  // namespace tabor::study

@@ -2,26 +2,13 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
+#include "tabor/io/file_lock.hpp"
 #include "tabor/study/case.hpp"
 
 namespace tabor::study {
-
-/// A lock on a file, shared with other processes, held as long as the object lives. The system
-/// drops it when a process dies, however it dies.
-class FileLock {
- public:
-  FileLock(FileLock&& other) noexcept;
-  FileLock(const FileLock&) = delete;
-  FileLock& operator=(FileLock&&) = delete;
-  ~FileLock();
-
- private:
-  friend class Store;
-  explicit FileLock(int descriptor) : descriptor_(descriptor) {}
-  int descriptor_;
-};
 
 /// The folder a study's results are kept in: DIR/store, one file per unit (docs/results.md). Files
 /// appear complete or not at all, so that a program killed at any instant loses at most the unit in
@@ -44,13 +31,14 @@ class Store {
 
   /// Waits until no other shard works on `name`; `keep_waiting` is asked ten times a second and
   /// throws to give up. Alone, there is nobody to wait for.
-  FileLock lock(const std::string& name, const std::function<void()>& keep_waiting) const;
+  std::optional<io::FileLock> lock(const std::string& name,
+                                   const std::function<void()>& keep_waiting) const;
 
  private:
   std::filesystem::path directory_;
   std::filesystem::path folder_;
   Use use_;
-  FileLock lock_;
+  io::FileLock lock_;
 };
 
 }  // namespace tabor::study

@@ -64,7 +64,7 @@ Outcome run(const Study& study, const std::filesystem::path& directory,
   }
   try {
     // One shard at a time: whoever comes last has seen every row.
-    const FileLock lock = store.lock("results", [] {});
+    const auto lock = store.lock("results", [] {});
     const std::vector<Row> rows = rows_in(store, units);
     write_tables(store, study, units, rows, options.command);
     count_rows(rows, outcome);

@@ -240,7 +240,7 @@ class Sweep {
     return problem.empty();
   }
 
-  FileLock exclusive(const Unit& unit) {
+  std::optional<io::FileLock> exclusive(const Unit& unit) {
     return store_.lock(unit.key, [this] { report({"waiting for another shard"}); });
   }
 

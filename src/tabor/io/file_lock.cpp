@@ -1,0 +1,57 @@
+#include "tabor/io/file_lock.hpp"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "tabor/core/error.hpp"
+
+namespace tabor::io {
+namespace {
+
+/// True if the lock was taken, false if others' exclude it.
+bool try_lock(int descriptor, FileLock::Kind kind, const std::filesystem::path& file) {
+  const int operation = (kind == FileLock::Kind::alone ? LOCK_EX : LOCK_SH) | LOCK_NB;
+  while (::flock(descriptor, operation) != 0) {
+    if (errno == EWOULDBLOCK) return false;
+    if (errno != EINTR) {
+      throw OutputError(file.string() + ": cannot be locked: " + std::strerror(errno));
+    }
+  }
+  return true;
+}
+
+/// False once somebody has removed or replaced the file.
+bool is_still(const std::filesystem::path& file, int descriptor) {
+  struct stat there {};
+  struct stat opened {};
+  return ::stat(file.c_str(), &there) == 0 && ::fstat(descriptor, &opened) == 0 &&
+         there.st_dev == opened.st_dev && there.st_ino == opened.st_ino;
+}
+
+}  // namespace
+
+std::optional<FileLock> FileLock::take(const std::filesystem::path& file, Kind kind) {
+  for (;;) {
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor < 0) {
+      throw OutputError(file.string() + ": cannot write: " + std::strerror(errno));
+    }
+    FileLock lock(descriptor);
+    if (!try_lock(descriptor, kind, file)) return std::nullopt;
+    if (is_still(file, descriptor)) return lock;
+  }
+}
+
+FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+FileLock::~FileLock() {
+  if (descriptor_ >= 0) ::close(descriptor_);  // drops the lock
+}
+
+}  // namespace tabor::io

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+namespace tabor::io {
+
+/// A lock on a file, known to other processes, held as long as the object lives. The system drops
+/// it when a process dies, however it dies.
+class FileLock {
+ public:
+  enum class Kind {
+    alone,  ///< nobody else may have one
+    shared  ///< others may have shared ones
+  };
+
+  /// Makes the file if there is none. Nothing if others' locks exclude this one. Throws OutputError.
+  static std::optional<FileLock> take(const std::filesystem::path& file, Kind kind);
+
+  FileLock(FileLock&& other) noexcept;
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(FileLock&&) = delete;
+  ~FileLock();
+
+ private:
+  explicit FileLock(int descriptor) : descriptor_(descriptor) {}
+  int descriptor_;
+};
+
+}  // namespace tabor::io
