@@ -93,8 +93,8 @@ TEST_F(LubricantVerbs, AllModelsRun) {
 }
 
 TEST_F(LubricantVerbs, AFloodedSurfaceIsWarnedAbout) {
-  const io::Json result = json_of(lubricate("100g/m^2") +
-                                  Words{"--model", "bottom-fill", "-o", file("out.h5")});
+  const io::Json result =
+      json_of(lubricate("100g/m^2") + Words{"--model", "bottom-fill", "-o", file("out.h5")});
   EXPECT_TRUE(result.at("states").at(0).at("flooded").get<bool>());
   EXPECT_EQ(result.at("states").at(0).at("wet_fraction"), 1);
   EXPECT_FALSE(result.at("warnings").empty());

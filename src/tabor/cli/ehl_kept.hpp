@@ -25,8 +25,9 @@ struct KeptCase {    // NOLINT(bugprone-exception-escape): of the JSON library's
   std::vector<std::string> notices;
 };
 
-/// A folder for one sweep at a time, with one JSON file per case, named by the digest of its canonical text, and the film of
-/// the last one, which the next may start from. Files appear complete or not at all.
+/// A folder for one sweep at a time, with one JSON file per case, named by the digest of its
+/// canonical text, and the film of the last one, which the next may start from. Files appear
+/// complete or not at all.
 class KeptCases {
  public:
   /// Makes the folder. `texts`: the canonical ones, in the order in which the cases are solved.

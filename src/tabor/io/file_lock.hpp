@@ -14,7 +14,8 @@ class FileLock {
     shared  ///< others may have shared ones
   };
 
-  /// Makes the file if there is none. Nothing if others' locks exclude this one. Throws OutputError.
+  /// Makes the file if there is none. Nothing if others' locks exclude this one. Throws
+  /// OutputError.
   static std::optional<FileLock> take(const std::filesystem::path& file, Kind kind);
 
   FileLock(FileLock&& other) noexcept;
