@@ -67,8 +67,9 @@ int show(const Request& request, Context& context) {
   const io::Json settings = settings_json(request.contact);
 
   std::optional<FieldsFile> file;
-  if (request.output)
+  if (request.output) {
     file.emplace(*request.output, context, scan, settings, methods_of(request.contact));
+  }
   io::Json object = json_head(context, scan);
   object["nx"] = scan.surface.grid.nx;
   object["ny"] = scan.surface.grid.ny;

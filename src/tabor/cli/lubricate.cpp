@@ -41,8 +41,9 @@ int show(const Request& request, Context& context) {
   warn_if_not_levelled(scan, context);
   const io::Json settings = settings_json(request.film, context);
   std::optional<FieldsFile> file;
-  if (request.output)
+  if (request.output) {
     file.emplace(*request.output, context, scan, settings, methods_of(request.film));
+  }
 
   std::map<std::size_t, io::Json> states;  // films come in rising order of dose
   int code = kDone;
