@@ -1,5 +1,7 @@
 // What becomes of a copy of the process that reads a file of others.
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -77,6 +79,36 @@ TEST(Hdf5Guard, WhoWatchesMayStopIt) {
                    {7, 5}, [](const Rows& send) { send(kMap); },
                    [](double) { throw std::runtime_error("stop"); }),
                std::runtime_error);
+}
+
+TEST(Hdf5Guard, ACopyThatWorksForEverIsEnded) {
+  EXPECT_FALSE(survives([] {
+    for (volatile int i = 0;;) i = 1 - i;
+  }));
+}
+
+TEST(Hdf5Guard, ACopyEndsWithItsProcess) {
+  const test::Folder folder;
+  test::put_bytes(folder / "a.h5", "a");
+  int ends[2] = {-1, -1};
+  ASSERT_EQ(::pipe(ends), 0);
+  const pid_t process = ::fork();
+  if (process == 0) {
+    hdf5_survives(folder / "a.h5", [&] {
+      if (::write(ends[1], "x", 1) != 1) return;
+      for (;;) ::pause();
+    });
+    ::_exit(0);
+  }
+  ::close(ends[1]);
+  char begun = 0;
+  EXPECT_EQ(::read(ends[0], &begun, 1), 1);
+  ::kill(process, SIGKILL);
+  ::waitpid(process, nullptr, 0);
+  // The pipe ends when the last one ends who could write to it.
+  pollfd pipe{ends[0], POLLIN, 0};
+  EXPECT_EQ(::poll(&pipe, 1, 10000), 1);
+  ::close(ends[0]);
 }
 
 TEST(Hdf5Guard, ACopyThatWaitsForEverIsGivenUp) {
