@@ -22,7 +22,7 @@ double positive(const io::Config& config, std::string_view key, Dimension expect
 
 std::vector<double> read_axis(const io::Config& config, std::string_view key, Dimension expected,
                               bool zero_allowed) {
-  const std::vector<double> values = config.quantities(key, expected);
+  std::vector<double> values = config.quantities(key, expected);
   std::set<double> seen;
   for (const double value : values) {
     if (!std::isfinite(value) || value < 0 || (value == 0 && !zero_allowed)) {

@@ -26,6 +26,7 @@ std::string quantity(double value, std::string_view unit) {
 
 std::string quantities(const std::vector<double>& values, std::string_view unit) {
   std::vector<std::string> texts;
+  texts.reserve(values.size());
   for (const double value : values) {
     texts.push_back(quantity(value, unit));
   }

@@ -55,7 +55,8 @@ double power_along(const Spectrum& spectrum, const Grid& grid, double angle) {
   const double step = std::min(qx, qy) / 2, end = pi / std::max(grid.dx(), grid.dy());
   double total = 0;
   // From two steps on: closer, the missing mode q = 0 is part of every value.
-  for (double q = 2 * step; q <= end; q += step) {
+  for (Index i = 2; static_cast<double>(i) * step <= end; ++i) {
+    const double q = static_cast<double>(i) * step;
     // Rows count downwards, angles turn upwards.
     total += q * power_between(spectrum, -q * std::sin(angle) / qy, q * std::cos(angle) / qx);
   }
