@@ -80,7 +80,7 @@ std::string Cursor::take_terminated() {
   if (end == std::string_view::npos) {
     refuse(*contents_, fmt::format("no end of the text at byte {}", position_), "", kDamaged);
   }
-  const std::string text(take(end - position_));
+  std::string text(take(end - position_));
   skip(1);
   return text;
 }

@@ -156,8 +156,9 @@ double resolve_height_factor(const Contents& contents, const Layer& layer,
            "drop --z-scale, or add --override-unit if the file is wrong");
   }
   if (options.z_scale) {
-    if (is_fixed)
+    if (is_fixed) {
       doubts.push_back("height scale overridden: " + flag("--z-scale", *options.z_scale));
+    }
     return scale_of_counts(contents, options);
   }
   if (layer.unit.empty() && layer.is_count && !options.unit) {
