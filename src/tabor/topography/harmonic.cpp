@@ -142,8 +142,8 @@ Level aggregate(const Level& fine, Node width) {
       coarse.position.push_back({x / 2, y / 2});
     }
     parent[i] = static_cast<std::size_t>(slot);
-    coarse.children[parent[i]][static_cast<std::size_t>((y & 1) * 2 + (x & 1))] =
-        static_cast<Node>(i);
+    const std::size_t quarter = (y % 2 != 0 ? 2U : 0U) + (x % 2 != 0 ? 1U : 0U);
+    coarse.children[parent[i]][quarter] = static_cast<Node>(i);
   }
   coarse.resize(coarse.children.size());
   for (std::size_t i = 0; i < fine.size(); ++i) {

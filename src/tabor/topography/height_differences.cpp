@@ -27,7 +27,7 @@ struct Rings {
     const double x = static_cast<double>(lx) * grid.dx(), y = static_cast<double>(ly) * grid.dy();
     return std::sqrt(x * x + y * y);
   }
-  Index ring_of(double distance) const { return static_cast<Index>(distance / width + 0.5); }
+  Index ring_of(double distance) const { return std::lround(distance / width); }
 
   Grid grid;
   double width;

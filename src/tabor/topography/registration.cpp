@@ -247,8 +247,9 @@ Agreement agreement(const Field& a, const Field& b) {
 /// Sizes of pixels from coarse to A's own; 0 stands for A's own, which need not be square.
 std::vector<double> pitches(double coarse, const Grid& a) {
   std::vector<double> sizes;
-  for (double pitch = coarse; pitch > 1.5 * std::max(a.dx(), a.dy()); pitch /= 2) {
-    sizes.push_back(pitch);
+  while (coarse > 1.5 * std::max(a.dx(), a.dy())) {
+    sizes.push_back(coarse);
+    coarse /= 2;
   }
   sizes.push_back(0);
   return sizes;

@@ -109,6 +109,7 @@ std::vector<Coordinate> parse_coordinates(const std::string& step, const std::st
   if (parts.size() != count) {
     throw InputError(step, argument.empty() ? "no value" : fmt::format("'{}'", argument), form, "");
   }
+  coordinates.reserve(count);
   for (const auto& part : parts) {
     coordinates.push_back(parse_coordinate(step, std::string(trim(part))));
   }

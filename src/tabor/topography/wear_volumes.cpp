@@ -26,7 +26,7 @@ double correlated_pixels(const Autocorrelation& acf) {
     for (Index lx = ly == 0 ? 1 : -columns; lx <= columns; ++lx) {
       const double distance =
           std::hypot(static_cast<double>(lx) * grid.dx(), static_cast<double>(ly) * grid.dy());
-      const auto ring = static_cast<std::size_t>(distance / width + 0.5);
+      const auto ring = static_cast<std::size_t>(std::lround(distance / width));
       const double value = acf(ly, lx);
       if (ring < n_rings && !std::isnan(value)) {
         sums[ring] += 2 * value;  // and its mirror image
