@@ -44,6 +44,12 @@ TEST_F(FileLocks, AreOnTheFileThatIsThere) {
   EXPECT_FALSE(can_take(Kind::alone));
 }
 
+TEST_F(FileLocks, AreRefusedInTheWordsOfWhoAsks) {
+  const auto file = folder_ / "new" / "lock";
+  const FileLock first = FileLock::take_or_refuse(file, Kind::alone, "in use");
+  EXPECT_THROW(FileLock::take_or_refuse(file, Kind::alone, "in use"), InputError);
+}
+
 TEST_F(FileLocks, NeedAFolderThatCanBeWritten) {
   EXPECT_THROW(FileLock::take(folder_ / "absent" / "lock", Kind::alone), OutputError);
 }

@@ -54,15 +54,6 @@ bool is_ours(const fs::path& file) {
          io::is_temporary_name(file);
 }
 
-io::FileLock locked(const fs::path& folder) {
-  io::make_folder(folder);
-  std::optional<io::FileLock> lock =
-      io::FileLock::take(folder / kLockName, io::FileLock::Kind::alone);
-  if (lock) return std::move(*lock);
-  throw InputError(folder.string() +
-                   ": another sweep keeps its cases there; wait for it to end or give another -o");
-}
-
 io::Json to_json(const KeptCase& kept) {
   return {{"scalars", kept.answer.scalars},
           {"converged", kept.answer.converged},
@@ -101,7 +92,10 @@ std::string canonical_text(const EhlProgram& program, const io::Config& config,
 
 KeptCases::KeptCases(fs::path folder, std::vector<std::string> texts)
     : folder_(std::move(folder)),
-      lock_(locked(folder_)),
+      lock_(io::FileLock::take_or_refuse(
+          folder_ / kLockName, io::FileLock::Kind::alone,
+          folder_.string() +
+              ": another sweep keeps its cases there; wait for it to end or give another -o")),
       texts_(std::move(texts)),
       keys_(texts_.size()) {
   std::transform(texts_.begin(), texts_.end(), keys_.begin(), key_of);

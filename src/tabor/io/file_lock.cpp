@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tabor/core/error.hpp"
+#include "tabor/io/atomic_file.hpp"
 
 namespace tabor::io {
 namespace {
@@ -46,6 +47,14 @@ std::optional<FileLock> FileLock::take(const std::filesystem::path& file, Kind k
     if (!try_lock(descriptor, kind, file)) return std::nullopt;
     if (is_still(file, descriptor)) return lock;
   }
+}
+
+FileLock FileLock::take_or_refuse(const std::filesystem::path& file, Kind kind,
+                                  const std::string& refusal) {
+  make_folder(file.parent_path());
+  std::optional<FileLock> lock = take(file, kind);
+  if (!lock) throw InputError(refusal);
+  return std::move(*lock);
 }
 
 FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}

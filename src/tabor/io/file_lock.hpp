@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
 namespace tabor::io {
 
@@ -17,6 +18,11 @@ class FileLock {
   /// Makes the file if there is none. Nothing if others' locks exclude this one. Throws
   /// OutputError.
   static std::optional<FileLock> take(const std::filesystem::path& file, Kind kind);
+
+  /// The same in a folder that is made if there is none. Throws InputError, which says `refusal`,
+  /// if others' locks exclude this one.
+  static FileLock take_or_refuse(const std::filesystem::path& file, Kind kind,
+                                 const std::string& refusal);
 
   FileLock(FileLock&& other) noexcept;
   FileLock(const FileLock&) = delete;

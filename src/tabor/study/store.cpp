@@ -21,23 +21,18 @@ void remove_leftovers(const fs::path& folder) {
   }
 }
 
-io::FileLock locked_folder(const fs::path& folder, io::FileLock::Kind kind) {
-  io::make_folder(folder);
-  std::optional<io::FileLock> lock = io::FileLock::take(folder / "lock", kind);
-  if (lock) return std::move(*lock);
-  throw InputError(folder.parent_path().string() +
-                   ": another sweep works on these results; wait for it to end, give another -o, "
-                   "or split one study with --shard i/n");
-}
-
 }  // namespace
 
 Store::Store(const fs::path& directory, Use use)
     : directory_(directory),
       folder_(directory / "store"),
       use_(use),
-      lock_(locked_folder(
-          folder_, use == Use::alone ? io::FileLock::Kind::alone : io::FileLock::Kind::shared)) {
+      lock_(io::FileLock::take_or_refuse(
+          folder_ / "lock",
+          use == Use::alone ? io::FileLock::Kind::alone : io::FileLock::Kind::shared,
+          directory.string() +
+              ": another sweep works on these results; wait for it to end, give another -o, or "
+              "split one study with --shard i/n")) {
   if (use == Use::alone) {
     remove_leftovers(directory_);
     remove_leftovers(folder_);
