@@ -39,6 +39,16 @@ TEST(LevelNone, LeavesTheHeights) {
   EXPECT_TRUE(same_bits(level(rough, Form::none).height, rough.height));
 }
 
+TEST(LevelPlane, FitsALineToOneRowOrColumn) {
+  for (const Grid& grid : {Grid{61, 1, 61e-6, 1e-6}, Grid{1, 47, 1e-6, 47e-6}}) {
+    const auto tilted = surface(grid, [](double x, double y) { return 1e-3 + 0.2 * x - 0.7 * y; });
+    EXPECT_LT(level(tilted, Form::plane).height.abs().maxCoeff(), 1e-18);
+    const auto bent = surface(grid, [](double x, double y) { return x * x + y * y; });
+    EXPECT_LT(level(bent, Form::poly4).height.abs().maxCoeff(), 1e-18);
+  }
+  EXPECT_FALSE(try_fit_form(Field::Constant(1, 7, kHole), 1).has_value());
+}
+
 class LevelPolynomial : public testing::TestWithParam<int> {};
 
 TEST_P(LevelPolynomial, RemovesAnExactPolynomialOfItsTotalDegree) {

@@ -22,7 +22,7 @@ void assign_pixel(topography::ReadOptions& read, const std::string& text) {
   const std::vector<double> pixel = parse_si_list(text, dimension::length, "--pixel");
   if (pixel.size() > 2) throw UsageError("--pixel: expected one length or two (x,y)");
   read.pixel_x = pixel.front();
-  read.pixel_y = pixel.back();
+  if (pixel.size() == 2) read.pixel_y = pixel.back();
 }
 
 void declare_reading(OptionSet& set, topography::ReadOptions& read) {
@@ -94,7 +94,9 @@ void warn_if_not_levelled(const Scan& scan, Context& context) {
   if (scan.surface.periodic || is_levelled(scan.treatment)) return;
   const double before = topography::rms_height(scan.surface);
   const Field& height = scan.surface.height;
-  const double after = topography::rms_without_form(height, topography::fit_form(height, 1));
+  const auto plane = topography::try_fit_form(height, 1);
+  if (!plane) return;  // too few points to have a tilt
+  const double after = topography::rms_without_form(height, *plane);
   context.warn(fmt::format(
       "no levelling: heights are used as read (Sq {}, {} without its plane); add --level plane",
       si(before, "m"), si(after, "m")));

@@ -156,7 +156,8 @@ void doubt_holes(const Topography& topography, std::vector<std::string>& list) {
 
 void doubt_quantum(double quantum, double rms, std::vector<std::string>& list) {
   constexpr double kCoarse = 0.02;
-  if (quantum > kCoarse * rms && rms > 0) {
+  constexpr double kPlane = 1e-6;  // heights on a plane but for rounding
+  if (quantum > kCoarse * rms && rms > kPlane * quantum) {
     list.push_back(fmt::format("heights come in steps of {}, {:.2g} of their rms",
                                format_si(quantum, "m"), quantum / rms));
   }
@@ -180,20 +181,17 @@ Levelled above_plane(const Field& height) {
   const Index ky = 1 + height.rows() / kSide;
   const Field sample = height(Eigen::seq(0, Eigen::last, ky), Eigen::seq(0, Eigen::last, kx));
   Levelled levelled{.height = height};
-  try {
-    const FormFit fit = fit_form(sample, 1);
-    // The fit's axes run from -1 to 1 over the pixels' edges.
-    const double du = 2 / static_cast<double>(sample.cols());
-    const double dv = 2 / static_cast<double>(sample.rows());
-    const double mean = fit.coefficients[0];
-    const double along_x = fit.coefficients[1];
-    const double along_y = fit.coefficients[2];
-    levelled.at_origin = mean + along_x * (du / 2 - 1) + along_y * (dv / 2 - 1);
-    levelled.per_column = along_x * du / static_cast<double>(kx);
-    levelled.per_row = along_y * dv / static_cast<double>(ky);
-  } catch (const InputError&) {
-    // One row, or heights on one line: there is nothing to level.
-  }
+  const auto fit = try_fit_form(sample, 1);
+  if (!fit) return levelled;  // heights on one line: there is nothing to level
+  // The fit's axes run from -1 to 1 over the pixels' edges.
+  const double du = 2 / static_cast<double>(sample.cols());
+  const double dv = 2 / static_cast<double>(sample.rows());
+  const double mean = fit->coefficients[0];
+  const double along_x = fit->coefficients[1];
+  const double along_y = fit->coefficients[2];
+  levelled.at_origin = mean + along_x * (du / 2 - 1) + along_y * (dv / 2 - 1);
+  levelled.per_column = along_x * du / static_cast<double>(kx);
+  levelled.per_row = along_y * dv / static_cast<double>(ky);
   return levelled;
 }
 

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -15,6 +13,7 @@
 #include "tabor/core/units.hpp"
 #include "tabor/topography/parameters.hpp"
 #include "tabor/topography/rows.hpp"
+#include "tabor/topography/small_matrices.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -142,6 +141,16 @@ void add_row(NormalEquations& equations, const RowSums& row, const Legendre& alo
   equations.n_valid += row.n_valid;
 }
 
+/// Terms that a map of one row or column cannot have get the coefficient zero: a line is fitted.
+void leave_out(NormalEquations& equations, const Term& term, Index t, bool one_row,
+               bool one_column) {
+  if ((!one_row || term.j == 0) && (!one_column || term.i == 0)) return;
+  equations.matrix.row(t).setZero();
+  equations.matrix.col(t).setZero();
+  equations.matrix(t, t) = equations.matrix(0, 0);  // of the mean: as large as any
+  equations.right[t] = 0;
+}
+
 /// Normal equations for what `removed` leaves of the heights. Blocks of rows are summed in their
 /// order, so that the result does not depend on the threads.
 NormalEquations normal_equations(const Field& height, const FormFit& removed) {
@@ -164,14 +173,17 @@ NormalEquations normal_equations(const Field& height, const FormFit& removed) {
     total.right += block.right;
     total.n_valid += block.n_valid;
   }
+  for (Index t = 0; t < n_terms; ++t) {
+    leave_out(total, rows.terms()[static_cast<std::size_t>(t)], t, height.rows() == 1,
+              height.cols() == 1);
+  }
   return total;
 }
 
 /// Refuses a fit that the valid points leave undetermined: too few, or all on one curve.
 void check_determined(const NormalEquations& equations, int degree) {
   constexpr double smallest_ratio = 1e-12;
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(equations.matrix, Eigen::EigenvaluesOnly);
-  const auto& values = eigen.eigenvalues();
+  const Eigen::VectorXd values = symmetric_eigenvalues(equations.matrix);
   if (equations.n_valid == 0 || values[0] <= smallest_ratio * values[values.size() - 1]) {
     throw InputError(
         fmt::format("levelling by a polynomial of degree {}", degree),
@@ -209,13 +221,21 @@ FormFit fit_form(const Field& height, int degree) {
   for (int pass = 0; pass < 2; ++pass) {
     const auto equations = normal_equations(height, fit);
     check_determined(equations, degree);
-    const Vector correction = equations.matrix.ldlt().solve(equations.right);
+    const Vector correction = solve_symmetric(equations.matrix, equations.right);
     for (Index t = 0; t < correction.size(); ++t) {
       fit.coefficients[static_cast<std::size_t>(t)] += correction[t];
     }
     fit.n_valid = equations.n_valid;
   }
   return fit;
+}
+
+std::optional<FormFit> try_fit_form(const Field& height, int degree) {
+  try {
+    return fit_form(height, degree);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
 }
 
 Field remove_form(Field height, const FormFit& fit) {

@@ -28,8 +28,11 @@ struct FormFit {
   int n_terms() const { return (degree + 1) * (degree + 2) / 2; }
 };
 
-/// Fits the form to all valid points. Throws InputError when they do not determine it.
+/// Fits the form to all valid points; to a map of one row or column, a curve along it. Throws
+/// InputError when they do not determine it.
 FormFit fit_form(const Field& height, int degree);
+/// The same, or nothing when they do not determine it.
+std::optional<FormFit> try_fit_form(const Field& height, int degree);
 
 /// height minus the fitted form; holes stay holes. Hand over heights no longer needed by std::move.
 Field remove_form(Field height, const FormFit& fit);

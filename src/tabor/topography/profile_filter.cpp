@@ -1,11 +1,11 @@
 #include "tabor/topography/profile_filter.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "tabor/topography/filters.hpp"
+#include "tabor/topography/small_matrices.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -42,7 +42,7 @@ Eigen::ArrayXd without_form(const Eigen::ArrayXd& z, int degree) {
   if (n_valid <= degree) {
     return Eigen::ArrayXd::Constant(z.size(), std::numeric_limits<double>::quiet_NaN());
   }
-  const Eigen::VectorXd form = valid.topRows(n_valid).householderQr().solve(heights.head(n_valid));
+  const Eigen::VectorXd form = least_squares(valid.topRows(n_valid), heights.head(n_valid));
   return z - (all * form).array();
 }
 

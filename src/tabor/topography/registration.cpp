@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -107,7 +106,7 @@ class Refinement {
       }
     }
     constexpr double n = kBlocks * kBlocks;
-    const Matrix inverse = derivative().completeOrthogonalDecomposition().pseudoInverse();
+    const Matrix inverse = pseudo_inverse(derivative());
     const Matrix covariance = inverse * scatter * inverse.transpose() * (n / (n - 5));
     return covariance.diagonal().head<2>().array();
   }

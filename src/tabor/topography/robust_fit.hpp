@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "tabor/topography/rows.hpp"
+#include "tabor/topography/small_matrices.hpp"
 
 namespace tabor::topography {
 
@@ -18,23 +18,8 @@ struct NormalEquations {
   Eigen::Matrix<double, N, 1> right_side;
   double n_points = 0;  ///< with any weight
 
-  /// Inverse, without the directions that the points do not determine.
-  Eigen::Matrix<double, N, N> inverse() const {
-    Eigen::Matrix<double, N, 1> scale;
-    for (int i = 0; i < N; ++i) {
-      scale[i] = matrix(i, i) > 0 ? 1 / std::sqrt(matrix(i, i)) : 0;
-    }
-    const auto scaling = scale.asDiagonal();
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> solver(scaling * matrix *
-                                                                            scaling);
-    Eigen::Matrix<double, N, 1> inverse;
-    for (int i = 0; i < N; ++i) {
-      inverse[i] = solver.eigenvalues()[i] > 1e-10 ? 1 / solver.eigenvalues()[i] : 0;
-    }
-    return scaling * solver.eigenvectors() * inverse.asDiagonal() *
-           solver.eigenvectors().transpose() * scaling;
-  }
-  Eigen::Matrix<double, N, 1> solution() const { return inverse() * right_side; }
+  /// Zero along directions that the points do not determine.
+  Eigen::Matrix<double, N, 1> solution() const { return determined_inverse(matrix) * right_side; }
 };
 
 /// Weight of a residual by Tukey's biweight; 1 without a cutoff.
