@@ -113,7 +113,7 @@ class Copy {
   ~Copy() {
     if (number_ > 0) {
       ::kill(number_, SIGKILL);
-      ended_well();
+      wait_for_status();
     }
     if (pipe_ >= 0) ::close(pipe_);
   }
@@ -136,16 +136,24 @@ class Copy {
   /// It waits for something that will not come: nothing is known about the file.
   bool is_stuck() const { return is_stuck_; }
 
-  /// Waits for the end: true if the copy came to it by itself.
+  /// Waits for the end, which closes the pipe: true if the copy came to it by itself and sent
+  /// nothing more; false if it is stuck.
   bool ended_well() {
-    int status = 0;
-    while (::waitpid(number_, &status, 0) < 0 && errno == EINTR) {
-    }
-    number_ = -1;
+    char more = 0;
+    if (receive(&more, 1) > 0 || is_stuck_) return false;
+    const int status = wait_for_status();
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
 
  private:
+  int wait_for_status() {
+    int status = 0;
+    while (::waitpid(number_, &status, 0) < 0 && errno == EINTR) {
+    }
+    number_ = -1;
+    return status;
+  }
+
   /// Processor time of the copy so far [s].
   double work() const {
     clockid_t clock{};
@@ -195,10 +203,7 @@ Limits limits_for(std::size_t map_bytes) {
 
 bool copy_survives(const Limits& limits, const std::function<void()>& action) {
   Copy copy(limits, [&](int) { action(); });
-  if (!copy.started()) return true;
-  char nothing = 0;
-  copy.receive(&nothing, 1);
-  return copy.is_stuck() || copy.ended_well();
+  return !copy.started() || copy.ended_well() || copy.is_stuck();
 }
 
 std::optional<Field> map_from_copy(std::array<Index, 2> shape, const SendRows& send_rows,
@@ -221,7 +226,7 @@ std::optional<Field> map_from_copy(std::array<Index, 2> shape, const SendRows& s
       progress(static_cast<double>(received) / static_cast<double>(size));
     }
   }
-  return copy.ended_well() ? std::optional(std::move(map)) : std::nullopt;
+  return copy.ended_well() || copy.is_stuck() ? std::optional(std::move(map)) : std::nullopt;
 }
 
 }  // namespace
