@@ -1,5 +1,7 @@
 #include "tabor/io/atomic_file.hpp"
 
+#include <sys/stat.h>
+
 #include "support/folder.hpp"
 #include "tabor/core/error.hpp"
 
@@ -56,6 +58,52 @@ TEST(WriteFile, NamesTheFileInAFolderThatDoesNotExist) {
 TEST(WriteFile, RefusesAFolderAsItsName) {
   const Folder folder;
   EXPECT_THROW(write_file(folder.path(), "x"), OutputError);
+}
+
+TEST(WriteFile, FollowsLinksAndLeavesThem) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "far");
+  write_file(folder / "far/real", "first");
+  std::filesystem::create_symlink("far/middle", folder / "link");
+  std::filesystem::create_symlink("real", folder / "far/middle");
+  write_file(folder / "link", "second");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+  EXPECT_TRUE(std::filesystem::is_symlink(folder / "far/middle"));
+  EXPECT_EQ(read_text(folder / "far/real"), "second");
+}
+
+TEST(WriteFile, MakesTheFileALinkPromises) {
+  const Folder folder;
+  std::filesystem::create_symlink("later", folder / "link");
+  write_file(folder / "link", "x");
+  EXPECT_EQ(read_text(folder / "later"), "x");
+}
+
+TEST(WriteFile, KeepsThePermissionsOfWhatItReplaces) {
+  using std::filesystem::perms;
+  const Folder folder;
+  write_file(folder / "a", "first");
+  const perms mode = perms::owner_read | perms::owner_write | perms::group_read;
+  std::filesystem::permissions(folder / "a", mode);
+  write_file(folder / "a", "second");
+  EXPECT_EQ(std::filesystem::status(folder / "a").permissions(), mode);
+}
+
+TEST(WriteFile, RefusesWhatIsNoFileAndLeavesIt) {
+  const Folder folder;
+  const auto pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THROW(write_file(pipe, "x"), OutputError);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+  EXPECT_THROW(write_file("/dev/null", "x"), OutputError);
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
+TEST(WriteFile, RefusesLinksInACircle) {
+  const Folder folder;
+  std::filesystem::create_symlink("b", folder / "a");
+  std::filesystem::create_symlink("a", folder / "b");
+  EXPECT_THROW(write_file(folder / "a", "x"), OutputError);
 }
 
 TEST(WriteFile, RefusesAnUnwritableFolder) {

@@ -7,6 +7,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/version.hpp"
+#include "tabor/io/atomic_file.hpp"
 
 namespace tabor::cli {
 
@@ -41,14 +42,16 @@ void declare_output(OptionSet& set, std::optional<std::string>& target) {
 }
 
 void check_can_write(const std::filesystem::path& file) {
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const std::filesystem::path target = io::written_file(file);
+  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
   std::error_code error;
   if (!std::filesystem::is_directory(folder, error)) {
     throw OutputError(fmt::format("{}: the folder {} does not exist; create it first",
                                   file.string(), folder.string()));
   }
-  if (access(folder.c_str(), W_OK) != 0 || std::filesystem::is_directory(file, error)) {
-    throw OutputError(fmt::format("{}: cannot be written there; choose another -o", file.string()));
+  if (access(folder.c_str(), W_OK) != 0) {
+    throw OutputError(fmt::format("{}: the folder {} cannot be written to; choose another name",
+                                  file.string(), folder.string()));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -67,15 +68,35 @@ void write_all(int descriptor, std::span<const std::byte> bytes, const fs::path&
 
 }  // namespace
 
+fs::path written_file(const fs::path& file) {
+  constexpr int most_links = 40;  // as the kernel follows
+  fs::path target = file;
+  std::error_code error;
+  for (int n_links = 0; fs::is_symlink(target, error); ++n_links) {
+    if (n_links == most_links) {
+      fail(file, "write", ELOOP);
+    }
+    const fs::path link = fs::read_symlink(target, error);
+    if (error) {
+      fail(file, "write", error.value());
+    }
+    target = target.parent_path() / link;
+  }
+  const fs::file_status status = fs::status(target, error);
+  if (fs::is_directory(status)) {
+    fail(file, "write", EISDIR);
+  }
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw OutputError(file.string() + ": got a device or pipe; expected the name of a file");
+  }
+  return target;
+}
+
 TemporaryFile::TemporaryFile(fs::path file)
-    : file_(std::move(file)), temporary_(temporary_name(file_)) {
+    : file_(std::move(file)), target_(written_file(file_)), temporary_(temporary_name(target_)) {
   const Descriptor descriptor(temporary_, O_WRONLY | O_CREAT | O_EXCL);
   if (!descriptor.is_open()) {
     fail(file_, "write", errno);
-  }
-  if (fs::is_directory(file_)) {
-    ::unlink(temporary_.c_str());
-    fail(file_, "write", EISDIR);
   }
 }
 
@@ -87,16 +108,20 @@ TemporaryFile::~TemporaryFile() {
 
 void TemporaryFile::commit() {
   Descriptor descriptor(temporary_, O_RDONLY);
+  struct stat replaced {};
+  if (descriptor.is_open() && ::stat(target_.c_str(), &replaced) == 0) {
+    ::fchmod(descriptor.value(), replaced.st_mode & 07777);
+  }
   if (!descriptor.is_open() || ::fsync(descriptor.value()) != 0 || !descriptor.close()) {
     fail(file_, "write", errno);
   }
-  if (::rename(temporary_.c_str(), file_.c_str()) != 0) {
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
     fail(file_, "write", errno);
   }
   temporary_.clear();
   // The new name itself lives in the folder. A folder that cannot be synchronised (some network
   // file systems) is no reason to call a written file lost.
-  const fs::path folder = file_.parent_path();
+  const fs::path folder = target_.parent_path();
   const Descriptor directory(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY);
   if (directory.is_open()) {
     ::fsync(directory.value());

@@ -8,9 +8,14 @@
 
 namespace tabor::io {
 
+/// The file that writing to `file` makes or replaces: behind symbolic links, if `file` is one.
+/// Throws OutputError for what is there and no regular file: a folder, a device, a pipe.
+std::filesystem::path written_file(const std::filesystem::path& file);
+
 /// A name beside `file` to write to; commit() makes it `file` in one step, so that nobody ever sees
-/// half a file. Without commit() the destructor removes what was written. The folder of `file` must
-/// exist and be writable: OutputError otherwise, already from the constructor.
+/// half a file. Without commit() the destructor removes what was written. A link stays a link, and
+/// a file that is replaced passes on its permissions. The folder of `file` must exist and be
+/// writable: OutputError otherwise, already from the constructor.
 class TemporaryFile {
  public:
   explicit TemporaryFile(std::filesystem::path file);
@@ -25,7 +30,8 @@ class TemporaryFile {
   void commit();
 
  private:
-  std::filesystem::path file_;
+  std::filesystem::path file_;    ///< as named
+  std::filesystem::path target_;  ///< what is replaced
   std::filesystem::path temporary_;
 };
 

@@ -8,25 +8,40 @@
 #include "tabor/core/text.hpp"
 
 namespace tabor::io {
+namespace {
+
+/// Whether an element has this name, whatever prefix its namespace has.
+bool is_called(const pugi::xml_node& node, std::string_view name) {
+  const std::string_view full = node.name();
+  return full.substr(full.find(':') + 1) == name;
+}
+
+}  // namespace
 
 std::string XmlElement::name() const { return pugi::xml_node(node_).name(); }
 
 std::string XmlElement::text() const {
-  return std::string(trim(pugi::xml_node(node_).text().get()));
+  std::string text;  // comments may stand between its parts
+  for (const pugi::xml_node& child : pugi::xml_node(node_).children()) {
+    if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata) {
+      text += child.value();
+    }
+  }
+  return std::string(trim(text));
 }
 
 XmlElement XmlElement::at(std::string_view path) const {
   pugi::xml_node node(node_);
   for (const std::string& name : split(path, '/')) {
-    node = node.child(name.c_str());
+    node = node.find_child([&](const pugi::xml_node& child) { return is_called(child, name); });
   }
   return XmlElement(node.internal_object());
 }
 
 std::vector<XmlElement> XmlElement::children(const std::string& name) const {
   std::vector<XmlElement> found;
-  for (const pugi::xml_node& child : pugi::xml_node(node_).children(name.c_str())) {
-    found.emplace_back(child.internal_object());
+  for (const pugi::xml_node& child : pugi::xml_node(node_).children()) {
+    if (is_called(child, name)) found.emplace_back(child.internal_object());
   }
   return found;
 }

@@ -22,7 +22,7 @@ class XmlElement {
   std::string name() const;  ///< with its namespace prefix
   std::string text() const;  ///< of this element alone, without surrounding blanks
 
-  /// First descendant along "Record1/Axes/CX".
+  /// First descendant along "Record1/Axes/CX", names without namespace prefixes.
   XmlElement at(std::string_view path) const;
   std::vector<XmlElement> children(const std::string& name) const;
 

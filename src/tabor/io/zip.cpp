@@ -96,6 +96,9 @@ void ZipReader::read(const ZipEntry& entry, std::size_t limit,
   };
   check(entry.size);
   const File file(zip_fopen_index(archive_->handle.get(), entry.index, 0));
+  if (!file && zip_error_code_zip(zip_get_error(archive_->handle.get())) == ZIP_ER_NOPASSWD) {
+    throw InputError(what, "an encrypted entry", "", "unpack it with its password first");
+  }
   std::string piece(std::min(kPiece, limit + 1), '\0');
   std::size_t size = 0;
   std::int64_t n = -1;
