@@ -82,19 +82,20 @@ std::string opd() {
   for (const int value : {4, 1, 5, 2, 32767, 3}) data.append(static_cast<std::int16_t>(value));
   ByteFile file;
   file.number<std::uint16_t>(0, 1);
-  const auto entry = [&file](const std::string& name, std::size_t length) {
+  const auto entry = [&file](const std::string& name, std::int16_t kind, std::size_t length) {
     const std::size_t at = file.bytes().size();
-    file.text(at, name).number<std::int16_t>(at + 16, 7);
+    file.text(at, name).number(at + 16, kind);
     file.number(at + 18, static_cast<std::int32_t>(length)).number<std::uint16_t>(at + 22, 0);
   };
-  entry("Directory", 6 * 24);
-  entry("RAW_DATA", data.bytes().size());
-  entry("Wavelength", 4);
-  entry("Mult", 2);
-  entry("Pixel_size", 4);
-  entry("Aspect", 4);
+  entry("Directory", 1, 7 * 24);
+  entry("RAW_DATA", 3, data.bytes().size());
+  entry("", 0, 4);  // without a name, but with bytes
+  entry("Wavelength", 7, 4);
+  entry("Mult", 6, 2);
+  entry("Pixel_size", 7, 4);
+  entry("Aspect", 7, 4);
   file.text(file.bytes().size(), data.bytes());
-  file.append(600.0f).append<std::int16_t>(1200).append(2e-3f).append(2.0f);
+  file.append(-1.0f).append(600.0f).append<std::int16_t>(1200).append(2e-3f).append(2.0f);
   return file.bytes();
 }
 
@@ -112,6 +113,8 @@ std::string metropro() {
   ByteFile file(834);
   file.big_endian<std::uint32_t>(0, 0x881B036F).big_endian<std::int16_t>(4, 1);
   file.big_endian<std::int32_t>(6, 834).big_endian<std::uint32_t>(60, 12);
+  file.big_endian<std::uint16_t>(52, 3).big_endian<std::uint16_t>(54, 2);
+  file.big_endian<std::uint16_t>(56, 1).big_endian<std::uint32_t>(72, 24);
   file.big_endian<std::uint16_t>(68, 3).big_endian<std::uint16_t>(70, 2);
   file.big_endian(164, 0.5f).big_endian(168, 600e-9f).big_endian(176, 1.0f);
   file.big_endian(184, 2e-6f).big_endian<std::int16_t>(218, 0);
@@ -129,6 +132,7 @@ std::string nms() {
   file.number(1376, 2000.0).number(1384, 4000.0);
   // Full scale is 65535 = 5 * 13107.
   for (const int value : {0, 1, 2, 3, 4, 5}) file.append(static_cast<std::uint16_t>(13107 * value));
+  for (int i = 0; i < 6; ++i) file.append<std::uint8_t>(9);  // grey image
   return file.bytes();
 }
 

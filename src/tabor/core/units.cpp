@@ -23,19 +23,19 @@ struct Unit {
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
 constexpr std::array kUnits{
-    Unit{"m", 1, {1, 0, 0, 0}, true},        Unit{"g", 1e-3, {0, 1, 0, 0}, true},
-    Unit{"s", 1, {0, 0, 1, 0}, true},        Unit{"K", 1, {0, 0, 0, 1}, true},
-    Unit{"Pa", 1, {-1, 1, -2, 0}, true},     Unit{"N", 1, {1, 1, -2, 0}, true},
-    Unit{"J", 1, {2, 1, -2, 0}, true},       Unit{"W", 1, {2, 1, -3, 0}, true},
-    Unit{"Hz", 1, {0, 0, -1, 0}, true},      Unit{"l", 1e-3, {3, 0, 0, 0}, true},
-    Unit{"L", 1e-3, {3, 0, 0, 0}, true},     Unit{"bar", 1e5, {-1, 1, -2, 0}, true},
-    Unit{"P", 0.1, {-1, 1, -1, 0}, true},    Unit{"St", 1e-4, {2, 0, -1, 0}, true},
-    Unit{"Å", 1e-10, {1, 0, 0, 0}, false},   Unit{"A", 1e-10, {1, 0, 0, 0}, false},
-    Unit{"Ang", 1e-10, {1, 0, 0, 0}, false}, Unit{"micron", 1e-6, {1, 0, 0, 0}, false},
-    Unit{"in", 0.0254, {1, 0, 0, 0}, false}, Unit{"inch", 0.0254, {1, 0, 0, 0}, false},
-    Unit{"min", 60, {0, 0, 1, 0}, false},    Unit{"h", 3600, {0, 0, 1, 0}, false},
-    Unit{"rad", 1, {0, 0, 0, 0}, false},     Unit{"deg", kDegree, {0, 0, 0, 0}, false},
-    Unit{"%", 0.01, {0, 0, 0, 0}, false},    Unit{"1", 1, {0, 0, 0, 0}, false},
+    Unit{"m", 1, {1, 0, 0, 0}, true},          Unit{"g", 1e-3, {0, 1, 0, 0}, true},
+    Unit{"s", 1, {0, 0, 1, 0}, true},          Unit{"K", 1, {0, 0, 0, 1}, true},
+    Unit{"Pa", 1, {-1, 1, -2, 0}, true},       Unit{"N", 1, {1, 1, -2, 0}, true},
+    Unit{"J", 1, {2, 1, -2, 0}, true},         Unit{"W", 1, {2, 1, -3, 0}, true},
+    Unit{"Hz", 1, {0, 0, -1, 0}, true},        Unit{"l", 1e-3, {3, 0, 0, 0}, true},
+    Unit{"L", 1e-3, {3, 0, 0, 0}, true},       Unit{"bar", 1e5, {-1, 1, -2, 0}, true},
+    Unit{"P", 0.1, {-1, 1, -1, 0}, true},      Unit{"St", 1e-4, {2, 0, -1, 0}, true},
+    Unit{"Å", 1e-10, {1, 0, 0, 0}, false},     Unit{"Ang", 1e-10, {1, 0, 0, 0}, false},
+    Unit{"micron", 1e-6, {1, 0, 0, 0}, false}, Unit{"in", 0.0254, {1, 0, 0, 0}, false},
+    Unit{"inch", 0.0254, {1, 0, 0, 0}, false}, Unit{"min", 60, {0, 0, 1, 0}, false},
+    Unit{"h", 3600, {0, 0, 1, 0}, false},      Unit{"rad", 1, {0, 0, 0, 0}, false},
+    Unit{"deg", kDegree, {0, 0, 0, 0}, false}, Unit{"%", 0.01, {0, 0, 0, 0}, false},
+    Unit{"1", 1, {0, 0, 0, 0}, false},
 };
 
 struct Prefix {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "tabor/core/error.hpp"
@@ -28,28 +29,44 @@ Document open(const Contents& contents) {
   const std::string_view head = contents.bytes.substr(0, format::kHeadSize);
   std::string found;
   std::string remedy;
+  std::string last_found;  // one reader may stand behind two rows
+  std::string last_remedy;
   for (const Format& row : format::table()) {
     if (row.identify == nullptr || row.identify(head) == format::Match::no) continue;
     try {
       return row.open(contents);
     } catch (const format::Unrecognised& refusal) {
-      found += (found.empty() ? "" : "; ") + refusal.got();
-      remedy = refusal.remedy();
+      if (refusal.got() != last_found) found += (found.empty() ? "" : "; ") + refusal.got();
+      if (refusal.remedy() != last_remedy) {
+        remedy += (remedy.empty() ? "" : "; or ") + refusal.remedy();
+      }
+      last_found = refusal.got();
+      last_remedy = refusal.remedy();
     }
   }
   throw InputError(contents.file.string(), found, "a scan file", remedy);
 }
 
-/// Heights in metres. What is not finite after scaling is a hole.
-Field heights_of(const Layer& layer, double factor) {
+/// Heights in metres. What is not finite after scaling is a hole; so is what no surface can have,
+/// such as a mark of missing points that the format does not know.
+Field heights_of(const Layer& layer, double factor, std::vector<std::string>& doubts) {
+  constexpr double kTallest = 1e6;  // [m]; squares of more leave the range of numbers at last
   Field height = layer.load();
+  std::atomic<Index> n_absurd{0};
   parallel_for(height.size(), kBlock, [&](Index begin, Index end) {
+    Index absurd = 0;
     for (Index i = begin; i < end; ++i) {
       double& z = height.data()[i];
       z *= factor;
-      if (!std::isfinite(z)) z = format::kHole;
+      if (std::abs(z) <= kTallest) continue;
+      absurd += std::isfinite(z) ? 1 : 0;
+      z = format::kHole;
     }
+    n_absurd += absurd;
   });
+  if (n_absurd > 0) {
+    doubts.push_back(fmt::format("{} heights beyond 1000 km taken as missing", n_absurd.load()));
+  }
   return height;
 }
 
@@ -142,7 +159,7 @@ Topography ScanFile::read(const ReadOptions& options) const {
   topography.doubts = document.doubts;
   topography.grid = format::resolve_grid(contents, layer, options, topography.doubts);
   const double factor = format::resolve_height_factor(contents, layer, options, topography.doubts);
-  topography.height = heights_of(layer, factor);
+  topography.height = heights_of(layer, factor, topography.doubts);
   opened_->mapped.check();
   if (layer.late_doubts) {
     const std::vector<std::string>& late = *layer.late_doubts;
@@ -167,13 +184,16 @@ Topography read(const fs::path& file, const ReadOptions& options, const Observer
   return ScanFile(file, observer).read(options);
 }
 
-void write(const Topography& topography, const fs::path& file) {
-  const Format* row = writer_for(file);
-  if (row == nullptr) {
+void require_writer(const fs::path& file) {
+  if (writer_for(file) == nullptr) {
     throw InputError(file.string(), "extension '" + file.extension().string() + "'",
                      "one of " + writable_extensions(), "the extension chooses the format");
   }
-  row->write(topography, file);
+}
+
+void write(const Topography& topography, const fs::path& file) {
+  require_writer(file);
+  writer_for(file)->write(topography, file);
 }
 
 std::string sha256(const fs::path& file) { return io::sha256_of_file(file); }

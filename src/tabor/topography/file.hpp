@@ -77,6 +77,9 @@ FileInfo inspect(const std::filesystem::path& file);
 Topography read(const std::filesystem::path& file, const ReadOptions& options = {},
                 const Observer& observer = {});
 
+/// Throws InputError if no format that can be written has the file name's extension.
+void require_writer(const std::filesystem::path& file);
+
 /// Writes by the file name's extension (.h5 .gwy .gsf .sdf .x3p .npy .txt .xyz .vti), to a
 /// temporary name that is then renamed. Throws OutputError, or InputError for an unknown extension.
 void write(const Topography& topography, const std::filesystem::path& file);

@@ -1,3 +1,6 @@
+#include <cstdlib>
+#include <functional>
+
 #include "topography/formats/sample.hpp"
 
 namespace tabor::topography {
@@ -142,6 +145,147 @@ TEST(TextProfile, OfTwoColumnsIsOneRow) {
   EXPECT_EQ(map.grid.nx, 4);
   EXPECT_NEAR(map.grid.dx(), 1.5e-6, 1e-18);
   EXPECT_NEAR(map.height(0, 3), 8e-6, 1e-18);
+}
+
+TEST(TextCommas, AreDecimalInFilesLongerThanTheSample) {
+  const Folder folder;
+  // The first 16384 bytes end in the middle of a number, just behind a comma.
+  std::string text = "# Kanal: a\n# Breite: 3 µm\n# Höhe: 3 µm\n# Werteinheiten: µm\n";
+  while (text.size() < 20000) text += "1,25\t2,5\t3,75\n";
+  for (int shift = 0; shift < 5; ++shift) {
+    text.insert(0, shift % 2 == 0 ? "#\n" : "\n");
+    const Topography map = test::read_bytes(folder, text);
+    EXPECT_EQ(map.grid.nx, 3);
+    EXPECT_DOUBLE_EQ(map.height(0, 1), 2.5e-6);
+  }
+}
+
+TEST(TextCommas, ThatMayBeEitherAreRefused) {
+  const Folder folder;
+  for (const char* text : {"1.234,5;2.345,6\n3;4\n", "1,234.5\t2,345.6\n1,1\t2,2\n",
+                           "1,5;,5\n1;2\n", "1,5\n2,5\n3,5\n"}) {
+    EXPECT_NE(test::refusal(folder, text, test::micrometres()).find("write decimal points"),
+              std::string::npos)
+        << text;
+  }
+  ReadOptions options;
+  options.pixel_x = 1e-6;
+  const Topography nanoscope =
+      test::read_bytes(folder, "\\Exported image units: nm\n1,5\n2,5\n3,5\n4,5\n", options);
+  EXPECT_TRUE(test::same_bits(nanoscope.height, 1e-9 * matrix(2, 2, {1.5, 2.5, 3.5, 4.5})));
+}
+
+TEST(TextNumbers, OfOtherProgramsAreUnderstood) {
+  const Folder folder;
+  const Field expected = 1e-6 * matrix(2, 2, {1.5e-6, -2, test::kNaN, 0});
+  const Topography map = test::read_bytes(folder,
+                                          "1.5D-06 \xE2\x88\x92"
+                                          "2\n# a remark\n1e400 1e-400\n",
+                                          test::micrometres());
+  EXPECT_TRUE(test::same_bits(map.height, expected));
+}
+
+TEST(TextMatrix, WithAnEmptyCellBetweenTabsIsRefused) {
+  const Folder folder;
+  EXPECT_NE(test::refusal(folder, "1\t2\t3\n1\t\t3\n", test::micrometres())
+                .find("two tabs in a row on line 2"),
+            std::string::npos);
+  EXPECT_EQ(test::refusal(folder, "1\t2\t\n1\t2\t\n", test::micrometres()), "");
+}
+
+TEST(TextXyz, ColumnsStandWhereTheHeaderSays) {
+  const Folder folder;
+  const Field expected = 1e-9 * matrix(2, 3, {1, 2, 3, 4, 5, 6});
+  for (const char* text : {"y [um];x [um];z [nm]\n0;0;1\n0;1;2\n0;2;3\n1;0;4\n1;1;5\n1;2;6\n",
+                           "z_nm x_um y_um\n1 0 0\n2 1 0\n3 2 0\n4 0 1\n5 1 1\n6 2 1\n",
+                           "x [um], y [um], light, Höhe "
+                           "[nm]\n0,0,7,1\n1,0,7,2\n2,0,7,3\n0,1,7,4\n1,1,7,5\n2,1,7,6\n"}) {
+    const Topography map = test::read_bytes(folder, text);
+    EXPECT_TRUE(test::same_bits(map.height, expected)) << text;
+    EXPECT_NEAR(map.grid.dx(), 1e-6, 1e-15) << text;
+  }
+  const Topography profile =
+      test::read_bytes(folder, "# z_nm x_um of (my, own) profile\n1 0\n2 2\n3 4\n4 6\n");
+  EXPECT_TRUE(test::same_bits(profile.height, 1e-9 * matrix(1, 4, {1, 2, 3, 4})));
+  EXPECT_NEAR(profile.grid.dx(), 2e-6, 1e-15);
+}
+
+/// z = 10 ix + iy over 12 x 9 nodes with a given pitch, printed by `place`.
+std::string points(const std::function<std::string(double node, int salt)>& place) {
+  std::string text;
+  for (int iy = 0; iy < 9; ++iy) {
+    for (int ix = 0; ix < 12; ++ix) {
+      text += place(ix, ix + 5 * iy) + " " + place(iy, 3 * ix + iy) + " " +
+              std::to_string(10 * ix + iy) + "\n";
+    }
+  }
+  return text;
+}
+
+TEST(TextXyz, CoordinatesMayBeRoundedOrScatterALittle) {
+  const Folder folder;
+  const auto rounded = [](double pitch) {
+    return points(
+        [=](double node, int) { return std::to_string(std::round(100 * pitch * node) / 100); });
+  };
+  const auto scattered = points(
+      [](double node, int salt) { return std::to_string(2.5 * (node + 0.02 * std::sin(salt))); });
+  for (const auto& [text, pitch] : {std::pair(rounded(1 / 3.0), 1 / 3.0),
+                                    {rounded(2.28), 2.28},
+                                    {rounded(0.1277), 0.1277},
+                                    {scattered, 2.5}}) {
+    const Topography map = test::read_bytes(folder, "x_um y_um z_um\n" + text);
+    ASSERT_EQ(map.grid.nx, 12) << pitch;
+    ASSERT_EQ(map.grid.ny, 9) << pitch;
+    EXPECT_NEAR(map.grid.dx() / (pitch * 1e-6), 1, 0.01) << pitch;
+    EXPECT_NEAR(map.height(8, 11), 118e-6, 1e-12) << pitch;
+    EXPECT_EQ(test::read_bytes(folder, text, test::micrometres()).grid.nx, 12) << pitch;
+  }
+}
+
+TEST(TextXyz, TablesOfPointsAreNeverTakenForAMap) {
+  const Folder folder;
+  std::string scattered, repeated = "x y z\n0 0 1\n1 0 2\n0 1 3\n1 1 4\n1 1 5\n";
+  for (int i = 0; i < 100; ++i) {
+    scattered += std::to_string(std::sin(i)) + " " + std::to_string(std::cos(3 * i)) + " 1\n";
+  }
+  for (const std::string& text : {scattered, repeated}) {
+    EXPECT_NE(test::refusal(folder, text, test::micrometres()).find("regular grid"),
+              std::string::npos);
+  }
+}
+
+TEST(TextXyz, KeepsTheRatioOfItsStepsUnderAGivenPixel) {
+  const Folder folder;
+  const std::string text = "x y z\n0 0 1\n1 0 2\n0 2 3\n1 2 4\n";
+  ReadOptions options = test::micrometres();
+  EXPECT_NEAR(test::read_bytes(folder, text, options).grid.dy(), 2e-6, 1e-15);
+  options.pixel_y = 1e-6;
+  EXPECT_NE(test::refusal(folder, text, options).find("as the coordinates have them"),
+            std::string::npos);
+  options.override_unit = true;
+  EXPECT_NEAR(test::read_bytes(folder, text, options).grid.dy(), 1e-6, 1e-15);
+}
+
+TEST(TextFile, SaysWhichLineIsNoNumber) {
+  const Folder folder;
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", "/nonexistent", 1);
+  EXPECT_NE(test::refusal(folder, "# remark\nLaser scan of 1970\n1 2\n").find("on line 2"),
+            std::string::npos);
+  ::setenv("PATH", path.c_str(), 1);
+}
+
+TEST(GwyddionText, UnderstandsLatin1AndTakesNoAmperesForHeights) {
+  const Folder folder;
+  const Topography map = test::read_bytes(
+      folder, "# Kanal: a\n# Breite: 4 um\n# H\xf6he: 8 um\n# Wert: nm\n1 2\n3 4\n");
+  EXPECT_NEAR(map.grid.ly, 8e-6, 1e-15);
+  EXPECT_NE(test::refusal(folder,
+                          "# Channel: Current\n# Width: 4 um\n# Height: 4 um\n# Value units: "
+                          "A\n1 2\n3 4\n")
+                .find("[A]"),
+            std::string::npos);
 }
 
 TEST(Sdf, AsciiFollowsTheStandard) {

@@ -18,8 +18,7 @@ constexpr double kSameValue = 1.5e-7;
 
 using Tags = std::map<std::string, std::string>;
 
-Tags take_tags(const Contents& contents) {
-  Cursor cursor(contents);
+Tags take_tags(Cursor& cursor) {
   cursor.skip(kMagic.size());
   Tags tags;
   double n_left = 2;  // Version and TagCount come before the tags that are counted
@@ -48,15 +47,19 @@ Match identify_al3d(std::string_view head) {
 }
 
 Document open_al3d(const Contents& contents) {
-  const Tags tags = take_tags(contents);
+  Cursor cursor(contents);
+  const Tags tags = take_tags(cursor);
   const double nx = number(contents, tags, "Cols");
   const double ny = number(contents, tags, "Rows");
   const double offset = number(contents, tags, "DepthImageOffset");
-  const double invalid = number(contents, tags, "InvalidPixelValue");
-  if (!(offset > 0 && offset < static_cast<double>(contents.bytes.size()))) {
-    refuse(contents, fmt::format("a depth image at byte {}", offset), "heights", kDamaged);
+  const auto mark = tags.find("InvalidPixelValue");  // none or NaN: only NaN is invalid
+  const double invalid = mark == tags.end() ? kHole : parse_number(mark->second).value_or(kHole);
+  if (!(offset >= static_cast<double>(cursor.position()) &&
+        offset < static_cast<double>(contents.bytes.size())) ||
+      offset != std::floor(offset)) {
+    refuse(contents, fmt::format("a depth image at byte {}", offset),
+           fmt::format("one behind the header of {} bytes", cursor.position()), kDamaged);
   }
-  Cursor cursor(contents);
   cursor.seek(static_cast<std::size_t>(offset));
   check_size(contents, nx, ny, cursor.left() / sizeof(float));
   Raster raster{.sample = Sample::f32, .nx = static_cast<Index>(nx), .ny = static_cast<Index>(ny)};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "tabor/core/resources.hpp"
 
@@ -15,6 +16,12 @@ constexpr std::size_t kMaxMain = std::size_t{64} << 20;
 constexpr std::size_t kAnyMain = std::size_t{1} << 20;
 constexpr std::size_t kMainRatio = 100;
 
+/// Some programs of Windows separate folders by back slashes.
+std::string with_slashes(std::string path) {
+  std::replace(path.begin(), path.end(), '\\', '/');
+  return path;
+}
+
 bool names(const std::string& path, const std::string& name) {
   return !path.starts_with("__MACOSX") && (path == name || path.ends_with("/" + name));
 }
@@ -25,15 +32,22 @@ bool is_zip(std::string_view head) { return head.starts_with("PK\x03\x04"); }
 
 Archive::Archive(const Contents& contents, const std::string& main, const std::string& format_name)
     : contents_(contents), zip_(contents.bytes, contents.file.string()), main_(main) {
-  const auto& entries = zip_.entries();
-  const auto found = std::find_if(entries.begin(), entries.end(),
-                                  [&](const auto& entry) { return names(entry.name, main); });
-  if (found == entries.end()) {
+  std::string found;
+  for (const io::ZipEntry& entry : zip_.entries()) {
+    const std::string path = with_slashes(entry.name);
+    if (!names(path, main)) continue;
+    if (!found.empty() && found != path) {
+      refuse(contents, "an archive with '" + found + "' and '" + path + "'", "one scan",
+             "unpack it and read its files one by one");
+    }
+    found = path;
+  }
+  if (found.empty()) {
     throw Unrecognised(contents,
                        fmt::format("a ZIP archive without {} (so not {})", main, format_name),
                        "unpack it if it holds several files");
   }
-  folder_ = found->name.substr(0, found->name.size() - main.size());
+  folder_ = found.substr(0, found.size() - main.size());
 }
 
 std::string Archive::main() const {
@@ -43,11 +57,11 @@ std::string Archive::main() const {
 }
 
 const io::ZipEntry& Archive::find(std::string link) const {
-  std::replace(link.begin(), link.end(), '\\', '/');
+  link = with_slashes(std::move(link));
   while (link.starts_with("./") || link.starts_with("/")) link.erase(0, link.find('/') + 1);
   const io::ZipEntry* found = nullptr;
   for (const io::ZipEntry& entry : zip_.entries()) {
-    if (entry.name != folder_ + link) continue;
+    if (with_slashes(entry.name) != folder_ + link) continue;
     if (found != nullptr) {
       refuse(contents_, "two entries named '" + link + "'", "one", kDamaged);
     }

@@ -16,7 +16,8 @@ bool is_zip(std::string_view head);
 class Archive {
  public:
   /// Finds `main` in any folder but __MACOSX. Throws Unrecognised, saying that this is no
-  /// `format_name` file, if there is none; InputError for a damaged archive or two of that name.
+  /// `format_name` file, if there is none; InputError for a damaged archive or several of that
+  /// name.
   Archive(const Contents& contents, const std::string& main, const std::string& format_name);
 
   /// The main document, of at most 64 MiB and not much larger than its archive.

@@ -1,6 +1,7 @@
 // BCR and BCRF of Image Metrology (SPIP): 2048 characters of text, then integers or floats.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -15,7 +16,7 @@ namespace tabor::topography::format {
 namespace {
 
 constexpr std::size_t kHeaderCharacters = 2048;
-constexpr std::string_view kFirstKey = "fileformat = bcr";
+constexpr std::string_view kFirstKey = "fileformat=bcr";
 /// Void pixels of the float format hold the largest float; nothing that is a height is near it.
 constexpr double kVoidFloat = 1e38;
 constexpr double kVoidInteger = 32767;
@@ -28,7 +29,9 @@ std::string header_text(std::string_view bytes) {
   if (bytes.size() > 1 && bytes[1] == '\0') {
     return *utf8_from_utf16("\xFF\xFE" + std::string(bytes.substr(0, 2 * kHeaderCharacters)));
   }
-  return std::string(bytes.substr(0, kHeaderCharacters));
+  std::string text(bytes.substr(0, kHeaderCharacters));
+  std::replace(text.begin(), text.end(), '\0', '\n');  // padding behind the last key
+  return text;
 }
 
 bool is_wide(std::string_view bytes) {
@@ -62,7 +65,8 @@ double number(const Contents& contents, const Keys& keys, const std::string& key
   return *value;
 }
 
-double pixel(const Contents& contents, const Keys& keys, char axis, double n) {
+std::optional<double> pixel(const Contents& contents, const Keys& keys, char axis, double n) {
+  if (!keys.contains(std::string(1, axis) + "length")) return std::nullopt;
   const std::string unit = text_of(keys, std::string(1, axis) + "unit", "nm");
   const auto factor = unit_factor(unit, dimension::length);
   if (!factor) refuse(contents, "lengths in '" + unit + "'", "a length", kDamaged);
@@ -73,21 +77,29 @@ double pixel(const Contents& contents, const Keys& keys, char axis, double n) {
 }  // namespace
 
 Match identify_bcr(std::string_view head) {
-  return header_text(head).starts_with(kFirstKey) ? Match::yes : Match::no;
+  std::string start = header_text(head.substr(0, 2 * kFirstKey.size() + 16));
+  std::erase(start, ' ');
+  return start.starts_with(kFirstKey) ? Match::yes : Match::no;
 }
 
 Document open_bcr(const Contents& contents) {
   const Keys keys = keys_of(header_text(contents.bytes));
-  const bool is_float = text_of(keys, "fileformat", "").starts_with("bcrf");
+  const std::string kind = lower(text_of(keys, "fileformat", ""));
+  const bool is_float = kind == "bcrf" || kind == "bcrf_unicode";
+  if (!is_float && kind != "bcrstm" && kind != "bcrstm_unicode") {
+    refuse(contents, "fileformat '" + kind + "'", "bcrstm or bcrf");
+  }
   const bool is_little = number(contents, keys, "intelmode", 1) != 0;
   Raster raster{.sample = is_float ? Sample::f32 : Sample::i16,
                 .order = is_little ? std::endian::little : std::endian::big};
   const double characters = number(contents, keys, "headersize", kHeaderCharacters);
-  if (!(characters >= 0) || characters > static_cast<double>(contents.bytes.size())) {
+  const std::size_t width = is_wide(contents.bytes) ? 2 : 1;
+  if (characters != kHeaderCharacters &&
+      characters != static_cast<double>(width * kHeaderCharacters)) {
     refuse(contents, fmt::format("a header of {} characters", characters), "2048", kDamaged);
   }
   Cursor cursor(contents);
-  cursor.seek(static_cast<std::size_t>(characters) * (is_wide(contents.bytes) ? 2 : 1));
+  cursor.seek(width * kHeaderCharacters);
   const double nx = number(contents, keys, "xpixels");
   const double ny = number(contents, keys, "ypixels");
   check_size(contents, nx, ny, cursor.left() / size_of(raster.sample));
@@ -109,6 +121,8 @@ Document open_bcr(const Contents& contents) {
   layer.load = [contents, data = cursor.take(byte_size(raster)), raster, is_void] {
     return decode(contents, data, raster, holes_where(is_void));
   };
+  doubt_surplus(cursor, document);
+  doubt_negative_scale(layer.scale, document);
   document.layers.push_back(std::move(layer));
   return document;
 }

@@ -153,6 +153,50 @@ void RowDecoder::accept(std::string_view bytes) {
   rest_ = bytes.substr(bytes.size() / size * size);
 }
 
+void doubt_surplus(const Cursor& behind_map, Document& document) {
+  if (behind_map.left() == 0) return;
+  document.doubts.push_back(fmt::format(
+      "{} bytes follow the map: its size or type may be stated wrongly", behind_map.left()));
+}
+
+void doubt_negative_scale(double scale, Document& document) {
+  if (scale < 0) document.doubts.push_back("the height scale is negative: is up really up?");
+}
+
+namespace {
+
+/// Bytes of the UTF-8 character that `text` begins with; 0 if there is none.
+std::size_t character_size(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text[0]);
+  const std::size_t size = first < 0x80   ? 1
+                           : first < 0xc2 ? 0
+                           : first < 0xe0 ? 2
+                           : first < 0xf0 ? 3
+                           : first < 0xf5 ? 4
+                                          : 0;
+  if (size > text.size()) return 0;
+  const bool continues = std::all_of(
+      text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(std::max<std::size_t>(size, 1)),
+      [](char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; });
+  return continues ? size : 0;
+}
+
+}  // namespace
+
+std::string writable_text(std::string_view text, std::size_t most_bytes) {
+  std::string result;
+  while (!text.empty()) {
+    const std::size_t size = character_size(text);
+    const auto first = static_cast<unsigned char>(text[0]);
+    const bool is_control = first < 0x20 || first == 0x7f;
+    const std::string_view character = size == 0 ? "?" : is_control ? " " : text.substr(0, size);
+    if (result.size() + character.size() > most_bytes) break;
+    result += character;
+    text.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return result;
+}
+
 void put_text(std::string& bytes, std::string_view text, std::size_t width, char fill) {
   std::string field(text.substr(0, width));
   field.resize(width, fill);

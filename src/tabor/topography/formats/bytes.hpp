@@ -119,6 +119,15 @@ void put(std::string& bytes, T value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 
+/// Says in the document's doubts that bytes are left behind the map: its size may be wrong.
+void doubt_surplus(const Cursor& behind_map, Document& document);
+
+/// Says in the document's doubts that a negative height scale turns what was measured upside down.
+void doubt_negative_scale(double scale, Document& document);
+
+/// Text that any format can hold, in at most `most_bytes`: one line, valid UTF-8, no character cut.
+std::string writable_text(std::string_view text, std::size_t most_bytes = std::string_view::npos);
+
 /// Appends text cut or padded with `fill` to a fixed width.
 void put_text(std::string& bytes, std::string_view text, std::size_t width, char fill = ' ');
 

@@ -39,9 +39,12 @@ void check_size(const Contents& contents, double nx, double ny, std::size_t avai
   }
 }
 
+bool is_pixel(double length) { return length >= 1e-15 && length <= 1e6; }
+
 double checked_pixel(const Contents& contents, double pixel) {
-  if (!(pixel > 0) || !std::isfinite(pixel)) {
-    refuse(contents, fmt::format("a pixel of {} m", pixel), "a positive length", kDamaged);
+  if (!is_pixel(pixel)) {
+    refuse(contents, fmt::format("a pixel of {} m", pixel),
+           "a positive length, from 1e-15 to 1e6 m", kDamaged);
   }
   return pixel;
 }

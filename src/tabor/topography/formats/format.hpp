@@ -44,8 +44,9 @@ struct Layer {
   std::optional<int> index = {};  ///< number the file itself gives the channel, else its position
   Index nx = 0;
   Index ny = 0;
-  std::optional<double> pixel_x = {};  ///< [m]
-  std::optional<double> pixel_y = {};  ///< [m]
+  std::optional<double> pixel_x = {};      ///< [m]
+  std::optional<double> pixel_y = {};      ///< [m]
+  std::optional<double> pixel_ratio = {};  ///< y over x, where the file says no more
   std::string pixel_hint = {};  ///< what the file says about the missing pixel, for the message
   std::function<Field()> load = {};  ///< stored values (ny, nx), row 0 on top, NaN = hole
   std::shared_ptr<std::vector<std::string>> late_doubts = {};  ///< what load() found, or null
@@ -114,7 +115,11 @@ inline constexpr const char* kDamaged = "the file is damaged or truncated: expor
 /// not make a reader allocate more than its file can hold.
 void check_size(const Contents& contents, double nx, double ny, std::size_t available);
 
-/// "pixel" as a positive finite length, or a refusal.
+/// Whether anything could be scanned in pixels of this length [m]. Outside, squares of lengths
+/// leave the range of numbers.
+bool is_pixel(double length);
+
+/// "pixel" as such a length, or a refusal.
 double checked_pixel(const Contents& contents, double pixel);
 
 inline constexpr double kHole = std::numeric_limits<double>::quiet_NaN();

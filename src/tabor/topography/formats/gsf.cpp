@@ -79,6 +79,7 @@ Document open_gsf(const Contents& contents) {
     return decode(contents, data, raster);
   };
   Document document{.format = "gsf"};
+  doubt_surplus(cursor, document);
   document.metadata = header;
   document.layers.push_back(std::move(layer));
   return document;
@@ -86,8 +87,8 @@ Document open_gsf(const Contents& contents) {
 
 void write_gsf(const Topography& topography, const std::filesystem::path& file) {
   const Grid& grid = topography.grid;
-  std::string title = topography.channel.empty() ? "height" : topography.channel;
-  std::replace(title.begin(), title.end(), '\n', ' ');
+  const std::string title =
+      writable_text(topography.channel.empty() ? "height" : topography.channel);
   std::string bytes(kMagic);
   bytes += fmt::format("XRes = {}\nYRes = {}\nXReal = {:.17g}\nYReal = {:.17g}\n", grid.nx, grid.ny,
                        grid.lx, grid.ly);

@@ -15,6 +15,7 @@ namespace tabor::topography::format {
 namespace {
 
 constexpr std::string_view kMagic = "GWYP";
+constexpr const char* kInstrument = "Instrument";
 
 std::string unit_of(const GwyObject& field, const std::string& which) {
   const GwyObject* unit = field.object(which, "GwySIUnit");
@@ -26,18 +27,19 @@ std::string_view data_of(const Contents& contents, const GwyObject& field, Index
   const auto data = field.items.find("data");
   const std::size_t expected = static_cast<std::size_t>(nx * ny) * sizeof(double);
   if (data == field.items.end() || data->second.type != 'D' ||
-      data->second.array.size() != expected) {
+      data->second.array.size() != expected || field.number("xres", 0) != static_cast<double>(nx) ||
+      field.number("yres", 0) != static_cast<double>(ny)) {
     refuse(contents, "a data field without its data", fmt::format("{} x {} numbers", nx, ny),
            kDamaged);
   }
   return data->second.array;
 }
 
-std::optional<double> pixel(const GwyObject& field, const std::string& real, Index n) {
+std::optional<double> pixel(const Contents& contents, const GwyObject& field,
+                            const std::string& real, Index n) {
   const auto factor = unit_factor(unit_of(field, "si_unit_xy"), dimension::length);
-  const double extent = field.number(real, 0);
-  if (!factor || !(extent > 0) || !std::isfinite(extent)) return std::nullopt;
-  return extent * *factor / static_cast<double>(n);
+  if (!factor || field.items.count(real) == 0) return std::nullopt;
+  return checked_pixel(contents, field.number(real, 0) * *factor / static_cast<double>(n));
 }
 
 /// What Gwyddion shows under a mask is interpolated: those pixels are holes.
@@ -68,8 +70,8 @@ Layer layer_of(const Contents& contents, const GwyObject& root, const GwyObject&
   layer.index = id;
   layer.nx = static_cast<Index>(nx);
   layer.ny = static_cast<Index>(ny);
-  layer.pixel_x = pixel(field, "xreal", layer.nx);
-  layer.pixel_y = pixel(field, "yreal", layer.ny);
+  layer.pixel_x = pixel(contents, field, "xreal", layer.nx);
+  layer.pixel_y = pixel(contents, field, "yreal", layer.ny);
   const std::string_view data = data_of(contents, field, layer.nx, layer.ny);
   std::string_view mask;
   if (const GwyObject* mask_field = root.object(prefix + "mask", "GwyDataField")) {
@@ -84,15 +86,23 @@ Layer layer_of(const Contents& contents, const GwyObject& root, const GwyObject&
 std::optional<int> channel_id(const std::string& key) {
   const std::vector<std::string> parts = split(key, '/');
   if (parts.size() != 3 || !parts[0].empty() || parts[2] != "data") return std::nullopt;
-  const auto id = parse_number(parts[1]);
-  return id && *id >= 0 && *id < 1e6 ? std::optional(static_cast<int>(*id)) : std::nullopt;
+  constexpr std::size_t most_digits = 6;
+  const std::string& digits = parts[1];
+  const bool is_number = !digits.empty() && digits.size() <= most_digits &&
+                         digits.find_first_not_of("0123456789") == std::string::npos;
+  return is_number ? std::optional(std::stoi(digits)) : std::nullopt;
 }
 
 void add_metadata(Document& document, const GwyObject& root, int id) {
   const GwyObject* meta = root.object(fmt::format("/{}/meta", id), "GwyContainer");
   if (meta == nullptr) return;
   for (const auto& [key, value] : meta->items) {
-    if (!value.text.empty()) document.metadata.emplace(key, value.text);
+    if (value.text.empty()) continue;
+    if (key == kInstrument && document.instrument.empty()) {
+      document.instrument = value.text;
+    } else {
+      document.metadata.emplace(key, value.text);
+    }
   }
 }
 
@@ -142,10 +152,22 @@ GwyBuilder data_field(const Grid& grid, const Field& values, const std::string& 
   return builder;
 }
 
+/// Objects of the format count their bytes in 32 bits.
+void require_countable(const Topography& topography, bool with_mask,
+                       const std::filesystem::path& file) {
+  constexpr std::size_t most_bytes = 0xffffffff - (1 << 20);  // some for names and metadata
+  const Grid& grid = topography.grid;
+  const std::size_t bytes_per_pixel = with_mask ? 2 * sizeof(double) : sizeof(double);
+  if (static_cast<std::size_t>(grid.size()) * bytes_per_pixel <= most_bytes) return;
+  throw InputError(file.string(), fmt::format("{} x {} pixels", grid.nx, grid.ny),
+                   "at most 4 GiB of heights and mask in GWY", "write .h5 instead");
+}
+
 }  // namespace
 
 void write_gwy(const Topography& topography, const std::filesystem::path& file) {
   const Mask hole = holes(topography);
+  require_countable(topography, hole.any(), file);
   // Gwyddion computes with the values under a mask, so they must be numbers: the mean height.
   const double n_valid = static_cast<double>(hole.size() - hole.count());
   const double mean = hole.select(0, topography.height).sum() / std::max(1.0, n_valid);
@@ -156,9 +178,10 @@ void write_gwy(const Topography& topography, const std::filesystem::path& file) 
     root.add("/0/mask", data_field(topography.grid, hole.cast<double>(), ""));
   }
   GwyBuilder meta("GwyContainer");
-  meta.add("Source", topography.source);
-  meta.add("Instrument", topography.instrument);
-  for (const auto& [key, value] : topography.metadata) meta.add(key, value);
+  std::map<std::string, std::string> entries = topography.metadata;
+  entries["Source"] = topography.source;
+  entries[kInstrument] = topography.instrument;
+  for (const auto& [key, value] : entries) meta.add(key, value);
   root.add("/0/meta", meta);
   io::write_file(file, std::string_view(std::string(kMagic) + root.bytes()));
 }

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <ctime>
 
 #include "tabor/core/text.hpp"
+#include "tabor/core/units.hpp"
 #include "tabor/core/version.hpp"
 #include "tabor/topography/formats/hdf5_scan.hpp"
 #include "tabor/topography/formats/readers.hpp"
@@ -14,6 +16,7 @@ namespace tabor::topography::format {
 namespace {
 
 constexpr const char* kHeight = "/surface/height";
+constexpr const char* kMask = "/surface/mask";
 constexpr std::string_view kSignature{"\x89HDF\r\n\x1a\n", 8};
 
 std::string text_or_empty(const io::Hdf5Reader& reader, const std::string& name) {
@@ -25,30 +28,77 @@ std::vector<std::string> texts_or_none(const io::Hdf5Reader& reader, const std::
   return reader.attribute_texts("/surface", name);
 }
 
-/// Pixel pitch from the coordinates of the pixel centres; a single pixel's centre is half of it.
-double pitch(const Contents& contents, const std::vector<double>& centres) {
-  const std::size_t n = centres.size();
-  const double pixel =
-      n > 1 ? (centres.back() - centres.front()) / static_cast<double>(n - 1) : 2 * centres.front();
-  return checked_pixel(contents, pixel);
+/// What tabor writes is in metres and says so; others may have added their own.
+std::string unit_of(const io::Hdf5Reader& reader, const std::string& path) {
+  return reader.has_attribute(path, "units") ? reader.text(path, "units") : "m";
 }
 
-double pixel(const Contents& contents, const io::Hdf5Reader& reader, const std::string& axis) {
-  const std::string attribute = "pixel_" + axis + "_m";
-  if (reader.has_attribute("/surface", attribute)) {
-    return checked_pixel(contents, reader.number("/surface", attribute));
+/// Pixel pitch [m] from the coordinates of the n pixel centres; a single pixel's centre is half of
+/// it.
+double pitch(const Contents& contents, const io::Hdf5Reader& reader, const std::string& path,
+             Index n) {
+  const std::vector<double> centres = reader.numbers(path);
+  if (std::ssize(centres) != n) {
+    refuse(contents, fmt::format("{} places in {}", centres.size(), path),
+           fmt::format("{}, as the map has", n), kDamaged);
   }
-  return pitch(contents, reader.numbers("/surface/" + axis));
+  const std::string unit = unit_of(reader, path);
+  const auto factor = unit_factor(unit, dimension::length);
+  if (!factor) refuse(contents, fmt::format("{} in '{}'", path, unit), "a unit of length");
+  const double step =
+      n > 1 ? (centres.back() - centres.front()) / static_cast<double>(n - 1) : 2 * centres.front();
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    constexpr double most_off = 0.01;  // pixels; coordinates may have been kept as float32
+    const double even = centres.front() + static_cast<double>(i) * step;
+    if (!(std::abs(centres[i] - even) <= most_off * std::abs(step))) {
+      refuse(contents, "uneven places in " + path, "evenly spaced rows and columns",
+             "resample it first");
+    }
+  }
+  return checked_pixel(contents, step * *factor);
+}
+
+double pixel(const Contents& contents, const io::Hdf5Reader& reader, const std::string& axis,
+             Index n) {
+  const std::string attribute = "pixel_" + axis + "_m", path = "/surface/" + axis;
+  if (!reader.has_attribute("/surface", attribute)) return pitch(contents, reader, path, n);
+  const double stated = checked_pixel(contents, reader.number("/surface", attribute));
+  constexpr double same = 1e-3;
+  if (reader.exists(path) && n > 1 &&
+      std::abs(pitch(contents, reader, path, n) - stated) > same * stated) {
+    refuse(contents, fmt::format("{} = {} m, but other steps in {}", attribute, stated, path),
+           "one pixel size", kDamaged);
+  }
+  return stated;
+}
+
+void require_known_version(const Contents& contents, const io::Hdf5Reader& reader) {
+  constexpr std::int64_t newest = 1;
+  if (!reader.has_attribute("/", "format_version")) return;
+  const std::int64_t version = reader.integer("/", "format_version");
+  if (version > newest) {
+    refuse(contents, fmt::format("format_version {}", version), fmt::format("at most {}", newest),
+           "read it with the tabor that wrote it");
+  }
+}
+
+void require_mask_of_map(const Contents& contents, const io::Hdf5Reader& reader,
+                         const std::array<Index, 2>& shape) {
+  if (!reader.exists(kMask)) return;
+  const std::vector<Index> mask = reader.shape(kMask);
+  if (mask != std::vector<Index>(shape.begin(), shape.end())) {
+    refuse(contents, fmt::format("{} of shape {}", kMask, fmt::join(mask, " x ")),
+           fmt::format("{} as the map", fmt::join(shape, " x ")), kDamaged);
+  }
 }
 
 /// Sends the heights, NaN where the mask is set.
 void send_heights(const std::filesystem::path& file,
                   const std::function<void(const Field& rows)>& send) {
   const io::Hdf5Reader reader(file);
-  const auto [ny, nx] = reader.map_shape(kHeight);
+  const bool is_masked = reader.exists(kMask);
   io::ByteMap mask;
-  if (reader.exists("/surface/mask")) mask = reader.bytes("/surface/mask");
-  const bool is_masked = mask.rows() == ny && mask.cols() == nx;
+  if (is_masked) mask = reader.bytes(kMask);
   reader.for_rows(kHeight, [&](Index first, const Field& rows) {
     if (!is_masked) return send(rows);
     send((mask.middleRows(first, rows.rows()) != 0).select(kHole, rows));
@@ -68,9 +118,11 @@ Document describe(const Contents& contents) {
   const io::Hdf5Reader reader(contents.file);
   if (!reader.exists(kHeight)) {
     throw Unrecognised(contents, "an HDF5 file without /surface/height",
-                       "tabor reads the HDF5 files it writes");
+                       "tabor reads the HDF5 files it writes and Zygo's");
   }
+  require_known_version(contents, reader);
   const std::array<Index, 2> shape = reader.map_shape(kHeight);
+  require_mask_of_map(contents, reader, shape);
   Document document{.format = "h5",
                     .instrument = text_or_empty(reader, "instrument"),
                     .history = texts_or_none(reader, "treatment")};
@@ -86,11 +138,11 @@ Document describe(const Contents& contents) {
     document.metadata["earlier doubts"] += doubt + "; ";
   }
   document.layers.push_back({.name = "height",
-                             .unit = "m",
+                             .unit = unit_of(reader, kHeight),
                              .nx = shape[1],
                              .ny = shape[0],
-                             .pixel_x = pixel(contents, reader, "x"),
-                             .pixel_y = pixel(contents, reader, "y"),
+                             .pixel_x = pixel(contents, reader, "x", shape[1]),
+                             .pixel_y = pixel(contents, reader, "y", shape[0]),
                              .load = [contents, shape] {
                                return heights_from_copy(contents, shape, [&](const auto& send) {
                                  send_heights(contents.file, send);

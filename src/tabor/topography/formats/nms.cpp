@@ -30,7 +30,7 @@ Document open_nms(const Contents& contents) {
   const double ny = cursor.take<std::uint32_t>();
   const double dx = cursor.take<double>() * 1e-9;
   const double dy = cursor.take<double>() * 1e-9;
-  if (!std::isfinite(low) || !std::isfinite(high)) {
+  if (!std::isfinite(low) || !std::isfinite(high) || low > high) {
     refuse(contents, fmt::format("heights from {} to {} um", low, high), "a range", kDamaged);
   }
   cursor.seek(kHeightsAt);
@@ -44,6 +44,9 @@ Document open_nms(const Contents& contents) {
     return decode(contents, data, raster, to_heights);
   };
   Document document{.format = "nms", .instrument = "NanoFocus"};
+  const std::size_t picture = static_cast<std::size_t>(raster.nx * raster.ny);  // grey, a byte each
+  if (cursor.left() >= picture) cursor.skip(picture);
+  doubt_surplus(cursor, document);
   document.layers.push_back({.name = "height",
                              .unit = "um",
                              .nx = raster.nx,

@@ -1,6 +1,8 @@
 // NPY, NumPy's array file (numpy.lib.format, versions 1 to 3): shape and type, no unit, no pixel.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tabor/core/text.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/topography/formats/bytes.hpp"
@@ -11,13 +13,23 @@ namespace {
 
 constexpr std::string_view kMagic{"\x93NUMPY", 6};
 
-/// The text after "'key':" in the header's Python dictionary.
+/// The text after "'key':" in the header's Python dictionary, whose quotes are single.
 std::string_view value_of(const Contents& contents, std::string_view header, std::string_view key) {
-  const std::size_t at = header.find(fmt::format("'{}':", key));
-  if (at == std::string_view::npos) {
+  const std::string quoted = fmt::format("'{}'", key);
+  const std::size_t at = header.find(quoted);
+  const std::string_view rest =
+      at == std::string_view::npos ? "" : trim(header.substr(at + quoted.size()));
+  if (!rest.starts_with(':')) {
     refuse(contents, fmt::format("no '{}' in the header", key), "an NPY header", kDamaged);
   }
-  return trim(header.substr(at + key.size() + 3));
+  return trim(rest.substr(1));
+}
+
+bool is_transposed(const Contents& contents, std::string_view text) {
+  if (text.starts_with("True")) return true;
+  if (text.starts_with("False")) return false;
+  refuse(contents, fmt::format("fortran_order {}", text.substr(0, text.find(','))), "True or False",
+         kDamaged);
 }
 
 struct Type {
@@ -39,7 +51,8 @@ Type type_of(const Contents& contents, std::string_view text) {
       }
     }
   }
-  refuse(contents, fmt::format("an array of type {}", text.substr(0, text.find(','))),
+  refuse(contents,
+         fmt::format("an array of type {}", text.substr(0, text.find(", 'fortran_order'"))),
          "integers or real numbers", "save it as float64");
 }
 
@@ -49,8 +62,10 @@ std::vector<double> shape_of(const Contents& contents, std::string_view text) {
   std::vector<double> shape;
   if (text.starts_with('(') && end != std::string_view::npos) {
     for (const std::string& part : split(text.substr(1, end - 1), ',')) {
-      if (trim(part).empty()) continue;
-      shape.push_back(parse_number(part).value_or(0));
+      std::string_view number = trim(part);
+      if (number.empty()) continue;
+      if (number.ends_with('L')) number.remove_suffix(1);  // of Python 2
+      shape.push_back(parse_number(number).value_or(0));
     }
   }
   if (shape.size() != 2) {
@@ -73,16 +88,18 @@ Document open_npy(const Contents& contents) {
   cursor.skip(1);
   const std::size_t length =
       version == 1 ? cursor.take<std::uint16_t>() : cursor.take<std::uint32_t>();
-  const std::string_view header = cursor.take(length);
+  std::string header(cursor.take(length));
+  std::replace(header.begin(), header.end(), '"', '\'');
   const Type type = type_of(contents, value_of(contents, header, "descr"));
-  const bool transposed = value_of(contents, header, "fortran_order").starts_with("True");
+  const bool transposed = is_transposed(contents, value_of(contents, header, "fortran_order"));
   const auto shape = shape_of(contents, value_of(contents, header, "shape"));
   check_size(contents, shape[1], shape[0], cursor.left() / size_of(type.sample));
   Layer layer{.name = "array",
               .is_count = is_integer(type.sample),
               .nx = static_cast<Index>(shape[1]),
               .ny = static_cast<Index>(shape[0])};
-  const std::string_view data = cursor.take(cursor.left());
+  const std::string_view data =
+      cursor.take(byte_size({.sample = type.sample, .nx = layer.nx, .ny = layer.ny}));
   layer.load = [contents, data, type, transposed, nx = layer.nx, ny = layer.ny]() -> Field {
     const Raster raster{.sample = type.sample,
                         .order = type.order,
@@ -93,6 +110,7 @@ Document open_npy(const Contents& contents) {
     return stored;
   };
   Document document{.format = "npy"};
+  doubt_surplus(cursor, document);
   document.layers.push_back(std::move(layer));
   return document;
 }

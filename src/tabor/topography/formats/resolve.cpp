@@ -67,9 +67,9 @@ double resolve_pixel(const Contents& contents, const Layer& layer, char axis,
         std::string("add it, for example --pixel 0.67um") +
             (layer.unit.empty() && !layer.is_count ? " --unit um" : ""));
   }
-  if (!given) return *own;
-  if (!(*given > 0) || !std::isfinite(*given)) {
-    refuse(contents, fmt::format("--pixel {}", *given), "a positive length");
+  if (!given) return checked_pixel(contents, *own);
+  if (!is_pixel(*given)) {
+    refuse(contents, fmt::format("--pixel {} m", *given), "a positive length, from 1e-15 to 1e6 m");
   }
   constexpr double kSame = 1e-6;  // what a user types has fewer digits than the file
   if (!own) return *given;
@@ -139,13 +139,23 @@ Grid resolve_grid(const Contents& contents, const Layer& layer, const ReadOption
                   std::vector<std::string>& doubts) {
   const double dx =
       resolve_pixel(contents, layer, 'x', options.pixel_x, options.override_unit, doubts);
-  const auto& given_y = options.pixel_y ? options.pixel_y : options.pixel_x;
+  const bool has_ratio = layer.pixel_ratio && options.pixel_x && !layer.pixel_y;
+  const double ratio = has_ratio ? *layer.pixel_ratio : 1;
+  const auto given_y = options.pixel_y   ? options.pixel_y
+                       : options.pixel_x ? std::optional(ratio * *options.pixel_x)
+                                         : std::nullopt;
+  constexpr double same_ratio = 1e-3;
+  if (has_ratio && std::abs(*given_y / *options.pixel_x - ratio) > same_ratio * ratio &&
+      !options.override_unit) {
+    refuse(contents, fmt::format("pixels {:g} times as high as wide", *given_y / *options.pixel_x),
+           fmt::format("{:g} times, as the coordinates have them", ratio),
+           "give the pixel along x only, or add --override-unit");
+  }
   const double dy = resolve_pixel(contents, layer, 'y', given_y, options.override_unit, doubts);
-  // Products and quotients of sound numbers may still be zero or infinite.
   return {.nx = layer.nx,
           .ny = layer.ny,
-          .lx = checked_pixel(contents, dx * static_cast<double>(layer.nx)),
-          .ly = checked_pixel(contents, dy * static_cast<double>(layer.ny))};
+          .lx = dx * static_cast<double>(layer.nx),
+          .ly = dy * static_cast<double>(layer.ny)};
 }
 
 double resolve_height_factor(const Contents& contents, const Layer& layer,

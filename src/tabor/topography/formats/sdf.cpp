@@ -93,7 +93,9 @@ Header take_binary_header(Cursor& cursor) {
 }
 
 bool is_version(std::string_view head, char kind) {
-  return head.size() > 8 && head[0] == kind && head[4] == '-' && head[6] == '.';
+  if (head.size() < 9 || head[0] != kind || head[4] != '-') return false;
+  const std::string_view number = head.substr(head[5] == 'V' ? 6 : 5, 2);  // "aNPL-V1.0"
+  return number[0] >= '0' && number[0] <= '9' && number[1] == '.';
 }
 
 /// "Key = value" lines up to the line with the star, which are removed from `text`.
@@ -146,7 +148,10 @@ Document open_sdf(const Contents& contents) {
     return decode(contents, data, raster,
                   holes_where([missing](double z) { return z == missing; }));
   };
-  return document_of("sdf", header, std::move(layer));
+  Document document = document_of("sdf", header, std::move(layer));
+  doubt_surplus(cursor, document);
+  doubt_negative_scale(header.z_scale, document);
+  return document;
 }
 
 Match identify_sdf_ascii(std::string_view head) {
@@ -159,7 +164,7 @@ Document open_sdf_ascii(const Contents& contents) {
   const Header header = header_of(contents, take_keys(contents, text, n_lines));
   const std::size_t end = text.find('*');
   if (end == std::string_view::npos) refuse(contents, "no '*' after its data", "", kDamaged);
-  TextNumbers numbers = parse_numbers(contents, text.substr(0, end), n_lines + 1);
+  TextNumbers numbers = parse_numbers(contents, text.substr(0, end), {.first_line = n_lines + 1});
   check_size(contents, header.nx, header.ny, numbers.values.size());
   if (static_cast<double>(numbers.values.size()) != header.nx * header.ny) {
     refuse(contents, fmt::format("{} heights", numbers.values.size()),
@@ -185,6 +190,12 @@ void require_countable(const Topography& topography, const std::filesystem::path
 /// ddMMyyyyHHmm; a fixed date keeps the output a function of the input alone.
 constexpr std::string_view kDate = "010119700000";
 
+constexpr std::size_t kMakerSize = 10;
+
+std::string maker_of(const Topography& topography) {
+  return writable_text(topography.instrument, kMakerSize);
+}
+
 }  // namespace
 
 void write_sdf(const Topography& topography, const std::filesystem::path& file) {
@@ -192,7 +203,7 @@ void write_sdf(const Topography& topography, const std::filesystem::path& file) 
   const Grid& grid = topography.grid;
   std::string bytes;
   put_text(bytes, "bISO-1.0", 8);
-  put_text(bytes, topography.instrument, 10);
+  put_text(bytes, maker_of(topography), kMakerSize);
   put_text(bytes, kDate, 12);
   put_text(bytes, kDate, 12);
   put(bytes, static_cast<std::uint16_t>(grid.nx));
@@ -215,7 +226,7 @@ void write_sdf_ascii(const Topography& topography, const std::filesystem::path& 
       "aISO-1.0\nManufacID = {}\nCreateDate = {}\nModDate = {}\nNumPoints = {}\nNumProfiles = {}\n"
       "Xscale = {}\nYscale = {}\nZscale = 1\nZresolution = -1\nCompression = 0\nDataType = 7\n"
       "CheckType = 0\n*\n",
-      topography.instrument.substr(0, 10), kDate, kDate, grid.nx, grid.ny, grid.dx(), grid.dy());
+      maker_of(topography), kDate, kDate, grid.nx, grid.ny, grid.dx(), grid.dy());
   for (Index y = 0; y < grid.ny; ++y) {
     for (Index x = 0; x < grid.nx; ++x) {
       const double z = topography.height(y, x);

@@ -26,6 +26,8 @@ struct Header {
   std::int32_t z_min = 0;
   double nx = 0;
   double ny = 0;
+  double n_points = 0;
+  bool is_inverted = false;
   double dx = 0, dy = 0, dz = 0;
   std::string dx_unit, dy_unit, dz_unit;
   double z_offset = 0;
@@ -48,6 +50,7 @@ Header take_header(const Contents& contents) {
   cursor.seek(108);
   header.nx = cursor.take<std::int32_t>();
   header.ny = cursor.take<std::int32_t>();
+  header.n_points = cursor.take<std::int32_t>();
   cursor.seek(120);
   header.dx = cursor.take<float>();
   header.dy = cursor.take<float>();
@@ -56,6 +59,8 @@ Header take_header(const Contents& contents) {
   header.dx_unit = cursor.take_text(16);
   header.dy_unit = cursor.take_text(16);
   header.dz_unit = cursor.take_text(16);
+  cursor.seek(290);
+  header.is_inverted = cursor.take<std::int16_t>() != 0;
   cursor.seek(334);
   header.n_skipped = cursor.take<std::uint16_t>();
   header.n_skipped += cursor.take<std::uint16_t>();
@@ -64,7 +69,8 @@ Header take_header(const Contents& contents) {
   return header;
 }
 
-double lateral(const Contents& contents, double pixel, const std::string& unit) {
+std::optional<double> lateral(const Contents& contents, double pixel, const std::string& unit) {
+  if (unit.empty()) return std::nullopt;
   const auto factor = unit_factor(unit, dimension::length);
   if (!factor) refuse(contents, "pixels in '" + unit + "'", "a length", kDamaged);
   return checked_pixel(contents, pixel * *factor);
@@ -76,6 +82,10 @@ void require_surface(const Contents& contents, const Header& header) {
   if (!is_surface) {
     refuse(contents, fmt::format("a Digital Surf object of type {}", header.type),
            "a surface (type 2)", "export the height layer alone");
+  }
+  if (header.n_points != 0 && header.n_points != header.nx * header.ny) {
+    refuse(contents, fmt::format("{} points", header.n_points),
+           fmt::format("{} x {}", header.nx, header.ny), kDamaged);
   }
   if (header.bits != 16 && header.bits != 32) {
     refuse(contents, fmt::format("{} bits per point", header.bits), "16 or 32", kDamaged);
@@ -89,6 +99,7 @@ void require_surface(const Contents& contents, const Header& header) {
 /// other.
 std::string unpack(const Contents& contents, Cursor& cursor, std::size_t expected) {
   const auto n_streams = cursor.take<std::uint32_t>();
+  if (n_streams == 0) refuse(contents, "no compressed heights", "at least one stream", kDamaged);
   const std::size_t kEntry = 2 * sizeof(std::uint32_t);
   check_size(contents, 1, n_streams, cursor.left() / kEntry);
   std::vector<std::pair<std::size_t, std::size_t>> sizes;
@@ -147,20 +158,30 @@ Document open_sur(const Contents& contents) {
   Cursor cursor(contents);
   const std::size_t data_begin = 512 + header.n_skipped;
   cursor.seek(data_begin);
-  if (!is_compressed) cursor.take(byte_size(raster));
   Document document{.format = "sur"};
+  if (!is_compressed) {
+    cursor.take(byte_size(raster));
+    if (header.objects <= 1) doubt_surplus(cursor, document);
+  }
+  doubt_negative_scale(header.dz, document);
+  if (header.is_inverted) {
+    document.doubts.push_back("the file says that its heights were inverted: is up really up?");
+  }
   if (header.objects > 1) {
     document.doubts.push_back(fmt::format("only the first of {} objects is read", header.objects));
   }
-  document.layers.push_back({.name = header.name.empty() ? "height" : header.name,
-                             .unit = header.dz_unit,
-                             .nx = raster.nx,
-                             .ny = raster.ny,
-                             .pixel_x = lateral(contents, header.dx, header.dx_unit),
-                             .pixel_y = lateral(contents, header.dy, header.dy_unit),
-                             .load = [contents, data_begin, raster, header] {
-                               return heights(contents, data_begin, raster, header);
-                             }});
+  const auto dx = lateral(contents, header.dx, header.dx_unit);
+  const bool is_profile = raster.ny == 1 && header.dy_unit.empty();
+  document.layers.push_back(
+      {.name = header.name.empty() ? "height" : header.name,
+       .unit = header.dz_unit,
+       .nx = raster.nx,
+       .ny = raster.ny,
+       .pixel_x = dx,
+       .pixel_y = is_profile ? dx : lateral(contents, header.dy, header.dy_unit),
+       .load = [contents, data_begin, raster, header] {
+         return heights(contents, data_begin, raster, header);
+       }});
   return document;
 }
 

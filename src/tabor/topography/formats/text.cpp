@@ -7,6 +7,7 @@
 
 #include "tabor/core/units.hpp"
 #include "tabor/io/atomic_file.hpp"
+#include "tabor/topography/formats/bytes.hpp"
 #include "tabor/topography/formats/readers.hpp"
 #include "tabor/topography/formats/text_header.hpp"
 #include "tabor/topography/formats/text_numbers.hpp"
@@ -31,32 +32,96 @@ struct GridLine {
   }
 };
 
-/// The grid line behind column `offset` of `stride` columns, if all coordinates lie on one: a
-/// single node if they are all the same. The spacing is the smallest step between consecutive
-/// points.
-std::optional<GridLine> find_grid_line(const std::vector<double>& values, std::size_t stride,
-                                       std::size_t offset) {
-  double low = values[offset];
-  double high = low;
-  for (std::size_t i = offset; i < values.size(); i += stride) {
-    if (std::isnan(values[i])) return std::nullopt;
-    low = std::min(low, values[i]);
-    high = std::max(high, values[i]);
+/// One column of a table.
+struct TextColumn {
+  const std::vector<double>& values;
+  std::size_t stride;  ///< columns of the table
+  std::size_t offset;
+
+  std::size_t size() const { return values.size() / stride; }
+  double operator[](std::size_t row) const { return values[row * stride + offset]; }
+};
+
+/// What of a range counts as the same coordinate.
+constexpr double kSameShare = 1e-9;
+
+bool holds_all(const GridLine& line, const TextColumn& column) {
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    if (!line.holds(column[i])) return false;
   }
-  if (high == low) return GridLine{low, 1, 1};
+  return true;
+}
+
+/// The smallest step between consecutive points taken as the spacing: right for scans whose
+/// coordinates were printed with all their digits.
+std::optional<GridLine> line_of_smallest_step(const TextColumn& column, double low, double high) {
   double step = high - low;
-  if (!std::isfinite(step)) return std::nullopt;
-  for (std::size_t i = offset + stride; i < values.size(); i += stride) {
-    const double difference = std::abs(values[i] - values[i - stride]);
-    if (difference > 1e-9 * (high - low)) step = std::min(step, difference);
+  for (std::size_t i = 1; i < column.size(); ++i) {
+    const double difference = std::abs(column[i] - column[i - 1]);
+    if (difference > kSameShare * (high - low)) step = std::min(step, difference);
   }
-  if (!(step > 0) || (high - low) / step > static_cast<double>(values.size())) return std::nullopt;
+  if ((high - low) / step > static_cast<double>(column.values.size())) return std::nullopt;
   const double n_steps = std::round((high - low) / step);
   const GridLine line{low, (high - low) / n_steps, static_cast<Index>(n_steps) + 1};
-  for (std::size_t i = offset; i < values.size(); i += stride) {
-    if (!line.holds(values[i])) return std::nullopt;
+  return holds_all(line, column) ? std::optional(line) : std::nullopt;
+}
+
+/// The same for coordinates that rounding or the stage moved: gaps between sorted coordinates are
+/// either within a node or from node to node, and each of these is some whole spacings.
+std::optional<GridLine> line_of_usual_gap(const TextColumn& column, double low, double high) {
+  constexpr double clear_jump = 4;  // from the largest gap within a node to the next one
+  std::vector<double> places;
+  for (std::size_t i = 0; i < column.size(); ++i) places.push_back(column[i]);
+  std::sort(places.begin(), places.end());
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const double gap = places[i] - places[i - 1];
+    if (gap > kSameShare * (high - low)) gaps.push_back(gap);
   }
-  return line;
+  std::sort(gaps.begin(), gaps.end());
+  std::size_t first = 0;
+  double largest_jump = clear_jump;
+  for (std::size_t i = 1; i < gaps.size(); ++i) {
+    if (gaps[i] > largest_jump * gaps[i - 1]) {
+      largest_jump = gaps[i] / gaps[i - 1];
+      first = i;
+    }
+  }
+  const double smallest = gaps[first];
+  const double usual = gaps[first + (gaps.size() - first) / 2];
+  // Places over the numbers of their nodes, as a straight line.
+  double node = 0, sum_node = 0, sum_place = 0, sum_square = 0, sum_product = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double gap = i > 0 ? places[i] - places[i - 1] : 0;
+    if (gap >= smallest) node += std::round(gap / usual);
+    const double place = places[i] - low;
+    sum_node += node;
+    sum_place += place;
+    sum_square += node * node;
+    sum_product += node * place;
+  }
+  if (!(node >= 1) || node > static_cast<double>(column.size())) return std::nullopt;
+  const auto n = static_cast<double>(places.size());
+  const double step =
+      (n * sum_product - sum_node * sum_place) / (n * sum_square - sum_node * sum_node);
+  const GridLine line{low + (sum_place - step * sum_node) / n, step, static_cast<Index>(node) + 1};
+  return holds_all(line, column) ? std::optional(line) : std::nullopt;
+}
+
+/// The grid line behind a column, if all its coordinates lie on one: a single node if they are all
+/// the same.
+std::optional<GridLine> find_grid_line(const TextColumn& column) {
+  double low = column[0];
+  double high = low;
+  for (std::size_t i = 0; i < column.size(); ++i) {
+    if (std::isnan(column[i])) return std::nullopt;
+    low = std::min(low, column[i]);
+    high = std::max(high, column[i]);
+  }
+  if (high == low) return GridLine{low, 1, 1};
+  if (!std::isfinite(high - low)) return std::nullopt;
+  const auto line = line_of_smallest_step(column, low, high);
+  return line ? line : line_of_usual_gap(column, low, high);
 }
 
 /// Metres per unit of a coordinate column; nullopt if the file does not say.
@@ -86,29 +151,60 @@ Layer layer_of(const TextHeader& header, Field heights) {
   return layer;
 }
 
+/// Where x, y and z stand in the table; as usual where the header does not say.
+struct Places {
+  std::size_t x, y, z;
+};
+
+std::optional<Places> places_of(const TextNumbers& numbers, const TextHeader& header) {
+  if (header.is_map) return std::nullopt;
+  const std::size_t n_columns = numbers.n_columns();
+  if (!header.names_places()) {
+    return n_columns == 3 ? std::optional(Places{0, 1, 2}) : std::nullopt;
+  }
+  const std::size_t x = *header.column('x'), y = *header.column('y');
+  // A height by another name stands in the first column that is left.
+  const std::size_t other = x != 0 && y != 0 ? 0 : x != 1 && y != 1 ? 1 : 2;
+  const Places places{x, y, header.column('z').value_or(other)};
+  return std::max({places.x, places.y, places.z}) < n_columns ? std::optional(places)
+                                                              : std::nullopt;
+}
+
+std::string unit_of(const TextHeader& header, char name) {
+  const auto place = header.column(name);
+  return place ? header.columns[*place].unit : "";
+}
+
 /// Points on a regular grid in any order, each node at most once; nodes without a point are holes.
 std::optional<Layer> as_xyz(const TextNumbers& numbers, const TextHeader& header) {
+  const auto places = places_of(numbers, header);
   // Few points without a word about their columns may as well be a small matrix.
-  const std::size_t least = header.x_unit.empty() ? 4 : 2;
-  if (numbers.n_columns() != 3 || numbers.n_rows() < least || header.is_map) return std::nullopt;
-  const auto x = find_grid_line(numbers.values, 3, 0);
-  const auto y = find_grid_line(numbers.values, 3, 1);
+  const std::size_t least = header.names_places() ? 2 : 4;
+  if (!places || numbers.n_rows() < least) return std::nullopt;
+  const std::size_t stride = numbers.n_columns();
+  const TextColumn along_x{numbers.values, stride, places->x};
+  const TextColumn along_y{numbers.values, stride, places->y};
+  const TextColumn z{numbers.values, stride, places->z};
+  const auto x = find_grid_line(along_x);
+  const auto y = find_grid_line(along_y);
   if (!x || !y || x->n * y->n < 2 || x->n * y->n > 2 * static_cast<Index>(numbers.n_rows())) {
     return std::nullopt;
   }
   Field heights = Field::Constant(y->n, x->n, kHole);
   Mask seen = Mask::Constant(y->n, x->n, false);
-  for (std::size_t i = 0; i < numbers.values.size(); i += 3) {
-    const Index row = y->index_of(numbers.values[i + 1]);
-    const Index column = x->index_of(numbers.values[i]);
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const Index row = y->index_of(along_y[i]);
+    const Index column = x->index_of(along_x[i]);
     if (seen(row, column)) return std::nullopt;
     seen(row, column) = true;
-    heights(row, column) = numbers.values[i + 2];
+    heights(row, column) = z[i];
   }
   Layer layer = layer_of(header, std::move(heights));
   // A single row does not tell how wide it is: square pixels are assumed, and said (open_text).
-  layer.pixel_x = x->n > 1 ? pixel_of(x->step, header.x_unit) : pixel_of(y->step, header.y_unit);
-  layer.pixel_y = y->n > 1 ? pixel_of(y->step, header.y_unit) : layer.pixel_x;
+  const std::string x_unit = unit_of(header, 'x'), y_unit = unit_of(header, 'y');
+  layer.pixel_x = x->n > 1 ? pixel_of(x->step, x_unit) : pixel_of(y->step, y_unit);
+  layer.pixel_y = y->n > 1 ? pixel_of(y->step, y_unit) : layer.pixel_x;
+  if (x->n > 1 && y->n > 1) layer.pixel_ratio = y->step / x->step;
   layer.pixel_hint =
       fmt::format("coordinates in steps of {:g} and {:g} without a unit", x->step, y->step);
   return layer;
@@ -117,18 +213,31 @@ std::optional<Layer> as_xyz(const TextNumbers& numbers, const TextHeader& header
 /// Two columns with an evenly rising first one: a profile, read as a map of one row.
 std::optional<Layer> as_profile(const TextNumbers& numbers, const TextHeader& header) {
   if (numbers.n_columns() != 2 || numbers.n_rows() < 4 || header.is_map) return std::nullopt;
-  const auto x = find_grid_line(numbers.values, 2, 0);
+  const std::size_t x_place = header.column('x').value_or(0);
+  if (x_place > 1) return std::nullopt;
+  const TextColumn along_x{numbers.values, 2, x_place};
+  const TextColumn z{numbers.values, 2, 1 - x_place};
+  const auto x = find_grid_line(along_x);
   if (!x || x->n != static_cast<Index>(numbers.n_rows())) return std::nullopt;
   Field heights(1, x->n);
-  for (Index i = 0; i < x->n; ++i) {
-    if (x->index_of(numbers.values[static_cast<std::size_t>(2 * i)]) != i) return std::nullopt;
-    heights(0, i) = numbers.values[static_cast<std::size_t>(2 * i + 1)];
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    if (x->index_of(along_x[i]) != static_cast<Index>(i)) return std::nullopt;
+    heights(0, static_cast<Index>(i)) = z[i];
   }
   Layer layer = layer_of(header, std::move(heights));
-  layer.pixel_x = pixel_of(x->step, header.x_unit);
+  layer.pixel_x = pixel_of(x->step, unit_of(header, 'x'));
   layer.pixel_y = layer.pixel_x;
   layer.pixel_hint = fmt::format("coordinates in steps of {:g} without a unit", x->step);
   return layer;
+}
+
+/// Whether a table is rather a list of points than a map: by its header or its shape.
+bool is_list_of_points(const TextNumbers& numbers, const TextHeader& header) {
+  constexpr std::size_t longest_map = 20;  // times its width
+  if (header.is_map || header.one_per_line) return false;
+  const std::size_t n_columns = numbers.n_columns();
+  return header.names_places() ||
+         (n_columns >= 3 && n_columns <= 4 && numbers.n_rows() > longest_map * n_columns);
 }
 
 /// Rows and columns of a matrix: the header's, a square for exports without line structure, else
@@ -191,7 +300,7 @@ Match identify_text(std::string_view head) {
   while (!head.empty()) {
     const std::string_view line = take_line(head, line_end);
     if (starts_with_number(line)) return Match::yes;
-    if (!is_header_line(line)) return Match::no;
+    if (!is_header_line(line)) return Match::maybe;  // open_text says which line is none
     has_header = true;
   }
   return has_header ? Match::maybe : Match::no;
@@ -201,7 +310,10 @@ Document open_text(const Contents& contents) {
   if (const auto utf8 = utf8_from_utf16(contents.bytes)) return open_text(contents.part(*utf8));
   std::string_view text = contents.bytes;
   const TextHeader header = take_header(contents, text);
-  TextNumbers numbers = parse_numbers(contents, text, header.n_lines + 1);
+  TextNumbers numbers = parse_numbers(contents, text,
+                                      {.first_line = header.n_lines + 1,
+                                       .one_per_line = header.one_per_line,
+                                       .two_columns = header.columns.size() == 2});
   if (numbers.values.empty()) refuse(contents, "no numbers", "a matrix or x y z", kDamaged);
   Document document{.format = "matrix"};
   const bool rectangular = numbers.odd_rows() == nullptr;
@@ -216,8 +328,9 @@ Document open_text(const Contents& contents) {
     document.doubts.push_back("a profile of one row: areal results do not apply");
     document.layers.push_back(std::move(*profile));
   } else {
-    if (!header.x_unit.empty()) {
-      refuse(contents, "points that are not on a regular grid", "evenly spaced x and y",
+    if (rectangular && is_list_of_points(numbers, header)) {
+      refuse(contents, "points that do not fill a regular grid, each node once",
+             "evenly spaced x and y",
              "put the points on a regular grid first, for example with Gwyddion");
     }
     if (header.one_per_line && numbers.n_rows() != numbers.n_columns()) {
@@ -230,9 +343,9 @@ Document open_text(const Contents& contents) {
 
 void write_matrix(const Topography& topography, const std::filesystem::path& file) {
   const Grid& grid = topography.grid;
-  std::string text =
-      fmt::format("# Channel: {}\n# Width: {} m\n# Height: {} m\n# Value units: m\n",
-                  topography.channel.empty() ? "height" : topography.channel, grid.lx, grid.ly);
+  std::string text = fmt::format(
+      "# Channel: {}\n# Width: {} m\n# Height: {} m\n# Value units: m\n",
+      writable_text(topography.channel.empty() ? "height" : topography.channel), grid.lx, grid.ly);
   for (Index y = 0; y < grid.ny; ++y) {
     for (Index x = 0; x < grid.nx; ++x) {
       fmt::format_to(std::back_inserter(text), "{}{}", topography.height(y, x),

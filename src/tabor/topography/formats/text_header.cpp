@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
+#include <utility>
 
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
@@ -43,7 +43,7 @@ void read_comment(const Contents& contents, std::string_view line, TextHeader& h
   const std::string_view value = trim(line.substr(colon + 1));
   if (key == "channel" || key == "kanal") header.channel = value;
   if (key == "width" || key == "breite") header.width = length(contents, value);
-  if (key == "height" || key == "höhe") header.height = length(contents, value);
+  if (key == "height" || key == "höhe" || key == "h\xf6he") header.height = length(contents, value);
   if (key == "value units" || key.starts_with("wert")) header.unit = value;
   header.is_map = header.is_map || header.width.has_value();
 }
@@ -73,33 +73,76 @@ void read_assignment(const Contents& contents, std::string_view line, TextHeader
   }
 }
 
-bool is_word_start(std::string_view line, std::size_t at) {
-  return at == 0 || std::isalnum(static_cast<unsigned char>(line[at - 1])) == 0;
-}
+using Column = TextHeader::Column;
 
-/// The unit of column "x" in "x_um z_um", "x [um], y [um]", "X(mm);Y(mm)"; "" if there is none.
-std::string column_unit(std::string_view line, char column) {
-  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-    if (std::tolower(static_cast<unsigned char>(line[i])) != column || !is_word_start(line, i)) {
-      continue;
+/// Splits "x [um], y [um], z [nm]", "X(mm);Y(mm)" or "x_um z_um"; a unit in brackets belongs to the
+/// word before it.
+std::vector<std::string> column_labels(std::string_view line, char separator) {
+  std::vector<std::string> labels;
+  for (const std::string& part : split(line, separator)) {
+    const std::string_view label = trim(part);
+    if (label.empty()) continue;
+    const bool is_unit = label.starts_with('[') || label.starts_with('(');
+    if (is_unit && !labels.empty()) {
+      labels.back() += label;
+    } else {
+      labels.emplace_back(label);
     }
-    std::string_view rest = line.substr(i + 1);
-    while (rest.starts_with(' ')) rest.remove_prefix(1);
-    if (rest.empty() || std::string_view("_[(/").find(rest.front()) == std::string_view::npos) {
-      continue;
-    }
-    rest.remove_prefix(1);
-    return std::string(rest.substr(0, rest.find_first_of(" ,;\t\r])")));
   }
-  return "";
+  return labels;
 }
 
-void read_column_names(std::string_view line, TextHeader& header) {
-  const std::string z = column_unit(line, 'z');
-  if (z.empty()) return;
-  header.unit = z;
-  header.x_unit = column_unit(line, 'x');
-  header.y_unit = column_unit(line, 'y');
+Column column_of(std::string_view label) {
+  const std::size_t end = std::min(label.find_first_of("_[(/"), label.size());
+  std::string name = lower(trim(label.substr(0, end)));
+  name = name.substr(name.find_last_of(" :") + 1);  // of "points: x [um]"
+  Column column{.name = '?'};
+  if (end < label.size()) {
+    const std::string_view unit = label.substr(end + 1);
+    column.unit = trim(unit.substr(0, unit.find_first_of("])")));
+    if (column.unit.find(' ') != std::string::npos) return {.name = '?'};  // a remark
+  }
+  if (name == "x" || name == "y" || name == "z") column.name = name[0];
+  const bool is_height = name == "height" || name == "höhe" || name == "h\xf6he";
+  if (is_height && !column.unit.empty()) column.name = 'z';
+  return column;
+}
+
+/// The columns that a line so separated names: at least two of x, y and z first, or z with its
+/// unit.
+std::vector<Column> columns_of(std::string_view line, char separator) {
+  std::vector<Column> columns;
+  bool has_height = false;
+  for (const std::string& label : column_labels(line, separator)) {
+    const Column column = column_of(label);
+    const bool is_known = column.name != '?';
+    if (!is_known && (columns.empty() || separator == ' ')) break;  // a remark follows
+    const bool is_again =
+        is_known && std::any_of(columns.begin(), columns.end(),
+                                [&](const Column& other) { return other.name == column.name; });
+    if (is_again) break;
+    has_height |= column.name == 'z' && !column.unit.empty();
+    columns.push_back(column);
+  }
+  const bool begins_with_places =
+      columns.size() > 1 && columns[0].name != '?' && columns[1].name != '?';
+  return begins_with_places || has_height ? columns : std::vector<Column>{};
+}
+
+std::vector<Column> columns_of(std::string_view line) {
+  line.remove_prefix(std::min(line.find_first_not_of("#/ \t"), line.size()));
+  for (const char separator : {';', '\t', ',', ' '}) {
+    if (separator != ' ' && line.find(separator) == std::string_view::npos) continue;
+    if (auto columns = columns_of(line, separator); !columns.empty()) return columns;
+  }
+  return {};
+}
+
+void read_columns(std::string_view line, TextHeader& header) {
+  std::vector<Column> columns = columns_of(line);
+  if (columns.empty()) return;
+  header.columns = std::move(columns);
+  if (const auto z = header.column('z')) header.unit = header.columns[*z].unit;
 }
 
 bool is_assignment(const std::string& line) {
@@ -112,9 +155,14 @@ bool is_assignment(const std::string& line) {
 bool is_header_line(std::string_view line) {
   const std::string text = lower(trim(line));
   return text.empty() || text.starts_with('#') || text.starts_with("\\exported image units") ||
-         text.starts_with("//") || is_assignment(text) || !column_unit(text, 'z').empty() ||
-         text.starts_with("x,") || text.starts_with("x;") || text.starts_with("x\t") ||
-         text.starts_with("x ");
+         text.starts_with("//") || is_assignment(text) || !columns_of(text).empty();
+}
+
+std::optional<std::size_t> TextHeader::column(char name) const {
+  const auto found = std::find_if(columns.begin(), columns.end(),
+                                  [name](const Column& column) { return column.name == name; });
+  if (found == columns.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - columns.begin());
 }
 
 TextHeader take_header(const Contents& contents, std::string_view& text) {
@@ -127,8 +175,10 @@ TextHeader take_header(const Contents& contents, std::string_view& text) {
     const std::string_view line = trim(take_line(rest, line_end));
     if (starts_with_number(line)) return header;
     if (!is_header_line(line)) {
-      refuse(contents, fmt::format("'{}' on line {}", line.substr(0, 40), header.n_lines + 1),
-             "numbers or a known header", "start lines that are not data with #");
+      throw Unrecognised(
+          contents,
+          fmt::format("text with '{}' on line {}", line.substr(0, 40), header.n_lines + 1),
+          "start lines that are no numbers with #");
     }
     if (line.starts_with(kNanoscope)) {
       header.unit = trim(line.substr(kNanoscope.size()));
@@ -138,7 +188,7 @@ TextHeader take_header(const Contents& contents, std::string_view& text) {
     } else if (line.starts_with('#')) {
       read_comment(contents, line, header);
     }
-    if (!header.is_map) read_column_names(line, header);
+    if (!header.is_map) read_columns(line, header);
     text = rest;
     ++header.n_lines;
   }

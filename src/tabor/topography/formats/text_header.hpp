@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tabor/topography/formats/format.hpp"
 
@@ -18,18 +19,25 @@ struct TextHeader {
   std::optional<double> pixel;   ///< square pixels
   std::optional<double> nx;
   std::optional<double> ny;
-  std::string x_unit;  ///< of coordinate columns
-  std::string y_unit;
-  bool one_per_line = false;  ///< Nanoscope export: a square map without line structure
-  bool is_map = false;        ///< the header describes a map: no coordinate columns
-  std::size_t n_lines = 0;    ///< header lines
+  struct Column {
+    char name = '?';  ///< x, y, z or something else
+    std::string unit = {};
+  };
+  std::vector<Column> columns;  ///< from the left, if they are named
+  bool one_per_line = false;    ///< Nanoscope export: a square map without line structure
+  bool is_map = false;          ///< the header describes a map: no coordinate columns
+  std::size_t n_lines = 0;      ///< header lines
+
+  std::optional<std::size_t> column(char name) const;  ///< its place among the columns
+  bool names_places() const { return column('x') && column('y'); }
 };
 
 /// True for a line that a known header can have before its numbers.
 bool is_header_line(std::string_view line);
 
-/// Reads and removes the header from `text`. Knows Gwyddion's (English, German), Wyko's and
-/// Nanoscope's text exports and lines with column names such as "x [um], y [um], z [nm]".
+/// Reads and removes the header from `text`; throws Unrecognised for a line that is none. Knows
+/// Gwyddion's (English, German), Wyko's and Nanoscope's text exports and lines with column names
+/// such as "x [um], y [um], z [nm]".
 TextHeader take_header(const Contents& contents, std::string_view& text);
 
 }  // namespace tabor::topography::format

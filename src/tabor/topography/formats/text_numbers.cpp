@@ -23,6 +23,13 @@ bool is_missing(std::string_view field) {
   return std::find(std::begin(words), std::end(words), word) != std::end(words);
 }
 
+/// Whether a number that no double can hold is too small, not too large.
+bool is_below_range(std::string_view number) {
+  const std::size_t exponent = number.find_first_of("eE");
+  if (exponent != std::string_view::npos) return number.substr(exponent + 1).starts_with('-');
+  return number.find_first_of("123456789") > number.find('.');
+}
+
 /// A number with a decimal point or, if told, a decimal comma.
 std::optional<double> number(std::string_view field, bool decimal_comma) {
   if (field.starts_with('+')) field.remove_prefix(1);
@@ -35,35 +42,91 @@ std::optional<double> number(std::string_view field, bool decimal_comma) {
   double value = 0;
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (end != field.data() + field.size()) return std::nullopt;
-  if (error == std::errc::result_out_of_range) return std::abs(value) < 1 ? 0.0 : kHole;
+  if (error == std::errc::result_out_of_range) return is_below_range(field) ? 0.0 : kHole;
   return error == std::errc{} ? std::optional(value) : std::nullopt;
 }
 
-/// A comma between digits of a blank- or semicolon-separated field can only be a decimal comma if
-/// no field has two of them and no point occurs. "1,2" alone on a line stays two fields.
-bool has_decimal_commas(std::string_view text) {
-  constexpr std::size_t kSample = 16384;
-  text = text.substr(0, kSample);
-  if (text.find('.') != std::string_view::npos || text.find(',') == std::string_view::npos) {
-    return false;
+/// The same for spellings that the C locale does not know: Fortran's 1.5D-06, a typeset minus.
+std::optional<double> foreign_number(std::string_view field, bool decimal_comma) {
+  constexpr std::string_view kMinus = "\xE2\x88\x92";
+  std::string plain(field);
+  for (std::size_t at = 0; (at = plain.find(kMinus, at)) != std::string::npos;) {
+    plain.replace(at, kMinus.size(), "-");
   }
-  bool several_fields = false;
-  const char line_end = line_end_of(text);
-  while (!text.empty()) {
-    const std::string_view line = trim(take_line(text, line_end));
-    several_fields |= line.find_first_of(" \t;") != std::string_view::npos;
-    std::size_t commas = 0;
-    for (std::size_t i = 0; i < line.size(); ++i) {
-      if (line[i] == ',') {
-        const bool inside =
-            i > 0 && i + 1 < line.size() && is_digit(line[i - 1]) && is_digit(line[i + 1]);
-        if (!inside || ++commas > 1) return false;
-      } else if (line[i] == ' ' || line[i] == '\t' || line[i] == ';') {
-        commas = 0;
-      }
+  std::replace(plain.begin(), plain.end(), 'D', 'e');
+  std::replace(plain.begin(), plain.end(), 'd', 'e');
+  return plain == field ? std::nullopt : number(plain, decimal_comma);
+}
+
+/// How the commas of a text are used.
+struct Commas {
+  bool decimal = false;
+  std::string_view doubtful = {};  ///< a line that may be read in two ways, or empty
+};
+
+/// The start of a text, whole lines if it has any, else whole fields.
+std::string_view sample_of(std::string_view text, char line_end) {
+  constexpr std::size_t kSample = 16384;
+  if (text.size() <= kSample) return text;
+  const std::size_t line = text.rfind(line_end, kSample);
+  const std::size_t end =
+      line != std::string_view::npos ? line : text.find_last_of(" \t;", kSample);
+  return text.substr(0, end);
+}
+
+/// What one line says about commas.
+struct LineCommas {
+  std::size_t between_digits = 0, elsewhere = 0, most_per_field = 0;
+  bool has_other_separators = false;
+};
+
+LineCommas commas_in(std::string_view line) {
+  LineCommas found;
+  std::size_t in_field = 0;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == ',') {
+      const bool inside =
+          i > 0 && i + 1 < line.size() && is_digit(line[i - 1]) && is_digit(line[i + 1]);
+      ++(inside ? found.between_digits : found.elsewhere);
+      found.most_per_field = std::max(found.most_per_field, ++in_field);
+    } else if (line[i] == ' ' || line[i] == '\t' || line[i] == ';') {
+      in_field = 0;
+      // Blanks beside a comma only set it off.
+      const std::size_t before = line.find_last_not_of(" \t", i);
+      const std::size_t behind = line.find_first_not_of(" \t", i);
+      const bool beside = (before != std::string_view::npos && line[before] == ',') ||
+                          (behind != std::string_view::npos && line[behind] == ',');
+      found.has_other_separators |= line[i] == ';' || !beside;
     }
   }
-  return several_fields;
+  return found;
+}
+
+/// Commas between digits of fields that something else separates are decimal commas if no field has
+/// two of them and no point occurs. "1,5" alone on each line may be two numbers or one.
+Commas commas_of(std::string_view text, const TextHints& hints) {
+  const char line_end = line_end_of(text);
+  text = sample_of(text, line_end);
+  const bool has_points = text.find('.') != std::string_view::npos;
+  bool all_decimal = !has_points, all_pairs = !has_points, separated = false;
+  std::size_t n_commas = 0, n_lines = 0;
+  std::string_view mixed, first;
+  while (!text.empty()) {
+    const std::string_view line = trim(take_line(text, line_end));
+    if (line.empty()) continue;
+    const LineCommas found = commas_in(line);
+    ++n_lines;
+    n_commas += found.between_digits;
+    separated |= found.has_other_separators;
+    all_decimal &= found.elsewhere == 0 && found.most_per_field <= 1;
+    all_pairs &= found.between_digits == 1 && found.elsewhere == 0 && !found.has_other_separators;
+    if (first.empty()) first = line;
+    if (mixed.empty() && found.between_digits > 0 && found.has_other_separators) mixed = line;
+  }
+  if (n_commas == 0) return {};
+  if (all_decimal && (separated || hints.one_per_line)) return {.decimal = true};
+  if (all_pairs && n_lines > 1 && !hints.two_columns) return {.doubtful = first};
+  return {.doubtful = mixed};
 }
 
 /// What separates fields. Blanks do; so does one hard separator (';' or ','), between two of which
@@ -90,6 +153,8 @@ class Fields {
   }
 
   bool at_end() const { return at_ == end_; }
+  /// Two tabs in a row were passed: a cell without a number, or columns that are set in line.
+  bool has_empty_cell() const { return has_empty_cell_; }
 
   /// The next field as a number if it is a plain one, which nearly all are.
   std::optional<double> take_plain_number() {
@@ -112,19 +177,27 @@ class Fields {
 
  private:
   void skip_blanks() {
-    while (at_ != end_ && separators_->kind(*at_) == Separators::Kind::blank) ++at_;
+    for (; at_ != end_ && separators_->kind(*at_) == Separators::Kind::blank; ++at_) {
+      n_tabs_ += *at_ == '\t' ? 1 : 0;
+    }
   }
   void skip_separator() {
+    n_tabs_ = 0;
     skip_blanks();
     if (at_ != end_ && separators_->kind(*at_) == Separators::Kind::hard) {
       ++at_;
       skip_blanks();
     }
+    has_empty_cell_ |= n_tabs_ > 1 && at_ != end_;
   }
   const char* at_;
   const char* end_;
   const Separators* separators_;
+  int n_tabs_ = 0;
+  bool has_empty_cell_ = false;
 };
+
+constexpr std::string_view kTwoTabs = "\t\t";
 
 /// Some lines of the text, parsed on their own.
 struct Block {
@@ -155,11 +228,19 @@ std::string_view parse_line(std::string_view line, const Separators& separators,
       continue;
     }
     const std::string_view field = fields.take();
-    const auto value = number(field, separators.decimal_comma);
-    if (!value && !field.empty() && !is_missing(field)) return field;
+    auto value = number(field, separators.decimal_comma);
+    if (!value && !field.empty() && !is_missing(field)) {
+      value = foreign_number(field, separators.decimal_comma);
+      if (!value) return field;
+    }
     values.push_back(value && std::isfinite(*value) ? *value : kHole);
   }
-  return {};
+  return fields.has_empty_cell() ? kTwoTabs : std::string_view();
+}
+
+bool is_comment(std::string_view line) {
+  line = trim(line);
+  return line.starts_with('#') || line.starts_with("//");
 }
 
 void parse(Block& block, const Separators& separators, char line_end) {
@@ -168,7 +249,9 @@ void parse(Block& block, const Separators& separators, char line_end) {
   std::string_view rest = block.text;
   for (; !rest.empty(); ++block.n_lines) {
     const std::size_t before = block.numbers.values.size();
-    block.wrong = parse_line(take_line(rest, line_end), separators, block.numbers.values);
+    const std::string_view line = take_line(rest, line_end);
+    if (is_comment(line)) continue;
+    block.wrong = parse_line(line, separators, block.numbers.values);
     if (!block.wrong.empty()) return;
     const std::size_t n_columns = block.numbers.values.size() - before;
     if (n_columns > 0) add_row(block.numbers, block.n_lines, n_columns);
@@ -252,12 +335,36 @@ bool starts_with_number(std::string_view line) {
   const std::string_view field = fields.take();
   if (is_missing(field)) return true;
   const std::size_t comma = field.find(',');
-  return number(field, true).has_value() || number(field.substr(0, comma), false).has_value();
+  const std::string_view first = field.substr(0, comma);
+  return number(field, true).has_value() || number(first, false).has_value() ||
+         foreign_number(field, true).has_value() || foreign_number(first, false).has_value();
 }
 
-TextNumbers parse_numbers(const Contents& contents, std::string_view text, std::size_t first_line) {
+namespace {
+
+[[noreturn]] void refuse_line(const Contents& contents, const Block& block,
+                              std::size_t first_line) {
+  const std::size_t line = first_line + block.n_lines;
+  if (block.wrong == kTwoTabs) {
+    refuse(contents, fmt::format("two tabs in a row on line {}", line), "one between numbers",
+           "write NaN where a height is missing");
+  }
+  refuse(contents, fmt::format("'{}' on line {}", block.wrong.substr(0, 40), line), "a number",
+         "remove or comment what is not data");
+}
+
+}  // namespace
+
+TextNumbers parse_numbers(const Contents& contents, std::string_view text, const TextHints& hints) {
   constexpr std::size_t kBlocksPerWave = 32;
-  const Separators separators(has_decimal_commas(text));
+  const Commas commas = commas_of(text, hints);
+  if (!commas.doubtful.empty()) {
+    refuse(contents, fmt::format("'{}'", commas.doubtful.substr(0, 40)),
+           "commas that separate numbers or commas before decimals, not what may be either",
+           "write decimal points, or ';' between columns");
+  }
+  std::size_t first_line = hints.first_line;
+  const Separators separators(commas.decimal);
   const char line_end = line_end_of(text);
   const double n_bytes = static_cast<double>(text.size());
   TextNumbers numbers;
@@ -273,12 +380,7 @@ TextNumbers parse_numbers(const Contents& contents, std::string_view text, std::
     const double share = 1 - static_cast<double>(text.size()) / n_bytes;
     if (blocks.size() > 1 || !text.empty()) make_room(numbers, blocks, share);
     for (Block& block : blocks) {
-      if (!block.wrong.empty()) {
-        refuse(
-            contents,
-            fmt::format("'{}' on line {}", block.wrong.substr(0, 40), first_line + block.n_lines),
-            "a number", "remove or comment what is not data");
-      }
+      if (!block.wrong.empty()) refuse_line(contents, block, first_line);
       append(numbers, block, first_line);
       first_line += block.n_lines;
     }

@@ -25,6 +25,13 @@ struct TextNumbers {
   const TextRows* odd_rows() const;
 };
 
+/// What a text's header says about its numbers.
+struct TextHints {
+  std::size_t first_line = 1;  ///< their first line's number in the file
+  bool one_per_line = false;   ///< each line is one number
+  bool two_columns = false;    ///< each line is two
+};
+
 /// True if the line starts with a number or with a word for a missing value.
 bool starts_with_number(std::string_view line);
 
@@ -34,11 +41,11 @@ char line_end_of(std::string_view text);
 /// Removes the first line from `text` and returns it without its end.
 std::string_view take_line(std::string_view& text, char line_end = '\n');
 
-/// Parses all of `text`, whose first line is line `first_line` of the file, on all threads. Fields
-/// are separated by blanks, tabs, ';' or ','; where ',' must be a decimal comma it is one. Pages of
-/// the file are given back as they are done with. Throws InputError with the line of the first
-/// field that is no number; Interrupted.
-TextNumbers parse_numbers(const Contents& contents, std::string_view text, std::size_t first_line);
+/// Parses all of `text` on all threads. Fields are separated by blanks, tabs, ';' or ','; where ','
+/// must be a decimal comma it is one. Lines that begin with # or // are left out. Pages of the file
+/// are given back as they are done with. Throws InputError with the line of the first field that is
+/// no number, of an empty cell between tabs, or of commas that may be both; Interrupted.
+TextNumbers parse_numbers(const Contents& contents, std::string_view text, const TextHints& hints);
 
 /// UTF-8 of a text that begins with the byte order mark of UTF-16; nullopt for every other.
 std::optional<std::string> utf8_from_utf16(std::string_view text);

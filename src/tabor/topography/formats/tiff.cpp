@@ -13,8 +13,10 @@ namespace {
 void require_plain_grey(const Contents& contents, const io::TiffDescription& image) {
   if (image.is_grey && !image.has_park_tags) return;
   throw Unrecognised(contents,
-                     image.has_park_tags ? "a TIFF of a Park microscope" : "a colour TIFF",
-                     "save heights as 16-bit grey, or install Gwyddion: sudo apt install gwyddion");
+                     image.has_park_tags ? "a TIFF of a Park microscope"
+                                         : "a TIFF that is no plain grey picture (colours, alpha, "
+                                           "or white as zero)",
+                     "save heights as 16-bit grey");
 }
 
 }  // namespace

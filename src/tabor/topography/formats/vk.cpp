@@ -43,8 +43,9 @@ Scales scales_of(const Contents& contents) {
   const auto picometres = [&](std::size_t index) {
     return kPicometre * number_at(contents, conditions + index * sizeof(std::uint32_t));
   };
-  return {checked_pixel(contents, picometres(42)), checked_pixel(contents, picometres(43)),
-          checked_pixel(contents, picometres(44))};
+  const double z = picometres(44);
+  if (!(z > 0)) refuse(contents, "a height step of 0", "a height per count", kDamaged);
+  return {checked_pixel(contents, picometres(42)), checked_pixel(contents, picometres(43)), z};
 }
 
 Sample sample_of(const Contents& contents, std::uint32_t bits) {
@@ -69,8 +70,13 @@ Layer layer_at(const Contents& contents, std::size_t position, const Scales& sca
   if (cursor.take<std::uint32_t>() != 0) {
     refuse(contents, "compressed samples", "plain ones", "save it uncompressed");
   }
-  cursor.skip(3 * sizeof(std::uint32_t) + kPaletteSize);  // byte count and range, colours
+  const double n_bytes = cursor.take<std::uint32_t>();
+  cursor.skip(2 * sizeof(std::uint32_t) + kPaletteSize);  // range, colours
   check_size(contents, nx, ny, cursor.left() / size_of(raster.sample));
+  if (n_bytes != 0 && n_bytes != nx * ny * static_cast<double>(size_of(raster.sample))) {
+    refuse(contents, fmt::format("{} bytes of samples", n_bytes),
+           fmt::format("those of {} x {} pixels", nx, ny), kDamaged);
+  }
   raster.nx = static_cast<Index>(nx);
   raster.ny = static_cast<Index>(ny);
   Layer layer{.nx = raster.nx, .ny = raster.ny, .pixel_x = scales.pixel_x};
@@ -87,8 +93,15 @@ Document open_stream(const Contents& contents) {
   for (std::size_t i = kFirstLight; i < kFirstOfNeither; ++i) {
     const std::size_t position = number_at(contents, kOffsetsAt + i * sizeof(std::uint32_t));
     if (position == 0) continue;
-    Layer layer = layer_at(contents, position, scales);
-    layer.is_picture = i < kFirstHeight;
+    const bool is_picture = i < kFirstHeight;
+    Layer layer;
+    try {
+      layer = layer_at(contents, position, scales);
+    } catch (const InputError&) {
+      if (is_picture) continue;  // heights do not need it
+      throw;
+    }
+    layer.is_picture = is_picture;
     layer.name = layer.is_picture ? fmt::format("light {}", i - kFirstLight + 1)
                                   : fmt::format("height {}", i - kFirstHeight + 1);
     if (!layer.is_picture) {

@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <span>
 
 #include "tabor/core/text.hpp"
 #include "tabor/io/digest.hpp"
@@ -20,7 +22,7 @@ constexpr const char* kMain = "main.xml";
 struct Axis {
   std::string type;  ///< I = incremental, A = absolute
   Sample sample = Sample::f64;
-  double increment = 1;
+  std::optional<double> increment;  ///< [m]; the standard's default is 1
   double offset = 0;
 };
 
@@ -33,9 +35,9 @@ struct Matrix {
   std::size_t size() const { return static_cast<std::size_t>(nx * ny * n_layers); }
 };
 
-/// Empty and missing numbers mean the default (ISO 25178-72 makes both optional).
-double number(const Contents& contents, const io::XmlElement& element, double fallback) {
-  if (element.text().empty()) return fallback;
+/// Nothing for an empty or missing element (ISO 25178-72 makes both optional).
+std::optional<double> number(const Contents& contents, const io::XmlElement& element) {
+  if (element.text().empty()) return std::nullopt;
   const auto value = parse_number(element.text());
   if (!value || !std::isfinite(*value)) {
     refuse(contents, "'" + element.text() + "' in <" + element.name() + ">", "a finite number",
@@ -57,14 +59,15 @@ Axis axis(const Contents& contents, const io::XmlElement& root, const std::strin
   if (!element) refuse(contents, "no axis " + name + " in main.xml", "Record1/Axes", kDamaged);
   return {.type = element.at("AxisType").text(),
           .sample = sample_of(contents, element.at("DataType").text()),
-          .increment = number(contents, element.at("Increment"), 1),
-          .offset = number(contents, element.at("Offset"), 0)};
+          .increment = number(contents, element.at("Increment")),
+          .offset = number(contents, element.at("Offset")).value_or(0)};
 }
 
 void require_matrix(const Contents& contents, const io::XmlElement& root) {
   const std::string feature = root.at("Record1/FeatureType").text();
   if (feature == "PCL" || root.at("Record3/ListDimension")) {
-    refuse(contents, "a point cloud (FeatureType " + feature + ")", "a matrix of heights",
+    const std::string what = feature == "PCL" ? "a point cloud" : "a list of points";
+    refuse(contents, what + " (FeatureType " + feature + ")", "a matrix of heights",
            "put the points on a regular grid first, for example with Gwyddion");
   }
 }
@@ -79,11 +82,17 @@ Matrix describe(const Contents& contents, const io::XmlElement& root) {
       refuse(contents, "a lateral axis with its own list of coordinates (AxisType A)",
              "evenly spaced rows and columns (AxisType I)", "resample it first");
     }
+    if (lateral->type != "I" && !lateral->type.empty()) {
+      refuse(contents, "AxisType '" + lateral->type + "'", "I or A", kDamaged);
+    }
+  }
+  if (matrix.z.increment == 0) {
+    refuse(contents, "heights with an Increment of 0", "another number", kDamaged);
   }
   const io::XmlElement dimension = root.at("Record3/MatrixDimension");
-  const double nx = number(contents, dimension.at("SizeX"), 0);
-  const double ny = number(contents, dimension.at("SizeY"), 0);
-  const double n_layers = number(contents, dimension.at("SizeZ"), 1);
+  const double nx = number(contents, dimension.at("SizeX")).value_or(0);
+  const double ny = number(contents, dimension.at("SizeY")).value_or(0);
+  const double n_layers = number(contents, dimension.at("SizeZ")).value_or(1);
   // No sample is smaller than a byte.
   const std::size_t most = kLargestDeflateRatio * contents.bytes.size();
   check_size(contents, nx, ny, most);
@@ -121,10 +130,17 @@ struct Links {
   const io::ZipEntry* data = nullptr;
   const io::ZipEntry* valid = nullptr;  ///< null: all points are valid
   std::string digest = {};              ///< MD5 of the data in hexadecimal, "" if there is none
+  std::string valid_digest = {};
 };
 
 Raster raster_of(const Matrix& matrix) {
   return {.sample = matrix.z.sample, .nx = matrix.nx, .ny = matrix.ny};
+}
+
+std::string digest_of(const io::XmlElement& element) {
+  constexpr std::size_t kDigits = 32;
+  const std::string text = lower(element.text());
+  return text.size() == kDigits ? text : "";
 }
 
 Links links_of(const Archive& archive, const io::XmlElement& link, const Matrix& matrix) {
@@ -132,9 +148,8 @@ Links links_of(const Archive& archive, const io::XmlElement& link, const Matrix&
   Links links{.data = &archive.entry(link.at("PointDataLink").text(), size)};
   const std::string valid = link.at("ValidPointsLink").text();
   if (!valid.empty()) links.valid = &archive.entry(valid, (matrix.size() + 7) / 8);
-  const std::string digest = lower(link.at("MD5ChecksumPointData").text());
-  constexpr std::size_t kDigits = 32;
-  if (digest.size() == kDigits) links.digest = digest;
+  links.digest = digest_of(link.at("MD5ChecksumPointData"));
+  links.valid_digest = digest_of(link.at("MD5ChecksumValidPoints"));
   return links;
 }
 
@@ -164,7 +179,12 @@ Field unpack(const Archive& archive, const Links& links, const Matrix& matrix, I
     doubts.push_back("the data do not match their MD5 checksum: changed after export");
   }
   if (links.valid != nullptr) {
-    apply_valid_points(field, archive.read(*links.valid), k * matrix.nx * matrix.ny);
+    const std::string bits = archive.read(*links.valid);
+    if (!links.valid_digest.empty() &&
+        io::md5(std::as_bytes(std::span(bits))) != links.valid_digest) {
+      doubts.push_back("the valid points do not match their MD5 checksum: changed after export");
+    }
+    apply_valid_points(field, bits, k * matrix.nx * matrix.ny);
   }
   return field;
 }
@@ -172,20 +192,32 @@ Field unpack(const Archive& archive, const Links& links, const Matrix& matrix, I
 /// Stored values of layer k.
 using Load = std::function<Field(Index k, std::vector<std::string>& doubts)>;
 
+/// Without an Increment the standard takes 1 m, which no scan has: a pixel is asked for.
+std::optional<double> pixel(const Contents& contents, const Axis& axis) {
+  if (!axis.increment) return std::nullopt;
+  return checked_pixel(contents, *axis.increment);
+}
+
 void add_layers(Document& document, const Contents& contents, const Matrix& matrix,
                 const Load& load) {
+  if (!matrix.z.increment && is_integer(matrix.z.sample)) {
+    document.doubts.push_back(
+        "whole numbers without an Increment are heights in metres (ISO 25178-72)");
+  }
   for (Index k = 0; k < matrix.n_layers; ++k) {
     Layer layer{.name = matrix.n_layers > 1 ? fmt::format("layer {}", k) : "height",
                 .unit = "m",
                 .nx = matrix.nx,
                 .ny = matrix.ny,
-                .pixel_x = checked_pixel(contents, matrix.x.increment),
-                .pixel_y = checked_pixel(contents, matrix.y.increment)};
+                .pixel_x = pixel(contents, matrix.x),
+                .pixel_y = pixel(contents, matrix.y)};
     layer.late_doubts = std::make_shared<std::vector<std::string>>();
     layer.load = [load, k, z = matrix.z, doubts = layer.late_doubts] {
       Field field = load(k, *doubts);
       for_each_row(field.rows(), [&](Index y) {
-        for (Index x = 0; x < field.cols(); ++x) field(y, x) = field(y, x) * z.increment + z.offset;
+        for (Index x = 0; x < field.cols(); ++x) {
+          field(y, x) = field(y, x) * z.increment.value_or(1) + z.offset;
+        }
       });
       return field;
     };
@@ -227,7 +259,7 @@ Document open_x3p(const Contents& contents) {
   const Matrix matrix = describe(contents, root);
   const io::XmlElement link = root.at("Record3/DataLink");
   const io::XmlElement list = root.at("Record3/DataList");
-  if (link) {
+  if (!link.at("PointDataLink").text().empty()) {
     const Links links = links_of(*archive, link, matrix);
     add_layers(document, contents, matrix, [archive, links, matrix](Index k, auto& doubts) {
       return unpack(*archive, links, matrix, k, doubts);

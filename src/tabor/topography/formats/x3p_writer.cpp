@@ -1,7 +1,9 @@
 // Writing X3P: ISO 25178-72 (formerly ISO 5436-2).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string_view>
 
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/digest.hpp"
@@ -27,19 +29,38 @@ std::string record1(const Grid& grid) {
          "    </Axes>\n  </Record1>\n";
 }
 
-std::string record2(const Topography& topography) {
+/// ISO 25178-72 wants dates where nobody knows one.
+constexpr std::string_view kUnknownDate = "1970-01-01T00:00:00";
+
+/// When it was measured, if that is known as the standard writes it (xsd:dateTime).
+std::string_view date_of(const Topography& topography) {
   const auto date = topography.metadata.find("Date");
-  const std::string when = date == topography.metadata.end() ? "1970-01-01T00:00:00" : date->second;
+  if (date == topography.metadata.end()) return kUnknownDate;
+  const std::string_view text = date->second;
+  const auto is_like = [&](std::string_view pattern) {
+    return text.size() >= pattern.size() &&
+           std::equal(pattern.begin(), pattern.end(), text.begin(), [](char wanted, char c) {
+             return wanted == '0' ? c >= '0' && c <= '9' : c == wanted;
+           });
+  };
+  const bool is_date_time = is_like("0000-00-00T00:00:00") &&
+                            text.find_first_not_of("0123456789.:+-TZ") == std::string_view::npos;
+  return is_date_time ? text : kUnknownDate;
+}
+
+std::string text_xml(const std::string& text) { return io::xml_escape(writable_text(text)); }
+
+std::string record2(const Topography& topography) {
   return fmt::format(
       "  <Record2>\n    <Date>{0}</Date>\n    <Instrument>\n"
       "      <Manufacturer>{1}</Manufacturer>\n      <Model>not available</Model>\n"
       "      <Serial>not available</Serial>\n      <Version>not available</Version>\n"
-      "    </Instrument>\n    <CalibrationDate>{0}</CalibrationDate>\n    <ProbingSystem>\n"
+      "    </Instrument>\n    <CalibrationDate>{3}</CalibrationDate>\n    <ProbingSystem>\n"
       "      <Type>Software</Type>\n      <Identification>not available</Identification>\n"
       "    </ProbingSystem>\n    <Comment>{2}</Comment>\n  </Record2>\n",
-      io::xml_escape(when),
-      io::xml_escape(topography.instrument.empty() ? "not available" : topography.instrument),
-      io::xml_escape(topography.source));
+      date_of(topography),
+      text_xml(topography.instrument.empty() ? "not available" : topography.instrument),
+      text_xml(topography.source), kUnknownDate);
 }
 
 std::string record3(const Grid& grid, const std::string& data, const std::string& valid) {
