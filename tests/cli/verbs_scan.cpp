@@ -1,6 +1,9 @@
 // info, convert, params, psd, generate, formats, cite, options on small generated surfaces.
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <filesystem>
+
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
 
@@ -170,6 +173,49 @@ TEST_F(ScanVerbs, OutputInAnAbsentFolderCannotBeWritten) {
   const Outcome outcome = run_tabor({"convert", scan(), file("absent/out.h5")});
   EXPECT_EQ(outcome.code, 5);
   EXPECT_THAT(outcome.err, HasSubstr("absent"));
+}
+
+TEST_F(ScanVerbs, TheMeasurementIsNeverWrittenOver) {
+  const std::string before = bytes_of(folder_ / "scan.sdf");
+  std::filesystem::create_symlink("scan.sdf", folder_ / "link.sdf");
+  for (const std::string& target : {scan(), file("./scan.sdf"), file("link.sdf")}) {
+    const Outcome outcome = run_tabor({"convert", scan(), target, "--level", "plane"});
+    EXPECT_EQ(outcome.code, 3) << target;
+    EXPECT_THAT(outcome.err, HasSubstr("the scan itself"));
+  }
+  EXPECT_EQ(bytes_of(folder_ / "scan.sdf"), before);
+}
+
+TEST_F(ScanVerbs, AnUnknownOutputIsRefusedBeforeTheScanIsRead) {
+  const Outcome outcome = run_tabor({"convert", file("absent.x3p"), file("out.xyzzy")});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("extension '.xyzzy'"));
+}
+
+TEST_F(ScanVerbs, ParamsDescribeAProfileOfOneRow) {
+  std::string text = "# x_um z_um\n";
+  for (int i = 0; i < 400; ++i) {
+    text += std::to_string(i) + " " + std::to_string(1 + 0.01 * i + std::sin(0.5 * i)) + "\n";
+  }
+  put_bytes(folder_ / "profile.txt", text);
+  for (const char* level : {"none", "plane"}) {
+    const Outcome outcome =
+        run_tabor({"params", file("profile.txt"), "--set", "profile", "--level", level});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("Ra_x"));
+  }
+}
+
+TEST_F(ScanVerbs, PsdRefusesAFitOverNoRange) {
+  const Outcome outcome = run_tabor({"psd", scan(), "--fit-min", "5/um", "--fit-max", "1/um"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("the smaller one first"));
+}
+
+TEST_F(ScanVerbs, AnOptionWithoutItsValueSaysWhatIsMissing) {
+  const Outcome outcome = run_tabor({"params", scan(), "--set"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("  ")));
 }
 
 TEST_F(ScanVerbs, HolesAreRefusedByPsdWithTheOptionThatFillsThem) {

@@ -130,6 +130,18 @@ TEST_F(SignalVerbs, CombineFindsTheShiftAndTheVolumeGone) {
   EXPECT_NEAR(map.height(40, 55), 5e-6, 0.1e-6);
 }
 
+TEST_F(SignalVerbs, CombineSaysHowMuchHolesLeaveOut) {
+  topography::Topography scan = topography::read(worn());
+  EXPECT_THAT(run_tabor({"combine", file("a.sdf"), file("worn.sdf")}).err,
+              testing::Not(HasSubstr("left out of the volumes")));
+  for (Index y = 3; y < 90; y += 9) {
+    for (Index x = 4; x < 120; x += 7) scan.height(y, x) = std::numeric_limits<double>::quiet_NaN();
+  }
+  topography::write(scan, folder_ / "holes.sdf");
+  EXPECT_THAT(run_tabor({"combine", file("a.sdf"), file("holes.sdf")}).err,
+              testing::ContainsRegex("[0-9.]+ % of the overlap lie in or beside holes"));
+}
+
 TEST_F(SignalVerbs, CombineShowsATableToPeople) {
   const Outcome told = run_tabor({"combine", file("a.sdf"), worn()});
   EXPECT_EQ(told.code, 0) << told.err;

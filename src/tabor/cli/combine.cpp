@@ -135,6 +135,18 @@ void warn_of_ambiguity(const Combination& c, Context& context) {
   }
 }
 
+/// Interpolation widens every hole by some pixels, and what lies there counts nowhere.
+void warn_of_holes(const Combination& c, Context& context) {
+  constexpr double much = 0.01;
+  const double share =
+      static_cast<double>(topography::count_holes(c.map)) / static_cast<double>(c.map.grid.size());
+  if (!c.wear || share <= much) return;
+  context.warn(fmt::format(
+      "{} of the overlap lie in or beside holes and are left out of the volumes: fill small holes "
+      "(--fill harmonic)",
+      percent(share)));
+}
+
 int show(const Request& request, Context& context) {
   const auto options = options_of(request);
   if (request.output) check_can_write(*request.output);
@@ -145,6 +157,7 @@ int show(const Request& request, Context& context) {
   if (options.mode != CombineMode::composite) warn_if_not_levelled(a, context);
   const Combination c = topography::combine(a.surface, b.surface, options, context.observer());
   warn_of_ambiguity(c, context);
+  warn_of_holes(c, context);
   io::Json object = json_head(context, a);
   object["second_scan"] = {{"path", b.path}, {"sha256", b.sha256}};
   object["second_treatment_history"] = b.surface.history;

@@ -1,4 +1,5 @@
 #include <chrono>
+#include <filesystem>
 #include <future>
 #include <limits>
 #include <memory>
@@ -6,6 +7,7 @@
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
+#include "tabor/core/error.hpp"
 
 namespace tabor::cli {
 
@@ -32,6 +34,12 @@ void write(const topography::Topography& surface, const std::string& file,
 
 int convert(const Request& request, Context& context) {
   check_can_write(request.output);
+  topography::require_writer(request.output);
+  std::error_code error;
+  if (std::filesystem::equivalent(request.scan.file, request.output, error)) {
+    throw InputError(request.output, "the scan itself as its output", "another name",
+                     "a measurement is not written over");
+  }
   const Scan scan = load_scan(request.scan, context);
   write(scan.surface, request.output, context.observer());
   io::Json object = json_head(context, scan);
@@ -52,8 +60,8 @@ Verb convert_verb() {
           .arguments = "SCAN OUT [options]",
           .summary = "treat a scan and write it in another format",
           .details =
-              "The format follows the extension of OUT: .h5 .gwy .gsf .sdf .x3p .npy .txt "
-              ".xyz .vti.",
+              "The format follows the extension of OUT: .h5 .gwy .gsf .sdf .asdf .x3p .npy "
+              ".txt .xyz .vti.",
           .examples = {"tabor convert surfaces/edt_before.x3p edt.gwy",
                        "tabor convert surfaces/edt_before.x3p edt.h5 --level plane --lowpass "
                        "gauss:8um"},

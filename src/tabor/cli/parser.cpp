@@ -27,6 +27,7 @@ Declared declare(CLI::App& app, const OptionSet& set) {
     added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->allow_extra_args(option.is_positional() && option.repeatable);
     if (option.is_positional() && option.repeatable) added->expected(0, -1);
+    if (!option.is_switch()) added->type_name(option.placeholder);  // "1 required UNIT missing"
     declared[added] = &option;
   }
   return declared;

@@ -4,6 +4,7 @@
 #include "tabor/cli/psd_result.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/verbs.hpp"
+#include "tabor/core/error.hpp"
 #include "tabor/topography/parameters.hpp"
 
 namespace tabor::cli {
@@ -23,6 +24,9 @@ struct Request {
 };
 
 topography::PsdOptions options_of(const Request& request) {
+  if (request.fit_min && request.fit_max && !(*request.fit_min < *request.fit_max)) {
+    throw UsageError("--fit-min and --fit-max: expected a range, the smaller one first");
+  }
   return {.convention = *topography::psd_convention_from(request.convention),
           .window = topography::psd_window_from(request.window),
           .fit_q_min = request.fit_min,

@@ -154,8 +154,8 @@ struct Ray {
 
 Ray follow(const Autocorrelation& acf, double angle, double threshold) {
   const Grid& grid = acf.grid();
-  const double step = 0.5 * std::min(grid.dx(), grid.dy());
   const double c = std::cos(angle), s = std::sin(angle);
+  const double step = 0.5 / std::hypot(c / grid.dx(), s / grid.dy());  // half a pixel
   double before = 1;
   for (Index i = 1;; ++i) {
     const double radius = static_cast<double>(i) * step;

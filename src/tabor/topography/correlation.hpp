@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <complex>
 #include <cstdint>
 #include <optional>
@@ -53,10 +54,12 @@ struct CorrelationLengths {
 
   /// Str = Sal / longest; none where it is only known to be below `texture_bound`.
   std::optional<double> texture_aspect() const;
-  double texture_bound() const { return shortest / reach; }  ///< Str is smaller than this
+  double texture_bound() const {
+    return std::min(1.0, shortest / reach);
+  }  ///< Str is smaller than this
 };
 
-/// Sal and Str of ISO 25178-2: rays every 0.25 degrees, followed in steps of half the smaller pixel
+/// Sal and Str of ISO 25178-2: rays every 0.25 degrees, followed in steps of half a pixel
 /// with bilinear interpolation, to the first crossing of `threshold`.
 CorrelationLengths correlation_lengths(const Autocorrelation& acf, double threshold = 0.2);
 

@@ -153,7 +153,7 @@ void check_cutoff(const Filter& filter, double wavelength, const Grid& grid) {
   const double side = std::max(grid.lx, grid.ly);
   if (!(wavelength <= 100 * side)) {
     throw InputError("cutoff of a filter", format_si(wavelength, "m"),
-                     fmt::format("at most the size of the scan, {}", format_si(side, "m")),
+                     fmt::format("at most 100 times the scan's {}", format_si(side, "m")),
                      fmt::format("is the unit in {} right?", to_string(filter)));
   }
 }

@@ -31,7 +31,8 @@ class Borders {
     const double low = z.minCoeff<Eigen::PropagateNumbers>();
     const double high = z.maxCoeff<Eigen::PropagateNumbers>();
     const double top = relief.sign > 0 ? high : -low;
-    const double scale = high > low && std::isfinite(high - low) ? 0xFFFFFFFFU / (high - low) : 0;
+    const double steps = 0xFFFFFFFFU / (high - low);
+    const double scale = high > low && std::isfinite(steps) ? steps : 0;
     std::size_t n = 0;
     for_each_border(relief, label, [&](PixelIndex) { ++n; });
     keys_.reserve(n);

@@ -74,6 +74,13 @@ TEST(Spatial, WarnAboutFieldsThatAreNotSquare) {
   EXPECT_EQ(parameter(wave({64, 64, 64, 64}, 4, 0), kSpatial, "Std").note, "");
 }
 
+/// In steps of the shorter side of a pixel this would take hours.
+TEST(Spatial, OfPixelsAMillionTimesLongerThanWideAreFound) {
+  const auto across = wave({400, 64, 4e-4, 64.0}, 10, 0);
+  EXPECT_NEAR(value(across, kSpatial, "Sal") / (40e-6 * std::acos(0.2) / (2 * pi)), 1, 2e-2);
+  EXPECT_EQ(value(across, kSpatial, "Std"), 0);
+}
+
 TEST(Spatial, OfATiltNeverDecayAndSaySo) {
   const auto tilt = surface({50, 40, 50, 40}, [](double x, double) { return x; });
   const auto flat = surface({50, 40, 50, 40}, [](double, double) { return 0.1; });

@@ -49,10 +49,12 @@ double power_between(const Spectrum& spectrum, double ky, double kx) {
          v * ((1 - u) * power_at(spectrum, y + 1, x) + u * power_at(spectrum, y + 1, x + 1));
 }
 
-/// Integral of power times q along a ray, q in steps of half the finer mode spacing.
+/// Integral of power times q along a ray in steps of half a mode, however much longer than wide the
+/// field is.
 double power_along(const Spectrum& spectrum, const Grid& grid, double angle) {
   const double qx = 2 * pi / grid.lx, qy = 2 * pi / grid.ly;
-  const double step = std::min(qx, qy) / 2, end = pi / std::max(grid.dx(), grid.dy());
+  const double step = 0.5 / std::hypot(std::cos(angle) / qx, std::sin(angle) / qy);
+  const double end = pi / std::max(grid.dx(), grid.dy());
   double total = 0;
   // From two steps on: closer, the missing mode q = 0 is part of every value.
   for (Index i = 2; static_cast<double>(i) * step <= end; ++i) {
@@ -60,7 +62,7 @@ double power_along(const Spectrum& spectrum, const Grid& grid, double angle) {
     // Rows count downwards, angles turn upwards.
     total += q * power_between(spectrum, -q * std::sin(angle) / qy, q * std::cos(angle) / qx);
   }
-  return total;
+  return total * step;
 }
 
 double strongest_direction(const Spectrum& spectrum, const Grid& grid) {
