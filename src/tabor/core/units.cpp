@@ -6,6 +6,8 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
@@ -217,14 +219,14 @@ std::optional<double> unit_factor(std::string_view unit, Dimension expected) {
 
 std::string format_si(double value, std::string_view si_unit, int significant_digits) {
   constexpr std::array<std::string_view, 9> prefixes{"f", "p", "n", "µ", "m", "", "k", "M", "G"};
-  constexpr int plain = 5;
-  int step = 0;
+  constexpr std::ptrdiff_t plain = 5;
+  std::ptrdiff_t step = 0;
   if (value != 0 && std::isfinite(value)) {
-    step = static_cast<int>(std::floor(std::log10(std::abs(value)) / 3 + 1e-12));
-    step = std::clamp(step, -plain, static_cast<int>(prefixes.size()) - 1 - plain);
+    step = static_cast<std::ptrdiff_t>(std::floor(std::log10(std::abs(value)) / 3 + 1e-12));
+    step = std::clamp(step, -plain, std::ssize(prefixes) - 1 - plain);
   }
-  return fmt::format("{:.{}g} {}{}", value * std::pow(1000.0, -step), significant_digits,
-                     prefixes[static_cast<std::size_t>(step + plain)], si_unit);
+  return fmt::format("{:.{}g} {}{}", value * std::pow(1000.0, static_cast<double>(-step)),
+                     significant_digits, *std::next(prefixes.begin(), step + plain), si_unit);
 }
 
 std::string usual_unit(Dimension dimension) {

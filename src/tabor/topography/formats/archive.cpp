@@ -37,7 +37,7 @@ Archive::Archive(const Contents& contents, const std::string& main, const std::s
     const std::string path = with_slashes(entry.name);
     if (!names(path, main)) continue;
     if (!found.empty() && found != path) {
-      refuse(contents, "an archive with '" + found + "' and '" + path + "'", "one scan",
+      refuse(contents, fmt::format("an archive with '{}' and '{}'", found, path), "one scan",
              "unpack it and read its files one by one");
     }
     found = path;
