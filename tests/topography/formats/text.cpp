@@ -273,6 +273,8 @@ TEST(TextFile, SaysWhichLineIsNoNumber) {
   ::setenv("PATH", "/nonexistent", 1);
   EXPECT_NE(test::refusal(folder, "# remark\nLaser scan of 1970\n1 2\n").find("on line 2"),
             std::string::npos);
+  const std::string binary("Laser scan of 1970\n\0\1\2", 22);
+  EXPECT_EQ(test::refusal(folder, binary).find("line 1"), std::string::npos);
   ::setenv("PATH", path.c_str(), 1);
 }
 

@@ -175,6 +175,9 @@ TextHeader take_header(const Contents& contents, std::string_view& text) {
     const std::string_view line = trim(take_line(rest, line_end));
     if (starts_with_number(line)) return header;
     if (!is_header_line(line)) {
+      if (contents.bytes.find('\0') != std::string_view::npos) {
+        throw Unrecognised(contents, "binary data behind a head of text", "");
+      }
       throw Unrecognised(
           contents,
           fmt::format("text with '{}' on line {}", line.substr(0, 40), header.n_lines + 1),
