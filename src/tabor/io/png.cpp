@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <memory>
 
 #include "tabor/core/error.hpp"
@@ -131,7 +132,6 @@ GreyImage read_png(const std::filesystem::path& file) {
   GreyImage image;
   image.bits = png_get_bit_depth(reader.png, reader.info);
   png_set_packing(reader.png);
-  png_set_strip_alpha(reader.png);
   png_set_interlace_handling(reader.png);
   png_read_update_info(reader.png, reader.info);
   const Index nx = png_get_image_width(reader.png, reader.info);
@@ -143,12 +143,17 @@ GreyImage read_png(const std::filesystem::path& file) {
     rows.push_back(bytes.data() + static_cast<std::size_t>(row) * row_bytes);
   }
   png_read_image(reader.png, rows.data());
+  const Index n_channels = png_get_channels(reader.png, reader.info);
   image.counts.resize(ny, nx);
   for (Index row = 0; row < ny; ++row) {
     const png_byte* line = rows[static_cast<std::size_t>(row)];
+    const auto sample = [&](Index k) {
+      return image.bits == 16 ? 256 * line[2 * k] + line[2 * k + 1] : line[k];
+    };
     for (Index column = 0; column < nx; ++column) {
+      const bool is_hole = n_channels == 2 && sample(2 * column + 1) == 0;
       image.counts(row, column) =
-          image.bits == 16 ? 256 * line[2 * column] + line[2 * column + 1] : line[column];
+          is_hole ? std::numeric_limits<double>::quiet_NaN() : sample(n_channels * column);
     }
   }
   return image;

@@ -22,7 +22,7 @@ void write_png(const Picture& picture, const std::filesystem::path& file);
 /// Grey values of a PNG with 1 to 16 bits per sample, as counts (no scaling). A colour picture is
 /// refused: colours are no heights. Throws InputError.
 struct GreyImage {
-  Field counts;  ///< (ny, nx)
+  Field counts;  ///< (ny, nx), NaN where the picture is transparent
   int bits = 8;  ///< per sample, as in the file
 };
 GreyImage read_png(const std::filesystem::path& file);

@@ -12,6 +12,7 @@ struct Parts {
   std::string z_type = "D";
   std::string z_scale;
   std::string size = "<SizeX>2</SizeX><SizeY>2</SizeY><SizeZ>1</SizeZ>";
+  std::string rotation;
   std::string data = "<DataLink><PointDataLink>bindata\\data.bin</PointDataLink></DataLink>";
 };
 
@@ -26,7 +27,7 @@ std::string xml(const Parts& parts) {
          parts.feature + "</FeatureType><Axes>" +
          axis("CX", "I", "D", "<Increment>1e-6</Increment>") +
          axis("CY", parts.y_type, "D", "<Increment>2e-6</Increment><Offset/>") +
-         axis("CZ", "A", parts.z_type, parts.z_scale) +
+         axis("CZ", "A", parts.z_type, parts.z_scale) + parts.rotation +
          "</Axes></Record1><Record3><MatrixDimension>" + parts.size + "</MatrixDimension>" +
          parts.data + "</Record3></p:ISO5436_2>";
 }
@@ -162,6 +163,20 @@ TEST(X3p, ChangedDataAreDoubted) {
   const Topography map = test::read_bytes(folder, archive(parts, binary({1.0, 2.0, 3.0, 4.0})));
   ASSERT_FALSE(map.doubts.empty());
   EXPECT_NE(map.doubts.front().find("MD5"), std::string::npos);
+}
+
+TEST(X3p, ARotationOfItsAxesIsSaid) {
+  const Folder folder;
+  const std::string data = binary({1.0, 2.0, 3.0, 5.0});
+  const auto is_said = [&](const std::string& r11) {
+    Parts parts;
+    parts.rotation = "<Rotation><r11>" + r11 + "</r11><r12>0.0</r12></Rotation>";
+    const Topography map = test::read_bytes(folder, archive(parts, data));
+    return !map.doubts.empty() && map.doubts.front().find("Rotation") != std::string::npos;
+  };
+  EXPECT_TRUE(is_said("-1"));
+  EXPECT_FALSE(is_said("1.0"));
+  EXPECT_FALSE(is_said(""));
 }
 
 }  // namespace

@@ -189,6 +189,19 @@ Field unpack(const Archive& archive, const Links& links, const Matrix& matrix, I
   return field;
 }
 
+/// Whether the file turns its axes in space; heights over the matrix are the same.
+bool is_rotated(const Contents& contents, const io::XmlElement& root) {
+  const io::XmlElement rotation = root.at("Record1/Axes/Rotation");
+  for (int row = 1; row <= 3; ++row) {
+    for (int column = 1; column <= 3; ++column) {
+      const double unit = row == column ? 1 : 0;
+      const auto element = number(contents, rotation.at(fmt::format("r{}{}", row, column)));
+      if (std::abs(element.value_or(unit) - unit) > 1e-6) return true;
+    }
+  }
+  return false;
+}
+
 /// Stored values of layer k.
 using Load = std::function<Field(Index k, std::vector<std::string>& doubts)>;
 
@@ -257,6 +270,10 @@ Document open_x3p(const Contents& contents) {
   Document document{.format = "x3p", .instrument = instrument_of(root)};
   add_metadata(document, root);
   const Matrix matrix = describe(contents, root);
+  if (is_rotated(contents, root)) {
+    document.doubts.push_back(
+        "the Rotation of its axes is not applied: rows and heights as stored");
+  }
   const io::XmlElement link = root.at("Record3/DataLink");
   const io::XmlElement list = root.at("Record3/DataList");
   if (!link.at("PointDataLink").text().empty()) {
