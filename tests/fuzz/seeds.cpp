@@ -62,6 +62,7 @@ void add_containers(std::vector<Seed>& seeds) {
     seeds.push_back({"tiff", std::to_string(bits) + "-bits", test::tiff(bits)});
   }
   seeds.push_back({"tiff", "float", test::tiff(32, 3)});
+  seeds.push_back({"tiff", "missing", test::tiff(16, 1, 1, "2.0")});
 }
 
 void add_texts(std::vector<Seed>& seeds) {

@@ -109,7 +109,7 @@ std::string bcrf(bool wide) {
   return (wide ? utf16(header) : header) + values<float>({1, 2, 3, 4, 5, 3.402823e38});
 }
 
-std::string tiff(int bits, int format, int photometric) {
+std::string tiff(int bits, int format, int photometric, const std::string& missing) {
   const std::string data = format == 3   ? values<float>({1, 2, 3, 4, 5, 6})
                            : bits == 8   ? values<std::uint8_t>({1, 2, 3, 4, 5, 6})
                            : bits == 32  ? values<std::uint32_t>({1, 2, 3, 4, 5, 6})
@@ -129,11 +129,17 @@ std::string tiff(int bits, int format, int photometric) {
   constexpr std::uint16_t kShort = 3;
   ByteFile file;
   file.text(0, std::string("II*\0", 4)).number(4, static_cast<std::uint32_t>(8 + data.size()));
-  file.text(8, data).append(static_cast<std::uint16_t>(std::size(tags)));
+  const std::size_t n_tags = std::size(tags) + (missing.empty() ? 0 : 1);
+  file.text(8, data).append(static_cast<std::uint16_t>(n_tags));
   for (const auto& [tag, value] : tags) {
     const bool is_long = tag < 258 || tag == 273 || tag == 278 || tag == 279;
     file.append(static_cast<std::uint16_t>(tag)).append(is_long ? kLong : kShort);
     file.append(std::uint32_t{1}).append(static_cast<std::uint32_t>(value));
+  }
+  if (!missing.empty()) {
+    constexpr std::uint16_t kText = 2;
+    file.append(std::uint16_t{42113}).append(kText).append(std::uint32_t{4});
+    for (std::size_t i = 0; i < 4; ++i) file.append(i < missing.size() ? missing[i] : '\0');
   }
   return file.append(std::uint32_t{0}).bytes();
 }

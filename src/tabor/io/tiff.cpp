@@ -4,18 +4,22 @@
 #include <fmt/format.h>
 #include <tiffio.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
 
 namespace tabor::io {
 namespace {
 
 constexpr std::uint32_t kParkTag = 50434;
+constexpr std::uint32_t kMissingTag = 42113;  // "GDAL_NODATA", a number as text
 /// No row or tag of a height map is larger: keeps forged sizes from taking all memory.
 constexpr tmsize_t kMaxAllocation = tmsize_t{1} << 28;
 
@@ -119,6 +123,18 @@ Convert converter(const Tiff& tiff, const TiffDescription& image) {
   tiff.refuse(fmt::format("{} bits per sample", image.bits), "8, 16 or 32, or floats");
 }
 
+/// The sample that stands for a missing one, or NaN.
+double missing_sample(const Tiff& tiff, const TiffDescription& image) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const TIFFField* field = TIFFFindField(tiff, kMissingTag, TIFF_ANY);
+  if (field == nullptr || TIFFFieldDataType(field) != TIFF_ASCII) return none;
+  std::uint32_t size = 0;
+  const char* text = nullptr;
+  if (TIFFGetField(tiff, kMissingTag, &size, &text) != 1 || text == nullptr) return none;
+  const double value = parse_number(std::string(text, strnlen(text, size))).value_or(none);
+  return image.is_float && image.bits == 32 ? static_cast<float>(value) : value;
+}
+
 }  // namespace
 
 TiffDescription describe_tiff(const std::filesystem::path& file) {
@@ -136,6 +152,7 @@ Field read_tiff(const std::filesystem::path& file, const std::function<void(doub
   if (image.is_tiled) tiff.refuse("an image in tiles", "rows");
   if (!image.starts_top_left) tiff.refuse("a turned image", "rows from the top left");
   const Convert convert_row = converter(tiff, image);
+  const double missing = missing_sample(tiff, image);
   const auto row_bytes = static_cast<std::size_t>(image.nx * image.bits / 8);
   if (image.nx < 1 || image.ny < 1 || TIFFScanlineSize64(tiff) != row_bytes) tiff.fail();
   std::vector<char> bytes(row_bytes);
@@ -143,6 +160,8 @@ Field read_tiff(const std::filesystem::path& file, const std::function<void(doub
   for (Index y = 0; y < image.ny; ++y) {
     if (TIFFReadScanline(tiff, bytes.data(), static_cast<std::uint32_t>(y)) != 1) tiff.fail();
     convert_row(bytes, image.nx, &samples(y, 0));
+    std::replace(&samples(y, 0), &samples(y, 0) + image.nx, missing,
+                 std::numeric_limits<double>::quiet_NaN());
     constexpr Index kRowsPerReport = 256;
     if (progress && (y + 1) % kRowsPerReport == 0) {
       progress(static_cast<double>(y + 1) / static_cast<double>(image.ny));

@@ -26,7 +26,8 @@ struct TiffDescription {
 TiffDescription describe_tiff(const std::filesystem::path& file);
 
 /// The samples of the first image, shape (ny, nx); grey, in strips, of 8, 16 or 32 bits or floats
-/// of 32 or 64: InputError for every other and for damaged files. `progress` is told the share of
+/// of 32 or 64: InputError for every other and for damaged files. NaN where the file says that a
+/// sample is missing (tag 42113 of GDAL). `progress` is told the share of
 /// rows read so far.
 Field read_tiff(const std::filesystem::path& file,
                 const std::function<void(double share)>& progress = {});

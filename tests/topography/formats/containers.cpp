@@ -117,6 +117,20 @@ TEST(Tiff, EveryGreySampleTypeGivesItsCounts) {
   EXPECT_EQ(below_zero.height(0, 0), -1e-9);
 }
 
+TEST(Tiff, SamplesNamedAsMissingAreHoles) {
+  const Folder folder;
+  for (const auto& [bits, format] : {std::pair(16, 1), {32, 3}}) {
+    const Topography map =
+        test::read_bytes(folder, test::tiff(bits, format, 1, "2.0"), counts_of(1));
+    EXPECT_TRUE(std::isnan(map.height(0, 1)));
+    EXPECT_EQ(map.height.isNaN().count(), 1);
+  }
+  for (const char* other : {"9", "nan", "no"}) {
+    const Topography map = test::read_bytes(folder, test::tiff(16, 1, 1, other), counts_of(1));
+    EXPECT_FALSE(map.height.isNaN().any()) << other;
+  }
+}
+
 TEST(Tiff, ColoursAreRefused) {
   const Folder folder;
   const std::string path = std::getenv("PATH");
