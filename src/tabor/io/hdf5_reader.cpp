@@ -78,8 +78,10 @@ bool is_number(H5T_class_t kind) { return kind == H5T_INTEGER || kind == H5T_FLO
 struct Hdf5Reader::File {
   explicit File(const fs::path& file) : name(file), id(open(file), &H5Fclose) {
     if (!id.valid()) {
+      std::error_code unknown;
       throw InputError(name.string() + (is_hdf5(file) ? ": damaged or incomplete HDF5 file"
-                                                      : ": cannot be read as HDF5"));
+                                        : fs::exists(file, unknown) ? ": cannot be read as HDF5"
+                                                                    : ": no such file"));
     }
   }
 

@@ -88,6 +88,13 @@ void check_size(const Reader& reader, const std::filesystem::path& file) {
   }
 }
 
+/// The grey value that stands for transparent pixels; -1 if there is none.
+int transparent_grey(const Reader& reader) {
+  png_color_16* colour = nullptr;
+  const bool is_there = png_get_tRNS(reader.png, reader.info, nullptr, nullptr, &colour) != 0;
+  return is_there && colour != nullptr ? colour->gray : -1;
+}
+
 void check_grey(const Reader& reader, const std::string& name) {
   const int colour = png_get_color_type(reader.png, reader.info);
   if (colour != PNG_COLOR_TYPE_GRAY && colour != PNG_COLOR_TYPE_GRAY_ALPHA) {
@@ -144,6 +151,7 @@ GreyImage read_png(const std::filesystem::path& file) {
   }
   png_read_image(reader.png, rows.data());
   const Index n_channels = png_get_channels(reader.png, reader.info);
+  const int transparent = transparent_grey(reader);
   image.counts.resize(ny, nx);
   for (Index row = 0; row < ny; ++row) {
     const png_byte* line = rows[static_cast<std::size_t>(row)];
@@ -151,9 +159,9 @@ GreyImage read_png(const std::filesystem::path& file) {
       return image.bits == 16 ? 256 * line[2 * k] + line[2 * k + 1] : line[k];
     };
     for (Index column = 0; column < nx; ++column) {
-      const bool is_hole = n_channels == 2 && sample(2 * column + 1) == 0;
-      image.counts(row, column) =
-          is_hole ? std::numeric_limits<double>::quiet_NaN() : sample(n_channels * column);
+      const int grey = sample(n_channels * column);
+      const bool is_hole = n_channels == 2 ? sample(2 * column + 1) == 0 : grey == transparent;
+      image.counts(row, column) = is_hole ? std::numeric_limits<double>::quiet_NaN() : grey;
     }
   }
   return image;

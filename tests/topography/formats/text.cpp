@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cstdlib>
 #include <functional>
 
@@ -175,6 +177,15 @@ TEST(TextCommas, ThatMayBeEitherAreRefused) {
   EXPECT_TRUE(test::same_bits(nanoscope.height, 1e-9 * matrix(2, 2, {1.5, 2.5, 3.5, 4.5})));
 }
 
+TEST(TextCommas, OfRemarksDecideNothing) {
+  const Folder folder;
+  for (const char* text : {"1 2.5\n3 4\n# 1,5 um tip\n", "1,2.5\n3,4\n// a,1,2 b\n",
+                           "1;2,5\n3;4\n# done 22.11.2026\n"}) {
+    const Topography map = test::read_bytes(folder, text, test::micrometres());
+    EXPECT_TRUE(test::same_bits(map.height, 1e-6 * matrix(2, 2, {1, 2.5, 3, 4}))) << text;
+  }
+}
+
 TEST(TextNumbers, OfOtherProgramsAreUnderstood) {
   const Folder folder;
   const Field expected = 1e-6 * matrix(2, 2, {1.5e-6, -2, test::kNaN, 0});
@@ -210,6 +221,36 @@ TEST(TextXyz, ColumnsStandWhereTheHeaderSays) {
   EXPECT_NEAR(profile.grid.dx(), 2e-6, 1e-15);
 }
 
+TEST(TextXyz, HeightsAreTheColumnThatIsNamedSo) {
+  const Folder folder;
+  const std::string four = "\n0 0 90 1\n1 0 91 2\n0 1 92 3\n1 1 93 5\n";
+  const Field expected = 1e-6 * matrix(2, 2, {1, 2, 3, 5});
+  for (const char* header :
+       {"X Y Intensity Z", "# x y light height", "# x [um] y [um] light z [um]",
+        "# points: x_um y_um light z_um\n# x y light z", "X\tY\tRed light\tHeight"}) {
+    const Topography map = test::read_bytes(folder, header + four, test::micrometres());
+    EXPECT_TRUE(test::same_bits(map.height, expected)) << header;
+  }
+  const Topography numbered =
+      test::read_bytes(folder, "No;x [um];y [um];z [um]\n1;0;0;1\n2;1;0;2\n3;0;1;3\n4;1;1;5\n");
+  EXPECT_TRUE(test::same_bits(numbered.height, expected));
+  EXPECT_NE(test::refusal(folder, "X Y Peak Power" + four, test::micrometres()).find("named z"),
+            std::string::npos);
+}
+
+TEST(TextMatrix, TakesNoUnitFromRemarksOnItsHeight) {
+  const Folder folder;
+  ReadOptions options;
+  options.pixel_x = 1e-6;
+  for (const char* header : {"# Width (um): 4\n# Height (um): 3", "# Height[um] = 10",
+                             "# height (px): 6", "# Height(512)", "# Height (512 lines)"}) {
+    EXPECT_NE(
+        test::refusal(folder, header + std::string("\n1 2 3 4\n5 6 7 9\n"), options).find("--unit"),
+        std::string::npos)
+        << header;
+  }
+}
+
 /// z = 10 ix + iy over 12 x 9 nodes with a given pitch, printed by `place`.
 std::string points(const std::function<std::string(double node, int salt)>& place) {
   std::string text;
@@ -241,6 +282,20 @@ TEST(TextXyz, CoordinatesMayBeRoundedOrScatterALittle) {
     EXPECT_NEAR(map.height(8, 11), 118e-6, 1e-12) << pitch;
     EXPECT_EQ(test::read_bytes(folder, text, test::micrometres()).grid.nx, 12) << pitch;
   }
+}
+
+TEST(TextXyz, MissingColumnsAreHolesOfRoundedGrids) {
+  const Folder folder;
+  std::string text;
+  for (int iy = 0; iy < 20; ++iy) {
+    for (int ix = 0; ix < 20; ++ix) {
+      if (ix > 8 && ix < 15) continue;
+      text += fmt::format("{:.2f} {:.2f} {}\n", ix / 3.0, iy / 3.0, ix + 3 * iy);
+    }
+  }
+  const Topography map = test::read_bytes(folder, text, test::micrometres());
+  EXPECT_EQ(map.grid.nx, 20);
+  EXPECT_EQ(count_holes(map), 6 * 20);
 }
 
 TEST(TextXyz, TablesOfPointsAreNeverTakenForAMap) {
@@ -301,6 +356,33 @@ TEST(Sdf, AsciiFollowsTheStandard) {
   EXPECT_TRUE(test::same_bits(
       map.height, matrix(2, 3, {1.0 * 1e-9, 2 * 1e-9, 3 * 1e-9, 4 * 1e-9, test::kNaN, 6 * 1e-9})));
   EXPECT_NEAR(map.grid.dy(), 2e-6, 1e-18);
+}
+
+TEST(Sdf, ProfilesNeedNoSecondSpacing) {
+  const Folder folder;
+  const Topography map = test::read_bytes(
+      folder,
+      "aNPL-V1.0\nManuFacID = Softgauges\nNumPoints = 3\nNumProfiles = 1\nXscale = 2.5E-07\n"
+      "Yscale = 0\nZscale = 1E-06\nZresolution = -1\nCompression = 0\nDataType = 7\n"
+      "CheckType = 0\n*\n-0.5\n0.25\n1\n*\n*\n");
+  EXPECT_TRUE(test::same_bits(map.height, matrix(1, 3, {-0.5e-6, 0.25e-6, 1e-6})));
+  EXPECT_NEAR(map.grid.dy(), 2.5e-7, 1e-18);
+}
+
+TEST(Sdf, ATrailerOfTextIsNoDoubt) {
+  const Folder folder;
+  const auto doubts_behind = [&](const std::string& trailer) {
+    test::ByteFile file(81);
+    file.text(0, "bISO-1.0").number<std::uint16_t>(42, 2).number<std::uint16_t>(44, 2);
+    file.number(46, 1e-6).number(54, 1e-6).number(62, 1e-9).number<std::uint8_t>(79, 5);
+    for (const int z : {1, 7, 4, 2}) file.append(static_cast<std::int16_t>(z));
+    const auto doubts = test::read_bytes(folder, file.bytes() + trailer).doubts;
+    return std::count_if(doubts.begin(), doubts.end(), [](const std::string& doubt) {
+      return doubt.find("follow the map") != std::string::npos;
+    });
+  };
+  EXPECT_EQ(doubts_behind("Operator = AB\r\n"), 0);
+  EXPECT_EQ(doubts_behind(std::string("\x01\x02", 2)), 1);
 }
 
 TEST(Sdf, LeastIntegerIsAHole) {

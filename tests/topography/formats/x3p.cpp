@@ -10,6 +10,7 @@ struct Parts {
   std::string feature = "SUR";
   std::string y_type = "I";
   std::string z_type = "D";
+  std::string y_scale = "<Increment>2e-6</Increment><Offset/>";
   std::string z_scale;
   std::string size = "<SizeX>2</SizeX><SizeY>2</SizeY><SizeZ>1</SizeZ>";
   std::string rotation;
@@ -26,7 +27,7 @@ std::string xml(const Parts& parts) {
          "<Record1><Revision>ISO5436 – 2000</Revision><FeatureType>" +
          parts.feature + "</FeatureType><Axes>" +
          axis("CX", "I", "D", "<Increment>1e-6</Increment>") +
-         axis("CY", parts.y_type, "D", "<Increment>2e-6</Increment><Offset/>") +
+         axis("CY", parts.y_type, "D", parts.y_scale) +
          axis("CZ", "A", parts.z_type, parts.z_scale) + parts.rotation +
          "</Axes></Record1><Record3><MatrixDimension>" + parts.size + "</MatrixDimension>" +
          parts.data + "</Record3></p:ISO5436_2>";
@@ -163,6 +164,27 @@ TEST(X3p, ChangedDataAreDoubted) {
   const Topography map = test::read_bytes(folder, archive(parts, binary({1.0, 2.0, 3.0, 4.0})));
   ASSERT_FALSE(map.doubts.empty());
   EXPECT_NE(map.doubts.front().find("MD5"), std::string::npos);
+}
+
+TEST(X3p, ProfilesNeedNoSecondIncrement) {
+  const Folder folder;
+  Parts parts;
+  parts.size = "<SizeX>4</SizeX><SizeY>1</SizeY><SizeZ>1</SizeZ>";
+  for (const char* scale : {"", "<Increment>0</Increment>"}) {
+    parts.y_scale = scale;
+    const Topography map = test::read_bytes(folder, archive(parts, binary({1.0, 2.0, 3.0, 5.0})));
+    EXPECT_NEAR(map.grid.dy(), 1e-6, 1e-18);
+  }
+}
+
+TEST(X3p, ANegativeIncrementOfHeightsIsDoubted) {
+  const Folder folder;
+  Parts parts;
+  parts.z_scale = "<Increment>-1e-6</Increment>";
+  const Topography map = test::read_bytes(folder, archive(parts, binary({1.0, 2.0, 3.0, 5.0})));
+  EXPECT_DOUBLE_EQ(map.height(1, 1), -5e-6);
+  ASSERT_FALSE(map.doubts.empty());
+  EXPECT_NE(map.doubts.front().find("negative"), std::string::npos);
 }
 
 TEST(X3p, ARotationOfItsAxesIsSaid) {

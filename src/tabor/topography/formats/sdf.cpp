@@ -1,6 +1,7 @@
 // SDF, the surface data file of ISO 25178-71 (BCR-STM of the 1990s), ascii and binary.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -58,13 +59,15 @@ Layer layer_of(const Contents& contents, const Header& header) {
   if (!std::isfinite(header.z_scale) || header.z_scale == 0) {
     refuse(contents, fmt::format("a Zscale of {}", header.z_scale), "a length", kDamaged);
   }
+  // Profiles of NPL's softgauges have no second spacing.
+  const bool is_profile = header.ny == 1 && header.y_scale == 0;
   return {.name = "height",
           .unit = "m",
           .scale = header.z_scale,
           .nx = static_cast<Index>(header.nx),
           .ny = static_cast<Index>(header.ny),
           .pixel_x = checked_pixel(contents, header.x_scale),
-          .pixel_y = checked_pixel(contents, header.y_scale)};
+          .pixel_y = checked_pixel(contents, is_profile ? header.x_scale : header.y_scale)};
 }
 
 Document document_of(std::string name, const Header& header, Layer layer) {
@@ -72,6 +75,13 @@ Document document_of(std::string name, const Header& header, Layer layer) {
   if (!header.created.empty()) document.metadata["CreateDate"] = header.created;
   document.layers.push_back(std::move(layer));
   return document;
+}
+
+/// The third section of a file is text.
+bool is_trailer(std::string_view bytes) {
+  return std::all_of(bytes.begin(), bytes.end(), [](char c) {
+    return (c >= ' ' && c <= '~') || c == '\t' || c == '\r' || c == '\n';
+  });
 }
 
 Header take_binary_header(Cursor& cursor) {
@@ -149,7 +159,7 @@ Document open_sdf(const Contents& contents) {
                   holes_where([missing](double z) { return z == missing; }));
   };
   Document document = document_of("sdf", header, std::move(layer));
-  doubt_surplus(cursor, document);
+  if (!is_trailer(contents.bytes.substr(cursor.position()))) doubt_surplus(cursor, document);
   doubt_negative_scale(header.z_scale, document);
   return document;
 }

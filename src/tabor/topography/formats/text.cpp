@@ -79,13 +79,12 @@ std::optional<GridLine> line_of_usual_gap(const TextColumn& column, double low, 
     if (gap > kSameShare * (high - low)) gaps.push_back(gap);
   }
   std::sort(gaps.begin(), gaps.end());
-  std::size_t first = 0;
-  double largest_jump = clear_jump;
-  for (std::size_t i = 1; i < gaps.size(); ++i) {
-    if (gaps[i] > largest_jump * gaps[i - 1]) {
-      largest_jump = gaps[i] / gaps[i - 1];
-      first = i;
-    }
+  // The last jump above which the gaps still make up most of the line: those beside missing
+  // columns do not.
+  std::size_t first = gaps.size() - 1;
+  double above = gaps[first];
+  while (first > 0 && (2 * above <= high - low || gaps[first] <= clear_jump * gaps[first - 1])) {
+    above += gaps[--first];
   }
   const double smallest = gaps[first];
   const double usual = gaps[first + (gaps.size() - first) / 2];
@@ -163,11 +162,9 @@ std::optional<Places> places_of(const TextNumbers& numbers, const TextHeader& he
     return n_columns == 3 ? std::optional(Places{0, 1, 2}) : std::nullopt;
   }
   const std::size_t x = *header.column('x'), y = *header.column('y');
-  // A height by another name stands in the first column that is left.
-  const std::size_t other = x != 0 && y != 0 ? 0 : x != 1 && y != 1 ? 1 : 2;
-  const Places places{x, y, header.column('z').value_or(other)};
-  return std::max({places.x, places.y, places.z}) < n_columns ? std::optional(places)
-                                                              : std::nullopt;
+  if (const auto z = header.column('z')) return Places{x, y, *z};
+  // A height by another name stands in the column that is left.
+  return n_columns == 3 ? std::optional(Places{x, y, 3 - x - y}) : std::nullopt;
 }
 
 std::string unit_of(const TextHeader& header, char name) {
@@ -213,8 +210,7 @@ std::optional<Layer> as_xyz(const TextNumbers& numbers, const TextHeader& header
 /// Two columns with an evenly rising first one: a profile, read as a map of one row.
 std::optional<Layer> as_profile(const TextNumbers& numbers, const TextHeader& header) {
   if (numbers.n_columns() != 2 || numbers.n_rows() < 4 || header.is_map) return std::nullopt;
-  const std::size_t x_place = header.column('x').value_or(0);
-  if (x_place > 1) return std::nullopt;
+  const std::size_t x_place = header.column('z') == 0U ? 1 : header.column('x').value_or(0);
   const TextColumn along_x{numbers.values, 2, x_place};
   const TextColumn z{numbers.values, 2, 1 - x_place};
   const auto x = find_grid_line(along_x);
@@ -309,7 +305,7 @@ Match identify_text(std::string_view head) {
 Document open_text(const Contents& contents) {
   if (const auto utf8 = utf8_from_utf16(contents.bytes)) return open_text(contents.part(*utf8));
   std::string_view text = contents.bytes;
-  const TextHeader header = take_header(contents, text);
+  TextHeader header = take_header(contents, text);
   TextNumbers numbers = parse_numbers(contents, text,
                                       {.first_line = header.n_lines + 1,
                                        .one_per_line = header.one_per_line,
@@ -317,6 +313,11 @@ Document open_text(const Contents& contents) {
   if (numbers.values.empty()) refuse(contents, "no numbers", "a matrix or x y z", kDamaged);
   Document document{.format = "matrix"};
   const bool rectangular = numbers.odd_rows() == nullptr;
+  header.fit_columns(numbers.n_columns());
+  if (header.names_places() && !header.column('z') && numbers.n_columns() > 3) {
+    refuse(contents, fmt::format("{} columns, none of them named z", numbers.n_columns()),
+           "one of heights", "name the columns in a line such as '# x [um] y [um] other z [um]'");
+  }
   if (auto xyz = rectangular ? as_xyz(numbers, header) : std::nullopt) {
     document.format = "xyz";
     if (xyz->nx == 1 || xyz->ny == 1) {
@@ -325,13 +326,13 @@ Document open_text(const Contents& contents) {
     document.layers.push_back(std::move(*xyz));
   } else if (auto profile = rectangular ? as_profile(numbers, header) : std::nullopt) {
     document.format = "profile";
-    document.doubts.push_back("a profile of one row: areal results do not apply");
     document.layers.push_back(std::move(*profile));
   } else {
     if (rectangular && is_list_of_points(numbers, header)) {
       refuse(contents, "points that do not fill a regular grid, each node once",
              "evenly spaced x and y",
-             "put the points on a regular grid first, for example with Gwyddion");
+             "put the points on a regular grid first, for example with Gwyddion, or name the width "
+             "of a map of so few columns: '# Width: 3 um'");
     }
     if (header.one_per_line && numbers.n_rows() != numbers.n_columns()) {
       document.doubts.push_back("a square map is assumed: the file does not tell its rows");

@@ -92,57 +92,84 @@ std::vector<std::string> column_labels(std::string_view line, char separator) {
   return labels;
 }
 
+/// Whether the text may stand where a unit does: "um", not "512" or "of my own".
+bool is_unit_like(std::string_view text) {
+  return text.empty() ||
+         (text.find(' ') == std::string_view::npos && text.front() > '9' && text.front() != ':');
+}
+
+/// x, y or z with its unit; '?' for every other label and for remarks such as "Height (um): 3".
 Column column_of(std::string_view label) {
   const std::size_t end = std::min(label.find_first_of("_[(/"), label.size());
   std::string name = lower(trim(label.substr(0, end)));
   name = name.substr(name.find_last_of(" :") + 1);  // of "points: x [um]"
-  Column column{.name = '?'};
+  Column column;
   if (end < label.size()) {
-    const std::string_view unit = label.substr(end + 1);
-    column.unit = trim(unit.substr(0, unit.find_first_of("])")));
-    if (column.unit.find(' ') != std::string::npos) return {.name = '?'};  // a remark
+    const std::string_view rest = label.substr(end + 1);
+    const std::size_t close = std::min(rest.find_first_of("])"), rest.size());
+    column.unit = trim(rest.substr(0, close));
+    const bool is_end = close == rest.size() || trim(rest.substr(close + 1)).empty();
+    if (!is_end || !is_unit_like(column.unit)) return {};
   }
   if (name == "x" || name == "y" || name == "z") column.name = name[0];
-  const bool is_height = name == "height" || name == "höhe" || name == "h\xf6he";
-  if (is_height && !column.unit.empty()) column.name = 'z';
+  if (name == "height" || name == "höhe" || name == "h\xf6he") column.name = 'z';
   return column;
 }
 
-/// The columns that a line so separated names: at least two of x, y and z first, or z with its
-/// unit.
+bool has(const std::vector<Column>& columns, char name) {
+  return std::any_of(columns.begin(), columns.end(),
+                     [name](const Column& column) { return column.name == name; });
+}
+
+std::size_t n_leading_known(const std::vector<Column>& columns) {
+  const auto end = std::find_if(columns.begin(), columns.end(),
+                                [](const Column& column) { return column.name == '?'; });
+  return static_cast<std::size_t>(end - columns.begin());
+}
+
+/// The columns that a line so separated names: at least two of x, y and z first, or x, y and z
+/// anywhere, or z with its unit. A remark may follow.
 std::vector<Column> columns_of(std::string_view line, char separator) {
   std::vector<Column> columns;
-  bool has_height = false;
   for (const std::string& label : column_labels(line, separator)) {
+    if (columns.empty() && label.ends_with(':')) continue;  // "points: x [um]"
     const Column column = column_of(label);
-    const bool is_known = column.name != '?';
-    if (!is_known && (columns.empty() || separator == ' ')) break;  // a remark follows
-    const bool is_again =
-        is_known && std::any_of(columns.begin(), columns.end(),
-                                [&](const Column& other) { return other.name == column.name; });
-    if (is_again) break;
-    has_height |= column.name == 'z' && !column.unit.empty();
+    if (column.name != '?' && has(columns, column.name)) break;
     columns.push_back(column);
   }
-  const bool begins_with_places =
-      columns.size() > 1 && columns[0].name != '?' && columns[1].name != '?';
-  return begins_with_places || has_height ? columns : std::vector<Column>{};
+  const std::size_t n_known = n_leading_known(columns);
+  const bool names_all = has(columns, 'x') && has(columns, 'y') && has(columns, 'z');
+  const bool names_height = std::any_of(columns.begin(), columns.end(), [](const Column& column) {
+    return column.name == 'z' && !column.unit.empty();
+  });
+  const bool is_word_of_remark = separator == ' ' && n_known == 0;
+  const bool holds = n_known > 1 || names_all || (names_height && !is_word_of_remark);
+  return holds ? columns : std::vector<Column>{};
 }
 
 std::vector<Column> columns_of(std::string_view line) {
   line.remove_prefix(std::min(line.find_first_not_of("#/ \t"), line.size()));
-  for (const char separator : {';', '\t', ',', ' '}) {
-    if (separator != ' ' && line.find(separator) == std::string_view::npos) continue;
+  if (line.find('=') != std::string_view::npos) return {};  // "Height [um] = 3"
+  for (const char separator : {';', '\t', ','}) {
+    if (line.find(separator) == std::string_view::npos) continue;
     if (auto columns = columns_of(line, separator); !columns.empty()) return columns;
   }
-  return {};
+  std::string words(line);
+  std::replace(words.begin(), words.end(), ',', ' ');  // "x,y [mm] z [um]"
+  return columns_of(words, ' ');
 }
 
+/// A later line that says less about units changes nothing.
 void read_columns(std::string_view line, TextHeader& header) {
   std::vector<Column> columns = columns_of(line);
-  if (columns.empty()) return;
+  const bool has_units = std::any_of(columns.begin(), columns.end(), [](const Column& column) {
+    return column.name != '?' && !column.unit.empty();
+  });
+  if (columns.empty() || (!header.columns.empty() && !has_units)) return;
   header.columns = std::move(columns);
-  if (const auto z = header.column('z')) header.unit = header.columns[*z].unit;
+  for (const Column& column : header.columns) {
+    if (column.name == 'z' && !column.unit.empty()) header.unit = column.unit;
+  }
 }
 
 bool is_assignment(const std::string& line) {
@@ -156,6 +183,10 @@ bool is_header_line(std::string_view line) {
   const std::string text = lower(trim(line));
   return text.empty() || text.starts_with('#') || text.starts_with("\\exported image units") ||
          text.starts_with("//") || is_assignment(text) || !columns_of(text).empty();
+}
+
+void TextHeader::fit_columns(std::size_t n_columns) {
+  if (columns.size() != n_columns) columns.resize(std::min(n_leading_known(columns), n_columns));
 }
 
 std::optional<std::size_t> TextHeader::column(char name) const {

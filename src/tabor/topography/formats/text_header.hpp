@@ -28,6 +28,8 @@ struct TextHeader {
   bool is_map = false;          ///< the header describes a map: no coordinate columns
   std::size_t n_lines = 0;      ///< header lines
 
+  /// Once the number of columns is known: a header of more words than columns ends in a remark.
+  void fit_columns(std::size_t n_columns);
   std::optional<std::size_t> column(char name) const;  ///< its place among the columns
   bool names_places() const { return column('x') && column('y'); }
 };

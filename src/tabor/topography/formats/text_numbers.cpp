@@ -58,6 +58,11 @@ std::optional<double> foreign_number(std::string_view field, bool decimal_comma)
   return plain == field ? std::nullopt : number(plain, decimal_comma);
 }
 
+bool is_comment(std::string_view line) {
+  line = trim(line);
+  return line.starts_with('#') || line.starts_with("//");
+}
+
 /// How the commas of a text are used.
 struct Commas {
   bool decimal = false;
@@ -107,15 +112,15 @@ LineCommas commas_in(std::string_view line) {
 Commas commas_of(std::string_view text, const TextHints& hints) {
   const char line_end = line_end_of(text);
   text = sample_of(text, line_end);
-  const bool has_points = text.find('.') != std::string_view::npos;
-  bool all_decimal = !has_points, all_pairs = !has_points, separated = false;
+  bool has_points = false, all_decimal = true, all_pairs = true, separated = false;
   std::size_t n_commas = 0, n_lines = 0;
   std::string_view mixed, first;
   while (!text.empty()) {
     const std::string_view line = trim(take_line(text, line_end));
-    if (line.empty()) continue;
+    if (line.empty() || is_comment(line)) continue;
     const LineCommas found = commas_in(line);
     ++n_lines;
+    has_points |= line.find('.') != std::string_view::npos;
     n_commas += found.between_digits;
     separated |= found.has_other_separators;
     all_decimal &= found.elsewhere == 0 && found.most_per_field <= 1;
@@ -124,6 +129,8 @@ Commas commas_of(std::string_view text, const TextHints& hints) {
     if (mixed.empty() && found.between_digits > 0 && found.has_other_separators) mixed = line;
   }
   if (n_commas == 0) return {};
+  all_decimal &= !has_points;
+  all_pairs &= !has_points;
   if (all_decimal && (separated || hints.one_per_line)) return {.decimal = true};
   if (all_pairs && n_lines > 1 && !hints.two_columns) return {.doubtful = first};
   return {.doubtful = mixed};
@@ -236,11 +243,6 @@ std::string_view parse_line(std::string_view line, const Separators& separators,
     values.push_back(value && std::isfinite(*value) ? *value : kHole);
   }
   return fields.has_empty_cell() ? kTwoTabs : std::string_view();
-}
-
-bool is_comment(std::string_view line) {
-  line = trim(line);
-  return line.starts_with('#') || line.starts_with("//");
 }
 
 void parse(Block& block, const Separators& separators, char line_end) {

@@ -211,19 +211,25 @@ std::optional<double> pixel(const Contents& contents, const Axis& axis) {
   return checked_pixel(contents, *axis.increment);
 }
 
+/// Profiles need no second spacing.
+const Axis& y_axis(const Matrix& matrix) {
+  return matrix.ny == 1 && matrix.y.increment.value_or(0) == 0 ? matrix.x : matrix.y;
+}
+
 void add_layers(Document& document, const Contents& contents, const Matrix& matrix,
                 const Load& load) {
   if (!matrix.z.increment && is_integer(matrix.z.sample)) {
     document.doubts.push_back(
         "whole numbers without an Increment are heights in metres (ISO 25178-72)");
   }
+  doubt_negative_scale(matrix.z.increment.value_or(1), document);
   for (Index k = 0; k < matrix.n_layers; ++k) {
     Layer layer{.name = matrix.n_layers > 1 ? fmt::format("layer {}", k) : "height",
                 .unit = "m",
                 .nx = matrix.nx,
                 .ny = matrix.ny,
                 .pixel_x = pixel(contents, matrix.x),
-                .pixel_y = pixel(contents, matrix.y)};
+                .pixel_y = pixel(contents, y_axis(matrix))};
     layer.late_doubts = std::make_shared<std::vector<std::string>>();
     layer.load = [load, k, z = matrix.z, doubts = layer.late_doubts] {
       Field field = load(k, *doubts);
