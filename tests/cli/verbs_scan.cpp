@@ -246,6 +246,7 @@ TEST(Cite, RefusesAFileThatIsNoResult) {
   const Folder folder;
   put_bytes(folder / "x.h5", "not a result");
   EXPECT_EQ(run_tabor({"cite", (folder / "x.h5").string()}).code, 3);
+  EXPECT_THAT(run_tabor({"cite", (folder / "y.h5").string()}).err, HasSubstr("no such file"));
 }
 
 }  // namespace

@@ -68,6 +68,19 @@ TEST(HannFilter, UsesTheSideOfASquareOfTheSameAreaElsewhere) {
             1e-14);
 }
 
+TEST(HannFilter, TakesTheLengthOfAProfileForItsSide) {
+  EXPECT_EQ(scan_side({500, 1, 1e-3, 2e-6}), 1e-3);
+  EXPECT_EQ(scan_side({1, 500, 2e-6, 1e-3}), 1e-3);
+  const auto row = surface({500, 1, 1e-3, 2e-6},
+                           [](double x, double) { return std::cos(2 * pi * 9 * x / 1e-3); });
+  const auto filtered = low_pass(row, parse_filter("hann:12/L"));
+  EXPECT_LT(largest_difference(filtered.height, hann(9.0 / 12) * row.height), 1e-13);
+  EXPECT_TRUE(filtered.doubts.empty());
+  EXPECT_THAT(filtered.history.back(), testing::Not(HasSubstr("nan")));
+  EXPECT_THAT(low_pass(row, parse_filter("gauss:2mm")).doubts,
+              testing::ElementsAre(HasSubstr("longer than the scan")));
+}
+
 TEST(HannFilter, MeansOneCopyOfTheScanAfterMirroring) {
   const auto history = apply({"mirror", "lowpass=hann:8/L"}, noise(kGrid)).history;
   const auto plain = apply({"lowpass=hann:8/L"}, noise(kGrid)).history;

@@ -11,6 +11,7 @@
 #include "support/scans.hpp"
 #include "support/validation.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/topography/parameters.hpp"
 #include "tabor/topography/profile_elements.hpp"
 #include "tabor/topography/profile_filter.hpp"
 
@@ -349,8 +350,8 @@ ProfileSetting setting_for(double amplitude, double length, const ProfileOptions
 
 TEST(ProfileSetting, IsTheClassOfTheRoughness) {
   const double um = 1e-6;
-  EXPECT_EQ(setting_for(0.07 * um, 50e-3).cutoff, 0.08e-3);  // Rz = 0.14 um
-  EXPECT_EQ(setting_for(0.3 * um, 50e-3).cutoff, 0.25e-3);
+  EXPECT_EQ(setting_for(0.07 * um, 10e-3).cutoff, 0.08e-3);  // Rz = 0.14 um
+  EXPECT_EQ(setting_for(0.3 * um, 25e-3).cutoff, 0.25e-3);
   EXPECT_EQ(setting_for(5 * um, 50e-3).cutoff, 0.8e-3);
   EXPECT_EQ(setting_for(30 * um, 50e-3).cutoff, 2.5e-3);
   EXPECT_EQ(setting_for(50 * um, 50e-3).cutoff, 8e-3);
@@ -371,6 +372,17 @@ TEST(ProfileSetting, OfAShortScanSaysWhatItTook) {
   EXPECT_NEAR(fifth.cutoff, 2e-6, 1e-15);
   EXPECT_EQ(fifth.sections, 5);
   EXPECT_THAT(fifth.reason, HasSubstr("a fifth of the profile"));
+}
+
+TEST(ProfileSetting, HasTenPixelsWhereTheyFit) {
+  const auto next = setting_for(0.07e-6, 60e-3);  // pixels of 30 um
+  EXPECT_EQ(next.cutoff, 0.8e-3);
+  EXPECT_THAT(next.reason, HasSubstr("below ten pixels"));
+  auto coarse = noise({30, 30, 3e-3, 3e-3});
+  coarse.height *= 20e-9 / rms_height(coarse);
+  EXPECT_NEAR(choose_setting(coarse, ProfileAxis::x).cutoff, 0.6e-3, 1e-12);
+  const auto tiny = noise({4, 4, 64e-3, 64e-3});
+  EXPECT_NEAR(choose_setting(tiny, ProfileAxis::x).cutoff, 32e-3, 1e-12);
 }
 
 TEST(ProfileSetting, IsOneForBothAxesOfAMapThatIsNoStrip) {

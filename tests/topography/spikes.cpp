@@ -13,6 +13,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/topography/file.hpp"
 #include "tabor/topography/levelling.hpp"
+#include "tabor/topography/parameters.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::topography::test {
@@ -115,6 +116,14 @@ TEST(Spikes, StandOutOfAFlat) {
   EXPECT_EQ(find_spikes(flat.height).count(), 0);
   flat.height(20, 10) = 3e-6;
   EXPECT_EQ(found(find_spikes(flat.height)), std::set<Index>{20 * 50 + 10});
+}
+
+TEST(Spikes, StandOutOfAProfile) {
+  auto row = noise({400, 1, 400e-6, 1e-6});
+  EXPECT_EQ(find_spikes(row.height).count(), 0);
+  for (const Index x : {0, 200, 399}) row.height(0, x) += 50 * rms_height(row);
+  EXPECT_EQ(found(find_spikes(row.height)), (std::set<Index>{0, 200, 399}));
+  EXPECT_EQ(found(find_spikes(row.height.transpose())), (std::set<Index>{0, 200, 399}));
 }
 
 TEST(Spikes, BecomeHolesOrMedians) {

@@ -87,8 +87,7 @@ std::string text_of(const Request& request, const Scan& a, const Scan& b, const 
                                          si(c.shift_x, "m"), si(c.shift_y, "m")));
   }
   const Grid& grid = c.map.grid;
-  facts.fact("overlap", fmt::format("{} x {} pixels of {}, {} common points", grid.nx, grid.ny,
-                                    si(grid.dx(), "m"), c.n_common));
+  facts.fact("overlap", fmt::format("{}, {} common points", pixels_text(grid), c.n_common));
   facts.fact("Sq",
              fmt::format("A {}, B {}, {} {}", si(c.rms_a, "m"), si(c.rms_b, "m"),
                          request.mode == "composite" ? "A + B" : "A - B", si(c.rms_map, "m")));

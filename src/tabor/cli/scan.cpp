@@ -109,12 +109,15 @@ void require_no_holes(const Scan& scan) {
                    "add --fill harmonic");
 }
 
-void describe(const Scan& scan, Facts& facts) {
-  const Grid& grid = scan.surface.grid;
+std::string pixels_text(const Grid& grid) {
   std::string pixel = si(grid.dx(), "m");
   if (grid.dx() != grid.dy()) pixel += " x " + si(grid.dy(), "m");
-  facts.fact("scan", fmt::format("{} ({}), {} x {} pixels of {}", scan.path, scan.surface.format,
-                                 grid.nx, grid.ny, pixel));
+  return fmt::format("{} x {} pixels of {}", grid.nx, grid.ny, pixel);
+}
+
+void describe(const Scan& scan, Facts& facts) {
+  facts.fact("scan", fmt::format("{} ({}), {}", scan.path, scan.surface.format,
+                                 pixels_text(scan.surface.grid)));
   facts.fact("treatment",
              scan.treatment.empty() ? "none" : fmt::format("{}", fmt::join(scan.treatment, ", ")));
 }

@@ -40,6 +40,9 @@ void warn_if_not_levelled(const Scan& scan, Context& context);
 /// Refuses holes with the option that fills them.
 void require_no_holes(const Scan& scan);
 
+/// "512 x 256 pixels of 2 µm x 3 µm".
+std::string pixels_text(const Grid& grid);
+
 /// File, pixels and treatment, for people.
 void describe(const Scan& scan, Facts& facts);
 

@@ -213,6 +213,9 @@ double height_quantum(const Field& height) {
 
 std::vector<std::string> doubts(const Topography& topography) {
   std::vector<std::string> list;
+  if (topography.grid.nx == 1 || topography.grid.ny == 1) {
+    list.emplace_back("a profile of one row: areal results do not apply");
+  }
   doubt_pixels(topography.grid, list);
   doubt_sizes(topography.grid, list);
   doubt_holes(topography, list);

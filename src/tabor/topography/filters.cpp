@@ -56,6 +56,7 @@ double parse_wavelength(std::string_view text, std::string_view whole, std::stri
   if (text.starts_with('(') && text.ends_with(')')) {
     text = text.substr(1, text.size() - 2);
   }
+  if (parse_number(text)) refuse_cutoff(whole, step);  // a unit is missing
   const double wavelength = parse_si(text, dimension::length, fmt::format("--{}", step));
   if (!(wavelength > 0) || !std::isfinite(wavelength)) {
     refuse_cutoff(whole, step);
@@ -137,11 +138,13 @@ std::string describe(std::string_view step, const Filter& filter, double side,
                      const Topography& before, const Topography& after) {
   const double pixel = std::max(before.grid.dx(), before.grid.dy());
   const bool mild = filter.cutoff_wavelength(side) <= 2 * pixel;
+  const double slope = rms_slope(before);  // of a profile there is none
   return fmt::format(
-      "{}={}: {}, {:.4g} pixels{}; Sq {} -> {}, Sdq {:.4g} -> {:.4g}", step, to_string(filter),
+      "{}={}: {}, {:.4g} pixels{}; Sq {} -> {}{}", step, to_string(filter),
       cutoff_text(filter, side), filter.cutoff_wavelength(side) / pixel,
       mild ? " (mild: its end lies beyond Nyquist)" : "", format_si(rms_height(before), "m"),
-      format_si(rms_height(after), "m"), rms_slope(before), rms_slope(after));
+      format_si(rms_height(after), "m"),
+      std::isnan(slope) ? "" : fmt::format(", Sdq {:.4g} -> {:.4g}", slope, rms_slope(after)));
 }
 
 bool is_gaussian(FilterKind kind) {
@@ -160,7 +163,8 @@ void check_cutoff(const Filter& filter, double wavelength, const Grid& grid) {
 
 /// What to think of a cutoff that does nearly nothing, or nearly everything; "" if neither.
 std::string doubt_about(const Filter& filter, double wavelength, const Grid& grid) {
-  if (wavelength > std::min(grid.lx, grid.ly)) {
+  const bool is_profile = grid.nx == 1 || grid.ny == 1;  // its width does not count
+  if (wavelength > (is_profile ? scan_side(grid) : std::min(grid.lx, grid.ly))) {
     return fmt::format(
         "the cutoff of {} is longer than the scan ({} x {}): hardly more than a mean passes",
         to_string(filter), format_si(grid.lx, "m"), format_si(grid.ly, "m"));
@@ -209,7 +213,11 @@ std::string to_string(const Filter& filter) {
   return fmt::format("{}:{:.12g}um", name_of(filter.kind), filter.wavelength * 1e6);
 }
 
-double scan_side(const Grid& grid) { return std::sqrt(grid.lx * grid.ly); }
+double scan_side(const Grid& grid) {
+  if (grid.ny == 1) return grid.lx;
+  if (grid.nx == 1) return grid.ly;
+  return std::sqrt(grid.lx * grid.ly);
+}
 
 Field low_pass(const Field& height, const Grid& grid, const Filter& filter, double side,
                bool periodic) {

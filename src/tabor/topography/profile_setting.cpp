@@ -89,8 +89,9 @@ Basis basis_of(const Topography& topography, ProfileAxis axis, const ProfileOpti
 
 std::string length(double metres) { return format_si(metres, "m", 3); }
 
-/// The class of the roughness, or a smaller one that fits five times.
-void choose_cutoff(ProfileSetting& setting, double rz, double profile_length) {
+/// The class of the roughness, or one nearby that fits five times and has ten pixels.
+void choose_cutoff(ProfileSetting& setting, double rz, double profile_length, double spacing) {
+  constexpr double kFewestPixels = 10;
   std::size_t wanted = 0;
   while (rz > kClasses[wanted].largest_rz) ++wanted;
   const auto fits = [&](std::size_t k) {
@@ -98,9 +99,19 @@ void choose_cutoff(ProfileSetting& setting, double rz, double profile_length) {
   };
   std::size_t taken = wanted;
   while (taken > 0 && !fits(taken)) --taken;
+  setting.reason = fmt::format("lc = {} for {} (ISO 21920-3)", length(kClasses[wanted].cutoff),
+                               rz > 0 ? "Rz about " + length(rz) : "an Rz that nothing tells");
+  const auto is_fine = [&](std::size_t k) { return kClasses[k].cutoff < kFewestPixels * spacing; };
+  if (is_fine(taken)) {
+    while (taken + 1 < kClasses.size() && is_fine(taken) && fits(taken + 1)) ++taken;
+    setting.cutoff = is_fine(taken) ? std::max(profile_length / kUsualSections, 2 * spacing)
+                                    : kClasses[taken].cutoff;
+    setting.reason += fmt::format(
+        " is below ten pixels or does not fit: {} taken; not comparable with other cut-offs",
+        length(setting.cutoff));
+    return;
+  }
   setting.cutoff = fits(taken) ? kClasses[taken].cutoff : profile_length / kUsualSections;
-  setting.reason = fmt::format("lc = {} for Rz about {} (ISO 21920-3)",
-                               length(kClasses[wanted].cutoff), length(rz));
   if (setting.cutoff != kClasses[wanted].cutoff) {
     setting.reason += fmt::format(
         " does not fit {} times into {}: {} taken, {}; not comparable with other cut-offs",
@@ -162,7 +173,7 @@ ProfileSetting choose_setting(const Topography& topography, ProfileAxis axis,
     setting.reason = fmt::format("lc = {} as asked", length(setting.cutoff));
   } else {
     const Basis basis = basis_of(topography, axis, options);
-    choose_cutoff(setting, basis.rz, basis.length);
+    choose_cutoff(setting, basis.rz, basis.length, std::max(grid.dx(), grid.dy()));
   }
   if (options.filtered) {
     setting.reason += "; filtered before, no filter";

@@ -52,7 +52,7 @@ void check_complete(const Topography& topography) {
   if (topography.grid.nx < 2 || topography.grid.ny < 2) {
     throw InputError("power spectrum",
                      fmt::format("{} x {} pixels", topography.grid.nx, topography.grid.ny),
-                     "at least 2 x 2 pixels", "");
+                     "at least 2 x 2 pixels", "tabor params describes profiles");
   }
 }
 

@@ -30,6 +30,13 @@ Real median(std::vector<Real>& values) {
   return *middle;
 }
 
+/// Length of the window's sides. A profile has fewer neighbours: there it is `window` heights on
+/// either side, so that the first and last have enough.
+Index window_side(const Field& height, const SpikeRule& rule) {
+  const bool is_profile = height.rows() == 1 || height.cols() == 1;
+  return is_profile ? 2 * rule.window + 1 : rule.window;
+}
+
 /// The valid heights around a pixel, itself left out; none where there are too few.
 void take_neighbours(const Field& height, Index y, Index x, Index window,
                      std::vector<double>& values) {
@@ -104,13 +111,14 @@ class SpikeTest {
  public:
   SpikeTest(const Field& height, const SpikeRule& rule)
       : height_(height),
-        rule_(rule),
-        limit_(rule.threshold * usual_distance(height, rule.window)) {}
+        threshold_(rule.threshold),
+        window_(window_side(height, rule)),
+        limit_(threshold_ * usual_distance(height, window_)) {}
 
   /// Calls action(x) for the spikes of row y.
   template <typename Action>
   void for_spikes(Index y, const Action& action) const {
-    const Index reach = rule_.window / 2;
+    const Index reach = window_ / 2;
     std::vector<double> values;
     const auto look = [&](Index x) {
       if (is_spike(y, x, values)) action(x);
@@ -134,12 +142,12 @@ class SpikeTest {
   /// Heights looked at side by side, by vector instructions.
   static constexpr Index kSide = 16;
 
-  double most_neighbours() const { return static_cast<double>(rule_.window * rule_.window - 1); }
+  double most_neighbours() const { return static_cast<double>(window_ * window_ - 1); }
 
   /// How many of their neighbours are near the heights from (y, x) on; fewer where more than half
   /// of them are already found to be. This spares nearly all heights a closer look.
   std::array<double, kSide> near_neighbours(Index y, Index x) const {
-    const Index reach = rule_.window / 2;
+    const Index reach = window_ / 2;
     std::array<double, kSide> n_near;
     n_near.fill(-1);  // the height itself does not count
     const double* z = &height_(y, x);
@@ -167,14 +175,14 @@ class SpikeTest {
     if (std::isnan(height_(y, x)) || most_neighbours_are_near(y, x)) {
       return false;
     }
-    const double middle = median_around(height_, y, x, rule_.window, values);
+    const double middle = median_around(height_, y, x, window_, values);
     const double distance = std::abs(height_(y, x) - middle);  // NaN: too few neighbours
-    return distance > limit_ && distance > rule_.threshold * spread_about(middle, values);
+    return distance > limit_ && distance > threshold_ * spread_about(middle, values);
   }
 
   /// Then their median is near as well. This spares nearly all heights the sorting.
   bool most_neighbours_are_near(Index y, Index x) const {
-    const Index reach = rule_.window / 2;
+    const Index reach = window_ / 2;
     const Index left = std::max<Index>(0, x - reach);
     const Index right = std::min(height_.cols() - 1, x + reach);
     Index n_near = -1, n = -1;  // the height itself does not count
@@ -189,7 +197,8 @@ class SpikeTest {
   }
 
   const Field& height_;
-  SpikeRule rule_;
+  double threshold_;
+  Index window_;
   double limit_;  ///< [m]
 };
 
@@ -267,7 +276,7 @@ Topography remove_spikes(Topography topography, const SpikeRule& rule) {
   for (Index i = 0; i < spikes.size(); ++i) {
     if (spikes.data()[i]) {
       const Index y = i / spikes.cols(), x = i % spikes.cols();
-      const double middle = median_around(before, y, x, rule.window, values);
+      const double middle = median_around(before, y, x, window_side(before, rule), values);
       largest = std::max(largest, std::abs(before(y, x) - middle));
       after(y, x) = rule.fill_with_median ? middle : std::numeric_limits<double>::quiet_NaN();
       ++n_spikes;

@@ -14,7 +14,7 @@ namespace tabor::topography {
 /// of a window.
 struct SpikeRule {
   double threshold = 8;           ///< in standard deviations; why: docs/filters_and_spectra.md
-  Index window = 5;               ///< pixels along x and y, odd
+  Index window = 5;               ///< pixels along x and y, odd; of a profile: on either side
   bool fill_with_median = false;  ///< else spikes become holes
 };
 

@@ -186,7 +186,7 @@ const std::array<Step, 10>& steps() {
        parse_fill},
       {{"lowpass",
         "hann:512/L|hann-full:512/L|hann-separable:512/L|hann:8um|gauss:8um|gauss-reflect:8um",
-        "smooth: Hann window in frequency (L = scan side) or ISO Gaussian S-filter"},
+        "smooth: Hann window in frequency (L = scan side, sqrt(lx ly)) or ISO Gaussian S-filter"},
        parse_low_pass},
       {{"highpass", "gauss:250um|hann:8/L", "subtract the low-pass (ISO Gaussian L-filter)"},
        parse_high_pass},
