@@ -251,6 +251,13 @@ TEST(Sinusoid, IsNotPeriodicWithHalfAWavelength) {
   EXPECT_THROW(sinusoid({.grid = {64, 32, 72e-6, 32e-6}}), InputError);
 }
 
+TEST(Sinusoid, HasTwoPixelsAWave) {
+  const Grid grid{64, 32, 64e-6, 32e-6};
+  EXPECT_GT(sinusoid({.grid = grid, .amplitude = 1e-6, .wavelength_x = 2e-6}).height.maxCoeff(), 0);
+  EXPECT_THROW(sinusoid({.grid = grid, .amplitude = 1e-6, .wavelength_x = 1e-7}), InputError);
+  EXPECT_THROW(sinusoid({.grid = grid, .amplitude = 1e-6, .wavelength_y = 1.9e-6}), InputError);
+}
+
 TEST(SphereSurface, HasItsCurvatureAtThePole) {
   const double radius = 1e-3;
   const auto cap = sphere({.grid = {101, 101, 101e-7, 101e-7}, .radius = radius});

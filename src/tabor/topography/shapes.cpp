@@ -35,6 +35,20 @@ bool fits(double length, double wavelength) {
   return std::abs(periods - std::round(periods)) < 1e-9 * periods;
 }
 
+/// Shorter waves show as longer ones, or not at all.
+void check_two_pixels(double wavelength, double pixel) {
+  if (wavelength > 0 && wavelength < 2 * pixel * (1 - 1e-9)) {
+    throw InputError("sinusoid", "a wavelength of " + format_si(wavelength, "m"),
+                     fmt::format("at least two pixels ({})", format_si(2 * pixel, "m")),
+                     "take smaller pixels");
+  }
+}
+
+std::string wavelength_text(double wavelength, char axis) {
+  return wavelength > 0 ? fmt::format("{} along {}", format_si(wavelength, "m"), axis)
+                        : fmt::format("none along {}", axis);
+}
+
 }  // namespace
 
 Topography sinusoid(const Sinusoid& recipe) {
@@ -46,6 +60,8 @@ Topography sinusoid(const Sinusoid& recipe) {
         fmt::format("wavelengths {} m and {} m", recipe.wavelength_x, recipe.wavelength_y),
         "at least one positive wavelength, none negative", "");
   }
+  check_two_pixels(recipe.wavelength_x, recipe.grid.dx());
+  check_two_pixels(recipe.wavelength_y, recipe.grid.dy());
   const double qx = recipe.wavelength_x > 0 ? 2 * pi / recipe.wavelength_x : 0;
   const double qy = recipe.wavelength_y > 0 ? 2 * pi / recipe.wavelength_y : 0;
   auto height = sample(recipe.grid, false, [&](double x, double y) {
@@ -56,8 +72,8 @@ Topography sinusoid(const Sinusoid& recipe) {
   return generated(
       recipe.grid, std::move(height), periodic,
       fmt::format("generate sinusoid: amplitude {}, wavelengths {} and {}",
-                  format_si(recipe.amplitude, "m"), format_si(recipe.wavelength_x, "m"),
-                  format_si(recipe.wavelength_y, "m")));
+                  format_si(recipe.amplitude, "m"), wavelength_text(recipe.wavelength_x, 'x'),
+                  wavelength_text(recipe.wavelength_y, 'y')));
 }
 
 Topography sphere(const Sphere& recipe) {

@@ -51,7 +51,8 @@ struct Ground {
 Topography ground(const Ground& recipe);
 
 /// amplitude cos(2 pi x / wavelength_x) cos(2 pi y / wavelength_y); a wavelength of 0 drops its
-/// factor. Pixel (0, 0) is a crest. Periodic if whole wavelengths fit.
+/// factor. Pixel (0, 0) is a crest. Periodic if whole wavelengths fit. Throws InputError below two
+/// pixels a wave.
 struct Sinusoid {
   Grid grid;
   double amplitude = 1e-6;  ///< [m]
