@@ -1,6 +1,8 @@
 #include "tabor/io/png.hpp"
 
 #include <cmath>
+#include <span>
+#include <string>
 
 #include "support/folder.hpp"
 #include "tabor/core/error.hpp"
@@ -20,8 +22,13 @@ TEST(Png, GreyPictureReadsBack) {
   EXPECT_TRUE((image.counts == expected).all());
 }
 
-TEST(Png, ReadsSixteenBitCountsMostSignificantByteFirst) {
+GreyImage image_of(std::span<const unsigned char> bytes) {
   const Folder folder;
+  test::put_bytes(folder / "a.png", std::string(bytes.begin(), bytes.end()));
+  return read_png(folder / "a.png");
+}
+
+TEST(Png, ReadsSixteenBitCountsMostSignificantByteFirst) {
   // 2 x 1 pixels, 16-bit grey, counts 0x0102 and 0xfffe in one stored deflate block (made with
   // Python's struct and zlib after the PNG specification).
   constexpr unsigned char bytes[] = {
@@ -30,8 +37,7 @@ TEST(Png, ReadsSixteenBitCountsMostSignificantByteFirst) {
       0xd9, 0xfc, 0x15, 0x00, 0x00, 0x00, 0x10, 0x49, 0x44, 0x41, 0x54, 0x78, 0x01, 0x01, 0x05,
       0x00, 0xfa, 0xff, 0x00, 0x01, 0x02, 0xff, 0xfe, 0x03, 0x0b, 0x02, 0x01, 0x06, 0x90, 0x21,
       0x19, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
-  test::put_bytes(folder / "a.png", std::string(std::begin(bytes), std::end(bytes)));
-  const GreyImage image = read_png(folder / "a.png");
+  const GreyImage image = image_of(bytes);
   EXPECT_EQ(image.bits, 16);
   ASSERT_EQ(image.counts.cols(), 2);
   EXPECT_EQ(image.counts(0, 0), 258);
@@ -39,7 +45,6 @@ TEST(Png, ReadsSixteenBitCountsMostSignificantByteFirst) {
 }
 
 TEST(Png, TransparentPixelsAreHoles) {
-  const Folder folder;
   // 2 x 1 pixels, 8-bit grey and alpha: 7 (255) and 9 (0), made as above.
   constexpr unsigned char bytes[] = {
       0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44,
@@ -47,15 +52,13 @@ TEST(Png, TransparentPixelsAreHoles) {
       0x2b, 0xb7, 0x01, 0x00, 0x00, 0x00, 0x10, 0x49, 0x44, 0x41, 0x54, 0x78, 0x01, 0x01, 0x05,
       0x00, 0xfa, 0xff, 0x00, 0x07, 0xff, 0x09, 0x00, 0x03, 0x30, 0x01, 0x10, 0x98, 0x3a, 0x1e,
       0xff, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
-  test::put_bytes(folder / "a.png", std::string(std::begin(bytes), std::end(bytes)));
-  const GreyImage image = read_png(folder / "a.png");
+  const GreyImage image = image_of(bytes);
   ASSERT_EQ(image.counts.size(), 2);
   EXPECT_EQ(image.counts(0, 0), 7);
   EXPECT_TRUE(std::isnan(image.counts(0, 1)));
 }
 
 TEST(Png, TheGreyValueNamedTransparentIsAHole) {
-  const Folder folder;
   // 2 x 1 pixels, 8-bit grey 7 and 9, tRNS 9, made as above.
   constexpr unsigned char bytes[] = {
       0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0x00, 0x00, 0x00, 0x0d, 0x49, 0x48, 0x44,
@@ -64,8 +67,7 @@ TEST(Png, TheGreyValueNamedTransparentIsAHole) {
       0x75, 0x9c, 0x00, 0x00, 0x00, 0x0e, 0x49, 0x44, 0x41, 0x54, 0x78, 0x01, 0x01, 0x03, 0x00,
       0xfc, 0xff, 0x00, 0x07, 0x09, 0x00, 0x1a, 0x00, 0x11, 0xb4, 0x52, 0x3f, 0xac, 0x00, 0x00,
       0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0xae, 0x42, 0x60, 0x82};
-  test::put_bytes(folder / "a.png", std::string(std::begin(bytes), std::end(bytes)));
-  const GreyImage image = read_png(folder / "a.png");
+  const GreyImage image = image_of(bytes);
   ASSERT_EQ(image.counts.size(), 2);
   EXPECT_EQ(image.counts(0, 0), 7);
   EXPECT_TRUE(std::isnan(image.counts(0, 1)));

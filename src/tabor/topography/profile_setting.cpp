@@ -100,12 +100,14 @@ void choose_cutoff(ProfileSetting& setting, double rz, double profile_length, do
   std::size_t taken = wanted;
   while (taken > 0 && !fits(taken)) --taken;
   setting.reason = fmt::format("lc = {} for {} (ISO 21920-3)", length(kClasses[wanted].cutoff),
-                               rz > 0 ? "Rz about " + length(rz) : "an Rz that nothing tells");
-  const auto is_fine = [&](std::size_t k) { return kClasses[k].cutoff < kFewestPixels * spacing; };
-  if (is_fine(taken)) {
-    while (taken + 1 < kClasses.size() && is_fine(taken) && fits(taken + 1)) ++taken;
-    setting.cutoff = is_fine(taken) ? std::max(profile_length / kUsualSections, 2 * spacing)
-                                    : kClasses[taken].cutoff;
+                               rz > 0 ? "Rz about " + length(rz) : "an unknown Rz");
+  const auto is_too_short = [&](std::size_t k) {
+    return kClasses[k].cutoff < kFewestPixels * spacing;
+  };
+  if (is_too_short(taken)) {
+    while (taken + 1 < kClasses.size() && is_too_short(taken) && fits(taken + 1)) ++taken;
+    setting.cutoff = is_too_short(taken) ? std::max(profile_length / kUsualSections, 2 * spacing)
+                                         : kClasses[taken].cutoff;
     setting.reason += fmt::format(
         " is below ten pixels or does not fit: {} taken; not comparable with other cut-offs",
         length(setting.cutoff));

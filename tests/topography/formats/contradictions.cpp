@@ -136,12 +136,16 @@ std::vector<double> centres(Index n) {
   return places;
 }
 
+void write_centres(io::Hdf5Writer& writer) {
+  writer.write("/surface/x", centres(5));
+  writer.write("/surface/y", centres(4));
+}
+
 TEST(Hdf5Contradictions, UnitsOfOthersAreHeeded) {
   const Folder folder;
   EXPECT_EQ(refusal_of_h5(folder,
                           [](io::Hdf5Writer& writer) {
-                            writer.write("/surface/x", centres(5));
-                            writer.write("/surface/y", centres(4));
+                            write_centres(writer);
                             writer.describe("/surface/height", "um", "height");
                             writer.describe("/surface/x", "nm", "x");
                             writer.describe("/surface/y", "mm", "y");
@@ -171,8 +175,7 @@ TEST(Hdf5Contradictions, TwoPixelSizesAreRefused) {
   const Folder folder;
   EXPECT_THAT(refusal_of_h5(folder,
                             [](io::Hdf5Writer& writer) {
-                              writer.write("/surface/x", centres(5));
-                              writer.write("/surface/y", centres(4));
+                              write_centres(writer);
                               writer.attribute("/surface", "pixel_x_m", 2.0);
                             }),
               HasSubstr("pixel_x_m = 2 m, but other steps"));
@@ -182,8 +185,7 @@ TEST(Hdf5Contradictions, AMaskOfAnotherShapeIsRefused) {
   const Folder folder;
   EXPECT_THAT(refusal_of_h5(folder,
                             [](io::Hdf5Writer& writer) {
-                              writer.write("/surface/x", centres(5));
-                              writer.write("/surface/y", centres(4));
+                              write_centres(writer);
                               writer.write("/surface/mask", io::ByteMap(io::ByteMap::Ones(5, 4)));
                             }),
               HasSubstr("/surface/mask of shape 5 x 4; expected 4 x 5"));
