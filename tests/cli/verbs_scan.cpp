@@ -6,6 +6,7 @@
 
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
+#include "tabor/topography/file.hpp"
 
 namespace tabor::test {
 namespace {
@@ -204,6 +205,25 @@ TEST_F(ScanVerbs, ParamsDescribeAProfileOfOneRow) {
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     EXPECT_THAT(outcome.out, HasSubstr("Ra_x"));
   }
+}
+
+TEST_F(ScanVerbs, WarningsSpeakOfTheSurfaceAsItWasTreated) {
+  ASSERT_EQ(run_tabor({"generate", "self-affine", "-o", file("flat.txt"), "--pixels", "64,64",
+                       "--pixel", "1um", "--rms-height", "10nm"})
+                .code,
+            0);
+  topography::Topography tilted = topography::read(file("flat.txt"));
+  for (Index x = 0; x < 64; ++x) tilted.height.col(x) += 1e-6 * static_cast<double>(x);
+  topography::write(tilted, folder_ / "tilted.sdf");
+  EXPECT_THAT(run_tabor({"params", file("tilted.sdf")}).err, HasSubstr("tilt is larger"));
+  EXPECT_THAT(run_tabor({"params", file("tilted.sdf"), "--level", "plane"}).err,
+              testing::Not(HasSubstr("tilt")));
+}
+
+TEST_F(ScanVerbs, ChannelsWithoutAUnitSayWhatMakesThemHeights) {
+  put_bytes(folder_ / "plain.txt", "1 2 3\n4 7 6\n7 8 10\n");
+  EXPECT_THAT(run_tabor({"info", file("plain.txt"), "--pixel", "1um", "--unit", "nm"}).out,
+              HasSubstr("[?], a height with --unit or --z-scale only"));
 }
 
 TEST_F(ScanVerbs, PsdRefusesAFitOverNoRange) {

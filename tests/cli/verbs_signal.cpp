@@ -58,6 +58,39 @@ TEST_F(SignalVerbs, PsdGivesAutocorrelationAndDifferencesWhenAsked) {
   EXPECT_DOUBLE_EQ(psd.at("trusted").at("shortest_wavelength_m"), 6e-6);
 }
 
+TEST_F(SignalVerbs, PsdOfAProfileHasOneDirection) {
+  topography::Topography scan = topography::read(file("a.sdf"));
+  const Field row = scan.height.topRows(1);
+  scan.height = row;
+  scan.grid = {128, 1, 128e-6, 2e-6};
+  topography::write(scan, folder_ / "row.sdf");
+  const std::vector<std::string> words = {"psd",   file("row.sdf"), "--level",      "plane",
+                                          "--acf", "--hdf",         "--tip-radius", "5um"};
+  const io::Json psd = json_of(words);
+  EXPECT_EQ(psd.at("x").at("q_rad_per_m").size(), 64u);
+  EXPECT_TRUE(psd.at("y").is_null());
+  EXPECT_TRUE(psd.at("radial").is_null());
+  EXPECT_EQ(psd.at("hdf").at("x").at("lag_m").size(), 127u);
+  EXPECT_TRUE(psd.at("hdf").at("y").is_null());
+  EXPECT_TRUE(psd.at("hdf").at("radial").is_null());
+  EXPECT_GT(psd.at("acf").at("sal_m").get<double>(), 1e-6);
+  EXPECT_TRUE(psd.at("acf").at("str_below").is_null());
+  EXPECT_DOUBLE_EQ(psd.at("trusted").at("longest_wavelength_m"), 32e-6);  // of the length alone
+  const Outcome outcome = run_tabor(words);
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("nan")));
+  EXPECT_THAT(outcome.out, testing::Not(HasSubstr("along y")));
+}
+
+TEST_F(SignalVerbs, PsdDoubtsExponentsOfNoSelfAffineSurface) {
+  ASSERT_EQ(
+      run_tabor({"convert", file("a.sdf"), file("smooth.sdf"), "--lowpass", "gauss:20um"}).code, 0);
+  const Outcome outcome =
+      run_tabor({"psd", file("smooth.sdf"), "--fit-min", "0.3/um", "--fit-max", "0.6/um"});
+  EXPECT_THAT(outcome.err,
+              HasSubstr("no self-affine surface has a Hurst exponent outside 0 to 1 (C1D"));
+  EXPECT_THAT(run_tabor({"psd", file("a.sdf")}).err, testing::Not(HasSubstr("Hurst")));
+}
+
 TEST_F(SignalVerbs, PsdSaysWhatToTrust) {
   EXPECT_THAT(run_tabor({"psd", file("a.sdf")}).out, HasSubstr("wavelengths 4 µm to 24 µm"));
   const Outcome blunt = run_tabor({"psd", file("a.sdf"), "--tip-radius", "200um"});

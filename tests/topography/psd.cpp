@@ -216,6 +216,36 @@ TEST(PowerSpectra, OfWhiteNoiseAreFlatThroughTheWindow) {
   EXPECT_NEAR(std::accumulate(begin + 10, begin + 250, 0.0) / 240, 1, 0.01);  // variance * dx
 }
 
+TEST(PowerSpectra, OfAProfileAreThoseOfItsLine) {
+  const Grid grid{240, 1, 120e-6, 1e-6};
+  const double a = 2e-6;
+  const auto row =
+      surface(grid, [=](double x, double) { return a * std::sin(2 * pi * 6 * x / grid.lx); });
+  const auto spectra = power_spectra(row, unwindowed());
+  EXPECT_NEAR(spectra.x.density[5] / (a * a * grid.lx / 4), 1, 1e-12);
+  EXPECT_TRUE(spectra.y.q.empty());
+  EXPECT_TRUE(spectra.radial.q.empty());
+  EXPECT_NEAR(spectra.rms_height / (a / std::sqrt(2)), 1, 1e-12);
+  EXPECT_NEAR(spectra.rms_slope / (a / std::sqrt(2) * 2 * pi * 6 / grid.lx), 1, 1e-12);
+  EXPECT_EQ(spectra.window_gain, 1);
+}
+
+TEST(PowerSpectra, OfAColumnAreThoseOfTheSameRow) {
+  const auto row = noise({200, 1, 100e-6, 3e-6});
+  auto column = row;
+  column.grid = {1, 200, 3e-6, 100e-6};
+  column.height = row.height.transpose();
+  const auto spectra = power_spectra(column);
+  EXPECT_EQ(spectra.y.density, power_spectra(row).x.density);
+  EXPECT_TRUE(spectra.x.q.empty());
+  EXPECT_EQ(spectra.window_gain, power_spectra(row).window_gain);
+}
+
+TEST(PowerSpectra, RefuseASingleHeight) {
+  const auto point = surface({1, 1, 1e-6, 1e-6}, [](double, double) { return 1e-6; });
+  EXPECT_THROW(power_spectra(point), InputError);
+}
+
 TEST(PowerSpectra, RefuseHoles) {
   auto holed = noise(kGrid);
   holed.height(0, 0) = kHole;

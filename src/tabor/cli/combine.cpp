@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "tabor/cli/result.hpp"
@@ -57,12 +58,29 @@ io::Json json_of(const WearVolumes& wear) {
           {"threshold_m", wear.threshold}};
 }
 
-/// Micrometres cubed: units of volume have no prefixes that anyone reads with ease.
-std::string cubic_um(double volume) { return fmt::format("{:.4g} um^3", volume * 1e18); }
+/// The length whose cube and square all volumes and areas of a table are told in: tribologists know
+/// mm^3 and um^3 and no prefixes of m^3.
+struct LengthUnit {
+  std::string name;
+  double length = 0;  ///< [m]
 
-std::vector<std::string> row_of(const std::string& name, const Volume& volume) {
-  return {name, cubic_um(volume.value), cubic_um(volume.uncertainty),
-          fmt::format("{:.4g} um^2", volume.area * 1e12)};
+  std::string cubic(double volume) const {
+    return fmt::format("{:.4g} {}^3", volume / (length * length * length), name);
+  }
+  std::string square(double area) const {
+    return fmt::format("{:.4g} {}^2", area / (length * length), name);
+  }
+};
+
+LengthUnit unit_for(const WearVolumes& wear) {
+  constexpr double kMany = 1e6 * 1e-18;  // [m^3], a million um^3
+  const bool is_large = std::max(wear.worn.value, wear.piled_up.value) >= kMany;
+  return is_large ? LengthUnit{"mm", 1e-3} : LengthUnit{"um", 1e-6};
+}
+
+std::vector<std::string> row_of(const std::string& name, const Volume& volume,
+                                const LengthUnit& unit) {
+  return {name, unit.cubic(volume.value), unit.cubic(volume.uncertainty), unit.square(volume.area)};
 }
 
 void describe(const Registration& r, Facts& facts) {
@@ -94,14 +112,16 @@ std::string text_of(const Request& request, const Scan& a, const Scan& b, const 
   std::string text = facts.text();
   if (c.wear) {
     Table table({"volume", "value", "± (1 sigma)", "over"});
-    table.row(row_of("worn (A above B)", c.wear->worn));
-    table.row(row_of("piled up", c.wear->piled_up));
-    table.row(row_of("net, whole overlap", c.wear->net));
+    const LengthUnit unit = unit_for(*c.wear);
+    table.row(row_of("worn (A above B)", c.wear->worn, unit));
+    table.row(row_of("piled up", c.wear->piled_up, unit));
+    table.row(row_of("net, whole overlap", c.wear->net, unit));
     Facts noise;
     noise.fact("noise", fmt::format("{} rms, correlated over {:.3g} um^2", si(c.wear->noise, "m"),
                                     c.wear->noise_area * 1e12));
     noise.fact("counted from", si(c.wear->threshold, "m") + " of the smoothed difference");
-    noise.fact("noise floor", cubic_um(c.wear->noise_floor) + " would be counted without any wear");
+    noise.fact("noise floor",
+               unit.cubic(c.wear->noise_floor) + " would be counted without any wear");
     text += '\n' + table.text() + '\n' + noise.text();
   }
   return text;

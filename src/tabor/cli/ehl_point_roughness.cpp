@@ -179,7 +179,9 @@ Topography read_scan(const io::Config& config, Context& context) {
   if (config.has("roughness.treatment")) treatment = config.texts("roughness.treatment");
   Topography scan = topography::apply(
       treatment, topography::read(file, options, context.observer()), context.observer());
-  for (const std::string& doubt : scan.doubts) context.warn(file.string() + ": " + doubt);
+  for (const topography::Doubt& doubt : scan.doubts) {
+    context.warn(file.string() + ": " + doubt.text);
+  }
   if (const Index holes = topography::count_holes(scan); holes > 0) {
     throw InputError(config.place("roughness.file"), fmt::format("{} missing pixels", holes),
                      "a height at every pixel", "treatment = [\"fill=harmonic\", \"level=plane\"]");

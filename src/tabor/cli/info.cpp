@@ -63,9 +63,12 @@ void describe(const FileInfo& file, const std::string& path, const std::string& 
   facts.fact("format", file.format);
   facts.fact("instrument", instrument);
   for (const topography::Channel& channel : file.channels) {
+    const bool is_unknown = channel.unit.empty();
+    const std::string remark = channel.is_height ? ""
+                               : is_unknown      ? ", a height with --unit or --z-scale only"
+                                                 : ", not a height";
     facts.fact(fmt::format("channel {}", channel.index),
-               fmt::format("{} [{}]{}", channel.name, channel.unit.empty() ? "?" : channel.unit,
-                           channel.is_height ? "" : ", not a height"));
+               fmt::format("{} [{}]{}", channel.name, is_unknown ? "?" : channel.unit, remark));
   }
 }
 
@@ -96,7 +99,7 @@ io::Json json_of(const Context& context, const Scan& scan, const FileInfo& file,
        {"height_rms_m", io::number(heights.rms)},
        {"height_quantum_m", io::number(heights.quantum)},
        {"metadata", surface.metadata},
-       {"doubts", surface.doubts}});
+       {"doubts", topography::texts(surface.doubts)}});
   return object;
 }
 
@@ -117,7 +120,7 @@ std::string text_of(const Scan& scan, const FileInfo& file, const Heights& heigh
   facts.fact("heights", si(heights.min, "m") + " to " + si(heights.max, "m"));
   facts.fact("rms height", si(heights.rms, "m") + " about the mean");
   if (!std::isnan(heights.quantum)) facts.fact("height step", si(heights.quantum, "m"));
-  for (const std::string& doubt : surface.doubts) facts.fact("doubt", doubt);
+  for (const topography::Doubt& doubt : surface.doubts) facts.fact("doubt", doubt.text);
   return facts.text();
 }
 

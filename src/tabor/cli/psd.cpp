@@ -67,6 +67,10 @@ int show(const Request& request, Context& context) {
   const Scan scan = load_scan(request.scan, context);
   const PsdCurves curves = compute(request, scan, context);
   warn_if_not_levelled(scan, context);
+  if (curves.spectra) {
+    const std::string doubt = doubt_about_exponents(*curves.spectra);
+    if (!doubt.empty()) context.warn(doubt);
+  }
   io::Json object = json_head(context, scan);
   add_curves(object, curves);
   std::string text = text_of(scan, curves);

@@ -18,6 +18,7 @@ using topography::Spectrum;
 
 // Keys name SI units; the unit of the chosen convention stands beside them.
 io::Json json_of(const Spectrum& spectrum, const std::string& density_key) {
+  if (spectrum.q.empty()) return nullptr;  // a profile has no other direction
   return {{"q_rad_per_m", spectrum.q},
           {density_key, spectrum.density},
           {"unit", spectrum.unit},
@@ -28,15 +29,26 @@ io::Json json_of(const Spectrum& spectrum, const std::string& density_key) {
           {"fit_bins", spectrum.hurst.n_bins}};
 }
 
-std::vector<std::string> row_of(const std::string& name, const Spectrum& spectrum) {
+/// A Hurst exponent with its error; "-" where no range of scales is long enough for one.
+template <typename Fit>
+std::string exponent(const Fit& fit) {
+  if (!std::isfinite(fit.hurst)) return "-";
+  return plain(fit.hurst, 3) + " ± " + plain(fit.standard_error, 1);
+}
+
+/// The range of a fit; "no range" where there is none.
+template <typename Fit>
+std::string range_of(const Fit& fit, const std::string& range) {
+  return std::isfinite(fit.hurst) ? range : "no range";
+}
+
+void add_row(const std::string& name, const Spectrum& spectrum, Table& table) {
+  if (spectrum.q.empty()) return;
   const topography::HurstFit& fit = spectrum.hurst;
-  const bool found = std::isfinite(fit.hurst);  // else no range of scales is long enough
-  return {name,
-          found ? plain(fit.hurst, 3) + " ± " + plain(fit.standard_error, 1) : "-",
-          found ? fmt::format("{:.3g} to {:.3g} rad/m", fit.q_min, fit.q_max) : "no range",
-          fmt::format("{}", fit.n_bins),
-          si(spectrum.rms_height, "m"),
-          fmt::format("{} [{}]", spectrum.density.size(), spectrum.unit)};
+  table.row({name, exponent(fit),
+             range_of(fit, fmt::format("{:.3g} to {:.3g} rad/m", fit.q_min, fit.q_max)),
+             fmt::format("{}", fit.n_bins), si(spectrum.rms_height, "m"),
+             fmt::format("{} [{}]", spectrum.density.size(), spectrum.unit)});
 }
 
 /// Autocorrelation along an axis, from zero lag.
@@ -61,6 +73,7 @@ io::Json json_of(const Autocorrelation& acf) {
   };
   const topography::CorrelationLengths lengths = topography::correlation_lengths(acf);
   const auto aspect = lengths.texture_aspect();
+  const bool has_bound = !aspect && !topography::is_profile(acf.grid());
   return {{"lag_x_m", lags(acf.grid().nx, acf.grid().dx())},
           {"acf_x", numbers(profile(acf, true))},
           {"lag_y_m", lags(acf.grid().ny, acf.grid().dy())},
@@ -68,10 +81,11 @@ io::Json json_of(const Autocorrelation& acf) {
           {"mean_square_m2", acf.mean_square()},
           {"sal_m", io::number(lengths.shortest)},
           {"str", aspect ? io::Json(*aspect) : io::Json()},
-          {"str_below", aspect ? io::Json() : io::Json(lengths.texture_bound())}};
+          {"str_below", has_bound ? io::Json(lengths.texture_bound()) : io::Json()}};
 }
 
 io::Json json_of(const HeightDifference& difference, double mean_square) {
+  if (difference.lag.empty()) return nullptr;
   const topography::DifferenceHurst fit = topography::fit_hurst(difference, mean_square);
   return {{"lag_m", difference.lag},
           {"mean_square_m2", difference.mean_square},
@@ -89,15 +103,13 @@ io::Json json_of(const topography::TrustedRange& range) {
           {"shortest_is_limited_by", range.tip_limits ? "tip" : "pixel"}};
 }
 
-std::vector<std::string> row_of(const std::string& name, const HeightDifference& difference,
-                                double mean_square) {
+void add_row(const std::string& name, const HeightDifference& difference, double mean_square,
+             Table& table) {
+  if (difference.lag.empty()) return;
   const topography::DifferenceHurst fit = topography::fit_hurst(difference, mean_square);
-  return {name,
-          plain(fit.hurst, 3) + " ± " + plain(fit.standard_error, 1),
-          fmt::format("{} to {}", si(fit.lag_min, "m"), si(fit.lag_max, "m")),
-          fmt::format("{}", fit.n_bins),
-          "-",
-          fmt::format("{} [m^2]", difference.lag.size())};
+  table.row({name, exponent(fit),
+             range_of(fit, fmt::format("{} to {}", si(fit.lag_min, "m"), si(fit.lag_max, "m"))),
+             fmt::format("{}", fit.n_bins), "-", fmt::format("{} [m^2]", difference.lag.size())});
 }
 
 void describe(const PowerSpectra& spectra, Facts& facts) {
@@ -128,6 +140,7 @@ std::string in_a_name(std::string unit) {
 }
 
 void add_columns(std::vector<Curve>& columns, const std::string& name, const Spectrum& spectrum) {
+  if (spectrum.q.empty()) return;
   columns.push_back({"q_" + name + "_rad_per_m", "rad/m", "wavevector, " + name, spectrum.q});
   columns.push_back({"psd_" + name + "_" + in_a_name(spectrum.unit), spectrum.unit,
                      "power spectral density, " + name, spectrum.density});
@@ -135,6 +148,7 @@ void add_columns(std::vector<Curve>& columns, const std::string& name, const Spe
 
 void add_columns(std::vector<Curve>& columns, const std::string& name,
                  const HeightDifference& difference) {
+  if (difference.lag.empty()) return;
   columns.push_back({"lag_hdf_" + name + "_m", "m", "lag, " + name, difference.lag});
   columns.push_back({"hdf_" + name + "_m2", "m^2", "mean square height difference, " + name,
                      difference.mean_square});
@@ -172,22 +186,40 @@ std::string text_of(const Scan& scan, const PsdCurves& curves) {
   if (curves.acf) {
     const auto lengths = topography::correlation_lengths(*curves.acf);
     const auto aspect = lengths.texture_aspect();
-    facts.fact("autocorrelation",
-               fmt::format("Sal {}, Str {}", si(lengths.shortest, "m"),
-                           aspect ? plain(*aspect) : "< " + plain(lengths.texture_bound())));
+    const std::string texture =
+        topography::is_profile(curves.acf->grid())
+            ? ""
+            : ", Str " + (aspect ? plain(*aspect) : "< " + plain(lengths.texture_bound()));
+    facts.fact("autocorrelation", "Sal " + si(lengths.shortest, "m") + texture);
   }
   Table table({"curve", "Hurst exponent", "fitted over", "bins", "rms height", "points"});
   if (curves.spectra) {
-    table.row(row_of("C1D along x", curves.spectra->x));
-    table.row(row_of("C1D along y", curves.spectra->y));
-    table.row(row_of("C2D radial", curves.spectra->radial));
+    add_row("C1D along x", curves.spectra->x, table);
+    add_row("C1D along y", curves.spectra->y, table);
+    add_row("C2D radial", curves.spectra->radial, table);
   }
   if (curves.hdf) {
-    table.row(row_of("differences along x", curves.hdf->x, curves.mean_square));
-    table.row(row_of("differences along y", curves.hdf->y, curves.mean_square));
-    table.row(row_of("differences, radial", curves.hdf->radial, curves.mean_square));
+    add_row("differences along x", curves.hdf->x, curves.mean_square, table);
+    add_row("differences along y", curves.hdf->y, curves.mean_square, table);
+    add_row("differences, radial", curves.hdf->radial, curves.mean_square, table);
   }
   return facts.text() + (curves.spectra || curves.hdf ? '\n' + table.text() : "");
+}
+
+std::string doubt_about_exponents(const PowerSpectra& spectra) {
+  std::string strange;
+  const auto look_at = [&strange](const std::string& name, const topography::HurstFit& fit) {
+    if (!(fit.hurst - fit.standard_error > 1) && !(fit.hurst + fit.standard_error < 0)) return;
+    strange += fmt::format("{}{} {}", strange.empty() ? "" : ", ", name, plain(fit.hurst, 3));
+  };
+  look_at("C1D along x", spectra.x.hurst);
+  look_at("C1D along y", spectra.y.hurst);
+  look_at("C2D radial", spectra.radial.hurst);
+  if (strange.empty()) return "";
+  return fmt::format(
+      "no self-affine surface has a Hurst exponent outside 0 to 1 ({}): these heights are noise, "
+      "smooth, curved or filtered; look at the curve, choose with --fit-min and --fit-max",
+      strange);
 }
 
 std::vector<Curve> columns_of(const PsdCurves& curves) {

@@ -83,7 +83,9 @@ Scan load_scan(const topography::ScanFile& file, const ScanRequest& request, Con
       std::async(std::launch::async, [&file] { return file.sha256(); });
   Topography surface =
       topography::apply(request.treatment, file.read(request.read), context.observer());
-  for (const std::string& doubt : surface.doubts) context.warn(request.file + ": " + doubt);
+  for (const topography::Doubt& doubt : surface.doubts) {
+    context.warn(request.file + ": " + doubt.text);
+  }
   return {.surface = std::move(surface),
           .path = request.file,
           .sha256 = sha256.get(),

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -132,7 +133,10 @@ double missing_sample(const Tiff& tiff, const TiffDescription& image) {
   const char* text = nullptr;
   if (TIFFGetField(tiff, kMissingTag, &size, &text) != 1 || text == nullptr) return none;
   const double value = parse_number(std::string(text, strnlen(text, size))).value_or(none);
-  return image.is_float && image.bits == 32 ? static_cast<float>(value) : value;
+  const bool is_single = image.is_float && image.bits == 32;
+  // Samples cannot equal what single precision cannot hold.
+  if (is_single && std::abs(value) > std::numeric_limits<float>::max()) return none;
+  return is_single ? static_cast<float>(value) : value;
 }
 
 }  // namespace

@@ -154,7 +154,10 @@ struct Ray {
 
 Ray follow(const Autocorrelation& acf, double angle, double threshold) {
   const Grid& grid = acf.grid();
-  const double c = std::cos(angle), s = std::sin(angle);
+  constexpr double kRounding = 1e-9;  // a ray along y must not step aside, out of a single column
+  const double cosine = std::cos(angle);
+  const double c = std::abs(cosine) < kRounding ? 0 : cosine;
+  const double s = std::sin(angle);
   const double step = 0.5 / std::hypot(c / grid.dx(), s / grid.dy());  // half a pixel
   double before = 1;
   for (Index i = 1;; ++i) {

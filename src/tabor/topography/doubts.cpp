@@ -195,6 +195,37 @@ Levelled above_plane(const Field& height) {
   return levelled;
 }
 
+/// Root mean square of the heights [m] about their mean and about their plane.
+struct Rms {
+  double as_is = 0;
+  double levelled = 0;
+};
+
+Rms rms_of(const Field& height) {
+  return {.as_is = std::sqrt(mean_square({.height = height})),
+          .levelled = std::sqrt(mean_square(above_plane(height)))};
+}
+
+/// Doubts that a treatment can dispel or raise.
+std::vector<std::string> about_heights(const Topography& topography, const Rms& rms) {
+  std::vector<std::string> list;
+  if (is_profile(topography.grid)) {
+    list.emplace_back("a profile of one row: areal results do not apply");
+  }
+  doubt_pixels(topography.grid, list);
+  if (!is_profile(topography.grid)) doubt_sizes(topography.grid, list);
+  doubt_holes(topography, list);
+  if (rms.as_is > 2 * rms.levelled && rms.levelled > 0) {
+    list.push_back(fmt::format("tilt is larger than roughness: Sq {} becomes {} without its plane",
+                               format_si(rms.as_is, "m"), format_si(rms.levelled, "m")));
+  }
+  return list;
+}
+
+void add(std::vector<std::string> found, Doubt::About about, std::vector<Doubt>& list) {
+  for (std::string& text : found) list.push_back({.text = std::move(text), .about = about});
+}
+
 }  // namespace
 
 double height_quantum(const Field& height) {
@@ -211,24 +242,26 @@ double height_quantum(const Field& height) {
   return 0;
 }
 
-std::vector<std::string> doubts(const Topography& topography) {
-  std::vector<std::string> list;
-  if (topography.grid.nx == 1 || topography.grid.ny == 1) {
-    list.emplace_back("a profile of one row: areal results do not apply");
-  }
-  doubt_pixels(topography.grid, list);
-  doubt_sizes(topography.grid, list);
-  doubt_holes(topography, list);
-  const Levelled levelled = above_plane(topography.height);
-  const double rms = std::sqrt(mean_square({.height = topography.height}));
-  const double rms_levelled = std::sqrt(mean_square(levelled));
-  if (rms > 2 * rms_levelled && rms_levelled > 0) {
-    list.push_back(fmt::format("tilt is larger than roughness: Sq {} becomes {} without its plane",
-                               format_si(rms, "m"), format_si(rms_levelled, "m")));
-  }
-  doubt_quantum(height_quantum(topography.height), rms_levelled, list);
-  doubt_spikes(topography.height, list);
+std::vector<Doubt> doubts(const Topography& topography) {
+  const Rms rms = rms_of(topography.height);
+  std::vector<std::string> measurement;
+  doubt_quantum(height_quantum(topography.height), rms.levelled, measurement);
+  std::vector<std::string> spikes;
+  doubt_spikes(topography.height, spikes);
+  std::vector<Doubt> list;
+  add(about_heights(topography, rms), Doubt::About::heights, list);
+  add(std::move(measurement), Doubt::About::record, list);
+  add(std::move(spikes), Doubt::About::spikes, list);
   return list;
+}
+
+void renew_doubts(Topography& topography, bool looked_for_spikes) {
+  std::erase_if(topography.doubts, [&](const Doubt& doubt) {
+    return doubt.about == Doubt::About::heights ||
+           (looked_for_spikes && doubt.about == Doubt::About::spikes);
+  });
+  add(about_heights(topography, rms_of(topography.height)), Doubt::About::heights,
+      topography.doubts);
 }
 
 }  // namespace tabor::topography

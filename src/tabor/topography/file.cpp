@@ -156,14 +156,14 @@ Topography ScanFile::read(const ReadOptions& options) const {
   const Document& document = opened_->document;
   const Layer& layer = format::choose_layer(contents, document, options);
   Topography topography;
-  topography.doubts = document.doubts;
-  topography.grid = format::resolve_grid(contents, layer, options, topography.doubts);
-  const double factor = format::resolve_height_factor(contents, layer, options, topography.doubts);
-  topography.height = heights_of(layer, factor, topography.doubts);
+  std::vector<std::string> found = document.doubts;
+  topography.grid = format::resolve_grid(contents, layer, options, found);
+  const double factor = format::resolve_height_factor(contents, layer, options, found);
+  topography.height = heights_of(layer, factor, found);
   opened_->mapped.check();
   if (layer.late_doubts) {
     const std::vector<std::string>& late = *layer.late_doubts;
-    topography.doubts.insert(topography.doubts.end(), late.begin(), late.end());
+    found.insert(found.end(), late.begin(), late.end());
   }
   require_heights(contents, topography);
   topography.periodic = document.periodic;
@@ -173,7 +173,8 @@ Topography ScanFile::read(const ReadOptions& options) const {
   topography.channel = layer.name;
   topography.metadata = document.metadata;
   topography.history = document.history;
-  for (std::string& doubt : doubts(topography)) topography.doubts.push_back(std::move(doubt));
+  for (std::string& doubt : found) topography.doubts.push_back({.text = std::move(doubt)});
+  for (Doubt& doubt : doubts(topography)) topography.doubts.push_back(std::move(doubt));
   contents.finished({}, 1);
   return topography;
 }

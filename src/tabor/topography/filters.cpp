@@ -163,8 +163,7 @@ void check_cutoff(const Filter& filter, double wavelength, const Grid& grid) {
 
 /// What to think of a cutoff that does nearly nothing, or nearly everything; "" if neither.
 std::string doubt_about(const Filter& filter, double wavelength, const Grid& grid) {
-  const bool is_profile = grid.nx == 1 || grid.ny == 1;  // its width does not count
-  if (wavelength > (is_profile ? scan_side(grid) : std::min(grid.lx, grid.ly))) {
+  if (wavelength > (is_profile(grid) ? scan_side(grid) : std::min(grid.lx, grid.ly))) {
     return fmt::format(
         "the cutoff of {} is longer than the scan ({} x {}): hardly more than a mean passes",
         to_string(filter), format_si(grid.lx, "m"), format_si(grid.ly, "m"));
@@ -187,7 +186,7 @@ Topography filtered(Topography topography, const Filter& filter, double side, bo
   }
   const auto doubt = doubt_about(filter, filter.cutoff_wavelength(side), before.grid);
   if (!doubt.empty()) {
-    result.doubts.push_back(doubt);
+    result.doubts.push_back({.text = doubt});
   }
   result.history.push_back(describe(high ? "highpass" : "lowpass", filter, side, before, result));
   return result;

@@ -8,6 +8,7 @@
 
 #include "tabor/spectral/strips.hpp"
 #include "tabor/topography/lag_sums.hpp"
+#include "tabor/topography/topography.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -169,10 +170,14 @@ HeightDifferences height_differences(const Field& height, const Grid& grid,
   const auto part = [&](auto member, const std::function<double(Index)>& lag_of) {
     return mean_differences(squares.*member * unit, pairs.*member, lag_of);
   };
-  return {part(&LagSums::along_x, [&](Index k) { return static_cast<double>(k) * grid.dx(); }),
-          part(&LagSums::along_y, [&](Index k) { return static_cast<double>(k) * grid.dy(); }),
-          part(&LagSums::over_rings,
-               [&](Index k) { return pairs.distances[k] / pairs.over_rings[k]; })};
+  HeightDifferences result;
+  result.x = part(&LagSums::along_x, [&](Index k) { return static_cast<double>(k) * grid.dx(); });
+  result.y = part(&LagSums::along_y, [&](Index k) { return static_cast<double>(k) * grid.dy(); });
+  if (!is_profile(grid)) {
+    result.radial = part(&LagSums::over_rings,
+                         [&](Index k) { return pairs.distances[k] / pairs.over_rings[k]; });
+  }
+  return result;
 }
 
 }  // namespace tabor::topography

@@ -19,7 +19,7 @@ struct HeightDifferences {
   HeightDifference y;       ///< along columns, all lags
   HeightDifference radial;  ///< every pair of the ring (k - 1/2, k + 1/2) w counts the same;
                             ///< w = larger pixel side, lag = mean distance of the pairs, up to the
-                            ///< shorter side of the scan
+                            ///< shorter side of the scan; none of a profile
 };
 
 /// Exact sums over all pairs of valid points, from correlations in double precision; about 4 bytes

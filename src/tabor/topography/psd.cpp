@@ -49,10 +49,45 @@ void check_complete(const Topography& topography) {
     throw InputError("power spectrum", fmt::format("{} missing heights", n_missing),
                      "a surface without holes", "fill them first (--fill harmonic)");
   }
-  if (topography.grid.nx < 2 || topography.grid.ny < 2) {
-    throw InputError("power spectrum",
-                     fmt::format("{} x {} pixels", topography.grid.nx, topography.grid.ny),
-                     "at least 2 x 2 pixels", "tabor params describes profiles");
+  if (topography.grid.size() < 2) {
+    throw InputError("power spectrum", "a single height", "at least two", "");
+  }
+}
+
+/// Along the axes that have more than one pixel.
+void add_lines(const Topography& topography, PowerSpectra& spectra) {
+  const Grid& grid = topography.grid;
+  const Field& height = topography.height;
+  if (grid.nx > 1) {
+    spectra.x = profile_spectrum(
+        grid.ny, grid.nx, grid.lx, spectra.window,
+        [&](Index begin, Index count) -> Field { return height.middleRows(begin, count); });
+  }
+  if (grid.ny > 1) {
+    spectra.y = profile_spectrum(grid.nx, grid.ny, grid.ly, spectra.window,
+                                 [&](Index begin, Index count) -> Field {
+                                   return height.middleCols(begin, count).transpose();
+                                 });
+  }
+}
+
+void add_area(const Topography& topography, PowerSpectra& spectra) {
+  RadialSpectrum radial = radial_spectrum(topography.height, topography.grid, spectra.window);
+  spectra.window_gain = radial.window_gain;
+  spectra.radial = std::move(radial.spectrum);
+  spectra.rms_height = spectra.radial.rms_height;
+  spectra.rms_slope = spectra.radial.rms_slope;
+}
+
+/// What an area has from its two-dimensional sum, from the one line.
+void take_from_line(const Topography& topography, PowerSpectra& spectra) {
+  const Spectrum& line = topography.grid.nx > 1 ? spectra.x : spectra.y;
+  const Field& height = topography.height;
+  const double mean_square = (height - height.mean()).square().mean();
+  spectra.rms_height = line.rms_height;
+  spectra.rms_slope = line.rms_slope;
+  if (spectra.window == PsdWindow::hann && mean_square > 0) {
+    spectra.window_gain = line.rms_height * line.rms_height / mean_square;
   }
 }
 
@@ -67,22 +102,14 @@ std::string_view name_of(PsdWindow window) { return kWindows.of(window); }
 
 PowerSpectra power_spectra(const Topography& topography, const PsdOptions& options) {
   check_complete(topography);
-  const Grid& grid = topography.grid;
   PowerSpectra spectra;
   spectra.window = options.window.value_or(topography.periodic ? PsdWindow::none : PsdWindow::hann);
-  const Field& height = topography.height;
-  spectra.x = profile_spectrum(
-      grid.ny, grid.nx, grid.lx, spectra.window,
-      [&](Index begin, Index count) -> Field { return height.middleRows(begin, count); });
-  spectra.y = profile_spectrum(grid.nx, grid.ny, grid.ly, spectra.window,
-                               [&](Index begin, Index count) -> Field {
-                                 return height.middleCols(begin, count).transpose();
-                               });
-  RadialSpectrum radial = radial_spectrum(height, grid, spectra.window);
-  spectra.window_gain = radial.window_gain;
-  spectra.radial = std::move(radial.spectrum);
-  spectra.rms_height = spectra.radial.rms_height;
-  spectra.rms_slope = spectra.radial.rms_slope;
+  add_lines(topography, spectra);
+  if (is_profile(topography.grid)) {
+    take_from_line(topography, spectra);
+  } else {
+    add_area(topography, spectra);
+  }
   fit(spectra.x, 1, options);
   fit(spectra.y, 1, options);
   fit(spectra.radial, 2, options);

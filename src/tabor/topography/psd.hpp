@@ -48,6 +48,7 @@ struct Spectrum {
   double rms_slope = 0;   ///< 1D: of profiles along that axis, spectral derivative
 };
 
+/// Of a profile there is one of x and y; the other and the radial one are empty.
 struct PowerSpectra {
   PsdConvention convention = PsdConvention::jacobs;
   PsdWindow window = PsdWindow::none;
@@ -60,7 +61,7 @@ struct PowerSpectra {
 };
 
 /// Spectra of the heights about their mean. Level before (the window does not replace it). Throws
-/// InputError when there are holes, naming `--fill harmonic`.
+/// InputError when there are holes, naming `--fill harmonic`, and for a single height.
 PowerSpectra power_spectra(const Topography& topography, const PsdOptions& options = {});
 
 /// Fits H to a density that falls as q^-(offset + 2 H); offset 1 for C1D, 2 for C2D.

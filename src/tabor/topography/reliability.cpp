@@ -8,6 +8,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
+#include "tabor/topography/filters.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -35,6 +36,12 @@ double sharpest_peak(const Field& z, const Grid& grid, Index k) {
   });
 }
 
+/// The longer side of a pixel; of a profile's the one along it.
+double pixel_of(const Grid& grid) {
+  return is_profile(grid) ? scan_side(grid) / static_cast<double>(grid.size())
+                          : std::max(grid.dx(), grid.dy());
+}
+
 }  // namespace
 
 double tip_limited_wavelength(const Field& height, const Grid& grid, double tip_radius) {
@@ -48,14 +55,14 @@ double tip_limited_wavelength(const Field& height, const Grid& grid, double tip_
   while (k < most && sharpest_peak(height, grid, k + 1) > limit) {
     ++k;
   }
-  return 2 * static_cast<double>(k) * std::max(grid.dx(), grid.dy());
+  return 2 * static_cast<double>(k) * pixel_of(grid);
 }
 
 TrustedRange trusted_range(const Field& height, const Grid& grid,
                            std::optional<double> tip_radius) {
   TrustedRange range;
-  range.shortest = 4 * std::max(grid.dx(), grid.dy());
-  range.longest = std::min(grid.lx, grid.ly) / 4;
+  range.shortest = 4 * pixel_of(grid);
+  range.longest = (is_profile(grid) ? scan_side(grid) : std::min(grid.lx, grid.ly)) / 4;
   if (tip_radius) {
     const double tip = tip_limited_wavelength(height, grid, *tip_radius);
     range.tip_limits = tip > range.shortest;

@@ -284,8 +284,9 @@ Topography remove_spikes(Topography topography, const SpikeRule& rule) {
   }
   topography.height = std::move(after);
   if (n_spikes > 0) {
-    topography.doubts.push_back(fmt::format("despike took {} spike{} out of {} heights", n_spikes,
-                                            n_spikes == 1 ? "" : "s", spikes.size()));
+    topography.doubts.push_back(
+        {.text = fmt::format("despike took {} spike{} out of {} heights", n_spikes,
+                             n_spikes == 1 ? "" : "s", spikes.size())});
   }
   topography.history.push_back(fmt::format(
       "despike={},{},{}: {} of {} heights ({:.3g} %) were spikes and became {}{}", rule.threshold,

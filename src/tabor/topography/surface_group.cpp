@@ -20,7 +20,7 @@ void write_surface_group(io::Hdf5Writer& writer, const Topography& surface,
   writer.attribute("/surface", "instrument", surface.instrument);
   writer.attribute("/surface", "channel", surface.channel);
   writer.attribute("/surface", "treatment", surface.history);
-  writer.attribute("/surface", "doubts", surface.doubts);
+  writer.attribute("/surface", "doubts", texts(surface.doubts));
   writer.attribute("/surface", "periodic", surface.periodic ? 1 : 0);
   writer.attribute("/surface", "pixel_x_m", surface.grid.dx());
   writer.attribute("/surface", "pixel_y_m", surface.grid.dy());

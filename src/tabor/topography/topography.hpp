@@ -8,6 +8,20 @@
 
 namespace tabor::topography {
 
+/// What a careful user should know, in one sentence, and how long it holds.
+struct Doubt {
+  enum class About {
+    record,   ///< the file or a step of its treatment: for good
+    heights,  ///< the heights as they are: asked anew after a treatment
+    spikes    ///< until a step looks for spikes: a filter hides them, what they did stays
+  };
+  std::string text;
+  About about = About::record;
+};
+
+/// The sentences alone.
+std::vector<std::string> texts(const std::vector<Doubt>& doubts);
+
 /// A measured or generated height map. A value: treatments return new ones.
 struct Topography {
   Grid grid;
@@ -19,8 +33,11 @@ struct Topography {
   std::string channel;     ///< title of the channel that was read
   std::map<std::string, std::string> metadata;
   std::vector<std::string> history;  ///< treatment steps so far, canonical text with numbers
-  std::vector<std::string> doubts;   ///< what a careful user should know about the file
+  std::vector<Doubt> doubts;         ///< about the file, the treatment and the heights
 };
+
+/// One row or one column: its width counts for nothing.
+bool is_profile(const Grid& grid);
 
 Mask holes(const Topography& topography);  ///< true where height is NaN
 Index count_holes(const Topography& topography);

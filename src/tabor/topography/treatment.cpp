@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -10,6 +11,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/topography/doubts.hpp"
 #include "tabor/topography/filters.hpp"
 #include "tabor/topography/geometry.hpp"
 #include "tabor/topography/holes.hpp"
@@ -243,6 +245,12 @@ Topography apply(const Treatment& treatment, Topography topography, const Observ
     report_progress(observer, "treatment",
                     static_cast<double>(i) / static_cast<double>(treatment.size()));
     topography = parse_step(treatment[i])(std::move(topography), state);
+  }
+  if (!treatment.empty()) {
+    const bool looked_for_spikes =
+        std::any_of(treatment.begin(), treatment.end(),
+                    [](const std::string& step) { return split_step(step).first == "despike"; });
+    renew_doubts(topography, looked_for_spikes);
   }
   report_progress(observer, "treatment", 1);
   return topography;

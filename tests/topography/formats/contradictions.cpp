@@ -59,7 +59,8 @@ TEST(X3pContradictions, WholeNumbersOfMetresAreDoubted) {
   test::ByteFile heights;
   for (const std::int16_t z : std::initializer_list<std::int16_t>{1, 2, 3, 4}) heights.append(z);
   const std::string bytes = io::zip({{"main.xml", xml}, {"data.bin", heights.bytes()}});
-  EXPECT_THAT(test::read_bytes(folder, bytes).doubts, Contains(HasSubstr("heights in metres")));
+  EXPECT_THAT(texts(test::read_bytes(folder, bytes).doubts),
+              Contains(HasSubstr("heights in metres")));
 }
 
 TEST(X3pContradictions, AnUnknownKindOfAxisIsRefused) {
@@ -100,7 +101,7 @@ TEST(X3pContradictions, AChangedMaskIsDoubted) {
   const Topography map = test::read_bytes(
       folder, io::zip({{"main.xml", xml}, {"data.bin", heights.bytes()}, {"valid.bin", "\x07"}}));
   EXPECT_EQ(count_holes(map), 1);
-  EXPECT_THAT(map.doubts, Contains(HasSubstr("valid points do not match")));
+  EXPECT_THAT(texts(map.doubts), Contains(HasSubstr("valid points do not match")));
 }
 
 TEST(ArchiveContradictions, TwoScansInOneArchiveAreRefused) {
@@ -266,10 +267,10 @@ TEST(Surplus, BytesBehindTheMapAreDoubted) {
     write(map, folder / name);
     const std::string bytes = test::bytes_of(folder / name);
     const ReadOptions options = name[2] == 'n' ? test::micrometres() : ReadOptions{};
-    EXPECT_THAT(test::read_bytes(folder, bytes, options).doubts,
+    EXPECT_THAT(texts(test::read_bytes(folder, bytes, options).doubts),
                 testing::Not(Contains(HasSubstr("bytes follow"))))
         << name;
-    EXPECT_THAT(test::read_bytes(folder, bytes + "12345", options).doubts,
+    EXPECT_THAT(texts(test::read_bytes(folder, bytes + "12345", options).doubts),
                 Contains(HasSubstr("5 bytes follow the map")))
         << name;
   }
@@ -309,7 +310,7 @@ TEST(Absurd, HeightsThatNoSurfaceHasAreMissingAndSaid) {
   write(map, folder / "a.gwy");
   const Topography again = read(folder / "a.gwy");
   EXPECT_EQ(count_holes(again), count_holes(map) + 2);
-  EXPECT_THAT(again.doubts, Contains(HasSubstr("2 heights beyond 1000 km")));
+  EXPECT_THAT(texts(again.doubts), Contains(HasSubstr("2 heights beyond 1000 km")));
 }
 
 TEST(Absurd, PixelsThatNothingCanScanAreRefused) {
@@ -366,7 +367,7 @@ TEST(InstrumentContradictions, OpdSkipsTheBytesOfUnnamedBlocksAndTakesNumbersByT
 TEST(InstrumentContradictions, SizesThatLeaveHeightsOverAreDoubtedOrRefused) {
   const Folder folder;
   const auto doubts = [&](const std::string& bytes) {
-    return test::read_bytes(folder, bytes).doubts;
+    return texts(test::read_bytes(folder, bytes).doubts);
   };
   EXPECT_THAT(doubts(with(test::tmd(), 37, std::uint32_t{2})), Contains(HasSubstr("bytes follow")));
   EXPECT_THAT(doubts(test::nms()), testing::Not(Contains(HasSubstr("bytes follow"))));
@@ -377,9 +378,9 @@ TEST(InstrumentContradictions, SizesThatLeaveHeightsOverAreDoubtedOrRefused) {
 
 TEST(InstrumentContradictions, HeightsStatedUpsideDownAreDoubted) {
   const Folder folder;
-  EXPECT_THAT(test::read_bytes(folder, with(test::plain_sur(), 290, std::int16_t{1})).doubts,
+  EXPECT_THAT(texts(test::read_bytes(folder, with(test::plain_sur(), 290, std::int16_t{1})).doubts),
               Contains(HasSubstr("inverted")));
-  EXPECT_THAT(test::read_bytes(folder, with(test::plain_sur(), 128, -0.5F)).doubts,
+  EXPECT_THAT(texts(test::read_bytes(folder, with(test::plain_sur(), 128, -0.5F)).doubts),
               Contains(HasSubstr("negative")));
   EXPECT_THAT(test::refusal(folder, with(test::nms(), 24, -6.0)), HasSubstr("from 1 to -6 um"));
 }

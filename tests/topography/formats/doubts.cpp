@@ -1,11 +1,17 @@
 #include "tabor/topography/doubts.hpp"
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 
+#include "tabor/topography/treatment.hpp"
 #include "topography/formats/sample.hpp"
 
 namespace tabor::topography {
 namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
 
 /// Deterministic heights without any order.
 Field noise(Index ny, Index nx) {
@@ -30,7 +36,7 @@ Topography map_of(Field height) {
 
 std::string all(const Topography& map) {
   std::string text;
-  for (const std::string& doubt : doubts(map)) text += doubt + "\n";
+  for (const std::string& doubt : texts(doubts(map))) text += doubt + "\n";
   return text;
 }
 
@@ -79,6 +85,46 @@ TEST(Doubts, NameTiltHolesPixelsStepsAndSlowSizes) {
 
   EXPECT_NE(all(map_of((4 * noise(64, 64)).round())).find("steps"), std::string::npos);
   EXPECT_NE(all(map_of(noise(64, 37))).find("prime factor 37"), std::string::npos);
+}
+
+/// A map with its doubts as a reader would leave them, then treated.
+std::vector<std::string> doubts_after(const Treatment& treatment, const Field& height) {
+  Topography map = map_of(height);
+  map.doubts = doubts(map);
+  map.doubts.push_back({.text = "the unit is a guess"});
+  return texts(apply(treatment, std::move(map)).doubts);
+}
+
+TEST(Doubts, ATreatmentDispelsThoseAboutTheHeightsItMends) {
+  Field height = 1e-8 * noise(64, 37);
+  for (Index x = 0; x < 37; ++x) height.col(x) += 1e-7 * static_cast<double>(x);
+  height(20, 20) = test::kNaN;
+  EXPECT_THAT(doubts_after({}, height),
+              ElementsAre(HasSubstr("prime factor 37"), HasSubstr("1 of 2368 pixels are missing"),
+                          HasSubstr("tilt"), "the unit is a guess"));
+  EXPECT_THAT(doubts_after({"level=plane"}, height),
+              ElementsAre("the unit is a guess", HasSubstr("prime factor 37"),
+                          HasSubstr("1 of 2368 pixels are missing")));
+  EXPECT_THAT(doubts_after({"crop=0,0,32,64", "level=plane", "fill=harmonic"}, height),
+              ElementsAre("the unit is a guess"));
+}
+
+TEST(Doubts, ATreatmentRaisesNewOnes) {
+  EXPECT_THAT(doubts_after({"crop=0,0,60,37"}, 1e-8 * noise(64, 60)),
+              ElementsAre("the unit is a guess", HasSubstr("prime factor 37")));
+}
+
+TEST(Doubts, SpikesAreDoubtedUntilAStepLooksForThem) {
+  Field height = 1e-9 * noise(64, 64);
+  height(10, 10) = 1e-6;
+  EXPECT_THAT(doubts_after({"lowpass=gauss:20um"}, height), Contains(HasSubstr("1 spike")));
+  EXPECT_THAT(doubts_after({"despike=8,7,median", "lowpass=gauss:20um"}, height),
+              ElementsAre("the unit is a guess", HasSubstr("despike took 1 spike")));
+}
+
+TEST(Doubts, StepsOfTheHeightStayWhereAFilterHidesThem) {
+  EXPECT_THAT(doubts_after({"lowpass=gauss:8um"}, 1e-9 * (4 * noise(64, 64)).round()),
+              Contains(HasSubstr("heights come in steps of 1 nm")));
 }
 
 }  // namespace

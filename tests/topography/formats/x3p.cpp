@@ -163,7 +163,7 @@ TEST(X3p, ChangedDataAreDoubted) {
       "<MD5ChecksumPointData>00000000000000000000000000000000</MD5ChecksumPointData></DataLink>";
   const Topography map = test::read_bytes(folder, archive(parts, binary({1.0, 2.0, 3.0, 4.0})));
   ASSERT_FALSE(map.doubts.empty());
-  EXPECT_NE(map.doubts.front().find("MD5"), std::string::npos);
+  EXPECT_NE(map.doubts.front().text.find("MD5"), std::string::npos);
 }
 
 TEST(X3p, ProfilesNeedNoSecondIncrement) {
@@ -184,7 +184,7 @@ TEST(X3p, ANegativeIncrementOfHeightsIsDoubted) {
   const Topography map = test::read_bytes(folder, archive(parts, binary({1.0, 2.0, 3.0, 5.0})));
   EXPECT_DOUBLE_EQ(map.height(1, 1), -5e-6);
   ASSERT_FALSE(map.doubts.empty());
-  EXPECT_NE(map.doubts.front().find("negative"), std::string::npos);
+  EXPECT_NE(map.doubts.front().text.find("negative"), std::string::npos);
 }
 
 TEST(X3p, ARotationOfItsAxesIsSaid) {
@@ -194,7 +194,7 @@ TEST(X3p, ARotationOfItsAxesIsSaid) {
     Parts parts;
     parts.rotation = "<Rotation><r11>" + r11 + "</r11><r12>0.0</r12></Rotation>";
     const Topography map = test::read_bytes(folder, archive(parts, data));
-    return !map.doubts.empty() && map.doubts.front().find("Rotation") != std::string::npos;
+    return !map.doubts.empty() && map.doubts.front().text.find("Rotation") != std::string::npos;
   };
   EXPECT_TRUE(is_said("-1"));
   EXPECT_FALSE(is_said("1.0"));
