@@ -49,6 +49,14 @@ TEST(ParseQuantity, NamesTheUnknownUnit) {
               HasSubstr("'Mpa'"));
 }
 
+TEST(ParseQuantity, RefusesPowersThatMeanNothing) {
+  EXPECT_DOUBLE_EQ(parse_si("1 m^9/m8", dimension::length, "--pixel"), 1);
+  EXPECT_THAT(refusal([] { parse_si("1 m^10/m^9", dimension::length, "--pixel"); }),
+              HasSubstr("'m^10'"));
+  EXPECT_FALSE(unit_factor("l1350808505", dimension::length).has_value());
+  EXPECT_FALSE(unit_factor("l-2147483648", dimension::length).has_value());
+}
+
 TEST(ParseQuantity, RefusesWhatIsNoFiniteNumber) {
   for (const char* text : {"", "MPa", "nan MPa", "inf MPa", "1e999 MPa", "--7 MPa"}) {
     EXPECT_THROW(parse_si(text, dimension::pressure, "--pressure"), InputError) << text;

@@ -96,6 +96,8 @@ std::optional<Quantity> find_unit(std::string_view name) {
   return std::nullopt;
 }
 
+constexpr int kHighestPower = 9;  // of a unit that means something
+
 /// "m^2", "m2", "s^-1", "m²": a unit and its integer power.
 std::optional<Quantity> find_power(std::string_view factor) {
   int power = 1;
@@ -108,7 +110,8 @@ std::optional<Quantity> find_power(std::string_view factor) {
     const std::string_view exponent = name.substr(digits + (name[digits] == '^' ? 1 : 0));
     const auto [end, error] =
         std::from_chars(exponent.data(), exponent.data() + exponent.size(), power);
-    if (error != std::errc{} || end != exponent.data() + exponent.size()) {
+    if (error != std::errc{} || end != exponent.data() + exponent.size() ||
+        power < -kHighestPower || power > kHighestPower) {
       return std::nullopt;
     }
     name = name.substr(0, digits);
