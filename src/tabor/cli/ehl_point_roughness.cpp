@@ -5,6 +5,7 @@
 
 #include "tabor/cli/ehl_case.hpp"
 #include "tabor/cli/ehl_point_case.hpp"
+#include "tabor/cli/scan.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
@@ -179,9 +180,7 @@ Topography read_scan(const io::Config& config, Context& context) {
   if (config.has("roughness.treatment")) treatment = config.texts("roughness.treatment");
   Topography scan = topography::apply(
       treatment, topography::read(file, options, context.observer()), context.observer());
-  for (const topography::Doubt& doubt : scan.doubts) {
-    context.warn(file.string() + ": " + doubt.text);
-  }
+  warn_of_doubts(scan, file.string(), context);
   if (const Index holes = topography::count_holes(scan); holes > 0) {
     throw InputError(config.place("roughness.file"), fmt::format("{} missing pixels", holes),
                      "a height at every pixel", "treatment = [\"fill=harmonic\", \"level=plane\"]");

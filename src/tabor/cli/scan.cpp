@@ -73,6 +73,10 @@ void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment) {
   if (with_treatment) declare_treatment(set, request.treatment);
 }
 
+void warn_of_doubts(const Topography& surface, const std::string& name, Context& context) {
+  for (const topography::Doubt& doubt : surface.doubts) context.warn(name + ": " + doubt.text);
+}
+
 Scan load_scan(const ScanRequest& request, Context& context) {
   return load_scan(topography::ScanFile(request.file, context.observer()), request, context);
 }
@@ -83,9 +87,7 @@ Scan load_scan(const topography::ScanFile& file, const ScanRequest& request, Con
       std::async(std::launch::async, [&file] { return file.sha256(); });
   Topography surface =
       topography::apply(request.treatment, file.read(request.read), context.observer());
-  for (const topography::Doubt& doubt : surface.doubts) {
-    context.warn(request.file + ": " + doubt.text);
-  }
+  warn_of_doubts(surface, request.file, context);
   return {.surface = std::move(surface),
           .path = request.file,
           .sha256 = sha256.get(),

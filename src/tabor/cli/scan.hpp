@@ -28,6 +28,10 @@ struct Scan {
 /// own, applied in the order given.
 void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment = true);
 
+/// Every doubt about the surface becomes a warning that names it.
+void warn_of_doubts(const topography::Topography& surface, const std::string& name,
+                    Context& context);
+
 /// Reads and treats. Doubts about the file become warnings.
 Scan load_scan(const ScanRequest& request, Context& context);
 /// The same for a file that is open already.

@@ -127,7 +127,7 @@ double mean_square(const Levelled& levelled) {
 
 void doubt_pixels(const Grid& grid, std::vector<std::string>& list) {
   constexpr double kSquare = 1e-3;
-  if (std::abs(grid.dx() / grid.dy() - 1) > kSquare && grid.ny > 1) {
+  if (std::abs(grid.dx() / grid.dy() - 1) > kSquare) {
     list.push_back(fmt::format("pixels are not square: {} x {}", format_si(grid.dx(), "m"),
                                format_si(grid.dy(), "m")));
   }
@@ -211,9 +211,10 @@ std::vector<std::string> about_heights(const Topography& topography, const Rms& 
   std::vector<std::string> list;
   if (is_profile(topography.grid)) {
     list.emplace_back("a profile of one row: areal results do not apply");
+  } else {
+    doubt_pixels(topography.grid, list);
+    doubt_sizes(topography.grid, list);
   }
-  doubt_pixels(topography.grid, list);
-  if (!is_profile(topography.grid)) doubt_sizes(topography.grid, list);
   doubt_holes(topography, list);
   if (rms.as_is > 2 * rms.levelled && rms.levelled > 0) {
     list.push_back(fmt::format("tilt is larger than roughness: Sq {} becomes {} without its plane",
