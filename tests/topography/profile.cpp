@@ -301,14 +301,15 @@ TEST(ProfileParameters, AverageOverRowsWithTheirScatter) {
   EXPECT_NEAR(holed.at("Rq").value, 2.5e-6 / std::sqrt(2.0), 1e-12);  // rows of 1 and 4 um
 }
 
-TEST(ProfileParameters, SayTheirScatterInAUnitThatReads) {
+TEST(ProfileParameters, SayHowDensitiesScatterWhateverTheirUnit) {
   const auto map = surface({1000, 2, 1000e-6, 2e-6}, [](double x, double y) {
     return 1e-6 * std::sin(2 * pi * x / (y < 1e-6 ? 100e-6 : 50e-6));
   });
-  // 10 and 20 elements per mm: 10/sqrt(2) = 7.07.
+  // 10 and 20 elements per mm: 10/sqrt(2) = 7.07 about 15.
   const Parameter density = along_x(map, as_given(200e-6, 5)).at("Rpd");
   EXPECT_NEAR(density.value, 15e3, 15);
-  EXPECT_THAT(density.note, HasSubstr("standard deviation 7.07 1/mm over 2 of 2 profiles"));
+  EXPECT_THAT(density.note,
+              HasSubstr("standard deviation 47.1 % of the mean over 2 of 2 profiles"));
 }
 
 TEST(ProfileParameters, WeighHolesNotAtAll) {

@@ -88,10 +88,11 @@ char letter_of(ProfileKind kind) {
 std::string scatter_text(const Statistics& s, std::string_view unit, Index n_profiles) {
   if (s.n == 0) return n_profiles == 1 ? "not in this profile" : "in none of the profiles";
   if (n_profiles == 1) return "a single profile";
-  const std::string scatter = unit == "m"     ? format_si(s.deviation, "m", 3)
-                              : unit == "1"   ? fmt::format("{:.3g}", s.deviation)
-                              : unit == "1/m" ? fmt::format("{:.3g} 1/mm", s.deviation * 1e-3)
-                                              : fmt::format("{:.3g} {}", s.deviation, unit);
+  const std::string scatter = unit == "m"   ? format_si(s.deviation, "m", 3)
+                              : unit == "1" ? fmt::format("{:.3g}", s.deviation)
+                              : unit == "1/m"
+                                  ? fmt::format("{:.3g} % of the mean", 100 * s.deviation / s.mean)
+                                  : fmt::format("{:.3g} {}", s.deviation, unit);
   return fmt::format("standard deviation {} over {} of {} profiles", scatter, s.n, n_profiles);
 }
 
