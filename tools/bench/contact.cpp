@@ -157,7 +157,7 @@ void run(Surface& surface, const Load& load, contact::Solver solver, const PairS
   const Convergence& found = state.convergence;
   const double area = contact::contact_mask(state).cast<double>().mean();
   fmt::print(
-      "{:<20} {:<13} {:>8.3g} {:>8.4f} {:>6} {:>6} {:>8.2f} {:>9.2e} {:>5} {:>8.2f} {:>8.1f} "
+      "{:<20} {:<13} {:>8.3g} {:>8.4f} {:>6} {:>6} {:>8.2f} {:>9.2e} {:>5} {:>8.3g} {:>8.1f} "
       "{:>6.2f} {:>7.1f}\n",
       load.name, solver == contact::Solver::fast ? "fast" : "polonsky-keer",
       load.mean_pressure / 1e6, 100 * area, found.iterations, found.operator_applications,

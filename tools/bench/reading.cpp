@@ -135,7 +135,7 @@ void measure(const Kind& kind, const fs::path& folder, Index side) {
     if (kind.least(file, side) != map.height(side - 1, side - 1)) fmt::print("differs\n");
     least = std::min(least, plain.seconds());
   }
-  fmt::print("{} {:.3f} {:.3f} {:.3f}\n", kind.extension, read, doubts, least);
+  fmt::print("{} {:.3g} {:.3g} {:.3g}\n", kind.extension, read, doubts, least);
   std::fflush(stdout);
 }
 

@@ -3,8 +3,9 @@
 //   bench_certify solve HEIGHTS PRESSURE PIXEL E_STAR P P_SAT TOLERANCE [THREADS]
 //   bench_certify check HEIGHTS PRESSURE PIXEL E_STAR P P_SAT
 //
-// HEIGHTS [m] and PRESSURE [Pa] are .npy files, written by `solve` and read by `check`; PIXEL [m],
-// E_STAR, P and P_SAT [Pa]; P_SAT inf is an elastic contact. Prints one JSON object. Periodic cell.
+// HEIGHTS [m] and PRESSURE [Pa] are .npy files of float64, PRESSURE written by `solve` and read by
+// `check`; PIXEL [m], E_STAR, P and P_SAT [Pa]; P_SAT inf is an elastic contact. Prints one JSON
+// object. Periodic cell.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -18,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "npy.hpp"
 #include "tabor/contact/certificate.hpp"
 #include "tabor/contact/contact.hpp"
 #include "tabor/contact/projection.hpp"
@@ -26,7 +28,6 @@
 #include "tabor/core/resources.hpp"
 #include "tabor/elastic/half_space.hpp"
 #include "tabor/io/json.hpp"
-#include "tabor/topography/file.hpp"
 
 namespace {
 
@@ -41,13 +42,6 @@ struct Request {
   Grid grid;
 };
 
-Field read_npy(const std::string& file, double pixel) {
-  topography::ReadOptions options;
-  options.pixel_x = options.pixel_y = pixel;
-  options.unit = "m";
-  return topography::read(file, options).height;
-}
-
 Request parse(const std::vector<std::string>& words) {
   if (words.size() < 7 || (words[0] == "solve" && words.size() < 8)) {
     throw std::runtime_error("see the head of certify.cpp for the arguments");
@@ -57,7 +51,7 @@ Request parse(const std::vector<std::string>& words) {
   request.pressure_file = words[2];
   request.pixel = std::stod(words[3]);
   request.effective_modulus = std::stod(words[4]);
-  request.problem.height = read_npy(words[1], request.pixel);
+  request.problem.height = bench::read_npy(words[1]);
   request.problem.mean_pressure = std::stod(words[5]);
   request.problem.saturation_pressure = std::stod(words[6]);
   const Field& height = request.problem.height;
@@ -97,10 +91,7 @@ io::Json solve(const Request& request) {
   json["fft_pairs"] = state.convergence.fft_pairs;
   json["own_error"] = io::number(state.convergence.certificate);
   json["converged"] = state.convergence.converged;
-  topography::Topography map;
-  map.grid = request.grid;
-  map.height = state.pressure;
-  topography::write(map, request.pressure_file);
+  bench::write_npy(state.pressure, request.pressure_file);
   return json;
 }
 
@@ -139,7 +130,12 @@ double certificate(const Request& request, const Field& pressure,
 
 io::Json check(const Request& request) {
   const auto elasticity = elastic::make_periodic(request.grid, request.effective_modulus);
-  Field pressure = read_npy(request.pressure_file, request.pixel);
+  Field pressure = bench::read_npy(request.pressure_file);
+  if (pressure.rows() != request.grid.ny || pressure.cols() != request.grid.nx) {
+    throw std::runtime_error(fmt::format("{}: {} x {} pressures, expected {} x {} as the heights",
+                                         request.pressure_file, pressure.cols(), pressure.rows(),
+                                         request.grid.nx, request.grid.ny));
+  }
   io::Json json;
   json["contact_area"] = (pressure > 0).cast<double>().mean();
   json["lowest_pressure_Pa"] = pressure.minCoeff();

@@ -93,6 +93,17 @@ class Bench:
                               cwd=self.scratch)
         return json.loads(done.stdout)
 
+    def python(self, tool: str) -> Path:
+        environment = "slippy" if tool == "slippy" else "main"
+        return self.build / "peers" / environment / "bin/python"
+
+    def present(self, tool: str) -> bool:
+        """Whether `run` has installed it."""
+        if tool == "tabor" or self.python(tool).is_file():
+            return True
+        print(f"skipped: {tool} is not installed, tools/bench/peers/run does that", file=sys.stderr)
+        return False
+
     def certify(self, command: str, case: Case, pressure: Path, *more: str) -> dict:
         program = str(self.build / "tools/bench/bench_certify")
         return self.output([program, command, *case.arguments(pressure), *more])
@@ -111,12 +122,10 @@ class Bench:
             "mean_pressure": case.mean_pressure,
             "saturation_pressure": str(case.saturation_pressure),
         }))
-        environment = "slippy" if tool == "slippy" else "main"
-        python = self.build / "peers" / environment / "bin/python"
         command = f"ulimit -t {TIMEOUT}; exec \"$@\""  # processor time, as the machine is shared
         solved = self.output(
-            ["bash", "-c", command, "bash", str(python), str(Path(__file__).with_name("solve.py")),
-             str(request)], timeout=4 * TIMEOUT)
+            ["bash", "-c", command, "bash", str(self.python(tool)),
+             str(Path(__file__).with_name("solve.py")), str(request)], timeout=4 * TIMEOUT)
         return solved | self.certify("check", case, pressure)
 
 
@@ -356,27 +365,34 @@ def parse() -> argparse.Namespace:
     return parser.parse_args()
 
 
+def run(bench: Bench, options: argparse.Namespace) -> None:
+    tools = [tool for tool in options.tools.split(",") if bench.present(tool)]
+    sizes = [512] if options.quick else [int(n) for n in options.sizes.split(",")]
+    print(page.HEAD)
+    for n in sizes:
+        for surface in surfaces(bench, n, options.scans):
+            if options.surface not in ("", surface.name):
+                continue
+            for case in cases_of(bench, surface):
+                if options.cases and case.name not in options.cases.split(","):
+                    continue
+                compare(bench, case, tools, options.longest)
+                if options.record:
+                    save_record(bench)
+
+
 def main() -> None:
     options = parse()
-    tools = options.tools.split(",")
-    sizes = [512] if options.quick else [int(n) for n in options.sizes.split(",")]
     with tempfile.TemporaryDirectory() as scratch:
         bench = Bench(options.build.resolve(), Path(scratch))
         if options.record:
             bench.rows = load_record()["rows"]
             bench.settings = {(r["tool"], r["option"], r["case"]): r["tolerance"]
                               for r in bench.rows if page.reached(r)}
-        print(page.HEAD)
-        for n in sizes:
-            for surface in surfaces(bench, n, options.scans):
-                if options.surface not in ("", surface.name):
-                    continue
-                for case in cases_of(bench, surface):
-                    if options.cases and case.name not in options.cases.split(","):
-                        continue
-                    compare(bench, case, tools, options.longest)
-                    if options.record:
-                        save_record(bench)
+        try:
+            run(bench, options)
+        except subprocess.CalledProcessError as error:  # of tabor's own programs
+            sys.exit((error.stderr or f"{error}").strip())
 
 
 if __name__ == "__main__":

@@ -231,7 +231,7 @@ def main() -> None:
         prepare = TOOLS[request["tool"]]
         solve = prepare(problem, request["option"], request["tolerance"], request["threads"])
         pressure, ended = measure(solve)
-    np.save(request["pressure"], pressure.astype(np.float64))
+    np.save(request["pressure"], np.ascontiguousarray(pressure, dtype=np.float64))
     print(json.dumps(ended))
 
 
