@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "support/refusal.hpp"
@@ -63,6 +65,76 @@ TEST(ParseQuantity, RefusesWhatIsNoFiniteNumber) {
   }
 }
 
+struct Meaning {
+  const char* text;
+  double value;
+  Dimension dimension;  // metre, kilogram, second, kelvin
+};
+
+void expect_meanings(const std::vector<Meaning>& meanings) {
+  for (const Meaning& meaning : meanings) {
+    const Quantity found = parse_quantity(meaning.text);
+    EXPECT_DOUBLE_EQ(found.value, meaning.value) << meaning.text;
+    EXPECT_EQ(found.dimension, meaning.dimension) << meaning.text;
+  }
+}
+
+TEST(ParseQuantity, RaisesEveryBaseUnitOfADerivedOneToItsPower) {
+  expect_meanings({{"3 W^2", 3, {4, 2, -6, 0}},
+                   {"2 kJ^2", 2e6, {4, 2, -4, 0}},
+                   {"1 W^2/K^3", 1, {4, 2, -6, -3}},
+                   {"1 mPa^2 s", 1e-6, {-2, 2, -3, 0}},
+                   {"1 mm^-3", 1e9, {-3, 0, 0, 0}},
+                   {"1 kPa^-2", 1e-6, {2, -2, 4, 0}},
+                   {"1 1/kPa^2", 1e-6, {2, -2, 4, 0}},
+                   {"1 cm³", 1e-6, {3, 0, 0, 0}},
+                   {"1 km²", 1e6, {2, 0, 0, 0}},
+                   {"1 m^-9", 1, {-9, 0, 0, 0}}});
+}
+
+TEST(ParseQuantity, DividesByTheFactorAfterASlashOnly) {
+  expect_meanings({{"5 W/m K", 5, {1, 1, -3, 1}},
+                   {"5 W/m/K", 5, {1, 1, -3, -1}},
+                   {"6 m/s/s", 6, {1, 0, -2, 0}},
+                   {"8 kg m^-3", 8, {-3, 1, 0, 0}},
+                   {"4 km/ms", 4e6, {1, 0, -1, 0}}});
+}
+
+TEST(ParseQuantity, KnowsItsUnitsAndNoPrefixOfThoseWithout) {
+  expect_meanings({{"1 g", 1e-3, {0, 1, 0, 0}},
+                   {"1 N", 1, {1, 1, -2, 0}},
+                   {"1 Hz", 1, {0, 0, -1, 0}},
+                   {"1 l", 1e-3, {3, 0, 0, 0}},
+                   {"1 L", 1e-3, {3, 0, 0, 0}},
+                   {"1 bar", 1e5, {-1, 1, -2, 0}},
+                   {"1 P", 0.1, {-1, 1, -1, 0}},
+                   {"1 cSt", 1e-6, {2, 0, -1, 0}},
+                   {"1 Ang", 1e-10, {1, 0, 0, 0}},
+                   {"1 micron", 1e-6, {1, 0, 0, 0}},
+                   {"1 in", 0.0254, {1, 0, 0, 0}},
+                   {"1 inch", 0.0254, {1, 0, 0, 0}},
+                   {"1 min", 60, {0, 0, 1, 0}},
+                   {"1 h", 3600, {0, 0, 1, 0}},
+                   {"1 rad", 1, {}},
+                   {"180 deg", 3.14159265358979323846, {}},
+                   {"50 %", 0.5, {}},
+                   {"+7e2", 700, {}}});
+  for (const char* text : {"1 min^2x", "1 kin", "1 kmin", "1 mh", "1 mrad", "1 kdeg", "1 m%",
+                           "1 m^", "1 ^2", "1 2m", "1 m^-10", "1 k", "1 mk"}) {
+    EXPECT_THROW(parse_quantity(text), InputError) << text;
+  }
+}
+
+TEST(ParseQuantity, TakesEveryPrefix) {
+  const std::vector<std::pair<std::string, int>> prefixes{
+      {"f", -15}, {"p", -12}, {"n", -9}, {"u", -6}, {"m", -3}, {"c", -2},
+      {"d", -1},  {"k", 3},   {"M", 6},  {"G", 9},  {"T", 12}};
+  for (const auto& [prefix, exponent] : prefixes) {
+    EXPECT_DOUBLE_EQ(parse_quantity("1 " + prefix + "Pa").value, std::pow(10.0, exponent));
+    EXPECT_DOUBLE_EQ(parse_quantity("1 1/" + prefix + "m^2").value, std::pow(10.0, -2 * exponent));
+  }
+}
+
 TEST(ParseQuantityList, ReadsEachValueWithItsOwnUnit) {
   EXPECT_EQ(parse_si_list("2MPa,500kPa", dimension::pressure, "--pressure"),
             (std::vector<double>{2e6, 5e5}));
@@ -83,6 +155,33 @@ TEST(FormatSi, ChoosesTheEngineeringPrefix) {
   EXPECT_EQ(format_si(0, "m"), "0 m");
   EXPECT_EQ(format_si(-2.5e-6, "m"), "-2.5 µm");
   EXPECT_EQ(format_si(1e-3, "m"), "1 mm");
+  EXPECT_EQ(format_si(999, "m"), "999 m");
+  EXPECT_EQ(format_si(1000, "m"), "1 km");
+  EXPECT_EQ(format_si(1234567, "Pa"), "1.235 MPa");
+  EXPECT_EQ(format_si(1234567, "Pa", 6), "1.23457 MPa");
+}
+
+TEST(FormatSi, KnowsThePrefixesFromFemtoToGigaAndStaysAtTheLast) {
+  const std::vector<std::string> prefixes{"f", "p", "n", "µ", "m", "", "k", "M", "G"};
+  for (std::size_t i = 0; i < prefixes.size(); ++i) {
+    const double value = 2 * std::pow(1000.0, static_cast<double>(i) - 5);
+    EXPECT_EQ(format_si(value, "m"), "2 " + prefixes[i] + "m");
+    EXPECT_EQ(format_si(-499 * value, "m"), "-998 " + prefixes[i] + "m");
+  }
+  EXPECT_EQ(format_si(2e-18, "m"), "0.002 fm");
+  EXPECT_EQ(format_si(2e12, "Pa"), "2000 GPa");
+  EXPECT_EQ(format_si(-2e13, "Pa", 5), "-20000 GPa");
+  EXPECT_EQ(format_si(INFINITY, "Pa"), "inf Pa");
+}
+
+TEST(UsualUnit, HasTheDimensionItIsShownFor) {
+  for (const Dimension& expected :
+       {dimension::length, dimension::wavevector, dimension::pressure, dimension::areal_density,
+        dimension::density, dimension::speed, dimension::viscosity, dimension::per_pressure,
+        dimension::force, dimension::mass, dimension::time, dimension::temperature}) {
+    EXPECT_EQ(parse_quantity("1 " + usual_unit(expected)).dimension, expected);
+  }
+  EXPECT_EQ(usual_unit(dimension::none), "");
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 // What must hold of every film, on surfaces small enough to see why.
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
@@ -89,6 +92,34 @@ TEST(Deposition, LosesLiquidOnlyOverOpenEdges) {
   EXPECT_EQ(lost(Edge::closed), 0);
   EXPECT_EQ(lost(Edge::periodic), 0);
   EXPECT_GT(lost(Edge::open), 0);
+}
+
+/// 9 x 9 pixels of a square bowl: 0, 1, 2, 3, 4 um from the middle to the border.
+Field bowl() {
+  Field height(9, 9);
+  for (Index y = 0; y < 9; ++y) {
+    for (Index x = 0; x < 9; ++x) {
+      height(y, x) = kMicrometre * static_cast<double>(std::max(std::abs(x - 4), std::abs(y - 4)));
+    }
+  }
+  return height;
+}
+
+// What falls on the border is lost; the rest stays in the bowl until that is full to its rim.
+TEST(Deposition, LosesWhatAnOpenBowlCannotHold) {
+  const double pixel = kMicrometre * kMicrometre;                               // [m^2]
+  const double capacity = (4 + 8 * 3 + 16 * 2 + 24 * 1) * kMicrometre * pixel;  // [m^3]
+  for (const double mean_film : {0.5 * kMicrometre, 10 * kMicrometre}) {
+    const Film film = film_of(bowl(), dose_of({mean_film}, Model::limit, Edge::open));
+    const double dosed = 81 * mean_film * pixel;
+    const double kept = std::min(49 * mean_film * pixel, capacity);
+    EXPECT_NEAR(film.dosed_volume / dosed, 1, 1e-6);
+    EXPECT_NEAR(film.deposited_volume / kept, 1, 1e-6);
+    EXPECT_NEAR(film.lost_volume / (dosed - kept), 1, 1e-6);
+    EXPECT_NEAR(film.thickness.sum() * pixel / kept, 1, 1e-6);
+    EXPECT_THAT(film.warnings, ::testing::Contains(::testing::HasSubstr(fmt::format(
+                                   "{:.3g} % of the liquid ran off", 100 * (1 - kept / dosed)))));
+  }
 }
 
 TEST(Deposition, LeavesNeighbouringWetPixelsAtOneLevel) {

@@ -1,0 +1,157 @@
+// What is read from a state, by counting on paper, and what the certificate is.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "contact/surfaces.hpp"
+
+namespace tabor::test {
+namespace {
+
+constexpr double kNoCap = contact::kNoSaturation;
+
+/// A block of 2 x 3 pixels carries 1, 2, 3, 4, 5, 6 Pa on 8 x 10 pixels of 2 m x 5 m. It is pressed
+/// in by 0.1, 0.2, ... m; around it the gap is 1 m, but for one overlap of a quarter of a metre.
+struct Block {
+  Grid grid{10, 8, 20, 40};
+  contact::Problem problem;
+  contact::State state;
+
+  explicit Block(double cap) {
+    problem.height = Field::Zero(8, 10);
+    problem.mean_pressure = 21.0 / 80;
+    problem.saturation_pressure = cap;
+    state.pressure = state.displacement = Field::Zero(8, 10);
+    state.gap = Field::Ones(8, 10);
+    for (Index k = 0; k < 6; ++k) {
+      const Index y = 2 + k / 3;
+      const Index x = 4 + k % 3;
+      state.pressure(y, x) = static_cast<double>(k + 1);
+      state.displacement(y, x) = 0.1 * static_cast<double>(k + 1);
+      state.gap(y, x) = state.pressure(y, x) < cap ? 0 : -0.25;
+    }
+    state.separation = 7;
+    state.convergence.converged = true;
+  }
+  contact::Summary summary(bool periodic = true) const {
+    return contact::summarise(state, problem, grid, periodic);
+  }
+};
+
+TEST(Summary, OfABlockIsWhatCountingGives) {
+  const contact::Summary found = Block(kNoCap).summary();
+  EXPECT_DOUBLE_EQ(found.mean_pressure, 21.0 / 80);
+  EXPECT_DOUBLE_EQ(found.contact_area_fraction_pixels, 6.0 / 80);
+  // 4 changes along rows, 6 along columns, each worth (pi - 1 + ln 2)/24 pixels.
+  const double transition = (std::numbers::pi - 1 + std::log(2.0)) / 24;
+  EXPECT_DOUBLE_EQ(found.contact_area_fraction, (6 - 10 * transition) / 80);
+  EXPECT_TRUE(found.area_correction_valid);
+  EXPECT_EQ(found.saturated_area_fraction, 0);
+  EXPECT_DOUBLE_EQ(found.mean_gap, 74.0 / 80);
+  EXPECT_EQ(found.separation, 7);
+  EXPECT_EQ(found.max_pressure, 6);
+  EXPECT_DOUBLE_EQ(found.elastic_energy, 0.5 * 0.1 * (1 + 4 + 9 + 16 + 25 + 36) / 80);
+  EXPECT_EQ(found.n_patches, 1);
+  EXPECT_DOUBLE_EQ(found.perimeter, 2 * (2 * 5.0 + 3 * 2.0));  // two rows high, three columns wide
+}
+
+TEST(Summary, OfACappedBlockCountsThePixelsAtTheCap) {
+  const contact::Summary found = Block(6).summary();
+  EXPECT_DOUBLE_EQ(found.saturated_area_fraction, 1.0 / 80);
+  EXPECT_DOUBLE_EQ(found.contact_area_fraction_pixels, 6.0 / 80);
+  EXPECT_DOUBLE_EQ(found.mean_gap, 74.0 / 80);  // an overlap is no gap
+}
+
+TEST(Summary, AreaIsNeverBelowWhatTheCapMustHave) {
+  Block block(6);
+  block.problem.mean_pressure = 0.45;  // 6 of 80 pixels at the cap would carry just that
+  EXPECT_DOUBLE_EQ(block.summary().contact_area_fraction, 6.0 / 80);
+}
+
+/// Contact at the cap in the first `rows` rows and `columns` columns.
+contact::Summary capped_corner(Index rows, Index columns, double cap = 1) {
+  Block block(cap);
+  block.problem.mean_pressure = 1e-3;
+  block.state.pressure.setZero();
+  block.state.pressure.topLeftCorner(rows, columns) = 1;
+  block.state.gap = (block.state.pressure > 0).select(0.0, block.state.gap);
+  return block.summary();
+}
+
+TEST(Summary, AreaIsNotCorrectedWhereCappedPixelsFillWholeRowsOrColumns) {
+  for (const auto& [rows, columns] : {std::pair<Index, Index>{1, 10}, {8, 2}}) {
+    const contact::Summary stripe = capped_corner(rows, columns);
+    EXPECT_FALSE(stripe.area_correction_valid);
+    EXPECT_EQ(stripe.contact_area_fraction, stripe.contact_area_fraction_pixels);
+    EXPECT_TRUE(capped_corner(rows, columns, kNoCap).area_correction_valid);
+  }
+  const contact::Summary corner = capped_corner(7, 9);
+  EXPECT_TRUE(corner.area_correction_valid);
+  EXPECT_LT(corner.contact_area_fraction, corner.contact_area_fraction_pixels);
+}
+
+TEST(Summary, LooksAcrossTheEdgesOfAPeriodicCellOnly) {
+  Block block(kNoCap);
+  block.state.pressure.setZero();
+  block.state.pressure.leftCols(3) = 1;
+  EXPECT_DOUBLE_EQ(block.summary(true).perimeter, 2 * 40.0);
+  EXPECT_DOUBLE_EQ(block.summary(false).perimeter, 40.0);
+}
+
+/// sum p r - min over q of sum q r, q as p within its bounds and of the same sum; over N P rms(z).
+double certificate_of(const Field& pressure, const Field& height, double cap) {
+  const Grid grid = square(height.rows());
+  Field displacement(height.rows(), height.cols());
+  elastic::make_periodic(grid, 1.0)->apply(pressure, displacement);
+  const Field residual = displacement - height;
+  std::vector<double> ascending(residual.data(), residual.data() + residual.size());
+  std::sort(ascending.begin(), ascending.end());
+  const double load = pressure.sum();
+  double left = load;
+  double least = 0;
+  for (const double r : ascending) {
+    least += std::min(cap, left) * r;
+    left -= std::min(cap, left);
+  }
+  const double rms = std::sqrt((height - height.mean()).square().mean());
+  return ((pressure * residual).sum() - least) / (load * rms);
+}
+
+TEST(SolveContact, CertificateIsThatOfTheReturnedPressure) {
+  const Field height = self_affine(48, 0.8, 1, 12, 5);
+  for (const contact::Solver solver : {contact::Solver::fast, contact::Solver::polonsky_keer}) {
+    for (const double cap : {kNoCap, 0.3}) {
+      const Solved solved = solve_unit(height, 0.02, cap, 1e-2, solver);
+      const double found = solved.state.convergence.certificate;
+      EXPECT_TRUE(solved.state.convergence.converged);
+      EXPECT_NEAR(certificate_of(solved.state.pressure, height, cap) / found, 1, 1e-3);
+    }
+  }
+}
+
+// Powers of two change the exponents of all numbers and none of their digits.
+TEST(SolveContact, CertificateHasNoUnit) {
+  const Field height = self_affine(32, 0.8, 1, 8, 6);
+  const auto certificate = [&](double length, double modulus, double pressure, double cap) {
+    const Grid grid = square(32, length);
+    const auto elasticity = elastic::make_periodic(grid, modulus);
+    contact::Problem problem;
+    problem.height = height * length;
+    problem.mean_pressure = pressure * modulus;
+    problem.saturation_pressure = cap * modulus;
+    return contact::solve(*elasticity, problem).convergence.certificate;
+  };
+  for (const double pressure : {0.02, 8.0}) {  // the second is full contact
+    const double expected = certificate(1, 1, pressure, kNoCap);
+    EXPECT_GT(expected, 0);
+    EXPECT_LE(expected, 1e-6);
+    EXPECT_NEAR(certificate(0x1p-20, 1, pressure, kNoCap) / expected, 1, 1e-9);
+    EXPECT_NEAR(certificate(1, 0x1p36, pressure, kNoCap) / expected, 1, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace tabor::test
