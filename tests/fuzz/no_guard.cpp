@@ -6,7 +6,8 @@ namespace tabor::io {
 
 bool hdf5_survives(const std::filesystem::path&, const std::function<void()>&) { return true; }
 
-std::optional<Field> hdf5_map_from_copy(std::array<Index, 2> shape, const SendRows& send_rows,
+std::optional<Field> hdf5_map_from_copy(const std::filesystem::path&, std::array<Index, 2> shape,
+                                        const SendRows& send_rows,
                                         const std::function<void(double)>&) {
   return hdf5_map_directly(shape, send_rows);
 }

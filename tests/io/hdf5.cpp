@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "support/folder.hpp"
+#include "support/refusal.hpp"
 #include "tabor/core/error.hpp"
 
 namespace tabor::io {
@@ -95,17 +96,37 @@ TEST(Hdf5, AttributeIsReplacedByANewerOneOfAnotherKind) {
   EXPECT_THAT(reader.attribute_names("/"), ElementsAre("n", "none"));
 }
 
-TEST(Hdf5, ExternalLinkLeadsIntoAnotherFileOrDangles) {
+TEST(Hdf5, ExternalLinkLeadsIntoTheStoreOrDangles) {
   const Folder folder;
-  write_sample(folder / "data.h5");
+  std::filesystem::create_directory(folder / "store");
+  write_sample(folder / "store/data.h5");
   Hdf5Writer writer(folder / "main.h5");
-  writer.external_link("/scans/0000/surface", "data.h5", "/surface");
-  writer.external_link("/scans/0001/surface", "absent.h5", "/surface");
+  writer.external_link("/scans/0000/surface", "store/data.h5", "/surface");
+  writer.external_link("/scans/0001/surface", "store/absent.h5", "/surface");
   writer.commit();
   const Hdf5Reader reader(folder / "main.h5");
   EXPECT_TRUE(same(reader.field("/scans/0000/surface/height"), sample_map(5, 7)));
   EXPECT_FALSE(reader.exists("/scans/0001/surface"));
   EXPECT_THROW(reader.field("/scans/0001/surface/height"), InputError);
+}
+
+TEST(Hdf5, OtherExternalLinksAreNotFollowed) {
+  const Folder folder;
+  std::filesystem::create_directories(folder / "store/deep");
+  write_sample(folder / "data.h5");
+  write_sample(folder / "store/deep/data.h5");
+  const std::string away = (folder / "data.h5").string();
+  const std::vector<std::string> targets{"data.h5", away, "store/../data.h5", "store/deep/data.h5"};
+  for (const std::string& target : targets) {
+    Hdf5Writer writer(folder / "main.h5");
+    writer.external_link("/surface", target, "/surface");
+    writer.commit();
+    const Hdf5Reader reader(folder / "main.h5");
+    EXPECT_FALSE(reader.exists("/surface/height")) << target;
+    EXPECT_THAT(test::refusal([&] { reader.field("/surface/height"); }),
+                HasSubstr("a link into another file"))
+        << target;
+  }
 }
 
 TEST(Hdf5, SameContentGivesTheSameBytes) {

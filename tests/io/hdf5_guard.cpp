@@ -46,7 +46,7 @@ TEST(Hdf5Guard, NorDoesWantingFarMoreMemoryThanTheFileHas) {
 TEST(Hdf5Guard, AMapComesBackPieceByPiece) {
   std::vector<double> shares;
   const auto map = hdf5_map_from_copy(
-      {7, 5},
+      "a.h5", {7, 5},
       [](const Rows& send) {
         send(kMap.topRows(3));
         send(kMap.bottomRows(4));
@@ -60,7 +60,7 @@ TEST(Hdf5Guard, AMapComesBackPieceByPiece) {
 
 TEST(Hdf5Guard, NoMapComesFromACopyThatBreaksOrSendsLess) {
   const auto received = [](const SendRows& send) {
-    return hdf5_map_from_copy({7, 5}, send, {}).has_value();
+    return hdf5_map_from_copy("a.h5", {7, 5}, send, {}).has_value();
   };
   EXPECT_FALSE(received([](const Rows&) { ::raise(SIGSEGV); }));
   EXPECT_FALSE(received([](const Rows& send) { send(kMap.topRows(3)); }));
@@ -76,7 +76,7 @@ TEST(Hdf5Guard, NoMapComesFromACopyThatBreaksOrSendsLess) {
 
 TEST(Hdf5Guard, WhoWatchesMayStopIt) {
   EXPECT_THROW(hdf5_map_from_copy(
-                   {7, 5}, [](const Rows& send) { send(kMap); },
+                   "a.h5", {7, 5}, [](const Rows& send) { send(kMap); },
                    [](double) { throw std::runtime_error("stop"); }),
                std::runtime_error);
 }
@@ -111,25 +111,37 @@ TEST(Hdf5Guard, ACopyEndsWithItsProcess) {
   ::close(ends[0]);
 }
 
-TEST(Hdf5Guard, ACopyThatWaitsForEverIsGivenUp) {
+TEST(Hdf5Guard, ACopyThatWaitsForEverIsARefusal) {
   const pid_t original = ::getpid();
   const auto wait_in_copy = [original] {
     if (::getpid() != original) ::pause();
   };
-  EXPECT_TRUE(survives(wait_in_copy));
-  const SendRows waits_first = [&](const Rows& send) {
-    wait_in_copy();
-    send(kMap);
-  };
+  EXPECT_THROW(survives(wait_in_copy), InputError);
+}
+
+TEST(Hdf5Guard, SoIsAMapWhoseCopyWaitsForEver) {
+  const pid_t original = ::getpid();
   const SendRows never_ends = [&](const Rows& send) {
     send(kMap);
-    wait_in_copy();
+    if (::getpid() != original) ::pause();
   };
-  for (const SendRows& send : {waits_first, never_ends}) {
-    const auto map = hdf5_map_from_copy({7, 5}, send, {});
-    ASSERT_TRUE(map);
-    EXPECT_TRUE((*map == kMap).all());
-  }
+  EXPECT_THROW(hdf5_map_from_copy("a.h5", {7, 5}, never_ends, {}), InputError);
+}
+
+TEST(Hdf5Guard, WithoutACopyNothingIsRead) {
+  bool is_read = false;
+  const auto read = [&] { is_read = true; };
+  const test::Folder folder;
+  test::put_bytes(folder / "a.h5", "a");
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit none{0, before.rlim_max};  // no pipe to the copy
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+  EXPECT_THROW(hdf5_survives(folder / "a.h5", read), Error);
+  EXPECT_THROW(hdf5_map_from_copy(folder / "a.h5", {7, 5}, [&](const Rows&) { read(); }, {}),
+               Error);
+  ::setrlimit(RLIMIT_NOFILE, &before);
+  EXPECT_FALSE(is_read);
 }
 
 }  // namespace

@@ -29,8 +29,7 @@ Keys keys_of_study(const io::Hdf5Reader& file) {
   return keys;
 }
 
-Keys keys_of(const std::string& path) {
-  const io::Hdf5Reader file(path);
+Keys keys_in(const io::Hdf5Reader& file, const std::string& path) {
   if (!file.has_attribute("/", "format") || file.text("/", "format") != "tabor") {
     throw InputError(path, "an HDF5 file of another program", "a result file of tabor", "");
   }
@@ -45,6 +44,10 @@ Keys keys_of(const std::string& path) {
   if (keys.contains("costagliola2021")) keys.insert("salmon2011");
   keys.insert("hdf5");
   return keys;
+}
+
+Keys keys_of(const std::string& path) {
+  return io::read_guarded(path, [&](const io::Hdf5Reader& file) { return keys_in(file, path); });
 }
 
 std::string own_entry() {

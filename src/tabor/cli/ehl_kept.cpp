@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "tabor/core/error.hpp"
@@ -26,11 +27,11 @@ std::string line(std::string_view name, std::string_view value) {
 }
 
 /// Empty for what is no file: reading it is refused where it is used.
-std::string digest_of(const fs::path& file) {
+std::string digest_of(const fs::path& file, const Observer& observer = {}) {
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return "";
   try {
-    return io::sha256_of_file(file);
+    return io::sha256_of_file(file, [&] { report_progress(observer, "hash", std::nan("")); });
   } catch (const InputError&) {
     return "";
   }
@@ -80,11 +81,12 @@ std::string canonical_text(const EhlProgram& program, const io::Config& config,
   text += line("seed", std::to_string(context.seed_or_default()));
   // Messages begin with the name of the case and a line number in it.
   text += line("case", config.name());
-  text += line("case_sha256", digest_of(config.name()));
+  text += line("case_sha256", digest_of(config.name(), context.observer()));
   text += line("config", config.to_text());
   for (const std::string& key : program.files) {
     if (!config.has(key)) continue;
-    text += line(key, digest_of(fs::path(config.name()).parent_path() / config.text(key)));
+    const fs::path file = fs::path(config.name()).parent_path() / config.text(key);
+    text += line(key, digest_of(file, context.observer()));
   }
   if (!before.empty()) text += line("after", key_of(before));
   return text;
@@ -137,7 +139,9 @@ bool KeptCases::read_start(std::size_t place, const EhlChain& chain) {
     // Only a file that is to the last byte what was written is opened at all.
     const io::Json json = io::read_json(case_file(place));
     if (json.at("start_sha256") == digest_of(file)) {
-      chain.read_start(io::Hdf5Reader(file));
+      const auto read = [&] { chain.read_start(io::Hdf5Reader(file)); };
+      io::require_hdf5_survives(file, read);
+      read();
       return true;
     }
   } catch (const InputError&) {

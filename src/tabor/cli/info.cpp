@@ -129,7 +129,10 @@ int show_incomplete(const ScanRequest& request, const topography::ScanFile& scan
                     const std::string& doubt, Context& context) {
   const FileInfo file = scan_file.info();
   io::Json object = json_head(context);
-  object["scan"] = {{"path", request.file}, {"sha256", scan_file.sha256()}};
+  const auto may_stop = [observer = context.observer()] {
+    report_progress(observer, "hash", std::nan(""));
+  };
+  object["scan"] = {{"path", request.file}, {"sha256", scan_file.sha256(may_stop)}};
   object.update({{"file", request.file},
                  {"format", file.format},
                  {"instrument", file.instrument},

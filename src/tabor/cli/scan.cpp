@@ -4,6 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
 #include <future>
 
 #include "tabor/cli/table.hpp"
@@ -57,6 +60,32 @@ void declare_treatment(OptionSet& set, topography::Treatment& treatment) {
   }
 }
 
+/// A digest is a matter of one thread: it is made beside the reading, and given up with it.
+class ScanDigest {
+ public:
+  explicit ScanDigest(const topography::ScanFile& file)
+      : sha256_(std::async(std::launch::async, [this, &file] {
+          return file.sha256([this] {
+            if (is_given_up_) throw Interrupted();
+          });
+        })) {}
+  ~ScanDigest() { is_given_up_ = true; }
+  ScanDigest(const ScanDigest&) = delete;
+  ScanDigest& operator=(const ScanDigest&) = delete;
+
+  /// Waits for it; throws Interrupted when the observer asks to stop.
+  std::string get(const Observer& observer) {
+    while (sha256_.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) {
+      report_progress(observer, "hash", std::nan(""));
+    }
+    return sha256_.get();
+  }
+
+ private:
+  std::atomic<bool> is_given_up_ = false;
+  std::future<std::string> sha256_;  // last: its end waits for the thread
+};
+
 bool is_levelled(const topography::Treatment& treatment) {
   return std::any_of(treatment.begin(), treatment.end(), [](const std::string& step) {
     return step.starts_with("highpass") ||
@@ -82,15 +111,13 @@ Scan load_scan(const ScanRequest& request, Context& context) {
 }
 
 Scan load_scan(const topography::ScanFile& file, const ScanRequest& request, Context& context) {
-  // A digest is a matter of one thread: it runs beside the reading.
-  std::future<std::string> sha256 =
-      std::async(std::launch::async, [&file] { return file.sha256(); });
+  ScanDigest sha256(file);
   Topography surface =
       topography::apply(request.treatment, file.read(request.read), context.observer());
   warn_of_doubts(surface, request.file, context);
   return {.surface = std::move(surface),
           .path = request.file,
-          .sha256 = sha256.get(),
+          .sha256 = sha256.get(context.observer()),
           .treatment = request.treatment};
 }
 

@@ -8,11 +8,11 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <system_error>
 #include <utility>
 
 #include "tabor/core/error.hpp"
+#include "tabor/io/regular_file.hpp"
 
 namespace tabor::io {
 namespace {
@@ -161,18 +161,11 @@ void make_folder(const fs::path& folder) {
 }
 
 std::string read_text(const fs::path& file, std::size_t max_bytes) {
-  std::error_code error;
-  if (fs::is_directory(file, error)) {
-    throw InputError(file.string() + ": got a folder; expected a file");
-  }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    throw InputError(file.string() + ": cannot be read: " + std::strerror(errno));
-  }
+  const RegularFile opened(file);
   std::string text;
   char block[1 << 16];
-  while (stream.read(block, sizeof block) || stream.gcount() > 0) {
-    text.append(block, static_cast<std::size_t>(stream.gcount()));
+  while (const std::size_t n = opened.read(block, sizeof block)) {
+    text.append(block, n);
     if (text.size() > max_bytes) {
       throw InputError(file.string(), "more than " + std::to_string(max_bytes) + " bytes",
                        "a small text file", "");

@@ -4,13 +4,11 @@
 #include <openssl/evp.h>
 
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <memory>
 #include <vector>
 
 #include "tabor/core/error.hpp"
+#include "tabor/io/regular_file.hpp"
 
 namespace tabor::io {
 namespace {
@@ -74,20 +72,14 @@ RunningDigest::~RunningDigest() = default;
 void RunningDigest::add(std::string_view bytes) { state_->digest.add(bytes.data(), bytes.size()); }
 std::string RunningDigest::hexadecimal() { return state_->digest.hexadecimal(); }
 
-std::string sha256_of_file(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::error_code error;
-  if (!stream || std::filesystem::is_directory(file, error)) {
-    throw InputError(file.string() + ": cannot be read: " + std::strerror(stream ? EISDIR : errno));
-  }
+std::string sha256_of_file(const std::filesystem::path& file,
+                           const std::function<void()>& between) {
+  const RegularFile opened(file);
   Digest digest(EVP_sha256());
   std::vector<char> block(1 << 20);
-  while (stream.read(block.data(), static_cast<std::streamsize>(block.size())) ||
-         stream.gcount() > 0) {
-    digest.add(block.data(), static_cast<std::size_t>(stream.gcount()));
-  }
-  if (stream.bad()) {
-    throw InputError(file.string() + ": cannot be read: " + std::strerror(errno));
+  while (const std::size_t n = opened.read(block.data(), block.size())) {
+    digest.add(block.data(), n);
+    if (between) between();
   }
   return digest.hexadecimal();
 }

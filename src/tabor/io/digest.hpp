@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,7 +13,9 @@ namespace tabor::io {
 /// Digests as lower-case hexadecimal text.
 std::string sha256(std::span<const std::byte> bytes);
 std::string sha256(std::string_view text);
-std::string sha256_of_file(const std::filesystem::path& file);  ///< throws InputError
+/// Throws InputError. `between` is called after every MiB; what it throws ends the reading.
+std::string sha256_of_file(const std::filesystem::path& file,
+                           const std::function<void()>& between = {});
 
 /// Only because the X3P format asks for it.
 std::string md5(std::span<const std::byte> bytes);

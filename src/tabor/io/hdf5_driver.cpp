@@ -144,6 +144,7 @@ H5FD_class_t describe_driver() {
 }  // namespace
 
 Handle file_access() {
+  follow_store_links_only();
   Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
   // Files get their name only when they are complete, so nobody needs a lock on them; and network
   // file systems without locks would refuse to open them.

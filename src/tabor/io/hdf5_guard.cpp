@@ -6,12 +6,17 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <ctime>
 #include <fstream>
 #include <new>
+#include <utility>
 
+#include "tabor/core/error.hpp"
 #include "tabor/io/hdf5.hpp"
 #include "tabor/io/hdf5_library.hpp"
 
@@ -29,9 +34,8 @@ constexpr rlim_t kLibraryBytes = rlim_t{256} << 20;
 /// The tables of a sound file are read in milliseconds; a forged global heap keeps HDF5 1.10 busy
 /// for ever.
 constexpr rlim_t kSeconds = 2;
-/// A copy that neither sends nor works for so long waits for a lock that a thread of the original
-/// held when it was made: sanitizers' allocators have such locks.
-constexpr int kPatience = 3;
+/// A copy that neither sends nor works for so long [s] waits for what will not come.
+constexpr int kPatience = 5;
 
 #if defined(__has_feature)
 #define TABOR_SANITIZED __has_feature(address_sanitizer)
@@ -40,9 +44,9 @@ constexpr int kPatience = 3;
 #else
 #define TABOR_SANITIZED 0
 #endif
-/// A copy may also wait busily for such a lock, and then ends as one over a forged file does. The
-/// next one finds it open.
-constexpr int kAttempts = TABOR_SANITIZED ? 2 : 1;
+/// Allocators of sanitizers have locks that a thread of the original may hold when the copy is
+/// made. The copy waits for them for ever; the next one finds them open.
+constexpr int kAttempts = TABOR_SANITIZED ? 3 : 1;
 
 /// Address space of this process [bytes]; 0 if the system does not say.
 rlim_t address_space() {
@@ -98,17 +102,23 @@ herr_t end_without_memory(hid_t stack, void*) {
 /// A running copy of this process, ended with this object.
 class Copy {
  public:
-  /// Runs action(pipe), whose descriptor leads to receive().
-  Copy(const Limits& limits, const std::function<void(int)>& action) {
+  /// Runs action(pipe), whose descriptor leads to receive(). Throws Error if there can be no copy:
+  /// the file is then not read at all.
+  Copy(const std::filesystem::path& file, const Limits& limits,
+       const std::function<void(int)>& action) {
     // The copy has one thread, this one: it must be the one that may use the library. Nor may
     // another copy be made meanwhile, or it would keep this one's pipe open.
     const hdf5::Session session;
     int ends[2] = {-1, -1};
-    if (::pipe2(ends, O_CLOEXEC) != 0) return;
+    if (::pipe2(ends, O_CLOEXEC) != 0) refuse(file, errno);
     number_ = ::fork();
     if (number_ == 0) run_in_copy(limits, [&] { action(ends[1]); });
+    const int error = errno;
     ::close(ends[1]);
     pipe_ = ends[0];
+    if (number_ > 0) return;
+    ::close(pipe_);
+    refuse(file, error);
   }
   ~Copy() {
     if (number_ > 0) {
@@ -120,9 +130,6 @@ class Copy {
   Copy(const Copy&) = delete;
   Copy& operator=(const Copy&) = delete;
 
-  /// False if there could be no copy: too many processes.
-  bool started() const { return number_ > 0; }
-
   /// Up to `size` bytes; 0 at the end, and when it is stuck.
   std::size_t receive(char* bytes, std::size_t size) {
     if (!wait_for_news()) return 0;
@@ -133,7 +140,7 @@ class Copy {
     }
   }
 
-  /// It waits for something that will not come: nothing is known about the file.
+  /// It waits for something that will not come.
   bool is_stuck() const { return is_stuck_; }
 
   /// Waits for the end, which closes the pipe: true if the copy came to it by itself and sent
@@ -146,6 +153,13 @@ class Copy {
   }
 
  private:
+  [[noreturn]] static void refuse(const std::filesystem::path& file, int error) {
+    throw Error(
+        fmt::format("{}: HDF5 files are read in a process of their own, and there can be "
+                    "none: {}; end other programs or allow more (ulimit -u, ulimit -n)",
+                    file.string(), std::strerror(error)));
+  }
+
   int wait_for_status() {
     int status = 0;
     while (::waitpid(number_, &status, 0) < 0 && errno == EINTR) {
@@ -194,39 +208,45 @@ void send(int pipe, const Field& rows) {
   }
 }
 
-/// Limits for a map of so many bytes: chunks may be as large as the map, and are unpacked, sorted
-/// and converted one after the other; 20 MB/s is slow for that.
-Limits limits_for(std::size_t map_bytes) {
+/// Limits for so many bytes: chunks may be as large as the map, and are unpacked, sorted and
+/// converted one after the other; 20 MB/s is slow for that.
+Limits limits_for(std::size_t bytes) {
   constexpr std::size_t kSlowest = 20'000'000;  // bytes per second
-  return {kLibraryBytes + 4 * map_bytes, kSeconds + map_bytes / kSlowest};
+  return {kLibraryBytes + 4 * bytes, kSeconds + bytes / kSlowest};
 }
 
-bool copy_survives(const Limits& limits, const std::function<void()>& action) {
-  Copy copy(limits, [&](int) { action(); });
-  return !copy.started() || copy.ended_well() || copy.is_stuck();
+/// How a copy ended, or that it did not.
+enum class End { well, badly, stuck };
+
+End end_of(Copy& copy) {
+  const bool well = copy.ended_well();
+  return copy.is_stuck() ? End::stuck : well ? End::well : End::badly;
 }
 
-std::optional<Field> map_from_copy(std::array<Index, 2> shape, const SendRows& send_rows,
-                                   const std::function<void(double)>& progress) {
+End receive_map(Copy& copy, Field& map, const std::function<void(double)>& progress) {
   constexpr std::size_t kPiece = std::size_t{1} << 22;
-  Field map(shape[0], shape[1]);
   const std::size_t size = static_cast<std::size_t>(map.size()) * sizeof(double);
-  Copy copy(limits_for(size),
-            [&](int pipe) { send_rows([pipe](const Field& rows) { send(pipe, rows); }); });
-  if (!copy.started()) return hdf5_map_directly(shape, send_rows);
   auto* bytes = reinterpret_cast<char*>(map.data());
   std::size_t received = 0, told = 0;
   while (received < size) {
     const std::size_t n = copy.receive(bytes + received, std::min(kPiece, size - received));
-    if (copy.is_stuck()) return hdf5_map_directly(shape, send_rows);
-    if (n == 0) return std::nullopt;
+    if (n == 0) return copy.is_stuck() ? End::stuck : End::badly;
     received += n;
     if (progress && (received - told >= kPiece || received == size)) {
       told = received;
       progress(static_cast<double>(received) / static_cast<double>(size));
     }
   }
-  return copy.ended_well() || copy.is_stuck() ? std::optional(std::move(map)) : std::nullopt;
+  return end_of(copy);
+}
+
+/// True if one of the attempts ends well. Throws InputError if the last one is stuck.
+bool one_ends_well(const std::filesystem::path& file, const std::function<End()>& attempt) {
+  End end = End::badly;
+  for (int i = 0; i < kAttempts && end != End::well; ++i) end = attempt();
+  if (end != End::stuck) return end == End::well;
+  throw InputError(file.string(), fmt::format("no answer from its reader in {} s", kPatience),
+                   "a file that can be read", "copy it to a local disk and try again");
 }
 
 }  // namespace
@@ -234,17 +254,24 @@ std::optional<Field> map_from_copy(std::array<Index, 2> shape, const SendRows& s
 bool hdf5_survives(const std::filesystem::path& file, const std::function<void()>& action) {
   std::error_code unknown;
   const auto size = std::filesystem::file_size(file, unknown);
-  const Limits limits{kLibraryBytes + (unknown ? 0 : 4 * size), kSeconds};
-  bool survives = false;
-  for (int i = 0; i < kAttempts && !survives; ++i) survives = copy_survives(limits, action);
-  return survives;
+  const Limits limits = limits_for(unknown ? 0 : size);
+  return one_ends_well(file, [&] {
+    Copy copy(file, limits, [&](int) { action(); });
+    return end_of(copy);
+  });
 }
 
-std::optional<Field> hdf5_map_from_copy(std::array<Index, 2> shape, const SendRows& send_rows,
+std::optional<Field> hdf5_map_from_copy(const std::filesystem::path& file,
+                                        std::array<Index, 2> shape, const SendRows& send_rows,
                                         const std::function<void(double)>& progress) {
-  std::optional<Field> map;
-  for (int i = 0; i < kAttempts && !map; ++i) map = map_from_copy(shape, send_rows, progress);
-  return map;
+  Field map(shape[0], shape[1]);
+  const Limits limits = limits_for(static_cast<std::size_t>(map.size()) * sizeof(double));
+  const bool is_whole = one_ends_well(file, [&] {
+    Copy copy(file, limits,
+              [&](int pipe) { send_rows([pipe](const Field& rows) { send(pipe, rows); }); });
+    return receive_map(copy, map, progress);
+  });
+  return is_whole ? std::optional(std::move(map)) : std::nullopt;
 }
 
 }  // namespace tabor::io

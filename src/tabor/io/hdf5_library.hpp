@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <mutex>
 #include <new>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -55,6 +56,12 @@ class Handle {
   hid_t id_;
   herr_t (*close_)(hid_t);
 };
+
+/// Whether an external link to this file is one of a study's results into its store: store/NAME.h5.
+bool is_store_file(const std::string& target);
+
+/// From now on the library follows such external links and no others. Within a session.
+void follow_store_links_only();
 
 /// How files are opened: without locks of HDF5's own, closed with everything in them.
 Handle file_access();

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <functional>
 
 #include "tabor/core/error.hpp"
@@ -10,6 +9,7 @@
 #include "tabor/io/hdf5.hpp"
 #include "tabor/io/hdf5_library.hpp"
 #include "tabor/io/hdf5_records.hpp"
+#include "tabor/io/regular_file.hpp"
 
 namespace tabor::io {
 namespace {
@@ -78,14 +78,13 @@ bool is_number(H5T_class_t kind) { return kind == H5T_INTEGER || kind == H5T_FLO
 struct Hdf5Reader::File {
   explicit File(const fs::path& file) : name(file), id(open(file), &H5Fclose) {
     if (!id.valid()) {
-      std::error_code unknown;
       throw InputError(name.string() + (is_hdf5(file) ? ": damaged or incomplete HDF5 file"
-                                        : fs::exists(file, unknown) ? ": cannot be read as HDF5"
-                                                                    : ": no such file"));
+                                                      : ": cannot be read as HDF5"));
     }
   }
 
   static hid_t open(const fs::path& file) {
+    const RegularFile regular(file);  // the library would wait for a pipe
     const Session session;
     const Handle access = file_access();
     return H5Fopen(file.c_str(), H5F_ACC_RDONLY, access);
@@ -111,13 +110,38 @@ struct Hdf5Reader::File {
 
   Handle open_dataset(const std::string& path) const {
     if (!exists(path)) {
+      refuse_foreign_link(path);
       fail(path, "is missing");
     }
     Handle dataset(H5Dopen2(id, path.c_str(), H5P_DEFAULT), &H5Dclose);
     if (!dataset.valid()) {
       fail(path, "is not a readable dataset");
     }
+    refuse_values_elsewhere(dataset, path);
     return dataset;
+  }
+
+  /// Says so where a link on the way leads to a file that is not followed.
+  void refuse_foreign_link(const std::string& path) const {
+    for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
+      const std::string part = path.substr(0, end);
+      H5L_info_t link{};
+      if (part == "/" || H5Lget_info(id, part.c_str(), &link, H5P_DEFAULT) < 0) return;
+      if (link.type == H5L_TYPE_EXTERNAL) {
+        fail(part, "is a link into another file; expected the values in the file itself");
+      }
+      if (end == std::string::npos) return;
+    }
+  }
+
+  /// Values may lie in any file that whoever made this one has named: also in one that is no
+  /// HDF5, or in a pipe. Before anything is asked of the dataset, since the library looks there.
+  void refuse_values_elsewhere(hid_t dataset, const std::string& path) const {
+    const Handle created(H5Dget_create_plist(dataset), &H5Pclose);
+    if (!created.valid() || H5Pget_layout(created) == H5D_VIRTUAL ||
+        H5Pget_external_count(created) != 0) {
+      fail(path, "keeps its values in other files; expected them in the file itself");
+    }
   }
 
   Handle open_attribute(const std::string& path, const std::string& attribute) const {
@@ -456,9 +480,12 @@ Field hdf5_map_directly(std::array<Index, 2> shape, const SendRows& send) {
 }
 
 bool is_hdf5(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
   std::array<char, 8> begin{};
-  stream.read(begin.data(), begin.size());
+  try {
+    RegularFile(file).read(begin.data(), begin.size());
+  } catch (const InputError&) {
+    return false;
+  }
   return std::string_view(begin.data(), begin.size()) == std::string_view("\x89HDF\r\n\x1a\n", 8);
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <png.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -15,6 +16,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/resources.hpp"
 #include "tabor/io/atomic_file.hpp"
+#include "tabor/io/regular_file.hpp"
 
 namespace tabor::io {
 namespace {
@@ -127,7 +129,8 @@ void write_png(const Picture& picture, const std::filesystem::path& file) {
 
 GreyImage read_png(const std::filesystem::path& file) {
   std::string name = file.string();
-  const Stream stream(std::fopen(file.c_str(), "rb"), &std::fclose);
+  const RegularFile opened(file);
+  const Stream stream(::fdopen(::dup(opened.descriptor()), "rb"), &std::fclose);
   if (!stream) {
     throw InputError(name + ": cannot be read: " + std::strerror(errno));
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <utility>
 
 #include "tabor/core/units.hpp"
@@ -110,11 +111,13 @@ Unit case_unit(const Study& study, const Scan& scan, const Unit& contact, const 
                   (fluid != nullptr ? line("fluid", fluid->key) : ""));
 }
 
-std::vector<ScanUnits> units_of(const Study& study) {
+std::vector<ScanUnits> units_of(const Study& study, const Observer& observer) {
   std::vector<ScanUnits> all;
   for (const Scan& scan : study.scans) {
     ScanUnits units;
-    units.sha256 = io::sha256_of_file(scan.file);
+    const std::string stage = stage_name("hash", scan);
+    units.sha256 =
+        io::sha256_of_file(scan.file, [&] { report_progress(observer, stage, std::nan("")); });
     units.surface = surface_unit(study, scan, units.sha256);
     units.film = film_unit(study, units.surface);
     for (const double pressure : study.mean_pressures) add_pressure(study, scan, pressure, units);

@@ -48,7 +48,7 @@ struct ScanUnits {
 };
 
 /// Reads every scan file once, for its digest. Throws InputError.
-std::vector<ScanUnits> units_of(const Study& study);
+std::vector<ScanUnits> units_of(const Study& study, const Observer& observer = {});
 
 /// "contact surface.x3p 7 MPa": what a person watching calls the unit.
 std::string stage_name(const std::string& what, const Scan& scan, double mean_pressure = 0);

@@ -38,6 +38,10 @@ void add_contact(const StoredContact& stored, Row& row) {
 }
 
 void add_liquid(const StoredContact& stored, const Field& film, bool periodic, Row& row) {
+  if (film.rows() != stored.gap.rows() || film.cols() != stored.gap.cols()) {
+    throw InputError("the store", "a film and a contact of two sizes", "both of one surface",
+                     "remove the folder store and run the sweep again");
+  }
   row.lubricated_share = friction::lubricated_share(stored.contact, film);
   row.spill_over_fraction = friction::spill_over_fraction(film, stored.gap);
   const friction::TrappedLiquid liquid =

@@ -49,8 +49,7 @@ void write_fluid(const Store& store, const Unit& unit, const Grid& grid,
   writer.commit();
 }
 
-StoredFluid read_fluid(const Store& store, const Unit& unit) {
-  const io::Hdf5Reader reader(store.path(unit));
+StoredFluid fluid_numbers(const io::Hdf5Reader& reader) {
   StoredFluid stored;
   for (const Member& member : kMembers) {
     stored.summary.*member.value = reader.number("/fluid", member.name);
@@ -58,6 +57,10 @@ StoredFluid read_fluid(const Store& store, const Unit& unit) {
   stored.summary.converged = reader.number("/fluid", "converged") != 0;
   stored.doubts = reader.attribute_texts("/fluid", "warnings");
   return stored;
+}
+
+StoredFluid read_fluid(const Store& store, const Unit& unit) {
+  return io::read_guarded(store.path(unit), fluid_numbers);
 }
 
 }  // namespace tabor::study

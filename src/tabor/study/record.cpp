@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "tabor/core/error.hpp"
@@ -62,6 +63,49 @@ std::string defect_of_row(const Store& store, const Unit& unit) {
   } catch (const InputError& error) {
     return error.what();
   }
+}
+
+SurfaceFacts facts_of_surface(const io::Hdf5Reader& reader) {
+  const std::array<Index, 2> shape = reader.map_shape("/surface/height");
+  const auto pixel = [&reader](const std::string& axis) {
+    const std::vector<double> centres = reader.numbers("/surface/" + axis);
+    if (centres.empty()) throw InputError("/surface/" + axis + " is empty");
+    return 2 * centres.front();
+  };
+  return {.nx = shape[1],
+          .ny = shape[0],
+          .pixel_x = pixel("x"),
+          .pixel_y = pixel("y"),
+          .rms_height = reader.number("/psd", "rms_height_m"),
+          .rms_slope = reader.number("/psd", "rms_slope"),
+          .treatment = reader.attribute_texts("/surface", "treatment"),
+          .doubts = reader.attribute_texts("/surface", "doubts")};
+}
+
+/// All but the maps, which are of one shape.
+StoredContact contact_numbers(const io::Hdf5Reader& reader) {
+  const auto scalar = [&reader](const char* name) { return reader.number("/contact", name); };
+  StoredContact stored;
+  const std::array<Index, 2> shape = reader.map_shape("/contact/gap");
+  if (reader.map_shape("/contact/state") != shape) {
+    throw InputError("/contact/state and /contact/gap are of two shapes");
+  }
+  stored.grid = {shape[1], shape[0], scalar("size_x_m"), scalar("size_y_m")};
+  stored.summary.mean_pressure = scalar("mean_pressure_Pa");
+  stored.summary.contact_area_fraction = scalar("contact_area_fraction");
+  stored.summary.contact_area_fraction_pixels = scalar("contact_area_fraction_pixels");
+  stored.summary.saturated_area_fraction = scalar("saturated_area_fraction");
+  stored.summary.mean_gap = scalar("mean_gap_m");
+  stored.convergence.certificate = scalar("certificate");
+  stored.convergence.converged = scalar("converged") != 0;
+  return stored;
+}
+
+/// Reads what rows and tables need beside maps. Throws InputError.
+void require_numbers(const io::Hdf5Reader& reader, const Unit& unit) {
+  if (unit.file.starts_with("surface-")) facts_of_surface(reader);
+  if (unit.file.starts_with("contact-")) contact_numbers(reader);
+  if (unit.file.starts_with("fluid-")) fluid_numbers(reader);
 }
 
 std::vector<std::string> expected_maps(const Unit& unit, std::size_t n_films) {
@@ -197,20 +241,14 @@ void write_contact(const Store& store, const Unit& unit, const Grid& grid,
   writer.commit();
 }
 
+SurfaceFacts read_surface_facts(const Store& store, const Unit& unit) {
+  return io::read_guarded(store.path(unit), facts_of_surface);
+}
+
 StoredContact read_contact(const Store& store, const Unit& unit) {
-  const io::Hdf5Reader reader(store.path(unit));
-  const auto scalar = [&reader](const char* name) { return reader.number("/contact", name); };
-  StoredContact stored;
-  stored.contact = reader.bytes("/contact/state") > 0;
-  stored.gap = reader.field("/contact/gap");
-  stored.grid = {stored.gap.cols(), stored.gap.rows(), scalar("size_x_m"), scalar("size_y_m")};
-  stored.summary.mean_pressure = scalar("mean_pressure_Pa");
-  stored.summary.contact_area_fraction = scalar("contact_area_fraction");
-  stored.summary.contact_area_fraction_pixels = scalar("contact_area_fraction_pixels");
-  stored.summary.saturated_area_fraction = scalar("saturated_area_fraction");
-  stored.summary.mean_gap = scalar("mean_gap_m");
-  stored.convergence.certificate = scalar("certificate");
-  stored.convergence.converged = scalar("converged") != 0;
+  StoredContact stored = io::read_guarded(store.path(unit), contact_numbers);
+  stored.contact = io::read_guarded_map(store.path(unit), "/contact/state") > 0;
+  stored.gap = io::read_guarded_map(store.path(unit), "/contact/gap");
   return stored;
 }
 
@@ -231,7 +269,7 @@ void FilmFile::add(const lubrication::Film& film, double lubricant_density) {
 void FilmFile::commit() { writer_.commit(); }
 
 Field read_film(const Store& store, const Unit& unit, std::size_t density) {
-  return io::Hdf5Reader(store.path(unit)).field(film_group(density) + "/film_thickness");
+  return io::read_guarded_map(store.path(unit), film_group(density) + "/film_thickness");
 }
 
 std::string defect(const Store& store, const Unit& unit, std::size_t n_films, Depth depth) {
@@ -239,14 +277,20 @@ std::string defect(const Store& store, const Unit& unit, std::size_t n_films, De
     return defect_of_row(store, unit);
   }
   try {
-    const io::Hdf5Reader reader(store.path(unit));
-    for (const std::string& map : expected_maps(unit, n_films)) {
-      reader.shape(map);
-      if (depth == Depth::maps && reader.shape(map).size() == 2) {
-        reader.field(map);
+    const std::vector<std::string> expected = expected_maps(unit, n_films);
+    std::vector<std::string> maps;
+    const std::string text = io::read_guarded(store.path(unit), [&](const io::Hdf5Reader& reader) {
+      maps.clear();
+      for (const std::string& map : expected) {
+        if (reader.shape(map).size() == 2) maps.push_back(map);
       }
+      require_numbers(reader, unit);
+      return reader.text("/", "canonical_text");
+    });
+    if (depth == Depth::maps) {
+      for (const std::string& map : maps) io::read_guarded_map(store.path(unit), map);
     }
-    return reader.text("/", "canonical_text") == unit.text ? "" : "belongs to another unit";
+    return text == unit.text ? "" : "belongs to another unit";
   } catch (const InputError& error) {
     return error.what();
   }

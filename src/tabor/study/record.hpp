@@ -86,6 +86,19 @@ Scalars scalars_of(const contact::Summary& summary, const Convergence& convergen
 void write_surface(const Store& store, const Unit& unit, const topography::Topography& topography,
                    const topography::PowerSpectra& spectra);
 
+/// What a stored surface says about itself, for readers that look at no map.
+struct SurfaceFacts {
+  Index nx = 0;
+  Index ny = 0;
+  double pixel_x = 0;  ///< [m]
+  double pixel_y = 0;  ///< [m]
+  double rms_height = 0;
+  double rms_slope = 0;
+  std::vector<std::string> treatment;
+  std::vector<std::string> doubts;
+};
+SurfaceFacts read_surface_facts(const Store& store, const Unit& unit);
+
 /// What a row needs of a stored contact.
 struct StoredContact {
   Mask contact;  ///< true where the solids touch

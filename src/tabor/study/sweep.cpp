@@ -52,7 +52,7 @@ Outcome run(const Study& study, const std::filesystem::path& directory,
   const Store store(directory, options.shard ? Store::Use::shared : Store::Use::alone);
   Outcome outcome;
   outcome.n_cases = study.n_cases();
-  const std::vector<ScanUnits> units = units_of(study);
+  const std::vector<ScanUnits> units = units_of(study, options.observer);
   warn_about_copies(study, units, outcome.warnings);
   const auto plans =
       plan(store, study, units, options.shard.value_or(Shard{}), options.retry, outcome.warnings);

@@ -178,22 +178,16 @@ void write_settings(io::Hdf5Writer& writer, const Study& study, const std::strin
   if (study.flows()) write_oil(writer, *study.lubricant.flowing);
 }
 
-/// What the stored surface says about itself, for readers that look at no map.
-void copy_surface_facts(io::Hdf5Writer& writer, const std::string& group,
-                        const std::filesystem::path& surface_file) {
-  const io::Hdf5Reader reader(surface_file);
-  const std::vector<Index> shape = reader.shape("/surface/height");
-  const auto pixel = [&reader](const std::string& axis) {
-    return 2 * reader.numbers("/surface/" + axis).at(0);  // centre of the first cell
-  };
-  writer.attribute(group, "nx", static_cast<std::int64_t>(shape.at(1)));
-  writer.attribute(group, "ny", static_cast<std::int64_t>(shape.at(0)));
-  writer.attribute(group, "pixel_x_m", pixel("x"));
-  writer.attribute(group, "pixel_y_m", pixel("y"));
-  writer.attribute(group, "rms_height_m", reader.number("/psd", "rms_height_m"));
-  writer.attribute(group, "rms_slope", reader.number("/psd", "rms_slope"));
-  writer.attribute(group, "treatment", reader.attribute_texts("/surface", "treatment"));
-  writer.attribute(group, "doubts", reader.attribute_texts("/surface", "doubts"));
+void write_surface_facts(io::Hdf5Writer& writer, const std::string& group,
+                         const SurfaceFacts& facts) {
+  writer.attribute(group, "nx", static_cast<std::int64_t>(facts.nx));
+  writer.attribute(group, "ny", static_cast<std::int64_t>(facts.ny));
+  writer.attribute(group, "pixel_x_m", facts.pixel_x);
+  writer.attribute(group, "pixel_y_m", facts.pixel_y);
+  writer.attribute(group, "rms_height_m", facts.rms_height);
+  writer.attribute(group, "rms_slope", facts.rms_slope);
+  writer.attribute(group, "treatment", facts.treatment);
+  writer.attribute(group, "doubts", facts.doubts);
 }
 
 /// Links into the store, only to what is there.
@@ -228,7 +222,7 @@ void write_scans(io::Hdf5Writer& writer, const Store& store, const Study& study,
     writer.attribute(group, "group", study.scans[i].group);
     writer.attribute(group, "input_sha256", units[i].sha256);
     if (store.has(units[i].surface) && defect(store, units[i].surface, 0).empty()) {
-      copy_surface_facts(writer, group, store.path(units[i].surface));
+      write_surface_facts(writer, group, read_surface_facts(store, units[i].surface));
     }
     write_links(writer, group, store, units[i], study.lubricant_densities.size());
   }

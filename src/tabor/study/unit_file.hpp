@@ -20,6 +20,9 @@ struct MapName {
 void write_map(io::Hdf5Writer& writer, const std::string& group, const MapName& name,
                const Field& map);
 
+/// What a file of a film that flows holds beside its maps. Throws InputError.
+StoredFluid fluid_numbers(const io::Hdf5Reader& reader);
+
 void write_attributes(io::Hdf5Writer& writer, const std::string& path, const Scalars& scalars);
 
 }  // namespace tabor::study

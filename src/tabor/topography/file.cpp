@@ -138,7 +138,7 @@ FileInfo ScanFile::info() const {
           .channels = format::channels_of(document)};
 }
 
-std::string ScanFile::sha256() const {
+std::string ScanFile::sha256(const std::function<void()>& between) const {
   constexpr std::size_t kPiece = std::size_t{1} << 22;
   io::RunningDigest digest(io::DigestKind::sha256);
   for (std::string_view rest = opened_->mapped.bytes(); !rest.empty();) {
@@ -146,6 +146,7 @@ std::string ScanFile::sha256() const {
     digest.add(piece);
     opened_->mapped.release(piece);
     rest.remove_prefix(piece.size());
+    if (between) between();
   }
   opened_->mapped.check();
   return digest.hexadecimal();

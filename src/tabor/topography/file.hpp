@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -65,7 +66,9 @@ class ScanFile {
 
   FileInfo info() const;
   Topography read(const ReadOptions& options = {}) const;
-  std::string sha256() const;  ///< of the file's bytes, hexadecimal
+  /// Of the file's bytes, hexadecimal. `between` is called after every 4 MiB; what it throws ends
+  /// the reading.
+  std::string sha256(const std::function<void()>& between = {}) const;
 
  private:
   struct Opened;

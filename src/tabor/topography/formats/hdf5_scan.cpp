@@ -12,7 +12,7 @@ void require_survival(const Contents& contents, const std::function<void()>& des
 Field heights_from_copy(const Contents& contents, std::array<Index, 2> shape,
                         const io::SendRows& send) {
   auto heights = io::hdf5_map_from_copy(
-      shape, send, [&contents](double share) { contents.finished({}, share); });
+      contents.file, shape, send, [&contents](double share) { contents.finished({}, share); });
   if (!heights) {
     refuse(contents, "heights in damaged HDF5 blocks", "a scan", kDamaged);
   }
