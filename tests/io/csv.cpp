@@ -38,6 +38,20 @@ TEST(ParseCsv, ReadsBackWhatCsvLineWrote) {
   EXPECT_EQ(table.rows[0], nasty);
 }
 
+TEST(CsvLine, LeavesNoFormulaForASpreadsheet) {
+  EXPECT_EQ(csv_line({"=1+1", "@x", "+a.h5", "-cmd", "-1.5e-3", "+7", "a=b"}),
+            "'=1+1,'@x,'+a.h5,'-cmd,-1.5e-3,+7,a=b\n");
+  EXPECT_EQ(csv_line({"\t=1", "\r=1", "\n=1"}), "'\t=1,\"'\r=1\",\"'\n=1\"\n");
+}
+
+TEST(ParseCsv, ReadsBackWhatLooksLikeAFormula) {
+  const std::vector<std::string> nasty{"=1+1", "'=1",   "''=1", "'plain", "'",  "-",
+                                       "\t=1", "-x,\"", "-1.5", "@",      "'5", "'-5"};
+  const CsvTable table = parse_csv("a,b,c,d,e,f,g,h,i,j,k,l\n" + csv_line(nasty), "m.csv");
+  ASSERT_EQ(table.rows.size(), 1u);
+  EXPECT_EQ(table.rows[0], nasty);
+}
+
 TEST(ParseCsv, NamesFileLineAndColumnOfAMistake) {
   const std::string text = "mean_pressure_Pa,friction\n2e6,0.3\n5e6,abc\n";
   EXPECT_THAT(refusal([&] { parse_csv(text, "m.csv").number(1, "friction"); }),

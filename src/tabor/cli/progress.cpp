@@ -8,6 +8,7 @@
 #include <ostream>
 
 #include "tabor/cli/interrupt.hpp"
+#include "tabor/core/printable.hpp"
 
 namespace tabor::cli {
 
@@ -17,7 +18,7 @@ constexpr double kTerminalPeriod = 0.1;  // [s] faster than the eye needs, slowe
 constexpr double kLinePeriod = 10;       // [s]
 
 std::string describe(const Progress& progress, double share, double elapsed) {
-  std::string line{progress.stage};
+  std::string line = printable(progress.stage);
   if (progress.convergence != nullptr) {
     line += fmt::format("  iteration {}  certificate {:.1e} (wanted {:.0e})",
                         progress.convergence->iterations, progress.convergence->certificate,

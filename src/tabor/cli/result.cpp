@@ -6,6 +6,7 @@
 #include <ostream>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/printable.hpp"
 #include "tabor/core/version.hpp"
 #include "tabor/io/atomic_file.hpp"
 
@@ -27,11 +28,13 @@ int finish(Context& context, io::Json object, const std::string& text, int code)
   if (context.progress) context.progress->clear();
   if (context.json) {
     object["warnings"] = context.warnings;
-    context.out << io::to_text(object) << '\n';
+    context.out << printable_json(io::to_text(object)) << '\n';
     return code;
   }
-  context.out << text << std::flush;
-  for (const std::string& warning : context.warnings) context.err << "warning: " << warning << '\n';
+  context.out << printable_lines(text) << std::flush;
+  for (const std::string& warning : context.warnings) {
+    context.err << "warning: " << printable(warning) << '\n';
+  }
   return code;
 }
 

@@ -11,6 +11,7 @@
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/core/printable.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/io/csv.hpp"
 
@@ -141,7 +142,8 @@ int sweep(const Request& request, Context& context) {
     outcome = study::run(study, request.folder(), options_for(request, context));
   } catch (const Interrupted&) {
     if (context.progress) context.progress->clear();
-    context.err << "tabor: interrupted; what was finished is kept in " << request.folder().string()
+    context.err << "tabor: interrupted; what was finished is kept in "
+                << printable(request.folder().string())
                 << ", the same command goes on from there\n";
     return kInterrupted;
   }

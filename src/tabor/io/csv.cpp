@@ -13,6 +13,22 @@
 namespace tabor::io {
 namespace {
 
+/// Whether a spreadsheet would take the cell for a formula or a command: what begins so and is no
+/// number. An apostrophe before it says that it is text; so it gets one, and one more if it has
+/// any.
+bool is_command(std::string_view cell) {
+  const std::string_view content = cell.substr(std::min(cell.find_first_not_of('\''), cell.size()));
+  constexpr std::string_view beginnings = "=+-@\t\r\n";
+  return !content.empty() && beginnings.find(content.front()) != std::string_view::npos &&
+         !parse_number(cell);
+}
+
+/// The cell that csv_line() wrote.
+std::string without_apostrophe(std::string cell) {
+  if (cell.starts_with('\'') && is_command(cell)) cell.erase(0, 1);
+  return cell;
+}
+
 /// Walks through the text record by record; a quoted cell may hold newlines.
 class Records {
  public:
@@ -64,7 +80,7 @@ class Records {
     while (rest_.starts_with(' ') || rest_.starts_with('\t')) {
       rest_.remove_prefix(1);
     }
-    return take('"') ? quoted_cell() : plain_cell();
+    return without_apostrophe(take('"') ? quoted_cell() : plain_cell());
   }
 
   std::string plain_cell() {
@@ -157,8 +173,9 @@ CsvTable read_csv(const std::filesystem::path& file) {
 
 std::string csv_line(const std::vector<std::string>& cells) {
   std::string line;
-  for (const std::string& cell : cells) {
-    line += line.empty() && &cell == &cells.front() ? "" : ",";
+  for (const std::string& content : cells) {
+    const std::string cell = is_command(content) ? "'" + content : content;
+    line += &content == &cells.front() ? "" : ",";
     if (cell.find_first_of(",\"\r\n") == std::string::npos && trim(cell) == cell &&
         !cell.starts_with('#')) {
       line += cell;

@@ -27,7 +27,9 @@ struct CsvTable {
 CsvTable read_csv(const std::filesystem::path& file);
 CsvTable parse_csv(std::string_view text, const std::string& name);
 
-/// One line with its newline; cells are quoted where they must be.
+/// One line with its newline; cells are quoted where they must be. Text that begins with one of
+/// = + - @ gets an apostrophe before it, which parse_csv() takes off: spreadsheets would compute
+/// it.
 std::string csv_line(const std::vector<std::string>& cells);
 
 /// Shortest text that reads back to the same number; "" for NaN and infinity (no value).
