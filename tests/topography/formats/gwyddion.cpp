@@ -75,6 +75,67 @@ TEST(RunProgram, PassesArgumentsAndEnvironmentUnchanged) {
   EXPECT_EQ(run.exit_code, 3);
 }
 
+/// Sets PATH for one test.
+class Path {
+ public:
+  explicit Path(const std::string& path) : before_(std::getenv("PATH")) {
+    ::setenv("PATH", path.c_str(), 1);
+  }
+  ~Path() { ::setenv("PATH", before_.c_str(), 1); }
+  Path(const Path&) = delete;
+  Path& operator=(const Path&) = delete;
+
+ private:
+  std::string before_;
+};
+
+void put_program(const std::filesystem::path& file, const std::string& script) {
+  test::put_bytes(file, "#!/bin/sh\n" + script);
+  std::filesystem::permissions(file, std::filesystem::perms::owner_all);
+}
+
+TEST(RunProgram, KeepsItsLimits) {
+  const io::Completed run = io::run_program(
+      "/bin/sh", {"-c", "ulimit -v; ulimit -t; ulimit -f; pwd"}, {}, std::chrono::seconds(10), {},
+      {.address_space = 1 << 30, .processor = 7, .file = 1 << 20}, "/usr");
+  EXPECT_EQ(run.output, "1048576\n7\n2048\n/usr\n");
+}
+
+TEST(RunProgram, IsFoundInNoFolderOfTheMoment) {
+  const Folder folder;
+  put_program(folder / "helper", "exit 0\n");
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  for (const char* path : {"", ":", ".", "./", ":/nonexistent", "relative"}) {
+    const Path only(path);
+    EXPECT_FALSE(io::find_program("helper")) << path;
+  }
+  const Path absolute(folder.path().string());
+  EXPECT_EQ(io::find_program("helper"), folder / "helper");
+  std::filesystem::current_path(before);
+}
+
+TEST(Gwyddion, MayNotTakeAllMemory) {
+  const Folder programs, folder;
+  put_program(programs / "gwyddion",
+              "ulimit -v > '" + (programs / "limit").string() + "'\nexit 1\n");
+  const Path path(programs.path().string());
+  EXPECT_NE(test::refusal(folder, std::string("\x01\x02\x03", 3)).find("nor Gwyddion"),
+            std::string::npos);
+  EXPECT_LT(std::stod(test::bytes_of(programs / "limit")), 4 << 20);  // KiB
+}
+
+TEST(Gwyddion, FillsNoDisk) {
+  const Folder programs, folder;
+  put_program(programs / "gwyddion",
+              "out=${1#--convert-to-gwy=}\nhead -c 1000000000 /dev/zero > \"$out\"\n"
+              "wc -c < \"$out\" > '" +
+                  (programs / "size").string() + "'\n");
+  const Path path(programs.path().string() + ":/usr/bin:/bin");
+  EXPECT_FALSE(test::refusal(folder, std::string("\x01\x02\x03", 3)).empty());
+  EXPECT_LT(std::stod(test::bytes_of(programs / "size")), 1e8);
+}
+
 TEST(RunProgram, RefusesAProgramThatIsNotThere) {
   EXPECT_THROW(io::run_program("/nonexistent", {}, {}, std::chrono::seconds(1)), InputError);
 }
