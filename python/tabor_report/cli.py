@@ -1,11 +1,12 @@
 """python3 -m tabor_report DIR|RESULTS.h5: the program behind `tabor report`."""
 
 import argparse
+import os
 import shlex
 import sys
 
 from tabor_report import dependencies, units
-from tabor_report.errors import ReportError
+from tabor_report.errors import InputError, ReportError, UsageError, printable
 
 EXAMPLES = """examples:
   python3 -m tabor_report study/                      figures and report.html in study/
@@ -15,17 +16,33 @@ EXAMPLES = """examples:
 
 def main(arguments):
     """Exit code: 0 done, 2 usage, 3 unreadable input or missing library, 5 cannot write."""
-    options = _parser().parse_args(arguments)
+    sys.stdout.reconfigure(errors="surrogateescape")  # names of files are bytes
+    try:
+        return _report(_parser().parse_args(arguments), arguments)
+    except ReportError as error:
+        print(f"tabor report: {printable(error)}", file=sys.stderr)
+        return error.exit_code
+
+
+def _report(options, arguments):
     try:
         dependencies.require(["numpy", "h5py", "matplotlib"] + (["jinja2"] if options.html else []))
         _convert(options)
         for path in _run(options, arguments):
             if not options.quiet:
                 print(path)
-    except ReportError as error:
-        print(f"tabor report: {error}", file=sys.stderr)
-        return error.exit_code
-    return 0
+        return 0
+    except ReportError:
+        raise
+    except Exception as error:
+        # Files that are damaged, or lack what a result has, end in any of Python's errors.
+        if "TABOR_TRACEBACK" in os.environ:
+            raise
+        reason = " ".join(f"{type(error).__name__}: {error}".split())
+        raise InputError(
+            f"{options.result}: got a file that cannot be drawn ({reason[:300]}); expected a whole result of "
+            "tabor; compute it again (TABOR_TRACEBACK=1 says where it failed)"
+        ) from None
 
 
 def _run(options, arguments):
@@ -43,8 +60,15 @@ def _convert(options):
     options.density = None if options.density is None else units.parse_density(options.density)
 
 
+class _Parser(argparse.ArgumentParser):
+    """Says what is wrong in one line, as tabor does."""
+
+    def error(self, message):
+        raise UsageError(message)
+
+
 def _parser():
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         prog="tabor report",
         epilog=EXAMPLES,
         description="Figures and one self-contained HTML page from a result of tabor.",

@@ -1,6 +1,9 @@
 """Names the Debian package of a Python library that is absent, before anything imports it."""
 
+import contextlib
 import importlib
+import os
+from pathlib import Path
 
 from tabor_report.errors import InputError
 
@@ -28,7 +31,20 @@ def require(names):
 
 def _is_importable(name):
     try:
-        importlib.import_module(name)
+        with _at_home():
+            importlib.import_module(name)
     except ImportError:
         return False
     return True
+
+
+@contextlib.contextmanager
+def _at_home():
+    """Works in this package's folder for a while: Matplotlib takes a matplotlibrc from the current one."""
+    here = os.open(".", os.O_RDONLY)
+    os.chdir(Path(__file__).resolve().parent)
+    try:
+        yield
+    finally:
+        os.fchdir(here)
+        os.close(here)

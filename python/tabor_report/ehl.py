@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from tabor_report import hdf
+from tabor_report.errors import readable
 
 
 @dataclass
@@ -21,7 +22,7 @@ class Ehl:
 
     @property
     def title(self):
-        return f"{self.facts['kind']}: {self.path.stem}"
+        return f"{self.facts['kind']}: {readable(self.path.stem)}"
 
     @property
     def program(self):

@@ -1,6 +1,7 @@
 """Reading HDF5 as tabor writes it: text as str, numbers as Python numbers, broken links as None."""
 
 import os
+from pathlib import Path
 
 # A finished result never changes under its name, so a lock protects nothing and fails on
 # read-only file systems.
@@ -9,15 +10,19 @@ os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
 import h5py
 import numpy as np
 
-from tabor_report.errors import InputError
+from tabor_report import guard
+from tabor_report.errors import InputError, readable
 
 
 def open_file(path):
     """Opens for reading; raises InputError in one line if it is no tabor result."""
+    refusal = guard.problem(str(path))
+    if refusal == "no such file or directory":
+        raise InputError(f"{path}: no such file; give the folder or the .h5 file that tabor wrote")
+    if refusal:
+        raise InputError(f"{path}: got {refusal}; expected a result of tabor; compute it again")
     try:
         file = h5py.File(path, "r")
-    except FileNotFoundError:
-        raise InputError(f"{path}: no such file; give the folder or the .h5 file that tabor wrote") from None
     except OSError as error:
         reason = str(error).splitlines()[0]
         raise InputError(f"{path}: cannot be read as HDF5 ({reason})") from None
@@ -29,8 +34,8 @@ def open_file(path):
 
 def text(value):
     if isinstance(value, bytes):
-        return value.decode("utf-8", "replace")
-    return str(value)
+        return value.decode("utf-8", "backslashreplace")
+    return readable(value)
 
 
 def plain(value):
@@ -56,8 +61,12 @@ def text_list(value):
 
 
 def child(group, name):
-    """The member `name`, or None if it is absent or its external link leads nowhere."""
+    """The member `name`, or None if it is absent or its external link leads to nothing that can be read."""
     try:
+        link = group.get(name, getlink=True)
+        if isinstance(link, h5py.ExternalLink):
+            if guard.problem(str(Path(group.file.filename).parent / link.filename)):
+                return None
         return group[name]
     except (KeyError, OSError):
         return None

@@ -19,7 +19,7 @@ def make_folder(path):
 def write(path, content):
     """Writes bytes or text; raises OutputError in one line."""
     path = Path(path)
-    data = content.encode("utf-8") if isinstance(content, str) else content
+    data = content.encode("utf-8", "backslashreplace") if isinstance(content, str) else content
     temporary = None
     try:
         with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.", delete=False) as file:
@@ -37,7 +37,7 @@ def table_text(columns):
     """CSV of {name: sequence}; numbers with 17 digits so that nothing is lost."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    writer.writerow(columns.keys())
+    writer.writerow(_harmless(name) for name in columns)
     writer.writerows([_cell(value) for value in row] for row in zip(*columns.values()))
     return stream.getvalue()
 
@@ -55,7 +55,20 @@ def _cell(value):
         return int(value)
     if isinstance(value, float) or hasattr(value, "dtype") and value.dtype.kind == "f":
         return f"{float(value):.17g}"
-    return value
+    return _harmless(value) if isinstance(value, str) else value
+
+
+def _harmless(text):
+    """Text that no spreadsheet computes: an apostrophe says that it is text (as src/tabor/io/csv.cpp)."""
+    return "'" + text if text.lstrip("'")[:1] in tuple("=+-@\t\r\n") and not _is_number(text) else text
+
+
+def _is_number(text):
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
 
 
 def _umask():

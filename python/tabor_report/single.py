@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tabor_report import hdf
-from tabor_report.errors import InputError
+from tabor_report.errors import InputError, readable
 from tabor_report.states import SingleState
 
 
@@ -24,7 +24,7 @@ class Single:
 
     @property
     def title(self):
-        return Path(self.surface_facts.get("source") or self.path.name).name
+        return readable(Path(self.surface_facts.get("source") or self.path.name).name)
 
     @property
     def surface_facts(self):

@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tabor_report import hdf
-from tabor_report.errors import InputError
+from tabor_report.errors import InputError, readable
 from tabor_report.states import Film, Flow, StudyContact
 from tabor_report.table import Table
 
@@ -104,7 +104,7 @@ class Study:
 
     @property
     def title(self):
-        return self.facts.get("title") or self.path.parent.resolve().name
+        return readable(self.facts.get("title") or self.path.parent.resolve().name)
 
     @property
     def saturation_pressure(self):

@@ -10,6 +10,8 @@ matplotlib.use("Agg")
 from matplotlib import pyplot as plt
 from matplotlib.lines import Line2D
 
+from tabor_report.errors import readable
+
 DPI = 180
 WIDTH = 7.2  # inches, a full text column pair
 
@@ -118,7 +120,7 @@ def legend_above(axes, n_columns, handles=None):
 
 def literal(text, longest=60):
     """A user's text without matplotlib reading $...$ as mathematics, cut where it would leave the page."""
-    text = str(text)
+    text = readable(text)
     text = text if len(text) <= longest else text[: longest - 1] + "\N{HORIZONTAL ELLIPSIS}"
     return text.replace("$", r"\$")
 

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <ostream>
+#include <stdexcept>
 
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/verbs.hpp"
@@ -28,7 +28,11 @@ struct Request {
 
 // Debian's own interpreter first: that is where apt puts numpy, h5py and matplotlib.
 fs::path python() {
-  if (const char* chosen = std::getenv("TABOR_PYTHON")) return chosen;
+  if (const char* chosen = std::getenv("TABOR_PYTHON")) {
+    if (fs::path(chosen).has_parent_path()) return chosen;
+    if (const auto found = io::find_program(chosen)) return *found;
+    throw InputError("TABOR_PYTHON", "'" + std::string(chosen) + "'", "a program in PATH", "");
+  }
   if (fs::exists("/usr/bin/python3")) return "/usr/bin/python3";
   if (const auto found = io::find_program("python3")) return *found;
   throw InputError("tabor report", "no python3", "Python 3.9 or newer", "apt install python3");
@@ -46,27 +50,61 @@ fs::path package_folder() {
                    "install tabor with 'cmake --install'");
 }
 
-std::string python_path() {
-  const char* inherited = std::getenv("PYTHONPATH");
-  return package_folder().string() + (inherited ? std::string(":") + inherited : "");
+/// -I: neither the folder somebody works in, perhaps one with files of others, nor variables of
+/// the environment nor packages of the user say what is run; only the interpreter's own packages
+/// and this one. -X utf8: names of files are bytes in any locale.
+std::vector<std::string> python_words(const Request& request) {
+  std::vector<std::string> words{
+      "-I",
+      "-B",
+      "-X",
+      "utf8",
+      "-W",
+      "ignore",
+      "-c",
+      "import sys; sys.path.insert(0, sys.argv.pop(1)); from tabor_report import cli; "
+      "sys.exit(cli.main(sys.argv[1:]))",
+      package_folder().string(),
+      request.result};
+  words.insert(words.end(), request.passed_on.begin(), request.passed_on.end());
+  if (request.no_html) words.emplace_back("--no-html");
+  if (request.all_scans) words.emplace_back("--all-scans");
+  return words;
+}
+
+/// The last line that the program wrote, without the name it gives itself.
+std::string complaint_of(const std::string& output) {
+  constexpr std::string_view name = "tabor report: ";
+  std::string last;
+  for (const std::string& line : split(output, '\n')) {
+    if (!trim(line).empty()) last = line;
+  }
+  return last.starts_with(name) ? last.substr(name.size()) : last;
+}
+
+[[noreturn]] void refuse(const Request& request, const io::Completed& done) {
+  const std::string complaint = complaint_of(done.output);
+  if (done.exit_code == kUsage) throw UsageError(complaint);
+  if (done.exit_code == kInput) throw InputError(complaint);
+  if (done.exit_code == kOutput) throw OutputError(complaint);
+  if (done.exit_code > 128) {
+    throw InputError(
+        request.result,
+        fmt::format("the end of the drawing program by signal {}", done.exit_code - 128),
+        "a result that can be drawn", "the file is damaged or memory ran out");
+  }
+  throw std::runtime_error("report: " + complaint);
 }
 
 int report(const Request& request, Context& context) {
-  std::vector<std::string> arguments = {"-m", "tabor_report", request.result};
-  arguments.insert(arguments.end(), request.passed_on.begin(), request.passed_on.end());
-  if (request.no_html) arguments.emplace_back("--no-html");
-  if (request.all_scans) arguments.emplace_back("--all-scans");
-  const io::Completed done = io::run_program(
-      python(), arguments, {{"PYTHONPATH", python_path()}, {"PYTHONDONTWRITEBYTECODE", "1"}},
-      std::chrono::hours(1));
+  const auto may_stop = [observer = context.observer()] {
+    report_progress(observer, "draw", std::nan(""));
+  };
+  const io::Completed done =
+      io::run_program(python(), python_words(request), {}, std::chrono::hours(1), may_stop);
   if (done.timed_out)
     throw InputError("tabor report: drawing took more than an hour and was ended");
-  if (done.exit_code != 0) {
-    context.err << done.output;
-    return done.exit_code == kUsage || done.exit_code == kInput || done.exit_code == kOutput
-               ? done.exit_code
-               : static_cast<int>(kInternal);
-  }
+  if (done.exit_code != 0) refuse(request, done);
   io::Json object = json_head(context);
   object["files"] = io::Json::array();
   for (const std::string& line : split(done.output, '\n')) {
@@ -108,7 +146,8 @@ Verb report_verb() {
           .summary = "figures and one self-contained HTML page from a study or a result file",
           .details =
               "Needs python3-numpy, python3-h5py, python3-matplotlib and python3-jinja2. "
-              "TABOR_PYTHON chooses another interpreter.",
+              "TABOR_PYTHON chooses another interpreter, such as that of a virtual environment; "
+              "PYTHONPATH, packages of the user and the current folder are not looked at.",
           .examples = {"tabor report study_results", "tabor report contact.h5 -o contact_page"},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();

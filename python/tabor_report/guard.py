@@ -1,0 +1,132 @@
+"""Files of others are tried before they are read: the HDF5 library crashes over damaged ones, or never returns."""
+
+import functools
+import os
+import resource
+import signal
+import stat
+from pathlib import Path, PurePosixPath
+
+import h5py
+
+MIB = 1 << 20
+LARGEST_RATIO = 1100  # deflate shrinks at most 1032 : 1
+
+_FOREIGN_LINK = "a link to a file that is not in its store"
+_VALUES_ELSEWHERE = "values kept in other files"
+_TOO_LARGE = "a data set that claims more than the file holds"
+_DAMAGED = 10  # exit codes of the copy
+_REFUSALS = {11: _FOREIGN_LINK, 12: _VALUES_ELSEWHERE, 13: _TOO_LARGE}
+
+
+class _Refusal(Exception):
+    pass
+
+
+@functools.lru_cache(maxsize=None)
+def problem(path):
+    """Why the file is not to be read; "" if a copy of this process has read all of it."""
+    try:
+        status = os.stat(path)
+    except OSError as error:
+        return error.strerror.lower()
+    if not stat.S_ISREG(status.st_mode):
+        return "a folder, device or pipe"
+    try:
+        child = os.fork()
+    except OSError as error:
+        return f"no process to try it in ({error.strerror.lower()})"
+    if child == 0:
+        _try_and_exit(path, status.st_size)
+    _, ending = os.waitpid(child, 0)
+    code = os.waitstatus_to_exitcode(ending)
+    return "" if code == 0 else _REFUSALS.get(code, "a damaged file")
+
+
+def _try_and_exit(path, size):
+    code = _DAMAGED
+    try:
+        _limit(size)
+        try:
+            file = h5py.File(path, "r")
+        except OSError:
+            os._exit(0)  # what is wrong is said where it is opened
+        _read_all(file)
+        code = 0
+    except _Refusal as refusal:
+        code = next(code for code, text in _REFUSALS.items() if text == str(refusal))
+    finally:
+        os._exit(code)
+
+
+def _limit(size):
+    """Processor time, time and memory for a file of so many bytes, most of them packed."""
+    seconds = 5 + size // (5 * MIB)
+    memory = _address_space() + 512 * MIB + 64 * size
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+    resource.setrlimit(resource.RLIMIT_AS, (memory, resource.getrlimit(resource.RLIMIT_AS)[1]))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    signal.signal(signal.SIGALRM, signal.SIG_DFL)
+    signal.setitimer(signal.ITIMER_REAL, 10 * seconds)
+
+
+def _address_space():
+    with open("/proc/self/statm", encoding="ascii") as file:
+        return int(file.read().split()[0]) * resource.getpagesize()
+
+
+def _read_all(file):
+    _look_at(file)
+    file.visititems(lambda name, node: _look_at(node))
+
+
+def _look_at(node):
+    _without_errors(lambda: list(node.attrs.items()))
+    if isinstance(node, h5py.Group):
+        for name in node:
+            _check_link(node, name)
+    elif isinstance(node, h5py.Dataset):
+        _check_values(node)
+        _without_errors(lambda: _read(node))
+
+
+def _check_link(group, name):
+    link = group.get(name, getlink=True)
+    if isinstance(link, h5py.ExternalLink):
+        target = PurePosixPath(link.filename)
+        is_store = target.parent == PurePosixPath("store") and target.suffix == ".h5"
+        if not is_store or not group.name.startswith("/scans/") or _is_no_file(group, link):
+            raise _Refusal(_FOREIGN_LINK)
+
+
+def _is_no_file(group, link):
+    """A pipe or device, which the library would wait for; one that is absent is only missing."""
+    path = Path(group.file.filename).parent / link.filename
+    return path.exists() and not path.is_file()
+
+
+def _check_values(dataset):
+    created = dataset.id.get_create_plist()
+    if created.get_layout() == h5py.h5d.VIRTUAL or created.get_external_count() > 0:
+        raise _Refusal(_VALUES_ELSEWHERE)
+    if dataset.size and dataset.nbytes > max(MIB, LARGEST_RATIO * dataset.id.get_storage_size()):
+        raise _Refusal(_TOO_LARGE)
+
+
+def _read(dataset):
+    """All of it, piece by piece."""
+    if not dataset.shape or dataset.nbytes < MIB:
+        return dataset[()]
+    step = max(1, 8 * MIB * len(dataset) // dataset.nbytes)
+    for start in range(0, len(dataset), step):
+        dataset[start : start + step]
+
+
+def _without_errors(action):
+    """An error is no crash: what comes of it is said where the value is used."""
+    try:
+        action()
+    except MemoryError:
+        raise
+    except Exception:
+        pass
