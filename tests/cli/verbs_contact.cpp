@@ -200,6 +200,27 @@ TEST_F(ContactVerb, LowPassScanRepeatsTheContactForEveryCutoff) {
   EXPECT_EQ(result.at("plateaus").size(), 1u);
 }
 
+/// The scan's numbers are those of the plain command with the same filter, on rectangular scans and
+/// after --mirror too, and the wavelength it shows is the filter's.
+TEST_F(ContactVerb, LowPassScanMeansTheCutoffsOfTheFilter) {
+  const std::string wide = file("wide.h5");
+  ASSERT_EQ(run_tabor({"generate", "self-affine", "-o", wide, "--pixels", "64,32", "--pixel",
+                       "1um,0.5um", "--rms-slope", "0.1"})
+                .code,
+            0);
+  const double side = std::sqrt(64e-6 * 16e-6);
+  for (const Words& treatment : {Words{}, Words{"--mirror"}}) {
+    Words words = contact("20MPa") + treatment;
+    words[1] = wide;
+    const io::Json state = json_of(words + Words{"--lowpass-scan", "4,8"}).at("states").at(1);
+    EXPECT_NEAR(state.at("cutoff_wavelength_m").get<double>(), side / 8, 1e-12 * side);
+    const io::Json plain = json_of(words + Words{"--lowpass", "hann:8/L"}).at("states").at(0);
+    for (const char* key : {"contact_area_fraction", "mean_gap_m", "max_pressure_Pa"}) {
+      EXPECT_EQ(state.at(key), plain.at(key)) << key;
+    }
+  }
+}
+
 TEST_F(ContactVerb, TableShowsCertificateAndConvergence) {
   const Outcome outcome = run_tabor(contact("20MPa"));
   EXPECT_THAT(outcome.out, testing::AllOf(HasSubstr("20 MPa"), HasSubstr("certificate"),

@@ -88,6 +88,17 @@ TEST(HannFilter, MeansOneCopyOfTheScanAfterMirroring) {
   EXPECT_EQ(cutoff(history.back()), cutoff(plain.back()));
 }
 
+TEST(HannFilter, MeansOneCopyOfTheScanHoweverManyStepsLater) {
+  const auto rough = noise(kGrid);
+  const auto later = apply({"lowpass=hann:8/L"}, apply({"mirror"}, rough));
+  const auto at_once = apply({"mirror", "lowpass=hann:8/L"}, rough);
+  EXPECT_TRUE(same_bits(later.height, at_once.height));
+  EXPECT_EQ(filter_side(later), scan_side(kGrid));
+  // A cut-out is a scan of its own.
+  const auto cut = apply({"mirror", "crop=3,2,20,10"}, rough);
+  EXPECT_DOUBLE_EQ(filter_side(cut), std::sqrt(cut.grid.lx * cut.grid.ly));
+}
+
 TEST(HannFilter, NeedsASurfaceWithoutHoles) {
   auto holed = noise(kGrid);
   holed.height(3, 3) = kHole;

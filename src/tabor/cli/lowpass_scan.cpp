@@ -8,6 +8,7 @@
 #include "tabor/cli/result.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
+#include "tabor/topography/filters.hpp"
 #include "tabor/topography/parameters.hpp"
 
 namespace tabor::cli {
@@ -42,7 +43,7 @@ struct Gathered {
 
 void add(Gathered& table, double cutoff, const topography::Topography& surface,
          const ContactResult& result, double friction) {
-  const double wavelength = std::max(surface.grid.lx, surface.grid.ly) / cutoff;
+  const double wavelength = topography::filter_side(surface) / cutoff;
   const double slope = topography::rms_slope(surface);
   io::Json state = {{"lowpass", filter_of(cutoff)},
                     {"cutoff_per_length", cutoff},

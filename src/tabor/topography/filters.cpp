@@ -176,9 +176,9 @@ std::string doubt_about(const Filter& filter, double wavelength, const Grid& gri
   return "";
 }
 
-Topography filtered(Topography topography, const Filter& filter, double side, bool high) {
+Topography filtered(Topography topography, const Filter& filter, bool high) {
   const Topography before = std::move(topography);
-  side = side > 0 ? side : scan_side(before.grid);
+  const double side = filter_side(before);
   Topography result = before;
   result.height = low_pass(before.height, before.grid, filter, side, before.periodic);
   if (high) {
@@ -186,7 +186,7 @@ Topography filtered(Topography topography, const Filter& filter, double side, bo
   }
   const auto doubt = doubt_about(filter, filter.cutoff_wavelength(side), before.grid);
   if (!doubt.empty()) {
-    result.doubts.push_back({.text = doubt});
+    result.doubts.push_back({.text = doubt, .code = "filter"});
   }
   result.history.push_back(describe(high ? "highpass" : "lowpass", filter, side, before, result));
   return result;
@@ -218,6 +218,10 @@ double scan_side(const Grid& grid) {
   return std::sqrt(grid.lx * grid.ly);
 }
 
+double filter_side(const Topography& topography) {
+  return scan_side(topography.grid) / topography.tiles;
+}
+
 Field low_pass(const Field& height, const Grid& grid, const Filter& filter, double side,
                bool periodic) {
   const double wavelength = filter.cutoff_wavelength(side);
@@ -227,12 +231,12 @@ Field low_pass(const Field& height, const Grid& grid, const Filter& filter, doub
              : hann_low_pass(height, grid, filter.kind, wavelength);
 }
 
-Topography low_pass(Topography topography, const Filter& filter, double side) {
-  return filtered(std::move(topography), filter, side, false);
+Topography low_pass(Topography topography, const Filter& filter) {
+  return filtered(std::move(topography), filter, false);
 }
 
-Topography high_pass(Topography topography, const Filter& filter, double side) {
-  return filtered(std::move(topography), filter, side, true);
+Topography high_pass(Topography topography, const Filter& filter) {
+  return filtered(std::move(topography), filter, true);
 }
 
 }  // namespace tabor::topography

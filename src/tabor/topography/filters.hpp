@@ -38,6 +38,9 @@ std::string to_string(const Filter& filter);
 /// that the number of Fourier modes below the cutoff does not depend on the shape of the scan.
 double scan_side(const Grid& grid);
 
+/// The same of one copy of the scan where mirror() has made more of it: the L of every filter.
+double filter_side(const Topography& topography);
+
 /// The smoothed heights. Hann windows act on the discrete Fourier transform and need a field
 /// without holes (InputError naming `--fill harmonic`); the Gaussian keeps holes as holes without
 /// weight and wraps round only where `periodic`. Throws InputError for a cutoff of more than 100
@@ -46,10 +49,9 @@ Field low_pass(const Field& height, const Grid& grid, const Filter& filter, doub
                bool periodic);
 
 /// Low-pass (S-filter) and its complement z - low-pass (L-filter), with a line in the history, and
-/// a doubt where the cutoff is longer than the scan or too short to change anything.
-/// `side` is the L of "512/L"; 0 means scan_side(grid). After mirror tiling give the side before
-/// it.
-Topography low_pass(Topography topography, const Filter& filter, double side = 0);
-Topography high_pass(Topography topography, const Filter& filter, double side = 0);
+/// a doubt where the cutoff is longer than the scan or too short to change anything. The L of
+/// "512/L" is filter_side(topography).
+Topography low_pass(Topography topography, const Filter& filter);
+Topography high_pass(Topography topography, const Filter& filter);
 
 }  // namespace tabor::topography

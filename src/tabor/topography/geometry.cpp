@@ -29,6 +29,7 @@ Topography crop(Topography topography, const PixelWindow& window) {
         fmt::format("x0,y0,nx,ny inside the {} x {} pixels of the scan", grid.nx, grid.ny), "");
   }
   topography.periodic = topography.periodic && window.nx == grid.nx && window.ny == grid.ny;
+  topography.tiles = 1;
   const Field part = topography.height.block(window.y0, window.x0, window.ny, window.nx);
   topography.height = part;
   set_spacing(topography.grid, window.nx, window.ny);
@@ -58,6 +59,7 @@ Topography mirror(Topography topography) {
   topography.height = std::move(tiled);
   set_spacing(topography.grid, 2 * topography.grid.nx, 2 * topography.grid.ny);
   topography.periodic = true;
+  topography.tiles *= 2;
   topography.history.push_back(
       fmt::format("mirror: {} x {} pixels, periodic", topography.grid.nx, topography.grid.ny));
   return topography;

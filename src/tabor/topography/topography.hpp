@@ -17,6 +17,7 @@ struct Doubt {
   };
   std::string text;
   About about = About::record;
+  std::string code = "file";  ///< its name in docs/warnings.md
 };
 
 /// The sentences alone.
@@ -27,6 +28,7 @@ struct Topography {
   Grid grid;
   Field height;            ///< [m], asperities up, NaN = hole
   bool periodic = false;   ///< true for generated surfaces that tile without a seam
+  double tiles = 1;        ///< copies of the scan along each side, made by mirror()
   std::string source;      ///< file name or recipe
   std::string format;      ///< as in `tabor formats`, e.g. "x3p"
   std::string instrument;  ///< as the file names it, "" if it does not

@@ -21,15 +21,7 @@
 namespace tabor::topography {
 namespace {
 
-/// What later steps must know of earlier ones.
-struct ChainState {
-  double tiles = 1;  ///< copies of the scan along each side since `mirror`; "512/L" means one copy
-  const Observer* observer = nullptr;
-
-  double side(const Grid& grid) const { return scan_side(grid) / tiles; }
-};
-
-using Action = std::function<Topography(Topography, ChainState&)>;
+using Action = std::function<Topography(Topography, const Observer&)>;
 
 /// A step of the chain: how it is written and how its argument becomes an action.
 struct Step {
@@ -49,7 +41,7 @@ Action parse_level(const std::string& argument) {
   if (!form) {
     refuse("level", argument, {"none", "mean", "poly2", "poly3", "poly4", "plane"});
   }
-  return [form](Topography t, ChainState&) { return level(std::move(t), *form); };
+  return [form](Topography t, const Observer&) { return level(std::move(t), *form); };
 }
 
 Action parse_fill(const std::string& argument) {
@@ -57,22 +49,20 @@ Action parse_fill(const std::string& argument) {
   if (!fill) {
     refuse("fill", argument, {"nearest", "mean", "harmonic"});
   }
-  return [fill](Topography t, ChainState& state) {
-    return fill_holes(std::move(t), *fill, *state.observer);
+  return [fill](Topography t, const Observer& observer) {
+    return fill_holes(std::move(t), *fill, observer);
   };
 }
 
 Action parse_low_pass(const std::string& argument) {
-  return [filter = parse_filter(argument, "lowpass")](Topography t, ChainState& state) {
-    const double side = state.side(t.grid);
-    return low_pass(std::move(t), filter, side);
+  return [filter = parse_filter(argument, "lowpass")](Topography t, const Observer&) {
+    return low_pass(std::move(t), filter);
   };
 }
 
 Action parse_high_pass(const std::string& argument) {
-  return [filter = parse_filter(argument, "highpass")](Topography t, ChainState& state) {
-    const double side = state.side(t.grid);
-    return high_pass(std::move(t), filter, side);
+  return [filter = parse_filter(argument, "highpass")](Topography t, const Observer&) {
+    return high_pass(std::move(t), filter);
   };
 }
 
@@ -121,8 +111,7 @@ std::vector<Coordinate> parse_coordinates(const std::string& step, const std::st
 Action parse_crop(const std::string& argument) {
   const auto c = parse_coordinates(
       "crop", argument, 4, "x0,y0,nx,ny in pixels or lengths (0,0,512,512 or 0um,0um,300um,300um)");
-  return [c](Topography t, ChainState& state) {
-    state.tiles = 1;
+  return [c](Topography t, const Observer&) {
     const double dx = t.grid.dx(), dy = t.grid.dy();
     return crop(std::move(t), {c[0].pixels(dx), c[1].pixels(dy), c[2].pixels(dx), c[3].pixels(dy)});
   };
@@ -131,15 +120,14 @@ Action parse_crop(const std::string& argument) {
 Action parse_trim(const std::string& argument) {
   const auto c =
       parse_coordinates("trim", argument, 1, "a margin in pixels or as a length (125um)");
-  return [margin = c[0]](Topography t, ChainState& state) {
-    state.tiles = 1;
+  return [margin = c[0]](Topography t, const Observer&) {
     const Index mx = margin.pixels(t.grid.dx()), my = margin.pixels(t.grid.dy());
     return trim_margins(std::move(t), mx, my);
   };
 }
 
 Action parse_despike(const std::string& argument) {
-  return [rule = parse_spike_rule(argument)](Topography t, ChainState&) {
+  return [rule = parse_spike_rule(argument)](Topography t, const Observer&) {
     return remove_spikes(std::move(t), rule);
   };
 }
@@ -149,7 +137,7 @@ Action parse_resample(const std::string& argument) {
   if (c[0].is_length || c[1].is_length) {
     throw InputError("resample", fmt::format("'{}'", argument), "nx,ny in pixels (1024,1024)", "");
   }
-  return [c](Topography t, ChainState&) {
+  return [c](Topography t, const Observer&) {
     return resample(std::move(t), c[0].pixels(1), c[1].pixels(1));
   };
 }
@@ -158,17 +146,14 @@ Action parse_mirror(const std::string& argument) {
   if (!argument.empty()) {
     throw InputError("mirror", fmt::format("'{}'", argument), "no value", "write just mirror");
   }
-  return [](Topography t, ChainState& state) {
-    state.tiles *= 2;
-    return mirror(std::move(t));
-  };
+  return [](Topography t, const Observer&) { return mirror(std::move(t)); };
 }
 
 Action parse_flip(const std::string& argument) {
   if (argument != "x" && argument != "y") {
     refuse("flip", argument, {"y", "x"});
   }
-  return [axis = argument == "x" ? Axis::x : Axis::y](Topography t, ChainState&) {
+  return [axis = argument == "x" ? Axis::x : Axis::y](Topography t, const Observer&) {
     return flip(std::move(t), axis);
   };
 }
@@ -239,12 +224,10 @@ void check(const Treatment& treatment) {
 
 Topography apply(const Treatment& treatment, Topography topography, const Observer& observer) {
   check(treatment);  // a typing error in the last step is found before the first one runs
-  ChainState state;
-  state.observer = &observer;
   for (std::size_t i = 0; i < treatment.size(); ++i) {
     report_progress(observer, "treatment",
                     static_cast<double>(i) / static_cast<double>(treatment.size()));
-    topography = parse_step(treatment[i])(std::move(topography), state);
+    topography = parse_step(treatment[i])(std::move(topography), observer);
   }
   if (!treatment.empty()) {
     const bool looked_for_spikes =
