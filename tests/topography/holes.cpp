@@ -5,6 +5,7 @@
 #include "sample_surfaces.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/topography/geometry.hpp"
+#include "tabor/topography/treatment.hpp"
 
 namespace tabor::topography::test {
 namespace {
@@ -163,6 +164,24 @@ TEST(Fill, SaysHowMuchWasFilled) {
   holed.height.block(10, 10, 10, 11) = kHole;
   EXPECT_THAT(fill_holes(holed, Fill::harmonic).history.back(),
               testing::StartsWith("fill=harmonic: 110 pixels (1.1 %) in 1 holes, largest 110"));
+}
+
+TEST(Fill, InventedHeightsStayADoubtWhateverFollows) {
+  for (const Fill fill : {Fill::harmonic, Fill::nearest, Fill::mean}) {
+    for (const double share : {0.3, 0.8}) {
+      auto holed = noise(kGrid);
+      punch_holes(holed, share);
+      const auto treated =
+          apply({"fill=" + std::string(name_of(fill)), "level=plane", "mirror"}, holed);
+      const auto doubts = texts(treated.doubts);
+      EXPECT_THAT(doubts, testing::Contains(testing::HasSubstr("were holes")));
+      EXPECT_THAT(doubts, testing::Contains(testing::HasSubstr("most of the area is invented"))
+                              .Times(share > 0.5 ? 1 : 0));
+    }
+  }
+  auto nearly_whole = noise(kGrid);
+  nearly_whole.height(3, 3) = kHole;
+  EXPECT_TRUE(fill_holes(nearly_whole, Fill::harmonic).doubts.empty());
 }
 
 TEST(Fill, RefusesASurfaceOfHolesOnly) {

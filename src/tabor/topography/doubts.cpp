@@ -125,52 +125,62 @@ double mean_square(const Levelled& levelled) {
   return total(levelled, [mean](double z) { return (z - mean) * (z - mean); })[1] / first[0];
 }
 
-void doubt_pixels(const Grid& grid, std::vector<std::string>& list) {
+void doubt_pixels(const Grid& grid, std::vector<Doubt>& list) {
   constexpr double kSquare = 1e-3;
   if (std::abs(grid.dx() / grid.dy() - 1) > kSquare) {
-    list.push_back(fmt::format("pixels are not square: {} x {}", format_si(grid.dx(), "m"),
-                               format_si(grid.dy(), "m")));
+    list.push_back({.text = fmt::format("pixels are not square: {} x {}", format_si(grid.dx(), "m"),
+                                        format_si(grid.dy(), "m")),
+                    .about = Doubt::About::heights,
+                    .code = "pixels-not-square"});
   }
 }
 
-void doubt_sizes(const Grid& grid, std::vector<std::string>& list) {
+void doubt_sizes(const Grid& grid, std::vector<Doubt>& list) {
   constexpr Index kFastPrime = 13;  // FFTW has fast kernels up to it
   for (const auto& [n, axis] : {std::pair(grid.nx, "x"), std::pair(grid.ny, "y")}) {
     const Index prime = spectral::largest_prime_factor(n);
     if (prime <= kFastPrime) continue;
     Index fast = n;
     while (spectral::largest_prime_factor(fast) > kFastPrime) --fast;
-    list.push_back(
-        fmt::format("{} pixels along {} have the prime factor {}: transforms are slow; crop to {}",
-                    n, axis, prime, fast));
+    list.push_back({.text = fmt::format("{} pixels along {} have the prime factor {}: transforms "
+                                        "are slow; crop to {}",
+                                        n, axis, prime, fast),
+                    .about = Doubt::About::heights,
+                    .code = "slow-size"});
   }
 }
 
-void doubt_holes(const Topography& topography, std::vector<std::string>& list) {
+void doubt_holes(const Topography& topography, std::vector<Doubt>& list) {
   const Index n_holes = count_holes(topography);
   if (n_holes == 0) return;
-  list.push_back(fmt::format(
-      "{} of {} pixels are missing ({:.2g} %)", n_holes, topography.grid.size(),
-      100 * static_cast<double>(n_holes) / static_cast<double>(topography.grid.size())));
+  list.push_back(
+      {.text = fmt::format(
+           "{} of {} pixels are missing ({:.2g} %)", n_holes, topography.grid.size(),
+           100 * static_cast<double>(n_holes) / static_cast<double>(topography.grid.size())),
+       .about = Doubt::About::heights,
+       .code = "missing-pixels"});
 }
 
-void doubt_quantum(double quantum, double rms, std::vector<std::string>& list) {
+void doubt_quantum(double quantum, double rms, std::vector<Doubt>& list) {
   constexpr double kCoarse = 0.02;
   constexpr double kPlane = 1e-6;  // heights on a plane but for rounding
   if (quantum > kCoarse * rms && rms > kPlane * quantum) {
-    list.push_back(fmt::format("heights come in steps of {}, {:.2g} of their rms",
-                               format_si(quantum, "m"), quantum / rms));
+    list.push_back({.text = fmt::format("heights come in steps of {}, {:.2g} of their rms",
+                                        format_si(quantum, "m"), quantum / rms),
+                    .code = "height-steps"});
   }
 }
 
-void doubt_spikes(const Field& height, std::vector<std::string>& list) {
+void doubt_spikes(const Field& height, std::vector<Doubt>& list) {
   const Index spikes = count_spikes(height);
   if (spikes == 0) return;
-  list.push_back(
-      fmt::format("{} spike{} ({:.2g} %): slopes and contact depend on them; --despike auto "
-                  "takes them out",
-                  spikes, spikes == 1 ? "" : "s",
-                  100 * static_cast<double>(spikes) / static_cast<double>(height.size())));
+  list.push_back({.text = fmt::format(
+                      "{} spike{} ({:.2g} %): slopes and contact depend on them; --despike auto "
+                      "takes them out",
+                      spikes, spikes == 1 ? "" : "s",
+                      100 * static_cast<double>(spikes) / static_cast<double>(height.size())),
+                  .about = Doubt::About::spikes,
+                  .code = "spikes"});
 }
 
 /// Heights above their least-squares plane; as they are if they do not determine one. The plane of
@@ -207,24 +217,25 @@ Rms rms_of(const Field& height) {
 }
 
 /// Doubts that a treatment can dispel or raise.
-std::vector<std::string> about_heights(const Topography& topography, const Rms& rms) {
-  std::vector<std::string> list;
+std::vector<Doubt> about_heights(const Topography& topography, const Rms& rms) {
+  std::vector<Doubt> list;
   if (is_profile(topography.grid)) {
-    list.emplace_back("a profile of one row: areal results do not apply");
+    list.push_back({.text = "a profile of one row: areal results do not apply",
+                    .about = Doubt::About::heights,
+                    .code = "profile"});
   } else {
     doubt_pixels(topography.grid, list);
     doubt_sizes(topography.grid, list);
   }
   doubt_holes(topography, list);
   if (rms.as_is > 2 * rms.levelled && rms.levelled > 0) {
-    list.push_back(fmt::format("tilt is larger than roughness: Sq {} becomes {} without its plane",
-                               format_si(rms.as_is, "m"), format_si(rms.levelled, "m")));
+    list.push_back(
+        {.text = fmt::format("tilt is larger than roughness: Sq {} becomes {} without its plane",
+                             format_si(rms.as_is, "m"), format_si(rms.levelled, "m")),
+         .about = Doubt::About::heights,
+         .code = "tilt"});
   }
   return list;
-}
-
-void add(std::vector<std::string> found, Doubt::About about, std::vector<Doubt>& list) {
-  for (std::string& text : found) list.push_back({.text = std::move(text), .about = about});
 }
 
 }  // namespace
@@ -245,14 +256,9 @@ double height_quantum(const Field& height) {
 
 std::vector<Doubt> doubts(const Topography& topography) {
   const Rms rms = rms_of(topography.height);
-  std::vector<std::string> measurement;
-  doubt_quantum(height_quantum(topography.height), rms.levelled, measurement);
-  std::vector<std::string> spikes;
-  doubt_spikes(topography.height, spikes);
-  std::vector<Doubt> list;
-  add(about_heights(topography, rms), Doubt::About::heights, list);
-  add(std::move(measurement), Doubt::About::record, list);
-  add(std::move(spikes), Doubt::About::spikes, list);
+  std::vector<Doubt> list = about_heights(topography, rms);
+  doubt_quantum(height_quantum(topography.height), rms.levelled, list);
+  doubt_spikes(topography.height, list);
   return list;
 }
 
@@ -261,8 +267,9 @@ void renew_doubts(Topography& topography, bool looked_for_spikes) {
     return doubt.about == Doubt::About::heights ||
            (looked_for_spikes && doubt.about == Doubt::About::spikes);
   });
-  add(about_heights(topography, rms_of(topography.height)), Doubt::About::heights,
-      topography.doubts);
+  for (Doubt& doubt : about_heights(topography, rms_of(topography.height))) {
+    topography.doubts.push_back(std::move(doubt));
+  }
 }
 
 }  // namespace tabor::topography

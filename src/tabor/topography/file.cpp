@@ -175,6 +175,7 @@ Topography ScanFile::read(const ReadOptions& options) const {
   topography.metadata = document.metadata;
   topography.history = document.history;
   for (std::string& doubt : found) topography.doubts.push_back({.text = std::move(doubt)});
+  for (const Doubt& doubt : document.lasting) topography.doubts.push_back(doubt);
   for (Doubt& doubt : doubts(topography)) topography.doubts.push_back(std::move(doubt));
   contents.finished({}, 1);
   return topography;

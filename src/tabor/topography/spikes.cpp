@@ -286,7 +286,8 @@ Topography remove_spikes(Topography topography, const SpikeRule& rule) {
   if (n_spikes > 0) {
     topography.doubts.push_back(
         {.text = fmt::format("despike took {} spike{} out of {} heights", n_spikes,
-                             n_spikes == 1 ? "" : "s", spikes.size())});
+                             n_spikes == 1 ? "" : "s", spikes.size()),
+         .code = "despiked"});
   }
   topography.history.push_back(fmt::format(
       "despike={},{},{}: {} of {} heights ({:.3g} %) were spikes and became {}{}", rule.threshold,

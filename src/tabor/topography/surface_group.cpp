@@ -21,6 +21,9 @@ void write_surface_group(io::Hdf5Writer& writer, const Topography& surface,
   writer.attribute("/surface", "channel", surface.channel);
   writer.attribute("/surface", "treatment", surface.history);
   writer.attribute("/surface", "doubts", texts(surface.doubts));
+  std::vector<std::string> codes;
+  for (const Doubt& doubt : surface.doubts) codes.push_back(doubt.code);
+  writer.attribute("/surface", "doubt_codes", codes);
   writer.attribute("/surface", "periodic", surface.periodic ? 1 : 0);
   writer.attribute("/surface", "pixel_x_m", surface.grid.dx());
   writer.attribute("/surface", "pixel_y_m", surface.grid.dy());

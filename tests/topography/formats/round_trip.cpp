@@ -1,5 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "tabor/topography/holes.hpp"
 #include "topography/formats/sample.hpp"
 
 namespace tabor::topography {
@@ -53,6 +56,18 @@ TEST_P(RoundTrip, OfOnePixelRowsWorks) {
 INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
                          ::testing::Values(".h5", ".gwy", ".sdf", ".asdf", ".x3p", ".txt", ".xyz"),
                          [](const auto& suite) { return std::string(suite.param).substr(1); });
+
+TEST(H5, RemembersThatHeightsWereInvented) {
+  const Folder folder;
+  Topography map = fill_holes(test::small_map(), Fill::nearest);  // 2 of its few pixels are holes
+  const auto is_invented = [](const Doubt& doubt) { return doubt.code == "filled-holes"; };
+  ASSERT_EQ(std::count_if(map.doubts.begin(), map.doubts.end(), is_invented), 1);
+  for (int copy = 0; copy < 2; ++copy) {
+    write(map, folder / "map.h5");
+    map = read(folder / "map.h5");
+    EXPECT_EQ(std::count_if(map.doubts.begin(), map.doubts.end(), is_invented), 1);
+  }
+}
 
 TEST(Gsf, KeepsFloat32Heights) {
   const Folder folder;

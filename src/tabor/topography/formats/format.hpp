@@ -58,6 +58,7 @@ struct Document {
   std::string instrument = {};
   std::map<std::string, std::string> metadata = {};
   std::vector<std::string> doubts = {};   ///< what the reader had to assume
+  std::vector<Doubt> lasting = {};        ///< doubts recorded in the file that nothing dispels
   std::vector<std::string> history = {};  ///< treatment recorded in the file
   bool periodic = false;
   std::vector<Layer> layers = {};

@@ -114,6 +114,21 @@ std::string now_utc() {
   return text;
 }
 
+/// Doubts are found anew in the heights; the old ones may have been treated away since. But heights
+/// that were invented cannot be told from others any more.
+void add_doubts(const io::Hdf5Reader& reader, Document& document) {
+  const std::vector<std::string> doubts = texts_or_none(reader, "doubts");
+  std::vector<std::string> codes = texts_or_none(reader, "doubt_codes");
+  codes.resize(doubts.size());
+  for (std::size_t i = 0; i < doubts.size(); ++i) {
+    if (codes[i] == "filled-holes") {
+      document.lasting.push_back({.text = doubts[i], .code = codes[i]});
+    } else {
+      document.metadata["earlier doubts"] += doubts[i] + "; ";
+    }
+  }
+}
+
 Document describe(const Contents& contents) {
   const io::Hdf5Reader reader(contents.file);
   if (!reader.exists(kHeight)) {
@@ -133,10 +148,7 @@ Document describe(const Contents& contents) {
     document.metadata["methods"] =
         fmt::format("{}", fmt::join(reader.attribute_texts("/", "methods"), " "));
   }
-  // Doubts are found anew in the heights; the old ones may have been treated away since.
-  for (const std::string& doubt : texts_or_none(reader, "doubts")) {
-    document.metadata["earlier doubts"] += doubt + "; ";
-  }
+  add_doubts(reader, document);
   document.layers.push_back({.name = "height",
                              .unit = unit_of(reader, kHeight),
                              .nx = shape[1],
