@@ -5,6 +5,7 @@
 
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
+#include "tabor/io/atomic_file.hpp"
 #include "tabor/io/hdf5.hpp"
 
 namespace tabor::cli {
@@ -209,6 +210,35 @@ TEST(EhlLine, SharesTheLoadWithAsperities) {
               0.09 * json["asperity_load_share"].get<double>(), 1e-12);
   EXPECT_TRUE(io::Hdf5Reader(file).exists("/profile/asperity_pressure"));
   EXPECT_FALSE(json_of(quick()).contains("asperity_load_share"));
+}
+
+TEST(EhlLine, GivesNoFrictionOfSolidsThatTheCaseSaysNothingOf) {
+  const test::Folder folder;
+  const std::string file = folder / "bare.toml";
+  std::string text = io::read_text(TABOR_SOURCE_DIR "/examples/11_hdpe_glycerol/mixed.toml");
+  const std::string law = "friction_coefficient = 0.09";
+  ASSERT_NE(text.find(law), std::string::npos);
+  std::ofstream(file) << text.erase(text.find(law), law.size());
+  const std::vector<std::string> bare = {"ehl", "line", file, "--set", "grid.nodes=600"};
+  const io::Json json = json_of(bare);
+  EXPECT_GT(json["asperity_load_share"], 0.1);
+  EXPECT_TRUE(json["friction_solid"].is_null());
+  EXPECT_TRUE(json["friction_coefficient"].is_null());
+  EXPECT_TRUE(json["friction_force_N_per_m"].is_null());
+  EXPECT_TRUE(json["friction_fluid"].is_number());
+  EXPECT_THAT(json["warnings"].dump(), HasSubstr("frictionless"));
+  EXPECT_THAT(run_tabor(bare).out, HasSubstr("friction coefficient  -"));
+}
+
+TEST(EhlLine, GivesNoFrictionThatNoOilHas) {
+  const std::vector<std::string> steel =
+      quick({"--set", "solids.youngs_modulus=200GPa", "--set", "cylinder.load_per_length=100 kN/m",
+             "--set", "lubricant.pressure_viscosity=2e-8 1/Pa", "--set", "grid.nodes=1200"});
+  const io::Json json = json_of(steel);
+  EXPECT_EQ(json["converged"], true);
+  EXPECT_TRUE(json["friction_coefficient"].is_null());
+  EXPECT_TRUE(json["max_shear_stress_Pa"].is_null());
+  EXPECT_THAT(json["warnings"].dump(), HasSubstr("oils give way"));
 }
 
 TEST(EhlLine, RefusesAsperitiesThatMakeNoSense) {

@@ -15,6 +15,7 @@ using test::json_of;
 using test::Outcome;
 using test::run_tabor;
 using testing::HasSubstr;
+using testing::Not;
 
 /// The ball of Redlich, Bartel & Deters on a grid that is quick rather than fine.
 class EhlPoint : public testing::Test {
@@ -81,7 +82,12 @@ TEST_F(EhlPoint, TouchingSolidsRubAsTheCaseSays) {
   };
   const io::Json bare = json_of(ball(slow));
   ASSERT_GT(bare["contact_load_share"].get<double>(), 0.5);
-  EXPECT_EQ(bare["friction_solid"], 0);
+  EXPECT_TRUE(bare["friction_solid"].is_null());
+  EXPECT_TRUE(bare["friction_coefficient"].is_null());
+  EXPECT_THAT(bare["warnings"].dump(), HasSubstr("frictionless"));
+  const io::Json smooth = with("asperities.friction_coefficient=0");  // said, so believed
+  EXPECT_EQ(smooth["friction_solid"], 0);
+  EXPECT_THAT(smooth["warnings"].dump(), Not(HasSubstr("frictionless")));
   const io::Json rubbing = with("asperities.friction_coefficient=0.1");
   EXPECT_NEAR(rubbing["friction_solid"].get<double>(),
               0.1 * bare["contact_load_share"].get<double>(), 1e-9);
@@ -91,6 +97,39 @@ TEST_F(EhlPoint, TouchingSolidsRubAsTheCaseSays) {
   refused(ball({"asperities.shear_strength=50MPa", "asperities.friction_coefficient=0.1"}),
           "one of the two");
   refused(ball({"asperities.friction_coefficient=-0.1"}), "zero or more");
+}
+
+TEST_F(EhlPoint, TheCentralFilmIsOneQuantityInAllUnits) {
+  for (const std::vector<std::string>& changes :
+       {std::vector<std::string>{}, {"roughness.kind=lapped-like", "grid.nodes=49"}}) {
+    const io::Json json = json_of(ball(changes));
+    const double film = json["central_film_m"].get<double>();
+    const double least = json["min_film_m"].get<double>();
+    EXPECT_NEAR(json["Hc"].get<double>() / json["Hm"].get<double>() / (film / least), 1, 1e-12);
+    // U = eta0 u_m/(E' R)
+    const double moes = 1.5e-3 * std::sqrt(2 * 0.149 * 0.5 / (230.8e9 * 1.5e-3));
+    EXPECT_NEAR(json["Hc"].get<double>() * moes / film, 1, 1e-6);
+    const double hertz = json["hertz_radius_m"].get<double>();
+    EXPECT_NEAR(json["hertz_units"]["Hc"].get<double>() * hertz * hertz / 1.5e-3 / film, 1, 1e-6);
+  }
+}
+
+TEST_F(EhlPoint, GivesNoFrictionThatNoOilHas) {
+  std::vector<std::string> words = {"ehl",           "point", groups_,       "--set",
+                                    "grid.nodes=33", "--set", "groups.M=200"};
+  const auto with = [&](const std::string& change) {
+    std::vector<std::string> all = words;
+    all.insert(all.end(), {"--set", change});
+    return all;
+  };
+  const io::Json sliding = json_of(with("motion.sliding_speed=1 m/s"));
+  for (const char* key : {"friction_fluid", "friction_coefficient", "max_shear_stress_Pa"}) {
+    EXPECT_TRUE(sliding[key].is_null()) << key;
+  }
+  EXPECT_EQ(sliding["friction_solid"], 0);
+  EXPECT_THAT(sliding["warnings"].dump(), HasSubstr("eyring_stress"));
+  const io::Json rolling = json_of(with("motion.sliding_speed=0 m/s"));
+  EXPECT_EQ(rolling["friction_coefficient"], 0);
 }
 
 TEST_F(EhlPoint, TakesMoesGroups) {

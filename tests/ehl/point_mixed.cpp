@@ -24,12 +24,13 @@ using testing::HasSubstr;
 
 constexpr double kMicro = 1e-6;
 
-/// Redlich's case on a small domain and a coarse grid.
+/// Redlich's case on a small domain and a coarse grid; solids rub only where they flow, as there.
 PointProblem small_case(double ball_speed, Index nodes = 65) {
   PointProblem problem = test::redlich_case(ball_speed, nodes);
   problem.inlet = 2.5;
   problem.half_width = 1.75;
   problem.nodes_y = nodes * 7 / 8;
+  problem.asperities.friction_coefficient = 0;
   return problem;
 }
 
@@ -66,7 +67,10 @@ void expect_conditions(const PointProblem& problem, const PointResult& result) {
   Field total = result.pressure;
   if (result.contact_pressure.size() > 0) {
     EXPECT_GE(result.contact_pressure.minCoeff(), 0);
-    EXPECT_EQ((result.contact_pressure * result.film).maxCoeff(), 0);
+    const Mask solid = touching_nodes(result);
+    EXPECT_TRUE((solid == (result.film <= 0 || result.plastic_depth > 0)).all());
+    EXPECT_EQ(solid.select(0, result.contact_pressure).maxCoeff(), 0);
+    EXPECT_EQ(solid.select(result.pressure, 0).maxCoeff(), 0);
     total += result.contact_pressure;
   }
   EXPECT_LE(total.maxCoeff(), problem.plastic_pressure);
@@ -137,7 +141,7 @@ TEST(SolvePointMixed, TakesTheBumpPlastically) {
   const PointResult result = solve_point(problem);
   expect_conditions(problem, result);
   const double depth = measure_point(problem, result).max_plastic_depth;
-  EXPECT_EQ(result.pressure.maxCoeff(), 4e9);
+  EXPECT_EQ(result.contact_pressure.maxCoeff(), 4e9);
   // What the cap can bend flat beyond Hertz' pressure, on a disc as wide as the bump, stays
   // elastic.
   const double elastic =
@@ -170,7 +174,9 @@ TEST(SolvePointMixed, RisesForALappedAndFallsForAPolishedSurface) {
   const std::vector<double> speeds{10, 1, 0.1, 0.01};
   const std::vector<PointMeasures> lapped = stribeck(kLapped, speeds);
   const std::vector<PointMeasures> polished = stribeck(kPolished, speeds);
-  EXPECT_EQ(lapped[0].solid_contact_fraction, 0);  // separated at 10 m/s
+  // Separated at 10 m/s, but for summits that flow under the liquid.
+  EXPECT_EQ(lapped[0].boundary_load_share, 0);
+  EXPECT_EQ(lapped[0].solid_contact_fraction, lapped[0].plastic_fraction);
   EXPECT_EQ(polished[0].solid_contact_fraction, 0);
   EXPECT_GT(lapped[2].friction_coefficient, 1.2 * lapped[0].friction_coefficient);
   EXPECT_GT(lapped[3].friction_coefficient, 1.2 * lapped[0].friction_coefficient);
@@ -234,7 +240,11 @@ TEST(MeasurePoint, CountsTheFrictionOfWhatTouchesWithoutFlowing) {
   const Mask elastic = result.contact_pressure > 0 && result.plastic_depth <= 0;
   ASSERT_TRUE(elastic.any() && (result.plastic_depth > 0).any());
   const double cell = result.grid.pixel_area();
+  EXPECT_TRUE(std::isnan(measure_point(problem, result).friction_solid));  // nobody knows
+  EXPECT_TRUE(std::isnan(measure_point(problem, result).friction_coefficient));
+  problem.asperities.friction_coefficient = 0;
   const double bonds = measure_point(problem, result).friction_solid;
+  EXPECT_GT(bonds, 0);
   problem.asperities.friction_coefficient = 0.1;
   EXPECT_NEAR(measure_point(problem, result).friction_solid,
               bonds + 0.1 * cell * elastic.select(result.contact_pressure, 0).sum() / problem.load,
@@ -242,6 +252,39 @@ TEST(MeasurePoint, CountsTheFrictionOfWhatTouchesWithoutFlowing) {
   problem.asperities = {.boundary_film = 1e-9, .shear_strength = 50e6};
   EXPECT_NEAR(measure_point(problem, result).friction_solid,
               bonds + 50e6 * cell * static_cast<double>(elastic.count()) / problem.load, 1e-12);
+}
+
+TEST(MeasurePoint, CountsWhatFlowsAsTouching) {
+  PointProblem problem = small_case(0.1);
+  problem.roughness = rough(problem, kLapped);
+  const PointResult result = solve_point(problem);
+  ASSERT_TRUE(result.converged);
+  // Summits that flow under liquid that is left there.
+  ASSERT_TRUE((result.plastic_depth > 0 && result.film > 0).any());
+  const PointMeasures measures = measure_point(problem, result);
+  EXPECT_GE(measures.solid_contact_fraction, measures.plastic_fraction);
+  const double flowing = 4e9 * static_cast<double>((result.plastic_depth > 0).count()) *
+                         result.grid.pixel_area() / problem.load;
+  EXPECT_NEAR(measures.contact_load_share, flowing + measures.boundary_load_share, 1e-9);
+  EXPECT_EQ(slice_plane(problem, result, {0}).front(), measures.solid_contact_fraction);
+}
+
+TEST(MeasurePoint, FrictionHasTheSignOfTheSliding) {
+  PointProblem problem = test::redlich_dry(129);
+  problem.roughness = rough(problem, kLapped);
+  problem.asperities.friction_coefficient = 0.1;
+  PointResult result = solve_point_dry(problem);
+  result.pressure = result.contact_pressure;  // of a film as well
+  result.film += 1e-8;
+  const PointMeasures forwards = measure_point(problem, result);
+  problem.sliding_speed = -problem.sliding_speed;
+  const PointMeasures backwards = measure_point(problem, result);
+  EXPECT_GT(forwards.friction_solid, 0);
+  EXPECT_GT(forwards.friction_fluid, 0);
+  EXPECT_EQ(backwards.friction_coefficient, -forwards.friction_coefficient);
+  EXPECT_EQ(backwards.max_shear_stress, forwards.max_shear_stress);
+  problem.sliding_speed = 0;
+  EXPECT_EQ(measure_point(problem, result).friction_coefficient, 0);
 }
 
 TEST(SolvePointMixed, RefusesNegativeFrictionOfAsperities) {

@@ -217,6 +217,7 @@ TEST(MeasurePoint, KnowsUniformFilms) {
   EXPECT_NEAR(measures.hertz_radius, 54.45e-6, 0.05e-6);
   EXPECT_NEAR(measures.hertz_pressure, 2.667e9, 3e6);
   EXPECT_NEAR(measures.central_film, 2e-7, 1e-20);
+  EXPECT_NEAR(measures.mean_central_film, 2e-7, 1e-20);
   EXPECT_NEAR(measures.film_at_centre, 2e-7, 1e-20);
   EXPECT_EQ(measures.max_pressure, 1e9);
   EXPECT_EQ(measures.contact_load_share, 0);
@@ -231,6 +232,22 @@ TEST(MeasurePoint, KnowsUniformFilms) {
   EXPECT_NEAR(measures.friction_fluid, stress * result.grid.area() / problem.load,
               1e-9 * measures.friction_fluid);
   EXPECT_EQ(measures.friction_coefficient, measures.friction_fluid);
+}
+
+TEST(MeasurePoint, TheCentralFilmOfRoughBodiesIsAMean) {
+  PointProblem problem = redlich_case(1, 65);
+  PointResult result = uniform(problem, 2e-7, 1e9);
+  Index column = 0;
+  point_x(problem).abs().minCoeff(&column);
+  result.film(32, column) = 1e-6;
+  const PointMeasures smooth = measure_point(problem, result);
+  EXPECT_EQ(smooth.central_film, 1e-6);
+  EXPECT_EQ(smooth.film_at_centre, 1e-6);
+  problem.roughness = Field::Zero(65, 65);
+  const PointMeasures rough = measure_point(problem, result);
+  EXPECT_EQ(rough.central_film, rough.mean_central_film);
+  EXPECT_GT(rough.central_film, 2e-7);
+  EXPECT_LT(rough.central_film, 5e-7);
 }
 
 TEST(MeasurePoint, SharesLoadAndFrictionWithSolids) {

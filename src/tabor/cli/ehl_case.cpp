@@ -178,8 +178,10 @@ ehl::Asperities read_asperities(const io::Config& config, double usual_film) {
   if (has_coefficient) {
     asperities.friction_coefficient = config.number("asperities.friction_coefficient");
   }
-  asperities.shear_strength =
-      positive_quantity_or(config, "asperities.shear_strength", dimension::pressure, 0);
+  if (config.has("asperities.shear_strength")) {
+    asperities.shear_strength =
+        positive_quantity(config, "asperities.shear_strength", dimension::pressure);
+  }
   return asperities;
 }
 

@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <optional>
 
 #include "tabor/cli/ehl.hpp"
 #include "tabor/cli/ehl_case.hpp"
+#include "tabor/cli/ehl_friction.hpp"
 #include "tabor/cli/ehl_line_wear.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
@@ -17,6 +19,7 @@ namespace tabor::cli {
 namespace {
 
 constexpr Dimension kForcePerLength{0, 1, -2, 0};
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 ehl::LineCavitation read_cavitation(const io::Config& config) {
   const std::string word = text_or(config, "film.cavitation", "reynolds");
@@ -204,21 +207,47 @@ void write_profile(io::Hdf5Writer& writer, const ehl::LineProblem& problem,
   }
 }
 
+/// Takes away the friction that nobody can know, and says why.
+std::vector<std::string> void_friction(const ehl::LineProblem& problem, ehl::LineResult& result) {
+  std::vector<std::string> warnings;
+  if (const auto warning = sheared_too_hard(problem.lubricant.shear, result.max_shear_stress,
+                                            result.pressure.maxCoeff())) {
+    warnings.push_back(*warning);
+    result.friction_fluid = result.max_shear_stress = kNone;
+  }
+  if (std::isnan(result.friction_solid)) {
+    const auto warning = frictionless(problem.asperities, result.asperity_load_share);
+    if (warning) warnings.push_back(*warning);
+  }
+  if (!warnings.empty()) {
+    result.friction_coefficient = result.friction_fluid + result.friction_solid;
+    result.friction_force = result.friction_coefficient * problem.load;
+  }
+  return warnings;
+}
+
+void void_friction(ehl::WearResult& wear) {
+  for (ehl::WearInstant& at : wear.history) at.friction_coefficient = kNone;
+}
+
 EhlAnswer solve(const io::Config& config, Context& context) {
   const ehl::LineProblem problem = read_problem(config, context);
   ehl::LineResult result = ehl::solve_line(problem, context.observer());
+  const std::vector<std::string> voids = void_friction(problem, result);
   EhlAnswer answer;
   answer.scalars = scalars_of(problem, result);
   answer.scalars.update(asperity_scalars(problem, result));
   answer.text = text_of(problem, result);
   answer.converged = result.converged;
   answer.warnings = result.doubts;
+  answer.warnings.insert(answer.warnings.end(), voids.begin(), voids.end());
   if (!result.converged) {
     answer.warnings.push_back("the film was not found: more nodes, a lower load or less viscosity");
   }
   std::optional<ehl::WearResult> wear;
   if (config.has("wear.coefficient")) {
     wear = ehl::solve_wear(read_wear(config, problem), context.observer());
+    if (!voids.empty()) void_friction(*wear);
     answer.scalars["wear"] = wear_json(config, *wear);
     answer.text += wear_text(*wear);
     answer.warnings.insert(answer.warnings.end(), wear->doubts.begin(), wear->doubts.end());

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "tabor/cli/ehl_friction.hpp"
 #include "tabor/cli/ehl_point_case.hpp"
 #include "tabor/cli/ehl_point_fields.hpp"
 #include "tabor/cli/ehl_point_passage.hpp"
@@ -20,8 +21,6 @@ namespace tabor::cli {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-/// Shear stress over pressure beyond which oils give way (Johnson & Tevaarwerk 1977).
-constexpr double kYieldRatio = 0.1;
 
 using ehl::PointMeasures;
 using ehl::PointProblem;
@@ -72,7 +71,7 @@ io::Json formulas_json(const PointProblem& problem) {
 io::Json hertz_units_json(const PointProblem& problem, const PointMeasures& measures) {
   const double a = hertz_of(problem).half_axis_x;
   const double unit = a * a / problem.radius_x;
-  return {{"Hc", io::number(measures.film_at_centre / unit)},
+  return {{"Hc", io::number(measures.central_film / unit)},
           {"Hm", io::number(measures.min_film / unit)}};
 }
 
@@ -86,13 +85,15 @@ io::Json scalars_of(const PointProblem& problem, const PointResult& result,
           {"L", groups.moes_viscosity()},
           {"central_film_m", io::number(measures.central_film)},
           {"min_film_m", io::number(measures.min_film)},
-          {"Hc", io::number(measures.film_at_centre / unit)},
+          {"Hc", io::number(measures.central_film / unit)},
           {"Hm", io::number(measures.min_film / unit)},
           {"film_at_centre_m", io::number(measures.film_at_centre)},
+          {"mean_central_film_m", io::number(measures.mean_central_film)},
           {"hertz_units", hertz_units_json(problem, measures)},
           {"max_pressure_Pa", io::number(measures.max_pressure)},
           {"solid_contact_fraction", io::number(measures.solid_contact_fraction)},
           {"contact_load_share", io::number(measures.contact_load_share)},
+          {"boundary_load_share", io::number(measures.boundary_load_share)},
           {"plastic_fraction", io::number(measures.plastic_fraction)},
           {"max_plastic_depth_m", io::number(measures.max_plastic_depth)},
           {"fluid_volume_m3", io::number(measures.fluid_volume)},
@@ -121,7 +122,9 @@ std::string with_moes(double film, double unit) {
 }
 
 std::string friction_text(const PointMeasures& measures) {
-  return fmt::format("{}: {} of the film, {} of solids", plain(measures.friction_coefficient),
+  const bool is_known = std::isfinite(measures.friction_coefficient);
+  return fmt::format("{}: {} of the film, {} of solids",
+                     is_known ? plain(measures.friction_coefficient) : "not known",
                      plain(measures.friction_fluid), plain(measures.friction_solid));
 }
 
@@ -129,7 +132,7 @@ void describe_film(Facts& facts, const PointProblem& problem, const PointMeasure
   const Formulas formulas = formulas_of(problem);
   const double unit = moes_length(problem);
   facts.fact("film in the centre", with_moes(measures.film_at_centre, unit));
-  facts.fact("mean central film", with_moes(measures.central_film, unit));
+  facts.fact("mean central film", with_moes(measures.mean_central_film, unit));
   facts.fact("smallest film", with_moes(measures.min_film, unit));
   if (std::isfinite(formulas.nijenbanning)) {
     facts.fact("smooth, Newtonian", fmt::format("{} in the centre (Nijenbanning et al.)",
@@ -188,19 +191,27 @@ std::optional<PointResult> smooth_film(PointProblem problem, const Observer& obs
   return solve_point(problem, nullptr, observer);
 }
 
-/// What the equations do not see.
-std::vector<std::string> doubts_of(const PointProblem& problem, const PointMeasures& measures,
-                                   bool is_still) {
-  std::vector<std::string> doubts;
-  const double ratio = measures.max_shear_stress / measures.max_pressure;
-  const bool is_newtonian =
-      material::law_of(problem.lubricant.shear) == material::ShearLaw::newtonian;
-  if (is_newtonian && ratio > kYieldRatio) {
-    doubts.push_back(
-        fmt::format("the film is sheared at {}, {} of the pressure, where oils give "
-                    "way: the friction is too high; give lubricant.eyring_stress",
-                    si(measures.max_shear_stress, "Pa"), percent(ratio, 2)));
+/// Takes away the friction that nobody can know, and says why.
+std::vector<std::string> void_friction(const PointProblem& problem, PointMeasures& measures) {
+  std::vector<std::string> warnings;
+  if (const auto warning = sheared_too_hard(problem.lubricant.shear, measures.max_shear_stress,
+                                            measures.max_pressure)) {
+    warnings.push_back(*warning);
+    measures.friction_fluid = measures.max_shear_stress = kNone;
   }
+  if (std::isnan(measures.friction_solid)) {
+    const auto warning = frictionless(problem.asperities, measures.boundary_load_share);
+    if (warning) warnings.push_back(*warning);
+  }
+  if (!warnings.empty()) {
+    measures.friction_coefficient = measures.friction_fluid + measures.friction_solid;
+  }
+  return warnings;
+}
+
+/// What the equations do not see.
+std::vector<std::string> doubts_of(const PointProblem& problem, bool is_still) {
+  std::vector<std::string> doubts;
   const double at_rest = 2 * problem.entrainment_speed;
   if (problem.roughness.size() > 0 && is_still &&
       std::abs(std::abs(problem.sliding_speed) - at_rest) > 1e-6 * at_rest) {
@@ -215,7 +226,8 @@ std::vector<std::string> doubts_of(const PointProblem& problem, const PointMeasu
 
 EhlAnswer point_answer(const io::Config& config, const PointProblem& problem,
                        const PointResult& result, const Context& context) {
-  const PointMeasures measures = measure_point(problem, result);
+  PointMeasures measures = measure_point(problem, result);
+  const std::vector<std::string> voids = void_friction(problem, measures);
   EhlAnswer answer;
   answer.scalars = scalars_of(problem, result, measures);
   if (config.has("roughness.file")) {
@@ -225,8 +237,8 @@ EhlAnswer point_answer(const io::Config& config, const PointProblem& problem,
   answer.text = text_of(problem, result, measures);
   answer.converged = result.converged;
   answer.warnings = result.doubts;
-  for (std::string& doubt : doubts_of(problem, measures, !has_passage(config))) {
-    answer.warnings.push_back(doubt);
+  for (const auto& more : {voids, doubts_of(problem, !has_passage(config))}) {
+    answer.warnings.insert(answer.warnings.end(), more.begin(), more.end());
   }
   if (!result.converged) {
     answer.warnings.emplace_back(
@@ -249,11 +261,13 @@ void add_dry_contact(const PointProblem& problem, const Observer& observer, EhlA
                            {"max_plastic_depth_m", io::number(measures.max_plastic_depth)},
                            {"friction_solid", io::number(measures.friction_solid)},
                            {"converged", result.converged}};
+  const std::string friction = std::isnan(measures.friction_solid)
+                                   ? "not known without [asperities]"
+                                   : plain(measures.friction_solid);
   Facts facts;
-  facts.fact("without any liquid",
-             fmt::format("{} of the area touches, {} is plastic, friction {}",
-                         percent(measures.solid_contact_fraction),
-                         percent(measures.plastic_fraction), plain(measures.friction_solid)));
+  facts.fact("without any liquid", fmt::format("{} of the area touches, {} is plastic, friction {}",
+                                               percent(measures.solid_contact_fraction),
+                                               percent(measures.plastic_fraction), friction));
   answer.text += facts.text();
   if (!result.converged) answer.warnings.emplace_back("the dry contact was not found");
 }

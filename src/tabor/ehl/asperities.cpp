@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "tabor/core/error.hpp"
 
@@ -17,10 +18,17 @@ void check_not_negative(const char* what, double value, const char* unit) {
 
 }  // namespace
 
+double Asperities::friction(double carried, double area) const {
+  if (carried == 0 && area == 0) return 0;
+  if (!has_friction()) return std::numeric_limits<double>::quiet_NaN();
+  return friction_coefficient.value_or(0) * carried + shear_strength.value_or(0) * area;
+}
+
 void check(const Asperities& asperities) {
   check_not_negative("boundary film", asperities.boundary_film, "m");
-  check_not_negative("friction coefficient of asperities", asperities.friction_coefficient, "");
-  check_not_negative("shear strength of asperities", asperities.shear_strength, "Pa");
+  check_not_negative("friction coefficient of asperities",
+                     asperities.friction_coefficient.value_or(0), "");
+  check_not_negative("shear strength of asperities", asperities.shear_strength.value_or(0), "Pa");
 }
 
 }  // namespace tabor::ehl

@@ -1,18 +1,22 @@
 #pragma once
 
+#include <optional>
+
 namespace tabor::ehl {
 
 /// Solids that touch through a boundary film: where the gap would fall below it, they carry what
 /// keeps it there.
 struct Asperities {
-  double boundary_film = 0;         ///< h_b [m]
-  double friction_coefficient = 0;  ///< of what they carry
-  double shear_strength = 0;        ///< [Pa] of what touches, besides
+  double boundary_film = 0;                         ///< h_b [m]
+  std::optional<double> friction_coefficient = {};  ///< of what they carry
+  std::optional<double> shear_strength = {};        ///< [Pa] of what touches, besides
 
-  /// Friction [N, or N/m] of so much load [N, N/m] on so much area [m^2, m].
-  double friction(double carried, double area) const {
-    return friction_coefficient * carried + shear_strength * area;
-  }
+  /// Whether anything is known about their friction; a coefficient of 0 is known.
+  bool has_friction() const { return friction_coefficient || shear_strength; }
+
+  /// Friction [N, or N/m] of so much load [N, N/m] on so much area [m^2, m]; NaN where there is
+  /// some and nothing is known about it.
+  double friction(double carried, double area) const;
 };
 
 /// Throws InputError for negative or non-finite values.

@@ -41,8 +41,9 @@ struct PointProblem {
 };
 
 /// A film under pressure, part of it perhaps carried by touching solids. p_total = pressure +
-/// contact_pressure; film >= 0; contact_pressure > 0 only where film = 0, that is where no more
-/// than the boundary film is left; plastic_depth > 0 only where p_total = P_plast.
+/// contact_pressure; film >= 0. Solids touch where film = 0, that is where no more than the
+/// boundary film is left, and where they flow; contact_pressure > 0 and pressure = 0 there.
+/// plastic_depth > 0 only where p_total = P_plast.
 struct PointResult {
   Grid grid;                     ///< cells around the nodes
   Field pressure;                ///< p [Pa], of the liquid

@@ -30,11 +30,17 @@ double mean_over(const Mask& area, const Value& value) {
   return total / static_cast<double>(area.count());
 }
 
+bool is_plastic(const PointResult& result, Index i) {
+  return value_or_zero(result.plastic_depth, i) > 0;
+}
+
+bool touches(const PointResult& result, Index i) {
+  return result.film(i) <= 0 || is_plastic(result, i);
+}
+
 /// Stress [Pa] of the sheared film at a node, 0 where there is none.
 double film_stress(const PointProblem& problem, const PointResult& result, Index i) {
-  const bool carries =
-      result.pressure(i) > 0 && result.film(i) > 0 && !(value_or_zero(result.plastic_depth, i) > 0);
-  if (!carries) return 0;
+  if (!(result.pressure(i) > 0) || touches(result, i)) return 0;
   const double pressure = result.pressure(i);
   const double rate = problem.sliding_speed / result.film(i);
   const double viscosity = material::viscosity_at(problem.lubricant.viscosity, pressure).value;
@@ -45,7 +51,7 @@ void measure_films(const PointProblem& problem, const PointResult& result,
                    PointMeasures& measures) {
   const auto film = [&](Index i) { return result.film(i); };
   const Mask hertz = hertz_area(problem);
-  measures.central_film = mean_over(hertz_area(problem, kCentralDisc), film);
+  measures.mean_central_film = mean_over(hertz_area(problem, kCentralDisc), film);
   measures.min_film = result.film.minCoeff();
   measures.fluid_volume =
       mean_over(hertz, film) * static_cast<double>(hertz.count()) * result.grid.pixel_area();
@@ -54,35 +60,44 @@ void measure_films(const PointProblem& problem, const PointResult& result,
   point_y(problem).abs().minCoeff(&row);
   point_x(problem).abs().minCoeff(&column);
   measures.film_at_centre = result.film(row, column);
+  // One node of a rough surface says nothing.
+  const bool is_rough = problem.roughness.size() > 0;
+  measures.central_film = is_rough ? measures.mean_central_film : measures.film_at_centre;
+}
+
+/// What slides over solids: friction [N] of bonds where they flow and of asperities elsewhere.
+double solid_friction(const PointProblem& problem, double carried, double area,
+                      double plastic_area) {
+  if (problem.sliding_speed == 0) return 0;
+  const double bonds =
+      plastic_area > 0 ? kBondStrength * problem.plastic_pressure * plastic_area : 0;
+  return std::copysign(bonds + problem.asperities.friction(carried, area), problem.sliding_speed);
 }
 
 void measure_solids(const PointProblem& problem, const PointResult& result,
                     PointMeasures& measures) {
   const Mask hertz = hertz_area(problem);
   const auto contact_pressure = [&](Index i) { return value_or_zero(result.contact_pressure, i); };
-  const auto is_plastic = [&](Index i) {
-    return value_or_zero(result.plastic_depth, i) > 0 ? 1.0 : 0.0;
-  };
+  const auto plastic = [&](Index i) { return is_plastic(result, i) ? 1.0 : 0.0; };
+  const auto touching = [&](Index i) { return touches(result, i) ? 1.0 : 0.0; };
+  const auto elastic = [&](Index i) { return touching(i) - plastic(i); };
   const Index n = result.film.size();
   const double cell = result.grid.pixel_area();
   measures.contact_load_share = cell * sum_nodes(n, contact_pressure) / problem.load;
-  measures.solid_contact_fraction =
-      mean_over(hertz, [&](Index i) { return result.film(i) <= 0 ? 1.0 : 0.0; });
-  measures.plastic_fraction = mean_over(hertz, is_plastic);
+  measures.solid_contact_fraction = mean_over(hertz, touching);
+  measures.plastic_fraction = mean_over(hertz, plastic);
   for (Index i = 0; i < n; ++i) {
     measures.max_pressure =
         std::max(measures.max_pressure, result.pressure(i) + contact_pressure(i));
     measures.max_plastic_depth =
         std::max(measures.max_plastic_depth, value_or_zero(result.plastic_depth, i));
   }
-  const auto elastic_contact = [&](Index i) { return result.film(i) <= 0 && is_plastic(i) == 0; };
   const double carried =
-      cell * sum_nodes(n, [&](Index i) { return elastic_contact(i) ? contact_pressure(i) : 0.0; });
-  const double area = cell * sum_nodes(n, [&](Index i) { return elastic_contact(i) ? 1.0 : 0.0; });
-  const double plastic_area = cell * sum_nodes(n, is_plastic);
-  const double bonds =
-      plastic_area > 0 ? kBondStrength * problem.plastic_pressure * plastic_area : 0;
-  measures.friction_solid = (bonds + problem.asperities.friction(carried, area)) / problem.load;
+      cell * sum_nodes(n, [&](Index i) { return elastic(i) * contact_pressure(i); });
+  const double area = carried > 0 ? cell * sum_nodes(n, elastic) : 0;
+  measures.boundary_load_share = carried / problem.load;
+  measures.friction_solid =
+      solid_friction(problem, carried, area, cell * sum_nodes(n, plastic)) / problem.load;
 }
 
 }  // namespace
@@ -105,10 +120,16 @@ PointMeasures measure_point(const PointProblem& problem, const PointResult& resu
   measures.friction_fluid =
       result.grid.pixel_area() * sum_nodes(result.film.size(), stress) / problem.load;
   for (Index i = 0; i < result.film.size(); ++i) {
-    measures.max_shear_stress = std::max(measures.max_shear_stress, stress(i));
+    measures.max_shear_stress = std::max(measures.max_shear_stress, std::abs(stress(i)));
   }
   measures.friction_coefficient = measures.friction_fluid + measures.friction_solid;
   return measures;
+}
+
+Mask touching_nodes(const PointResult& result) {
+  Mask nodes(result.film.rows(), result.film.cols());
+  for (Index i = 0; i < nodes.size(); ++i) nodes(i) = touches(result, i);
+  return nodes;
 }
 
 std::vector<double> slice_plane(const PointProblem& problem, const PointResult& result,
@@ -117,7 +138,7 @@ std::vector<double> slice_plane(const PointProblem& problem, const PointResult& 
   std::vector<double> films;
   films.reserve(static_cast<std::size_t>(hertz.count()));
   for (Index i = 0; i < hertz.size(); ++i) {
-    if (hertz(i)) films.push_back(result.film(i));
+    if (hertz(i)) films.push_back(touches(result, i) ? 0 : result.film(i));
   }
   std::sort(films.begin(), films.end());
   std::vector<double> shares;

@@ -109,7 +109,9 @@ PointResult MixedFilm::result_of(const MixedState& state, const PointFilm::Outco
                           .film = touching.select(0, state.film),
                           .cavity = {}};
   PointResult result = ehl::result_of(problem_, film_, liquid, outcome);
-  if (touching.any()) result.contact_pressure = touching.select(state.pressure, 0);
+  const Mask solid = touching || state.plastic_depth > 0;
+  if (solid.any()) result.contact_pressure = solid.select(state.pressure, 0);
+  result.pressure = solid.select(0, result.pressure);
   if (std::isfinite(problem_.plastic_pressure)) result.plastic_depth = state.plastic_depth;
   result.entrainment_speed = film_.speed;
   return result;

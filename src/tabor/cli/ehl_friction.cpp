@@ -1,0 +1,41 @@
+#include "tabor/cli/ehl_friction.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tabor/cli/table.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+/// Shear stress over pressure beyond which oils give way (Johnson & Tevaarwerk 1977).
+constexpr double kYieldRatio = 0.1;
+
+}  // namespace
+
+std::optional<std::string> sheared_too_hard(const material::Shear& shear, double stress,
+                                            double pressure) {
+  const bool is_newtonian = material::law_of(shear) == material::ShearLaw::newtonian;
+  const double ratio = std::abs(stress) / pressure;
+  if (!is_newtonian || !(ratio > kYieldRatio)) return std::nullopt;
+  return fmt::format(
+      "a Newtonian film would be sheared at {}, {} of the pressure; oils give way at a tenth of "
+      "it: "
+      "no friction of the film; give lubricant.eyring_stress (tabor ehl point), less viscosity or "
+      "a "
+      "lower sliding speed",
+      si(stress, "Pa"), percent(ratio, 2));
+}
+
+std::optional<std::string> frictionless(const ehl::Asperities& asperities, double load_share) {
+  if (!(load_share > 0) || asperities.has_friction()) return std::nullopt;
+  return fmt::format(
+      "solids carry {} of the load and the case does not say how they rub, as if they were "
+      "frictionless: no friction; give asperities.friction_coefficient (steel in oil: 0.1 to 0.15) "
+      "or asperities.shear_strength",
+      percent(load_share, 2));
+}
+
+}  // namespace tabor::cli
