@@ -1,6 +1,7 @@
 #include "tabor/cli/app.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -10,6 +11,7 @@
 #include <ostream>
 
 #include "tabor/cli/exit_code.hpp"
+#include "tabor/cli/failure.hpp"
 #include "tabor/cli/help.hpp"
 #include "tabor/cli/interrupt.hpp"
 #include "tabor/cli/verb.hpp"
@@ -34,8 +36,8 @@ const Verb& find_verb(const std::string& name) {
     throw UsageError(
         fmt::format("'{}' before the verb; options follow it: tabor VERB {}", name, name));
   }
-  throw UsageError(
-      fmt::format("unknown verb '{}'{}; see 'tabor --help'", name, suggestion(name, names)));
+  throw UsageError(fmt::format("unknown verb: got '{}'; expected {}{}; see 'tabor --help'", name,
+                               fmt::join(names, ", "), suggestion(name, names)));
 }
 
 bool asks_for_help(const Words& words) {
@@ -72,26 +74,25 @@ int run_verb(const Verb& verb, const Words& words, Context& context, ProgressSty
   return code;
 }
 
-int dispatch(const Words& args, std::ostream& out, std::ostream& err, ProgressStyle style) {
+int dispatch(const Words& args, Context& context, ProgressStyle style) {
   if (args.empty()) {
-    err << overview();
+    context.err << overview();
     return kUsage;
   }
   const Words words(args.begin() + 1, args.end());
   if (args.front() == "--version") {
-    out << "tabor " << kVersion << '\n';
+    context.out << "tabor " << kVersion << '\n';
   } else if (args.front() == "--help" || args.front() == "-h" ||
              (args.front() == "help" && words.empty())) {
-    out << overview();
+    context.out << overview();
   } else if (args.front() == "help") {
-    out << help_of(find_verb(words.front()));
+    context.out << help_of(find_verb(words.front()));
   } else if (const Verb& verb = find_verb(args.front()); asks_for_help(words)) {
-    out << help_of(verb);
+    context.out << help_of(verb);
   } else {
-    Context context{.out = out, .err = err, .command_line = quoted(args)};
     return run_verb(verb, words, context, style);
   }
-  check_written(out);
+  check_written(context.out);
   return kDone;
 }
 
@@ -109,7 +110,13 @@ void let_idle_threads_sleep(char** argv) {
 
 int run(const std::vector<std::string>& args, std::ostream& out, std::ostream& err,
         ProgressStyle style) {
-  return guarded(err, [&] { return dispatch(args, out, err, style); });
+  Context context{.out = out, .err = err, .command_line = quoted(args)};
+  context.json = asks_for_json(args);  // an error is told as JSON even before options are read
+  const auto complain = [&](const std::string& line, int code) {
+    context.progress = nullptr;  // it ended with the verb
+    return fail(context, line, code);
+  };
+  return guarded(complain, [&] { return dispatch(args, context, style); });
 }
 
 int run(int argc, char** argv) {

@@ -37,8 +37,8 @@ const EhlProgram& find_program(const std::string& name) {
     if (program.name == name) return program;
     names.push_back(program.name);
   }
-  throw UsageError(fmt::format("unknown program '{}'; expected {}; see 'tabor ehl --help'{}", name,
-                               fmt::join(names, " or "), suggestion(name, names)));
+  throw UsageError(fmt::format("ehl: got program '{}'; expected {}; see 'tabor ehl --help'{}", name,
+                               fmt::join(names, ", "), suggestion(name, names)));
 }
 
 /// Objects in it as groups of their own.
@@ -110,7 +110,7 @@ std::string details() {
 
 void declare_options(OptionSet& set, Request& request) {
   set.group("Case");
-  set.positional("PROGRAM", "which program", request.program);
+  set.positional("PROGRAM", "impact, squeeze, line or point", request.program);
   set.positional("CASE.toml", "the case: bodies, lubricant, motion, grid", request.file);
   Option& axis = set.add(
       {.flag = "--set",

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <ostream>
 
 #include "tabor/cli/ehl_cases.hpp"
 #include "tabor/cli/ehl_table.hpp"
+#include "tabor/cli/failure.hpp"
 #include "tabor/cli/fields_file.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/core/printable.hpp"
 #include "tabor/core/text.hpp"
 
 namespace tabor::cli {
@@ -140,14 +139,11 @@ double value_at(const EhlStudy& study, double usual, double factor) {
 }
 
 int say_interrupted(const KeptCases& kept, std::size_t n_cases, Context& context) {
-  if (context.progress) context.progress->clear();
-  context.err
-      << printable(fmt::format(
-             "tabor: interrupted; {} of {} cases are kept in {}, the same command goes on from "
-             "there",
-             kept.n_kept(), n_cases, kept.folder().string()))
-      << '\n';
-  return kInterrupted;
+  return fail(
+      context,
+      fmt::format("interrupted; {} of {} cases are kept in {}, the same command goes on from there",
+                  kept.n_kept(), n_cases, kept.folder().string()),
+      kInterrupted);
 }
 
 /// The table, or the JSON object.

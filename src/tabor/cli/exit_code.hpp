@@ -1,7 +1,7 @@
 #pragma once
 
 #include <functional>
-#include <iosfwd>
+#include <string>
 
 namespace tabor::cli {
 
@@ -16,8 +16,11 @@ enum ExitCode : int {
   kInterrupted = 130,  ///< Ctrl-C; what was finished is kept
 };
 
-/// Runs `body` and turns every exception into one line on `err` and its exit code. The only place
-/// that knows which error is which number.
-int guarded(std::ostream& err, const std::function<int()>& body);
+/// Says what went wrong in one line and returns the exit code.
+using Complaint = std::function<int(const std::string& line, int code)>;
+
+/// Runs `body` and turns every exception into a complaint with its exit code. The only place that
+/// knows which error is which number.
+int guarded(const Complaint& complain, const std::function<int()>& body);
 
 }  // namespace tabor::cli

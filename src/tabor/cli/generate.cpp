@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <map>
 #include <memory>
@@ -149,8 +150,8 @@ Topography make(Request& request, std::uint64_t seed) {
   if (maker == makers().end()) {
     std::vector<std::string> kinds;
     for (const auto& [kind, unused] : makers()) kinds.push_back(kind);
-    throw UsageError(fmt::format("generate: unknown kind '{}'{}", request.kind,
-                                 suggestion(request.kind, kinds)));
+    throw UsageError(fmt::format("generate: got kind '{}'; expected {}{}", request.kind,
+                                 fmt::join(kinds, ", "), suggestion(request.kind, kinds)));
   }
   Topography surface = maker->second(request, seed);
   request.given.refuse_rest(request.kind);

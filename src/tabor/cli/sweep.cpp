@@ -7,6 +7,7 @@
 #include <memory>
 #include <ostream>
 
+#include "tabor/cli/failure.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
@@ -141,11 +142,12 @@ int sweep(const Request& request, Context& context) {
   try {
     outcome = study::run(study, request.folder(), options_for(request, context));
   } catch (const Interrupted&) {
-    if (context.progress) context.progress->clear();
-    context.err << "tabor: interrupted; what was finished is kept in "
-                << printable(request.folder().string())
-                << ", the same command goes on from there\n";
-    return kInterrupted;
+    return fail(
+        context,
+        fmt::format("interrupted; what was finished is kept in {}, the same command goes on "
+                    "from there",
+                    printable(request.folder().string())),
+        kInterrupted);
   }
   for (const std::string& warning : outcome.warnings) context.warn(warning);
   for (const std::string& failure : outcome.failures) context.warn("failed: " + failure);
