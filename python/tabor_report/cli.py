@@ -47,10 +47,12 @@ def _report(options, arguments):
 
 def _run(options, arguments):
     # Imported late: these modules need the libraries that were just checked.
-    from tabor_report import build
+    from tabor_report import applicable, build
 
     source = build.open_result(options.result)
     with source.file:
+        applicable.check(source, options)
+        options.error_bar = options.error_bar or "std"
         folder = options.output or build.default_folder(source)
         return build.build(source, folder, options, shlex.join(["tabor", "report", *arguments]))
 
@@ -90,7 +92,6 @@ def _parser():
     parser.add_argument(
         "--error-bar",
         choices=("std", "sem"),
-        default="std",
         help="standard deviation (default) or standard error of the mean",
     )
     parser.add_argument("--quiet", action="store_true", help="do not list the written files")

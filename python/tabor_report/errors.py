@@ -6,7 +6,7 @@ class ReportError(Exception):
 
 
 class UsageError(ReportError):
-    """Options that make no sense."""
+    """An option that the result has no use for."""
 
     exit_code = 2
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <stdexcept>
 
@@ -23,6 +25,8 @@ struct Request {
   std::string result;
   bool no_html = false;
   bool all_scans = false;
+  std::string error_bar;  ///< "" if not given
+  std::optional<std::string> output;
   std::vector<std::string> passed_on;  ///< options with values, as tabor_report takes them
 };
 
@@ -67,6 +71,8 @@ std::vector<std::string> python_words(const Request& request) {
       package_folder().string(),
       request.result};
   words.insert(words.end(), request.passed_on.begin(), request.passed_on.end());
+  if (request.output) words.push_back("--output=" + *request.output);
+  if (!request.error_bar.empty()) words.push_back("--error-bar=" + request.error_bar);
   if (request.no_html) words.emplace_back("--no-html");
   if (request.all_scans) words.emplace_back("--all-scans");
   return words;
@@ -113,29 +119,51 @@ int report(const Request& request, Context& context) {
   return finish(context, object, done.output);
 }
 
+using Check = std::function<std::string(const std::string&)>;
+
+/// An option that tabor_report takes: `checked` gives the value in the form that it reads.
 void pass_on(OptionSet& set, Request& request, const std::string& flag,
-             const std::string& short_flag, const std::string& placeholder,
-             const std::string& help) {
+             const std::string& placeholder, const std::string& help, const Check& checked) {
   set.add({.flag = flag,
-           .short_flag = short_flag,
            .placeholder = placeholder,
            .help = help,
-           .assign = [&request, flag](const std::string& value) {
-             request.passed_on.push_back(flag + "=" + value);
+           .assign = [&request, flag, checked](const std::string& value) {
+             request.passed_on.push_back(flag + "=" + checked(value));
            }});
+}
+
+Check in_unit(const std::string& flag, Dimension dimension, const std::string& unit) {
+  return [=](const std::string& value) {
+    const double factor = *unit_factor(unit, dimension);
+    return fmt::format("{}{}", parse_si(value, dimension, flag) / factor, unit);
+  };
+}
+
+std::string checked_scan(const std::string& value) {
+  const std::optional<double> number = parse_number(value);
+  if (!number || *number < 0 || *number > 1e9 || *number != std::floor(*number)) {
+    throw UsageError(fmt::format("--scan: got '{}'; expected a whole number from 0", value));
+  }
+  return fmt::format("{:.0f}", *number);
 }
 
 void declare_options(OptionSet& set, Request& request) {
   set.group("Report");
   set.positional("RESULT", "folder of 'tabor sweep', or a file written with -o", request.result);
-  pass_on(set, request, "--output", "-o", "DIR", "where to write [beside the result]");
+  set.text("--output", "DIR", "where to write [beside the result]", request.output).short_flag =
+      "-o";
   set.toggle("--no-html", "figures and tables only", request.no_html);
-  pass_on(set, request, "--scan", "", "N", "scan that the maps show, counted from 0");
+  set.group("Report of a study");
+  pass_on(set, request, "--scan", "N", "scan that the maps show, counted from 0", checked_scan);
   set.toggle("--all-scans", "maps of every scan", request.all_scans);
-  pass_on(set, request, "--pressure", "", "P", "pressure that the maps show (nearest computed)");
-  pass_on(set, request, "--density", "", "D", "lubricant density that the maps show");
-  pass_on(set, request, "--error-bar", "", "std|sem",
-          "standard deviation or standard error of the mean [std]");
+  pass_on(set, request, "--pressure", "P",
+          "pressure that the maps show (nearest computed), e.g. 7MPa",
+          in_unit("--pressure", dimension::pressure, "Pa"));
+  pass_on(set, request, "--density", "D",
+          "lubricant density that the maps show (nearest computed), e.g. 0.45g/m^2",
+          in_unit("--density", dimension::areal_density, "g/m^2"));
+  set.choice("--error-bar", {"std", "sem"},
+             "standard deviation or standard error of the mean [std]", request.error_bar);
 }
 
 }  // namespace
