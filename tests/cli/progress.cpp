@@ -2,11 +2,13 @@
 
 #include <gmock/gmock.h>
 
-#include <chrono>
+#include <cmath>
 #include <sstream>
-#include <thread>
+#include <utility>
+#include <vector>
 
 #include "tabor/cli/interrupt.hpp"
+#include "tabor/study/work_share.hpp"
 
 namespace tabor::cli {
 namespace {
@@ -38,12 +40,137 @@ TEST(Progress, DoesNotFloodALogFile) {
   EXPECT_EQ(err.str(), "");  // the first line comes after ten seconds
 }
 
+/// A printer on a clock that the test moves.
+struct Watched {
+  double now = 0;
+  std::ostringstream err = {};
+  ProgressPrinter printer{err, ProgressStyle::terminal, [this] { return now; }};
+  Observer observer = printer.observer();
+
+  /// What one message at `at` prints.
+  std::string line(double at, const Progress& progress) {
+    err.str("");
+    now = at;
+    observer(progress);
+    return err.str();
+  }
+};
+
 TEST(Progress, OfAStageTellsTheShareOfTheWhole) {
-  std::ostringstream err;
-  ProgressPrinter printer(err, ProgressStyle::terminal);
-  std::this_thread::sleep_for(std::chrono::milliseconds(150));  // more often it would not print
-  printer.observer()({.stage = "film", .fraction = 0.99, .whole = 0.25});
-  EXPECT_THAT(err.str(), HasSubstr("film  25 %"));
+  Watched watched;
+  EXPECT_THAT(watched.line(1, {.stage = "film", .fraction = 0.99, .whole = 0.25}),
+              HasSubstr("film  25 % of all"));
+}
+
+TEST(Progress, TellsTheTimeLeftOfAStage) {
+  Watched watched;
+  for (double at = 0; at < 20; at += 0.5) watched.line(at, {.stage = "read", .fraction = at / 20});
+  for (double at = 20; at < 60; at += 0.5) {
+    const std::string line = watched.line(at, {.stage = "rain", .fraction = (at - 20) / 100});
+    const bool is_told = line.find("left") != std::string::npos;
+    EXPECT_EQ(is_told, at >= 27) << at << line;  // 5 % after 5 s, and two seconds that agree
+  }
+  EXPECT_THAT(watched.line(60, {.stage = "rain", .fraction = 0.4}), HasSubstr("1 min 0 s left"));
+}
+
+TEST(Progress, AnUnknownShareOfAStageIsThatOfTheMessageBefore) {
+  Watched watched;
+  watched.line(1, {.stage = "rain", .fraction = 0.5});
+  EXPECT_THAT(watched.line(2, {.stage = "rain"}), HasSubstr("rain  50 %"));
+  EXPECT_THAT(watched.line(3, {.stage = "write"}), testing::Not(HasSubstr("%")));
+}
+
+TEST(TimeLeft, OfSteadyWorkIsRightAndNeverEarly) {
+  TimeLeft left;
+  for (double now = 0; now < 100; now += 0.1) {
+    const auto told = left.at(now, now / 100);
+    if (now < 5 || now > 8) {
+      EXPECT_EQ(told.has_value(), now > 8) << now;
+    }
+    EXPECT_NEAR(told.value_or(100 - now), 100 - now, 1e-6);
+  }
+}
+
+TEST(TimeLeft, IsNotToldFromAShareThatJumps) {
+  TimeLeft left;
+  bool was_told = false;
+  for (double now = 0; now < 60; now += 0.1) {
+    // From 6 % to 50 % and back every two seconds: 15 times as long or once more.
+    const bool high = static_cast<int>(now / 2) % 2 == 1;
+    was_told = was_told || left.at(now, high ? 0.5 : 0.06);
+  }
+  EXPECT_FALSE(was_told);
+}
+
+TEST(TimeLeft, IsSilentWithoutAShare) {
+  TimeLeft left;
+  for (double now = 0; now < 60; now += 1) EXPECT_FALSE(left.at(now, std::nan("")));
+}
+
+TEST(Duration, OfAnEstimateHasFewDigits) {
+  EXPECT_EQ(format_estimate(4.2), "4 s");
+  EXPECT_EQ(format_estimate(58.6), "1 min 0 s");
+  EXPECT_EQ(format_estimate(137), "2 min 15 s");
+  EXPECT_EQ(format_estimate(1437), "24 min");
+  EXPECT_EQ(format_estimate(7507), "2 h 5 min");
+}
+
+/// What a sweep of 4 scans with 6 contacts each prints, from its first second to its last. The
+/// workers take tasks in order; one that runs says each second how far it is.
+struct SimulatedSweep {
+  double seconds_of(study::Task::Kind kind) const {
+    using Kind = study::Task::Kind;
+    return kind == Kind::surface ? surface : kind == Kind::film ? film : contact;
+  }
+
+  /// Calls look(now, share) once a second and returns when it ended.
+  double run(const std::function<void(double, double)>& look) const {
+    std::vector<study::Task> tasks;
+    for (std::size_t scan = 0; scan < 4; ++scan) {
+      tasks.push_back({study::Task::Kind::surface, scan});
+      tasks.push_back({study::Task::Kind::film, scan});
+      for (std::size_t i = 0; i < 6; ++i) tasks.push_back({study::Task::Kind::contact, scan, i});
+    }
+    double now = 0;
+    study::WorkShare work(tasks, [&] { return now; });
+    work.set_workers(n_workers);
+    std::vector<std::pair<std::size_t, double>> running;  // task, when it began
+    for (std::size_t next = 0; next < tasks.size() || !running.empty(); now += 0.1) {
+      std::erase_if(running, [&](const auto& task) {
+        const double share = (now - task.second) / seconds_of(tasks[task.first].kind);
+        if (share >= 1) work.end(task.first);
+        if (share < 1) work.inside(task.first, share);
+        return share >= 1;
+      });
+      while (next < tasks.size() && running.size() < static_cast<std::size_t>(n_workers)) {
+        work.begin(next);
+        running.emplace_back(next++, now);
+      }
+      look(now, work.share());
+    }
+    return now;
+  }
+
+  int n_workers;
+  double surface, film, contact;
+};
+
+TEST(TimeLeft, OfASweepIsOfTheRightSizeWheneverItIsTold) {
+  for (const SimulatedSweep& sweep :
+       {SimulatedSweep{1, 2, 12, 3}, SimulatedSweep{2, 0.5, 2, 12}, SimulatedSweep{2, 5, 60, 2},
+        SimulatedSweep{4, 0.2, 1, 5}, SimulatedSweep{1, 20, 1, 1}}) {
+    const double end = sweep.run([](double, double) {});
+    TimeLeft left;
+    double first_told = end;
+    sweep.run([&](double now, double share) {
+      const auto told = left.at(now, share);
+      if (!told) return;
+      first_told = std::min(first_told, now);
+      EXPECT_LT(*told, 2 * (end - now) + 5) << "at " << now << " of " << end;
+      EXPECT_GT(*told, (end - now) / 2 - 5) << "at " << now << " of " << end;
+    });
+    EXPECT_LT(first_told, 0.6 * end);
+  }
 }
 
 }  // namespace

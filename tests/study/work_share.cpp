@@ -2,31 +2,83 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace tabor::study {
 namespace {
 
 using Kind = Task::Kind;
 
-TEST(WorkShare, CountsTasksByTheTimeTheirKindTakes) {
-  WorkShare work({{Kind::film, 0}, {Kind::contact, 0, 0}, {Kind::contact, 0, 1}});
-  EXPECT_EQ(work.share(), 0);
-  work.end(0, 80);
-  work.end(1, 10);
-  EXPECT_DOUBLE_EQ(work.share(), 0.9);
-  work.inside(2, 0.5);
-  EXPECT_DOUBLE_EQ(work.share(), 0.95);
-  work.end(2, 10);
-  EXPECT_EQ(work.share(), 1);
+/// A sweep on a clock that the test moves.
+struct Simulated {
+  explicit Simulated(const std::vector<Task>& tasks, int n_workers = 1)
+      : work(tasks, [this] { return now; }) {
+    work.set_workers(n_workers);
+  }
+  void take(std::size_t task, double seconds) {
+    work.begin(task);
+    now += seconds;
+    work.end(task);
+  }
+
+  double now = 0;
+  WorkShare work;
+};
+
+TEST(WorkShare, KnowsNothingOfKindsThatHaveNotRun) {
+  Simulated sweep({{Kind::film, 0}, {Kind::contact, 0, 0}, {Kind::contact, 0, 1}});
+  EXPECT_FALSE(sweep.work.seconds_left());
+  EXPECT_TRUE(std::isnan(sweep.work.share()));
+  sweep.take(0, 80);
+  EXPECT_FALSE(sweep.work.seconds_left()) << "no contact has run";
 }
 
-TEST(WorkShare, ScalesKindsThatHaveNotEndedWithThoseThatHave) {
-  WorkShare fast({{Kind::film, 0}, {Kind::contact, 0}});
-  WorkShare slow({{Kind::film, 0}, {Kind::contact, 0}});
-  fast.end(0, 1);
-  slow.end(0, 1000);
-  EXPECT_DOUBLE_EQ(fast.share(), slow.share());
-  EXPECT_GT(fast.share(), 0);
-  EXPECT_LT(fast.share(), 1);
+TEST(WorkShare, CountsTasksByTheTimeTheirKindTook) {
+  Simulated sweep({{Kind::film, 0}, {Kind::contact, 0, 0}, {Kind::contact, 0, 1}});
+  sweep.take(0, 80);
+  sweep.take(1, 10);
+  EXPECT_DOUBLE_EQ(sweep.work.seconds_left().value(), 10);
+  EXPECT_DOUBLE_EQ(sweep.work.share(), 0.9);
+  sweep.work.begin(2);
+  sweep.work.inside(2, 0.5);
+  EXPECT_DOUBLE_EQ(sweep.work.seconds_left().value(), 5);
+  sweep.now += 10;
+  sweep.work.end(2);
+  EXPECT_EQ(sweep.work.share(), 1);
+}
+
+TEST(WorkShare, TakesATaskThatRunsForItsKindBeforeOneHasEnded) {
+  Simulated sweep({{Kind::contact, 0, 0}, {Kind::contact, 0, 1}});
+  sweep.work.begin(0);
+  sweep.now = 1;
+  sweep.work.inside(0, 0.05);
+  EXPECT_FALSE(sweep.work.seconds_left()) << "a twentieth tells nothing yet";
+  sweep.now = 5;
+  sweep.work.inside(0, 0.5);
+  EXPECT_DOUBLE_EQ(sweep.work.seconds_left().value(), 5 + 10);
+}
+
+TEST(WorkShare, SharesTheRestBetweenWorkersButNoTask) {
+  Simulated sweep({{Kind::contact, 0, 0},
+                   {Kind::contact, 0, 1},
+                   {Kind::contact, 0, 2},
+                   {Kind::contact, 0, 3},
+                   {Kind::contact, 0, 4}},
+                  2);
+  sweep.take(0, 10);
+  EXPECT_DOUBLE_EQ(sweep.work.seconds_left().value(), 20);
+  sweep.take(1, 10);
+  sweep.take(2, 10);
+  sweep.take(3, 10);
+  EXPECT_DOUBLE_EQ(sweep.work.seconds_left().value(), 10);
+}
+
+TEST(WorkShare, DoesNotCountTheTimeATaskWaited) {
+  Simulated sweep({{Kind::fluid, 0, 0, 0}, {Kind::fluid, 0, 0, 1}});
+  sweep.work.begin(0);
+  sweep.now = 100;  // for its contact
+  sweep.take(0, 7);
+  EXPECT_DOUBLE_EQ(sweep.work.seconds_left().value(), 7);
 }
 
 }  // namespace

@@ -17,18 +17,22 @@ namespace {
 constexpr double kTerminalPeriod = 0.1;  // [s] faster than the eye needs, slower than any solver
 constexpr double kLinePeriod = 10;       // [s]
 
-std::string describe(const Progress& progress, double share, double elapsed) {
+std::string describe(const Progress& progress) {
   std::string line = printable(progress.stage);
   if (progress.convergence != nullptr) {
     line += fmt::format("  iteration {}  certificate {:.1e} (wanted {:.0e})",
                         progress.convergence->iterations, progress.convergence->certificate,
                         progress.convergence->tolerance);
   }
-  if (share > 0) line += fmt::format("  {:.0f} %", 100 * share);
-  if (share > 0.02 && share < 1) {
-    line += "  " + format_duration(elapsed * (1 - share) / share) + " left";
-  }
   return line;
+}
+
+/// "  25 % of all, 3 min left"
+std::string describe(double share, const std::optional<double>& left, const char* of_what) {
+  if (!(share > 0)) return "";
+  std::string text = fmt::format("  {:.0f} %{}", 100 * share, of_what);
+  if (left) text += fmt::format(", {} left", format_estimate(*left));
+  return text;
 }
 
 }  // namespace
@@ -38,39 +42,41 @@ ProgressStyle progress_style_of_stderr(bool quiet) {
   return isatty(STDERR_FILENO) != 0 ? ProgressStyle::terminal : ProgressStyle::lines;
 }
 
-std::string format_duration(double seconds) {
-  const auto whole = static_cast<long>(std::lround(std::max(0.0, seconds)));
-  if (whole < 60) return fmt::format("{} s", whole);
-  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
-  return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
-}
-
 Observer ProgressPrinter::observer() {
   return [this](const Progress& progress) {
-    if (style_ != ProgressStyle::none) show(progress);
+    if (style_ != ProgressStyle::none && !progress.stage.empty()) show(progress);
     return !interrupted();
   };
 }
 
-void ProgressPrinter::show(const Progress& progress) {
-  const double now = since_start_.seconds();
+double ProgressPrinter::share_of_stage(const Progress& progress, double now) {
   if (progress.stage != stage_) {
     stage_ = progress.stage;
-    stage_start_ = now;
+    of_stage_ = TimeLeft(now);
     first_certificate_ = 0;
+    share_ = std::nan("");
   }
-  if (progress.convergence && !(first_certificate_ > 0 && std::isfinite(first_certificate_))) {
+  if (!std::isnan(progress.fraction)) return share_ = progress.fraction;
+  if (progress.convergence == nullptr) return share_;  // the last that was told
+  if (!(first_certificate_ > 0 && std::isfinite(first_certificate_))) {
     first_certificate_ = progress.convergence->certificate;
   }
+  return share_ = share_done(first_certificate_, *progress.convergence);
+}
+
+void ProgressPrinter::show(const Progress& progress) {
+  const double now = clock_();
+  const double share = share_of_stage(progress, now);
+  // Every message counts for the estimates, whether or not it is shown.
+  const std::optional<double> stage_left = of_stage_.at(now, share);
+  const std::optional<double> whole_left = whole_.at(now, progress.whole);
   const double period = style_ == ProgressStyle::terminal ? kTerminalPeriod : kLinePeriod;
   if (now - last_shown_ < period) return;
   last_shown_ = now;
-  const bool is_part = !std::isnan(progress.whole);
-  double share = is_part ? progress.whole : progress.fraction;
-  if (std::isnan(share)) {
-    share = progress.convergence ? share_done(first_certificate_, *progress.convergence) : 0;
-  }
-  const std::string line = describe(progress, share, is_part ? now : now - stage_start_);
+  const std::string line =
+      describe(progress) + (std::isnan(progress.whole)
+                                ? describe(share, stage_left, "")
+                                : describe(progress.whole, whole_left, " of all"));
   if (style_ == ProgressStyle::terminal) {
     err_ << "\r\033[K" << line << std::flush;
     line_on_screen_ = true;

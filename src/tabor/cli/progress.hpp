@@ -1,8 +1,10 @@
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <string>
 
+#include "tabor/cli/time_left.hpp"
 #include "tabor/core/convergence.hpp"
 #include "tabor/core/resources.hpp"
 
@@ -18,10 +20,17 @@ enum class ProgressStyle {
 /// Terminal if stderr is one, lines otherwise.
 ProgressStyle progress_style_of_stderr(bool quiet);
 
-/// Prints stage, residual and time left; its observer() also stops a computation after Ctrl-C.
+/// Prints stage, residual and time left; its observer() also stops a computation after Ctrl-C. The
+/// time left is that of the whole computation where it says how far it is (a sweep), else that of
+/// the stage.
 class ProgressPrinter {
  public:
-  ProgressPrinter(std::ostream& err, ProgressStyle style) : err_(err), style_(style) {}
+  using Clock = std::function<double()>;  ///< [s]
+
+  ProgressPrinter(
+      std::ostream& err, ProgressStyle style,
+      Clock clock = [watch = Stopwatch()] { return watch.seconds(); })
+      : err_(err), style_(style), clock_(std::move(clock)), whole_(clock_()) {}
   ~ProgressPrinter() { clear(); }
   ProgressPrinter(const ProgressPrinter&) = delete;
   ProgressPrinter& operator=(const ProgressPrinter&) = delete;
@@ -34,18 +43,18 @@ class ProgressPrinter {
 
  private:
   void show(const Progress& progress);
+  double share_of_stage(const Progress& progress, double now);
 
   std::ostream& err_;
   ProgressStyle style_;
+  Clock clock_;
+  TimeLeft whole_;
   std::string stage_;
-  Stopwatch since_start_;
-  double stage_start_ = 0;        ///< [s]
+  TimeLeft of_stage_;
+  double share_ = 0;              ///< of the stage, as far as it was told
   double last_shown_ = 0;         ///< [s]
   double first_certificate_ = 0;  ///< of the stage
   bool line_on_screen_ = false;
 };
-
-/// "12 s", "3 min 20 s", "2 h 5 min"
-std::string format_duration(double seconds);
 
 }  // namespace tabor::cli

@@ -49,6 +49,7 @@ void warn_about_copies(const Study& study, const std::vector<ScanUnits>& units,
 
 Outcome run(const Study& study, const std::filesystem::path& directory,
             const SweepOptions& options) {
+  const Stopwatch since_start;
   const Store store(directory, options.shard ? Store::Use::shared : Store::Use::alone);
   Outcome outcome;
   outcome.n_cases = study.n_cases();
@@ -58,7 +59,7 @@ Outcome run(const Study& study, const std::filesystem::path& directory,
       plan(store, study, units, options.shard.value_or(Shard{}), options.retry, outcome.warnings);
   std::exception_ptr error;
   try {
-    compute_missing(store, study, units, plans, options, outcome);
+    compute_missing(store, study, units, plans, options, since_start, outcome);
   } catch (...) {
     error = std::current_exception();
   }

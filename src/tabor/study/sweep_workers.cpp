@@ -23,8 +23,13 @@ namespace {
 class Sweep {
  public:
   Sweep(const Store& store, const Study& study, const std::vector<ScanUnits>& units,
-        const SweepOptions& options, Outcome& outcome)
-      : store_(store), study_(study), units_(units), options_(options), outcome_(outcome) {}
+        const SweepOptions& options, const Stopwatch& since_start, Outcome& outcome)
+      : store_(store),
+        study_(study),
+        units_(units),
+        options_(options),
+        since_start_(since_start),
+        outcome_(outcome) {}
 
   /// Works through the plan. Throws what stopped it, after every worker has ended.
   void run(const std::vector<ScanPlan>& plans) {
@@ -36,9 +41,10 @@ class Sweep {
     if (tasks_.empty()) {
       return;
     }
-    work_share_.emplace(tasks_);
+    work_share_.emplace(tasks_, [this] { return since_start_.seconds(); });
     const int n_jobs = options_.jobs > 0 ? options_.jobs : affordable_jobs();
     const int n_workers = std::min(static_cast<int>(tasks_.size()), n_jobs);
+    work_share_->set_workers(n_workers);
     {
       const ThreadShare share(n_workers);
       std::vector<std::jthread> workers;
@@ -89,17 +95,26 @@ class Sweep {
   void work() {
     for (std::size_t next = next_++; next < tasks_.size() && !stop_; next = next_++) {
       try {
-        const Stopwatch watch;
+        begin(tasks_[next]);
         perform(tasks_[next]);
         scans_[tasks_[next].scan].task_done();
         const std::lock_guard lock(mutex_);
-        work_share_->end(next, watch.seconds());
+        work_share_->end(next);
       } catch (...) {
         const std::lock_guard lock(mutex_);
         stop_ = true;
         first_error_ = first_error_ ? first_error_ : std::current_exception();
       }
     }
+  }
+
+  void begin(const Task& task) {
+    const std::lock_guard lock(mutex_);
+    work_share_->begin(place_of(task));
+  }
+
+  std::size_t place_of(const Task& task) const {
+    return static_cast<std::size_t>(&task - tasks_.data());
   }
 
   /// Input errors belong to the case; everything else ends the sweep.
@@ -123,6 +138,7 @@ class Sweep {
   void perform_flow(const Task& task) {
     std::string error = scans_[task.scan].wait_for(
         task.pressure, [&] { report({stage_name("waiting for", study_.scans[task.scan])}); });
+    begin(task);  // waiting tells nothing about what it takes
     if (error.empty()) error = complaint_of([&] { compute(task); });
     make_row(task.scan, task.pressure, task.condition, error);
     scans_[task.scan].flow_ended(task.pressure);
@@ -246,8 +262,7 @@ class Sweep {
 
   /// Keeps account of how far the task is, and passes its messages on.
   Observer watch(const Task& task, const std::string& stage) {
-    const auto place = static_cast<std::size_t>(&task - tasks_.data());
-    return [this, place, stage, first = 0.0](const Progress& inner) mutable {
+    return [this, place = place_of(task), stage, first = 0.0](const Progress& inner) mutable {
       double share = inner.fraction;
       if (inner.convergence != nullptr) {
         first = first > 0 && std::isfinite(first) ? first : inner.convergence->certificate;
@@ -283,6 +298,7 @@ class Sweep {
   const Study& study_;
   const std::vector<ScanUnits>& units_;
   const SweepOptions& options_;
+  const Stopwatch& since_start_;
   Outcome& outcome_;            // guarded by mutex_
   std::deque<ScanWork> scans_;  // a deque, since mutexes do not move
   std::vector<Task> tasks_;
@@ -297,8 +313,8 @@ class Sweep {
 
 void compute_missing(const Store& store, const Study& study, const std::vector<ScanUnits>& units,
                      const std::vector<ScanPlan>& plans, const SweepOptions& options,
-                     Outcome& outcome) {
-  Sweep(store, study, units, options, outcome).run(plans);
+                     const Stopwatch& since_start, Outcome& outcome) {
+  Sweep(store, study, units, options, since_start, outcome).run(plans);
 }
 
 }  // namespace tabor::study
