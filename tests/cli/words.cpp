@@ -40,7 +40,7 @@ TEST(Words, EveryDimensionalOptionWithoutUnitIsAUsageErrorWithTheCorrectedForm) 
       {{"contact", "s", "--youngs-modulus", "70GPa", "--poisson-ratio", "0.3", "--pressure", "7"},
        "--pressure 7MPa"},
       {{"contact", "s", "--youngs-modulus", "70", "--poisson-ratio", "0.3", "--pressure", "7MPa"},
-       "--youngs-modulus 70MPa"},
+       "--youngs-modulus 70GPa"},
       {{"lubricate", "s", "--density", "0.45"}, "--density 0.45g/m^2"},
       {{"info", "s", "--pixel", "0.67"}, "--pixel 0.67um"},
       {{"generate", "sphere", "-o", "x.h5", "--radius", "3"}, "--radius 3um"},

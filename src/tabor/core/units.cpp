@@ -10,6 +10,7 @@
 #include <iterator>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/likely_unit.hpp"
 #include "tabor/core/text.hpp"
 
 namespace tabor {
@@ -50,21 +51,6 @@ constexpr std::array kPrefixes{
     Prefix{"µ", 1e-6},  Prefix{"\u03bc", 1e-6}, Prefix{"\xb5", 1e-6}, Prefix{"m", 1e-3},
     Prefix{"c", 1e-2},  Prefix{"d", 1e-1},      Prefix{"k", 1e3},     Prefix{"M", 1e6},
     Prefix{"G", 1e9},   Prefix{"T", 1e12},
-};
-
-/// Dimension names people read in messages, with the unit they usually write.
-struct NamedDimension {
-  Dimension dimension;
-  std::string_view usual_unit;
-};
-
-constexpr std::array kNamed{
-    NamedDimension{dimension::length, "um"},      NamedDimension{dimension::wavevector, "1/um"},
-    NamedDimension{dimension::pressure, "MPa"},   NamedDimension{dimension::areal_density, "g/m^2"},
-    NamedDimension{dimension::density, "kg/m^3"}, NamedDimension{dimension::speed, "mm/s"},
-    NamedDimension{dimension::viscosity, "Pa*s"}, NamedDimension{dimension::per_pressure, "1/Pa"},
-    NamedDimension{dimension::force, "N"},        NamedDimension{dimension::mass, "g"},
-    NamedDimension{dimension::time, "s"},         NamedDimension{dimension::temperature, "K"},
 };
 
 Dimension scaled(Dimension d, int power) {
@@ -164,6 +150,12 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
+/// As it is typed: behind its option, or in the quotes of a file.
+std::string shown(std::string_view name, const WrittenValue& value) {
+  if (name.starts_with("--")) return fmt::format("{} {}", name, value.as_word());
+  return fmt::format("\"{}\"", value.as_text());
+}
+
 }  // namespace
 
 Quantity parse_quantity(std::string_view text) {
@@ -185,20 +177,23 @@ double parse_si(std::string_view text, Dimension expected, std::string_view name
   try {
     quantity = parse_quantity(text);
   } catch (const InputError& error) {
-    throw InputError(std::string(name), error.what(),
-                     "a value like " + std::string(name) + " 1" + usual_unit(expected), "");
+    const std::string likely = expected == dimension::none
+                                   ? std::string("a plain number")
+                                   : "a value like " + shown(name, example_value(name, expected));
+    throw InputError(std::string(name), error.what(), likely, "");
   }
   if (quantity.dimension == expected) {
     return quantity.value;
   }
   if (quantity.dimension == dimension::none) {
+    const WrittenValue likely = with_likely_unit(trim(text), name, expected);
     throw InputError(std::string(name), fmt::format("'{}' without a unit", trim(text)), "",
-                     fmt::format("write it with its unit, for example {} {}{}", name, trim(text),
-                                 usual_unit(expected)));
+                     "write it with its unit, for example " + shown(name, likely));
   }
   throw InputError(std::string(name), fmt::format("'{}', whose unit does not fit", trim(text)),
-                   expected == dimension::none ? std::string("a plain number")
-                                               : "a unit such as " + usual_unit(expected),
+                   expected == dimension::none
+                       ? std::string("a plain number")
+                       : "a unit such as " + example_value(name, expected).unit,
                    "");
 }
 
@@ -230,15 +225,6 @@ std::string format_si(double value, std::string_view si_unit, int significant_di
   }
   return fmt::format("{:.{}g} {}{}", value * std::pow(1000.0, static_cast<double>(-step)),
                      significant_digits, *std::next(prefixes.begin(), step + plain), si_unit);
-}
-
-std::string usual_unit(Dimension dimension) {
-  for (const NamedDimension& named : kNamed) {
-    if (named.dimension == dimension) {
-      return std::string(named.usual_unit);
-    }
-  }
-  return "";
 }
 
 }  // namespace tabor

@@ -42,7 +42,8 @@ struct Quantity {
 Quantity parse_quantity(std::string_view text);
 
 /// The SI value of `text`, which must have the expected dimension. `name` is the option or key the
-/// text came from, e.g. "--pressure"; the message shows the corrected form ("--pressure 7MPa").
+/// text came from, e.g. "--pressure"; the message shows the corrected form ("--pressure 7MPa"), see
+/// likely_unit.hpp.
 double parse_si(std::string_view text, Dimension expected, std::string_view name);
 
 /// Comma-separated values, each with its own unit ("2MPa,7MPa"); throws on an empty list.
@@ -54,8 +55,5 @@ std::optional<double> unit_factor(std::string_view unit, Dimension expected);
 
 /// Engineering form for people: format_si(6.7e-7, "m") = "670 nm", format_si(7e6, "Pa") = "7 MPa".
 std::string format_si(double value, std::string_view si_unit, int significant_digits = 4);
-
-/// A unit that values of this dimension are usually given in, for messages ("MPa", "um", "g/m^2").
-std::string usual_unit(Dimension dimension);
 
 }  // namespace tabor

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/likely_unit.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/io/atomic_file.hpp"
 
@@ -54,12 +55,14 @@ double to_quantity(const toml::node& node, Dimension expected, const std::string
   }
   const auto number = node.value<double>();
   if (!number || node.is_boolean()) {
-    wrong(place, node, "a number with a unit, such as \"1 " + usual_unit(expected) + "\"");
+    wrong(place, node,
+          "a number with a unit, such as \"" + example_value(place, expected).as_text() + "\"");
   }
   if (expected != dimension::none) {
     throw InputError(
         place, fmt::format("{} without a unit", *number), "a number with a unit",
-        fmt::format("write {} = \"{} {}\"", split(key, '.').back(), *number, usual_unit(expected)));
+        fmt::format("write {} = \"{}\"", split(key, '.').back(),
+                    with_likely_unit(fmt::format("{}", *number), place, expected).as_text()));
   }
   return *number;
 }
