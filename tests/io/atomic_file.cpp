@@ -2,6 +2,8 @@
 
 #include <sys/stat.h>
 
+#include <vector>
+
 #include "support/folder.hpp"
 #include "tabor/core/error.hpp"
 
@@ -25,6 +27,30 @@ TEST(TemporaryFile, LeavesNothingWhenDiscarded) {
   const Folder folder;
   { const TemporaryFile file(folder / "out.txt"); }
   EXPECT_EQ(folder.n_files(), 0u);
+}
+
+TEST(RemoveLeftovers, TakesThoseOfDeadProgramsOfThisFileOnly) {
+  const Folder folder;
+  const TemporaryFile living(folder / "out.h5");
+  test::put_bytes(folder / ".out.h5.4194305-0.tabor-tmp", "half");
+  test::put_bytes(folder / ".out.h5.4194305-11.tabor-tmp", "half");
+  const std::vector<std::string> kept = {".out.h5.mine-0.tabor-tmp", ".out.h5.tabor-tmp",
+                                         ".out.4194305-0.tabor-tmp", ".out.h5.4194305-0.txt",
+                                         "out.h5.4194305-0.tabor-tmp"};
+  for (const std::string& name : kept) test::put_bytes(folder / name, "not of out.h5");
+  remove_leftovers(folder / "out.h5");
+  for (const std::string& name : kept) EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  EXPECT_TRUE(std::filesystem::exists(living.path()));
+  EXPECT_EQ(folder.n_files(), kept.size() + 1);
+}
+
+TEST(RemoveLeftovers, LooksBehindALink) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "far");
+  std::filesystem::create_symlink("far/real", folder / "link");
+  test::put_bytes(folder / "far/.real.4194305-0.tabor-tmp", "half");
+  remove_leftovers(folder / "link");
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "far"));
 }
 
 TEST(WriteFile, ReplacesTheOldContent) {

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include "tabor/core/error.hpp"
 #include "tabor/io/regular_file.hpp"
@@ -46,11 +48,52 @@ class Descriptor {
   int value_;
 };
 
+/// What the names of all temporary files of `file` begin with.
+std::string temporary_prefix(const fs::path& file) {
+  return fmt::format(".{}.", file.filename().string());
+}
+
 /// Unique in this process and, by the process number, on this machine.
 fs::path temporary_name(const fs::path& file) {
   static std::atomic<unsigned> counter{0};
   return file.parent_path() /
-         fmt::format(".{}.{}-{}{}", file.filename().string(), ::getpid(), counter++, kSuffix);
+         fmt::format("{}{}-{}{}", temporary_prefix(file), ::getpid(), counter++, kSuffix);
+}
+
+/// True if `name` is the prefix and the two numbers of temporary_name().
+bool is_temporary_of(const std::string& name, const std::string& prefix) {
+  if (!name.starts_with(prefix) || !name.ends_with(kSuffix)) return false;
+  if (name.size() < prefix.size() + kSuffix.size()) return false;
+  const std::string_view rest =
+      std::string_view(name).substr(prefix.size(), name.size() - prefix.size() - kSuffix.size());
+  return rest.find_first_not_of("0123456789-") == std::string_view::npos;
+}
+
+bool is_same_file(int descriptor, const fs::path& path) {
+  struct stat opened {};
+  struct stat named {};
+  return ::fstat(descriptor, &opened) == 0 && ::lstat(path.c_str(), &named) == 0 &&
+         opened.st_dev == named.st_dev && opened.st_ino == named.st_ino;
+}
+
+/// Locks are dropped by the system when their process dies, however it dies.
+void remove_if_unlocked(const fs::path& path) {
+  const Descriptor descriptor(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
+  struct stat status {};
+  if (!descriptor.is_open() || ::fstat(descriptor.value(), &status) != 0) return;
+  if (!S_ISREG(status.st_mode) || ::flock(descriptor.value(), LOCK_EX | LOCK_NB) != 0) return;
+  if (is_same_file(descriptor.value(), path)) ::unlink(path.c_str());
+}
+
+template <typename IsLeftover>
+void remove_where(const fs::path& folder, const IsLeftover& is_leftover) {
+  std::error_code ignored;
+  fs::directory_iterator entries(folder.empty() ? "." : folder, ignored);
+  std::vector<fs::path> found;
+  for (; entries != fs::directory_iterator(); entries.increment(ignored)) {
+    if (is_leftover(entries->path())) found.push_back(entries->path());
+  }
+  for (const fs::path& path : found) remove_if_unlocked(path);
 }
 
 void write_all(int descriptor, std::span<const std::byte> bytes, const fs::path& file) {
@@ -92,18 +135,27 @@ fs::path written_file(const fs::path& file) {
   return target;
 }
 
-TemporaryFile::TemporaryFile(fs::path file)
-    : file_(std::move(file)), target_(written_file(file_)), temporary_(temporary_name(target_)) {
-  const Descriptor descriptor(temporary_, O_WRONLY | O_CREAT | O_EXCL);
-  if (!descriptor.is_open()) {
-    fail(file_, "write", errno);
+TemporaryFile::TemporaryFile(fs::path file) : file_(std::move(file)), target_(written_file(file_)) {
+  while (!create()) {
   }
+}
+
+bool TemporaryFile::create() {
+  temporary_ = temporary_name(target_);
+  locked_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (locked_ < 0) fail(file_, "write", errno);
+  // Somebody who clears up may lock and remove the new file before this process has locked it.
+  const bool is_taken = ::flock(locked_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  if (!is_taken && is_same_file(locked_, temporary_)) return true;
+  ::close(std::exchange(locked_, -1));
+  return false;
 }
 
 TemporaryFile::~TemporaryFile() {
   if (!temporary_.empty()) {
     ::unlink(temporary_.c_str());
   }
+  if (locked_ >= 0) ::close(locked_);
 }
 
 void TemporaryFile::commit() {
@@ -132,6 +184,16 @@ bool is_temporary_name(const fs::path& file) {
   const std::string name = file.filename().string();
   return name.starts_with('.') && name.ends_with(kSuffix);
 }
+
+void remove_leftovers(const fs::path& file) {
+  const fs::path target = written_file(file);
+  const std::string prefix = temporary_prefix(target);
+  remove_where(target.parent_path(), [&](const fs::path& path) {
+    return is_temporary_of(path.filename().string(), prefix);
+  });
+}
+
+void remove_all_leftovers(const fs::path& folder) { remove_where(folder, &is_temporary_name); }
 
 void write_file(const fs::path& file, std::span<const std::byte> bytes) {
   TemporaryFile temporary(file);

@@ -30,13 +30,22 @@ class TemporaryFile {
   void commit();
 
  private:
+  bool create();  ///< false if somebody else removed it at once
+
   std::filesystem::path file_;    ///< as named
   std::filesystem::path target_;  ///< what is replaced
   std::filesystem::path temporary_;
+  int locked_ = -1;  ///< the open temporary file, locked as long as somebody may write to it
 };
 
-/// True for the names TemporaryFile makes: what a killed program leaves behind.
+/// True for the names TemporaryFile makes.
 bool is_temporary_name(const std::filesystem::path& file);
+
+/// Removes the temporary files of `file` that a killed program left behind: those that nobody has
+/// locked. What cannot be removed stays.
+void remove_leftovers(const std::filesystem::path& file);
+/// The same for every file in a folder.
+void remove_all_leftovers(const std::filesystem::path& folder);
 
 /// Replaces `file` by these bytes, or leaves it as it was and throws OutputError.
 void write_file(const std::filesystem::path& file, std::span<const std::byte> bytes);

@@ -12,15 +12,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void remove_leftovers(const fs::path& folder) {
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (io::is_temporary_name(entry.path())) {
-      std::error_code ignored;
-      fs::remove(entry.path(), ignored);
-    }
-  }
-}
-
 }  // namespace
 
 Store::Store(const fs::path& directory, Use use)
@@ -34,8 +25,8 @@ Store::Store(const fs::path& directory, Use use)
               ": another sweep works on these results; wait for it to end, give another -o, or "
               "split one study with --shard i/n")) {
   if (use == Use::alone) {
-    remove_leftovers(directory_);
-    remove_leftovers(folder_);
+    io::remove_all_leftovers(directory_);
+    io::remove_all_leftovers(folder_);
   }
 }
 
