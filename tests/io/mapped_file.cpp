@@ -85,6 +85,17 @@ TEST(MappedFile, ReplacedByAnotherFileStaysAsItWas) {
   fs::rename(folder / "b", folder / "a");
   EXPECT_EQ(n_ones(file), std::ptrdiff_t{kSize});
   EXPECT_NO_THROW(file.check());
+  EXPECT_THROW(file.check_name(), InputError);
+}
+
+TEST(MappedFile, IsStillWhatItsNameLeadsTo) {
+  const test::Folder folder;
+  test::put_bytes(folder / "a", "bytes");
+  fs::create_symlink("a", folder / "link");
+  const MappedFile file(folder / "link");
+  EXPECT_NO_THROW(file.check_name());
+  fs::remove(folder / "a");
+  EXPECT_THROW(file.check_name(), InputError);
 }
 
 /// Whoever wants to end at a bus error of his own still does.

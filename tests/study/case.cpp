@@ -38,7 +38,7 @@ TEST(Units, KeyIsTheDigestOfAFixedText) {
   study.treatment = {"level=plane"};
   const Unit surface = surface_unit(study, {}, "abc");
   EXPECT_EQ(surface.text,
-            "tabor surface 3\nscan_sha256 = 3:abc\nchannel = 0:\nunit = 0:\npixel_x_m = 0\n"
+            "tabor surface 4\nscan_sha256 = 3:abc\nchannel = 0:\nunit = 0:\npixel_x_m = 0\n"
             "pixel_y_m = 0\nstep = 11:level=plane\n");
   EXPECT_EQ(surface.file, "surface-" + surface.key + ".h5");
   EXPECT_EQ(surface.key.size(), 16u);
@@ -53,7 +53,7 @@ TEST(Units, TextOfACaseWithoutFlowIsWhatItWasBeforeOilCouldFlow) {
   film.key = "f";
   const Scan scan{"", "one", "all", {}};
   EXPECT_EQ(case_unit(study, scan, contact, film, 9e-4).text,
-            "tabor case 3\nscan = 3:one\ngroup = 3:all\ncontact = 1:c\nfilm = 1:f\n"
+            "tabor case 4\nscan = 3:one\ngroup = 3:all\ncontact = 1:c\nfilm = 1:f\n"
             "lubricant_density_kg_per_m2 = 0.00089999999999999998\n"
             "shear_strength_Pa = 70000000\narea = 9:corrected\n");
 }

@@ -81,7 +81,7 @@ TEST(FlowingSweep, StudiesWithoutFlowKeepTheirRecords) {
                   "contact_area_fraction_pixels", "converged", "error", "escaping_fraction",
                   "friction_dry", "friction_lubricated", "group", "lubricant_density_kg_per_m2",
                   "lubricated_share", "mean_gap_m", "mean_pressure_Pa", "saturated_area_fraction",
-                  "scan", "software_version", "spill_over_fraction", "trapped_fraction"));
+                  "scan", "sha256", "software_version", "spill_over_fraction", "trapped_fraction"));
 }
 
 TEST(FlowingSweep, AgreesWithTheSolverItself) {
@@ -90,7 +90,7 @@ TEST(FlowingSweep, AgreesWithTheSolverItself) {
   example.run();
   const Study study = example.read();
   const ScanUnits units = units_of(study)[0];
-  const topography::Topography surface = treated_surface(study, study.scans[0], {});
+  const topography::Topography surface = treated_surface(study, study.scans[0], units.sha256, {});
   const contact::State dry = solve_contact(study, surface, study.mean_pressures[0], {});
   const Store store(example.results(), Store::Use::alone);
   const StoredFluid stored = read_fluid(store, units.fluids[0][1]);

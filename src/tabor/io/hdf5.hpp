@@ -26,13 +26,16 @@ struct Hdf5Record {
 
 enum class Precision { float64, float32 };
 
+enum class Seal { no, yes };
+
 /// Writes one HDF5 file under a temporary name; commit() gives it its own. Without commit() nothing
 /// stays. Paths are absolute inside the file ("/surface/height"); missing groups are made. Maps are
 /// chunked, shuffled and compressed. Throws OutputError (full disk, unwritable folder). Objects of
 /// this and the next class may live on different threads.
 class Hdf5Writer {
  public:
-  explicit Hdf5Writer(const std::filesystem::path& file);
+  /// With a seal, commit() ends the file with the digest of its bytes (sealed_file.hpp).
+  explicit Hdf5Writer(const std::filesystem::path& file, Seal seal = Seal::no);
   ~Hdf5Writer();
   Hdf5Writer(Hdf5Writer&&) noexcept;
   Hdf5Writer& operator=(Hdf5Writer&&) = delete;

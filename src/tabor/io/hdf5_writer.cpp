@@ -7,6 +7,7 @@
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/hdf5.hpp"
 #include "tabor/io/hdf5_library.hpp"
+#include "tabor/io/sealed_file.hpp"
 
 namespace tabor::io {
 namespace {
@@ -62,7 +63,8 @@ std::vector<const char*> c_strings(const std::vector<std::string>& values) {
 }  // namespace
 
 struct Hdf5Writer::File {
-  explicit File(const fs::path& name) : temporary(name), id(create(temporary.path()), &H5Fclose) {
+  File(const fs::path& name, Seal wanted)
+      : temporary(name), id(create(temporary.path()), &H5Fclose), seal(wanted) {
     if (!id.valid()) {
       fail("");
     }
@@ -113,9 +115,11 @@ struct Hdf5Writer::File {
 
   TemporaryFile temporary;
   Handle id;
+  Seal seal;
 };
 
-Hdf5Writer::Hdf5Writer(const fs::path& file) : file_(std::make_unique<File>(file)) {}
+Hdf5Writer::Hdf5Writer(const fs::path& file, Seal seal)
+    : file_(std::make_unique<File>(file, seal)) {}
 
 Hdf5Writer::Hdf5Writer(Hdf5Writer&&) noexcept = default;
 
@@ -130,6 +134,7 @@ void Hdf5Writer::commit() {
   if (!file_->id.reset()) {
     file_->fail("");
   }
+  if (file_->seal == Seal::yes) io::seal(file_->temporary.path());
   file_->temporary.commit();
 }
 

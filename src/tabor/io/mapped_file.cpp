@@ -33,6 +33,11 @@ struct MappedFile::Opened {
            !same(now.st_mtim, file.status().st_mtim);
   }
 
+  [[noreturn]] void refuse_changed() const {
+    throw InputError(name.string(), "a file that changed while it was read",
+                     "one that stays as it is", "read it again when it is complete");
+  }
+
   std::filesystem::path name;
   RegularFile file;
   WatchedPages pages;
@@ -67,10 +72,17 @@ void MappedFile::release(std::string_view part) const {
 }
 
 void MappedFile::check() const {
-  if (opened_->pages.were_lost() || opened_->has_changed()) {
-    throw InputError(opened_->name.string(), "a file that changed while it was read",
-                     "one that stays as it is", "read it again when it is complete");
+  if (opened_->pages.were_lost() || opened_->has_changed()) opened_->refuse_changed();
+}
+
+void MappedFile::check_name() const {
+  struct stat named {};
+  const struct stat& opened = opened_->file.status();
+  if (::stat(opened_->name.c_str(), &named) != 0 || named.st_dev != opened.st_dev ||
+      named.st_ino != opened.st_ino) {
+    opened_->refuse_changed();
   }
+  check();
 }
 
 }  // namespace tabor::io

@@ -28,6 +28,8 @@ class MappedFile {
 
   /// Throws InputError if the file is no longer what was opened: then nor is what was read of it.
   void check() const;
+  /// Also if its name leads to another file by now: for what was read by the name.
+  void check_name() const;
 
  private:
   struct Opened;

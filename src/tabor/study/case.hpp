@@ -16,7 +16,7 @@ struct Unit {
   std::string file;  ///< name inside DIR/store
 };
 
-inline constexpr int kAlgorithms = 3;
+inline constexpr int kAlgorithms = 4;
 inline constexpr int kFluidAlgorithms = 1;  ///< the same for films that flow alone
 
 /// The treated scan; `scan_sha256` is of the scan file's bytes.

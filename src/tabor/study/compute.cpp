@@ -11,6 +11,7 @@
 #include "tabor/elastic/half_space.hpp"
 #include "tabor/friction/trapped.hpp"
 #include "tabor/friction/wet_contact.hpp"
+#include "tabor/io/digest.hpp"
 
 namespace tabor::study {
 namespace {
@@ -107,12 +108,38 @@ contact::State solve_on(elastic::ElasticOperator& elasticity, const Study& study
   return state;
 }
 
+[[noreturn]] void refuse_replaced(const Scan& scan) {
+  throw Error(scan.file.string() +
+              ": replaced or changed while the sweep ran; nothing of it was kept, start the sweep "
+              "again");
+}
+
+bool holds(const Scan& scan, const std::string& sha256) {
+  try {
+    return io::sha256_of_file(scan.file) == sha256;
+  } catch (const InputError&) {
+    return false;
+  }
+}
+
+topography::Topography read_unchanged(const Scan& scan, const std::string& sha256,
+                                      const Observer& observer) {
+  try {
+    const topography::ScanFile file(scan.file, observer);
+    if (file.sha256() != sha256) refuse_replaced(scan);
+    return file.read(scan.read);
+  } catch (const InputError&) {  // of this scan, or of what took its place
+    if (!holds(scan, sha256)) refuse_replaced(scan);
+    throw;
+  }
+}
+
 }  // namespace
 
 topography::Topography treated_surface(const Study& study, const Scan& scan,
-                                       const Observer& observer) {
-  topography::Topography treated = topography::apply(
-      study.treatment, topography::read(scan.file, scan.read, observer), observer);
+                                       const std::string& scan_sha256, const Observer& observer) {
+  topography::Topography treated =
+      topography::apply(study.treatment, read_unchanged(scan, scan_sha256, observer), observer);
   if (const Index n_holes = topography::count_holes(treated); n_holes > 0) {
     throw InputError(scan.label, fmt::format("{} missing pixels", n_holes),
                      "a surface without holes", "add \"fill=harmonic\" to treatment.steps");

@@ -6,9 +6,11 @@
 // From a study to the files of its store, one unit at a time.
 namespace tabor::study {
 
-/// Reads and treats one scan. Throws InputError, also for a surface that still has holes.
+/// Reads and treats one scan. Throws InputError, also for a surface that still has holes; Error if
+/// the bytes that are read are not those of `scan_sha256`: the scan was replaced since the sweep
+/// began, and every result of it would be stored as one of the scan before.
 topography::Topography treated_surface(const Study& study, const Scan& scan,
-                                       const Observer& observer);
+                                       const std::string& scan_sha256, const Observer& observer);
 
 /// Power spectra and map of the treated scan into the store.
 void compute_surface(const Store& store, const Unit& unit,

@@ -84,7 +84,7 @@ class Planner {
     if (!store_.has(unit)) {
       return Found::absent;
     }
-    const std::string problem = defect(store_, unit, study_.lubricant_densities.size());
+    const std::string problem = defect(store_, unit);
     if (problem.empty()) {
       return Found::complete;
     }
@@ -117,7 +117,7 @@ Shard parse_shard(std::string_view text) {
 
 std::vector<ScanPlan> plan(const Store& store, const Study& study,
                            const std::vector<ScanUnits>& units, const Shard& shard, bool retry,
-                           std::vector<std::string>& warnings) {
+                           std::vector<std::string>& warnings, const Observer& observer) {
   Planner planner(store, study, retry, warnings);
   std::vector<ScanPlan> plans;
   std::size_t pair = 0;
@@ -130,6 +130,8 @@ std::vector<ScanPlan> plan(const Store& store, const Study& study,
       }
     }
     plans.push_back(planner.plan(scan, mine));
+    report_progress(observer, "look at the store",
+                    static_cast<double>(plans.size()) / static_cast<double>(units.size()));
   }
   return plans;
 }

@@ -40,10 +40,10 @@ struct ScanPlan {
 
 /// Compares the study with its store. Whole (scan, pressure) pairs are dealt out to the shards in
 /// turn. With `retry`, cases that failed or did not converge count as missing. Damaged files are
-/// named in `warnings`; they are computed again.
+/// named in `warnings`; they are computed again. Throws Interrupted when the observer stops it.
 std::vector<ScanPlan> plan(const Store& store, const Study& study,
                            const std::vector<ScanUnits>& units, const Shard& shard, bool retry,
-                           std::vector<std::string>& warnings);
+                           std::vector<std::string>& warnings, const Observer& observer = {});
 
 /// How many units on surfaces of `n_pixels` are computed at the same time: one per thread, a film
 /// being laid down by one thread, as long as they fit in half of the free memory; at least one.

@@ -4,12 +4,14 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/resources.hpp"
 #include "tabor/core/version.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/json.hpp"
+#include "tabor/io/sealed_file.hpp"
 #include "tabor/study/unit_file.hpp"
 #include "tabor/topography/surface_group.hpp"
 
@@ -108,23 +110,6 @@ void require_numbers(const io::Hdf5Reader& reader, const Unit& unit) {
   if (unit.file.starts_with("fluid-")) fluid_numbers(reader);
 }
 
-std::vector<std::string> expected_maps(const Unit& unit, std::size_t n_films) {
-  if (unit.file.starts_with("surface-")) {
-    return {"/surface/height", "/psd/radial_c2d_m4"};
-  }
-  if (unit.file.starts_with("contact-")) {
-    return {"/contact/state", "/contact/gap"};
-  }
-  if (unit.file.starts_with("fluid-")) {
-    return {"/fluid/fluid_pressure", "/fluid/fluid_fill", "/fluid/fluid_gap"};
-  }
-  std::vector<std::string> films;
-  for (std::size_t i = 0; i < n_films; ++i) {
-    films.push_back(film_group(i) + "/film_thickness");
-  }
-  return films;
-}
-
 }  // namespace
 
 void write_row(const Store& store, const Unit& unit, const Row& row) {
@@ -146,12 +131,15 @@ void write_row(const Store& store, const Unit& unit, const Row& row) {
     json["doubts"] = row.doubts;
   }
   json["error"] = row.error;
-  io::write_file(store.path(unit), io::to_text(json) + "\n");
+  io::write_file(store.path(unit), io::to_text(io::sealed(std::move(json))) + "\n");
 }
 
 Row read_row(const Store& store, const Unit& unit) {
   const io::Json json = io::read_json(store.path(unit));
   try {
+    if (!io::is_sealed(json)) {
+      throw InputError(store.path(unit).string() + ": not the row that was written");
+    }
     Row row;
     row.case_id = json.at("case_id").get<std::string>();
     row.scan = json.at("scan").get<std::string>();
@@ -272,24 +260,16 @@ Field read_film(const Store& store, const Unit& unit, std::size_t density) {
   return io::read_guarded_map(store.path(unit), film_group(density) + "/film_thickness");
 }
 
-std::string defect(const Store& store, const Unit& unit, std::size_t n_films, Depth depth) {
-  if (unit.file.ends_with(".json")) {
-    return defect_of_row(store, unit);
-  }
+std::string defect(const Store& store, const Unit& unit) {
+  if (unit.file.ends_with(".json")) return defect_of_row(store, unit);
+  // Only a file that is to the last byte what was written is opened at all.
+  std::string problem = io::broken_seal(store.path(unit));
+  if (!problem.empty()) return problem;
   try {
-    const std::vector<std::string> expected = expected_maps(unit, n_films);
-    std::vector<std::string> maps;
     const std::string text = io::read_guarded(store.path(unit), [&](const io::Hdf5Reader& reader) {
-      maps.clear();
-      for (const std::string& map : expected) {
-        if (reader.shape(map).size() == 2) maps.push_back(map);
-      }
       require_numbers(reader, unit);
       return reader.text("/", "canonical_text");
     });
-    if (depth == Depth::maps) {
-      for (const std::string& map : maps) io::read_guarded_map(store.path(unit), map);
-    }
     return text == unit.text ? "" : "belongs to another unit";
   } catch (const InputError& error) {
     return error.what();

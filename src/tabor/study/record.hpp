@@ -139,16 +139,9 @@ void write_fluid(const Store& store, const Unit& unit, const Grid& grid,
                  const Scalars& conditions);
 StoredFluid read_fluid(const Store& store, const Unit& unit);
 
-/// How thoroughly a file is looked at.
-enum class Depth {
-  structure,  ///< everything that should be there is, in its shape
-  maps        ///< and its maps can be read to the last byte
-};
-
-/// Empty if the file in the store is complete and belongs to the unit, otherwise what is wrong with
-/// it.
-std::string defect(const Store& store, const Unit& unit, std::size_t n_films,
-                   Depth depth = Depth::structure);
+/// Empty if the file in the store has all its bytes as they were written and belongs to the unit,
+/// otherwise what is wrong with it.
+std::string defect(const Store& store, const Unit& unit);
 
 /// "/films/0003"
 std::string film_group(std::size_t density);

@@ -55,8 +55,8 @@ Outcome run(const Study& study, const std::filesystem::path& directory,
   outcome.n_cases = study.n_cases();
   const std::vector<ScanUnits> units = units_of(study, options.observer);
   warn_about_copies(study, units, outcome.warnings);
-  const auto plans =
-      plan(store, study, units, options.shard.value_or(Shard{}), options.retry, outcome.warnings);
+  const auto plans = plan(store, study, units, options.shard.value_or(Shard{}), options.retry,
+                          outcome.warnings, options.observer);
   std::exception_ptr error;
   try {
     compute_missing(store, study, units, plans, options, since_start, outcome);

@@ -42,8 +42,9 @@ struct Outcome {
 /// rebuilt from the store at the end, also of an interrupted run. Results do not depend on jobs,
 /// shards, threads or interruptions.
 ///
-/// Throws InputError (unreadable scan file, store in use), OutputError (cannot write), Interrupted
-/// (the observer returned false; what was finished is kept).
+/// Throws InputError (unreadable scan file, store in use), Error (a scan was replaced meanwhile),
+/// OutputError (cannot write), Interrupted (the observer returned false; what was finished is
+/// kept).
 Outcome run(const Study& study, const std::filesystem::path& directory,
             const SweepOptions& options = {});
 

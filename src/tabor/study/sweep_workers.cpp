@@ -238,17 +238,16 @@ class Sweep {
         report({stage, inner.fraction, inner.convergence});
         return true;
       };
-      return treated_surface(study_, scan, observer);
+      return treated_surface(study_, scan, units_[task.scan].sha256, observer);
     });
   }
 
-  /// True if the unit is in the store and can be read to its last byte.
+  /// True if the unit is in the store as it was written.
   bool usable(const Unit& unit) {
     if (!store_.has(unit)) {
       return false;
     }
-    const std::string problem =
-        defect(store_, unit, study_.lubricant_densities.size(), Depth::maps);
+    const std::string problem = defect(store_, unit);
     if (!problem.empty()) {
       const std::lock_guard lock(mutex_);
       outcome_.warnings.push_back("damaged, computed again: " + problem);

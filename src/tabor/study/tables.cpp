@@ -221,7 +221,7 @@ void write_scans(io::Hdf5Writer& writer, const Store& store, const Study& study,
     writer.attribute(group, "file", study.scans[i].label);
     writer.attribute(group, "group", study.scans[i].group);
     writer.attribute(group, "input_sha256", units[i].sha256);
-    if (store.has(units[i].surface) && defect(store, units[i].surface, 0).empty()) {
+    if (store.has(units[i].surface) && defect(store, units[i].surface).empty()) {
       write_surface_facts(writer, group, read_surface_facts(store, units[i].surface));
     }
     write_links(writer, group, store, units[i], study.lubricant_densities.size());
@@ -246,7 +246,7 @@ std::vector<Row> rows_in(const Store& store, const std::vector<ScanUnits>& units
   for (const ScanUnits& scan : units) {
     for (const std::vector<Unit>& cases : scan.cases) {
       for (const Unit& unit : cases) {
-        if (store.has(unit) && defect(store, unit, 0).empty()) {
+        if (store.has(unit) && defect(store, unit).empty()) {
           rows.push_back(read_row(store, unit));
         }
       }

@@ -5,7 +5,7 @@
 namespace tabor::study {
 
 io::Hdf5Writer unit_writer(const Store& store, const Unit& unit, const std::string& plotted) {
-  io::Hdf5Writer writer(store.path(unit));
+  io::Hdf5Writer writer(store.path(unit), io::Seal::yes);
   write_root(writer, plotted);
   writer.attribute("/", "canonical_text", unit.text);
   return writer;

@@ -161,7 +161,8 @@ Topography ScanFile::read(const ReadOptions& options) const {
   topography.grid = format::resolve_grid(contents, layer, options, found);
   const double factor = format::resolve_height_factor(contents, layer, options, found);
   topography.height = heights_of(layer, factor, found);
-  opened_->mapped.check();
+  // Some formats are read by other libraries and programs, which open the file by its name.
+  opened_->mapped.check_name();
   if (layer.late_doubts) {
     const std::vector<std::string>& late = *layer.late_doubts;
     found.insert(found.end(), late.begin(), late.end());
