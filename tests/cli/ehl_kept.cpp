@@ -11,6 +11,7 @@
 #include "tabor/cli/ehl_cases.hpp"
 #include "tabor/cli/interrupt.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/io/digest.hpp"
 
 namespace tabor::cli {
 namespace {
@@ -136,6 +137,32 @@ TEST_F(EhlKept, WhatIsDamagedIsComputedAgain) {
   run(3);
   for (const auto& file : files("start-")) std::filesystem::remove(file);
   EXPECT_EQ(scalars(kAll), whole);
+}
+
+TEST_F(EhlKept, ABitThatTurnedOverInACaseIsFound) {
+  const std::vector<io::Json> whole = expected();
+  run(1);
+  const auto file = files("case-").front();
+  const std::string bytes = test::bytes_of(file);
+  for (std::size_t at = 0; at < bytes.size(); at += 37) {
+    std::string other = bytes;
+    other[at] = static_cast<char>(other[at] ^ (1 << (at % 7)));
+    test::put_bytes(file, other);
+    EXPECT_EQ(scalars(1).front(), whole.front()) << at;
+  }
+}
+
+TEST_F(EhlKept, ACaseIsNotKeptUnderTheDigestOfAnotherScan) {
+  std::ofstream(file_) << "number = 1\nfile = \"scan.txt\"\n";
+  test::put_bytes(folder_ / "scan.txt", "rough");
+  program_.make_chain = {};
+  program_.solve = [this](const io::Config& config, Context& context) {
+    if (config.number("number") == 7) test::put_bytes(folder_ / "scan.txt", "smooth");
+    context.files.holds(folder_ / "scan.txt", io::sha256_of_file(folder_ / "scan.txt"));
+    return EhlAnswer{.scalars = {{"sum", 0}}, .text = "", .converged = true};
+  };
+  EXPECT_THAT([&] { run(kAll); }, testing::ThrowsMessage<Error>(HasSubstr("replaced or changed")));
+  EXPECT_EQ(files("case-").size(), 1u);
 }
 
 TEST_F(EhlKept, ACaseWithoutNumbersIsDamaged) {

@@ -181,8 +181,8 @@ TEST_F(ScanVerbs, TheMeasurementIsNeverWrittenOver) {
   std::filesystem::create_symlink("scan.sdf", folder_ / "link.sdf");
   for (const std::string& target : {scan(), file("./scan.sdf"), file("link.sdf")}) {
     const Outcome outcome = run_tabor({"convert", scan(), target, "--level", "plane"});
-    EXPECT_EQ(outcome.code, 3) << target;
-    EXPECT_THAT(outcome.err, HasSubstr("the scan itself"));
+    EXPECT_EQ(outcome.code, 5) << target;
+    EXPECT_THAT(outcome.err, HasSubstr("never written over"));
   }
   EXPECT_EQ(bytes_of(folder_ / "scan.sdf"), before);
 }

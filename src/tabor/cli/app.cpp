@@ -65,7 +65,9 @@ int run_verb(const Verb& verb, const Words& words, Context& context, ProgressSty
   OptionSet set;
   const Action action = verb.declare(set);
   declare_common(set, context);
-  parse(set, verb.name, words);
+  NamedFiles named;
+  parse(noting_files(set, named), verb.name, words);
+  check_files(named, context.files);
   set_thread_count(static_cast<int>(std::min<std::uint64_t>(context.threads, 4096)));
   ProgressPrinter progress(context.err, context.quiet ? ProgressStyle::none : style);
   context.progress = &progress;
@@ -122,6 +124,7 @@ int run(const std::vector<std::string>& args, std::ostream& out, std::ostream& e
 int run(int argc, char** argv) {
   let_idle_threads_sleep(argv);
   catch_interrupts();
+  let_writing_fail();
   return run(Words(argv + 1, argv + argc), std::cout, std::cerr, progress_style_of_stderr(false));
 }
 

@@ -81,7 +81,9 @@ Verb cite_verb() {
           .declare = [](OptionSet& set) -> Action {
             const auto files = std::make_shared<std::vector<std::string>>();
             set.group("Results");
-            set.positionals("RESULT", "result files", *files).required = false;
+            Option& results = set.positionals("RESULT", "result files", *files);
+            results.required = false;
+            results.names = FileRole::input;
             return [files](Context& context) { return show(*files, context); };
           }};
 }

@@ -168,7 +168,6 @@ void warn_of_holes(const Combination& c, Context& context) {
 
 int show(const Request& request, Context& context) {
   const auto options = options_of(request);
-  if (request.output) check_can_write(*request.output);
   ScanRequest second = request.scan;
   second.file = request.second;
   const Scan a = load_scan(request.scan, context);
@@ -205,7 +204,7 @@ int show(const Request& request, Context& context) {
 void declare_options(OptionSet& set, Request& request) {
   declare_scan(set, request.scan);
   set.group("Combination");
-  set.positional("SECOND", "the scan after wear, or the other face", request.second);
+  set.input("SECOND", "the scan after wear, or the other face", request.second);
   set.choice("--mode", {"wear", "difference", "composite"},
              "A - B with volumes, A - B, or A + B turned over: two faces in contact [wear]",
              request.mode);
@@ -219,8 +218,8 @@ void declare_options(OptionSet& set, Request& request) {
   set.number("--threshold", "SIGMAS",
              "a change counts from here on, in deviations of the noise [4]", request.threshold);
   set.group("Output");
-  set.text("--output", "OUT", "write the map as a scan file, see 'tabor formats'", request.output)
-      .short_flag = "-o";
+  set.output("OUT", "write the map as a scan file, see 'tabor formats'", scan_extensions(),
+             request.output);
 }
 
 }  // namespace

@@ -44,7 +44,6 @@ std::vector<std::string> row_of(const ContactResult& result) {
 
 void check(const Request& request) {
   check(request.contact);
-  if (request.output) check_can_write(*request.output);
   if (request.output && !request.cutoffs.empty()) {
     throw UsageError("--lowpass-scan keeps no maps; leave out -o");
   }
@@ -84,6 +83,7 @@ int show(const Request& request, Context& context) {
     rows.row(row_of(result));
   };
   const int code = solve_all(*elasticity, scan, request.contact, context, receive);
+  if (code == kInterrupted && object["states"].empty()) throw Interrupted();
   if (file) file->commit(context);
   Facts facts;
   describe(scan, facts);

@@ -1,5 +1,4 @@
 #include <chrono>
-#include <filesystem>
 #include <future>
 #include <limits>
 #include <memory>
@@ -7,7 +6,6 @@
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
-#include "tabor/core/error.hpp"
 
 namespace tabor::cli {
 
@@ -33,13 +31,6 @@ void write(const topography::Topography& surface, const std::string& file,
 }
 
 int convert(const Request& request, Context& context) {
-  check_can_write(request.output);
-  topography::require_writer(request.output);
-  std::error_code error;
-  if (std::filesystem::equivalent(request.scan.file, request.output, error)) {
-    throw InputError(request.output, "the scan itself as its output", "another name",
-                     "a measurement is not written over");
-  }
   const Scan scan = load_scan(request.scan, context);
   write(scan.surface, request.output, context.observer());
   io::Json object = json_head(context, scan);
@@ -69,7 +60,9 @@ Verb convert_verb() {
             const auto request = std::make_shared<Request>();
             declare_scan(set, request->scan);
             set.group("Output");
-            set.positional("OUT", "the file to write", request->output);
+            Option& out = set.positional("OUT", "the file to write", request->output);
+            out.names = FileRole::output;
+            out.extensions = scan_extensions();
             return [request](Context& context) { return convert(*request, context); };
           }};
 }

@@ -5,6 +5,8 @@
 #include <memory>
 #include <set>
 
+#include "tabor/cli/ehl_case.hpp"
+#include "tabor/cli/ehl_cases.hpp"
 #include "tabor/cli/ehl_series.hpp"
 #include "tabor/cli/fields_file.hpp"
 #include "tabor/cli/interrupt.hpp"
@@ -71,9 +73,22 @@ int show_one(const EhlProgram& program, const io::Config& config, const Request&
   return finish(context, object, answer.text, answer.converged ? kDone : kNotConverged);
 }
 
+/// The files that the cases name.
+void note_inputs(const EhlProgram& program, const io::Config& config,
+                 const std::vector<SweepAxis>& swept, CommandFiles& files) {
+  for (const std::string& key : program.files) {
+    if (config.has(key)) files.reads(named_file(config, key));
+    for (const SweepAxis& axis : swept) {
+      if (axis.key != key) continue;
+      for (const std::string& value : axis.values) {
+        files.reads(named_file(config.with(key, value), key));
+      }
+    }
+  }
+}
+
 int run(const Request& request, Context& context) {
   const EhlProgram& program = find_program(request.program);
-  if (request.output) check_can_write(*request.output);
   io::Config config = io::Config::read(request.file);
   std::vector<SweepAxis> swept;
   std::set<std::string> seen;
@@ -91,8 +106,10 @@ int run(const Request& request, Context& context) {
   if (request.study && (!swept.empty() || request.output)) {
     throw UsageError("--study varies one thing by itself: no range in --set and no -o beside it");
   }
+  note_inputs(program, config, swept, context.files);
   if (!request.study && swept.empty()) return show_one(program, config, request, context);
   const EhlSeries series{program, config, request.file, request.output};
+  if (request.output) context.files.fills(kept_folder(series));
   return request.study ? show_study(series, *request.study, context)
                        : show_sweep(series, swept, context);
 }
@@ -111,7 +128,7 @@ std::string details() {
 void declare_options(OptionSet& set, Request& request) {
   set.group("Case");
   set.positional("PROGRAM", "impact, squeeze, line or point", request.program);
-  set.positional("CASE.toml", "the case: bodies, lubricant, motion, grid", request.file);
+  set.input("CASE.toml", "the case: bodies, lubricant, motion, grid", request.file);
   Option& axis = set.add(
       {.flag = "--set",
        .placeholder = "KEY=VALUE",
@@ -123,9 +140,8 @@ void declare_options(OptionSet& set, Request& request) {
   set.text("--study", "grid|domain|time-step",
            "how far the result depends on the grid, the domain or the time step", request.study);
   set.group("Output");
-  set.text("--output", "OUT.h5", "keep histories, profiles and maps, or the numbers of a sweep",
-           request.output)
-      .short_flag = "-o";
+  set.output("OUT.h5", "keep histories, profiles and maps, or the numbers of a sweep",
+             hdf5_extensions(), request.output);
 }
 
 constexpr const char* kRestitutionMap =

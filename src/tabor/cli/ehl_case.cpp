@@ -22,6 +22,10 @@ material::Solid read_solid(const io::Config& config, const std::string& prefix) 
 
 }  // namespace
 
+std::filesystem::path named_file(const io::Config& config, std::string_view key) {
+  return std::filesystem::path(config.name()).parent_path() / config.text(key);
+}
+
 double positive_quantity(const io::Config& config, std::string_view key, Dimension dimension) {
   const double value = config.quantity(key, dimension);
   if (!(value > 0) || !std::isfinite(value)) {

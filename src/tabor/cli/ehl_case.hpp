@@ -50,6 +50,9 @@ const std::vector<std::string>& shear_keys();
 ehl::Asperities read_asperities(const io::Config& config, double usual_film);
 const std::vector<std::string>& asperity_keys();
 
+/// The file that a key names, from where the case lies.
+std::filesystem::path named_file(const io::Config& config, std::string_view key);
+
 /// Key lists one after the other.
 std::vector<std::string> joined(std::vector<std::string> keys,
                                 const std::vector<std::vector<std::string>>& more);

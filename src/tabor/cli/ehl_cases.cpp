@@ -98,7 +98,10 @@ EhlCases::EhlCases(const EhlSeries& series, const std::vector<SweepAxis>& axes,
   }
 }
 
-KeptCases kept_cases(const EhlSeries& series, const EhlCases& cases, const Context& context) {
+std::filesystem::path kept_folder(const EhlSeries& series) { return *series.output + ".cases"; }
+
+KeptCases kept_cases(const EhlSeries& series, const EhlCases& cases, Context& context) {
+  for (const io::Config& config : cases.configs) note_digests(series.program, config, context);
   std::vector<std::string> texts;
   texts.reserve(cases.order.size());
   const bool is_chain = series.program.make_chain != nullptr;
@@ -106,7 +109,7 @@ KeptCases kept_cases(const EhlSeries& series, const EhlCases& cases, const Conte
     const std::string before = is_chain && !texts.empty() ? texts.back() : "";
     texts.push_back(canonical_text(series.program, cases.configs[i], context, before));
   }
-  return {*series.output + ".cases", std::move(texts)};
+  return {kept_folder(series), std::move(texts)};
 }
 
 std::vector<EhlAnswer> solve_cases(const EhlSeries& series, const EhlCases& cases, KeptCases* kept,

@@ -18,7 +18,8 @@ struct EhlCases {
 };
 
 /// Where a sweep with this output keeps its finished cases until all are done.
-KeptCases kept_cases(const EhlSeries& series, const EhlCases& cases, const Context& context);
+std::filesystem::path kept_folder(const EhlSeries& series);
+KeptCases kept_cases(const EhlSeries& series, const EhlCases& cases, Context& context);
 
 /// Solves the cases that are not kept, keeps each as soon as it is there, and says on stderr how
 /// many were. `kept`: null where the sweep has no output. A case that makes no sense is an answer

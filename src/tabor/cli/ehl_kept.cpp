@@ -6,10 +6,12 @@
 #include <cmath>
 #include <utility>
 
+#include "tabor/cli/ehl_case.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/version.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/digest.hpp"
+#include "tabor/io/sealed_file.hpp"
 
 namespace tabor::cli {
 
@@ -85,11 +87,20 @@ std::string canonical_text(const EhlProgram& program, const io::Config& config,
   text += line("config", config.to_text());
   for (const std::string& key : program.files) {
     if (!config.has(key)) continue;
-    const fs::path file = fs::path(config.name()).parent_path() / config.text(key);
-    text += line(key, digest_of(file, context.observer()));
+    text += line(key, digest_of(named_file(config, key), context.observer()));
   }
   if (!before.empty()) text += line("after", key_of(before));
   return text;
+}
+
+void note_digests(const EhlProgram& program, const io::Config& config, Context& context) {
+  for (const std::string& key : program.files) {
+    if (!config.has(key)) continue;
+    const fs::path file = named_file(config, key);
+    if (!context.files.sha256_of(file).empty()) continue;
+    const std::string digest = digest_of(file);
+    if (!digest.empty()) context.files.holds(file, digest);
+  }
 }
 
 KeptCases::KeptCases(fs::path folder, std::vector<std::string> texts)
@@ -122,8 +133,9 @@ std::optional<KeptCase> KeptCases::read(std::size_t place) {
   if (!fs::exists(file)) return std::nullopt;
   try {
     const io::Json json = io::read_json(file);
-    if (json.at("canonical_text") == texts_[place]) return from_json(json);
-    complaints_.push_back(file.string() + ": of another case");
+    const bool is_ours = json.at("canonical_text") == texts_[place];
+    if (is_ours && io::is_sealed(json)) return from_json(json);
+    complaints_.push_back(file.string() + (is_ours ? ": damaged" : ": of another case"));
   } catch (const InputError&) {
     complaints_.push_back(file.string() + ": damaged");
   } catch (const io::Json::exception&) {
@@ -180,7 +192,7 @@ void KeptCases::keep(std::size_t place, const KeptCase& kept, const EhlChain& ch
     writer.commit();
     json["start_sha256"] = digest_of(start_file(place));
   }
-  io::write_file(case_file(place), io::to_text(json) + "\n");
+  io::write_file(case_file(place), io::to_text(io::sealed(std::move(json))) + "\n");
   ++n_kept_;
   // Only now: until the case is there, the next run needs the film before it.
   std::error_code ignored;

@@ -19,6 +19,10 @@ inline constexpr int kEhlAlgorithms = 2;
 std::string canonical_text(const EhlProgram& program, const io::Config& config,
                            const Context& context, const std::string& before);
 
+/// States to context.files what the files of a case hold, so that a case is never kept under the
+/// digest of other bytes than it was solved with.
+void note_digests(const EhlProgram& program, const io::Config& config, Context& context);
+
 /// One case that was solved, and what the program warned of meanwhile.
 struct KeptCase {    // NOLINT(bugprone-exception-escape): of the JSON library's own moves
   EhlAnswer answer;  ///< without its text and its maps

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <optional>
 
@@ -9,10 +8,10 @@
 #include "tabor/cli/ehl_case.hpp"
 #include "tabor/cli/ehl_friction.hpp"
 #include "tabor/cli/ehl_line_wear.hpp"
+#include "tabor/cli/scan.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/topography/file.hpp"
 
 namespace tabor::cli {
 
@@ -33,9 +32,7 @@ ehl::LineCavitation read_cavitation(const io::Config& config) {
 /// One row of a scan [m]; the file's place is relative to the case's.
 Eigen::ArrayXd read_profile(const io::Config& config, const ehl::LineProblem& problem,
                             Context& context) {
-  const std::filesystem::path folder = std::filesystem::path(config.name()).parent_path();
-  const topography::Topography scan =
-      topography::read(folder / config.text("roughness.file"), {}, context.observer());
+  const topography::Topography scan = read_input(named_file(config, "roughness.file"), {}, context);
   const std::int64_t row = integer_or(config, "roughness.row", scan.grid.ny / 2);
   if (row < 0 || row >= scan.grid.ny) {
     throw InputError(config.place("roughness.row"), fmt::format("{}", row),

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "tabor/cli/ehl_case.hpp"
 #include "tabor/cli/ehl_friction.hpp"
 #include "tabor/cli/ehl_point_case.hpp"
 #include "tabor/cli/ehl_point_fields.hpp"
@@ -14,7 +15,6 @@
 #include "tabor/cli/table.hpp"
 #include "tabor/ehl/point_dry.hpp"
 #include "tabor/ehl/point_measures.hpp"
-#include "tabor/topography/file.hpp"
 
 namespace tabor::cli {
 
@@ -231,8 +231,8 @@ EhlAnswer point_answer(const io::Config& config, const PointProblem& problem,
   EhlAnswer answer;
   answer.scalars = scalars_of(problem, result, measures);
   if (config.has("roughness.file")) {
-    const std::filesystem::path scan = point_scan(config);
-    answer.scalars["scan"] = {{"path", scan.string()}, {"sha256", topography::sha256(scan)}};
+    const std::filesystem::path scan = named_file(config, "roughness.file");
+    answer.scalars["scan"] = {{"path", scan.string()}, {"sha256", context.files.sha256_of(scan)}};
   }
   answer.text = text_of(problem, result, measures);
   answer.converged = result.converged;

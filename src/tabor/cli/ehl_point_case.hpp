@@ -27,9 +27,6 @@ PointRoughness read_point_roughness(const io::Config& config, const ehl::PointPr
 /// The whole case: read_point() with the roughness where it lies at rest.
 ehl::PointProblem read_rough_point(const io::Config& config, Context& context);
 
-/// The scan that `roughness.file` names, from where the case lies.
-std::filesystem::path point_scan(const io::Config& config);
-
 /// All keys of a case.
 std::vector<std::string> point_keys();
 

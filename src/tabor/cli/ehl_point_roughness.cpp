@@ -173,13 +173,13 @@ bool read_is_turned(const io::Config& config) {
 }
 
 Topography read_scan(const io::Config& config, Context& context) {
-  const std::filesystem::path file = point_scan(config);
+  const std::filesystem::path file = named_file(config, "roughness.file");
   topography::ReadOptions options;
   if (config.has("roughness.channel")) options.channel = config.text("roughness.channel");
   topography::Treatment treatment = {"level=plane"};
   if (config.has("roughness.treatment")) treatment = config.texts("roughness.treatment");
-  Topography scan = topography::apply(
-      treatment, topography::read(file, options, context.observer()), context.observer());
+  Topography scan =
+      topography::apply(treatment, read_input(file, options, context), context.observer());
   warn_of_doubts(scan, file.string(), context);
   if (const Index holes = topography::count_holes(scan); holes > 0) {
     throw InputError(config.place("roughness.file"), fmt::format("{} missing pixels", holes),
@@ -189,10 +189,6 @@ Topography read_scan(const io::Config& config, Context& context) {
 }
 
 }  // namespace
-
-std::filesystem::path point_scan(const io::Config& config) {
-  return std::filesystem::path(config.name()).parent_path() / config.text("roughness.file");
-}
 
 PointRoughness read_point_roughness(const io::Config& config, const ehl::PointProblem& problem,
                                     double travel, Context& context) {

@@ -81,6 +81,7 @@ void FieldsFile::write_root(const Context& context, const Scan& scan, const io::
 
 void FieldsFile::add_state(std::size_t number, const io::Json& scalars,
                            const std::vector<StateField>& fields) {
+  ++n_states_;
   const std::string group = fmt::format("/states/{:04}", number);
   writer_.group(group);
   writer_.axes(group, grid_);
@@ -95,6 +96,7 @@ void FieldsFile::add_state(std::size_t number, const io::Json& scalars,
 }
 
 void FieldsFile::commit(const Context& context) {
+  if (n_states_ == 0) return;
   write_warnings(writer_, context);
   writer_.commit();
 }

@@ -29,7 +29,7 @@ class FieldsFile {
   /// Adds /states/NNNN: scalars as attributes, the first field as what viewers plot.
   void add_state(std::size_t number, const io::Json& scalars,
                  const std::vector<StateField>& fields);
-  /// With all warnings so far.
+  /// With all warnings so far. A file without a state would look finished: none is made.
   void commit(const Context& context);
 
  private:
@@ -38,6 +38,7 @@ class FieldsFile {
 
   io::Hdf5Writer writer_;
   Grid grid_;
+  std::size_t n_states_ = 0;
 };
 
 /// Pressure, displacement and gap of a contact.

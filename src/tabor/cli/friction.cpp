@@ -159,7 +159,6 @@ int show(const Request& request, Context& context) {
   if (request.shear_strength <= 0) {
     throw InputError("--shear-strength", si(request.shear_strength, "Pa"), "more than zero", "");
   }
-  if (request.output) check_can_write(*request.output);
   const Scan scan = load_scan(request.scan, context);
   require_no_holes(scan);
   warn_if_not_levelled(scan, context);
@@ -195,6 +194,7 @@ int show(const Request& request, Context& context) {
           rows.row(row_of(state));
         }
       });
+  if (code == kInterrupted && object["states"].empty()) throw Interrupted();
   if (file) file->commit(context);
   return finish(context, object, text_of(scan, request, context, rows),
                 code == kDone && !films_converged ? kNotConverged : code);

@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
@@ -48,7 +49,7 @@ class Given {
 
 struct Request {
   std::string kind;
-  std::string output;
+  std::optional<std::string> output;  // the parser sees to it that there is one
   std::string pixels = "512";
   std::string pixel = "0.67um";
   std::string stage = "before";
@@ -159,13 +160,13 @@ Topography make(Request& request, std::uint64_t seed) {
 }
 
 int generate(Request request, Context& context) {
-  check_can_write(request.output);
   const Topography surface = make(request, context.seed_or_default());
-  topography::write(surface, request.output);
+  const std::string output = request.output.value();
+  topography::write(surface, output);
   const double rms = topography::rms_height(surface);
   const double slope = topography::rms_slope(surface);
   io::Json object = json_head(context);
-  object.update({{"output", request.output},
+  object.update({{"output", output},
                  {"kind", request.kind},
                  {"recipe", surface.source},
                  {"seed", context.seed_or_default()},
@@ -177,7 +178,7 @@ int generate(Request request, Context& context) {
                  {"height_rms_m", io::number(rms)},
                  {"rms_slope", io::number(slope)}});
   Facts facts;
-  facts.fact("written", request.output);
+  facts.fact("written", output);
   facts.fact("recipe", surface.source);
   facts.fact("pixels", fmt::format("{} x {} of {} x {}", surface.grid.nx, surface.grid.ny,
                                    si(surface.grid.dx(), "m"), si(surface.grid.dy(), "m")));
@@ -244,11 +245,8 @@ void declare_smooth(OptionSet& set, Request& request) {
 void declare_options(OptionSet& set, Request& request) {
   set.group("Surface");
   set.positional("KIND", "self-affine, edt, ground, sinusoid, sphere or bump", request.kind);
-  set.add({.flag = "--output",
-           .short_flag = "-o",
-           .placeholder = "OUT",
-           .help = "the file to write; its extension is the format",
-           .assign = [&request](const std::string& text) { request.output = text; }})
+  set.output("OUT", "the file to write; its extension is the format", scan_extensions(),
+             request.output)
       .required = true;
   word(set, "--pixels", "NX[,NY]", "number of pixels [512]", request.pixels);
   word(set, "--pixel", "DX[,DY]", "pixel size [0.67um]", request.pixel);

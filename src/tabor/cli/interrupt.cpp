@@ -23,7 +23,12 @@ void catch_interrupts() {
   action.sa_handler = handle;
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction before = {};
+  sigaction(SIGHUP, nullptr, &before);
+  if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // not under nohup
 }
+
+void let_writing_fail() { ::signal(SIGXFSZ, SIG_IGN); }
 
 bool interrupted() { return flag; }
 

@@ -35,7 +35,6 @@ std::vector<std::string> row_of(const io::Json& state) {
 
 int show(const Request& request, Context& context) {
   check(request.film);
-  if (request.output) check_can_write(*request.output);
   const Scan scan = load_scan(request.scan, context);
   require_no_holes(scan);
   warn_if_not_levelled(scan, context);
@@ -55,6 +54,7 @@ int show(const Request& request, Context& context) {
                       {{"film_thickness", "m", "thickness of the lubricant film", film.thickness}});
     });
   } catch (const Interrupted&) {
+    if (states.empty()) throw;
     context.warn("interrupted: only the densities that were finished are shown");
     code = kInterrupted;
   }

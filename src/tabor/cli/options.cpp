@@ -54,6 +54,22 @@ Option& OptionSet::positionals(const std::string& name, const std::string& help,
   return option;
 }
 
+Option& OptionSet::input(const std::string& name, const std::string& help, std::string& target) {
+  Option& option = positional(name, help, target);
+  option.names = FileRole::input;
+  return option;
+}
+
+Option& OptionSet::output(const std::string& placeholder, const std::string& help,
+                          const std::vector<std::string>& extensions,
+                          std::optional<std::string>& target) {
+  Option& option = text("--output", placeholder, help, target);
+  option.short_flag = "-o";
+  option.names = extensions.empty() ? FileRole::folder : FileRole::output;
+  option.extensions = extensions;
+  return option;
+}
+
 Option& OptionSet::toggle(const std::string& flag, const std::string& help, bool& target) {
   return add({.flag = flag, .help = help, .assign = [&](auto&) { target = true; }});
 }

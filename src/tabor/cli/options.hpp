@@ -10,6 +10,14 @@
 
 namespace tabor::cli {
 
+/// Whether the word that an option takes names a file.
+enum class FileRole {
+  none,
+  input,   ///< is read, never replaced
+  output,  ///< is written
+  folder   ///< files are written into it
+};
+
 /// One option as declared by a verb: everything help, docs/options.md and the parser need.
 struct Option {
   std::string flag;              ///< "--pressure", or "SCAN" for a positional argument
@@ -19,6 +27,8 @@ struct Option {
   std::string group = {};
   bool required = false;
   bool repeatable = false;
+  FileRole names = FileRole::none;
+  std::vector<std::string> extensions = {};  ///< of an output: ".h5"; empty: not told from the name
   std::function<void(const std::string&)> assign = {};  ///< throws InputError or UsageError
 
   bool is_positional() const { return flag.front() != '-'; }
@@ -36,6 +46,11 @@ class OptionSet {
   Option& positional(const std::string& name, const std::string& help, std::string& target);
   Option& positionals(const std::string& name, const std::string& help,
                       std::vector<std::string>& target);
+  /// A word that names a file to read.
+  Option& input(const std::string& name, const std::string& help, std::string& target);
+  /// `-o`, `--output`: a file of one of these extensions; a folder if there are none.
+  Option& output(const std::string& placeholder, const std::string& help,
+                 const std::vector<std::string>& extensions, std::optional<std::string>& target);
   Option& toggle(const std::string& flag, const std::string& help, bool& target);
   Option& text(const std::string& flag, const std::string& placeholder, const std::string& help,
                std::optional<std::string>& target);

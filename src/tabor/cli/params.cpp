@@ -182,7 +182,6 @@ int show_many(const Request& request, Context& context) {
 }
 
 int show(const Request& request, Context& context) {
-  if (request.output) check_can_write(*request.output);
   return request.files.size() == 1 ? show_one(request, context) : show_many(request, context);
 }
 
@@ -194,7 +193,8 @@ void declare_scans(OptionSet& set, Request& request) {
     set.group(option.group);
     if (option.is_positional()) {
       set.positionals("SCAN", "scan files, see 'tabor formats'; two or more stand side by side",
-                      request.files);
+                      request.files)
+          .names = option.names;
     } else {
       set.add(option);
     }
@@ -252,7 +252,7 @@ void declare_profiles(OptionSet& set, Request& request) {
 void declare_output(OptionSet& set, Request& request) {
   set.group("Output");
   set.toggle("--csv", "print CSV in SI units, one row per scan", request.csv);
-  set.text("--output", "OUT.csv", "write the same CSV to a file", request.output).short_flag = "-o";
+  set.output("OUT.csv", "write the same CSV to a file", {".csv"}, request.output);
 }
 
 }  // namespace

@@ -63,7 +63,6 @@ std::vector<std::string> methods_of(const PsdCurves& curves) {
 }
 
 int show(const Request& request, Context& context) {
-  if (request.output) check_curves_file(*request.output);
   const Scan scan = load_scan(request.scan, context);
   const PsdCurves curves = compute(request, scan, context);
   warn_if_not_levelled(scan, context);
@@ -101,9 +100,10 @@ void declare_options(OptionSet& set, Request& request) {
   set.toggle("--hdf", "also mean square height differences over the lag (holes may stay)",
              request.hdf);
   set.group("Output");
-  set.text("--output", "OUT", "write all curves as columns of a .csv or datasets of an .h5 file",
-           request.output)
-      .short_flag = "-o";
+  std::vector<std::string> extensions = hdf5_extensions();
+  extensions.insert(extensions.begin(), ".csv");
+  set.output("OUT", "write all curves as columns of a .csv or datasets of an .h5 file", extensions,
+             request.output);
 }
 
 }  // namespace

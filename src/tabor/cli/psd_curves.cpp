@@ -5,8 +5,7 @@
 #include <algorithm>
 
 #include "tabor/cli/fields_file.hpp"
-#include "tabor/cli/result.hpp"
-#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/csv.hpp"
 #include "tabor/io/hdf5.hpp"
@@ -35,17 +34,9 @@ std::string csv_of(const std::vector<Curve>& curves) {
 
 }  // namespace
 
-void check_curves_file(const std::filesystem::path& file) {
-  if (file.extension() != ".csv" && file.extension() != ".h5") {
-    throw OutputError(fmt::format("{}: curves are written as .csv or .h5", file.string()));
-  }
-  check_can_write(file);
-}
-
 void write_curves(const std::vector<Curve>& curves, const std::filesystem::path& file,
                   const Context& context, const std::vector<std::string>& methods) {
-  check_curves_file(file);
-  if (file.extension() == ".csv") {
+  if (lower(file.extension().string()) == ".csv") {
     io::write_file(file, csv_of(curves));
     return;
   }

@@ -17,12 +17,8 @@ struct Curve {
 };
 
 /// Writes the curves side by side as CSV (short ones end in empty cells) or as datasets of an HDF5
-/// file, by the extension (.csv, .h5). Throws OutputError for another extension. `methods` are keys
-/// of references.bib.
+/// file, by the extension: .csv or another. `methods` are keys of references.bib.
 void write_curves(const std::vector<Curve>& curves, const std::filesystem::path& file,
                   const Context& context, const std::vector<std::string>& methods);
-
-/// Refuses another extension before anything is computed.
-void check_curves_file(const std::filesystem::path& file);
 
 }  // namespace tabor::cli

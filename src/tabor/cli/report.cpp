@@ -148,9 +148,11 @@ std::string checked_scan(const std::string& value) {
 
 void declare_options(OptionSet& set, Request& request) {
   set.group("Report");
-  set.positional("RESULT", "folder of 'tabor sweep', or a file written with -o", request.result);
-  set.text("--output", "DIR", "where to write [beside the result]", request.output).short_flag =
-      "-o";
+  set.input("RESULT", "folder of 'tabor sweep', or a file written with -o", request.result);
+  Option& output =
+      set.text("--output", "DIR", "where to write [beside the result]", request.output);
+  output.short_flag = "-o";
+  output.names = FileRole::folder;
   set.toggle("--no-html", "figures and tables only", request.no_html);
   set.group("Report of a study");
   pass_on(set, request, "--scan", "N", "scan that the maps show, counted from 0", checked_scan);

@@ -1,14 +1,10 @@
 #include "tabor/cli/result.hpp"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <ostream>
 
-#include "tabor/core/error.hpp"
 #include "tabor/core/printable.hpp"
 #include "tabor/core/version.hpp"
-#include "tabor/io/atomic_file.hpp"
+#include "tabor/topography/file.hpp"
 
 namespace tabor::cli {
 
@@ -38,24 +34,23 @@ int finish(Context& context, io::Json object, const std::string& text, int code)
   return code;
 }
 
-void declare_output(OptionSet& set, std::optional<std::string>& target) {
-  set.group("Output");
-  set.text("--output", "OUT.h5", "keep the maps of every state in an HDF5 file", target)
-      .short_flag = "-o";
+const std::vector<std::string>& hdf5_extensions() {
+  static const std::vector<std::string> extensions = {".h5", ".hdf5"};
+  return extensions;
 }
 
-void check_can_write(const std::filesystem::path& file) {
-  const std::filesystem::path target = io::written_file(file);
-  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  std::error_code error;
-  if (!std::filesystem::is_directory(folder, error)) {
-    throw OutputError(fmt::format("{}: the folder {} does not exist; create it first",
-                                  file.string(), folder.string()));
+std::vector<std::string> scan_extensions() {
+  std::vector<std::string> extensions;
+  for (const topography::FormatRow& row : topography::formats()) {
+    if (!row.writes) continue;
+    extensions.insert(extensions.end(), row.extensions.begin(), row.extensions.end());
   }
-  if (access(folder.c_str(), W_OK) != 0) {
-    throw OutputError(fmt::format("{}: the folder {} cannot be written to; choose another name",
-                                  file.string(), folder.string()));
-  }
+  return extensions;
+}
+
+void declare_output(OptionSet& set, std::optional<std::string>& target) {
+  set.group("Output");
+  set.output("OUT.h5", "keep the maps of every state in an HDF5 file", hdf5_extensions(), target);
 }
 
 }  // namespace tabor::cli

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tabor/cli/exit_code.hpp"
 #include "tabor/cli/scan.hpp"
@@ -21,7 +21,8 @@ int finish(Context& context, io::Json object, const std::string& text, int code 
 /// Declares `-o OUT.h5`.
 void declare_output(OptionSet& set, std::optional<std::string>& target);
 
-/// Refuses an output name that cannot be written, before hours of computing. Throws OutputError.
-void check_can_write(const std::filesystem::path& file);
+/// Of the files that hold results, and of those that hold one surface.
+const std::vector<std::string>& hdf5_extensions();
+std::vector<std::string> scan_extensions();
 
 }  // namespace tabor::cli

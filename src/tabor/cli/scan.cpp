@@ -97,7 +97,7 @@ bool is_levelled(const topography::Treatment& treatment) {
 
 void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment) {
   set.group("Scan");
-  set.positional("SCAN", "a scan file, see 'tabor formats'", request.file);
+  set.input("SCAN", "a scan file, see 'tabor formats'", request.file);
   declare_reading(set, request.read);
   if (with_treatment) declare_treatment(set, request.treatment);
 }
@@ -119,6 +119,13 @@ Scan load_scan(const topography::ScanFile& file, const ScanRequest& request, Con
           .path = request.file,
           .sha256 = sha256.get(context.observer()),
           .treatment = request.treatment};
+}
+
+Topography read_input(const std::filesystem::path& file, const topography::ReadOptions& options,
+                      Context& context) {
+  const topography::ScanFile scan(file, context.observer());
+  context.files.holds(file, scan.sha256());
+  return scan.read(options);
 }
 
 void warn_if_not_levelled(const Scan& scan, Context& context) {

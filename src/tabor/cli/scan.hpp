@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "tabor/cli/table.hpp"
@@ -36,6 +37,10 @@ void warn_of_doubts(const topography::Topography& surface, const std::string& na
 Scan load_scan(const ScanRequest& request, Context& context);
 /// The same for a file that is open already.
 Scan load_scan(const topography::ScanFile& file, const ScanRequest& request, Context& context);
+
+/// A scan that a case names, untreated; the digest of its bytes is stated to context.files.
+topography::Topography read_input(const std::filesystem::path& file,
+                                  const topography::ReadOptions& options, Context& context);
 
 /// Warns when a scan that does not close on itself is used as it was read, and says by how much a
 /// plane would change it.

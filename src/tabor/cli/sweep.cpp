@@ -136,8 +136,19 @@ int code_of(const study::Outcome& outcome) {
   return outcome.n_not_converged > 0 ? kNotConverged : kDone;
 }
 
+/// Tables are replaced, and whatever the store holds.
+void note_files(const study::Study& study, const fs::path& folder, CommandFiles& files) {
+  files.fills(folder / "store");
+  for (const char* table : {"results.h5", "results.csv", "averages.csv"}) {
+    files.writes(folder / table);
+  }
+  for (const study::Scan& scan : study.scans) files.reads(scan.file);
+  if (study.experiment) files.reads(study.experiment->file);
+}
+
 int sweep(const Request& request, Context& context) {
   const study::Study study = read_study(request, context);
+  note_files(study, request.folder(), context.files);
   study::Outcome outcome;
   try {
     outcome = study::run(study, request.folder(), options_for(request, context));
@@ -160,10 +171,9 @@ int sweep(const Request& request, Context& context) {
 
 void declare_options(OptionSet& set, Request& request) {
   set.group("Study");
-  set.positional("STUDY.toml", "the study: scans, treatment, material, pressures, densities",
-                 request.study);
-  set.text("--output", "DIR", "folder of the results [STUDY_results]", request.directory)
-      .short_flag = "-o";
+  set.input("STUDY.toml", "the study: scans, treatment, material, pressures, densities",
+            request.study);
+  set.output("DIR", "folder of the results [STUDY_results]", {}, request.directory);
   set.count("--jobs",
             "cases computed at the same time, each with its own memory [as many as there are "
             "threads and room for]",

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tabor/cli/command_files.hpp"
 #include "tabor/cli/options.hpp"
 #include "tabor/cli/progress.hpp"
 
@@ -21,6 +22,7 @@ struct Context {
   std::uint64_t threads = 0;  ///< 0 = all cores
   std::optional<std::uint64_t> seed = {};
   std::vector<std::string> warnings = {};
+  CommandFiles files = {};  ///< that it reads and writes
   ProgressPrinter* progress = nullptr;
 
   /// Adds a warning once; it appears in the JSON object or on stderr.

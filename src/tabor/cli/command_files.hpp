@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tabor/cli/options.hpp"
+
+namespace tabor::cli {
+
+/// The files that one command reads and writes. What it writes never replaces what it reads, by
+/// whatever name or link either is called: every input is compared with every output as soon as
+/// both are known. Files that options name are entered before the verb runs (noting_files()); a
+/// verb adds those that its files name in turn.
+class CommandFiles {
+ public:
+  /// A file that the command reads. Throws OutputError if an output would replace it.
+  void reads(const std::filesystem::path& file);
+  /// A file that the command writes. Throws OutputError if it would replace an input.
+  void writes(const std::filesystem::path& file);
+  /// The same for a folder whose files the command makes, replaces and removes.
+  void fills(const std::filesystem::path& folder);
+
+  /// States the digest of the bytes that were read of a file. Throws Error if it is not that of the
+  /// last time: the file was replaced meanwhile, and no result would say what it was made of.
+  void holds(const std::filesystem::path& file, const std::string& sha256);
+  /// The digest stated; "" if none was.
+  std::string sha256_of(const std::filesystem::path& file) const;
+
+ private:
+  using Identity = std::pair<std::uint64_t, std::uint64_t>;  ///< device and number on it
+  struct Output {
+    std::filesystem::path name;
+    std::filesystem::path folder;  ///< where it lies, or which is filled; links resolved
+    bool is_folder = false;
+    std::set<Identity> there = {};  ///< files that may be replaced
+  };
+
+  static std::set<Identity> identity_of(const std::filesystem::path& file);
+  static void refuse_if_replaced(const std::filesystem::path& input, const Output& output);
+  void add(Output output);
+
+  std::vector<std::filesystem::path> inputs_;
+  std::vector<Output> outputs_;
+  std::map<std::filesystem::path, std::string> digests_;
+};
+
+/// The files that the words of a command line name.
+using NamedFiles = std::vector<std::pair<std::string, Option>>;
+
+/// The same options; parse() enters the files that they name.
+OptionSet noting_files(const OptionSet& set, NamedFiles& named);
+
+/// Enters them all and refuses, before anything is computed: an output that would replace an input
+/// or cannot be written (OutputError), one of an extension the verb cannot write (InputError, with
+/// those it can). Removes what a killed program left half-written under an output's name.
+void check_files(const NamedFiles& named, CommandFiles& files);
+
+}  // namespace tabor::cli
