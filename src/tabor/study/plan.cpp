@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
@@ -14,8 +15,9 @@ enum class Found { absent, damaged, complete };
 
 class Planner {
  public:
-  Planner(const Store& store, const Study& study, bool retry, std::vector<std::string>& warnings)
-      : store_(store), study_(study), retry_(retry), warnings_(warnings) {}
+  Planner(const Store& store, const Study& study, bool retry, std::vector<std::string>& warnings,
+          const Observer& observer)
+      : store_(store), study_(study), retry_(retry), warnings_(warnings), observer_(observer) {}
 
   ScanPlan plan(const ScanUnits& units, const std::vector<std::size_t>& mine) {
     ScanPlan plan;
@@ -84,6 +86,7 @@ class Planner {
     if (!store_.has(unit)) {
       return Found::absent;
     }
+    report_progress(observer_, "look at the store", std::nan(""));
     const std::string problem = defect(store_, unit);
     if (problem.empty()) {
       return Found::complete;
@@ -97,6 +100,7 @@ class Planner {
   const Study& study_;
   bool retry_;
   std::vector<std::string>& warnings_;
+  const Observer& observer_;
 };
 
 }  // namespace
@@ -118,7 +122,7 @@ Shard parse_shard(std::string_view text) {
 std::vector<ScanPlan> plan(const Store& store, const Study& study,
                            const std::vector<ScanUnits>& units, const Shard& shard, bool retry,
                            std::vector<std::string>& warnings, const Observer& observer) {
-  Planner planner(store, study, retry, warnings);
+  Planner planner(store, study, retry, warnings, observer);
   std::vector<ScanPlan> plans;
   std::size_t pair = 0;
   for (const ScanUnits& scan : units) {
@@ -130,8 +134,6 @@ std::vector<ScanPlan> plan(const Store& store, const Study& study,
       }
     }
     plans.push_back(planner.plan(scan, mine));
-    report_progress(observer, "look at the store",
-                    static_cast<double>(plans.size()) / static_cast<double>(units.size()));
   }
   return plans;
 }
