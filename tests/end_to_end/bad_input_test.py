@@ -13,10 +13,9 @@ MATRIX = ["--pixel", "1um", "--unit", "nm"]
 
 
 def limit_file_size(n_bytes):
-    """For preexec_fn: writing beyond n_bytes fails as on a full disk."""
+    """For preexec_fn: no file grows beyond n_bytes, as after `ulimit -f`."""
 
     def limit():
-        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (n_bytes, n_bytes))
 
     return limit
@@ -214,6 +213,30 @@ class Output(ProgramTest):
                               preexec_fn=limit_file_size(512))
             self.assert_refused(done, 5, f"out.{extension}")
             self.assertEqual(self.files(), before)
+
+    def test_that_would_replace_the_scan_is_refused(self):
+        before = self.generate("scan.h5").read_bytes()
+        os.link(self.folder / "scan.h5", self.folder / "same.h5")
+        for name in ("scan.h5", "./scan.h5", "same.h5", self.folder / "scan.h5"):
+            self.assert_refused(self.contact("-o", name), 5, "never written over")
+        self.assertEqual((self.folder / "scan.h5").read_bytes(), before)
+
+    def test_of_a_killed_program_is_cleared_away_by_the_next(self):
+        self.generate("scan.h5", "edt", 256)
+        pressures = ["--pressure", ",".join(f"{p}MPa" for p in range(1, 40)), *ALUMINIUM]
+        process = self.start("contact", "scan.h5", *pressures, "-o", "out.h5")
+        self.stop_when(lambda: len(self.files()) == 2, signal.SIGKILL, process)
+        self.assertNotIn("out.h5", self.files())
+        self.assertEqual(len(self.files()), 2)
+        self.assertEqual(self.contact("-o", "out.h5").returncode, 0)
+        self.assertEqual(self.files(), ["out.h5", "scan.h5"])
+
+    def test_stopped_before_its_first_state_is_not_made(self):
+        self.generate("scan.h5", "edt", 1024)
+        process = self.start("contact", "scan.h5", "--pressure", "40MPa", *ALUMINIUM, "-o", "out.h5")
+        code, out, err = self.stop_when(lambda: len(self.files()) == 2, signal.SIGINT, process)
+        self.assertEqual((code, out, err), (130, "", "tabor: interrupted\n"))
+        self.assertEqual(self.files(), ["scan.h5"])
 
     def test_to_a_full_standard_output_is_noticed(self):
         with open("/dev/full", "w") as full:
