@@ -174,15 +174,5 @@ TEST(FormatSi, KnowsThePrefixesFromFemtoToGigaAndStaysAtTheLast) {
   EXPECT_EQ(format_si(INFINITY, "Pa"), "inf Pa");
 }
 
-TEST(UsualUnit, HasTheDimensionItIsShownFor) {
-  for (const Dimension& expected :
-       {dimension::length, dimension::wavevector, dimension::pressure, dimension::areal_density,
-        dimension::density, dimension::speed, dimension::viscosity, dimension::per_pressure,
-        dimension::force, dimension::mass, dimension::time, dimension::temperature}) {
-    EXPECT_EQ(parse_quantity("1 " + usual_unit(expected)).dimension, expected);
-  }
-  EXPECT_EQ(usual_unit(dimension::none), "");
-}
-
 }  // namespace
 }  // namespace tabor
