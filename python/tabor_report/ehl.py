@@ -11,6 +11,9 @@ from tabor_report import hdf
 from tabor_report.errors import readable
 
 
+_NO_COLUMNS = ("axes", "shape", "converged", "warnings", "warning_marks")
+
+
 @dataclass
 class Ehl:
     path: Path
@@ -53,7 +56,14 @@ class Ehl:
     def columns(self):
         """{name: dataset} of what a sweep computed, one number per case."""
         node = self.file["sweep"]
-        return {name: node[name] for name in node if name not in ("axes", "shape", "converged", "warnings")}
+        return {name: node[name] for name in node if name not in _NO_COLUMNS}
+
+    @property
+    def marks(self):
+        """Of a sweep, which of the warnings each case has: 'a b'; [] where none has any."""
+        node = self.file["sweep"]
+        marks = [hdf.text(mark) for mark in node["warning_marks"][()]] if "warning_marks" in node else []
+        return marks if any(marks) else []
 
     @property
     def axes(self):
@@ -87,7 +97,9 @@ def load(path, file):
 
 
 def _warnings_of_cases(file):
-    """Each warning once, with the number of cases of a sweep that it is of."""
+    """Each warning once, with the number of its cases, where a sweep's file does not say so itself."""
+    if "sweep/warning_marks" in file:
+        return []
     cases = [hdf.text(text).splitlines() for text in file["sweep/warnings"][()]] if "sweep/warnings" in file else []
     counts = collections.Counter(warning for texts in cases for warning in set(texts))
     return [f"{warning} ({count} of {len(cases)} cases)" for warning, count in sorted(counts.items())]

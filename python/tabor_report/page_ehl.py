@@ -47,8 +47,9 @@ def _cases(source):
     for number, place in enumerate(np.ndindex(*node["shape"][()])):
         values = [_at(axis, index) for axis, index in zip(axes.values(), place)]
         cells = [_shown(column[number], column.attrs["units"]) for column in columns.values()]
-        rows.append({"sure": bool(sure[number]), "cells": values + cells})
+        rows.append({"sure": bool(sure[number]), "cells": values + cells + source.marks[number : number + 1]})
     header = [*axes, *(hdf.text(column.attrs["long_name"]) for column in columns.values())]
+    header += ["warnings"] if source.marks else []
     intro = "" if sure.all() else "Rows in red did not converge."
     return {"intro": intro, "header": header, "rows": rows, "n_total": len(rows), "n_text": len(axes)}
 

@@ -230,6 +230,13 @@ TEST(EhlSqueeze, HasItsKeys) {
   const io::Json linear = json_of({"ehl", "squeeze", file, "--set", "squeeze.model=linear", "--set",
                                    "roller.damping=1e6 N*s/m^2"});
   EXPECT_GT(linear["lag_s"], 0);
+  // A film of less than nothing is no number.
+  const io::Json closed = json_of({"ehl", "squeeze", file, "--set", "squeeze.model=linear", "--set",
+                                   "roller.damping=1e3 N*s/m^2", "--set", "lubricant.layer=1um"});
+  for (const char* key : {"min_film_m", "time_min_film_s", "turning_time_s", "lag_s"}) {
+    EXPECT_TRUE(closed[key].is_null()) << key;
+  }
+  EXPECT_THAT(closed["warnings"].dump(), HasSubstr("would close"));
 }
 
 }  // namespace

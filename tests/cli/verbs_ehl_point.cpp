@@ -174,6 +174,36 @@ TEST_F(EhlPoint, SweepsTheStribeckCurve) {
   EXPECT_EQ(reader.numbers("/sweep/friction_coefficient").size(), 3u);
 }
 
+TEST_F(EhlPoint, ASweepSaysOnceWhatVoidsTheNumbersOfItsRows) {
+  const std::string file = folder_ / "newton.toml";
+  std::ofstream(file) << "ball = {radius = \"1.5 mm\", load = \"16.6 N\"}\n"
+                         "solids = {e_prime = \"230.8 GPa\"}\n"
+                         "motion = {entrainment_speed = \"1 m/s\"}\n[lubricant]\n"
+                         "viscosity = \"0.149 Pa s\"\npressure_viscosity = \"2.131e-8 1/Pa\"\n";
+  const std::string out = folder_ / "sweep.h5";
+  const std::vector<std::string> sweep =
+      words(file, {"motion.sliding_speed=0m/s,1m/s,2m/s"}, {"-o", out});
+  const Outcome table = run_tabor(sweep);
+  EXPECT_EQ(table.code, 0) << table.err;
+  const std::string which = "2 of 3 cases (motion.sliding_speed = 1m/s, 2m/s), the first: ";
+  EXPECT_THAT(table.err, HasSubstr(which + "a Newtonian film would be sheared"));
+  EXPECT_THAT(table.err, HasSubstr("all 3 cases: the pressure reaches"));
+  EXPECT_THAT(table.err, Not(HasSubstr("--json")));
+  EXPECT_THAT(table.out, HasSubstr("warnings\n"));
+  const io::Json json = json_of(sweep);
+  EXPECT_THAT(json["warnings"].dump(), HasSubstr(which));
+  EXPECT_EQ(json["results"][0]["friction_coefficient"], 0);
+  EXPECT_TRUE(json["results"][1]["friction_coefficient"].is_null());
+  EXPECT_TRUE(json["results"][2]["friction_coefficient"].is_null());
+  const io::Hdf5Reader reader(out);
+  EXPECT_TRUE(std::isnan(reader.numbers("/sweep/friction_coefficient")[1]));
+  EXPECT_THAT(reader.attribute_texts("/", "warnings"), testing::Contains(HasSubstr(which)));
+  const std::vector<std::string> marks = reader.texts("/sweep/warning_marks");
+  ASSERT_EQ(marks.size(), 3u);
+  EXPECT_EQ(marks[1], marks[2]);
+  EXPECT_GT(marks[1].size(), marks[0].size());
+}
+
 TEST_F(EhlPoint, FindsTheLimitOfThreeGrids) {
   const io::Json json = json_of(words(groups_, {"grid.nodes=33,49,73"}));
   const double extrapolated = 0.429 * std::pow(1.5 * 20, 2.0 / 3);  // as above

@@ -38,13 +38,18 @@ EhlAnswer solve_or_refuse(const EhlSolver& solve, const io::Config& config, Cont
 
 /// What of an answer stays until the end: maps of many cases would fill the memory.
 KeptCase solve_to_keep(const EhlSolver& solve, const io::Config& config, Context& context) {
-  const std::size_t n_before = context.warnings.size();
+  const std::vector<std::string> before = std::exchange(context.warnings, {});
   KeptCase solved{.answer = solve_or_refuse(solve, config, context), .notices = {}};
   solved.answer.text.clear();
   solved.answer.write = {};
-  solved.notices.assign(context.warnings.begin() + static_cast<std::ptrdiff_t>(n_before),
-                        context.warnings.end());
+  solved.notices = std::exchange(context.warnings, before);
   return solved;
+}
+
+EhlAnswer with_notices(KeptCase solved) {
+  EhlAnswer& answer = solved.answer;
+  answer.warnings.insert(answer.warnings.begin(), solved.notices.begin(), solved.notices.end());
+  return std::move(answer);
 }
 
 void say(const std::string& text, Context& context) {
@@ -112,6 +117,12 @@ KeptCases kept_cases(const EhlSeries& series, const EhlCases& cases, Context& co
   return {kept_folder(series), std::move(texts)};
 }
 
+EhlAnswer solve_one_of_many(const EhlSolver& solve, const io::Config& config, Context& context) {
+  EhlAnswer answer = with_notices(solve_to_keep(solve, config, context));
+  refuse_if_none_makes_sense({answer});
+  return answer;
+}
+
 std::vector<EhlAnswer> solve_cases(const EhlSeries& series, const EhlCases& cases, KeptCases* kept,
                                    Context& context) {
   const EhlProgram& program = series.program;
@@ -130,8 +141,7 @@ std::vector<EhlAnswer> solve_cases(const EhlSeries& series, const EhlCases& case
       solved = solve_to_keep(chain.solve, cases.configs[i], context);
       if (kept) kept->keep(place, *solved, chain);
     }
-    for (const std::string& notice : solved->notices) context.warn(notice);
-    answers[i] = std::move(solved->answer);
+    answers[i] = with_notices(std::move(*solved));
   }
   refuse_if_none_makes_sense(answers);
   return answers;

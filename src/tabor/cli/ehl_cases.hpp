@@ -21,6 +21,10 @@ struct EhlCases {
 std::filesystem::path kept_folder(const EhlSeries& series);
 KeptCases kept_cases(const EhlSeries& series, const EhlCases& cases, Context& context);
 
+/// Solves a case whose warnings, those said meanwhile too, are its own; without its text and maps.
+/// Throws InputError, Interrupted.
+EhlAnswer solve_one_of_many(const EhlSolver& solve, const io::Config& config, Context& context);
+
 /// Solves the cases that are not kept, keeps each as soon as it is there, and says on stderr how
 /// many were. `kept`: null where the sweep has no output. A case that makes no sense is an answer
 /// like another. Throws InputError for a key that no case has and where no case makes sense,

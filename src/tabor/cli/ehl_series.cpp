@@ -8,6 +8,7 @@
 
 #include "tabor/cli/ehl_cases.hpp"
 #include "tabor/cli/ehl_table.hpp"
+#include "tabor/cli/ehl_warnings.hpp"
 #include "tabor/cli/failure.hpp"
 #include "tabor/cli/fields_file.hpp"
 #include "tabor/cli/result.hpp"
@@ -20,27 +21,33 @@ namespace {
 
 using Places = std::vector<std::size_t>;  ///< of a case's values on their axes
 
-/// A line for the cases that make no sense and one for the warnings of the others; the JSON object
-/// has them all.
-void warn_of_many(const std::vector<EhlAnswer>& answers, Context& context) {
-  std::size_t n_refused = 0;
-  std::size_t n_doubtful = 0;
-  std::string reason;
-  for (const EhlAnswer& answer : answers) {
-    if (answer.scalars.contains("refused")) {
-      if (n_refused++ == 0) reason = answer.scalars.at("refused").get<std::string>();
-    } else if (!answer.warnings.empty()) {
-      ++n_doubtful;
+/// Says once what the cases warn of; returns the marks of each.
+std::vector<std::string> warn_of_many(const std::vector<EhlAnswer>& answers,
+                                      const EhlCaseNames& names, Context& context) {
+  EhlWarnings warnings = gather_warnings(answers, names);
+  for (const std::string& line : warnings.lines) context.warn(line);
+  return std::move(warnings.marks);
+}
+
+/// "roughness.kind / motion.speed", and for each case "lapped-like / 1 m/s".
+EhlCaseNames names_of(const std::vector<SweepAxis>& axes, const std::vector<Places>& all) {
+  EhlCaseNames names{.key = {}, .values = std::vector<std::string>(all.size())};
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    const std::string before = a > 0 ? " / " : "";
+    names.key += before + axes[a].key;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      names.values[i] += before + axes[a].values[all[i][a]];
     }
   }
-  if (n_refused > 0) {
-    context.warn(fmt::format("{} of {} cases make no sense, the first: {}", n_refused,
-                             answers.size(), reason));
-  }
-  if (n_doubtful > 0) {
-    context.warn(fmt::format("{} of {} cases come with warnings of their own; --json lists them",
-                             n_doubtful, answers.size()));
-  }
+  return names;
+}
+
+/// Adds the marks of a case to its row, where any case has some.
+void add_marks(const std::vector<std::string>& marks, std::size_t i,
+               std::vector<std::string>& cells) {
+  const bool has_any = std::any_of(marks.begin(), marks.end(),
+                                   [](const std::string& mark) { return !mark.empty(); });
+  if (has_any) cells.push_back(i < marks.size() ? marks[i] : "warnings");
 }
 
 bool all_converged(const std::vector<EhlAnswer>& answers) {
@@ -68,7 +75,6 @@ const EhlStudy* study_of(const EhlProgram& program, const std::vector<SweepAxis>
 int finish_series(const EhlSeries& series, const Table& table, const io::Json& object,
                   const std::vector<EhlAnswer>& answers, Context& context) {
   const bool converged = all_converged(answers);
-  warn_of_many(answers, context);
   io::Json whole = json_head(context);
   whole["case"] = series.file;
   whole.update(object);
@@ -78,7 +84,8 @@ int finish_series(const EhlSeries& series, const Table& table, const io::Json& o
 
 /// Numbers of all cases of a sweep, one array per axis and column.
 void write_sweep(const EhlSeries& series, const std::vector<SweepAxis>& axes,
-                 const std::vector<EhlAnswer>& answers, const Context& context) {
+                 const std::vector<EhlAnswer>& answers, const std::vector<std::string>& marks,
+                 const Context& context) {
   const EhlProgram& program = series.program;
   io::Hdf5Writer writer(*series.output);
   write_result_head(writer, context, series.config.to_text(), program.methods);
@@ -116,6 +123,7 @@ void write_sweep(const EhlSeries& series, const std::vector<SweepAxis>& axes,
     warnings.push_back(fmt::format("{}", fmt::join(answer.warnings, "\n")));
   }
   writer.write("/sweep/warnings", warnings);
+  writer.write("/sweep/warning_marks", marks);
   write_warnings(writer, context);
   writer.commit();
 }
@@ -149,13 +157,14 @@ int say_interrupted(const KeptCases& kept, std::size_t n_cases, Context& context
 /// The table, or the JSON object.
 int show_answers(const EhlSeries& series, const std::vector<SweepAxis>& axes,
                  const std::vector<Places>& all, const std::vector<EhlAnswer>& answers,
-                 Context& context) {
+                 const std::vector<std::string>& marks, Context& context) {
   std::vector<std::string> headings;
   headings.reserve(axes.size());
   for (const SweepAxis& axis : axes) headings.push_back(axis.key);
   const EhlColumns columns = columns_of(series.program, answers);
   headings = headings_of(headings, columns);
   headings.emplace_back("converged");
+  add_marks(marks, marks.size(), headings);
   Table table(headings);
   io::Json results = io::Json::array();
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -167,6 +176,7 @@ int show_answers(const EhlSeries& series, const std::vector<SweepAxis>& axes,
     }
     cells = row_of(cells, columns, answers[i].scalars);
     cells.push_back(yes_no(answers[i].converged));
+    add_marks(marks, i, cells);
     table.row(cells);
     results.push_back(result_of(std::move(set), answers[i]));
   }
@@ -182,8 +192,11 @@ int show_answers(const EhlSeries& series, const std::vector<SweepAxis>& axes,
 int show_sweep(const EhlSeries& series, const std::vector<SweepAxis>& axes, Context& context) {
   const std::vector<Places> all = combinations(axes);
   const EhlCases cases(series, axes, all);
+  const EhlCaseNames names = names_of(axes, all);
   if (!series.output) {
-    return show_answers(series, axes, all, solve_cases(series, cases, nullptr, context), context);
+    const std::vector<EhlAnswer> answers = solve_cases(series, cases, nullptr, context);
+    const std::vector<std::string> marks = warn_of_many(answers, names, context);
+    return show_answers(series, axes, all, answers, marks, context);
   }
   KeptCases kept = kept_cases(series, cases, context);
   std::vector<EhlAnswer> answers;
@@ -193,9 +206,10 @@ int show_sweep(const EhlSeries& series, const std::vector<SweepAxis>& axes, Cont
     if (kept.n_kept() == 0) throw;
     return say_interrupted(kept, all.size(), context);
   }
-  write_sweep(series, axes, answers, context);
+  const std::vector<std::string> marks = warn_of_many(answers, names, context);
+  write_sweep(series, axes, answers, marks, context);
   kept.remove();
-  return show_answers(series, axes, all, answers, context);
+  return show_answers(series, axes, all, answers, marks, context);
 }
 
 int show_study(const EhlSeries& series, const std::string& name, Context& context) {
@@ -204,7 +218,7 @@ int show_study(const EhlSeries& series, const std::string& name, Context& contex
   series.config.reject_unknown(program.keys);
   // What the case does not say is what its solution says it took.
   const double usual =
-      number_of(solve_whole(program.solve, series.config, context).scalars, study.scalar);
+      number_of(solve_one_of_many(program.solve, series.config, context).scalars, study.scalar);
   if (!std::isfinite(usual)) {
     throw InputError("--study " + study.name, "a case that has no " + study.key, "", "");
   }
@@ -217,15 +231,20 @@ int show_study(const EhlSeries& series, const std::string& name, Context& contex
     texts.push_back(
         fmt::format("{:.12g}{}", values.back(), study.unit.empty() ? "" : " " + study.unit));
     answers.push_back(
-        solve_whole(program.solve, series.config.with(study.key, texts.back()), context));
-    answers.back().write = {};
+        solve_one_of_many(program.solve, series.config.with(study.key, texts.back()), context));
     results.push_back(result_of({{study.key, texts.back()}}, answers.back()));
   }
+  const std::vector<std::string> marks =
+      warn_of_many(answers, {.key = study.key, .values = texts}, context);
   const EhlColumns columns = columns_of(program, answers);
-  Table table(headings_of({study.key}, columns));
+  std::vector<std::string> headings = headings_of({study.key}, columns);
+  add_marks(marks, marks.size(), headings);
+  Table table(headings);
   for (std::size_t i = 0; i < answers.size(); ++i) {
     const std::string value = study.unit.empty() ? texts[i] : si(values[i], study.unit);
-    table.row(row_of({value}, columns, answers[i].scalars));
+    std::vector<std::string> cells = row_of({value}, columns, answers[i].scalars);
+    add_marks(marks, i, cells);
+    table.row(cells);
   }
   io::Json object = {{"study", study.name}, {"results", results}};
   if (study.has_limit) add_limits(columns, study, values, answers, table, object);

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "tabor/cli/ehl.hpp"
 #include "tabor/cli/ehl_case.hpp"
@@ -77,6 +78,13 @@ constexpr HistoryCurve<Instant> kHistory[] = {
     {"roller", "m", "place of the roller", &Instant::roller},
     {"speed", "m/s", "speed of the roller", &Instant::roller_speed}};
 
+/// Takes away what a film that closed on the way never came to.
+void void_what_follows(bool has_max_force, ehl::SqueezeResult& result) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  result.min_film = result.time_min_film = result.turning_time = result.lag = kNone;
+  if (!has_max_force) result.max_force = result.time_max_force = kNone;
+}
+
 /// The film as a spring and a damper, in closed form, under the same keys.
 EhlAnswer solve_linear(const io::Config& config) {
   ehl::LinearSqueeze linear;
@@ -99,7 +107,10 @@ EhlAnswer solve_linear(const io::Config& config) {
   result.lag = result.time_min_film - result.time_max_force;
   result.converged = true;
   if (result.min_film <= 0) {
-    result.reason = "the film would close: more damping, more stiffness or a thicker layer";
+    result.reason =
+        "the film would close, and no equation goes on from there: more damping, more stiffness or "
+        "a thicker layer";
+    void_what_follows(layer - linear.displacement(result.time_max_force) > 0, result);
   }
   result.history.resize(1);
   EhlAnswer answer{scalars_of(result), text_of(result), true};
