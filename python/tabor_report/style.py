@@ -1,13 +1,14 @@
 """One look for all figures, and the same bytes for the same numbers."""
 
 import io
-import itertools
 
 import matplotlib
 
 matplotlib.use("Agg")
 
+import numpy as np
 from matplotlib import pyplot as plt
+from matplotlib.colors import to_hex
 from matplotlib.lines import Line2D
 
 from tabor_report.errors import readable
@@ -52,19 +53,27 @@ def new_figure(height, n_rows=1, n_columns=1, width=WIDTH, **keywords):
     return plt.subplots(n_rows, n_columns, figsize=(width, height), squeeze=False, **keywords)
 
 
-def curve_styles():
-    """Endless colour and marker pairs; the line style changes when the colours are used up.
+def colours(n):
+    """n colours, no two alike: of the fixed set, or where that ends steps from dark to light."""
+    if n <= len(COLOURS):
+        return list(COLOURS[:n])
+    return [to_hex(colour) for colour in plt.get_cmap("viridis", 2 * n)(np.linspace(0, 0.93, n))]
+
+
+def curve_styles(n):
+    """n pairs of a colour, which no other has, and a marker.
 
     Symbols shrink from curve to curve, so that one drawn over another of the same values hides neither.
     """
-    for line in itertools.cycle(("-", "--", ":", "-.")):
-        for step, (colour, marker) in enumerate(zip(COLOURS, MARKERS)):
-            yield {
-                "color": colour,
-                "marker": marker,
-                "linestyle": line,
-                "markersize": max(4.0, 8.5 - 2 * step),
-            }
+    return [
+        {
+            "color": colour,
+            "marker": MARKERS[step % len(MARKERS)],
+            "linestyle": "-",
+            "markersize": max(4.0, 8.5 - 2 * (step % len(MARKERS))),
+        }
+        for step, colour in enumerate(colours(n))
+    ]
 
 
 def legend_on_top(figure, entries):

@@ -12,7 +12,7 @@ import numpy as np
 
 from synthetic_file import new_file
 from tabor_report import build, page, style
-from tabor_report.figures import ehl_impact, ehl_point
+from tabor_report.figures import ehl_curves, ehl_impact, ehl_point, ehl_stribeck
 
 
 def impact_file(path):
@@ -134,6 +134,28 @@ def stribeck_file(path):
             file[f"sweep/{name}"].attrs.update({"units": unit, "long_name": long_name})
 
 
+def many_file(path):
+    """Nine surfaces at two speeds; the friction of the first case is not known."""
+    with new_file(path) as file:
+        file.attrs["kind"] = "ehl point sweep"
+        file.attrs["config_toml"] = ""
+        file.attrs["warnings"] = ["[a] 1 of 18 cases (roughness.seed / motion.speed = 1 / 0.1 m/s): frictionless"]
+        file.create_group("sweep").attrs["axes"] = ["roughness.seed", "motion.speed"]
+        file["sweep/axes/roughness.seed"] = np.arange(1.0, 10.0)
+        file["sweep/axes/motion.speed"] = [0.1, 1.0]
+        for key in ("roughness.seed", "motion.speed"):
+            file[f"sweep/axes/{key}"].attrs["long_name"] = key
+        file["sweep/axes/roughness.seed"].attrs["words"] = [f"seed {n}" for n in range(1, 10)]
+        file["sweep/shape"] = [9, 2]
+        for name, value in (("warnings", "frictionless"), ("warning_marks", "a")):
+            file[f"sweep/{name}"] = np.array([value] + 17 * [""], dtype=h5py.string_dtype())
+        for name in ehl_stribeck._Curve.NAMES:
+            file[f"sweep/{name}"] = np.linspace(0.1, 0.2, 18)
+            file[f"sweep/{name}"].attrs.update({"units": "", "long_name": name})
+        file["sweep/friction_coefficient"][0] = np.nan
+        file["sweep/converged"] = np.ones(18)
+
+
 def sweep_file(path):
     with new_file(path) as file:
         file.attrs["kind"] = "ehl impact sweep"
@@ -189,6 +211,42 @@ class Ehl(unittest.TestCase):
         dry = {"begin_s": 1e-5, "impact_time_s": 8e-5, "max_force_N": 12.0}
         self.assertAlmostEqual(float(ehl_impact.dry_force(dry, np.array([5e-5]))[0]), 12)
         np.testing.assert_array_equal(ehl_impact.dry_force(dry, np.array([0, 1e-5, 1e-4])), 0)
+
+    def test_captions_say_what_the_numbers_say(self):
+        drawn = self.drawings(impact_file)
+        self.assertIn("thinnest, 1 µm, after 0 µs, in a ring", drawn["impact_film"].caption)
+        self.assertIn("2 µm thick in the centre", drawn["impact_film"].caption)
+        self.assertNotIn("spike", drawn["impact_central_pressure"].caption)  # its pressure has one peak only
+        # The synthetic film is thinnest in the middle, not before the outlet.
+        line = self.drawings(line_file)["line_profile"].caption
+        self.assertIn("thinnest, 100 nm, at 0 µm; its pressure ends at 99 µm", line)
+
+    def test_a_roller_film_that_closes_before_the_force_is_largest_is_said_so(self):
+        history = {"time": np.array([0, 1e-3, 2e-3]), "min_film": np.array([2.0, 1.0, 3.0])}
+        history["force"] = np.array([0, 1.0, 2.0])
+        caption = ehl_curves._squeeze_caption(history)
+        self.assertEqual(caption, "The force is largest after 2 ms, the film thinnest after 1 ms.")
+        history["force"] = np.array([2.0, 1.0, 0])
+        self.assertIn("goes on closing", ehl_curves._squeeze_caption(history))
+
+    def test_no_two_of_many_curves_look_alike(self):
+        for n in (1, 7, 8, 9, 30):
+            looks = style.curve_styles(n)
+            self.assertEqual(len({look["color"] for look in looks}), n)
+        drawn = self.drawings(many_file)
+        for name in ("stribeck", "sweep_friction_coefficient"):
+            lines = [line for line in drawn[name].figure.axes[0].get_lines() if line.get_linestyle() == "-"]
+            self.assertEqual(len({line.get_color() for line in lines}), 9)
+
+    def test_a_sweep_marks_the_cases_of_its_warnings_and_leaves_gaps(self):
+        text = self.page(many_file)
+        self.assertEqual(text.count("[a] 1 of 18 cases"), 1)
+        self.assertIn("warnings", text)
+        drawn = self.drawings(many_file)
+        self.assertIn("Gaps", drawn["stribeck"].caption)
+        rows = self.rows(drawn["sweep_friction_coefficient"])
+        self.assertEqual([row["warnings"] for row in rows[:2]], ["a", ""])
+        self.assertEqual(rows[0]["friction_coefficient"], "nan")
 
     def test_a_sweep_keeps_each_value_at_its_place(self):
         rows = self.rows(self.drawings(sweep_file)["sweep_restitution"])

@@ -16,7 +16,7 @@ def draw(study):
         return None
     figure, grid = style.new_figure(3.4, width=5.6)
     axes = grid[0][0]
-    for (group, states), look in zip(groups, style.curve_styles()):
+    for (group, states), look in zip(groups, style.curve_styles(len(groups))):
         _draw_group(axes, group, states, look)
     _draw_doubtful(axes, groups)
     _draw_bound(axes, study)

@@ -20,7 +20,7 @@ def draw(study, error="std"):
         return None
     figure, grid = style.new_figure(3.4, width=5.6)
     axes = grid[0][0]
-    for series, look in zip(curves, style.curve_styles()):
+    for series, look in zip(curves, style.curve_styles(len(curves))):
         label = f"{style.literal(series.group) or 'computed'} ({series.n_text})"
         series_of.draw(axes, series, error, label=label, **look)
     _draw_limit(axes, study)

@@ -29,10 +29,18 @@ def squeeze(source):
     yield Drawn(
         "squeeze",
         "Force and film against time",
-        "The film goes on closing after the force has passed its maximum and after the roller has turned.",
+        _squeeze_caption(history),
         figure,
         {"": table_text({f"{name}": values for name, values in history.items()})},
     )
+
+
+def _squeeze_caption(history):
+    """When the force is largest and the film thinnest."""
+    time = history["time"] * 1e3
+    force, film = time[np.argmax(history["force"])], time[np.argmin(history["min_film"])]
+    text = f"The force is largest after {units.number(force)} ms, the film thinnest after {units.number(film)} ms"
+    return text + (": it goes on closing under a falling force." if film > force else ".")
 
 
 def sweep(source):
@@ -80,12 +88,15 @@ def _drawn(node, name, keys, values):
     else:
         _draw_curves(figure, grid[0][0], node, keys, values * factor, label)
     data = {key: points.ravel() for key, points in zip(keys, np.meshgrid(*axes_values, indexing="ij"))}
+    own = {name: values.ravel()}
+    if "warning_marks" in node:
+        own["warnings"] = [hdf.text(marks) for marks in node["warning_marks"][()]]
     return Drawn(
         f"sweep_{name}",
         heading[:1].upper() + heading[1:],
         f"Over {' and '.join(keys)}.",
         figure,
-        {"": table_text({**data, name: values.ravel()})},
+        {"": table_text({**data, **own})},
     )
 
 
@@ -113,7 +124,7 @@ def _draw_curves(figure, axes, node, keys, values, label):
     key = max(numeric, key=lambda key: len(node["axes"][key]))
     place, place_label = _scaled_axis(node, key)
     curves = list(curves_along(node, keys, key))
-    for (index, words), look in zip(curves, style.curve_styles()):
+    for (index, words), look in zip(curves, style.curve_styles(len(curves))):
         axes.plot(place, values[index], label=words or None, **look)
     finite = values[np.isfinite(values)]
     if _scale(axes.set_xscale, place) and finite.min() > 0 and finite.max() > 10 * finite.min():

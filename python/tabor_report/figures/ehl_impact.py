@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tabor_report import hdf, style
+from tabor_report import hdf, style, units
 from tabor_report.figures import Drawn
 from tabor_report.output import matrix_text, table_text
 
@@ -69,8 +69,9 @@ def _central_pressure(source, history):
     figure, axes = _axes(y="pressure in the centre (GPa)")
     axes.plot(history["time"] * US, pressure * GPA, color=style.COLOURS[0], label="in the centre")
     # The spike at the end is as high as the grid is fine: it may leave the picture.
-    first = source.scalars.get("primary_center_pressure_Pa") or pressure.max()
-    if np.isfinite(first):
+    first = source.scalars.get("primary_center_pressure_Pa")
+    has_first = first is not None and np.isfinite(first)
+    if has_first:
         axes.set_ylim(0, min(3 * first, 1.05 * pressure.max()) * GPA)
         axes.axhline(first * GPA, color="0.6", linewidth=0.8, linestyle=":", label="first peak")
     axes.set_xlim(left=0)
@@ -78,11 +79,31 @@ def _central_pressure(source, history):
     return Drawn(
         "impact_central_pressure",
         "Pressure in the centre against time",
-        "The first peak is the squeeze of the closing gap, the spike at the end the front of the film that runs "
-        "into the centre; the height of the spike grows with the number of nodes and is cut here.",
+        _peaks(first if has_first else None, pressure.max()),
         figure,
         {"": table_text({"time_s": history["time"], "central_pressure_Pa": pressure})},
     )
+
+
+def _peaks(first, highest):
+    if first is None:
+        return "There is no peak before the last one, whose height grows with the number of nodes."
+    text = "The first peak is the squeeze of the closing gap."
+    if highest <= 1.01 * first:
+        return text
+    cut = " and is cut here" if highest > 3 * first else ""
+    spike = "The height of a later spike, where the front of the film runs into the centre,"
+    return f"{text} {spike} grows with the number of nodes{cut}."
+
+
+def _thinnest(history):
+    """Where the film was thinnest, and how thick in the centre then."""
+    at = np.argmin(history["min_film"])
+    least, centre = history["min_film"][at], history["central_film"][at]
+    text = f"The film is thinnest, {units.length(least)}, after {units.number(history['time'][at] * US)} µs"
+    if centre > 1.01 * least:
+        return f"{text}, in a ring around liquid that is {units.length(centre)} thick in the centre."
+    return f"{text}, in the centre."
 
 
 def _film(source, history):
@@ -97,7 +118,7 @@ def _film(source, history):
     return Drawn(
         "impact_film",
         "Film thickness against time",
-        "Liquid is trapped in the centre while the film is thinnest in a ring around it.",
+        _thinnest(history),
         figure,
         {
             "": table_text(
@@ -143,7 +164,7 @@ def _profiles(source):
     return Drawn(
         "impact_profiles",
         "Pressure and film along the radius",
-        "The dimple of trapped liquid keeps its depth until the front of the cavity reaches it.",
+        "At about equal times while the ball is carried.",
         figure,
         {"": table_text(data)},
     )

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tabor_report import style
+from tabor_report import style, units
 from tabor_report.figures import Drawn
 from tabor_report.output import table_text
 
@@ -56,10 +56,25 @@ def _profile(source, profile):
     return Drawn(
         "line_profile",
         "Pressure and film along the flow",
-        "Grey: the pressure of the same cylinder without liquid. The film is thinnest before the outlet.",
+        f"Grey: the pressure of the same cylinder without liquid. {_thinnest(profile)}",
         figure,
         {"": table_text({f"{name}_{unit}": profile[name] for name, unit in PROFILE.items() if name in profile})},
     )
+
+
+def _thinnest(profile):
+    """Where the film is thinnest, and where it ends."""
+    x, film, pressure = profile["x"], profile["film"], profile["pressure"]
+    place = np.argmin(film)
+    text = f"The film is thinnest, {units.length(film[place])}, at {_place(x[place])}"
+    if np.count_nonzero(film <= 1.001 * film[place]) > 1:
+        text = f"The film is nowhere thinner than {units.length(film[place])}, first at {_place(x[place])}"
+    loaded = x[pressure > 1e-6 * pressure.max()]
+    return text + (f"; its pressure ends at {_place(loaded[-1])}." if loaded.size else ".")
+
+
+def _place(x):
+    return f"{units.number(x * UM, 3)} µm"
 
 
 def _time(seconds):

@@ -296,7 +296,7 @@ def _slice_plane(curves):
     return Drawn(
         "point_slice_plane",
         "Slice-plane graph",
-        "How much of the dry contact's area has a film up to h*: at zero, solids touch. As figure 10 of "
+        "How much of the dry contact's area touches or has a film up to h*: at zero, solids touch. As figure 10 of "
         "Redlich et al.",
         figure,
         {"": table_text(data)},

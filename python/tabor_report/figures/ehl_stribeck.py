@@ -25,11 +25,13 @@ def draw(source):
     figure, grid = style.new_figure(5.6, n_rows=2, width=5.8, sharex=True, height_ratios=[3, 2])
     top, bottom = grid[0][0], grid[1][0]
     share = bottom.twinx()
-    for number, curve in enumerate(curves):
-        curve.draw(top, bottom, share, style.COLOURS[number % 7], style.MARKERS[number % 7])
+    for curve, look in zip(curves, style.curve_styles(len(curves))):
+        curve.draw(top, bottom, share, look["color"], look["marker"])
     _label_stribeck(top, bottom, share, "sliding" if key == SPEEDS[0] else "entrainment")
     style.legend_on_top(figure, style.entries(top))
     doubt = "" if all(curve.sure.all() for curve in curves) else " Red crosses: not converged."
+    if any(np.isnan(curve.values["friction_coefficient"]).any() for curve in curves):
+        doubt += " Gaps: no friction is known there; the warnings say why."
     data = {f"{key} (m/s)": curves[0].speed}
     for curve in curves:
         data.update(curve.data())
@@ -37,7 +39,7 @@ def draw(source):
         "stribeck",
         "Stribeck curve",
         "Friction of film and solids; below, the central film and, on the right, how much of the dry contact's "
-        "area is plastic or touches." + doubt,
+        "area touches and how much of it is plastic." + doubt,
         figure,
         {"": table_text(data)},
     )
@@ -94,7 +96,7 @@ def _label_stribeck(top, bottom, share, which):
     for axes in (top, bottom):
         axes.grid(color="0.92", linewidth=0.6)
     top.set_ylabel("friction coefficient")
-    bottom.set_ylabel("mean central film (nm)")
-    share.set_ylabel("plastic (dash-dotted), touching (%)")
+    bottom.set_ylabel("central film (nm)")
+    share.set_ylabel("touching (dotted),\nplastic (dash-dotted) (%)")
     share.spines["right"].set_visible(True)
     bottom.set_xlabel(f"{which} speed (m/s)")

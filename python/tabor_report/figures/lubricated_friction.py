@@ -62,9 +62,11 @@ def _draw_panel(axes, study, group, curves, error):
         linestyle="--",
         markerfacecolor="white",
     )
-    for series, look in zip(curves, _looks(study)):
+    looks = _looks(study)
+    for series in curves:
+        look = looks[series.density]
         series_of.draw(axes, series, error, label=f"computed {units.density(series.density)}", **look)
-    for density, look in zip(_measured_densities(study), _looks(study)):
+    for density, look in looks.items():
         points = series_of.experiment(study, group, density)
         if points:
             series_of.draw_experiment(
@@ -75,14 +77,11 @@ def _draw_panel(axes, study, group, curves, error):
 
 
 def _looks(study):
-    return style.curve_styles()
-
-
-def _measured_densities(study):
-    """Computed densities first, so that a measured one carries the colour of its computed curve."""
+    """{density: look}, in all panels the same; a measured density that was computed too has the look of its curve."""
     computed = series_of.densities(study)
     measured = series_of.measured_densities(study)
-    return computed + [density for density in measured if not np.isclose(density, computed, rtol=1e-9).any()]
+    densities = computed + [density for density in measured if not np.isclose(density, computed, rtol=1e-9).any()]
+    return dict(zip(densities, style.curve_styles(len(densities))))
 
 
 def _label(axes, n_panels):

@@ -102,7 +102,7 @@ def _text(key, x):
 
 
 def _draw_panel(top, bottom, curves, error):
-    for curve, look in zip(curves, style.curve_styles()):
+    for curve, look in zip(curves, style.curve_styles(len(curves))):
         x = curve.column(curve.x) * SCALE[curve.x]
         for axes, name in ((top, "friction_mixed"), (bottom, "fluid_load_share")):
             axes.errorbar(

@@ -61,7 +61,7 @@ def _curves(study, axis):
 
 
 def _draw_panel(axes, axis, curves):
-    for (_, q, density, _, _), look in zip(curves, style.curve_styles()):
+    for (_, q, density, _, _), look in zip(curves, style.curve_styles(len(curves))):
         shown = density > density.max() * FLOOR
         axes.loglog(
             q[shown] * 1e-6,

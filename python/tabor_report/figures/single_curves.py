@@ -39,7 +39,7 @@ def _has(state, key):
 
 def _draw_panel(axes, key, states):
     curves = _curves(key, states)
-    for (label, members), look in zip(curves, style.curve_styles()):
+    for (label, members), look in zip(curves, style.curve_styles(len(curves))):
         factor = 100 if key == AREA else 1
         members = sorted(members, key=lambda pair: pair[0].pressure)
         sure = [(state, value) for state, value in members if state.facts.get("converged", True)]
