@@ -72,10 +72,12 @@ def _spacing(surface, name):
 
 
 def _doubts_about(single):
+    lines = hdf.text_list(single.facts.get("warnings"))
     for doubt in hdf.text_list(single.surface_facts.get("doubts")):
-        yield doubt
+        if not any(doubt in line for line in lines):  # said there with its code
+            yield doubt
     for state in single.states:
         if not state.facts.get("converged", True):
             yield f"State {state.key} did not converge; do not use its numbers without a closer look."
         yield from hdf.text_list(state.facts.get("warnings"))
-    yield from hdf.text_list(single.facts.get("warnings"))
+    yield from lines

@@ -169,6 +169,9 @@ def _doubts_about(study):
         )
     for message in dict.fromkeys(text for text in study.table.get("error", ()) if text):
         yield f"Failed: {message}"
+    if "warnings" in study.facts:  # each once, with its cases
+        yield from hdf.text_list(study.facts["warnings"])
+        return
     for scan in study.scans:
         for doubt in dict.fromkeys(scan.doubts + _warnings_of_states(scan)):
             yield f"{scan.file}: {doubt}"

@@ -159,7 +159,7 @@ class Lubricant(ProgramTest):
         result = self.json("lubricate", "scan.h5", "--density", "1kg/m^2")
         self.assertTrue(result["states"][0]["flooded"])
         self.assertEqual(result["states"][0]["wet_fraction"], 1)
-        self.assertIn("flood", " ".join(result["warnings"]))
+        self.assertIn("flood", " ".join(warning["text"] for warning in result["warnings"]))
 
     def test_negative_is_refused(self):
         self.generate("scan.h5")

@@ -273,16 +273,6 @@ TEST(Deposition, IsDryWithoutADose) {
   EXPECT_EQ(film.n_pools, 0);
 }
 
-TEST(Deposition, WarnsOfAFloodAndOfTooFewDroplets) {
-  const Field height = rough(10, 10, 10);
-  EXPECT_THAT(film_of(height, dose_of({10 * kMicrometre})).warnings,
-              ::testing::Contains(::testing::HasSubstr("floods the surface")));
-  Dose dose = dose_of({0.01 * kMicrometre});
-  dose.droplet_height = 0.1 * kMicrometre;
-  EXPECT_THAT(film_of(height, dose).warnings,
-              ::testing::Contains(::testing::HasSubstr("10 droplets for 100 pixels")));
-}
-
 TEST(Deposition, RefusesInputThatMakesNoSense) {
   Field height = rough(8, 8, 11);
   const auto attempt = [&](const Dose& dose) { film_of(height, dose); };

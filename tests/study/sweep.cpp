@@ -75,6 +75,37 @@ TEST(Sweep, MoreLubricantNeverMeansMoreFriction) {
   }
 }
 
+/// What one row is warned of does not depend on the others, nor on when it was computed.
+TEST(Sweep, WarningsAreThoseOfTheRowsWheneverTheyWereComputed) {
+  const ExampleStudy example;
+  example.write(replaced(test::kStudyText, "\"0.9 g/m^2\"", "\"9 g/m^2\""));
+  const Outcome first = example.run();
+  const auto lines = [](const Outcome& outcome) {
+    std::vector<std::string> all;
+    for (const analysis::Finding& finding : outcome.findings) {
+      all.push_back(analysis::line_of(finding));
+    }
+    return all;
+  };
+  EXPECT_THAT(lines(first), testing::Contains(HasSubstr("floods the surface")));
+  EXPECT_THAT(lines(first), testing::Contains(testing::AllOf(HasSubstr("(4 of 8 cases"),
+                                                             HasSubstr("[frictionless]"))));
+  EXPECT_EQ(lines(example.run()), lines(first));
+  for (const int index : {1, 2}) {
+    SweepOptions options;
+    options.shard = Shard{index, 2};
+    const Outcome part = example.run(options, "parts");
+    EXPECT_EQ(lines(part) == lines(first), index == 2);  // the last has seen every row
+  }
+  const io::Hdf5Reader results(example.results() / "results.h5");
+  EXPECT_EQ(results.attribute_texts("/", "warnings"), lines(first));
+  const auto codes = results.texts("/table/warning_codes");
+  ASSERT_EQ(codes.size(), 8u);
+  for (std::size_t i = 0; i < 8; ++i) {
+    EXPECT_EQ(codes[i].find("flood") != std::string::npos, i % 2 == 1) << codes[i];
+  }
+}
+
 TEST(Sweep, SecondRunComputesNothingAndChangesNothing) {
   const ExampleStudy example;
   example.run();

@@ -54,10 +54,8 @@ void check(const Request& request) {
 
 int show(const Request& request, Context& context) {
   check(request);
-  const Scan scan = load_scan(request.scan, context);
+  const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
-  warn_if_not_levelled(scan, context);
-  warn_about_edges(scan, request.contact, context);
   if (!request.cutoffs.empty()) {
     return run_lowpass_scan(scan, request.contact, request.cutoffs, request.shear_strength,
                             context);
@@ -75,15 +73,19 @@ int show(const Request& request, Context& context) {
   object.update(settings);
   object["states"] = io::Json::array();
   Table rows = table();
+  std::vector<analysis::Case> cases;
   const auto receive = [&](const ContactResult& result) {
     const io::Json state = state_json(result);
     if (file) file->add_state(object["states"].size(), state, fields_of(result.state));
     object["states"].push_back(state);
     object["states"].back().update(statistics_json(*elasticity, result, request.contact, context));
     rows.row(row_of(result));
+    cases.push_back(
+        {.pressure = si(result.summary.mean_pressure, "Pa"), .warnings = result.warnings});
   };
   const int code = solve_all(*elasticity, scan, request.contact, context, receive);
   if (code == kInterrupted && object["states"].empty()) throw Interrupted();
+  context.warn(analysis::findings_of(cases));
   if (file) file->commit(context);
   Facts facts;
   describe(scan, facts);

@@ -14,6 +14,16 @@
 
 namespace tabor::cli {
 
+namespace {
+
+analysis::ContactSettings analysis_settings(const ContactRequest& request) {
+  return {.periodic = request.is_periodic(),
+          .effective_modulus = effective_modulus(request),
+          .saturation_pressure = request.saturation_pressure.value_or(contact::kNoSaturation)};
+}
+
+}  // namespace
+
 void declare_contact(OptionSet& set, ContactRequest& request) {
   set.group("Contact");
   set.quantities("--pressure", "P[,P2,...]", "mean pressure, load / nominal area, e.g. 2MPa,7MPa",
@@ -76,11 +86,13 @@ std::unique_ptr<elastic::ElasticOperator> make_operator(const ContactRequest& re
                                : elastic::make_free(grid, modulus);
 }
 
-void warn_about_edges(const Scan& scan, const ContactRequest& request, Context& context) {
-  if (!request.is_periodic() || scan.surface.periodic) return;
-  context.warn(
-      "the scan is not periodic but is solved as if it repeated: steps at its edges carry load; "
-      "--mirror removes them, --boundary free does without repetition");
+friction::Contact for_friction(const ContactResult& result, const ContactRequest& request,
+                               double lubricated_share) {
+  return {.mean_pressure = result.summary.mean_pressure,
+          .contact_area_fraction = result.summary.contact_area_fraction,
+          .contact_area_fraction_pixels = result.summary.contact_area_fraction_pixels,
+          .saturation_pressure = request.saturation_pressure.value_or(contact::kNoSaturation),
+          .lubricated_share = lubricated_share};
 }
 
 ContactResult solve(elastic::ElasticOperator& elasticity, const Field& height, double pressure,
@@ -100,27 +112,22 @@ ContactResult solve(elastic::ElasticOperator& elasticity, const Field& height, d
       contact::summarise(result.state, problem, elasticity.grid(), request.is_periodic());
   result.fft_seconds = elasticity.fft_seconds() - fft_before;
   result.seconds = watch.seconds();
-  if (!result.state.convergence.converged) {
-    context.warn(fmt::format("{}: NOT CONVERGED, certificate {:.1e} instead of {:.0e}",
-                             si(pressure, "Pa"), result.state.convergence.certificate,
-                             request.tolerance));
-  }
-  if (!result.summary.area_correction_valid) {
-    context.warn(si(pressure, "Pa") +
-                 ": saturated regions fill whole rows, the perimeter correction of the area does "
-                 "not hold there");
-  }
   return result;
 }
 
 int solve_all(elastic::ElasticOperator& elasticity, const Scan& scan, const ContactRequest& request,
               Context& context, const std::function<void(const ContactResult&)>& receive) {
   int code = kDone;
+  const analysis::ContactSettings settings = analysis_settings(request);
+  const analysis::Warnings about_surface = analysis::of_surface(scan.surface);
   try {
     Field unloaded;  // of a load path: the surface as the states before left it
     for (const double pressure : request.pressures) {
       const Field& height = unloaded.size() > 0 ? unloaded : scan.surface.height;
-      const ContactResult result = solve(elasticity, height, pressure, request, context);
+      ContactResult result = solve(elasticity, height, pressure, request, context);
+      result.warnings = about_surface;
+      analysis::add(analysis::of_contact(scan.surface, settings, result.state, result.summary),
+                    result.warnings);
       receive(result);
       if (request.load_path) unloaded = contact::unloaded_height(height, result.state);
       if (!result.state.convergence.converged) code = kNotConverged;
@@ -173,6 +180,7 @@ io::Json state_json(const ContactResult& result) {
           {"perimeter_m", summary.perimeter},
           {"certificate", io::number(convergence.certificate)},
           {"converged", convergence.converged},
+          {"warning_codes", analysis::codes_of(result.warnings)},
           {"iterations", convergence.iterations},
           {"operator_applications", convergence.operator_applications},
           {"fft_seconds", result.fft_seconds},

@@ -6,11 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "tabor/analysis/warnings.hpp"
 #include "tabor/cli/scan.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verb.hpp"
 #include "tabor/contact/contact.hpp"
 #include "tabor/elastic/operator.hpp"
+#include "tabor/friction/bowden_tabor.hpp"
 #include "tabor/io/json.hpp"
 
 namespace tabor::cli {
@@ -36,6 +38,7 @@ struct ContactRequest {
 struct ContactResult {
   contact::State state;
   contact::Summary summary;
+  analysis::Warnings warnings;  ///< of its surface and its own
   double fft_seconds = 0;
   double seconds = 0;
 };
@@ -49,8 +52,9 @@ double effective_modulus(const ContactRequest& request);
 std::unique_ptr<elastic::ElasticOperator> make_operator(const ContactRequest& request,
                                                         const Grid& grid);
 
-/// Warns about edges that do not match under the periodic boundary.
-void warn_about_edges(const Scan& scan, const ContactRequest& request, Context& context);
+/// What friction takes from the contact, with the share of it that is wet.
+friction::Contact for_friction(const ContactResult& result, const ContactRequest& request,
+                               double lubricated_share = 0);
 
 /// Solves one state. Throws Interrupted when the user stopped it.
 ContactResult solve(elastic::ElasticOperator& elasticity, const Field& height, double pressure,

@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <ctime>
 
 #include "tabor/core/version.hpp"
@@ -16,6 +17,8 @@ std::string now_utc() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
 }
 
+bool is_text(const io::Json& value) { return value.is_string(); }
+
 void write_attribute(io::Hdf5Writer& writer, const std::string& path, const std::string& key,
                      const io::Json& value) {
   if (value.is_boolean()) {
@@ -26,6 +29,8 @@ void write_attribute(io::Hdf5Writer& writer, const std::string& path, const std:
     writer.attribute(path, key, value.get<double>());
   } else if (value.is_string()) {
     writer.attribute(path, key, value.get<std::string>());
+  } else if (value.is_array() && std::all_of(value.begin(), value.end(), is_text)) {
+    writer.attribute(path, key, value.get<std::vector<std::string>>());
   }
 }
 

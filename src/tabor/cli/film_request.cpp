@@ -26,9 +26,9 @@ lubrication::Dose dose_of(const FilmRequest& request, const Context& context) {
   return dose;
 }
 
-std::string density_text(double density) { return plain(study::in_g_per_m2(density)) + " g/m^2"; }
-
 }  // namespace
+
+std::string density_text(double density) { return plain(study::in_g_per_m2(density)) + " g/m^2"; }
 
 void declare_film(OptionSet& set, FilmRequest& request) {
   set.group("Lubricant");
@@ -66,9 +66,6 @@ void rain(const Scan& scan, const FilmRequest& request, Context& context,
           const std::function<void(std::size_t, lubrication::Film&&)>& sink) {
   const auto receive = [&](lubrication::Film&& film) {
     const std::size_t place = film.request;
-    for (const std::string& warning : film.warnings) {
-      context.warn(density_text(request.densities[place]) + ": " + warning);
-    }
     sink(place, std::move(film));
   };
   lubrication::deposit(scan.surface.height, scan.surface.grid, dose_of(request, context), receive,

@@ -31,6 +31,9 @@ void check(const FilmRequest& request);
 void rain(const Scan& scan, const FilmRequest& request, Context& context,
           const std::function<void(std::size_t, lubrication::Film&&)>& sink);
 
+/// "0.9 g/m^2"
+std::string density_text(double density);
+
 /// Settings in force, for the JSON head and the result file.
 io::Json settings_json(const FilmRequest& request, const Context& context);
 /// The keys of one state.

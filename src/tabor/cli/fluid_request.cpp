@@ -81,9 +81,7 @@ FluidResult solve_fluid(elastic::ElasticOperator& elasticity, const Field& heigh
   FluidResult result;
   result.state = friction::solve_fluid_film(elasticity, problem, dry.state, context.observer());
   result.summary = friction::summarise(result.state, problem, elasticity.grid());
-  for (const std::string& doubt : friction::doubts(result.state, problem)) {
-    context.warn(si(dry.summary.mean_pressure, "Pa") + ": " + doubt);
-  }
+  result.doubts = friction::doubts(result.state, problem);
   return result;
 }
 

@@ -29,9 +29,10 @@ void check(const FluidRequest& request, const ContactRequest& contact);
 struct FluidResult {
   friction::FluidFilmState state;
   friction::FluidSummary summary;
+  std::vector<std::string> doubts;
 };
 
-/// The film of one state of contact and deposited oil. Warns of what is doubtful about it.
+/// The film of one state of contact and deposited oil.
 FluidResult solve_fluid(elastic::ElasticOperator& elasticity, const Field& height,
                         const ContactResult& dry, const Field& film, const ContactRequest& contact,
                         const FluidRequest& request, Context& context);

@@ -36,53 +36,54 @@ std::vector<lubrication::Film> films_of(const Scan& scan, const Request& request
   return films;
 }
 
-friction::Contact contact_of(const ContactResult& result, const Request& request,
-                             double wet_share) {
-  friction::Contact contact;
-  contact.mean_pressure = result.summary.mean_pressure;
-  contact.contact_area_fraction = result.summary.contact_area_fraction;
-  contact.contact_area_fraction_pixels = result.summary.contact_area_fraction_pixels;
-  contact.saturation_pressure =
-      request.contact.saturation_pressure.value_or(contact::kNoSaturation);
-  contact.lubricated_share = wet_share;
-  return contact;
-}
-
 /// One pressure with one density.
-io::Json state_of(const ContactResult& result, const lubrication::Film& film, double density,
-                  const Grid& grid, const Request& request) {
+struct State {
+  io::Json json;
+  analysis::Warnings warnings;
+};
+
+State state_of(const ContactResult& result, const lubrication::Film& film, double density,
+               const Grid& grid, const Request& request) {
   const Mask touching = contact::contact_mask(result.state);
   const double wet_share = friction::lubricated_share(touching, film.thickness);
   const friction::TrappedLiquid trapped = friction::trapped_liquid(
       touching, film.thickness, result.state.gap, grid, request.contact.is_periodic());
+  const double spilled = friction::spill_over_fraction(film.thickness, result.state.gap);
+  const friction::Contact contact = for_friction(result, request.contact, wet_share);
   const friction::Estimate estimate =
-      friction::estimate(contact_of(result, request, wet_share), request.shear_strength,
-                         friction::parse_area(request.area));
-  return {{"mean_pressure_Pa", result.summary.mean_pressure},
-          {"lubricant_density_g_per_m2", study::in_g_per_m2(density)},
-          {"contact_area_fraction", result.summary.contact_area_fraction},
-          {"contact_area_fraction_pixels", result.summary.contact_area_fraction_pixels},
-          {"saturated_area_fraction", result.summary.saturated_area_fraction},
-          {"mean_gap_m", result.summary.mean_gap},
-          {"mean_film_m", film.mean_film},
-          {"lubricated_share", wet_share},
-          {"spill_over_fraction", friction::spill_over_fraction(film.thickness, result.state.gap)},
-          {"trapped_fraction", trapped.trapped_fraction},
-          {"friction_area_fraction", estimate.area_fraction},
-          {"friction_dry", estimate.friction_dry},
-          {"friction_lubricated", estimate.friction_lubricated},
-          {"certificate", io::number(result.state.convergence.certificate)},
-          {"converged", result.state.convergence.converged}};
+      friction::estimate(contact, request.shear_strength, friction::parse_area(request.area));
+  State state{.json = {}, .warnings = result.warnings};
+  analysis::add(analysis::of_film(film), state.warnings);
+  analysis::add(analysis::of_friction(contact, estimate, spilled), state.warnings);
+  state.json = {{"mean_pressure_Pa", result.summary.mean_pressure},
+                {"lubricant_density_g_per_m2", study::in_g_per_m2(density)},
+                {"contact_area_fraction", result.summary.contact_area_fraction},
+                {"contact_area_fraction_pixels", result.summary.contact_area_fraction_pixels},
+                {"saturated_area_fraction", result.summary.saturated_area_fraction},
+                {"mean_gap_m", result.summary.mean_gap},
+                {"mean_film_m", film.mean_film},
+                {"lubricated_share", wet_share},
+                {"spill_over_fraction", spilled},
+                {"trapped_fraction", trapped.trapped_fraction},
+                {"area", friction::name(estimate.area)},
+                {"friction_area_fraction", estimate.area_fraction},
+                {"dry_at_bound", estimate.at_bound},
+                {"friction_dry", estimate.friction_dry},
+                {"friction_lubricated", estimate.friction_lubricated},
+                {"certificate", io::number(result.state.convergence.certificate)},
+                {"converged", result.state.convergence.converged}};
+  return state;
 }
 
 /// Adds what the oil does when it flows.
-void add_fluid(const friction::FluidSummary& fluid, const Request& request, io::Json& state) {
+void add_fluid(const FluidResult& fluid, const Request& request, State& state) {
   const friction::MixedEstimate mixed =
-      friction::estimate(fluid, state.at("mean_pressure_Pa").get<double>(),
+      friction::estimate(fluid.summary, state.json.at("mean_pressure_Pa").get<double>(),
                          request.contact.saturation_pressure.value_or(contact::kNoSaturation),
                          request.shear_strength, friction::parse_area(request.area));
-  state.update(fluid_json(fluid, mixed));
-  state["converged"] = state.at("converged").get<bool>() && fluid.converged;
+  state.json.update(fluid_json(fluid.summary, mixed));
+  state.json["converged"] = state.json.at("converged").get<bool>() && fluid.summary.converged;
+  analysis::add(analysis::of_flow(fluid.doubts, mixed), state.warnings);
 }
 
 std::vector<std::string> row_of(const io::Json& state) {
@@ -159,10 +160,8 @@ int show(const Request& request, Context& context) {
   if (request.shear_strength <= 0) {
     throw InputError("--shear-strength", si(request.shear_strength, "Pa"), "more than zero", "");
   }
-  const Scan scan = load_scan(request.scan, context);
+  const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
-  warn_if_not_levelled(scan, context);
-  warn_about_edges(scan, request.contact, context);
   const io::Json settings = all_settings(request, context);
   std::optional<FieldsFile> file;
   if (request.output) file.emplace(*request.output, context, scan, settings, all_methods(request));
@@ -174,27 +173,34 @@ int show(const Request& request, Context& context) {
   const std::vector<lubrication::Film> films = films_of(scan, request, context);
   const auto elasticity = make_operator(request.contact, scan.surface.grid);
   Table rows = table(request);
+  std::vector<analysis::Case> cases;
   bool films_converged = true;
   const int code =
       solve_all(*elasticity, scan, request.contact, context, [&](const ContactResult& result) {
         for (std::size_t i = 0; i < films.size(); ++i) {
-          io::Json state =
+          State state =
               state_of(result, films[i], request.film.densities[i], scan.surface.grid, request);
           std::optional<FluidResult> fluid;
           if (request.fluid.asked()) {
             fluid = solve_fluid(*elasticity, scan.surface.height, result, films[i].thickness,
                                 request.contact, request.fluid, context);
-            add_fluid(fluid->summary, request, state);
+            add_fluid(*fluid, request, state);
             films_converged = films_converged && fluid->summary.converged;
           }
+          state.json["warning_codes"] = analysis::codes_of(state.warnings);
           if (file) {
-            file->add_state(object["states"].size(), state, maps_of(result.state, films[i], fluid));
+            file->add_state(object["states"].size(), state.json,
+                            maps_of(result.state, films[i], fluid));
           }
-          object["states"].push_back(state);
-          rows.row(row_of(state));
+          object["states"].push_back(state.json);
+          rows.row(row_of(state.json));
+          cases.push_back({.pressure = si(result.summary.mean_pressure, "Pa"),
+                           .density = density_text(request.film.densities[i]),
+                           .warnings = state.warnings});
         }
       });
   if (code == kInterrupted && object["states"].empty()) throw Interrupted();
+  context.warn(analysis::findings_of(cases));
   if (file) file->commit(context);
   return finish(context, object, text_of(scan, request, context, rows),
                 code == kDone && !films_converged ? kNotConverged : code);

@@ -39,10 +39,25 @@ struct Gathered {
   Table rows{{"cutoff", "shortest wave", "rms slope", "pressure", "contact", "pixels",
               "friction dry", "certificate", "converged"}};
   std::vector<std::vector<double>> areas;  ///< [pressure][cutoff]
+  std::vector<analysis::Case> cases;
 };
 
+/// Dry friction of the state, where it is asked for.
+void add_friction(const ContactResult& result, const ContactRequest& request,
+                  const std::optional<double>& shear_strength, io::Json& state,
+                  analysis::Warnings& warnings) {
+  state["friction_dry"] = nullptr;
+  if (!shear_strength) return;
+  const friction::Contact contact = for_friction(result, request);
+  const friction::Estimate estimate = friction::estimate(contact, *shear_strength);
+  state["friction_dry"] = estimate.friction_dry;
+  state["dry_at_bound"] = estimate.at_bound;
+  analysis::add(analysis::of_friction(contact, estimate, 0), warnings);
+}
+
 void add(Gathered& table, double cutoff, const topography::Topography& surface,
-         const ContactResult& result, double friction) {
+         const ContactResult& result, const ContactRequest& request,
+         const std::optional<double>& shear_strength) {
   const double wavelength = topography::filter_side(surface) / cutoff;
   const double slope = topography::rms_slope(surface);
   io::Json state = {{"lowpass", filter_of(cutoff)},
@@ -50,14 +65,20 @@ void add(Gathered& table, double cutoff, const topography::Topography& surface,
                     {"cutoff_wavelength_m", wavelength},
                     {"rms_slope", slope}};
   state.update(state_json(result));
-  state["friction_dry"] = io::number(friction);
+  analysis::Warnings warnings = result.warnings;
+  add_friction(result, request, shear_strength, state, warnings);
+  state["warning_codes"] = analysis::codes_of(warnings);
   table.states.push_back(state);
-  table.rows.row({plain(cutoff) + "/L", si(wavelength, "m"), plain(slope),
-                  si(result.summary.mean_pressure, "Pa"),
-                  percent(result.summary.contact_area_fraction),
-                  percent(result.summary.contact_area_fraction_pixels), plain(friction),
-                  fmt::format("{:.1e}", result.state.convergence.certificate),
-                  yes_no(result.state.convergence.converged)});
+  table.cases.push_back({.surface = plain(cutoff) + "/L",
+                         .pressure = si(result.summary.mean_pressure, "Pa"),
+                         .warnings = warnings});
+  table.rows.row(
+      {plain(cutoff) + "/L", si(wavelength, "m"), plain(slope),
+       si(result.summary.mean_pressure, "Pa"), percent(result.summary.contact_area_fraction),
+       percent(result.summary.contact_area_fraction_pixels),
+       state.at("friction_dry").is_null() ? "-" : plain(state.at("friction_dry").get<double>()),
+       fmt::format("{:.1e}", result.state.convergence.certificate),
+       yes_no(result.state.convergence.converged)});
 }
 
 // Cutoffs that were not reached after Ctrl-C have no area; the plateau is sought among the rest.
@@ -128,15 +149,13 @@ int run_lowpass_scan(const Scan& scan, const ContactRequest& request,
     std::size_t pressure = 0;
     const int ended =
         solve_all(*elasticity, filtered, request, context, [&](const ContactResult& result) {
-          const contact::Summary& summary = result.summary;
-          const double tau = shear_strength.value_or(std::nan(""));
-          add(table, cutoff, filtered.surface, result,
-              summary.contact_area_fraction * tau / summary.mean_pressure);
-          table.areas[pressure++].push_back(summary.contact_area_fraction);
+          add(table, cutoff, filtered.surface, result, request, shear_strength);
+          table.areas[pressure++].push_back(result.summary.contact_area_fraction);
         });
     code = std::max(code, ended);
     if (code == kInterrupted) break;
   }
+  context.warn(analysis::findings_of(table.cases));
   io::Json object = json_head(context, scan);
   object["nx"] = scan.surface.grid.nx;
   object["ny"] = scan.surface.grid.ny;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "tabor/analysis/warnings.hpp"
 #include "tabor/cli/fields_file.hpp"
 #include "tabor/cli/film_request.hpp"
 #include "tabor/cli/table.hpp"
@@ -33,22 +34,38 @@ std::vector<std::string> row_of(const io::Json& state) {
           si(number("seconds"), "s")};
 }
 
+analysis::Case case_of(double density, const lubrication::Film& film,
+                       const analysis::Warnings& about_surface) {
+  analysis::Case one{.density = density_text(density), .warnings = about_surface};
+  analysis::add(analysis::of_film(film), one.warnings);
+  return one;
+}
+
+std::vector<analysis::Case> values_of(const std::map<std::size_t, analysis::Case>& cases) {
+  std::vector<analysis::Case> values;
+  for (const auto& [place, one] : cases) values.push_back(one);
+  return values;
+}
+
 int show(const Request& request, Context& context) {
   check(request.film);
-  const Scan scan = load_scan(request.scan, context);
+  const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
-  warn_if_not_levelled(scan, context);
   const io::Json settings = settings_json(request.film, context);
   std::optional<FieldsFile> file;
   if (request.output) {
     file.emplace(*request.output, context, scan, settings, methods_of(request.film));
   }
 
+  const analysis::Warnings about_surface = analysis::of_surface(scan.surface);
   std::map<std::size_t, io::Json> states;  // films come in rising order of dose
+  std::map<std::size_t, analysis::Case> cases;
   int code = kDone;
   try {
     rain(scan, request.film, context, [&](std::size_t place, lubrication::Film&& film) {
+      cases[place] = case_of(request.film.densities[place], film, about_surface);
       states[place] = state_json(request.film.densities[place], film);
+      states[place]["warning_codes"] = analysis::codes_of(cases[place].warnings);
       if (!file) return;
       file->add_state(place, states[place],
                       {{"film_thickness", "m", "thickness of the lubricant film", film.thickness}});
@@ -58,6 +75,7 @@ int show(const Request& request, Context& context) {
     context.warn("interrupted: only the densities that were finished are shown");
     code = kInterrupted;
   }
+  context.warn(analysis::findings_of(values_of(cases)));
   if (file) file->commit(context);
 
   io::Json object = json_head(context, scan);

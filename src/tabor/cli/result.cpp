@@ -8,6 +8,22 @@
 
 namespace tabor::cli {
 
+namespace {
+
+/// What belongs to numbers says to which; the rest are plain texts.
+io::Json json_of(const Context& context, const std::string& line) {
+  for (const analysis::Finding& finding : context.findings) {
+    if (analysis::line_of(finding) != line) continue;
+    return {{"code", finding.code},
+            {"text", finding.text},
+            {"cases", finding.cases},
+            {"n_cases", finding.n_cases}};
+  }
+  return line;
+}
+
+}  // namespace
+
 io::Json json_head(const Context& context) {
   return {{"tabor_version", kVersion}, {"command", context.command_line}};
 }
@@ -23,7 +39,10 @@ io::Json json_head(const Context& context, const Scan& scan) {
 int finish(Context& context, io::Json object, const std::string& text, int code) {
   if (context.progress) context.progress->clear();
   if (context.json) {
-    object["warnings"] = context.warnings;
+    object["warnings"] = io::Json::array();
+    for (const std::string& line : context.warnings) {
+      object["warnings"].push_back(json_of(context, line));
+    }
     context.out << printable_json(io::to_text(object)) << '\n';
     return code;
   }

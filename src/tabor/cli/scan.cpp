@@ -3,17 +3,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cmath>
 #include <future>
 
+#include "tabor/analysis/warnings.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/topography/levelling.hpp"
-#include "tabor/topography/parameters.hpp"
 
 namespace tabor::cli {
 
@@ -86,11 +84,14 @@ class ScanDigest {
   std::future<std::string> sha256_;  // last: its end waits for the thread
 };
 
-bool is_levelled(const topography::Treatment& treatment) {
-  return std::any_of(treatment.begin(), treatment.end(), [](const std::string& step) {
-    return step.starts_with("highpass") ||
-           (step.starts_with("level=") && step != "level=none" && step != "level=mean");
-  });
+Scan read_scan(const topography::ScanFile& file, const ScanRequest& request, Context& context) {
+  ScanDigest sha256(file);
+  Topography surface =
+      topography::apply(request.treatment, file.read(request.read), context.observer());
+  return {.surface = std::move(surface),
+          .path = request.file,
+          .sha256 = sha256.get(context.observer()),
+          .treatment = request.treatment};
 }
 
 }  // namespace
@@ -106,19 +107,18 @@ void warn_of_doubts(const Topography& surface, const std::string& name, Context&
   for (const topography::Doubt& doubt : surface.doubts) context.warn(name + ": " + doubt.text);
 }
 
+Scan read_scan(const ScanRequest& request, Context& context) {
+  return read_scan(topography::ScanFile(request.file, context.observer()), request, context);
+}
+
 Scan load_scan(const ScanRequest& request, Context& context) {
   return load_scan(topography::ScanFile(request.file, context.observer()), request, context);
 }
 
 Scan load_scan(const topography::ScanFile& file, const ScanRequest& request, Context& context) {
-  ScanDigest sha256(file);
-  Topography surface =
-      topography::apply(request.treatment, file.read(request.read), context.observer());
-  warn_of_doubts(surface, request.file, context);
-  return {.surface = std::move(surface),
-          .path = request.file,
-          .sha256 = sha256.get(context.observer()),
-          .treatment = request.treatment};
+  Scan scan = read_scan(file, request, context);
+  warn_of_doubts(scan.surface, request.file, context);
+  return scan;
 }
 
 Topography read_input(const std::filesystem::path& file, const topography::ReadOptions& options,
@@ -129,15 +129,7 @@ Topography read_input(const std::filesystem::path& file, const topography::ReadO
 }
 
 void warn_if_not_levelled(const Scan& scan, Context& context) {
-  if (scan.surface.periodic || is_levelled(scan.treatment)) return;
-  const double before = topography::rms_height(scan.surface);
-  const Field& height = scan.surface.height;
-  const auto plane = topography::try_fit_form(height, 1);
-  if (!plane) return;  // too few points to have a tilt
-  const double after = topography::rms_without_form(height, *plane);
-  context.warn(fmt::format(
-      "no levelling: heights are used as read (Sq {}, {} without its plane); add --level plane",
-      si(before, "m"), si(after, "m")));
+  if (const auto warning = analysis::not_levelled(scan.surface)) context.warn(warning->text);
 }
 
 void require_no_holes(const Scan& scan) {

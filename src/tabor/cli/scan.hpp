@@ -33,7 +33,11 @@ void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment = tr
 void warn_of_doubts(const topography::Topography& surface, const std::string& name,
                     Context& context);
 
-/// Reads and treats. Doubts about the file become warnings.
+/// Reads and treats. Doubts about the surface are left to the warnings of the numbers that follow
+/// from it (analysis/warnings.hpp).
+Scan read_scan(const ScanRequest& request, Context& context);
+
+/// The same where there are no such numbers: doubts become warnings at once.
 Scan load_scan(const ScanRequest& request, Context& context);
 /// The same for a file that is open already.
 Scan load_scan(const topography::ScanFile& file, const ScanRequest& request, Context& context);

@@ -161,6 +161,7 @@ int sweep(const Request& request, Context& context) {
         kInterrupted);
   }
   for (const std::string& warning : outcome.warnings) context.warn(warning);
+  context.warn(outcome.findings);
   for (const std::string& failure : outcome.failures) context.warn("failed: " + failure);
   io::Json object = outcome_json(context, request, outcome);
   object["averages"] = averages_json(io::read_csv(request.folder() / "averages.csv"));

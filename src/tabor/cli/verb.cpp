@@ -11,6 +11,13 @@ void Context::warn(const std::string& text) {
   if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);
 }
 
+void Context::warn(const std::vector<analysis::Finding>& found) {
+  for (const analysis::Finding& finding : found) {
+    warn(analysis::line_of(finding));
+    findings.push_back(finding);
+  }
+}
+
 Observer Context::observer() const { return progress ? progress->observer() : Observer{}; }
 
 const std::vector<Verb>& verbs() {

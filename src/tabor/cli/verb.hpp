@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tabor/analysis/findings.hpp"
 #include "tabor/cli/command_files.hpp"
 #include "tabor/cli/options.hpp"
 #include "tabor/cli/progress.hpp"
@@ -22,11 +23,14 @@ struct Context {
   std::uint64_t threads = 0;  ///< 0 = all cores
   std::optional<std::uint64_t> seed = {};
   std::vector<std::string> warnings = {};
+  std::vector<analysis::Finding> findings = {};  ///< those of the warnings that belong to numbers
   CommandFiles files = {};  ///< that it reads and writes
   ProgressPrinter* progress = nullptr;
 
   /// Adds a warning once; it appears in the JSON object or on stderr.
   void warn(const std::string& text);
+  /// The same for warnings of numbers; their JSON names code and cases.
+  void warn(const std::vector<analysis::Finding>& found);
   Observer observer() const;
   std::uint64_t seed_or_default() const { return seed.value_or(1); }
 };

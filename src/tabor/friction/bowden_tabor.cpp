@@ -25,12 +25,9 @@ void check_share(double value, const std::string& what) {
   }
 }
 
-double area_fraction(const Contact& contact, Area area) {
-  if (area == Area::pixels) {
-    return contact.contact_area_fraction_pixels;
-  }
-  return std::max(contact.contact_area_fraction,
-                  contact.mean_pressure / contact.saturation_pressure);
+/// What the corrected area is never taken below; 0 without saturation, and for counted pixels.
+double least_area_fraction(const Contact& contact, Area area) {
+  return area == Area::pixels ? 0 : contact.mean_pressure / contact.saturation_pressure;
 }
 
 }  // namespace
@@ -56,9 +53,13 @@ Estimate estimate(const Contact& contact, double shear_strength, Area area) {
   check_share(contact.contact_area_fraction, "contact area fraction");
   check_share(contact.contact_area_fraction_pixels, "contact area fraction in pixels");
   check_share(contact.lubricated_share, "lubricated share");
-  const double fraction = area_fraction(contact, area);
+  const double least = least_area_fraction(contact, area);
+  const double counted =
+      area == Area::pixels ? contact.contact_area_fraction_pixels : contact.contact_area_fraction;
+  const double fraction = std::max(counted, least);
   const double dry = fraction * shear_strength / contact.mean_pressure;
-  return {fraction, area, dry, (1 - std::min(contact.lubricated_share, 1.0)) * dry};
+  return {fraction, area, dry, (1 - std::min(contact.lubricated_share, 1.0)) * dry,
+          least > 0 && fraction <= least * (1 + 1e-12)};
 }
 
 }  // namespace tabor::friction

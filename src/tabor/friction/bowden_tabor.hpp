@@ -28,6 +28,7 @@ struct Estimate {
   Area area = Area::corrected;     ///< and how it was counted
   double friction_dry = 0;         ///< mu of the whole real contact
   double friction_lubricated = 0;  ///< mu of its dry part; wet contact carries no shear
+  bool at_bound = false;           ///< the area is P / p_sat: dry friction is tau_y / p_sat
 };
 
 /// Bowden & Tabor: the friction force is the shear strength tau_y [Pa] times the real contact area,

@@ -180,27 +180,8 @@ class Deposition {
   void finish(Film film) {
     measure(film, dose_.edge);
     film.height_quantum = dose_.model == Model::uniform ? 0 : terrain_.quantum;
-    warn(film);
     film.seconds = watch_.seconds();
     sink_(std::move(film));
-  }
-
-  void warn(Film& film) const {
-    if (film.flooded) {
-      film.warnings.push_back(
-          fmt::format("a mean film of {} floods the surface: its highest point is under {}",
-                      format_si(film.mean_film, "m"), format_si(film.thickness.minCoeff(), "m")));
-    }
-    if (film.n_droplets > 0 && film.n_droplets < height_.size()) {
-      film.warnings.push_back(
-          fmt::format("{} droplets for {} pixels: the map shows single droplets, not their mean "
-                      "(a smaller droplet, or the model 'limit', has less noise)",
-                      film.n_droplets, height_.size()));
-    }
-    if (film.lost_volume > 0) {
-      film.warnings.push_back(fmt::format("{:.3g} % of the liquid ran off the open edges",
-                                          100 * film.lost_volume / film.dosed_volume));
-    }
   }
 
   const Field& height_;

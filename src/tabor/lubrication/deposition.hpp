@@ -44,20 +44,19 @@ struct Dose {
 
 /// The liquid on the surface at one dose, and everything a user reads about it.
 struct Film {
-  Field thickness;                    ///< [m], >= 0, exactly 0 where dry, shape of the height
-  double mean_film = 0;               ///< as asked [m]
-  double dosed_volume = 0;            ///< rained [m^3] = deposited + lost; a droplet is never cut
-  double deposited_volume = 0;        ///< on the surface [m^3]
-  double lost_volume = 0;             ///< ran off open edges [m^3]
-  std::int64_t n_droplets = 0;        ///< 0 for the models without droplets
-  Index n_pools = 0;                  ///< 4-connected wet regions
-  double wet_fraction = 0;            ///< share of pixels with thickness > 0
-  double max_film = 0;                ///< [m]
-  bool flooded = false;               ///< the highest pixel is under a flat level
-  double height_quantum = 0;          ///< heights were rounded to multiples of this [m]
-  std::size_t request = 0;            ///< position of mean_film in Dose::mean_films
-  double seconds = 0;                 ///< from the start of the run to this film
-  std::vector<std::string> warnings;  ///< one line each: flooded, few droplets, liquid lost
+  Field thickness;              ///< [m], >= 0, exactly 0 where dry, shape of the height
+  double mean_film = 0;         ///< as asked [m]
+  double dosed_volume = 0;      ///< rained [m^3] = deposited + lost; a droplet is never cut
+  double deposited_volume = 0;  ///< on the surface [m^3]
+  double lost_volume = 0;       ///< ran off open edges [m^3]
+  std::int64_t n_droplets = 0;  ///< 0 for the models without droplets
+  Index n_pools = 0;            ///< 4-connected wet regions
+  double wet_fraction = 0;      ///< share of pixels with thickness > 0
+  double max_film = 0;          ///< [m]
+  bool flooded = false;         ///< the highest pixel is under a flat level
+  double height_quantum = 0;    ///< heights were rounded to multiples of this [m]
+  std::size_t request = 0;      ///< position of mean_film in Dose::mean_films
+  double seconds = 0;           ///< from the start of the run to this film
 };
 
 /// Receives each film when its dose is reached, in ascending order of dose.

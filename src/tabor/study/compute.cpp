@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "tabor/analysis/warnings.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/resources.hpp"
 #include "tabor/elastic/half_space.hpp"
@@ -36,6 +37,7 @@ void add_contact(const StoredContact& stored, Row& row) {
   row.mean_gap = stored.summary.mean_gap;
   row.certificate = stored.convergence.certificate;
   row.converged = stored.convergence.converged;
+  row.warnings = stored.warnings;
 }
 
 void add_liquid(const StoredContact& stored, const Field& film, bool periodic, Row& row) {
@@ -52,10 +54,11 @@ void add_liquid(const StoredContact& stored, const Field& film, bool periodic, R
 }
 
 void add_friction(const Study& study, Row& row) {
-  const friction::Estimate estimate = friction::estimate(
-      {row.mean_pressure, row.contact_area_fraction, row.contact_area_fraction_pixels,
-       study.saturation_pressure, row.lubricated_share},
-      study.shear_strength, study.area);
+  const friction::Contact contact{row.mean_pressure, row.contact_area_fraction,
+                                  row.contact_area_fraction_pixels, study.saturation_pressure,
+                                  row.lubricated_share};
+  const friction::Estimate estimate = friction::estimate(contact, study.shear_strength, study.area);
+  analysis::add(analysis::of_friction(contact, estimate, row.spill_over_fraction), row.warnings);
   row.friction_dry = estimate.friction_dry;
   row.friction_lubricated = estimate.friction_lubricated;
 }
@@ -75,7 +78,7 @@ void add_fluid(const Study& study, const StoredFluid& stored, Row& row) {
   row.fluid->pressure_error = stored.summary.pressure_error;
   row.fluid->converged = stored.summary.converged;
   row.converged = row.converged && stored.summary.converged;
-  row.doubts = stored.doubts;
+  analysis::add(analysis::of_flow(stored.doubts, mixed), row.warnings);
 }
 
 contact::Problem contact_problem(const Study& study, const topography::Topography& topography,
@@ -158,6 +161,20 @@ contact::State solve_contact(const Study& study, const topography::Topography& t
                   contact_problem(study, topography, mean_pressure), observer);
 }
 
+namespace {
+
+analysis::Warnings warnings_of(const Study& study, const topography::Topography& topography,
+                               const contact::State& state, const contact::Summary& summary) {
+  const analysis::ContactSettings settings{.periodic = study.contact.periodic,
+                                           .effective_modulus = study.effective_modulus(),
+                                           .saturation_pressure = study.saturation_pressure};
+  analysis::Warnings warnings = analysis::of_surface(topography);
+  analysis::add(analysis::of_contact(topography, settings, state, summary), warnings);
+  return warnings;
+}
+
+}  // namespace
+
 void compute_contact(const Store& store, const Unit& unit, const Study& study,
                      const topography::Topography& topography, double mean_pressure,
                      const Observer& observer) {
@@ -168,7 +185,8 @@ void compute_contact(const Store& store, const Unit& unit, const Study& study,
   const contact::State state = solve_on(*elasticity, study, problem, observer);
   const contact::Summary summary = contact::summarise(state, problem, grid, study.contact.periodic);
   write_contact(store, unit, grid, problem, state, summary,
-                {elasticity->fft_seconds(), watch.seconds()});
+                {elasticity->fft_seconds(), watch.seconds()},
+                warnings_of(study, topography, state, summary));
 }
 
 void compute_film(const Store& store, const Unit& unit, const Study& study,
@@ -185,7 +203,7 @@ void compute_film(const Store& store, const Unit& unit, const Study& study,
   dose.seed = lubricant.seed;
   FilmFile file(store, unit, topography.grid);
   const lubrication::FilmSink sink = [&](lubrication::Film&& film) {
-    file.add(film, study.lubricant_densities[film.request]);
+    file.add(film, study.lubricant_densities[film.request], analysis::of_film(film));
   };
   lubrication::deposit(topography.height, topography.grid, dose, sink, observer);
   file.commit();
@@ -220,6 +238,7 @@ void compute_row(const Store& store, const Study& study, const Scan& scan, const
   Row row = empty_row(study, scan, unit, pressure, under);
   add_contact(stored, row);
   add_liquid(stored, read_film(store, units.film, under.density), study.contact.periodic, row);
+  analysis::add(read_film_warnings(store, units.film, under.density), row.warnings);
   add_friction(study, row);
   if (study.flows()) add_fluid(study, read_fluid(store, units.fluids[pressure][condition]), row);
   write_row(store, unit, row);

@@ -100,6 +100,7 @@ StoredContact contact_numbers(const io::Hdf5Reader& reader) {
   stored.summary.mean_gap = scalar("mean_gap_m");
   stored.convergence.certificate = scalar("certificate");
   stored.convergence.converged = scalar("converged") != 0;
+  stored.warnings = read_warnings(reader, "/contact");
   return stored;
 }
 
@@ -128,7 +129,11 @@ void write_row(const Store& store, const Unit& unit, const Row& row) {
       json[name] = io::number((*row.fluid).*value);
     }
     json["fluid_converged"] = row.fluid->converged;
-    json["doubts"] = row.doubts;
+  }
+  json["warnings"] = io::Json::array();
+  for (const analysis::Warning& warning : row.warnings) {
+    json["warnings"].push_back(
+        {{"code", warning.code}, {"text", warning.text}, {"weight", io::number(warning.weight)}});
   }
   json["error"] = row.error;
   io::write_file(store.path(unit), io::to_text(io::sealed(std::move(json))) + "\n");
@@ -153,7 +158,11 @@ Row read_row(const Store& store, const Unit& unit) {
         (*row.fluid).*value = value_or_nan(json.at(name));
       }
       row.fluid->converged = json.at("fluid_converged").get<bool>();
-      row.doubts = json.at("doubts").get<std::vector<std::string>>();
+    }
+    for (const io::Json& warning : json.at("warnings")) {
+      row.warnings.push_back({warning.at("code").get<std::string>(),
+                              warning.at("text").get<std::string>(),
+                              value_or_nan(warning.at("weight"))});
     }
     row.converged = json.at("converged").get<bool>();
     row.error = json.at("error").get<std::string>();
@@ -210,7 +219,8 @@ void write_surface(const Store& store, const Unit& unit, const topography::Topog
 
 void write_contact(const Store& store, const Unit& unit, const Grid& grid,
                    const contact::Problem& problem, const contact::State& state,
-                   const contact::Summary& summary, const Cost& cost) {
+                   const contact::Summary& summary, const Cost& cost,
+                   const analysis::Warnings& warnings) {
   io::Hdf5Writer writer = unit_writer(store, unit, "contact");
   writer.axes("/contact", grid);
   const std::string path = "/contact/state";
@@ -226,6 +236,7 @@ void write_contact(const Store& store, const Unit& unit, const Grid& grid,
                     {"fft_seconds", cost.fft_seconds},
                     {"seconds", cost.seconds},
                     {"peak_memory_bytes", static_cast<double>(peak_memory_bytes())}});
+  write_warnings(writer, "/contact", warnings);
   writer.commit();
 }
 
@@ -245,19 +256,26 @@ FilmFile::FilmFile(const Store& store, const Unit& unit, const Grid& grid)
   writer_.group("/films");
 }
 
-void FilmFile::add(const lubrication::Film& film, double lubricant_density) {
+void FilmFile::add(const lubrication::Film& film, double lubricant_density,
+                   const analysis::Warnings& warnings) {
   const std::string group = film_group(film.request);
   writer_.axes(group, grid_);
   write_map(writer_, group, {"film_thickness", "m", "film thickness"}, film.thickness);
   writer_.nxdata(group, "film_thickness");
   write_attributes(writer_, group, scalars_of(film, lubricant_density));
-  writer_.attribute(group, "warnings", film.warnings);
+  write_warnings(writer_, group, warnings);
 }
 
 void FilmFile::commit() { writer_.commit(); }
 
 Field read_film(const Store& store, const Unit& unit, std::size_t density) {
   return io::read_guarded_map(store.path(unit), film_group(density) + "/film_thickness");
+}
+
+analysis::Warnings read_film_warnings(const Store& store, const Unit& unit, std::size_t density) {
+  return io::read_guarded(store.path(unit), [density](const io::Hdf5Reader& reader) {
+    return read_warnings(reader, film_group(density));
+  });
 }
 
 std::string defect(const Store& store, const Unit& unit) {

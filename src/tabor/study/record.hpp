@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tabor/analysis/warning.hpp"
 #include "tabor/contact/contact.hpp"
 #include "tabor/io/hdf5.hpp"
 #include "tabor/lubrication/deposition.hpp"
@@ -66,10 +67,10 @@ struct Row {
   double friction_dry = kNoValue;
   double friction_lubricated = kNoValue;
   double certificate = kNoValue;
-  bool converged = false;           ///< contact, and film if it flows
-  std::optional<FluidRow> fluid;    ///< absent where the oil does not flow
-  std::vector<std::string> doubts;  ///< about the film that flows
-  std::string error;                ///< why there are no numbers; empty if there are
+  bool converged = false;         ///< contact, and film if it flows
+  std::optional<FluidRow> fluid;  ///< absent where the oil does not flow
+  analysis::Warnings warnings;    ///< of its surface, contact, film and friction
+  std::string error;              ///< why there are no numbers; empty if there are
 
   bool failed() const { return !error.empty(); }
 };
@@ -106,6 +107,7 @@ struct StoredContact {
   Grid grid;
   contact::Summary summary;
   Convergence convergence;
+  analysis::Warnings warnings;  ///< of the surface and the contact
 };
 struct Cost {
   double fft_seconds = 0;
@@ -113,14 +115,16 @@ struct Cost {
 };
 void write_contact(const Store& store, const Unit& unit, const Grid& grid,
                    const contact::Problem& problem, const contact::State& state,
-                   const contact::Summary& summary, const Cost& cost);
+                   const contact::Summary& summary, const Cost& cost,
+                   const analysis::Warnings& warnings = {});
 StoredContact read_contact(const Store& store, const Unit& unit);
 
 /// Films arrive one after the other, in any order; commit() when all are there.
 class FilmFile {
  public:
   FilmFile(const Store& store, const Unit& unit, const Grid& grid);
-  void add(const lubrication::Film& film, double lubricant_density);
+  void add(const lubrication::Film& film, double lubricant_density,
+           const analysis::Warnings& warnings);
   void commit();
 
  private:
@@ -128,6 +132,7 @@ class FilmFile {
   io::Hdf5Writer writer_;
 };
 Field read_film(const Store& store, const Unit& unit, std::size_t density);
+analysis::Warnings read_film_warnings(const Store& store, const Unit& unit, std::size_t density);
 
 /// One state whose oil flows: numbers, and maps for the report.
 struct StoredFluid {

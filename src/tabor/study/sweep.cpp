@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <exception>
 
-#include "tabor/core/units.hpp"
 #include "tabor/study/sweep_workers.hpp"
 #include "tabor/study/tables.hpp"
 
@@ -14,14 +13,10 @@ namespace {
 
 void count_rows(const std::vector<Row>& rows, Outcome& outcome) {
   outcome.n_done = rows.size();
+  outcome.findings = findings_in(rows);
   for (const Row& row : rows) {
     outcome.n_failed += row.failed() ? 1 : 0;
     outcome.n_not_converged += !row.failed() && !row.converged ? 1 : 0;
-    for (const std::string& doubt : row.doubts) {
-      outcome.warnings.push_back(fmt::format(
-          "{} {} {} g/m^2 {}: {}", row.scan, format_si(row.mean_pressure, "Pa"),
-          in_g_per_m2(row.lubricant_density), format_si(row.fluid->sliding_speed, "m/s"), doubt));
-    }
     if (row.failed()) {
       outcome.failures.push_back(
           fmt::format("{} {} Pa: {}", row.scan, row.mean_pressure, row.error));

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tabor/analysis/findings.hpp"
 #include "tabor/core/convergence.hpp"
 #include "tabor/study/plan.hpp"
 #include "tabor/study/study.hpp"
@@ -31,8 +32,9 @@ struct Outcome {
   std::size_t n_films = 0;
   std::size_t n_fluids = 0;  ///< states whose oil flows
   std::size_t n_rows = 0;
-  std::vector<std::string> failures;  ///< one line per scan and pressure that has no numbers
-  std::vector<std::string> warnings;
+  std::vector<std::string> failures;        ///< one line per scan and pressure that has no numbers
+  std::vector<std::string> warnings;        ///< about the sweep itself
+  std::vector<analysis::Finding> findings;  ///< about the numbers of its rows
 };
 
 /// Computes what the store in `directory` does not hold yet: each scan is treated once, each

@@ -2,6 +2,7 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <ctime>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/units.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/csv.hpp"
 
@@ -61,12 +63,27 @@ std::vector<Column<Row>> row_columns(bool oil_flows) {
   return columns;
 }
 
+/// One line per warning.
+std::string warning_texts(const Row& row) {
+  std::string lines;
+  for (const analysis::Warning& warning : row.warnings) {
+    lines += (lines.empty() ? "" : "\n") + warning.text;
+  }
+  return lines;
+}
+
+std::string warning_codes(const Row& row) {
+  return fmt::format("{}", fmt::join(analysis::codes_of(row.warnings), " "));
+}
+
 /// Only in results.h5, so that results.csv keeps its agreed columns.
 const std::vector<Column<Row>>& further_columns() {
   static const std::vector<Column<Row>> columns{
       {"trapped_fraction", [](const Row& row) { return row.trapped_fraction; }},
       {"escaping_fraction", [](const Row& row) { return row.escaping_fraction; }},
-      {"error", nullptr, [](const Row& row) { return row.error; }}};
+      {"error", nullptr, [](const Row& row) { return row.error; }},
+      {"warnings", nullptr, warning_texts},
+      {"warning_codes", nullptr, warning_codes}};
   return columns;
 }
 
@@ -255,6 +272,20 @@ std::vector<Row> rows_in(const Store& store, const std::vector<ScanUnits>& units
   return rows;
 }
 
+std::vector<analysis::Finding> findings_in(const std::vector<Row>& rows) {
+  std::vector<analysis::Case> cases;
+  for (const Row& row : rows) {
+    if (row.failed()) continue;
+    cases.push_back(
+        {.surface = row.scan,
+         .pressure = format_si(row.mean_pressure, "Pa"),
+         .density = fmt::format("{} g/m^2", in_g_per_m2(row.lubricant_density)),
+         .speed = row.fluid ? format_si(row.fluid->sliding_speed, "m/s") : std::string(),
+         .warnings = row.warnings});
+  }
+  return analysis::findings_of(cases);
+}
+
 std::string results_csv(const std::vector<Row>& rows, bool oil_flows) {
   return to_csv(row_columns(oil_flows), rows);
 }
@@ -272,6 +303,11 @@ void write_tables(const Store& store, const Study& study, const std::vector<Scan
   write_settings(writer, study, command);
   writer.attribute("/", "n_cases", static_cast<std::int64_t>(study.n_cases()));
   writer.attribute("/", "n_cases_done", static_cast<std::int64_t>(rows.size()));
+  std::vector<std::string> lines;
+  for (const analysis::Finding& finding : findings_in(rows)) {
+    lines.push_back(analysis::line_of(finding));
+  }
+  writer.attribute("/", "warnings", lines);
   write_columns(writer, "/table", row_columns(study.flows()), rows);
   write_columns(writer, "/table", further_columns(), rows);
   write_columns(writer, "/averages", average_columns(study.flows()), means);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "tabor/analysis/findings.hpp"
 #include "tabor/study/averages.hpp"
 #include "tabor/study/record.hpp"
 
@@ -11,6 +12,9 @@ namespace tabor::study {
 /// The rows the store holds so far, in the order scan, pressure, density of the study. Damaged ones
 /// are left out.
 std::vector<Row> rows_in(const Store& store, const std::vector<ScanUnits>& units);
+
+/// What must be said of the numbers of these rows, each once with its cases.
+std::vector<analysis::Finding> findings_in(const std::vector<Row>& rows);
 
 /// Contents of results.csv and averages.csv; a value that does not exist is an empty cell. Where
 /// the oil of the study flows they have more columns.

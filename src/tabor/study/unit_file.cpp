@@ -1,5 +1,9 @@
 #include "tabor/study/unit_file.hpp"
 
+#include <fmt/format.h>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
 #include "tabor/core/version.hpp"
 
 namespace tabor::study {
@@ -17,6 +21,33 @@ void write_map(io::Hdf5Writer& writer, const std::string& group, const MapName& 
   writer.write(path, map, io::Precision::float32);
   writer.describe(path, name.unit, name.long_name);
   writer.attach_axes(path);
+}
+
+void write_warnings(io::Hdf5Writer& writer, const std::string& path,
+                    const analysis::Warnings& warnings) {
+  std::vector<std::string> texts, codes, weights;
+  for (const analysis::Warning& warning : warnings) {
+    texts.push_back(warning.text);
+    codes.push_back(warning.code);
+    weights.push_back(fmt::format("{:.17g}", warning.weight));
+  }
+  writer.attribute(path, "warnings", texts);
+  writer.attribute(path, "warning_codes", codes);
+  writer.attribute(path, "warning_weights", weights);
+}
+
+analysis::Warnings read_warnings(const io::Hdf5Reader& reader, const std::string& path) {
+  const auto texts = reader.attribute_texts(path, "warnings");
+  const auto codes = reader.attribute_texts(path, "warning_codes");
+  const auto weights = reader.attribute_texts(path, "warning_weights");
+  if (codes.size() != texts.size() || weights.size() != texts.size()) {
+    throw InputError(path + ": its warnings are not complete");
+  }
+  analysis::Warnings warnings;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    warnings.push_back({codes[i], texts[i], parse_number(weights[i]).value_or(0)});
+  }
+  return warnings;
 }
 
 void write_attributes(io::Hdf5Writer& writer, const std::string& path, const Scalars& scalars) {

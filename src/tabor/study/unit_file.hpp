@@ -20,6 +20,11 @@ struct MapName {
 void write_map(io::Hdf5Writer& writer, const std::string& group, const MapName& name,
                const Field& map);
 
+/// Texts, codes and weights of warnings as attributes of a group, and back.
+void write_warnings(io::Hdf5Writer& writer, const std::string& path,
+                    const analysis::Warnings& warnings);
+analysis::Warnings read_warnings(const io::Hdf5Reader& reader, const std::string& path);
+
 /// What a file of a film that flows holds beside its maps. Throws InputError.
 StoredFluid fluid_numbers(const io::Hdf5Reader& reader);
 

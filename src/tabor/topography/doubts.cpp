@@ -135,9 +135,13 @@ void doubt_pixels(const Grid& grid, std::vector<Doubt>& list) {
   }
 }
 
-void doubt_sizes(const Grid& grid, std::vector<Doubt>& list) {
+/// Of one copy of the scan: it is what can be cropped.
+void doubt_sizes(const Topography& topography, std::vector<Doubt>& list) {
+  const Grid& grid = topography.grid;
+  const auto tiles = static_cast<Index>(topography.tiles);
   constexpr Index kFastPrime = 13;  // FFTW has fast kernels up to it
-  for (const auto& [n, axis] : {std::pair(grid.nx, "x"), std::pair(grid.ny, "y")}) {
+  const auto of_one = [&](Index n) { return std::max<Index>(1, n / tiles); };
+  for (const auto& [n, axis] : {std::pair(of_one(grid.nx), "x"), std::pair(of_one(grid.ny), "y")}) {
     const Index prime = spectral::largest_prime_factor(n);
     if (prime <= kFastPrime) continue;
     Index fast = n;
@@ -225,7 +229,7 @@ std::vector<Doubt> about_heights(const Topography& topography, const Rms& rms) {
                     .code = "profile"});
   } else {
     doubt_pixels(topography.grid, list);
-    doubt_sizes(topography.grid, list);
+    doubt_sizes(topography, list);
   }
   doubt_holes(topography, list);
   if (rms.as_is > 2 * rms.levelled && rms.levelled > 0) {

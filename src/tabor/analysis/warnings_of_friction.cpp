@@ -1,0 +1,92 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tabor/analysis/warnings.hpp"
+#include "tabor/core/units.hpp"
+
+namespace tabor::analysis {
+namespace {
+
+/// Costagliola et al. 2021 find a few percent; where more does not fit, where it goes decides.
+constexpr double kSpillOver = 0.05;
+/// Beyond, most of the contact is counted as frictionless.
+constexpr double kWetShare = 0.5;
+/// Clean metals in vacuum seize beyond; between technical surfaces nobody measures more.
+constexpr double kLargestFriction = 2;
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+void warn_of_size(const char* which, double friction, Warnings& list) {
+  if (!(friction > kLargestFriction)) return;
+  list.push_back({"implausible-friction",
+                  fmt::format("{} friction of {:.3g}: above {} no solids slide; check the shear "
+                              "strength, and whether the contact area is that of solids",
+                              which, friction, kLargestFriction),
+                  friction});
+}
+
+}  // namespace
+
+Warnings of_film(const lubrication::Film& film) {
+  Warnings list;
+  if (const double least = film.thickness.minCoeff(); film.flooded || least > 0) {
+    list.push_back({"flood",
+                    fmt::format("a mean film of {} floods the surface: its highest point is under "
+                                "{} of oil, and contact cannot be dry",
+                                format_si(film.mean_film, "m"), format_si(least, "m")),
+                    least});
+  }
+  const Index n_pixels = film.thickness.size();
+  if (film.n_droplets > 0 && film.n_droplets < n_pixels) {
+    list.push_back(
+        {"few-droplets",
+         fmt::format("{} droplets for {} pixels: the map shows single droplets, not their mean (a "
+                     "smaller --droplet, or --model limit, has less noise)",
+                     film.n_droplets, n_pixels),
+         1 / static_cast<double>(film.n_droplets)});
+  }
+  if (film.lost_volume > 0) {
+    const double share = film.lost_volume / film.dosed_volume;
+    list.push_back({"oil-lost",
+                    fmt::format("{} of the liquid ran off the open edges", percent(share)), share});
+  }
+  return list;
+}
+
+Warnings of_friction(const friction::Contact& contact, const friction::Estimate& estimate,
+                     double spill_over_fraction) {
+  Warnings list;
+  if (estimate.at_bound) {
+    list.push_back(
+        {"clamp",
+         "clamp: dry friction is tau_y/p_sat: the area is at its bound, and says nothing "
+         "of the surface; --area pixels takes the counted area"});
+  }
+  if (spill_over_fraction > kSpillOver) {
+    list.push_back({"spill-over",
+                    fmt::format("spill-over {}: so much of the oil does not fit when the surfaces "
+                                "close, and where it goes is not followed; the wet share is of the "
+                                "oil as deposited",
+                                percent(spill_over_fraction)),
+                    spill_over_fraction});
+  }
+  if (contact.lubricated_share > kWetShare) {
+    list.push_back({"frictionless",
+                    fmt::format("counts wet contact as frictionless: {} of the contact is wet, and "
+                                "a boundary film would shear",
+                                percent(contact.lubricated_share)),
+                    contact.lubricated_share});
+  }
+  warn_of_size("dry", estimate.friction_dry, list);
+  return list;
+}
+
+Warnings of_flow(const std::vector<std::string>& doubts, const friction::MixedEstimate& mixed) {
+  Warnings list;
+  for (const std::string& doubt : doubts) list.push_back({"fluid-film", doubt});
+  warn_of_size("mixed", mixed.friction_mixed, list);
+  return list;
+}
+
+}  // namespace tabor::analysis

@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "tabor/analysis/warnings.hpp"
+#include "tabor/core/units.hpp"
+#include "tabor/topography/levelling.hpp"
+#include "tabor/topography/parameters.hpp"
+
+namespace tabor::analysis {
+namespace {
+
+/// Of Sq: a tilt that changes it less has a range of a sixth of Sq over the scan, or less.
+constexpr double kNegligibleTilt = 1e-3;
+
+bool is_levelled(const topography::Topography& surface) {
+  const auto& history = surface.history;
+  return std::any_of(history.begin(), history.end(), [](const std::string& step) {
+    return step.starts_with("highpass=") ||
+           (step.starts_with("level=") && step != "level=none" && !step.starts_with("level=mean"));
+  });
+}
+
+}  // namespace
+
+std::optional<Warning> not_levelled(const topography::Topography& surface) {
+  if (surface.periodic || is_levelled(surface)) return std::nullopt;
+  const auto plane = topography::try_fit_form(surface.height, 1);
+  if (!plane) return std::nullopt;  // too few points to have a tilt
+  const double before = topography::rms_height(surface);
+  const double after = topography::rms_without_form(surface.height, *plane);
+  if (before <= after * (1 + kNegligibleTilt)) return std::nullopt;
+  return Warning{
+      "not-levelled",
+      fmt::format("no levelling: heights are used as read (Sq {}, {} without its plane); add "
+                  "--level plane",
+                  format_si(before, "m"), format_si(after, "m")),
+      after > 0 ? before / after : 0};
+}
+
+Warnings of_surface(const topography::Topography& surface) {
+  Warnings list;
+  const auto level = not_levelled(surface);
+  for (const topography::Doubt& doubt : surface.doubts) {
+    if (level && doubt.code == "tilt") continue;  // the same in other words
+    list.push_back({doubt.code, doubt.text});
+  }
+  if (level) list.push_back(*level);
+  return list;
+}
+
+}  // namespace tabor::analysis

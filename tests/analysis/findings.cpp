@@ -1,0 +1,109 @@
+#include "tabor/analysis/findings.hpp"
+
+#include <gmock/gmock.h>
+
+namespace tabor::analysis {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Warning spill(double share) {
+  return {"spill-over", "spill-over " + std::to_string(static_cast<int>(100 * share)) + " %",
+          share};
+}
+
+/// Scans x pressures x densities, each case with the warnings that `warn` gives it.
+template <typename Warn>
+std::vector<Case> grid_of(const Warn& warn) {
+  std::vector<Case> cases;
+  for (const char* scan : {"a", "b"}) {
+    for (const char* pressure : {"2 MPa", "7 MPa"}) {
+      for (const char* density : {"1 g/m^2", "5 g/m^2"}) {
+        Case one{.surface = scan, .pressure = pressure, .density = density};
+        one.warnings = warn(one);
+        cases.push_back(one);
+      }
+    }
+  }
+  return cases;
+}
+
+TEST(Findings, SayEachReasonOnceWithTheCasesItIsAbout) {
+  const auto found = findings_of(grid_of([](const Case& one) {
+    Warnings list;
+    if (one.surface == "b") list.push_back({"not-periodic", "edges"});
+    if (one.pressure == "7 MPa") list.push_back({"resolution", "small patches"});
+    if (one.density == "5 g/m^2") list.push_back({"flood", "under oil"});
+    return list;
+  }));
+  ASSERT_EQ(found.size(), 3u);
+  EXPECT_EQ(found[0].code, "not-periodic");
+  EXPECT_THAT(found[0].cases, ElementsAre("b"));
+  EXPECT_EQ(found[0].n_cases, 4u);
+  EXPECT_THAT(found[1].cases, ElementsAre("a 7 MPa", "b 7 MPa"));
+  EXPECT_THAT(found[2].cases, ElementsAre("a 5 g/m^2", "b 5 g/m^2"));
+  EXPECT_EQ(line_of(found[1]), "small patches (4 of 8 cases: a 7 MPa, b 7 MPa) [resolution]");
+}
+
+TEST(Findings, ShowTheWorstCase) {
+  const auto found = findings_of({{.pressure = "2 MPa", .warnings = {spill(0.2)}},
+                                  {.pressure = "5 MPa", .warnings = {spill(0.7)}},
+                                  {.pressure = "7 MPa", .warnings = {spill(0.4)}},
+                                  {.pressure = "9 MPa", .warnings = {}}});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(line_of(found[0]),
+            "spill-over 70 % (3 of 4 cases, the worst shown: 2 MPa, 5 MPa, 7 MPa) [spill-over]");
+}
+
+TEST(Findings, AreSaidWithoutCasesWhereThereIsOneOrNoNameForIt) {
+  EXPECT_EQ(line_of(findings_of({{.pressure = "2 MPa", .warnings = {spill(0.2)}}})[0]),
+            "spill-over 20 % [spill-over]");
+  const Warning level{"not-levelled", "no levelling"};
+  const auto everywhere = findings_of(
+      {{.pressure = "2 MPa", .warnings = {level}}, {.pressure = "7 MPa", .warnings = {level}}});
+  EXPECT_EQ(line_of(everywhere[0]), "no levelling [not-levelled]");
+  EXPECT_THAT(everywhere[0].cases, IsEmpty());
+}
+
+TEST(Findings, NameAFewCasesAndCountTheRest) {
+  std::vector<Case> cases;
+  for (int i = 0; i < 9; ++i) {
+    cases.push_back({.pressure = std::to_string(i), .warnings = {}});
+    if (i < 7) cases.back().warnings = {spill(0.5)};
+  }
+  const auto some = findings_of(cases);
+  EXPECT_THAT(line_of(some[0]), HasSubstr("(7 of 9 cases: 0, 1, 2, 3 and 3 more)"));
+  EXPECT_EQ(some[0].cases.size(), 7u);
+  cases.resize(7);
+  EXPECT_THAT(line_of(findings_of(cases)[0]), HasSubstr("(all 7 cases)"));
+}
+
+TEST(Findings, KeepApartWhatSharesACodeOnly) {
+  const auto found =
+      findings_of({{.surface = "a",
+                    .warnings = {{"slow-size", "860 pixels along x are slow"},
+                                 {"slow-size", "634 pixels along y are slow"}}},
+                   {.surface = "b", .warnings = {{"slow-size", "862 pixels along x are slow"}}}});
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].n_cases, 2u);
+  EXPECT_EQ(found[1].n_cases, 1u);
+}
+
+TEST(Findings, CountACaseOnceHoweverOftenItIsMet) {
+  const auto found =
+      findings_of({{.warnings = {{"implausible-friction", "dry friction of 3", 3},
+                                 {"implausible-friction", "mixed friction of 4", 4}}}});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].n_cases, 1u);
+  EXPECT_EQ(found[0].text, "mixed friction of 4");
+}
+
+TEST(Findings, OfNothingAreNone) {
+  EXPECT_THAT(findings_of({}), IsEmpty());
+  EXPECT_THAT(findings_of(grid_of([](const Case&) { return Warnings{}; })), IsEmpty());
+}
+
+}  // namespace
+}  // namespace tabor::analysis

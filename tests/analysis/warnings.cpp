@@ -1,0 +1,213 @@
+#include "tabor/analysis/warnings.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "tabor/topography/synthesis.hpp"
+#include "tabor/topography/treatment.hpp"
+
+namespace tabor::analysis {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+
+const Grid kGrid{64, 48, 64e-6, 48e-6};
+
+topography::Topography rough(double rms_slope = 0.1) {
+  topography::SelfAffine recipe;
+  recipe.grid = kGrid;
+  recipe.rms_slope = rms_slope;
+  return topography::self_affine(recipe);
+}
+
+/// A contact that nothing is to be said about: a disc in the middle.
+struct Contact {
+  Contact() {
+    state.pressure = Field::Zero(kGrid.ny, kGrid.nx);
+    state.pressure.block(20, 28, 8, 8) = 1e9;
+    state.convergence = {.certificate = 1e-7, .tolerance = 1e-6, .converged = true};
+    summary.contact_area_fraction_pixels = 64.0 / static_cast<double>(kGrid.size());
+    summary.max_pressure = 1e9;
+    summary.n_patches = 1;
+  }
+  std::vector<std::string> codes() const {
+    return codes_of(of_contact(surface, settings, state, summary));
+  }
+  topography::Topography surface = rough();
+  ContactSettings settings{.periodic = true, .effective_modulus = 1e11};
+  contact::State state;
+  contact::Summary summary;
+};
+
+TEST(WarningsOfContact, AreNoneOfASoundOne) { EXPECT_THAT(Contact().codes(), testing::IsEmpty()); }
+
+TEST(WarningsOfContact, EdgesThatDoNotMatchArePeriodicOnlyByAssumption) {
+  Contact cut_out;
+  cut_out.surface.periodic = false;
+  EXPECT_THAT(cut_out.codes(), Contains("not-periodic"));
+  cut_out.settings.periodic = false;
+  EXPECT_THAT(cut_out.codes(), Not(Contains("not-periodic")));
+}
+
+TEST(WarningsOfContact, TheEdgesOfAFreePatchMayCarryATenthOfTheLoad) {
+  Contact free;
+  free.settings.periodic = false;
+  const double inside = free.state.pressure.sum();
+  free.state.pressure(0, 0) = 0.10 * inside;
+  EXPECT_THAT(free.codes(), Not(Contains("edge-load")));
+  for (const auto& [row, column] : {std::pair{0, 0}, {47, 63}, {20, 0}, {0, 30}, {47, 30}}) {
+    Contact loaded = free;
+    loaded.state.pressure(0, 0) = 0;
+    loaded.state.pressure(row, column) = 0.12 * inside;
+    EXPECT_THAT(loaded.codes(), Contains("edge-load")) << row << ' ' << column;
+    loaded.settings.periodic = true;
+    EXPECT_THAT(loaded.codes(), Not(Contains("edge-load")));
+  }
+}
+
+TEST(WarningsOfContact, SlopesAboveThirdsAreSteep) {
+  Contact steep;
+  steep.surface = rough(0.28);
+  EXPECT_THAT(steep.codes(), Not(Contains("steep")));
+  steep.surface.height *= 1.2;
+  EXPECT_THAT(steep.codes(), Contains("steep"));
+}
+
+TEST(WarningsOfContact, OnlyElasticOnesCanBeAboveAnyHardness) {
+  Contact hard;
+  hard.summary.max_pressure = 0.09 * hard.settings.effective_modulus;
+  EXPECT_THAT(hard.codes(), Not(Contains("above-hardness")));
+  hard.summary.max_pressure = 0.11 * hard.settings.effective_modulus;
+  EXPECT_THAT(hard.codes(), Contains("above-hardness"));
+  hard.settings.saturation_pressure = hard.summary.max_pressure;
+  EXPECT_THAT(hard.codes(), Not(Contains("above-hardness")));
+}
+
+TEST(WarningsOfContact, PatchesOfFewPixelsDependOnTheResolution) {
+  Contact fine;
+  fine.summary.n_patches = 6;  // of 64 pixels
+  EXPECT_THAT(fine.codes(), Not(Contains("resolution")));
+  fine.summary.n_patches = 7;
+  EXPECT_THAT(fine.codes(), Contains("resolution"));
+  fine.summary.n_patches = 0;
+  EXPECT_THAT(fine.codes(), Not(Contains("resolution")));
+}
+
+TEST(WarningsOfContact, TellWhatDidNotConvergeAndWhereTheAreaIsNotCorrected) {
+  Contact loose;
+  loose.state.convergence.converged = false;
+  loose.summary.area_correction_valid = false;
+  EXPECT_THAT(loose.codes(), testing::ElementsAre("not-converged", "area-correction"));
+}
+
+TEST(WarningsOfSurface, ATiltIsToldOnceAndNotAfterLevelling) {
+  topography::Topography tilted = rough();
+  tilted.periodic = false;
+  for (Index x = 0; x < kGrid.nx; ++x) tilted.height.col(x) += 1e-6 * static_cast<double>(x);
+  tilted.doubts = {{.text = "tilt is larger than roughness", .code = "tilt"}};
+  EXPECT_THAT(codes_of(of_surface(tilted)), testing::ElementsAre("not-levelled"));
+  for (const char* step : {"level=plane", "level=poly2", "highpass=gauss:20um"}) {
+    const auto level = topography::apply({step}, tilted);
+    EXPECT_FALSE(not_levelled(level)) << step;
+  }
+  topography::Topography level = topography::apply({"level=plane"}, tilted);
+  level.history.clear();  // by the instrument, say
+  EXPECT_FALSE(not_levelled(level));
+  for (const char* step : {"level=none", "level=mean", "lowpass=gauss:4um"}) {
+    EXPECT_TRUE(not_levelled(topography::apply({step}, tilted))) << step;
+  }
+}
+
+TEST(WarningsOfSurface, HolesThatWereFilledStay) {
+  topography::Topography holed = rough();
+  holed.height.leftCols(58) = std::numeric_limits<double>::quiet_NaN();
+  const auto filled = topography::apply({"fill=harmonic", "level=plane"}, holed);
+  const Warnings list = of_surface(filled);
+  ASSERT_THAT(codes_of(list), Contains("filled-holes"));
+  EXPECT_THAT(list.front().text, testing::AllOf(HasSubstr("most of the area"), HasSubstr("holes")));
+}
+
+std::vector<lubrication::Film> films(const lubrication::Dose& dose) {
+  return lubrication::deposit(rough().height, kGrid, dose);
+}
+
+TEST(WarningsOfFilm, AFilmOverTheHighestPointFloodsWhateverItsModel) {
+  using lubrication::Model;
+  for (const Model model : {Model::droplets, Model::limit, Model::bottom_fill, Model::uniform}) {
+    lubrication::Dose dose;
+    dose.model = model;
+    dose.mean_films = {1e-4};
+    const Warnings list = of_film(films(dose)[0]);
+    EXPECT_THAT(codes_of(list), Contains("flood")) << name(model);
+    EXPECT_THAT(list[0].text, HasSubstr("flood"));
+    dose.mean_films = {model == Model::uniform ? 0 : 1e-8};
+    EXPECT_THAT(codes_of(of_film(films(dose)[0])), Not(Contains("flood"))) << name(model);
+  }
+}
+
+TEST(WarningsOfFilm, TellOfFewDropletsAndOfOilThatRanOff) {
+  lubrication::Dose dose;
+  dose.mean_films = {1e-7};
+  EXPECT_THAT(codes_of(of_film(films(dose)[0])), Not(Contains("few-droplets")));
+  dose.droplet_height = 2e-7;
+  EXPECT_THAT(codes_of(of_film(films(dose)[0])), Contains("few-droplets"));
+  dose.mean_films = {3e-7};
+  EXPECT_THAT(codes_of(of_film(films(dose)[0])), testing::IsEmpty());
+  dose.edge = lubrication::Edge::open;
+  EXPECT_THAT(codes_of(of_film(films(dose)[0])), Contains("oil-lost"));
+}
+
+/// Codes of a contact under 10 MPa with a shear strength of 70 MPa.
+std::vector<std::string> friction_codes(const friction::Contact& contact, double spill = 0,
+                                        friction::Area area = friction::Area::corrected,
+                                        double shear_strength = 7e7) {
+  return codes_of(of_friction(contact, friction::estimate(contact, shear_strength, area), spill));
+}
+
+TEST(WarningsOfFriction, HaveTheirThresholds) {
+  const friction::Contact contact{1e7, 0.1, 0.12, 2.4e8, 0.5};
+  EXPECT_THAT(friction_codes(contact, 0.05), testing::IsEmpty());
+  EXPECT_THAT(friction_codes(contact, 0.051), testing::ElementsAre("spill-over"));
+  friction::Contact wet = contact;
+  wet.lubricated_share = 0.51;
+  EXPECT_THAT(friction_codes(wet), testing::ElementsAre("frictionless"));
+  EXPECT_THAT(friction_codes(contact, 0, friction::Area::corrected, 1.99e8), testing::IsEmpty());
+  EXPECT_THAT(friction_codes(contact, 0, friction::Area::corrected, 2.01e8),
+              testing::ElementsAre("implausible-friction"));
+}
+
+TEST(WarningsOfFriction, AnAreaAtItsBoundIsAClamp) {
+  const double pressure = 1e7, cap = 2.4e8;
+  for (const double area : {0.0, 0.04, pressure / cap, pressure / cap * (1 + 1e-9), 0.05}) {
+    const friction::Contact contact{pressure, area, 0.05, cap, 0};
+    const bool at_bound = area <= pressure / cap;
+    EXPECT_EQ(friction::estimate(contact, 7e7).at_bound, at_bound) << area;
+    EXPECT_THAT(friction_codes(contact), Contains("clamp").Times(at_bound ? 1 : 0)) << area;
+    EXPECT_THAT(friction_codes(contact, 0, friction::Area::pixels), testing::IsEmpty());
+    friction::Contact elastic = contact;
+    elastic.saturation_pressure = contact::kNoSaturation;
+    EXPECT_THAT(friction_codes(elastic), testing::IsEmpty());
+  }
+}
+
+TEST(WarningsOfFlow, KeepTheDoubtsAndLookAtTheMixedFriction) {
+  EXPECT_THAT(codes_of(of_flow({"film NOT CONVERGED"}, {.friction_mixed = 2.1})),
+              testing::ElementsAre("fluid-film", "implausible-friction"));
+  EXPECT_THAT(of_flow({}, {.friction_mixed = 1.9}), testing::IsEmpty());
+}
+
+TEST(Codes, AreAllExplainedToUsers) {
+  std::ifstream file(std::string(TABOR_SOURCE_DIR) + "/docs/warnings.md");
+  std::stringstream page;
+  page << file.rdbuf();
+  for (const CodeEntry& entry : all_codes()) {
+    EXPECT_THAT(page.str(), HasSubstr("| `" + std::string(entry.code) + "` |"));
+  }
+}
+
+}  // namespace
+}  // namespace tabor::analysis
