@@ -42,6 +42,18 @@ TEST(ReadStudy, ExpandsPatternsInByteOrder) {
   EXPECT_EQ(study.scans[1].group, "side A");
 }
 
+TEST(ReadStudy, NamesEveryScanAlsoOfAStudyInTheCurrentFolder) {
+  const ExampleStudy example;
+  const std::string scan = (example.folder / "scan_1.h5").string();
+  example.write(replaced(kStudyText, "scan_*.h5", scan));
+  EXPECT_EQ(example.read().scans.at(0).label, "scan_1.h5");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(example.folder / "");
+  const Study study = read_study("study.toml");
+  std::filesystem::current_path(before);
+  EXPECT_EQ(study.scans.at(0).label, scan);
+}
+
 TEST(ReadStudy, TakesANameWithPatternCharactersLiterallyIfThatFileExists) {
   const ExampleStudy example;
   example.add_scan("scan[1].h5", 3);

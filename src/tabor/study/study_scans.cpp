@@ -74,6 +74,12 @@ std::vector<fs::path> find_files(const io::Config& config, const fs::path& folde
   return files;
 }
 
+/// Its path relative to the study; as written where one of the two is absolute and the other not.
+std::string label_of(const fs::path& file, const fs::path& folder) {
+  const fs::path relative = file.lexically_relative(folder);
+  return (relative.empty() ? file : relative).generic_string();
+}
+
 }  // namespace
 
 void read_scans(const io::Config& config, const fs::path& folder, Study& study) {
@@ -88,7 +94,7 @@ void read_scans(const io::Config& config, const fs::path& folder, Study& study) 
         if (!seen.insert(fs::weakly_canonical(file)).second) {
           refuse(entry, "file", "'" + name + "' twice", "each scan once, it would count twice");
         }
-        study.scans.push_back({file, file.lexically_relative(folder).generic_string(),
+        study.scans.push_back({file, label_of(file, folder),
                                entry.has("group") ? entry.text("group") : "all", options});
       }
     }
