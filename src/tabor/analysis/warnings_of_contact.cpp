@@ -49,7 +49,7 @@ void warn_of_load_on_edges(const contact::State& state, Warnings& list) {
   const double share = load_on_edges(state.pressure);
   if (!(share > kEdgeLoad)) return;
   list.push_back({"edge-load",
-                  fmt::format("the edges of the free patch (its outermost {:.0f} %) carry {:.2g} % "
+                  fmt::format("the edges of the free patch (its outermost {:.0f} %) carry {:.3g} % "
                               "of the load: true of an isolated body such as a pad; a cut-out of a "
                               "larger surface has neighbours there: --mirror",
                               100 * kEdgeBand, 100 * share),

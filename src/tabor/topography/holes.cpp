@@ -130,7 +130,7 @@ void doubt_invented(Index n_filled, Fill fill, Topography& topography) {
   if (share < kTell) return;
   topography.doubts.push_back(
       {.text = fmt::format(
-           "{}{:.2g} % of the pixels were holes and have heights of fill={}, which nobody measured",
+           "{}{:.3g} % of the pixels were holes and have heights of fill={}, which nobody measured",
            share > kMost ? "most of the area is invented: " : "", 100 * share, name_of(fill)),
        .code = "filled-holes"});
 }
