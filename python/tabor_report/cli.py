@@ -16,7 +16,6 @@ EXAMPLES = """examples:
 
 def main(arguments):
     """Exit code: 0 done, 2 usage, 3 unreadable input or missing library, 5 cannot write."""
-    sys.stdout.reconfigure(errors="surrogateescape")  # names of files are bytes
     try:
         return _report(_parser().parse_args(arguments), arguments)
     except ReportError as error:

@@ -113,7 +113,8 @@ TEST(Sweep, SecondRunComputesNothingAndChangesNothing) {
   int n_messages = 0;
   SweepOptions options;
   options.observer = [&](const Progress& progress) {
-    n_messages += progress.stage == "look at the store" ? 0 : 1;
+    const bool looks = progress.stage == "look at the store" || progress.stage.starts_with("hash ");
+    n_messages += looks ? 0 : 1;
     return true;
   };
   const Outcome again = example.run(options);
@@ -121,6 +122,13 @@ TEST(Sweep, SecondRunComputesNothingAndChangesNothing) {
   EXPECT_EQ(again.n_done, 8u);
   EXPECT_EQ(n_messages, 0);
   EXPECT_EQ(example.csv(), csv);
+}
+
+TEST(Sweep, IsInterruptedWhileItHashes) {
+  const ExampleStudy example;
+  SweepOptions options;
+  options.observer = [](const Progress& progress) { return !progress.stage.starts_with("hash "); };
+  EXPECT_THROW(example.run(options), Interrupted);
 }
 
 TEST(Sweep, SameBytesForAnyNumberOfJobs) {

@@ -65,8 +65,7 @@ std::vector<std::string> python_words(const Request& request) {
       "-W",
       "ignore",
       "-c",
-      "import sys; sys.path.insert(0, sys.argv.pop(1)); from tabor_report import cli; "
-      "sys.exit(cli.main(sys.argv[1:]))",
+      "import sys; sys.path.insert(0, sys.argv.pop(1)); import tabor_report.__main__",
       package_folder().string(),
       request.result};
   words.insert(words.end(), request.passed_on.begin(), request.passed_on.end());

@@ -136,6 +136,7 @@ TEST_F(Hostile, FilesThatChangeWhileTheyAreOpenAreRefused) {
       EXPECT_NE(std::string(error.what()).find("map"), std::string::npos) << error.what();
     }
     EXPECT_THROW(scan.sha256(), InputError) << extension;
+    EXPECT_THROW(scan.sha256([] { throw Interrupted(); }), Interrupted) << extension;
   }
 }
 
