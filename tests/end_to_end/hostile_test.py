@@ -6,6 +6,7 @@ import os
 import pathlib
 import resource
 import shutil
+import signal
 import socket
 import subprocess
 import unittest
@@ -69,7 +70,7 @@ class Folder(Hostile):
                 "PYTHONUSERBASE": str(folder), "PATH": f".::{os.environ['PATH']}"}
 
     def report(self, program, folder, **options):
-        result = os.path.relpath(self.contact(), folder)
+        result = os.path.relpath(self.generate("scan.h5", "edt", 24), folder)
         done = subprocess.run([program, "report", result, "--no-html"], cwd=folder, capture_output=True, text=True,
                               timeout=120, check=False, **options)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -105,10 +106,41 @@ class Folder(Hostile):
         shutil.copytree(SOURCE / "python/tabor_report", package)
         shutil.copy(SOURCE / "src/tabor/cli/references.bib", package)
         (package / "cli.py").write_text((package / "cli.py").read_text() + "\nprint('the installed one')\n")
-        done = subprocess.run([prefix / "bin/tabor", "report", self.contact()], capture_output=True, text=True,
+        done = subprocess.run([prefix / "bin/tabor", "report", self.generate("scan.h5")], capture_output=True, text=True,
                               timeout=120, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("the installed one", done.stdout)
+
+
+class Interpreter(Hostile):
+    """However Python ends, the report ends in one line."""
+
+    def with_python(self, script):
+        path = self.folder / "python"
+        path.write_text(f"#!/bin/sh\n{script}\n")
+        path.chmod(0o755)
+        return {**os.environ, "TABOR_PYTHON": str(path)}
+
+    def test_that_crashes_is_a_result_that_cannot_be_drawn(self):
+        done = self.tabor("report", "result.h5", env=self.with_python("kill -SEGV $$"))
+        self.assert_refused(done, 3, "result.h5", "signal 11")
+
+    def test_that_fails_shows_its_last_line_alone(self):
+        script = "echo 'Traceback (most recent call last):' >&2; echo 'ValueError: a\033[2J' >&2; exit 1"
+        done = self.tabor("report", "result.h5", env=self.with_python(script))
+        self.assert_refused(done, 1, "ValueError: a\\x1b[2J")
+
+    def test_that_is_not_found_is_named(self):
+        done = self.tabor("report", "result.h5", env={**os.environ, "TABOR_PYTHON": "no-such-python"})
+        self.assert_refused(done, 3, "no-such-python")
+
+    def test_is_ended_by_an_interrupt(self):
+        mark = self.folder / "begun"
+        environment = self.with_python(f"touch {mark}; sleep 60")
+        process = subprocess.Popen([TABOR, "report", "result.h5", "--quiet"], cwd=self.folder, env=environment,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        code, _, message = self.stop_when(mark.exists, signal.SIGINT, process)
+        self.assertEqual((code, message), (130, "tabor: interrupted\n"))
 
 
 @unittest.skipIf(h5py is None, "needs python3-h5py")
@@ -121,8 +153,8 @@ class Hdf5(Hostile):
             change(file)
         return path.name
 
-    def refuse(self, name, part=""):
-        for words in (["info", name], ["report", name], ["contact", name, "--pressure", "1MPa", *ALUMINIUM]):
+    def refuse(self, name, part="", verbs=("info", "report")):
+        for words in ([verb, name] for verb in verbs):
             self.assert_refused(self.tabor(*words, preexec_fn=limit_memory), 3, name, part)
 
     def replace(self, file, **parts):
@@ -172,8 +204,8 @@ class Hdf5(Hostile):
                 file["away"] = h5py.ExternalLink(target, "/surface")
                 file["surface/height"] = h5py.SoftLink("/away/height")
 
-            for change in (link, soft):
-                self.refuse(self.scan(change))
+            self.refuse(self.scan(link))
+            self.refuse(self.scan(soft), verbs=["info"])
 
     def test_a_link_inside_the_file_is_followed(self):
         def soft(file):
@@ -183,7 +215,7 @@ class Hdf5(Hostile):
         self.assertEqual(self.tabor("info", self.scan(soft)).returncode, 0)
 
     def test_a_result_that_lacks_something_is_refused_in_one_line(self):
-        for place in ("surface/height", "surface/x", "states/0000/gap", "states/0000/pressure", "surface"):
+        for place in ("surface/height", "surface/x", "surface", "states/0000/gap"):
             path = self.contact()
             with h5py.File(path, "a") as file:
                 self.assertIn(place, file)
@@ -280,8 +312,7 @@ class Names(Hostile):
         self.generate("plain.gsf", "edt", 16)
         scan, result = b"scan\xff.gsf", b"result\xff.h5"
         os.rename(self.folder / "plain.gsf", os.path.join(os.fsencode(self.folder), scan))
-        subprocess.run([TABOR, "contact", scan, "--pressure", "1MPa", *ALUMINIUM, "-o", result], cwd=self.folder,
-                       capture_output=True, check=True, timeout=60)
+        subprocess.run([TABOR, "convert", scan, result], cwd=self.folder, capture_output=True, check=True, timeout=60)
         done = subprocess.run([TABOR, "report", result, "--json"], cwd=self.folder, capture_output=True, check=False,
                               timeout=120)
         self.assertEqual(done.returncode, 0, done.stderr)
