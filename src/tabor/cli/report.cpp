@@ -106,8 +106,9 @@ int report(const Request& request, Context& context) {
   };
   const io::Completed done =
       io::run_program(python(), python_words(request), {}, std::chrono::hours(1), may_stop);
-  if (done.timed_out)
+  if (done.timed_out) {
     throw InputError("tabor report: drawing took more than an hour and was ended");
+  }
   if (done.exit_code != 0) refuse(request, done);
   io::Json object = json_head(context);
   object["files"] = io::Json::array();
