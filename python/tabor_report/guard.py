@@ -9,6 +9,8 @@ from pathlib import Path, PurePosixPath
 
 import h5py
 
+from tabor_report import seal
+
 MIB = 1 << 20
 LARGEST_RATIO = 1100  # deflate shrinks at most 1032 : 1
 
@@ -32,6 +34,11 @@ def problem(path):
         return error.strerror.lower()
     if not stat.S_ISREG(status.st_mode):
         return "a folder, device or pipe"
+    try:
+        if seal.is_broken(path):
+            return "bytes that are not those that were written"
+    except OSError as error:
+        return error.strerror.lower()
     try:
         child = os.fork()
     except OSError as error:

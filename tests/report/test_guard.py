@@ -1,5 +1,6 @@
 """Results of others: damaged, hostile, or of another kind. Refused in one line, never followed, waited for or crashed over."""
 
+import hashlib
 import os
 import resource
 import tempfile
@@ -103,6 +104,22 @@ class Guard(StudyCase):
         guard.problem.cache_clear()
         with mock.patch("os.fork", side_effect=OSError(11, "Resource temporarily unavailable")):
             self.assertIn("no process", guard.problem(path))
+        guard.problem.cache_clear()
+
+    def test_a_bit_that_turned_over_in_a_sealed_file_is_found(self):
+        path = self.file(lambda file: file.attrs.update({"scalar": 0.125}))
+        content = path.read_bytes()
+        sealed = content + b"tabor-sha256 " + hashlib.sha256(content).hexdigest().encode() + b"\n"
+        for bit in [None, *range(3, 8 * len(sealed), 8 * len(sealed) // 40)]:
+            changed = bytearray(sealed)
+            if bit is not None:
+                changed[bit // 8] ^= 1 << bit % 8
+            path.write_bytes(changed)
+            guard.problem.cache_clear()
+            # Without its first word the line is no seal, and the bytes before it are as they were.
+            is_sealed = changed[len(content):].startswith(b"tabor-sha256 ")
+            found = "not those that were written" in guard.problem(str(path))
+            self.assertEqual(found, bit is not None and is_sealed, bit)
         guard.problem.cache_clear()
 
     def test_a_damaged_store_file_is_left_out_and_named(self):
