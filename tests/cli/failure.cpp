@@ -162,10 +162,11 @@ TEST_F(JsonErrors, OfInputThatCannotBeRead) {
 
 TEST_F(JsonErrors, OfResultsThatCannotBeWritten) {
   const std::string nowhere = (folder_ / "absent" / "x.h5").string();
+  const std::string no_table = (folder_ / "absent" / "x.csv").string();
   auto all = calls(scan_, study_, case_);
   for (const char* verb : {"info", "cite", "convert", "report", "sweep"}) all.erase(verb);
   for (const auto& [verb, rest] : all) {
-    expect_error_object(words_of(verb, rest, {"-o", nowhere}), 5);
+    expect_error_object(words_of(verb, rest, {"-o", verb == "params" ? no_table : nowhere}), 5);
   }
   expect_error_object({"convert", scan_, nowhere}, 5);
   expect_error_object({"generate", "edt", "-o", nowhere}, 5);

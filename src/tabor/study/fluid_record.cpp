@@ -25,6 +25,17 @@ constexpr Member kMembers[] = {
     {"fluid_pressure_error", &friction::FluidSummary::pressure_error},
 };
 
+/// All but the maps.
+StoredFluid fluid_numbers(const io::Hdf5Reader& reader) {
+  StoredFluid stored;
+  for (const Member& member : kMembers) {
+    stored.summary.*member.value = reader.number("/fluid", member.name);
+  }
+  stored.summary.converged = reader.number("/fluid", "converged") != 0;
+  stored.doubts = reader.attribute_texts("/fluid", "warnings");
+  return stored;
+}
+
 }  // namespace
 
 void write_fluid(const Store& store, const Unit& unit, const Grid& grid,
@@ -47,16 +58,6 @@ void write_fluid(const Store& store, const Unit& unit, const Grid& grid,
   writer.attribute(group, "converged", stored.summary.converged ? 1.0 : 0.0);
   writer.attribute(group, "warnings", stored.doubts);
   writer.commit();
-}
-
-StoredFluid fluid_numbers(const io::Hdf5Reader& reader) {
-  StoredFluid stored;
-  for (const Member& member : kMembers) {
-    stored.summary.*member.value = reader.number("/fluid", member.name);
-  }
-  stored.summary.converged = reader.number("/fluid", "converged") != 0;
-  stored.doubts = reader.attribute_texts("/fluid", "warnings");
-  return stored;
 }
 
 StoredFluid read_fluid(const Store& store, const Unit& unit) {

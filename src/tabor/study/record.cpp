@@ -104,13 +104,6 @@ StoredContact contact_numbers(const io::Hdf5Reader& reader) {
   return stored;
 }
 
-/// Reads what rows and tables need beside maps. Throws InputError.
-void require_numbers(const io::Hdf5Reader& reader, const Unit& unit) {
-  if (unit.file.starts_with("surface-")) facts_of_surface(reader);
-  if (unit.file.starts_with("contact-")) contact_numbers(reader);
-  if (unit.file.starts_with("fluid-")) fluid_numbers(reader);
-}
-
 }  // namespace
 
 void write_row(const Store& store, const Unit& unit, const Row& row) {
@@ -284,8 +277,7 @@ std::string defect(const Store& store, const Unit& unit) {
   std::string problem = io::broken_seal(store.path(unit));
   if (!problem.empty()) return problem;
   try {
-    const std::string text = io::read_guarded(store.path(unit), [&](const io::Hdf5Reader& reader) {
-      require_numbers(reader, unit);
+    const std::string text = io::read_guarded(store.path(unit), [](const io::Hdf5Reader& reader) {
       return reader.text("/", "canonical_text");
     });
     return text == unit.text ? "" : "belongs to another unit";

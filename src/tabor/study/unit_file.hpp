@@ -25,9 +25,6 @@ void write_warnings(io::Hdf5Writer& writer, const std::string& path,
                     const analysis::Warnings& warnings);
 analysis::Warnings read_warnings(const io::Hdf5Reader& reader, const std::string& path);
 
-/// What a file of a film that flows holds beside its maps. Throws InputError.
-StoredFluid fluid_numbers(const io::Hdf5Reader& reader);
-
 void write_attributes(io::Hdf5Writer& writer, const std::string& path, const Scalars& scalars);
 
 }  // namespace tabor::study
