@@ -67,6 +67,22 @@ TEST(Findings, AreSaidWithoutCasesWhereThereIsOneOrNoNameForIt) {
   EXPECT_THAT(everywhere[0].cases, IsEmpty());
 }
 
+TEST(Findings, NameASurfaceAloneWhereAllOfItsCasesAreMeant) {
+  const auto found = findings_of(grid_of([](const Case& one) {
+    const bool is_wet = one.surface == "a" || one.density == "5 g/m^2";
+    return is_wet ? Warnings{spill(0.3)} : Warnings{};
+  }));
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_THAT(found[0].cases, ElementsAre("a", "b 2 MPa 5 g/m^2", "b 7 MPa 5 g/m^2"));
+  EXPECT_EQ(found[0].n_cases, 6u);
+}
+
+TEST(Findings, DoNotCallTheFirstTheWorst) {
+  const auto found = findings_of({{.surface = "a", .warnings = {{"spikes", "5 spikes"}}},
+                                  {.surface = "b", .warnings = {{"spikes", "221 spikes"}}}});
+  EXPECT_EQ(line_of(found[0]), "5 spikes (both cases, the first shown) [spikes]");
+}
+
 TEST(Findings, NameAFewCasesAndCountTheRest) {
   std::vector<Case> cases;
   for (int i = 0; i < 9; ++i) {

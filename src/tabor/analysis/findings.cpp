@@ -58,27 +58,41 @@ std::string label_of(const Case& one, About what) {
   return label;
 }
 
+/// One reason, with the cases it is met in.
 struct Gathered {
   Finding finding;
   double weight = 0;
-  const Case* last = nullptr;
+  std::vector<const Case*> cases;
 };
 
 void add_case(const Case& one, const Warning& warning, Gathered& gathered) {
   Finding& finding = gathered.finding;
-  const std::string label = label_of(one, about(warning.code));
-  const bool is_first = gathered.last == nullptr;
-  if (gathered.last != &one) ++finding.n_cases;
-  gathered.last = &one;
-  if (!label.empty() &&
-      std::find(finding.cases.begin(), finding.cases.end(), label) == finding.cases.end()) {
-    finding.cases.push_back(label);
-  }
+  const bool is_first = gathered.cases.empty();
+  if (is_first || gathered.cases.back() != &one) gathered.cases.push_back(&one);
   if (!is_first && finding.text != warning.text) finding.texts_differ = true;
   if (is_first || warning.weight > gathered.weight) {
     finding.text = warning.text;
     gathered.weight = warning.weight;
   }
+}
+
+using Counts = std::map<std::string, std::size_t>;  // of cases, by surface
+
+/// Names the cases; a surface alone where all of its cases are meant.
+Finding named(Gathered&& gathered, const Counts& all) {
+  Finding finding = std::move(gathered.finding);
+  finding.n_cases = gathered.cases.size();
+  finding.is_worst = gathered.weight > 0;
+  Counts met;
+  for (const Case* one : gathered.cases) ++met[one->surface];
+  for (const Case* one : gathered.cases) {
+    const bool whole = !one->surface.empty() && met[one->surface] == all.at(one->surface);
+    const std::string label = whole ? one->surface : label_of(*one, about(finding.code));
+    const bool is_new =
+        std::find(finding.cases.begin(), finding.cases.end(), label) == finding.cases.end();
+    if (!label.empty() && is_new) finding.cases.push_back(label);
+  }
+  return finding;
 }
 
 std::string names_of(const std::vector<std::string>& cases) {
@@ -95,7 +109,9 @@ std::string names_of(const std::vector<std::string>& cases) {
 std::vector<Finding> findings_of(const std::vector<Case>& cases) {
   std::vector<Gathered> all;
   std::map<std::string, std::size_t> places;
+  Counts of_surface;
   for (const Case& one : cases) {
+    ++of_surface[one.surface];
     for (const Warning& warning : one.warnings) {
       const auto [place, is_new] = places.try_emplace(kind_of(warning), all.size());
       if (is_new) {
@@ -111,7 +127,7 @@ std::vector<Finding> findings_of(const std::vector<Case>& cases) {
   });
   std::vector<Finding> findings;
   findings.reserve(all.size());
-  for (Gathered& gathered : all) findings.push_back(std::move(gathered.finding));
+  for (Gathered& gathered : all) findings.push_back(named(std::move(gathered), of_surface));
   return findings;
 }
 
@@ -122,7 +138,7 @@ std::string line_of(const Finding& finding) {
     const std::string all =
         finding.n_all == 2 ? " (both cases" : fmt::format(" (all {} cases", finding.n_all);
     where = everywhere ? all : fmt::format(" ({} of {} cases", finding.n_cases, finding.n_all);
-    if (finding.texts_differ) where += ", the worst shown";
+    if (finding.texts_differ) where += finding.is_worst ? ", the worst shown" : ", the first shown";
     where += everywhere ? ")" : ": " + names_of(finding.cases) + ")";
   }
   return fmt::format("{}{} [{}]", finding.text, where, finding.code);

@@ -21,11 +21,12 @@ struct Case {
 /// One reason to doubt several numbers, said once.
 struct Finding {
   std::string code;
-  std::string text;                ///< of the worst case
+  std::string text;                ///< of the worst case, or the first
   std::vector<std::string> cases;  ///< names what it is about, each once; none where all share it
   std::size_t n_cases = 0;         ///< numbers it belongs to
   std::size_t n_all = 0;           ///< numbers there are
   bool texts_differ = false;       ///< other cases have other numbers in it
+  bool is_worst = false;           ///< the text's case; else it is the first, none being worse
 };
 
 /// Brings the warnings of the same kind together: those about surfaces first, then contacts, films,
