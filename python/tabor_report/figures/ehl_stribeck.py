@@ -81,7 +81,9 @@ class _Curve:
             top.plot(self.speed, self.values[name], color=colour, label=prefix + text, **look)
         unsure = np.where(self.sure, np.nan, self.values["friction_coefficient"])
         top.plot(self.speed, unsure, color=style.WARNING, marker="x", linestyle="none", markersize=9)
-        bottom.plot(self.speed, self.values["central_film_m"] * NM, color=colour, marker=marker, markersize=4)
+        film = self.values["central_film_m"] * NM
+        shown = np.where(film > 0, film, np.nan)  # no film has no place on a logarithmic axis
+        bottom.plot(self.speed, shown, color=colour, marker=marker, markersize=4)
         for name, line in (("plastic_fraction", "-."), ("solid_contact_fraction", ":")):
             if name in self.values:
                 share.plot(self.speed, 100 * self.values[name], color=colour, linestyle=line, linewidth=1)
