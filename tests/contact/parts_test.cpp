@@ -227,6 +227,19 @@ TEST(CountTransitions, CountsTheOutlineOfABlock) {
   contact.leftCols(3) = true;
   EXPECT_EQ(count_transitions(contact, true).along_rows, 16);
   EXPECT_EQ(count_transitions(contact, false).along_rows, 8);
+  EXPECT_EQ(count_transitions(contact, true).along_columns, 0);
+}
+
+TEST(CountTransitions, WrapsOnlyRoundAPeriodicCell) {
+  for (const bool at_the_end : {false, true}) {
+    Mask rows = Mask::Constant(5, 7, false);
+    rows.row(at_the_end ? 4 : 0) = true;
+    EXPECT_EQ(count_transitions(rows, true).along_columns, 14);
+    EXPECT_EQ(count_transitions(rows, false).along_columns, 7);
+    const Mask columns = rows.transpose();
+    EXPECT_EQ(count_transitions(columns, true).along_rows, 14);
+    EXPECT_EQ(count_transitions(columns, false).along_rows, 7);
+  }
 }
 
 }  // namespace

@@ -135,6 +135,16 @@ TEST(ParseQuantity, TakesEveryPrefix) {
   }
 }
 
+TEST(ParseQuantity, TakesPrefixesOfAllUnitsOfTheSiAndSomeOthers) {
+  for (const std::string unit :
+       {"m", "g", "s", "K", "Pa", "N", "J", "W", "Hz", "l", "L", "bar", "P", "St"}) {
+    const Quantity plain = parse_quantity("1 " + unit);
+    const Quantity milli = parse_quantity("1 m" + unit);
+    EXPECT_DOUBLE_EQ(1e3 * milli.value, plain.value) << unit;
+    EXPECT_EQ(milli.dimension, plain.dimension) << unit;
+  }
+}
+
 TEST(ParseQuantityList, ReadsEachValueWithItsOwnUnit) {
   EXPECT_EQ(parse_si_list("2MPa,500kPa", dimension::pressure, "--pressure"),
             (std::vector<double>{2e6, 5e5}));

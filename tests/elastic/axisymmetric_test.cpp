@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "support/validation.hpp"
+#include "support/worst.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/elastic/half_space.hpp"
 #include "tabor/reference/hertz.hpp"
@@ -66,7 +67,7 @@ TEST(DiscDisplacement, IsThatOfTheStandardLibrarysEllipticIntegrals) {
     const long double integral =
         q < 1 ? second : (second - (1 - k * k) * std::comp_ellint_1(k)) / k;
     const double expected = 4 / pi * static_cast<double>(integral);
-    worst = std::max(worst, std::abs(disc_displacement(q, 1, 1) / expected - 1));
+    worst = test::worse(worst, std::abs(disc_displacement(q, 1, 1) / expected - 1));
   }
   test::expect_within("Elastic operator", "disc of uniform pressure, r/c from 0 to 4",
                       "displacement, relative", "elliptic integrals in long double", worst, 2e-14);
@@ -78,7 +79,7 @@ double hertz_error(const Eigen::ArrayXd& radii, PressureShape shape) {
   const Eigen::VectorXd u = displaced(half_space, hertz_pressure(radii));
   double worst = 0;
   for (Index i = 0; i < u.size(); ++i) {
-    worst = std::max(worst, std::abs(u[i] - reference::hertz_displacement(kHertz, radii[i])));
+    worst = test::worse(worst, std::abs(u[i] - reference::hertz_displacement(kHertz, radii[i])));
   }
   return worst / kHertz.approach;
 }
@@ -90,7 +91,7 @@ double worst_hertz_error(Index n, PressureShape shape) {
   for (const double shift : {0.0, 0.25, 0.5, 0.75}) {
     const double spacing = kHertz.radius / (static_cast<double>(n) + shift);
     const Index n_nodes = 6 * n / 5;
-    worst = std::max(
+    worst = test::worse(
         worst,
         hertz_error(uniform_radii(n_nodes, spacing * static_cast<double>(n_nodes - 1)), shape));
   }
@@ -186,7 +187,7 @@ TEST(AxisymmetricHalfSpace, AgreesWithTheFreeHalfSpaceOfMaps) {
       displaced(AxisymmetricHalfSpace(radii, kModulus), hertz_pressure(radii));
   double worst = 0;
   for (Index i = 0; i <= half; ++i) {
-    worst = std::max(worst, std::abs(u[i] - map(half, half + i)) / kHertz.approach);
+    worst = test::worse(worst, std::abs(u[i] - map(half, half + i)) / kHertz.approach);
   }
   test::expect_within("Elastic operator", "rings, 129 nodes, and a map of 257 x 257",
                       "displacement under Hertz' pressure, relative to the approach", "each other",

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "support/validation.hpp"
+#include "support/worst.hpp"
 #include "tabor/core/error.hpp"
 
 namespace tabor::friction {
@@ -22,7 +23,7 @@ TEST(BowdenTabor, SaturatedLimitIsShearStrengthOverSaturationPressure) {
   double worst = 0;
   for (const double pressure : {2e6, 7e6, 15e6}) {
     const double mu = estimate(saturated(pressure), kShearStrength).friction_dry;
-    worst = std::max(worst, std::abs(mu - 70.0 / 240.0));
+    worst = test::worse(worst, std::abs(mu - 70.0 / 240.0));
   }
   EXPECT_LT(worst, 1e-15);  // 0.29167, whatever the load
   test::record_validation("Friction", "every contact pixel saturated", "dry coefficient, absolute",

@@ -79,6 +79,23 @@ TEST(LoadSearch, FindsTheZeroOfIncreasingFunctionsOnBothSides) {
   }
 }
 
+// The surface gives way while the load is searched for.
+TEST(LoadSearch, FindsAZeroThatMovesWhileItIsSearched) {
+  for (const double moved : {0.6, 0.05}) {
+    for (const double slope : {0.2, 5.0}) {
+      LoadSearch search;
+      double position = 1;
+      int n = 0;
+      const auto value = [&] { return slope * (position - (n < 4 ? 0.31 : moved)); };
+      for (; n < 4 || std::abs(value()) > 1e-6; ++n) {
+        ASSERT_LT(n, 60) << moved << " " << slope;
+        position = search.next(position, value());
+      }
+      EXPECT_NEAR(position, moved, 1e-6 / slope);
+    }
+  }
+}
+
 TEST(FluidFilm, IsTheDryContactToTheBitWithoutOilOrSpeed) {
   for (const auto& [oil, speed] : {std::pair{0.0, 1.0}, std::pair{1e-6, 0.0}}) {
     const Case at = pressed(bumps(32), 50e6, oil, speed);

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/random.hpp"
 
 namespace tabor::friction {
 namespace {
@@ -87,6 +90,54 @@ TEST(TrappedLiquid, AGrooveThroughAPeriodicCellIsOpen) {
 TEST(TrappedLiquid, ALongPocketThatNearlyClosesOnItselfIsTrapped) {
   EXPECT_EQ(Map({"######", "111#11", "######"}).solve(true).trapped_fraction, 1);
   EXPECT_EQ(Map({"######", "1#1111", "######", "######"}).solve(true).regions.size(), 1u);
+}
+
+/// Whether the gap around a pixel of a periodic cell reaches an image of that pixel: spreads over
+/// the plane and remembers in which cell each pixel was met.
+bool reaches_its_image(const Mask& contact, Index start_y, Index start_x) {
+  const Index ny = contact.rows();
+  const Index nx = contact.cols();
+  std::map<std::pair<Index, Index>, std::pair<Index, Index>> met;  // pixel to its place
+  std::vector<std::pair<Index, Index>> next{{start_y, start_x}};
+  while (!next.empty()) {
+    const auto [y, x] = next.back();
+    next.pop_back();
+    const std::pair pixel{(y % ny + ny) % ny, (x % nx + nx) % nx};
+    if (contact(pixel.first, pixel.second)) continue;
+    const auto [known, is_new] = met.emplace(pixel, std::pair{y, x});
+    if (!is_new && known->second != std::pair{y, x}) return true;
+    if (is_new) {
+      for (const auto& [dy, dx] : {std::pair<Index, Index>{0, 1}, {0, -1}, {1, 0}, {-1, 0}}) {
+        next.emplace_back(y + dy, x + dx);
+      }
+    }
+  }
+  return false;
+}
+
+TEST(TrappedLiquid, IsThatOfPocketsThatReachNoImageOfThemselves) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    const CounterRandom random(seed);
+    const Index ny = 3 + static_cast<Index>(seed % 6);
+    const Index nx = 3 + static_cast<Index>(seed % 7);
+    const Grid grid{nx, ny, 1, 1};
+    Mask contact(ny, nx);
+    for (Index i = 0; i < contact.size(); ++i) {
+      contact(i) = random.uniform(static_cast<std::uint64_t>(i)) < 0.45;
+    }
+    const Field film = (!contact).cast<double>() * 1e-7;
+    if (film.sum() == 0) continue;
+    double n_trapped = 0;
+    for (Index y = 0; y < ny; ++y) {
+      for (Index x = 0; x < nx; ++x) {
+        n_trapped += !contact(y, x) && !reaches_its_image(contact, y, x) ? 1 : 0;
+      }
+    }
+    const TrappedLiquid found = trapped_liquid(contact, film, film, grid, true);
+    const double n_open = static_cast<double>((film > 0).count());
+    EXPECT_NEAR(found.trapped_fraction, n_trapped / n_open, 1e-12) << seed;
+    EXPECT_NEAR(found.escaping_fraction, 1 - n_trapped / n_open, 1e-12) << seed;
+  }
 }
 
 TEST(TrappedLiquid, WithoutLiquidThereIsNothingToReport) {

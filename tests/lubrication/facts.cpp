@@ -6,11 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
+#include <vector>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/random.hpp"
 #include "tabor/lubrication/deposition.hpp"
+#include "tabor/lubrication/film_measures.hpp"
 #include "tabor/lubrication/terrain.hpp"
 
 namespace tabor::lubrication {
@@ -295,6 +298,54 @@ TEST(Deposition, StopsWhenTheObserverAsksTo) {
   EXPECT_THROW(
       deposit(height, grid_of(height), dose_of({1e-7}), [](const Progress&) { return false; }),
       Interrupted);
+}
+
+/// Regions of wet pixels, found by spreading from one pixel to the next.
+Index regions_by_spreading(const Field& film, bool periodic) {
+  Mask open = film > 0;
+  Index n_regions = 0;
+  std::vector<std::pair<Index, Index>> next;
+  const auto take = [&](Index y, Index x) {
+    if (periodic) {
+      y = (y + film.rows()) % film.rows();
+      x = (x + film.cols()) % film.cols();
+    }
+    if (y >= 0 && x >= 0 && y < film.rows() && x < film.cols() && open(y, x)) {
+      open(y, x) = false;
+      next.emplace_back(y, x);
+    }
+  };
+  for (Index i = 0; i < film.size(); ++i) {
+    n_regions += open(i / film.cols(), i % film.cols()) ? 1 : 0;
+    take(i / film.cols(), i % film.cols());
+    while (!next.empty()) {
+      const auto [y, x] = next.back();
+      next.pop_back();
+      take(y - 1, x);
+      take(y + 1, x);
+      take(y, x - 1);
+      take(y, x + 1);
+    }
+  }
+  return n_regions;
+}
+
+TEST(WetRegions, AreThoseThatSpreadingFinds) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    const CounterRandom random(seed);
+    Field film(1 + static_cast<Index>(seed % 7), 1 + static_cast<Index>(seed % 11));
+    for (Index i = 0; i < film.size(); ++i) {
+      const double share = 0.3 + 0.1 * static_cast<double>(seed % 5);
+      film.data()[i] = random.uniform(static_cast<std::uint64_t>(i)) < share ? 1e-7 : 0;
+    }
+    for (const bool periodic : {false, true}) {
+      EXPECT_EQ(count_wet_regions(film, periodic), regions_by_spreading(film, periodic)) << seed;
+    }
+  }
+}
+
+TEST(Quantise, PutsTheLowestHeightAboveTheLevelOfDryGround) {
+  EXPECT_GT(quantise(bowl(), Edge::closed).height[40], kDry);
 }
 
 TEST(Quantise, RoundsToTheFinestQuantumThatFitsTheRange) {

@@ -10,6 +10,7 @@
 #include "material/differences.hpp"
 #include "support/refusal.hpp"
 #include "support/validation.hpp"
+#include "support/worst.hpp"
 
 namespace tabor::material {
 namespace {
@@ -55,7 +56,7 @@ TEST(RelativeDensity, HasTheDerivativeOfItsDifferences) {
     const RelativeDensity law = relative_density(name);
     for (double p = -4e8; p < 4e9; p += 7e7) {
       const double expected = difference([&](double x) { return law.at(x).value; }, p, 1e5);
-      worst = std::max(worst, relative_error(law.at(p).by_pressure, expected, 1e-12));
+      worst = test::worse(worst, relative_error(law.at(p).by_pressure, expected, 1e-12));
     }
   }
   test::expect_within("Lubricant", "density laws, -0.4 to 4 GPa",

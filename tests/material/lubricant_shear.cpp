@@ -10,6 +10,7 @@
 #include "material/differences.hpp"
 #include "support/refusal.hpp"
 #include "support/validation.hpp"
+#include "support/worst.hpp"
 #include "tabor/core/error.hpp"
 
 namespace tabor::material {
@@ -73,6 +74,41 @@ TEST(Shear, TurnsRoundWithTheSlidingDirection) {
   }
 }
 
+// Quotients and, for small arguments, series: against the quotients in more digits.
+TEST(Shear, SecantsHaveAllTheirDigitsOnBothSidesOfTheSeries) {
+  for (const long double s : {1e-4L, 3e-3L, 9.99e-3L, 1.001e-2L, 3e-2L, 1.L, 20.L}) {
+    const auto rate = static_cast<double>(s);
+    const double digits = s < 1e-2L ? 2e-14 : 1e-11;  // of the slopes; a quotient loses some
+    const long double eyring = std::asinh(s) / s;
+    const auto by_eyring = flow_viscosity(ree_eyring_shear(1), 1, rate, 0).across;
+    EXPECT_NEAR(by_eyring.value / static_cast<double>(eyring), 1, 1e-15) << rate;
+    const long double eyring_slope = (1 / std::sqrt(1 + s * s) - eyring) / s;
+    if (s > 1e-3L) {
+      EXPECT_NEAR(by_eyring.by_rate / static_cast<double>(eyring_slope), 1, digits) << rate;
+    }
+    const long double limiting = -std::expm1(-s) / s;
+    const auto by_limit = flow_viscosity(limiting_shear(1, 0), 1, rate, 0).across;
+    EXPECT_NEAR(by_limit.value / static_cast<double>(limiting), 1, 1e-15) << rate;
+    const long double limiting_slope = (std::exp(-s) - limiting) / s;
+    EXPECT_NEAR(by_limit.by_rate / static_cast<double>(limiting_slope), 1, digits) << rate;
+  }
+}
+
+TEST(Shear, TakesAnyPositiveStress) {
+  EXPECT_EQ(ree_eyring_shear(1e-3).eyring_stress, 1e-3);
+  EXPECT_EQ(limiting_shear(1e-3, 0).ambient_limit, 1e-3);
+}
+
+TEST(Shear, DerivativesAtTheKinkOfRestAreTheMeanOfBothSides) {
+  const FlowViscosity rest = flow_viscosity(kLaws[2], 12, 0, kPressure);
+  EXPECT_EQ(rest.along.by_rate, 0);
+  EXPECT_EQ(rest.across.by_rate, 0);
+  for (const double rate : {-0.5, 0.5}) {  // [1/s]
+    const FlowViscosity flow = flow_viscosity(kLaws[2], 12, rate, kPressure);
+    EXPECT_NEAR(flow.along.by_rate / (-12 * 12 / 22e6), rate > 0 ? 1 : -1, 1e-6);
+  }
+}
+
 /// Worst relative error of the derivatives of quantity(viscosity, rate, pressure), which returns
 /// one with members value, by_viscosity, by_rate and by_pressure.
 template <typename Quantity>
@@ -92,9 +128,9 @@ double worst_derivative(const Quantity& quantity) {
         difference([&](double x) { return quantity(eta, x, kPressure).value; }, rate, step);
     const auto by_p =
         difference([&](double x) { return quantity(eta, rate, x).value; }, kPressure, 1e5);
-    worst = std::max({worst, std::abs(at.by_viscosity - by_eta) / (scale / eta),
-                      std::abs(at.by_rate - by_rate) / (scale / std::abs(rate)),
-                      std::abs(at.by_pressure - by_p) / (scale / kPressure)});
+    worst = test::worst_of({worst, std::abs(at.by_viscosity - by_eta) / (scale / eta),
+                            std::abs(at.by_rate - by_rate) / (scale / std::abs(rate)),
+                            std::abs(at.by_pressure - by_p) / (scale / kPressure)});
   }
   return worst;
 }
@@ -102,15 +138,15 @@ double worst_derivative(const Quantity& quantity) {
 TEST(Shear, HasTheDerivativesOfItsDifferences) {
   double worst = 0;
   for (const Shear& law : kLaws) {
-    worst = std::max({worst, worst_derivative([&](double eta, double rate, double p) {
-                        return flow_viscosity(law, eta, rate, p).along;
-                      }),
-                      worst_derivative([&](double eta, double rate, double p) {
-                        return flow_viscosity(law, eta, rate, p).across;
-                      }),
-                      worst_derivative([&](double eta, double rate, double p) {
-                        return shear_stress(law, eta, rate, p);
-                      })});
+    worst = test::worst_of({worst, worst_derivative([&](double eta, double rate, double p) {
+                              return flow_viscosity(law, eta, rate, p).along;
+                            }),
+                            worst_derivative([&](double eta, double rate, double p) {
+                              return flow_viscosity(law, eta, rate, p).across;
+                            }),
+                            worst_derivative([&](double eta, double rate, double p) {
+                              return shear_stress(law, eta, rate, p);
+                            })});
   }
   test::expect_within("Lubricant", "shear laws, 0 to 1e9 1/s", "derivatives, relative",
                       "fourth-order differences", worst, 1e-8);

@@ -10,6 +10,7 @@
 #include "material/differences.hpp"
 #include "support/refusal.hpp"
 #include "support/validation.hpp"
+#include "support/worst.hpp"
 #include "tabor/core/error.hpp"
 
 namespace tabor::material {
@@ -75,8 +76,8 @@ TEST(Viscosity, HasTheDerivativesOfItsDifferences) {
     for (double p = -1e8; p < highest; p += 0.037 * highest) {
       const auto eta = [&](double x) { return viscosity_at(law, x).value; };
       const double expected = difference(eta, p, 1e5);
-      worst = std::max(worst,
-                       relative_error(viscosity_at(law, p).by_pressure, expected, 1e-9 * eta(p)));
+      worst = test::worse(
+          worst, relative_error(viscosity_at(law, p).by_pressure, expected, 1e-9 * eta(p)));
     }
   }
   test::expect_within("Lubricant", "viscosity laws, -0.1 to 3 GPa",
@@ -93,8 +94,8 @@ TEST(Viscosity, HasTheThermalDerivativesOfItsDifferences) {
             difference([&](double x) { return viscosity_at(law, x, kelvin).value; }, p, 1e5);
         const double by_T =
             difference([&](double x) { return viscosity_at(law, p, x).value; }, kelvin, 0.05);
-        worst = std::max({worst, relative_error(at.by_pressure, by_p, 1e-9 * at.value),
-                          relative_error(at.by_temperature, by_T, 1e-3 * at.value)});
+        worst = test::worst_of({worst, relative_error(at.by_pressure, by_p, 1e-9 * at.value),
+                                relative_error(at.by_temperature, by_T, 1e-3 * at.value)});
       }
     }
   }

@@ -298,6 +298,8 @@ TEST(ParseFilter, NamesTheNearestKind) {
 }
 
 TEST(Filters, SayInTheHistoryWhatTheyChanged) {
+  EXPECT_THAT(low_pass(noise(kGrid), parse_filter("hann-full:8um")).history.back(),
+              HasSubstr("full width, cutoff wavelength 8 µm, zero below 16 µm, 8 pixels"));
   EXPECT_THAT(low_pass(noise(kGrid), parse_filter("hann:16/L")).history.back(),
               testing::AllOf(testing::StartsWith("lowpass=hann:16/L: radial, cutoff wavelength"),
                              HasSubstr("(L = 87.64 "), HasSubstr("Sdq")));

@@ -82,6 +82,14 @@ TEST_P(LevelPolynomial, TheRestHasTheHeightItHadAsAField) {
   EXPECT_NEAR(rms_without_form(rough.height, fit), after, 1e-12 * after);
 }
 
+TEST(LevelPlane, TheHeightOfTheRestIsAboutItsMeanWhateverFormIsTaken) {
+  const auto rough = noise(kGrid);
+  const double height = rms_height(level(rough, Form::mean));
+  FormFit elsewhere = fit_form(rough.height, 0);
+  elsewhere.coefficients[0] += 3 * height;
+  EXPECT_NEAR(rms_without_form(rough.height, elsewhere), height, 1e-10 * height);
+}
+
 INSTANTIATE_TEST_SUITE_P(Degrees, LevelPolynomial, testing::Values(1, 2, 3, 4));
 
 TEST(LevelPlane, FindsTheTiltFromTheValidPointsOfOneHalf) {
