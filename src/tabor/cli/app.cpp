@@ -19,6 +19,7 @@
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/core/version.hpp"
+#include "tabor/core/watch.hpp"
 
 namespace tabor::cli {
 
@@ -71,6 +72,8 @@ int run_verb(const Verb& verb, const Words& words, Context& context, ProgressSty
   set_thread_count(static_cast<int>(std::min<std::uint64_t>(context.threads, 4096)));
   ProgressPrinter progress(context.err, context.quiet ? ProgressStyle::none : style);
   context.progress = &progress;
+  const Observer observer = context.observer();
+  const Watch watch(observer, "");  // everything that runs in loops ends with Ctrl-C
   const int code = action(context);
   check_written(context.out);
   return code;

@@ -115,8 +115,13 @@ bool try_full_contact(elastic::ElasticOperator& elasticity, const Problem& probl
 
 State run(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
           const Observer& observer) {
-  return solver == Solver::fast ? solve_fast(elasticity, problem, observer)
-                                : solve_polonsky_keer(elasticity, problem, observer);
+  // Asked before the first iteration as well; who stops there is not asked again.
+  const bool stopped =
+      observer && !observer({solver == Solver::fast ? "contact" : "contact (Polonsky-Keer)"});
+  const Observer no_more = [](const Progress&) { return false; };
+  const Observer& asked = stopped ? no_more : observer;
+  return solver == Solver::fast ? solve_fast(elasticity, problem, asked)
+                                : solve_polonsky_keer(elasticity, problem, asked);
 }
 
 /// True where so few contact pixels are at the cap that the error of the certificate may have put

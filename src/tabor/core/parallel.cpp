@@ -4,10 +4,13 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <limits>
 #include <mutex>
 #include <vector>
+
+#include "tabor/core/watch.hpp"
 
 namespace tabor {
 namespace {
@@ -17,19 +20,25 @@ int requested_threads = 0;
 /// Runs body(0..n_blocks-1) on all threads; the first exception is rethrown after the loop, since
 /// OpenMP lets none escape from a parallel region.
 void for_each_block(Index n_blocks, const std::function<void(Index)>& body) {
+  go_on_or_throw();
   if (n_blocks <= 1 || thread_count() == 1 || omp_in_parallel() != 0) {
     for (Index block = 0; block < n_blocks; ++block) {
+      go_on_or_throw();
       body(block);
     }
     return;
   }
   std::exception_ptr first_error;
+  std::atomic<bool> failed = false;
   std::mutex error_mutex;
 #pragma omp parallel for schedule(dynamic, 1) num_threads(thread_count())
   for (Index block = 0; block < n_blocks; ++block) {
+    if (failed) continue;
     try {
+      go_on_or_throw();  // only one of the threads is watched
       body(block);
     } catch (...) {
+      failed = true;
       const std::lock_guard lock(error_mutex);
       if (!first_error) {
         first_error = std::current_exception();

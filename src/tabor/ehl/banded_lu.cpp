@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tabor/core/watch.hpp"
+
 namespace tabor::ehl {
 
 BandedLu::BandedLu(Index n, Index lower, Index upper)
@@ -17,6 +19,7 @@ BandedLu::BandedLu(Index n, Index lower, Index upper)
 
 bool BandedLu::factorize() {
   for (Index k = 0; k < n_; ++k) {
+    go_on_or_throw();
     const Index last_row = std::min(n_ - 1, k + lower_);
     Index pivot = k;
     for (Index i = k + 1; i <= last_row; ++i) {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "tabor/core/watch.hpp"
+
 namespace tabor::ehl {
 namespace {
 
@@ -56,6 +58,7 @@ std::optional<Eigen::VectorXd> gmres(const VectorMap& product, const VectorMap& 
   Eigen::MatrixXd basis(b.size(), max_products + 1);
   basis.col(0) = b / norm;
   for (int k = 0; k < max_products; ++k) {
+    go_on_or_throw();
     Eigen::VectorXd image = product(precondition(basis.col(k)));
     ++n_products;
     Eigen::VectorXd column(k + 2);

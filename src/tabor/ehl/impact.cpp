@@ -8,6 +8,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/ehl/approach.hpp"
 #include "tabor/ehl/impact_measures.hpp"
 #include "tabor/elastic/axisymmetric.hpp"
@@ -299,6 +300,7 @@ class Impact {
 }  // namespace
 
 ImpactResult solve_impact(const ImpactProblem& problem, const Observer& observer) {
+  const Watch watch(observer, "impact");
   check(problem);
   return Impact(problem, observer).solve();
 }

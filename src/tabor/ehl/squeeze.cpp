@@ -9,6 +9,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/core/watch.hpp"
 
 namespace tabor::ehl {
 
@@ -236,6 +237,7 @@ double squeeze_slide_load(const SqueezeProblem& problem, double film, double fil
 
 SqueezeResult solve_squeeze(const SqueezeProblem& problem, const Observer& observer) {
   check(problem);
+  Watch watch(observer, "squeeze");
   const Roller roller(problem);
   const double longest = kLongest * problem.layer / problem.speed;
   SqueezeResult result;
@@ -245,7 +247,7 @@ SqueezeResult solve_squeeze(const SqueezeProblem& problem, const Observer& obser
     const SqueezeInstant next =
         roller.after(result.history[n - 1], n > 1 ? &result.history[n - 2] : nullptr);
     result.history.push_back(next);
-    report_progress(observer, "squeeze", next.time / longest);
+    watch.tell(next.time / longest);
     if (next.film_speed > 0 && next.roller_speed > 0) break;
   }
   measure(result);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/ehl/line_film.hpp"
 
 namespace tabor::ehl {
@@ -273,11 +274,12 @@ class Wearing {
 WearResult solve_wear(const WearProblem& given, const Observer& observer) {
   const WearProblem problem = completed(given);
   check(problem);
+  Watch watch(observer, "wear");
   Wearing wearing(problem);
   bool converged = wearing.start(observer);
   const Index n_steps = wearing.n_steps();
   for (Index i = 0; i < n_steps && converged; ++i) {
-    report_progress(observer, "wear", static_cast<double>(i) / static_cast<double>(n_steps));
+    watch.tell(static_cast<double>(i) / static_cast<double>(n_steps));
     converged = wearing.step();
   }
   return wearing.finish(converged);

@@ -9,6 +9,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/friction/load_search.hpp"
 
 namespace tabor::friction {
@@ -232,6 +233,7 @@ class Solver {
 FluidFilmState solve_fluid_film(elastic::ElasticOperator& elasticity,
                                 const FluidFilmProblem& problem, const contact::State& dry,
                                 const Observer& observer) {
+  const Watch watch(observer, "film");
   check(elasticity, problem, dry);
   return Solver(elasticity, problem, observer).run(dry);
 }

@@ -1,5 +1,7 @@
 #include "tabor/lubrication/catchments.hpp"
 
+#include "tabor/core/watch.hpp"
+
 namespace tabor::lubrication {
 
 Catchments::Catchments(Pools& pools)
@@ -37,6 +39,7 @@ Pixel Catchments::downhill(Pixel p) const {
 void Catchments::drain_all() {
   std::vector<Pixel> path;
   for (Pixel start = 0; start < pools_.terrain().size(); ++start) {
+    go_on_or_throw(static_cast<std::size_t>(start));
     PoolId leaf = kNoPool;
     for (Pixel p = start; leaf == kNoPool;) {
       leaf = drains_to_[static_cast<std::size_t>(p)];
@@ -57,6 +60,7 @@ void Catchments::drain_all() {
 void Catchments::rain(Volume film) {
   const auto n_pools = static_cast<PoolId>(area_.size());
   for (PoolId leaf = 0; leaf < n_pools; ++leaf) {
+    go_on_or_throw(static_cast<std::size_t>(leaf));
     Volume carried = film * area_[static_cast<std::size_t>(leaf)];
     PoolId pool = leaf;
     while (carried > 0) {

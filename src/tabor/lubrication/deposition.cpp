@@ -9,6 +9,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/resources.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/lubrication/film_measures.hpp"
 #include "tabor/lubrication/pool_builder.hpp"
 #include "tabor/lubrication/rain.hpp"
@@ -64,7 +65,6 @@ class Deposition {
       return;
     }
     const Ties ties = dose_.model == Model::droplets ? Ties::connected : Ties::ordered;
-    report_progress(observer, "pools", 0);
     Pools pools(terrain_, ties);
     terrain_.height = {};
     const auto reached = [&](std::size_t i, const RainState& state) { emit(i, state, pools); };
@@ -122,6 +122,7 @@ class Deposition {
     const double flood = static_cast<double>(pools.beyond() - lost) / terrain_.size();
     film.thickness.resize(grid_.ny, grid_.nx);
     for (Pixel p = 0; p < terrain_.size(); ++p) {
+      go_on_or_throw(static_cast<std::size_t>(p));
       const Volume level = pools[pools.owner(pools.home(p))].level;
       const auto depth = static_cast<double>(std::max<Volume>(0, level - pools.height(p)));
       film.thickness.data()[p] = (depth + flood) * terrain_.quantum;
@@ -197,6 +198,7 @@ class Deposition {
 
 void deposit(const Field& height, const Grid& grid, const Dose& dose, const FilmSink& sink,
              const Observer& observer) {
+  const Watch watch(observer, "pools");
   check(height, grid, dose);
   Deposition(height, grid, dose, sink).run(observer);
 }

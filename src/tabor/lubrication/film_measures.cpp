@@ -2,6 +2,8 @@
 
 #include <numeric>
 
+#include "tabor/core/watch.hpp"
+
 namespace tabor::lubrication {
 namespace {
 
@@ -80,6 +82,7 @@ Index count_wet_regions(const Field& thickness, bool periodic) {
   std::vector<Run> first;
   std::vector<Run> previous;
   for (Index row = 0; row < thickness.rows(); ++row) {
+    go_on_or_throw();
     std::vector<Run> current = runs_of(thickness, row, labels);
     unite_touching(previous, current, labels);
     if (periodic) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/watch.hpp"
 
 namespace tabor::lubrication {
 namespace {
@@ -166,6 +167,7 @@ void check_oil(const PatchProblem& problem, const Field& oil) {
 }  // namespace
 
 PatchFilm steady_film(const PatchProblem& problem, const Field& oil, const Observer& observer) {
+  const Watch watch(observer, "film");
   check_oil(problem, oil);
   if (!can_be_coarser(problem)) return slide_from(problem, oil, nullptr, observer);
   const PatchProblem coarse = coarser(problem);
@@ -177,6 +179,7 @@ PatchFilm steady_film(const PatchProblem& problem, const Field& oil, const Obser
 
 PatchFilm steady_film(const PatchProblem& problem, const Field& oil, const PatchFilm& guess,
                       const Observer& observer) {
+  const Watch watch(observer, "film");
   check_oil(problem, oil);
   return slide_from(problem, oil, &guess, observer);
 }

@@ -1,5 +1,6 @@
 #include "tabor/lubrication/pool_builder.hpp"
 #include "tabor/core/large_pages.hpp"
+#include "tabor/core/watch.hpp"
 
 #include <algorithm>
 #include <array>
@@ -46,6 +47,7 @@ std::vector<Pixel> ascending_pixels(const Terrain& terrain) {
     reserve_large_pages(sorted, n);
     sorted.resize(n);
     for (const int shift : {32, 43, 54}) {  // pixel numbers, the low half, are in order already
+      go_on_or_throw();
       radix_pass(keys, sorted, shift);
       keys.swap(sorted);
     }
@@ -71,6 +73,7 @@ void PoolBuilder::build() {
     const Height height = to_.height(ascending[begin]);
     std::size_t end = begin;
     do {
+      go_on_or_throw(end);
       prefetch_neighbours(ascending, end + kFar);
       add(ascending[end++]);
     } while (ties_ == Ties::connected && end < ascending.size() &&
@@ -80,8 +83,11 @@ void PoolBuilder::build() {
   }
   to_.last_ = grown(home(0));
   forget_absorbed();
+  go_on_or_throw();
   number_by_place();
+  go_on_or_throw();
   make_arcs(ascending);
+  go_on_or_throw();
   start_leaves();
 }
 
@@ -245,6 +251,7 @@ void PoolBuilder::make_arcs(const std::vector<Pixel>& ascending) {
 void PoolBuilder::fill_arcs(const std::vector<Pixel>& ascending) {
   std::unordered_map<PoolId, std::vector<Pixel>> several;
   for (std::size_t i = 0; i < ascending.size(); ++i) {
+    go_on_or_throw(i);
     prefetch_site(ascending, i + kNear);
     const Pixel p = ascending[i];
     const auto& site = to_.sites_[static_cast<std::size_t>(p)];

@@ -4,6 +4,7 @@
 
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/random.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/lubrication/catchments.hpp"
 #include "tabor/lubrication/router.hpp"
 #include "tabor/lubrication/scouts.hpp"
@@ -104,11 +105,11 @@ class Rain {
 void rain_droplets(Pools& pools, Height droplet, Reading reading, std::uint64_t seed,
                    const std::vector<Volume>& doses, const DoseReached& reached,
                    const Observer& observer) {
+  Watch watch(observer, "rain");
   Rain rain(pools, droplet, reading, seed);
   for (std::size_t i = 0; i < doses.size(); ++i) {
     while (!pools.flooded() && rain.rain_batch(doses[i])) {
-      report_progress(observer, "rain",
-                      static_cast<double>(rain.state().dosed) / static_cast<double>(doses.back()));
+      watch.tell(static_cast<double>(rain.state().dosed) / static_cast<double>(doses.back()));
     }
     if (pools.flooded()) {
       rain.rain_on_flood(doses[i]);
@@ -119,10 +120,11 @@ void rain_droplets(Pools& pools, Height droplet, Reading reading, std::uint64_t 
 
 void rain_evenly(Pools& pools, const std::vector<Volume>& films, const DoseReached& reached,
                  const Observer& observer) {
+  Watch watch(observer, "fill");
   Catchments catchments(pools);
   Volume film = 0;
   for (std::size_t i = 0; i < films.size(); ++i) {
-    report_progress(observer, "fill", static_cast<double>(i) / static_cast<double>(films.size()));
+    watch.tell(static_cast<double>(i) / static_cast<double>(films.size()));
     catchments.rain(films[i] - film);
     film = films[i];
     reached(i, {0, film * pools.terrain().size()});

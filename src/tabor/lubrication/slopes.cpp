@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "tabor/core/large_pages.hpp"
+#include "tabor/core/watch.hpp"
 
 namespace tabor::lubrication {
 namespace {
@@ -48,6 +49,7 @@ class Descent {
         open.pop_back();
         continue;
       }
+      go_on_or_throw(static_cast<std::size_t>(count));
       first_[place(id)] = count++;
       open.back() = ~id;
       for (PoolId next = child[place(id)]; next != kNoPool; next = sibling[place(next)]) {
@@ -72,6 +74,7 @@ class SlopeFinder {
     reserve_large_pages(to_.leads_to_, static_cast<std::size_t>(n));
     to_.leads_to_.assign(static_cast<std::size_t>(n), kUnknown);
     for (Pixel start = 0; start < n; ++start) {
+      go_on_or_throw(static_cast<std::size_t>(start));
       path_.clear();
       Slopes::Target target = known(start);
       for (Pixel p = start; target == kUnknown; target = p == kOutside ? kOcean : known(p)) {
@@ -231,7 +234,9 @@ void Slopes::settle(Pools& pools, const std::vector<PoolId>& renamed) {
       rename(branch.home);
     }
   }
+  go_on_or_throw();
   const std::vector<Target> now = renumber_forks(pools);
+  go_on_or_throw();
   const auto settle = [&](Target& target) {
     target = is_pool(target) ? renamed[static_cast<std::size_t>(target)] : now[place_of(target)];
   };

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/watch.hpp"
 
 namespace tabor::lubrication {
 namespace {
@@ -40,6 +41,7 @@ Terrain quantise(const Field& height, Edge edge) {
   terrain.quantum = quantum_for(height.maxCoeff() - lowest);
   terrain.height.resize(static_cast<std::size_t>(height.size()));
   for (std::size_t p = 0; p < terrain.height.size(); ++p) {
+    go_on_or_throw(p);
     const double quanta = std::nearbyint((height.data()[p] - lowest) / terrain.quantum);
     terrain.height[p] = static_cast<Height>(static_cast<std::int64_t>(quanta) + kDry + 1);
   }

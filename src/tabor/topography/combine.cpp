@@ -11,6 +11,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/names.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/topography/geometry.hpp"
 
 namespace tabor::topography {
@@ -128,6 +129,7 @@ std::string_view name_of(LevelMatch match) { return kMatches.of(match); }
 
 Combination combine(const Topography& first, const Topography& second,
                     const CombineOptions& options, const Observer& observer) {
+  const Watch watch(observer, "combine");
   const bool composite = options.mode == CombineMode::composite;
   const Topography a = onto_coarser_pixels(first, second.grid);
   const Topography b = composite ? flip(second, Axis::x) : second;

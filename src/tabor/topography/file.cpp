@@ -9,6 +9,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/text.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/io/digest.hpp"
 #include "tabor/io/subprocess.hpp"
 #include "tabor/topography/doubts.hpp"
@@ -115,7 +116,7 @@ std::optional<fs::path> gwyddion_program() { return io::find_program("gwyddion")
 struct ScanFile::Opened {
   Opened(const fs::path& file, const Observer& watching)
       : observer(watching), mapped(file), contents{file, mapped.bytes(), &mapped, &observer} {
-    contents.finished({}, 0);
+    const Watch watch(observer, "read");
     document = open(contents);
   }
 
@@ -153,6 +154,7 @@ std::string ScanFile::sha256(const std::function<void()>& between) const {
 }
 
 Topography ScanFile::read(const ReadOptions& options) const {
+  const Watch watch(opened_->observer, "read");
   const Contents& contents = opened_->contents;
   const Document& document = opened_->document;
   const Layer& layer = format::choose_layer(contents, document, options);
@@ -161,6 +163,7 @@ Topography ScanFile::read(const ReadOptions& options) const {
   topography.grid = format::resolve_grid(contents, layer, options, found);
   const double factor = format::resolve_height_factor(contents, layer, options, found);
   topography.height = heights_of(layer, factor, found);
+  go_on_or_throw();
   // Some formats are read by other libraries and programs, which open the file by its name.
   opened_->mapped.check_name();
   if (layer.late_doubts) {
@@ -168,6 +171,7 @@ Topography ScanFile::read(const ReadOptions& options) const {
     found.insert(found.end(), late.begin(), late.end());
   }
   require_heights(contents, topography);
+  go_on_or_throw();
   topography.periodic = document.periodic;
   topography.source = contents.file.string();
   topography.format = document.format;

@@ -8,6 +8,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
+#include "tabor/core/watch.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -231,6 +232,7 @@ void count_components(const Level& level, HarmonicFill& report) {
   std::vector<bool> seen(level.size(), false);
   std::vector<Node> stack;
   for (std::size_t start = 0; start < level.size(); ++start) {
+    go_on_or_throw(start);
     if (seen[start]) {
       continue;
     }
@@ -337,6 +339,7 @@ class Solver {
 }  // namespace
 
 HarmonicFill fill_harmonic(Field& height, const Grid& grid, const Observer& observer) {
+  const Watch watch(observer, "fill holes");
   const double lowest = height.minCoeff<Eigen::PropagateNumbers>();
   const double highest = height.maxCoeff<Eigen::PropagateNumbers>();
   const double datum = (lowest + highest) / 2;

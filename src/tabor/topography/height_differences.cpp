@@ -6,6 +6,7 @@
 #include <complex>
 #include <functional>
 
+#include "tabor/core/watch.hpp"
 #include "tabor/spectral/strips.hpp"
 #include "tabor/topography/lag_sums.hpp"
 #include "tabor/topography/topography.hpp"
@@ -142,6 +143,7 @@ std::vector<ColumnRange> strips_of(Index n_columns) {
 
 HeightDifferences height_differences(const Field& height, const Grid& grid,
                                      const Observer& observer) {
+  Watch watch(observer, "height differences");
   const Moments moments = moments_of(height);
   const spectral::StripTransform<double> transform(grid.ny, grid.nx, padded_for_lags(grid.ny),
                                                    padded_for_lags(grid.nx));
@@ -152,9 +154,7 @@ HeightDifferences height_differences(const Field& height, const Grid& grid,
   LagSums squares(rings), pairs(rings);
   std::array<Strip, 3> strips;
   for (const ColumnRange& range : strips_of(transform.n_frequencies())) {
-    report_progress(
-        observer, "height differences",
-        static_cast<double>(range.begin) / static_cast<double>(transform.n_frequencies()));
+    watch.tell(static_cast<double>(range.begin) / static_cast<double>(transform.n_frequencies()));
     for (std::size_t i = 0; i < strips.size(); ++i) {
       transform.rows_forward(sources[i], range, strips[i]);
     }
@@ -165,7 +165,7 @@ HeightDifferences height_differences(const Field& height, const Grid& grid,
     add_strip(transform, strips[0], range, rings, squares);
     add_strip(transform, strips[1], range, rings, pairs);
   }
-  report_progress(observer, "height differences", 1);
+  watch.tell(1);
   const double unit = moments.mean_square > 0 ? moments.mean_square : 1;
   const auto part = [&](auto member, const std::function<double(Index)>& lag_of) {
     return mean_differences(squares.*member * unit, pairs.*member, lag_of);

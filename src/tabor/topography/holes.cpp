@@ -8,6 +8,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/names.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/topography/harmonic.hpp"
 #include "tabor/topography/rows.hpp"
 
@@ -141,6 +142,7 @@ std::optional<Fill> fill_from(std::string_view name) { return kFills.find(name);
 std::string_view name_of(Fill fill) { return kFills.of(fill); }
 
 FillResult fill_holes(const Field& height, const Grid& grid, Fill fill, const Observer& observer) {
+  const Watch watch(observer, "fill holes");
   const Index n_missing = height.isNaN().count();
   if (n_missing == height.size()) {
     throw InputError("fill holes", "a surface of holes only", "at least one valid height",

@@ -7,6 +7,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/topography/profile_filter.hpp"
 #include "tabor/topography/profile_values.hpp"
 #include "tabor/topography/rows.hpp"
@@ -42,9 +43,9 @@ Field values_of_all(const Topography& topography, ProfileAxis axis, const Profil
   const auto evaluation =
       evaluation_of(along_x ? topography.grid.nx : topography.grid.ny, spacing, options, setting);
   Field values(n_profiles, static_cast<Index>(kProfileQuantities));
+  Watch watch(observer, along_x ? "profiles along x" : "profiles along y");
   for (Index first = 0; first < n_profiles; first += kProfilesPerReport) {
-    report_progress(observer, along_x ? "profiles along x" : "profiles along y",
-                    static_cast<double>(first) / static_cast<double>(n_profiles));
+    if (first > 0) watch.tell(static_cast<double>(first) / static_cast<double>(n_profiles));
     for_each_row(std::min(kProfilesPerReport, n_profiles - first), [&](Index i) {
       const auto z = filtered_profile(profile_of(topography.height, axis, first + i), spacing,
                                       topography.periodic, options, setting);

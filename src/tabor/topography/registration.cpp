@@ -8,6 +8,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/topography/coarse_match.hpp"
 #include "tabor/topography/filters.hpp"
 #include "tabor/topography/geometry.hpp"
@@ -262,7 +263,7 @@ Field move_onto(const Topography& b, const Grid& a, double shift_x, double shift
 
 Registration register_scans(const Topography& a, const Topography& b,
                             const RegistrationOptions& options, const Observer& observer) {
-  report_progress(observer, "registration", 0);
+  Watch watch(observer, "registration");
   const Coarse coarse = search(a, b, options);
   Registration result;
   result.distinction = coarse.match.distinction;
@@ -273,8 +274,7 @@ Registration register_scans(const Topography& a, const Topography& b,
   result.shift_y = start_y;
   const auto sizes = pitches(coarse.pitch, a.grid);
   for (std::size_t level = 0; level < sizes.size(); ++level) {
-    report_progress(observer, "registration",
-                    static_cast<double>(level + 1) / static_cast<double>(sizes.size() + 1));
+    watch.tell(static_cast<double>(level + 1) / static_cast<double>(sizes.size() + 1));
     const bool own = sizes[level] == 0;
     const Field cells = own ? a.height : coarsen(a, sizes[level]);
     const Grid grid = own ? a.grid : coarse_grid(cells, sizes[level]);
@@ -299,7 +299,7 @@ Registration register_scans(const Topography& a, const Topography& b,
                        format_si(result.shift_x, "m"), format_si(result.shift_y, "m")),
            fmt::format("at least {}", options.smallest_correlation));
   }
-  report_progress(observer, "registration", 1);
+  watch.tell(1);
   return result;
 }
 

@@ -11,6 +11,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/topography/doubts.hpp"
 #include "tabor/topography/filters.hpp"
 #include "tabor/topography/geometry.hpp"
@@ -224,9 +225,9 @@ void check(const Treatment& treatment) {
 
 Topography apply(const Treatment& treatment, Topography topography, const Observer& observer) {
   check(treatment);  // a typing error in the last step is found before the first one runs
+  Watch watch(observer, "treatment");
   for (std::size_t i = 0; i < treatment.size(); ++i) {
-    report_progress(observer, "treatment",
-                    static_cast<double>(i) / static_cast<double>(treatment.size()));
+    watch.tell(static_cast<double>(i) / static_cast<double>(treatment.size()));
     topography = parse_step(treatment[i])(std::move(topography), observer);
   }
   if (!treatment.empty()) {
@@ -235,7 +236,7 @@ Topography apply(const Treatment& treatment, Topography topography, const Observ
                     [](const std::string& step) { return split_step(step).first == "despike"; });
     renew_doubts(topography, looked_for_spikes);
   }
-  report_progress(observer, "treatment", 1);
+  watch.tell(1);
   return topography;
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/topography/steepest_ways.hpp"
 
 namespace tabor::topography {
@@ -47,6 +48,7 @@ class Borders {
                               const Visit& visit) {
     const Index nx = relief.map.height.cols();
     for (Index y = 0; y < relief.map.height.rows(); ++y) {
+      go_on_or_throw();
       for (Index x = 0; x < nx; ++x) {
         const auto p = static_cast<PixelIndex>(y * nx + x);
         bool border = false;
@@ -203,6 +205,7 @@ void measure(const Relief& relief, Segmentation& segmentation) {
   const Index nx = relief.map.height.cols();
   const double pixel_area = relief.map.grid.pixel_area();
   for (PixelIndex p = 0; p < relief.n_pixels(); ++p) {
+    go_on_or_throw(p);
     if (segmentation.label[p] == kNoMotif) continue;
     Motif& motif = segmentation.motifs[segmentation.label[p]];
     ++motif.n_pixels;
@@ -229,21 +232,24 @@ Segmentation segment(const Topography& topography, MotifKind kind, double least_
                      fmt::format("fewer than {}", kPixelLimit), "crop or resample the map");
   }
   const std::string_view stage = kind == MotifKind::hill ? "hills" : "dales";
-  report_progress(observer, stage, 0);
+  Watch watch(observer, stage);
   const Relief relief(topography, kind);
+  go_on_or_throw();
   ChangeTree tree(relief, climb(relief), least_difference);
-  report_progress(observer, stage, 0.25);
+  watch.tell(0.25);
   {
     const Borders borders(relief, tree.label());
     for (std::size_t i = 0; i < borders.size(); ++i) {
       if (i % kPixelsPerReport == 0) {
-        report_progress(observer, stage,
-                        0.5 + 0.4 * static_cast<double>(i) / static_cast<double>(borders.size()));
+        watch.tell(0.5 + 0.4 * static_cast<double>(i) / static_cast<double>(borders.size()));
       }
+      go_on_or_throw(i);
       tree.meet_at(borders[i]);
     }
   }
+  go_on_or_throw();
   tree.decide_last_peaks();
+  go_on_or_throw();
   Segmentation result = std::move(tree).standing_hills();
   measure(relief, result);
   return result;

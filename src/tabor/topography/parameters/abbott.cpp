@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "tabor/core/parallel.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/topography/parameters/height_moments.hpp"
 
 namespace tabor::topography {
@@ -38,6 +39,7 @@ Index flattest_secant(const std::vector<double>& heights, Index width) {
 }  // namespace
 
 AbbottCurve::AbbottCurve(const Field& height, const Observer& observer) {
+  const Watch watch(observer, "material ratio curve");
   const HeightMoments moments = height_moments(height);
   heights_ = falling_heights(height, moments.n, moments.mean, observer);
 }

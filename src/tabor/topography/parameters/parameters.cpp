@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/topography/features.hpp"
 #include "tabor/topography/parameters/abbott.hpp"
 #include "tabor/topography/parameters/sets.hpp"
@@ -27,7 +28,7 @@ class Calculation {
       : topography_(topography), options_(options), observer_(observer) {}
 
   std::vector<Parameter> of(ParameterSet set) {
-    report_progress(observer_, std::string(name_of(set)) + " parameters", kNoValue);
+    const Watch watch(observer_, std::string(name_of(set)) + " parameters");
     if (!needs_curve(set)) curve_.reset();
     switch (set) {
       case ParameterSet::height:

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "tabor/core/units.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/topography/correlation.hpp"
 #include "tabor/topography/parameters/sets.hpp"
 #include "tabor/topography/parameters/texture.hpp"
@@ -63,7 +64,7 @@ std::string texture_note(const Topography& topography, const Texture& texture) {
 std::vector<Parameter> spatial_parameters(const Topography& topography,
                                           const ParameterOptions& options,
                                           const Observer& observer) {
-  report_progress(observer, "autocorrelation", kNoValue);
+  const Watch watch(observer, "autocorrelation");
   std::vector<Parameter> found = correlation_parameters(topography, options.acf_threshold);
   report_progress(observer, "texture direction", kNoValue);
   const Texture texture = texture_of(topography);
