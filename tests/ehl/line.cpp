@@ -36,6 +36,17 @@ TEST(SolveLine, FindsTheFilmOfTable6WithTheGrid) {
   }
 }
 
+TEST(SolveLine, AsksItsObserverBeforeTheFirstStepAndStopsThere) {
+  LineProblem problem = table_6();
+  problem.nodes = 300;
+  int calls = 0;
+  const LineResult result = solve_line(problem, [&](const Progress&) { return ++calls < 1; });
+  EXPECT_FALSE(result.converged);
+  EXPECT_EQ(result.newton_iterations, 0);
+  EXPECT_EQ(result.film.size(), 300);
+  EXPECT_GE(calls, 1);
+}
+
 TEST(SolveLine, AgreesWithTable6) {
   LineProblem problem = table_6();
   problem.nodes = 1200;

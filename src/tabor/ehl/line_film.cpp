@@ -215,6 +215,7 @@ LineFilm::Outcome LineFilm::solve(LineState& state, const LineStorage& storage, 
   state.pressure[0] = state.pressure[n_ - 1] = 0;
   update_film(state);
   LineLinear linear = linearize(state, storage);
+  if (observer && !observer({.stage = "line contact"})) return outcome;
   while (outcome.iterations < max_iterations && !outcome.converged) {
     ++outcome.iterations;
     const std::vector<bool> cavity = state.cavity;

@@ -189,6 +189,7 @@ PointFilm::Outcome PointFilm::solve(PointState& state, const PointStorage& stora
   state.pressure = held(state).select(0, state.pressure);
   state.film = film_of(state);
   if (!(state.film.minCoeff() > 0)) return outcome;
+  if (observer && !observer({.stage = "point contact"})) return outcome;
   PointLinear linear = linearize(state, storage);
   while (outcome.iterations < problem_.max_iterations && !outcome.converged) {
     ++outcome.iterations;

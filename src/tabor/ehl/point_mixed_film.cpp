@@ -332,6 +332,7 @@ PointFilm::Outcome MixedFilm::solve(MixedState& state, const Observer& observer)
   PointFilm::Outcome outcome;
   lift(state);
   Linear linear = linearize(state);
+  if (observer && !observer({.stage = "mixed point contact"})) return outcome;
   while (outcome.iterations < problem_.max_iterations && !outcome.converged) {
     ++outcome.iterations;
     const MixedNodes before = state.nodes;

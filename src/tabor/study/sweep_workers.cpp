@@ -12,6 +12,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/resources.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/study/compute.hpp"
 #include "tabor/study/scan_work.hpp"
 #include "tabor/study/thread_share.hpp"
@@ -93,8 +94,14 @@ class Sweep {
   }
 
   void work() {
+    // Loops that know no observer, as those of a contact's set-up, end when the sweep does.
+    const Observer asking = [this](const Progress& progress) {
+      report(progress);
+      return true;
+    };
     for (std::size_t next = next_++; next < tasks_.size() && !stop_; next = next_++) {
       try {
+        const Watch watch(asking, "");
         begin(tasks_[next]);
         perform(tasks_[next]);
         scans_[tasks_[next].scan].task_done();
