@@ -42,6 +42,9 @@ ProgressStyle progress_style_of_stderr(bool quiet) {
   return isatty(STDERR_FILENO) != 0 ? ProgressStyle::terminal : ProgressStyle::lines;
 }
 
+ProgressPrinter::ProgressPrinter(std::ostream& err, ProgressStyle style)
+    : ProgressPrinter(err, style, [watch = Stopwatch()] { return watch.seconds(); }) {}
+
 Observer ProgressPrinter::observer() {
   return [this](const Progress& progress) {
     if (style_ != ProgressStyle::none && !progress.stage.empty()) show(progress);

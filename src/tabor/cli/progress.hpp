@@ -3,6 +3,7 @@
 #include <functional>
 #include <iosfwd>
 #include <string>
+#include <utility>
 
 #include "tabor/cli/time_left.hpp"
 #include "tabor/core/convergence.hpp"
@@ -27,9 +28,9 @@ class ProgressPrinter {
  public:
   using Clock = std::function<double()>;  ///< [s]
 
-  ProgressPrinter(
-      std::ostream& err, ProgressStyle style,
-      Clock clock = [watch = Stopwatch()] { return watch.seconds(); })
+  ProgressPrinter(std::ostream& err, ProgressStyle style);
+  /// For tests, which move the clock themselves.
+  ProgressPrinter(std::ostream& err, ProgressStyle style, Clock clock)
       : err_(err), style_(style), clock_(std::move(clock)), whole_(clock_()) {}
   ~ProgressPrinter() { clear(); }
   ProgressPrinter(const ProgressPrinter&) = delete;
