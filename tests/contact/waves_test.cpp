@@ -5,6 +5,7 @@
 
 #include "contact/surfaces.hpp"
 #include "support/validation.hpp"
+#include "support/worst.hpp"
 #include "tabor/reference/waves.hpp"
 
 namespace tabor::test {
@@ -23,7 +24,7 @@ double jgh_area(Index n, double load_ratio) {
 TEST(SolveContact, FindsTheTwoDimensionalWaveBetweenItsLimits) {
   double worst = 0;
   for (const auto& point : reference::kJghTable) {
-    worst = std::max(worst, std::abs(jgh_area(512, point.load_ratio) - point.area_fraction));
+    worst = test::worse(worst, std::abs(jgh_area(512, point.load_ratio) - point.area_fraction));
   }
   expect_within("Contact", "Johnson-Greenwood-Higginson wave, n = 512", "area at 7 loads, absolute",
                 "contact.md section 5", worst, 3e-3);

@@ -6,6 +6,7 @@
 #include "larsson.hpp"
 #include "support/refusal.hpp"
 #include "support/validation.hpp"
+#include "support/worst.hpp"
 #include "tabor/ehl/approach.hpp"
 #include "tabor/elastic/axisymmetric.hpp"
 #include "tabor/reference/impact.hpp"
@@ -29,7 +30,7 @@ TEST(RigidApproach, FollowsItsClosedFormWithoutGravity) {
   for (const Approach& at : path) {
     const double x = at.separation / problem.layer;
     const double lost = -damping * (std::log(x) - 2 * (x - 1) + (x * x - 1) / 2);
-    worst = std::max(worst, std::abs(at.speed + problem.speed - lost) / problem.speed);
+    worst = test::worse(worst, std::abs(at.speed + problem.speed - lost) / problem.speed);
   }
   expect_within("EHL", "rigid approach", "speed over the first speed", "closed form", worst, 1e-8);
   EXPECT_GT(path.back().force, 0);

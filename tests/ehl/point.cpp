@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "ehl/moes.hpp"
+#include "support/worst.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/ehl/point_start.hpp"
@@ -68,7 +69,7 @@ TEST(SolvePoint, TendsToHertzAsTheFilmThins) {
         if (std::hypot(x[i], y[j]) > 0.8 * hertz.half_axis_x) continue;
         const double difference =
             result.pressure(j, i) - reference::hertz_pressure(hertz, x[i], y[j]);
-        worst = std::max(worst, std::abs(difference) / hertz.max_pressure);
+        worst = test::worse(worst, std::abs(difference) / hertz.max_pressure);
       }
     }
     EXPECT_LT(worst, before);

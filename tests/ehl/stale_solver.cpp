@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/worst.hpp"
+
 namespace tabor::ehl {
 namespace {
 
@@ -33,7 +35,7 @@ Solved solve_series(bool refactor_always, double tolerance, double drift) {
     const Eigen::VectorXd x = solver.solve(
         b, tolerance, [&](const auto& in, auto& out) { out = a * in; },
         [&](auto& matrix) { matrix = a; });
-    solved.worst_residual = std::max(solved.worst_residual, (b - a * x).norm() / b.norm());
+    solved.worst_residual = test::worse(solved.worst_residual, (b - a * x).norm() / b.norm());
   }
   solved.n_factorizations = solver.n_factorizations();
   return solved;

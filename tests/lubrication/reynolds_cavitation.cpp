@@ -2,6 +2,7 @@
 
 #include "reynolds_films.hpp"
 #include "support/validation.hpp"
+#include "support/worst.hpp"
 
 namespace tabor::lubrication {
 namespace {
@@ -123,7 +124,7 @@ double imbalance_while_opening(Cavitation cavitation) {
     const double gained = (problem.grid.volume * (solution.mass - problem.old_mass)).sum();
     const double inflow = problem.time_step * (solution.face_flow[0] - solution.face_flow[100]);
     worst =
-        std::max(worst, std::abs(gained - inflow) / (problem.grid.volume * solution.mass).sum());
+        test::worse(worst, std::abs(gained - inflow) / (problem.grid.volume * solution.mass).sum());
     lowest = std::min(lowest, solution.fill.minCoeff());
     problem.old_mass = solution.mass;
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/worst.hpp"
 #include "tabor/reference/hertz.hpp"
 
 namespace tabor::reference {
@@ -59,7 +60,7 @@ Motion integrated(const DryImpact& impact, int n_steps) {
     v += 0.5 * (a + next) * dt;
     a = next;
     motion.distance_from_sine =
-        std::max(motion.distance_from_sine, std::abs(x - impact.approach_at(i * dt)));
+        test::worse(motion.distance_from_sine, std::abs(x - impact.approach_at(i * dt)));
   }
   return motion;
 }

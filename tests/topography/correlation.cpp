@@ -8,6 +8,7 @@
 #include "support/refusal.hpp"
 #include "support/scans.hpp"
 #include "support/validation.hpp"
+#include "support/worst.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/topography/file.hpp"
 #include "tabor/topography/height_differences.hpp"
@@ -62,7 +63,8 @@ TEST_P(Correlations, AreTheMeanProductOfAllPairs) {
       } else {
         const double exact = sums.products / sums.pairs / (zero.products / zero.pairs);
         // Single precision: errors are relative to the sum over all pairs.
-        largest = std::max(largest, std::abs(acf(ly, lx) - exact) * sums.pairs / zero.pairs);
+        largest =
+            tabor::test::worse(largest, std::abs(acf(ly, lx) - exact) * sums.pairs / zero.pairs);
       }
     }
   }
@@ -77,7 +79,8 @@ TEST_P(Correlations, OfDifferencesAreTheirMeanSquares) {
   const auto compare = [&](const HeightDifference& got, Index k, const DirectSums& sums) {
     const auto i = static_cast<std::size_t>(k - 1);
     EXPECT_EQ(got.pairs[i], sums.pairs);
-    largest = std::max(largest, std::abs(got.mean_square[i] / (sums.squares / sums.pairs) - 1));
+    largest =
+        tabor::test::worse(largest, std::abs(got.mean_square[i] / (sums.squares / sums.pairs) - 1));
   };
   for (Index k = 1; k <= 12; ++k) {
     EXPECT_NEAR(differences.x.lag[static_cast<std::size_t>(k - 1)], 1e-6 * static_cast<double>(k),
