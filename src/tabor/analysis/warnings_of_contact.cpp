@@ -95,6 +95,17 @@ void warn_of_patches(const contact::State& state, const contact::Summary& summar
        1 / pixels});
 }
 
+/// What keeps a state from being converged.
+std::string shortfall(const contact::State& state) {
+  const Convergence& convergence = state.convergence;
+  if (convergence.certificate <= convergence.tolerance) {
+    return fmt::format("gap of {} where solids touch instead of {} at most",
+                       format_si(state.gap_error, "m"), format_si(state.gap_limit, "m"));
+  }
+  return fmt::format("certificate {:.1e} instead of {:.0e}", convergence.certificate,
+                     convergence.tolerance);
+}
+
 }  // namespace
 
 Warnings of_contact(const topography::Topography& surface, const ContactSettings& settings,
@@ -108,10 +119,8 @@ Warnings of_contact(const topography::Topography& surface, const ContactSettings
   warn_of_slope(surface, list);
   const Convergence& convergence = state.convergence;
   if (!convergence.converged) {
-    list.push_back({"not-converged",
-                    fmt::format("NOT CONVERGED, certificate {:.1e} instead of {:.0e}",
-                                convergence.certificate, convergence.tolerance),
-                    convergence.certificate});
+    list.push_back(
+        {"not-converged", "NOT CONVERGED, " + shortfall(state), convergence.certificate});
   }
   if (!summary.area_correction_valid) {
     list.push_back({"area-correction",

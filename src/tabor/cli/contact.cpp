@@ -23,7 +23,7 @@ struct Request {
 
 Table table() {
   return Table({"pressure", "contact", "pixels", "saturated", "mean gap", "max pressure", "patches",
-                "certificate", "converged", "iterations", "time"});
+                "certificate", "gap error", "converged", "iterations", "time"});
 }
 
 std::vector<std::string> row_of(const ContactResult& result) {
@@ -37,6 +37,7 @@ std::vector<std::string> row_of(const ContactResult& result) {
           si(summary.max_pressure, "Pa"),
           fmt::format("{}", summary.n_patches),
           fmt::format("{:.1e}", convergence.certificate),
+          si(summary.contact_gap_error, "m"),
           yes_no(convergence.converged),
           fmt::format("{}", convergence.iterations),
           si(result.seconds, "s")};

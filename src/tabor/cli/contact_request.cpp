@@ -179,6 +179,7 @@ io::Json state_json(const ContactResult& result) {
           {"n_patches", summary.n_patches},
           {"perimeter_m", summary.perimeter},
           {"certificate", io::number(convergence.certificate)},
+          {"contact_gap_error_m", summary.contact_gap_error},
           {"converged", convergence.converged},
           {"warning_codes", analysis::codes_of(result.warnings)},
           {"iterations", convergence.iterations},

@@ -106,6 +106,9 @@ void spread_pressure(const CandidateSet& set, Field& map) {
 double candidate_threshold(const CandidateSet& set, double load, double saturation_pressure,
                            double diagonal_step) {
   const auto& [pressure, residual] = set.values;
+  if (std::none_of(pressure.begin(), pressure.end(), [](double p) { return p > 0; })) {
+    return std::numeric_limits<double>::infinity();
+  }
   if (!std::isfinite(saturation_pressure)) {
     return mean_residual_under_pressure(set.values);
   }

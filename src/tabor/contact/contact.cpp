@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
-#include "tabor/contact/certificate.hpp"
+#include "tabor/contact/conditions.hpp"
 #include "tabor/contact/fast_solver.hpp"
+#include "tabor/contact/pixel_list.hpp"
 #include "tabor/contact/polonsky_keer.hpp"
 #include "tabor/contact/scale.hpp"
 #include "tabor/core/error.hpp"
@@ -74,10 +76,11 @@ double rms_slope(const Field& height, const Grid& grid) {
                    mean_square(along_y.sum(), (grid.ny - 1) * grid.nx, grid.dy()));
 }
 
-double highest(const Field& map) {
-  return parallel_max(map.size(), [&](Index begin, Index end) {
-    return Eigen::Map<const Eigen::ArrayXd>(map.data() + begin, end - begin).maxCoeff();
-  });
+/// What to take off heights before solving [m]: their highest where all lie farther from zero than
+/// from each other, which would cost them digits; else nothing.
+double offset_of(const Field& height) {
+  const Extent extent = extent_of(height);
+  return std::abs(extent.highest) > extent.highest - extent.lowest ? extent.highest : 0.0;
 }
 
 /// Rms pressure [Pa] that full contact needs to flatten the surface: E* / 2 * rms slope.
@@ -93,22 +96,22 @@ bool try_full_contact(elastic::ElasticOperator& elasticity, const Problem& probl
     return false;
   }
   state.convergence.fft_pairs += 1;
-  state.pressure += problem.mean_pressure - state.pressure.mean();
-  if (state.pressure.minCoeff() < 0 || state.pressure.maxCoeff() > problem.saturation_pressure) {
+  state.pressure -= state.pressure.mean();
+  if (problem.mean_pressure + state.pressure.minCoeff() < 0 ||
+      problem.mean_pressure + state.pressure.maxCoeff() > problem.saturation_pressure) {
     return false;
   }
+  // The mean displaces nothing: left out, it costs the waves about it no digits.
   elasticity.apply(state.pressure, state.displacement);
+  state.pressure += problem.mean_pressure;
   state.convergence.operator_applications = 1;
   state.convergence.fft_pairs += 1;
   state.convergence.tolerance = problem.tolerance;
   const Field residual = state.displacement - problem.height;
-  const Candidates all{
-      std::vector<double>(state.pressure.data(), state.pressure.data() + state.pressure.size()),
-      std::vector<double>(residual.data(), residual.data() + residual.size())};
-  const double load = problem.mean_pressure * static_cast<double>(residual.size());
   state.convergence.certificate =
-      std::max(0.0, duality_gap(all, load, problem.saturation_pressure)) /
-      (load * length_scale(elasticity, problem));
+      Conditions(elasticity, problem, problem.saturation_pressure)
+          .certificate({{state.pressure.data(), state.pressure.data() + state.pressure.size()},
+                        {residual.data(), residual.data() + residual.size()}});
   state.convergence.converged = state.convergence.certificate <= problem.tolerance;
   return state.convergence.converged;
 }
@@ -128,7 +131,7 @@ State run(elastic::ElasticOperator& elasticity, const Problem& problem, Solver s
 /// them there.
 bool cap_may_be_idle(const State& state, double cap) {
   constexpr double least_share = 0.005;  // of the contact pixels
-  return static_cast<double>((state.pressure >= cap).count()) <=
+  return static_cast<double>(saturated_mask(state, cap).count()) <=
          least_share * static_cast<double>((state.pressure > 0).count());
 }
 
@@ -144,7 +147,7 @@ State run_capped(elastic::ElasticOperator& elasticity, const Problem& problem, S
     elastic_problem.saturation_pressure = kNoSaturation;
     state = run(elasticity, elastic_problem, solver, observer);
     pairs_spent += state.convergence.fft_pairs;
-    cap_is_idle = highest(state.pressure) <= cap;
+    cap_is_idle = extent_of(state.pressure).highest <= cap;
     return cap_is_idle;
   };
   State state;
@@ -162,41 +165,33 @@ State run_capped(elastic::ElasticOperator& elasticity, const Problem& problem, S
   return state;
 }
 
-/// Separation: contact pixels below saturation have zero mean gap; if all are saturated, the
-/// largest overlap-free level. The gap is then set exactly complementary to the pressure, which
-/// moves it by no more than the certificate's error.
-void finish_state(const Problem& problem, double cap, State& state) {
-  const double* p = state.pressure.data();
+/// Fixes the separation and makes pressure and gap exactly complementary, which moves either by no
+/// more than the error that is reported: gap_error, and rounding of pressures at the cap.
+void finish_state(const elastic::ElasticOperator& elasticity, const Problem& problem, double cap,
+                  State& state) {
+  const Conditions conditions(elasticity, problem, cap);
+  state.gap = uninitialised_map<Field>(state.pressure.rows(), state.pressure.cols());
+  double* p = state.pressure.data();
+  double* gap = state.gap.data();
+  const auto n = static_cast<std::size_t>(state.gap.size());
   const double* displacement = state.displacement.data();
   const double* height = problem.height.data();
-  const auto sum_over_free = [&](const auto& term) {
-    return deterministic_sum(state.pressure.size(), [&](Index begin, Index end) {
-      double partial = 0;
-      for (Index i = begin; i < end; ++i) {
-        partial += p[i] > 0 && p[i] < cap ? term(i) : 0.0;
-      }
-      return partial;
-    });
-  };
-  const double n_free = sum_over_free([](Index) { return 1.0; });
-  if (n_free > 0) {
-    state.separation = sum_over_free([&](Index i) { return height[i] - displacement[i]; }) / n_free;
-  } else {
-    constexpr double none = -std::numeric_limits<double>::infinity();
-    state.separation = -parallel_max(state.pressure.size(), [&](Index begin, Index end) {
-      double level = none;
-      for (Index i = begin; i < end; ++i) {
-        level = std::max(level, p[i] > 0 ? displacement[i] - height[i] : none);
-      }
-      return level;
-    });
-  }
-  state.gap = uninitialised_map<Field>(state.pressure.rows(), state.pressure.cols());
-  double* to = state.gap.data();
-  parallel_for(state.gap.size(), kBlock, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      const double gap = state.separation + displacement[i] - height[i];
-      to[i] = p[i] <= 0 ? std::max(gap, 0.0) : (p[i] < cap ? 0.0 : std::min(gap, 0.0));
+  for_each(n, [=](std::size_t i) { gap[i] = displacement[i] - height[i]; });
+  const std::span<const double> pressures(p, n);
+  const std::span<const double> residuals(gap, n);
+  state.separation = conditions.separation(pressures, residuals);
+  state.gap_error = conditions.gap_error(pressures, residuals, state.separation);
+  state.gap_limit = conditions.gap_limit();
+  const double separation = state.separation;
+  for_each(n, [=](std::size_t i) {
+    gap[i] += separation;
+    if (p[i] <= 0) {
+      gap[i] = std::max(gap[i], 0.0);
+    } else if (at_cap(p[i], cap)) {
+      p[i] = cap;
+      gap[i] = std::min(gap[i], 0.0);
+    } else {
+      gap[i] = 0;
     }
   });
 }
@@ -206,6 +201,14 @@ void finish_state(const Problem& problem, double cap, State& state) {
 State solve(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
             const Observer& observer) {
   check(elasticity, problem);
+  const double offset = offset_of(problem.height);
+  if (offset != 0) {
+    Problem near_zero = problem;
+    near_zero.height -= offset;
+    State state = solve(elasticity, near_zero, solver, observer);
+    state.separation += offset;
+    return state;
+  }
   State state;
   bool cap_is_idle = !std::isfinite(problem.saturation_pressure);
   if (!try_full_contact(elasticity, problem, state)) {
@@ -214,7 +217,8 @@ State solve(elastic::ElasticOperator& elasticity, const Problem& problem, Solver
                         : run_capped(elasticity, problem, solver, observer, cap_is_idle);
     state.convergence.fft_pairs += pairs_spent;
   }
-  finish_state(problem, cap_is_idle ? kNoSaturation : problem.saturation_pressure, state);
+  finish_state(elasticity, problem, cap_is_idle ? kNoSaturation : problem.saturation_pressure,
+               state);
   return state;
 }
 
@@ -223,5 +227,10 @@ Field unloaded_height(const Field& height, const State& state) {
 }
 
 Mask contact_mask(const State& state) { return state.pressure > 0; }
+
+Mask saturated_mask(const State& state, double saturation_pressure) {
+  return state.pressure.unaryExpr(
+      [=](double pressure) { return at_cap(pressure, saturation_pressure); });
+}
 
 }  // namespace tabor::contact

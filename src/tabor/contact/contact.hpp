@@ -31,6 +31,8 @@ struct State {
   Field displacement;     ///< [m]
   Field gap;              ///< [m]
   double separation = 0;  ///< [m]
+  double gap_error = 0;   ///< [m], largest gap or overlap where the contact conditions allow none
+  double gap_limit = 0;   ///< [m], the largest gap_error that counts as converged
   Convergence convergence;
   /// Steps of the fast solver that left long waves alone, since with them bounds led uphill.
   int compact_steps = 0;
@@ -48,10 +50,11 @@ struct Summary {
   double contact_area_fraction_pixels = 0;  ///< counted
   bool area_correction_valid = true;        ///< false where capped regions fill whole rows
   double saturated_area_fraction = 0;
-  double mean_gap = 0;        ///< [m], mean of max(gap, 0)
-  double separation = 0;      ///< [m]
-  double max_pressure = 0;    ///< [Pa]
-  double elastic_energy = 0;  ///< [J/m^2]
+  double mean_gap = 0;           ///< [m], mean of max(gap, 0)
+  double separation = 0;         ///< [m]
+  double contact_gap_error = 0;  ///< [m], State::gap_error
+  double max_pressure = 0;       ///< [Pa]
+  double elastic_energy = 0;     ///< [J/m^2]
   Index n_patches = 0;
   double perimeter = 0;  ///< [m], along pixel edges (4/pi of a circle's)
 };
@@ -64,5 +67,8 @@ Field unloaded_height(const Field& height, const State& state);
 
 /// True where pressure > 0.
 Mask contact_mask(const State& state);
+
+/// True where the pressure is at the cap.
+Mask saturated_mask(const State& state, double saturation_pressure);
 
 }  // namespace tabor::contact

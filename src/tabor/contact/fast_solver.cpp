@@ -8,12 +8,11 @@
 #include <vector>
 
 #include "tabor/contact/candidate_set.hpp"
-#include "tabor/contact/certificate.hpp"
+#include "tabor/contact/conditions.hpp"
 #include "tabor/contact/long_waves.hpp"
 #include "tabor/contact/pixel_list.hpp"
 #include "tabor/contact/preconditioner.hpp"
 #include "tabor/contact/projection.hpp"
-#include "tabor/contact/scale.hpp"
 #include "tabor/contact/start.hpp"
 #include "tabor/core/large_pages.hpp"
 #include "tabor/core/parallel.hpp"
@@ -25,7 +24,10 @@ constexpr double kFirstRefresh = 1e-6;  // certificate below which v is computed
 constexpr double kNextRefresh = 1e-4;   // ... and again each time it fell by this factor
 constexpr int kBlockRounds = 3;         // solutions for the long waves of one direction, at most
 constexpr double kSettledShare = 1e-4;  // of the pixels changing between free and held: settled
-constexpr int kPatience = 300;          // iterations without a better certificate before giving up
+// Of a step, as a share of what its direction wanted: below, the direction followed pixels whose
+// gap is far too large to be felt by others, and the next one looks at each pixel alone.
+constexpr double kLeastLength = 1e-4;
+constexpr int kPatience = 300;  // iterations without a better certificate before giving up
 constexpr double kUnknownFraction = std::numeric_limits<double>::quiet_NaN();
 
 /// Sum of term(k) over k < n, in fixed blocks.
@@ -64,9 +66,8 @@ class ProjectedGradient {
       : elasticity_(elasticity),
         problem_(problem),
         cap_(problem.saturation_pressure),
-        load_(problem.mean_pressure * static_cast<double>(problem.height.size())),
-        scale_(problem.mean_pressure * length_scale(elasticity, problem) *
-               static_cast<double>(problem.height.size())),
+        conditions_(elasticity, problem, problem.saturation_pressure),
+        load_(conditions_.load()),
         preconditioner_(elasticity.grid(), elasticity.effective_modulus(), elasticity.drops_mean()),
         long_waves_(elasticity.grid(), elasticity.effective_modulus(), preconditioner_.plateau(),
                     elasticity.drops_mean()) {
@@ -78,6 +79,7 @@ class ProjectedGradient {
  private:
   void refresh();
   void certify();
+  bool meets_conditions();
   void find_separation();
   void choose_active_set();
   void find_direction();
@@ -95,9 +97,9 @@ class ProjectedGradient {
 
   elastic::ElasticOperator& elasticity_;
   const Problem& problem_;
-  double cap_;    // [Pa]
-  double load_;   // sum of pressures [Pa]
-  double scale_;  // of the duality gap [Pa m]
+  double cap_;  // [Pa]
+  Conditions conditions_;
+  double load_;  // sum of pressures [Pa]
   Preconditioner preconditioner_;
   LongWaves long_waves_;
   Convergence convergence_;
@@ -114,6 +116,8 @@ class ProjectedGradient {
   std::vector<float> moved_;              // direction as far as the bounds let it through [Pa]
   std::vector<double> trial_;             // pressures tried [Pa]
   double separation_ = 0;                 // [m], in the units of v
+  double relaxed_shift_ = 0;              // of trial_, by which it carries the load [Pa]
+  bool goes_alone_ = false;               // the next direction leaves neighbours alone
   double step_ = 1;                       // tau
   double step_curvature_ = 0;             // <dp, S dp> of the step before [Pa m]
   double refresh_below_ = kFirstRefresh;
@@ -157,18 +161,27 @@ void ProjectedGradient::collect(const Residual& residual, FieldF* change,
   collect_candidates(residual_, change, threshold, update, candidates_);
 }
 
-/// Certificate of contact.md section 2; infinite if the pressure does not carry the load exactly.
 void ProjectedGradient::certify() {
-  const std::vector<double>& pressure = candidates_.values.pressure;
-  const double carried = sum_over(pressure.size(), [&](std::size_t k) { return pressure[k]; });
-  convergence_.certificate =
-      std::abs(carried / load_ - 1) <= 1e-10
-          ? std::max(0.0, duality_gap(candidates_.values, load_, cap_) / scale_)
-          : std::numeric_limits<double>::infinity();
+  convergence_.certificate = conditions_.certificate(candidates_.values);
   if (convergence_.certificate < best_certificate_) {
     best_certificate_ = convergence_.certificate;
     best_iteration_ = convergence_.iterations;
   }
+}
+
+/// True if the answer is good enough; puts pixels on their bounds that are inside in name only.
+bool ProjectedGradient::meets_conditions() {
+  std::vector<double>& pressure = candidates_.values.pressure;
+  const std::vector<double>& residual = candidates_.values.residual;
+  auto settled = Conditions::Settled::now;
+  while (settled == Conditions::Settled::now && convergence_.certificate <= problem_.tolerance) {
+    settled = conditions_.settle(pressure, residual);
+    if (settled == Conditions::Settled::now) {
+      refresh();
+      certify();
+    }
+  }
+  return settled == Conditions::Settled::already && conditions_.gaps_close(pressure, residual);
 }
 
 /// sep with sum clip(p - t (v - sep), 0, p_sat) = load, t the diagonal step. It is the mean of v
@@ -180,16 +193,19 @@ void ProjectedGradient::find_separation() {
   trial_.resize(pressure.size());
   for_each(trial_.size(),
            [&](std::size_t k) { trial_[k] = pressure[k] - diagonal_step * residual[k]; });
-  separation_ = -shift_for_load(trial_, load_, cap_) / diagonal_step;
+  relaxed_shift_ = shift_for_load(trial_, load_, cap_);
+  separation_ = -relaxed_shift_ / diagonal_step;
 }
 
-/// Pixels that may move: strictly inside the bounds, or at a bound and pulled inside.
+/// Pixels that may move: inside the bounds, or relaxed off the bound they are at. The relaxed
+/// pressure, not v - sep, whose last digits say nothing where heights are far larger than
+/// displacements.
 void ProjectedGradient::choose_active_set() {
   places_ = list_where(static_cast<Index>(candidates_.size()), [&](Index i) {
     const auto k = static_cast<std::size_t>(i);
     const double p = candidates_.values.pressure[k];
-    const double v = candidates_.values.residual[k] - separation_;
-    return (p > 0 || v < 0) && (p < cap_ || v > 0);
+    const double relaxed = trial_[k] - relaxed_shift_;
+    return (p > 0 || relaxed > 0) && (p < cap_ || relaxed < cap_);
   });
   active_.resize(places_.size());
   for_each(active_.size(), [&](std::size_t k) { active_[k] = candidates_.pixels[places_[k]]; });
@@ -199,6 +215,14 @@ void ProjectedGradient::find_direction() {
   for_each(active_.size(), [&](std::size_t k) {
     work_.data()[active_[k]] = static_cast<float>(residual(k) - separation_);
   });
+  if (goes_alone_) {
+    const auto diagonal = static_cast<float>(preconditioner_.diagonal());
+    direction_.resize(active_.size());
+    for_each(active_.size(),
+             [&](std::size_t k) { direction_[k] = diagonal * work_.data()[active_[k]]; });
+    compact_direction_ = direction_;
+    return;
+  }
   preconditioner_.apply(active_, work_, compact_direction_, stiffness_);
   add_long_waves();
 }
@@ -285,7 +309,9 @@ bool ProjectedGradient::move() {
   });
   const double length = (slope < 0 && slope + 0.5 * curvature > 0) ? -slope / curvature : 1.0;
   accept(length);
-  step_curvature_ = length * length * curvature;
+  goes_alone_ = length < kLeastLength;
+  step_ = goes_alone_ ? 1 : step_;
+  step_curvature_ = goes_alone_ ? 0 : length * length * curvature;
   return true;
 }
 
@@ -329,7 +355,7 @@ State ProjectedGradient::run(const Observer& observer) {
       refresh();
       continue;
     }
-    convergence_.converged = convergence_.certificate <= problem_.tolerance;
+    convergence_.converged = meets_conditions();
     const bool give_up = convergence_.iterations >= problem_.max_iterations ||
                          convergence_.iterations - best_iteration_ > kPatience;
     const bool stop = observer && !observer({"contact", kUnknownFraction, &convergence_});
@@ -353,7 +379,7 @@ State ProjectedGradient::run(const Observer& observer) {
   if (!residual_is_fresh_) {
     refresh();
     certify();
-    convergence_.converged = convergence_.certificate <= problem_.tolerance;
+    convergence_.converged = meets_conditions();
   }
   State state;
   work_ = FieldF();

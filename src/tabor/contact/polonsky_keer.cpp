@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
-#include "tabor/contact/certificate.hpp"
+#include "tabor/contact/conditions.hpp"
 #include "tabor/contact/projection.hpp"
-#include "tabor/contact/scale.hpp"
 #include "tabor/contact/start.hpp"
 
 namespace tabor::contact {
@@ -17,20 +17,25 @@ namespace {
 class ConjugateGradient {
  public:
   ConjugateGradient(elastic::ElasticOperator& elasticity, const Problem& problem)
-      : elasticity_(elasticity), problem_(problem), cap_(problem.saturation_pressure) {}
+      : elasticity_(elasticity),
+        problem_(problem),
+        conditions_(elasticity, problem, problem.saturation_pressure),
+        cap_(problem.saturation_pressure) {}
 
   State run(const Observer& observer);
 
  private:
-  bool is_free(Index i) const { return pressure_(i) > 0 && pressure_(i) < cap_; }
+  bool is_free(Index i) const { return pressure_(i) > 0 && !at_cap(pressure_(i), cap_); }
   double mean_over_free(const Field& field) const;
   double level() const;
-  double certificate() const;
+  Conditions::Settled settle(Convergence& convergence);
   double update_direction();
+  double damping(const Convergence& convergence);
   void step(double length);
 
   elastic::ElasticOperator& elasticity_;
   const Problem& problem_;
+  Conditions conditions_;
   double cap_;                // [Pa]
   Field pressure_;            // [Pa]
   Field gap_;                 // g = S p - z, about its mean over free pixels [m]
@@ -39,6 +44,9 @@ class ConjugateGradient {
   double conjugacy_ = 0;      // delta: 0 restarts the conjugate directions
   double previous_norm_ = 1;  // G of the iteration before
   double step_length_ = 1;    // tau of the iteration before [Pa/m]
+  double damping_ = 1;        // share of tau that is taken
+  double best_certificate_ = std::numeric_limits<double>::infinity();
+  int best_iteration_ = 0;
 };
 
 double ConjugateGradient::mean_over_free(const Field& field) const {
@@ -67,15 +75,21 @@ double ConjugateGradient::level() const {
   return -shift_for_load(trial, load, cap_) / step_length_;
 }
 
-double ConjugateGradient::certificate() const {
-  Candidates all{std::vector<double>(pressure_.data(), pressure_.data() + pressure_.size()),
-                 std::vector<double>(gap_.data(), gap_.data() + gap_.size())};
-  const auto n = static_cast<double>(pressure_.size());
-  const double load = problem_.mean_pressure * n;
-  if (!(std::abs(pressure_.sum() / load - 1) <= 1e-10)) {
-    return std::numeric_limits<double>::infinity();
+/// Certifies the pressure; where that is good enough, puts pixels on their bounds that are inside
+/// in name only and tells whether the answer is converged.
+Conditions::Settled ConjugateGradient::settle(Convergence& convergence) {
+  const auto n = static_cast<std::size_t>(pressure_.size());
+  const std::span<const double> gap(gap_.data(), n);
+  convergence.certificate =
+      conditions_.certificate({{pressure_.data(), pressure_.data() + n}, {gap.begin(), gap.end()}});
+  if (!(convergence.certificate <= problem_.tolerance)) {
+    return Conditions::Settled::not_yet;
   }
-  return std::max(0.0, duality_gap(all, load, cap_) / (load * length_scale(elasticity_, problem_)));
+  const std::span<double> pressure(pressure_.data(), n);
+  const Conditions::Settled settled = conditions_.settle(pressure, gap);
+  convergence.converged =
+      settled == Conditions::Settled::already && conditions_.gaps_close(pressure, gap);
+  return settled;
 }
 
 /// t = g + delta G / G_old t on the free pixels; returns the step length <g, t> / <r, t>.
@@ -96,6 +110,20 @@ double ConjugateGradient::update_direction() {
   return curvature > 0 ? slope / curvature : 0;
 }
 
+/// Share of the step to take: halved each time that many iterations brought no better certificate.
+/// With a cap, steps of full length can go round in circles.
+double ConjugateGradient::damping(const Convergence& convergence) {
+  constexpr int patience = 100;
+  if (convergence.certificate < best_certificate_) {
+    best_certificate_ = convergence.certificate;
+    best_iteration_ = convergence.iterations;
+  } else if (convergence.iterations - best_iteration_ > patience) {
+    damping_ /= 2;
+    best_iteration_ = convergence.iterations;
+  }
+  return damping_;
+}
+
 /// Moves the free pixels along t and those that violate the contact conditions along g, then
 /// restores bounds and load.
 void ConjugateGradient::step(double length) {
@@ -109,7 +137,8 @@ void ConjugateGradient::step(double length) {
       pressure_(i) -= length * gap_(i);
       any_violation = true;
     }
-    pressure_(i) = std::clamp(pressure_(i), 0.0, cap_);
+    // What is beyond the cap stays there until the load is restored: that keeps it at the cap.
+    pressure_(i) = std::max(pressure_(i), 0.0);
   }
   conjugacy_ = any_violation ? 0 : 1;
   fit_to_load(pressure_, problem_.mean_pressure, cap_);
@@ -130,8 +159,10 @@ State ConjugateGradient::run(const Observer& observer) {
     convergence.operator_applications += 1;
     state.displacement = gap_;
     gap_ -= problem_.height;
-    convergence.certificate = certificate();
-    convergence.converged = convergence.certificate <= problem_.tolerance;
+    if (settle(convergence) == Conditions::Settled::now) {
+      conjugacy_ = 0;
+      continue;
+    }
     const bool stop =
         observer && !observer({"contact (Polonsky-Keer)", std::numeric_limits<double>::quiet_NaN(),
                                &convergence});
@@ -141,8 +172,9 @@ State ConjugateGradient::run(const Observer& observer) {
     gap_ -= level();
     const double length = update_direction();
     convergence.operator_applications += 1;
-    step_length_ = length > 0 ? length : step_length_;
-    step(step_length_);
+    // A pixel alone tells nothing about the step length: a shorter one ends going to and fro.
+    step_length_ = length > 0 ? length : step_length_ / 2;
+    step(step_length_ * damping(convergence));
     convergence.iterations += 1;
   }
   convergence.fft_pairs = convergence.operator_applications;

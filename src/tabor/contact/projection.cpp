@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tabor/contact/pixel_list.hpp"
 #include "tabor/core/parallel.hpp"
 
 namespace tabor::contact {
@@ -59,7 +60,17 @@ double shift_for_load(const std::vector<double>& x, double load, double cap) {
 }
 
 void project_on_load(std::vector<double>& x, double load, double cap) {
-  const double shift = shift_for_load(x, load, cap);
+  double shift = shift_for_load(x, load, cap);
+  // A shift far larger than the pressures loses load to rounding; what it leaves near the bounds is
+  // exact and is shifted again.
+  constexpr double lost = 1e-12;
+  constexpr int most_rounds = 4;
+  for (int round = 0;
+       round < most_rounds && std::abs(load_and_slope(x, shift, cap).first - load) > lost * load;
+       ++round) {
+    for_each(x.size(), [&](std::size_t i) { x[i] -= shift; });
+    shift = shift_for_load(x, load, cap);
+  }
   parallel_for(static_cast<Index>(x.size()), kBlock, [&](Index begin, Index end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
       x[i] = std::clamp(x[i] - shift, 0.0, cap);

@@ -1,10 +1,22 @@
 #include "tabor/contact/scale.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tabor/core/parallel.hpp"
 
 namespace tabor::contact {
+
+Extent extent_of(const Field& map) {
+  const auto block = [&](Index begin, Index end) {
+    return Eigen::Map<const Eigen::ArrayXd>(map.data() + begin, end - begin);
+  };
+  const double depth = parallel_max(
+      map.size(), [&](Index begin, Index end) { return -block(begin, end).minCoeff(); });
+  const double highest = parallel_max(
+      map.size(), [&](Index begin, Index end) { return block(begin, end).maxCoeff(); });
+  return {-depth, highest};
+}
 
 double length_scale(const elastic::ElasticOperator& elasticity, const Problem& problem) {
   const double* height = problem.height.data();
@@ -18,11 +30,12 @@ double length_scale(const elastic::ElasticOperator& elasticity, const Problem& p
     return partial;
   });
   const double rms_height = std::sqrt(squares / n);
-  if (rms_height > 1e-12 * std::abs(mean)) {  // above the rounding error of a constant height
-    return rms_height;
-  }
-  return problem.mean_pressure * std::sqrt(elasticity.grid().area()) /
-         elasticity.effective_modulus();
+  const double displacement =
+      problem.mean_pressure * std::sqrt(elasticity.grid().area()) / elasticity.effective_modulus();
+  // Below, what doubles cannot tell from a constant height under that displacement.
+  const double flat =
+      std::max(1e-12 * std::abs(mean), elasticity.drops_mean() ? 0.0 : 1e-10 * displacement);
+  return rms_height > flat ? rms_height : displacement;
 }
 
 }  // namespace tabor::contact

@@ -3,6 +3,7 @@
 #include <functional>
 #include <numbers>
 
+#include "tabor/contact/conditions.hpp"
 #include "tabor/contact/contact.hpp"
 #include "tabor/contact/patches.hpp"
 #include "tabor/core/parallel.hpp"
@@ -32,7 +33,7 @@ bool fills_whole_lines(const State& state, double saturation_pressure) {
   if (!std::isfinite(saturation_pressure)) {
     return false;
   }
-  const Mask saturated = state.pressure >= saturation_pressure;
+  const Mask saturated = saturated_mask(state, saturation_pressure);
   return saturated.rowwise().all().any() || saturated.colwise().all().any();
 }
 
@@ -55,9 +56,10 @@ Summary summarise(const State& state, const Problem& problem, const Grid& grid, 
   summary.contact_area_fraction = std::max(
       floor, summary.contact_area_fraction_pixels - (summary.area_correction_valid ? excess : 0.0));
   summary.saturated_area_fraction =
-      mean_of(n, [&](Index i) { return state.pressure(i) >= cap ? 1.0 : 0.0; });
+      mean_of(n, [&](Index i) { return at_cap(state.pressure(i), cap) ? 1.0 : 0.0; });
   summary.mean_gap = mean_of(n, [&](Index i) { return std::max(state.gap(i), 0.0); });
   summary.separation = state.separation;
+  summary.contact_gap_error = state.gap_error;
   summary.max_pressure = state.pressure.maxCoeff();
   summary.elastic_energy =
       mean_of(n, [&](Index i) { return 0.5 * state.pressure(i) * state.displacement(i); });

@@ -41,7 +41,7 @@ constexpr Member kMembers[] = {
 
 io::ByteMap contact_states(const contact::State& state, double saturation_pressure) {
   return (state.pressure > 0).cast<std::uint8_t>() +
-         (state.pressure >= saturation_pressure).cast<std::uint8_t>();
+         contact::saturated_mask(state, saturation_pressure).cast<std::uint8_t>();
 }
 
 void write_spectrum(io::Hdf5Writer& writer, const std::string& axis, const std::string& density,
@@ -177,6 +177,7 @@ Scalars scalars_of(const contact::Summary& summary, const Convergence& convergen
           {"n_patches", static_cast<double>(summary.n_patches)},
           {"perimeter_m", summary.perimeter},
           {"certificate", convergence.certificate},
+          {"contact_gap_error_m", summary.contact_gap_error},
           {"tolerance", convergence.tolerance},
           {"converged", convergence.converged ? 1.0 : 0.0},
           {"iterations", static_cast<double>(convergence.iterations)},
