@@ -61,6 +61,38 @@ TEST(SolveContact, ReturnsANonConvergedStateWhenStopped) {
   EXPECT_NEAR(state.pressure.mean() / problem.mean_pressure, 1, 1e-10);
 }
 
+// A large solve spends half its time on coarser grids: whoever watches is asked there too.
+TEST(SolveContact, AsksItsObserverFromTheFirstMoment) {
+  const auto elasticity = elastic::make_periodic(square(256), 1.0);
+  contact::Problem problem;
+  problem.height = self_affine(256, 0.8, 1, 64, 1);
+  problem.mean_pressure = 0.02;
+  int before_fine_grid = 0;
+  bool is_fine_grid = false;
+  double transform_seconds_at_first = -1;
+  const auto whole =
+      contact::solve(*elasticity, problem, contact::Solver::fast, [&](const Progress& progress) {
+        if (before_fine_grid == 0) {
+          transform_seconds_at_first = elasticity->fft_seconds();
+        }
+        is_fine_grid = is_fine_grid || progress.convergence != nullptr;
+        before_fine_grid += is_fine_grid ? 0 : 1;
+        return true;
+      });
+  EXPECT_TRUE(whole.convergence.converged);
+  EXPECT_EQ(transform_seconds_at_first, 0);
+  EXPECT_GE(before_fine_grid, 5) << "two coarser grids and the first question";
+  // Said once, "stop" holds, wherever it was said.
+  for (int at = 1; at <= 5; ++at) {
+    int calls = 0;
+    const auto state = contact::solve(*elasticity, problem, contact::Solver::fast,
+                                      [&](const Progress&) { return ++calls != at; });
+    EXPECT_EQ(calls, at);
+    EXPECT_FALSE(state.convergence.converged);
+    EXPECT_NEAR(state.pressure.mean() / problem.mean_pressure, 1, 1e-10);
+  }
+}
+
 TEST(SolveContact, SaysSoWhenItRunsOutOfIterations) {
   const auto elasticity = elastic::make_periodic(square(64), 1.0);
   contact::Problem problem;

@@ -209,12 +209,20 @@ State solve(elastic::ElasticOperator& elasticity, const Problem& problem, Solver
     state.separation += offset;
     return state;
   }
+  // Asked before any work; once it says stop, every part of the solution stops at its next
+  // question.
+  bool stopped = false;
+  const Observer asked = [&](const Progress& progress) {
+    stopped = stopped || (observer && !observer(progress));
+    return !stopped;
+  };
+  asked({"contact"});
   State state;
   bool cap_is_idle = !std::isfinite(problem.saturation_pressure);
   if (!try_full_contact(elasticity, problem, state)) {
     const double pairs_spent = state.convergence.fft_pairs;
-    state = cap_is_idle ? run(elasticity, problem, solver, observer)
-                        : run_capped(elasticity, problem, solver, observer, cap_is_idle);
+    state = cap_is_idle ? run(elasticity, problem, solver, asked)
+                        : run_capped(elasticity, problem, solver, asked, cap_is_idle);
     state.convergence.fft_pairs += pairs_spent;
   }
   finish_state(elasticity, problem, cap_is_idle ? kNoSaturation : problem.saturation_pressure,

@@ -341,7 +341,7 @@ void ProjectedGradient::accept(double length) {
 State ProjectedGradient::run(const Observer& observer) {
   const Index ny = problem_.height.rows();
   const Index nx = problem_.height.cols();
-  residual_ = starting_pressure(elasticity_, problem_, convergence_.fft_pairs);
+  residual_ = starting_pressure(elasticity_, problem_, observer, convergence_.fft_pairs);
   candidates_ = pressed_pixels(residual_);
   refresh();
   work_ = zeros(ny, nx);

@@ -6,9 +6,10 @@ namespace tabor::contact {
 
 /// A first pressure that carries the load: the solution of the same problem on a grid of half the
 /// resolution where that exists (recursively), else the bearing area of the heights. Adds the work
-/// of the coarse grids to fft_pairs, weighted by their share of pixels.
+/// of the coarse grids to fft_pairs, weighted by their share of pixels. The observer is asked on
+/// the coarse grids too, and told no certificate of theirs.
 Field starting_pressure(const elastic::ElasticOperator& elasticity, const Problem& problem,
-                        double& fft_pairs);
+                        const Observer& observer, double& fft_pairs);
 
 /// Scales or shifts p on its support so that mean(p) = P exactly, within the bounds; a support too
 /// small for the load is widened to all pixels.
