@@ -147,6 +147,16 @@ TEST(AxisymmetricHalfSpace, UniformShapeIsExactUnderADisc) {
   }
 }
 
+// A pressure that is the same at all nodes ends at the last one.
+TEST(AxisymmetricHalfSpace, LinearShapeIsExactUnderADisc) {
+  const Eigen::ArrayXd radii = graded_radii(40, 1e-4, 5);
+  const AxisymmetricHalfSpace half_space(radii, kModulus, PressureShape::linear);
+  const Eigen::VectorXd u = displaced(half_space, Eigen::VectorXd::Ones(40));
+  for (Index i = 0; i < 40; ++i) {
+    EXPECT_NEAR(u[i] / disc_displacement(radii[i], radii[39], kModulus), 1, 1e-13);
+  }
+}
+
 TEST(AxisymmetricHalfSpace, LoadOfAUniformPressureIsThatOfTheDisc) {
   for (const PressureShape shape : kShapes) {
     const AxisymmetricHalfSpace half_space(graded_radii(50, 2e-4, 8), kModulus, shape);

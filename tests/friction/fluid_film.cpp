@@ -79,6 +79,13 @@ TEST(LoadSearch, FindsTheZeroOfIncreasingFunctionsOnBothSides) {
   }
 }
 
+// The square of a position up to 1 is the solids' share: of a film that carries 36 % of the load in
+// the dry contact's gap, and less in a wider one, they take at least 64 %.
+TEST(LoadSearch, FirstLeavesTheSolidsWhatTheFilmCannotCarry) {
+  EXPECT_NEAR(LoadSearch().next(1, std::log(1.36)), 0.8, 1e-15);
+  EXPECT_LT(LoadSearch().next(1, std::log(3.0)), 0.8);
+}
+
 // The surface gives way while the load is searched for.
 TEST(LoadSearch, FindsAZeroThatMovesWhileItIsSearched) {
   for (const double moved : {0.6, 0.05}) {

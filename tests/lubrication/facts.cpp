@@ -291,6 +291,10 @@ TEST(Deposition, RefusesInputThatMakesNoSense) {
   height(3, 3) = std::nan("");
   EXPECT_THROW(attempt(dose_of({1e-7})), InputError);
   EXPECT_THROW(deposit(height, Grid{7, 8, 1, 1}, dose_of({1e-7})), InputError);
+  height(3, 3) = 0;
+  EXPECT_NO_THROW(deposit(height, Grid{8, 8, 1, 1}, dose_of({1e-7})));
+  EXPECT_THROW(deposit(height, Grid{8, 8, 0, 1}, dose_of({1e-7})), InputError);
+  EXPECT_THROW(deposit(height, Grid{8, 8, 1, 0}, dose_of({1e-7})), InputError);
 }
 
 TEST(Deposition, StopsWhenTheObserverAsksTo) {

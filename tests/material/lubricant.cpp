@@ -98,6 +98,7 @@ TEST(GlycerolWater, ThickensWithGlycerolAndThinsWithTemperature) {
 
 TEST(GlycerolWater, RefusesWhatTheFormulaWasNotFittedTo) {
   EXPECT_THROW(glycerol_water_viscosity(95, 297.15), InputError);
+  EXPECT_THROW(glycerol_water_viscosity(1.01, 297.15), InputError);
   EXPECT_THROW(glycerol_water_viscosity(-0.1, 297.15), InputError);
   EXPECT_THROW(glycerol_water_viscosity(0.95, 24), InputError);
   EXPECT_THROW(glycerol_water_viscosity(std::nan(""), 297.15), InputError);

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+
 #include "sample_surfaces.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/topography/geometry.hpp"
@@ -163,6 +165,31 @@ TEST(Level, WritesItsNumbersIntoTheHistory) {
   EXPECT_THAT(level(tilted, Form::plane).history.back(),
               testing::AllOf(testing::StartsWith("level=plane: 2867 valid points"),
                              testing::HasSubstr("tilt x 0.25, y -0.5")));
+}
+
+TEST(LevelMean, WritesTheMeanAndTakesASinglePoint) {
+  auto point = surface(kGrid, [](double, double) { return kHole; });
+  point.height(3, 4) = 2.5e-6;
+  const auto levelled = level(point, Form::mean);
+  EXPECT_NEAR(levelled.height(3, 4), 0, 1e-20);
+  EXPECT_THAT(levelled.history.back(), testing::HasSubstr("1 valid points, mean 2.5 µm"));
+}
+
+// P_2 = (3 u^2 - 1) / 2, u = -1 and 1 at the outer edges of the outer pixels.
+TEST(FitForm, HasTheCoefficientsOfLegendresPolynomials) {
+  Field height(30, 20);
+  for (Index y = 0; y < 30; ++y) {
+    for (Index x = 0; x < 20; ++x) {
+      const double u = (2 * static_cast<double>(x) + 1) / 20 - 1;
+      const double v = (2 * static_cast<double>(y) + 1) / 30 - 1;
+      height(y, x) = 5 + 2 * u - 3 * v + 0.5 * (3 * u * u - 1) / 2 + 0.25 * u * v;
+    }
+  }
+  const auto fit = fit_form(height, 2);
+  const std::array expected{5.0, 2.0, -3.0, 0.5, 0.25, 0.0};
+  for (std::size_t t = 0; t < expected.size(); ++t) {
+    EXPECT_NEAR(fit.coefficients[t], expected[t], 1e-13) << t;
+  }
 }
 
 TEST(Level, RefusesPointsThatDoNotDetermineTheForm) {
