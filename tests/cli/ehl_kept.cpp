@@ -22,7 +22,7 @@ using testing::HasSubstr;
 EhlProgram adding_program() {
   EhlProgram program{.name = "add",
                      .summary = "",
-                     .keys = {"number", "file"},
+                     .keys = {{.name = "number"}, {.name = "file"}},
                      .files = {"file"},
                      .columns = {{"sum", "sum", ""}},
                      .studies = {},

@@ -91,9 +91,9 @@ int dispatch(const Words& args, Context& context, ProgressStyle style) {
              (args.front() == "help" && words.empty())) {
     context.out << overview();
   } else if (args.front() == "help") {
-    context.out << help_of(find_verb(words.front()));
+    context.out << help_of(find_verb(words.front()), words.size() > 1 ? words[1] : "");
   } else if (const Verb& verb = find_verb(args.front()); asks_for_help(words)) {
-    context.out << help_of(verb);
+    context.out << help_of(verb, words.front());
   } else {
     return run_verb(verb, words, context, style);
   }

@@ -27,11 +27,7 @@ struct Request {
   std::optional<std::string> output;
 };
 
-const std::vector<EhlProgram>& programs() {
-  static const std::vector<EhlProgram> all = {impact_program(), squeeze_program(), line_program(),
-                                              point_program()};
-  return all;
-}
+const std::vector<EhlProgram>& programs() { return ehl_programs(); }
 
 const EhlProgram& find_program(const std::string& name) {
   std::vector<std::string> names;
@@ -54,7 +50,7 @@ void write_result(io::Hdf5Writer& writer, const std::string& group, const io::Js
 
 int show_one(const EhlProgram& program, const io::Config& config, const Request& request,
              Context& context) {
-  config.reject_unknown(program.keys);
+  reject_unknown_keys(program, config);
   const EhlAnswer answer = solve_whole(program.solve, config, context);
   for (const std::string& warning : answer.warnings) context.warn(warning);
   if (request.output) {
@@ -120,9 +116,10 @@ std::string details() {
     text += fmt::format(" {} - {}.", program.name, program.summary);
   }
   return text +
-         " docs/ehl.md, docs/ehl_line.md and docs/ehl_point.md list the keys of their cases. A "
-         "sweep "
-         "with -o keeps its finished cases: stopped, the same command goes on from there.";
+         " 'tabor ehl PROGRAM --help' lists the keys of its cases; docs/ehl.md, docs/ehl_line.md "
+         "and "
+         "docs/ehl_point.md explain what they do. A sweep with -o keeps its finished cases: "
+         "stopped, the same command goes on from there.";
 }
 
 void declare_options(OptionSet& set, Request& request) {
@@ -172,7 +169,8 @@ Verb ehl_verb() {
             const auto request = std::make_shared<Request>();
             declare_options(set, *request);
             return [request](Context& context) { return run(*request, context); };
-          }};
+          },
+          .tables = ehl_key_tables};
 }
 
 }  // namespace tabor::cli

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tabor/cli/ehl_keys.hpp"
 #include "tabor/cli/verb.hpp"
 #include "tabor/io/hdf5.hpp"
 #include "tabor/io/json.hpp"
@@ -62,7 +63,7 @@ struct EhlChain {
 struct EhlProgram {
   std::string name;
   std::string summary;
-  std::vector<std::string> keys;        ///< of the case
+  EhlKeys keys;                         ///< of the case
   std::vector<std::string> files = {};  ///< keys that name a file, from where the case lies
   std::vector<EhlColumn> columns;
   std::vector<EhlStudy> studies;

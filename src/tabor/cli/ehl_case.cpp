@@ -67,10 +67,14 @@ double read_effective_modulus(const io::Config& config) {
   });
 }
 
-const std::vector<std::string>& solids_keys() {
-  static const std::vector<std::string> keys = {
-      "solids.e_prime", "solids.youngs_modulus", "solids.poissons_ratio",
-      "solids.counter_youngs_modulus", "solids.counter_poissons_ratio"};
+const EhlKeys& solids_keys() {
+  static const EhlKeys keys = {
+      {"solids.e_prime", "Pa", "of the moduli below",
+       "E' = 2 E* = 2/[(1 - nu1^2)/E1 + (1 - nu2^2)/E2]; this or youngs_modulus"},
+      {"solids.youngs_modulus", "Pa", "", "E1 of the deforming body"},
+      {"solids.poissons_ratio", "", "required beside it", "nu1"},
+      {"solids.counter_youngs_modulus", "Pa", "a rigid counter body", "E2 of the counter body"},
+      {"solids.counter_poissons_ratio", "", "required beside it", "nu2"}};
   return keys;
 }
 
@@ -131,11 +135,19 @@ material::Lubricant read_lubricant(const io::Config& config, const std::string& 
   return lubricant;
 }
 
-const std::vector<std::string>& lubricant_keys() {
-  static const std::vector<std::string> keys = {
-      "lubricant.viscosity",     "lubricant.glycerol_fraction",  "lubricant.temperature",
-      "lubricant.viscosity_law", "lubricant.pressure_viscosity", "lubricant.density_law"};
-  return keys;
+EhlKeys viscosity_keys(const std::string& usual_law) {
+  return {{"lubricant.viscosity", "Pa s", "of the next two", "eta0, at ambient pressure"},
+          {"lubricant.glycerol_fraction", "", "", "mass fraction of glycerol in water, 0 to 1"},
+          {"lubricant.temperature", "K", "", "of glycerol-water, 0 to 100 degC (\"24 degC\")"},
+          {"lubricant.viscosity_law", "", usual_law, "constant, barus or roelands"},
+          {"lubricant.pressure_viscosity", "1/Pa", "required, unless the law is constant",
+           "alpha, by how much viscosity grows with pressure"}};
+}
+
+EhlKeys lubricant_keys(const std::string& usual_law) {
+  return joined(viscosity_keys(usual_law),
+                {{{"lubricant.density_law", "", "constant",
+                   "constant, dowson-higginson or rounded-dowson-higginson"}}});
 }
 
 material::Shear read_shear(const io::Config& config) {
@@ -164,9 +176,12 @@ material::Shear read_shear(const io::Config& config) {
   return material::NewtonianShear{};
 }
 
-const std::vector<std::string>& shear_keys() {
-  static const std::vector<std::string> keys = {
-      "lubricant.eyring_stress", "lubricant.limiting_stress", "lubricant.limiting_coefficient"};
+const EhlKeys& shear_keys() {
+  static const EhlKeys keys = {
+      {"lubricant.eyring_stress", "Pa", "Newtonian", "tau_E of Ree and Eyring"},
+      {"lubricant.limiting_stress", "Pa", "Newtonian",
+       "tau_0 of tau_L = tau_0 + zeta p, instead of eyring_stress"},
+      {"lubricant.limiting_coefficient", "", "0", "zeta, beside limiting_stress"}};
   return keys;
 }
 
@@ -189,18 +204,13 @@ ehl::Asperities read_asperities(const io::Config& config, double usual_film) {
   return asperities;
 }
 
-const std::vector<std::string>& asperity_keys() {
-  static const std::vector<std::string> keys = {
-      "asperities.boundary_film", "asperities.friction_coefficient", "asperities.shear_strength"};
-  return keys;
-}
-
-std::vector<std::string> joined(std::vector<std::string> keys,
-                                const std::vector<std::vector<std::string>>& more) {
-  for (const std::vector<std::string>& list : more) {
-    keys.insert(keys.end(), list.begin(), list.end());
-  }
-  return keys;
+EhlKeys asperity_keys(const std::string& usual_film) {
+  return {{"asperities.boundary_film", "m", usual_film,
+           "h_b: solids touch where no more film than this is left"},
+          {"asperities.friction_coefficient", "", "not known",
+           "mu_b of what solids carry where they touch without flowing; 0: frictionless"},
+          {"asperities.shear_strength", "Pa", "not known",
+           "tau_b of the area where they so touch, instead of friction_coefficient"}};
 }
 
 }  // namespace tabor::cli

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tabor/cli/ehl_keys.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/ehl/asperities.hpp"
 #include "tabor/io/toml.hpp"
@@ -34,27 +36,24 @@ bool flag_or(const io::Config& config, std::string_view key, bool otherwise);
 /// [solids]: e_prime (2 E*), or youngs_modulus and poissons_ratio with those of the counter body
 /// (rigid unless given). Returns E* [Pa].
 double read_effective_modulus(const io::Config& config);
-const std::vector<std::string>& solids_keys();
+const EhlKeys& solids_keys();
 
 /// [lubricant]: viscosity, or glycerol_fraction and temperature; viscosity_law, pressure_viscosity,
 /// density_law. `usual_law` is the viscosity law where the case names none.
 material::Lubricant read_lubricant(const io::Config& config, const std::string& usual_law);
-const std::vector<std::string>& lubricant_keys();
+EhlKeys lubricant_keys(const std::string& usual_law);
+EhlKeys viscosity_keys(const std::string& usual_law);  ///< those without the density's
 
 /// [lubricant]: eyring_stress, or limiting_stress with limiting_coefficient; Newtonian without.
 material::Shear read_shear(const io::Config& config);
-const std::vector<std::string>& shear_keys();
+const EhlKeys& shear_keys();
 
 /// [asperities]: boundary_film, unless given `usual_film` [m]; friction_coefficient or
 /// shear_strength.
 ehl::Asperities read_asperities(const io::Config& config, double usual_film);
-const std::vector<std::string>& asperity_keys();
+EhlKeys asperity_keys(const std::string& usual_film);
 
 /// The file that a key names, from where the case lies.
 std::filesystem::path named_file(const io::Config& config, std::string_view key);
-
-/// Key lists one after the other.
-std::vector<std::string> joined(std::vector<std::string> keys,
-                                const std::vector<std::vector<std::string>>& more);
 
 }  // namespace tabor::cli

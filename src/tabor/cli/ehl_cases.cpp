@@ -99,7 +99,7 @@ EhlCases::EhlCases(const EhlSeries& series, const std::vector<SweepAxis>& axes,
   configs.reserve(combinations.size());
   for (const Places& places : combinations) {
     configs.push_back(case_at(series.config, axes, places));
-    configs.back().reject_unknown(series.program.keys);
+    reject_unknown_keys(series.program, configs.back());
   }
 }
 

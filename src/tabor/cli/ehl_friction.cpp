@@ -21,12 +21,12 @@ std::optional<std::string> sheared_too_hard(const material::Shear& shear, double
   const double ratio = std::abs(stress) / pressure;
   if (!is_newtonian || !(ratio > kYieldRatio)) return std::nullopt;
   return fmt::format(
-      "a Newtonian film would be sheared at {}, {} of the pressure; oils give way at a tenth of "
+      "a Newtonian film would be sheared at {}, {} times the pressure; oils give way at a tenth of "
       "it: "
       "no friction of the film; give lubricant.eyring_stress (tabor ehl point), less viscosity or "
       "a "
       "lower sliding speed",
-      si(stress, "Pa"), percent(ratio, 2));
+      si(stress, "Pa"), plain(ratio, 2));
 }
 
 std::optional<std::string> frictionless(const ehl::Asperities& asperities, double load_share) {

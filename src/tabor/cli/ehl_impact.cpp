@@ -214,15 +214,30 @@ EhlAnswer solve(const io::Config& config, Context& context) {
   return answer;
 }
 
+EhlKeys impact_keys() {
+  const EhlKeys ball = {{"ball.radius", "m", kRequired, "R, radius of the ball"},
+                        {"ball.mass", "kg", kRequired, "m, its mass"},
+                        {"ball.speed", "m/s", kRequired, "its speed of approach"}};
+  const EhlKeys own = {
+      {"lubricant.layer", "m", kRequired, "h00, thickness of the liquid on the flat"},
+      {"impact.gravity", "", "false", "true or false"},
+      {"impact.start", "", "rigid",
+       "rigid: bodies are rigid until a contact under the force would be deformed by 1 % of the "
+       "film; full: all equations from the first touch"},
+      {"impact.profiles", "s", "about 60 instants", "list of times of the profiles in OUT.h5"},
+      {"grid.nodes", "", fmt::format("{}", ehl::ImpactProblem{}.nodes), "along the radius"},
+      {"grid.domain", "m", "as far as the ball is wet after the rigid stage",
+       "r_max, how much of the wet disc is computed; decides the rebound"},
+      {"grid.time_step", "s", "dry contact time over 400", "nominal step"}};
+  return joined(ball, {solids_keys(), lubricant_keys("roelands"), own});
+}
+
 }  // namespace
 
 EhlProgram impact_program() {
   return {.name = "impact",
           .summary = "a ball falls on a flat covered with a layer of liquid and rebounds",
-          .keys = joined(
-              {"ball.radius", "ball.mass", "ball.speed", "lubricant.layer", "impact.gravity",
-               "impact.start", "impact.profiles", "grid.nodes", "grid.domain", "grid.time_step"},
-              {solids_keys(), lubricant_keys()}),
+          .keys = impact_keys(),
           .columns = {{"max_force_N", "force", "N"},
                       {"min_film_m", "smallest film", "m"},
                       {"max_deformation_m", "deformation", "m"},

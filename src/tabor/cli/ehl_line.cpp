@@ -64,6 +64,18 @@ Eigen::ArrayXd read_roughness(const io::Config& config, const ehl::LineProblem& 
   return roughness;
 }
 
+EhlKeys line_roughness_keys() {
+  return {{"roughness.height", "m", "no asperity",
+           "of one asperity, height cos^2(pi (x - place)/width)"},
+          {"roughness.width", "m", "required beside height", "of the asperity"},
+          {"roughness.place", "m", "0 m", "of the asperity, from the centre"},
+          {"roughness.amplitude", "m", "no waves", "of waves, amplitude sin(2 pi x/wavelength)"},
+          {"roughness.wavelength", "m", "required beside amplitude", "of the waves"},
+          {"roughness.file", "", "no scan",
+           "a row of a scan, levelled over the domain, as long as that or longer, no holes"},
+          {"roughness.row", "", "the middle one", "of the scan, counted from 0"}};
+}
+
 /// [asperities]; without it nothing touches.
 ehl::Asperities read_line_asperities(const io::Config& config) {
   const ehl::Asperities asperities = read_asperities(config, 0);
@@ -259,39 +271,33 @@ EhlAnswer solve(const io::Config& config, Context& context) {
   return answer;
 }
 
+EhlKeys line_keys() {
+  const ehl::LineProblem usual;
+  const EhlKeys bodies = {
+      {"cylinder.radius", "m", kRequired, "R, radius of the cylinder"},
+      {"cylinder.load_per_length", "N/m", kRequired, "F, load over length"},
+      {"motion.entrainment_speed", "m/s", kRequired, "u_m, mean speed of both surfaces"},
+      {"motion.sliding_speed", "m/s", "0 m/s", "u_s, their difference, for friction"},
+      {"motion.slide_to_roll_ratio", "", "of sliding_speed",
+       "u_s/u_m, instead of sliding_speed: follows u_m in a sweep; 2: one body stands still"}};
+  const EhlKeys film = {
+      {"film.cavitation", "", "reynolds",
+       "reynolds: p >= 0; penalty: a source -min(0, p)/eps in its place"},
+      {"film.penalty", "", fmt::format("{}", usual.penalty),
+       "1/eps in units of u_m over the pressure of Hertz"},
+      {"grid.nodes", "", fmt::format("{}", usual.nodes), "along the flow"},
+      {"grid.inlet", "m", "4 half widths and 10 sqrt(2 R h), h by Moes", "before the centre"},
+      {"grid.outlet", "m", "1.5 half widths and 3 sqrt(2 R h)", "behind it"}};
+  return joined(bodies, {solids_keys(), lubricant_keys("barus"), asperity_keys("nothing touches"),
+                         line_roughness_keys(), wear_keys(), film});
+}
+
 }  // namespace
 
 EhlProgram line_program() {
   return {.name = "line",
           .summary = "a film between a cylinder and a flat, smooth, rough, touching or worn",
-          .keys = joined({"cylinder.radius",
-                          "cylinder.load_per_length",
-                          "motion.entrainment_speed",
-                          "motion.sliding_speed",
-                          "motion.slide_to_roll_ratio",
-                          "film.cavitation",
-                          "film.penalty",
-                          "roughness.height",
-                          "roughness.width",
-                          "roughness.place",
-                          "roughness.file",
-                          "roughness.row",
-                          "roughness.amplitude",
-                          "roughness.wavelength",
-                          "wear.coefficient",
-                          "wear.density",
-                          "wear.width",
-                          "wear.track_length",
-                          "wear.stroke",
-                          "wear.steps",
-                          "wear.cycles",
-                          "wear.cycles_each",
-                          "wear.wave_amplitude",
-                          "wear.waves",
-                          "grid.nodes",
-                          "grid.inlet",
-                          "grid.outlet"},
-                         {solids_keys(), lubricant_keys(), asperity_keys()}),
+          .keys = line_keys(),
           .files = {"roughness.file"},
           .columns = {{"min_film_m", "smallest film", "m"},
                       {"central_film_m", "central film", "m"},

@@ -36,6 +36,22 @@ double thinnest_of(const ehl::WearResult& wear) {
 
 }  // namespace
 
+EhlKeys wear_keys() {
+  return {
+      {"wear.coefficient", "m^2/N", "no wear", "kw, worn volume over load and distance"},
+      {"wear.track_length", "m", "required, unless stroke is given",
+       "of a track that runs with the sliding speed"},
+      {"wear.stroke", "m", "runs one way",
+       "the track goes to and fro as a sine with the speeds of [motion] in its middle"},
+      {"wear.steps", "", fmt::format("{}", kUsualSteps), "of time per cycle"},
+      {"wear.cycles", "", "1", "computed cycles"},
+      {"wear.cycles_each", "", "1", "what each computed cycle stands for"},
+      {"wear.density", "kg/m^3", "no mass", "of the worn body; with width it gives the worn mass"},
+      {"wear.width", "m", "no mass", "of the track"},
+      {"wear.wave_amplitude", "m", "smooth", "of waves of the unworn track"},
+      {"wear.waves", "", "required beside wave_amplitude", "a whole number of them"}};
+}
+
 ehl::WearProblem read_wear(const io::Config& config, const ehl::LineProblem& contact) {
   if (contact.roughness.size() > 0) {
     throw InputError(config.place("wear.coefficient"), "beside a roughness that stands still",

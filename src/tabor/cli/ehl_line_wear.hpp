@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "tabor/cli/ehl_keys.hpp"
 #include "tabor/ehl/wear.hpp"
 #include "tabor/io/hdf5.hpp"
 #include "tabor/io/json.hpp"
@@ -9,6 +10,9 @@
 
 /// The worn track of `tabor ehl line`.
 namespace tabor::cli {
+
+/// [wear]
+EhlKeys wear_keys();
 
 /// [wear]: a track that runs under the cylinder, round and round or to and fro. Throws InputError
 /// beside a roughness that stands still.

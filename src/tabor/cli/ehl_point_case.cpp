@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tabor/cli/ehl_case.hpp"
+#include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
 
 namespace tabor::cli {
@@ -211,40 +212,49 @@ ehl::PointProblem read_point(const io::Config& given) {
   return problem;
 }
 
-std::vector<std::string> point_keys() {
-  return joined({"ball.radius",
-                 "ball.radius_x",
-                 "ball.radius_y",
-                 "ball.load",
-                 "groups.M",
-                 "groups.L",
-                 "solids.plastic_pressure",
-                 "motion.speed",
-                 "motion.entrainment_speed",
-                 "motion.sliding_speed",
-                 "motion.duration",
-                 "roughness.file",
-                 "roughness.channel",
-                 "roughness.treatment",
-                 "roughness.bump.height",
-                 "roughness.bump.wavelength",
-                 "roughness.bump.place",
-                 "roughness.kind",
-                 "roughness.orientation",
-                 "roughness.rms",
-                 "roughness.pixel",
-                 "roughness.seed",
-                 "roughness.place",
-                 "roughness.groove_spacing",
-                 "grid.nodes",
-                 "grid.nodes_x",
-                 "grid.nodes_y",
-                 "grid.inlet",
-                 "grid.outlet",
-                 "grid.half_width",
-                 "grid.domain",
-                 "grid.time_step"},
-                {solids_keys(), lubricant_keys(), shear_keys(), asperity_keys()});
+namespace {
+
+EhlKeys body_keys() {
+  return {{"ball.radius", "m", "10 mm with [groups], else required", "R, radius of a ball"},
+          {"ball.radius_x", "m", "of radius", "reduced radius along the flow, instead of radius"},
+          {"ball.radius_y", "m", "of radius", "reduced radius across the flow"},
+          {"ball.load", "N", "required, unless [groups]", "w, load"},
+          {"groups.M", "", "of load and speed",
+           "Moes' W (2U)^(-3/4), with L instead of load and speed; bodies and oil that are not "
+           "given are then steel and a mineral oil"},
+          {"groups.L", "", "of load and speed", "Moes' G (2U)^(1/4); 0 for a constant viscosity"},
+          {"solids.plastic_pressure", "Pa", "elastic",
+           "P_plast, at which the softer solid flows; bonds of a sixth of it rub there"},
+          {"motion.speed", "m/s", "required, unless [groups] or the next two",
+           "of the ball over a flat at rest: u_s = speed, u_m = speed/2"},
+          {"motion.entrainment_speed", "m/s", "of speed", "u_m, mean speed, instead of speed"},
+          {"motion.sliding_speed", "m/s", "0; over a roughness 2 u_m",
+           "u_s, difference of the speeds, beside entrainment_speed or [groups]"},
+          {"motion.duration", "s", "steady", "how long the rough surface moves with its body"}};
+}
+
+EhlKeys grid_keys() {
+  const ehl::PointProblem usual;
+  return {{"grid.nodes_x", "", fmt::format("{}", usual.nodes_x), "along the flow"},
+          {"grid.nodes_y", "", fmt::format("{}", usual.nodes_y), "across the flow"},
+          {"grid.nodes", "", "of nodes_x",
+           "along the flow; nodes_y changes in proportion; wins over nodes_x, for sweeps"},
+          {"grid.inlet", "", fmt::format("{}", usual.inlet),
+           "domain before the centre, in half axes of the dry contact"},
+          {"grid.outlet", "", fmt::format("{}", usual.outlet), "behind it"},
+          {"grid.half_width", "", fmt::format("{}", usual.half_width), "to either side"},
+          {"grid.domain", "", "1",
+           "factor on inlet and half width, with as many more nodes, for sweeps"},
+          {"grid.time_step", "s", "spacing over the fastest speed",
+           "longest step, beside motion.duration"}};
+}
+
+}  // namespace
+
+EhlKeys point_keys() {
+  const double film = ehl::PointProblem{}.asperities.boundary_film;
+  return joined(body_keys(), {solids_keys(), lubricant_keys("roelands"), shear_keys(),
+                              asperity_keys(si(film, "m")), point_roughness_keys(), grid_keys()});
 }
 
 }  // namespace tabor::cli

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tabor/cli/ehl_keys.hpp"
 #include "tabor/cli/verb.hpp"
 #include "tabor/ehl/point.hpp"
 #include "tabor/io/toml.hpp"
@@ -27,7 +28,8 @@ PointRoughness read_point_roughness(const io::Config& config, const ehl::PointPr
 /// The whole case: read_point() with the roughness where it lies at rest.
 ehl::PointProblem read_rough_point(const io::Config& config, Context& context);
 
-/// All keys of a case.
-std::vector<std::string> point_keys();
+/// All keys of a case, and those of [roughness] alone.
+EhlKeys point_keys();
+EhlKeys point_roughness_keys();
 
 }  // namespace tabor::cli

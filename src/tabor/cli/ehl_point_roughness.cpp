@@ -188,7 +188,35 @@ Topography read_scan(const io::Config& config, Context& context) {
   return scan;
 }
 
+std::string usual_rms() {
+  std::string text;
+  for (const Finish& finish : kFinishes) {
+    text += fmt::format("{} ({}), ", si(finish.rms_height, "m"), finish.name);
+  }
+  return text + fmt::format("{} ({})", si(kGroundRms, "m"), kGround);
+}
+
 }  // namespace
+
+EhlKeys point_roughness_keys() {
+  return {
+      {"roughness.file", "", "no scan", "a scan, larger than 1.25 times the contact, no holes"},
+      {"roughness.channel", "", "as 'tabor info' picks it", "its height channel"},
+      {"roughness.treatment", "", "[\"level=plane\"]", "its treatment, a list as in a study"},
+      {"roughness.kind", "", "none", "a generated surface: lapped-like, polished-like or ground"},
+      {"roughness.rms", "m", usual_rms(), "of the generated surface"},
+      {"roughness.seed", "", "that of --seed", "of its random numbers"},
+      {"roughness.pixel", "m", si(kPixel, "m"), "of the generated surface"},
+      {"roughness.groove_spacing", "m", si(kGrooveSpacing, "m"),
+       "of ground; grooves are 20 times as long"},
+      {"roughness.orientation", "", "longitudinal",
+       "longitudinal: x of the scan and grooves along the flow; transverse: turned by a quarter"},
+      {"roughness.place", "m", "[\"0 m\", \"0 m\"]",
+       "where the middle of the surface lies, along and across the flow"},
+      {"roughness.bump.height", "m", "no bump", "of one bump in the middle of rings"},
+      {"roughness.bump.wavelength", "m", "required beside height", "of its rings"},
+      {"roughness.bump.place", "m", "[\"0 m\", \"0 m\"]", "of its middle"}};
+}
 
 PointRoughness read_point_roughness(const io::Config& config, const ehl::PointProblem& problem,
                                     double travel, Context& context) {

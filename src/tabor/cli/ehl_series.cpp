@@ -215,7 +215,7 @@ int show_sweep(const EhlSeries& series, const std::vector<SweepAxis>& axes, Cont
 int show_study(const EhlSeries& series, const std::string& name, Context& context) {
   const EhlProgram& program = series.program;
   const EhlStudy& study = find_study(program, name);
-  series.config.reject_unknown(program.keys);
+  reject_unknown_keys(program, series.config);
   // What the case does not say is what its solution says it took.
   const double usual =
       number_of(solve_one_of_many(program.solve, series.config, context).scalars, study.scalar);

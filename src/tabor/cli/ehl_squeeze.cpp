@@ -134,17 +134,28 @@ EhlAnswer solve(const io::Config& config, Context& context) {
   return answer;
 }
 
+EhlKeys squeeze_keys() {
+  const EhlKeys roller = {
+      {"roller.mass_per_length", "kg/m", kRequired, "m, per width"},
+      {"roller.effective_radius", "m", "required by hydrodynamic", "R of roller and flat together"},
+      {"roller.spring", "N/m^2", kRequired, "k_e, between roller and film, per width"},
+      {"roller.damping", "N s/m^2", "required by linear", "c, per width"},
+      {"roller.speed", "m/s", kRequired, "of approach"}};
+  const EhlKeys own = {{"lubricant.layer", "m", kRequired, "h00, where the film begins"},
+                       {"motion.sliding_speed", "m/s", "0 m/s", "Vs"},
+                       {"motion.gravity", "", "true", "true or false"},
+                       {"grid.time_step", "s", "layer over 2000 times the speed", "nominal step"},
+                       {"squeeze.model", "", "hydrodynamic",
+                        "hydrodynamic, or linear: m x'' + c x' + k x = 0 in closed form"}};
+  return joined(roller, {viscosity_keys("barus"), own});
+}
+
 }  // namespace
 
 EhlProgram squeeze_program() {
   return {.name = "squeeze",
           .summary = "a roller closes on a sliding flat under a layer of liquid",
-          .keys = joined(
-              {"roller.mass_per_length", "roller.effective_radius", "roller.spring",
-               "roller.damping", "roller.speed", "lubricant.layer", "motion.sliding_speed",
-               "motion.gravity", "grid.time_step", "squeeze.model"},
-              {{"lubricant.viscosity", "lubricant.glycerol_fraction", "lubricant.temperature",
-                "lubricant.viscosity_law", "lubricant.pressure_viscosity"}}),
+          .keys = squeeze_keys(),
           .columns = {{"max_force_N_per_m", "force", "N/m"},
                       {"min_film_m", "smallest film", "m"},
                       {"time_max_force_s", "time of force", "s"},

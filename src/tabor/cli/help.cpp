@@ -62,6 +62,51 @@ std::string cell(const std::string& text) {
   return escaped;
 }
 
+std::string markdown_row(const std::vector<std::string>& cells, bool has_code) {
+  std::string line = "|";
+  for (const std::string& text : cells) {
+    const bool is_code = has_code && &text == &cells.front();
+    line += is_code ? fmt::format(" `{}` |", cell(text)) : fmt::format(" {} |", cell(text));
+  }
+  return line + '\n';
+}
+
+std::string markdown_of(const HelpTable& table) {
+  std::string text = fmt::format("\n### {}\n\n", table.title);
+  text += markdown_row(table.headings, false);
+  text += markdown_row(std::vector<std::string>(table.headings.size(), "---"), false);
+  for (const auto& row : table.rows) text += markdown_row(row, true);
+  return text;
+}
+
+/// The first column as wide as it must be, others at most a fifth of the screen; the last one
+/// wrapped.
+std::string text_of(const HelpTable& table) {
+  constexpr std::size_t kWidest = kScreenWidth / 5;
+  std::vector<std::size_t> rooms(table.headings.size() - 1);
+  std::vector<std::vector<std::string>> rows = {table.headings};
+  rows.insert(rows.end(), table.rows.begin(), table.rows.end());
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < rooms.size(); ++i) {
+      const std::size_t size = i == 0 ? row[i].size() : std::min(kWidest, row[i].size());
+      rooms[i] = std::max(rooms[i], size + 2);
+    }
+  }
+  std::string text = fmt::format("\n{}:\n", table.title);
+  for (const auto& row : rows) {
+    std::string line = "  ";
+    std::size_t indent = line.size();
+    for (std::size_t i = 0; i < rooms.size(); ++i) {
+      line += row[i];
+      indent += rooms[i];
+      if (line.size() + 2 > indent) line += '\n' + std::string(indent, ' ');
+      line.resize(std::max(line.size(), line.rfind('\n') + 1 + indent), ' ');
+    }
+    text += line + wrapped(row.back(), indent) + '\n';
+  }
+  return text;
+}
+
 std::string markdown_of(const Verb& verb) {
   std::string text = fmt::format("\n## tabor {}\n\n    tabor {} {}\n\n{}\n", verb.name, verb.name,
                                  verb.arguments, verb.summary);
@@ -73,6 +118,8 @@ std::string markdown_of(const Verb& verb) {
   }
   text += "\nExamples:\n\n";
   for (const std::string& example : verb.examples) text += "    " + example + "\n";
+  if (!verb.tables) return text;
+  for (const HelpTable& table : verb.tables()) text += markdown_of(table);
   return text;
 }
 
@@ -90,7 +137,7 @@ std::string overview() {
          "130 interrupted.\n";
 }
 
-std::string help_of(const Verb& verb) {
+std::string help_of(const Verb& verb, const std::string& word) {
   std::string text = fmt::format("Usage: tabor {} {}\n\n{}\n", verb.name, verb.arguments,
                                  wrapped(verb.summary, 0));
   if (!verb.details.empty()) text += fmt::format("\n{}\n", wrapped(verb.details, 0));
@@ -103,6 +150,10 @@ std::string help_of(const Verb& verb) {
   }
   text += "\nExamples:\n";
   for (const std::string& example : verb.examples) text += "  " + example + "\n";
+  if (!verb.tables) return text;
+  for (const HelpTable& table : verb.tables()) {
+    if (table.word == word) text += text_of(table);
+  }
   return text;
 }
 

@@ -6,8 +6,9 @@
 
 namespace tabor::cli {
 
-std::string overview();                 ///< `tabor --help`
-std::string help_of(const Verb& verb);  ///< `tabor VERB --help`
-std::string options_markdown();         ///< docs/options.md, from the same declarations
+std::string overview();  ///< `tabor --help`
+/// `tabor VERB --help`, with what the verb adds for a word behind it.
+std::string help_of(const Verb& verb, const std::string& word = "");
+std::string options_markdown();  ///< docs/options.md, from the same declarations
 
 }  // namespace tabor::cli

@@ -38,6 +38,14 @@ struct Context {
 /// Runs a verb whose options are parsed; returns its exit code.
 using Action = std::function<int(Context&)>;
 
+/// What help adds for a word of a verb: `tabor ehl impact --help`.
+struct HelpTable {
+  std::string word;  ///< "impact"
+  std::string title;
+  std::vector<std::string> headings;
+  std::vector<std::vector<std::string>> rows;
+};
+
 /// One verb of the command line. declare() binds the options to variables owned by the Action it
 /// returns, so a verb can be run any number of times.
 struct Verb {
@@ -47,6 +55,7 @@ struct Verb {
   std::string details = {};           ///< paragraphs below the summary, may be empty
   std::vector<std::string> examples;  ///< command lines that work in the project's folder
   std::function<Action(OptionSet&)> declare;
+  std::function<std::vector<HelpTable>()> tables = {};
 };
 
 /// All verbs in the order people meet them.

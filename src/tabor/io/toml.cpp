@@ -225,13 +225,58 @@ std::vector<Config> Config::tables(std::string_view key) const {
   return result;
 }
 
+std::vector<std::string> Config::keys() const {
+  std::vector<std::pair<std::string, const toml::node*>> leaves;
+  collect_leaves(table_->values, "", leaves);
+  std::vector<std::string> paths;
+  paths.reserve(leaves.size());
+  for (const auto& [path, node] : leaves) paths.push_back(path);
+  return paths;
+}
+
+namespace {
+
+std::string last_part(const std::string& path) { return split(path, '.').back(); }
+
+/// A known key whose last part is that of `path`, or holds it or is held by it; in the same table
+/// rather than in another. Empty if there is none.
+std::string namesake(const std::string& path, const std::vector<std::string>& known) {
+  const std::string name = last_part(path);
+  const std::string table = path.substr(0, path.size() - name.size());
+  std::string best;
+  int best_rank = 0;
+  for (const std::string& key : known) {
+    const std::string other = last_part(key);
+    const bool holds =
+        std::min(name.size(), other.size()) > 2 &&
+        (other.find(name) != std::string::npos || name.find(other) != std::string::npos);
+    const bool is_beside = !table.empty() && key.starts_with(table);
+    const int rank = other == name ? 3 : !holds ? 0 : is_beside ? 2 : 1;
+    if (rank > best_rank) {
+      best = key;
+      best_rank = rank;
+    }
+  }
+  return best;
+}
+
+/// "; did you mean ...?", by letters or, where that finds nothing, by name.
+std::string key_suggestion(const std::string& path, const std::vector<std::string>& known) {
+  const std::string near = suggestion(path, known);
+  if (!near.empty()) return near;
+  const std::string other = namesake(path, known);
+  return other.empty() ? "" : "; did you mean '" + other + "'?";
+}
+
+}  // namespace
+
 void Config::reject_unknown(const std::vector<std::string>& known) const {
   std::vector<std::pair<std::string, const toml::node*>> leaves;
   collect_leaves(table_->values, "", leaves);
   for (const auto& [path, node] : leaves) {
     if (std::find(known.begin(), known.end(), path) == known.end()) {
       throw InputError(fmt::format("{}: unknown key '{}{}'{}", place_of(table_->name, node),
-                                   table_->prefix, path, suggestion(path, known)));
+                                   table_->prefix, path, key_suggestion(path, known)));
     }
   }
 }

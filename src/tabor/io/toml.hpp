@@ -35,6 +35,9 @@ class Config {
   /// The tables of an array [[key]]; empty if the key is absent.
   std::vector<Config> tables(std::string_view key) const;
 
+  /// Dotted paths of all values; those inside an array of tables are written "scan[].file".
+  std::vector<std::string> keys() const;
+
   /// Throws for the first key that is not in `known`, naming the nearest. Keys inside an array of
   /// tables are written "scan[].file".
   void reject_unknown(const std::vector<std::string>& known) const;
