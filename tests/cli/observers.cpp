@@ -8,6 +8,7 @@
 
 #include "support/folder.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/core/parallel.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/lubrication/deposition.hpp"
 #include "tabor/topography/combine.hpp"
@@ -102,8 +103,12 @@ class Observers : public testing::Test {
   void SetUp() override {
     topography::write(rough(), folder_ / "scan.sdf");
     set_watch_period(0);
+    set_thread_count(1);  // with more, chance decides which blocks the thread that is watched gets
   }
-  void TearDown() override { set_watch_period(kWatchPeriod); }
+  void TearDown() override {
+    set_watch_period(kWatchPeriod);
+    set_thread_count(0);
+  }
 
   std::vector<Watched> all() const { return everything((folder_ / "scan.sdf").string()); }
 
