@@ -161,6 +161,15 @@ TEST(WarningsOfFilm, TellOfFewDropletsAndOfOilThatRanOff) {
   EXPECT_THAT(codes_of(of_film(films(dose)[0])), Contains("oil-lost"));
 }
 
+TEST(WarningsOfFilm, TellTheShareOfTheOilThatRanOff) {
+  lubrication::Film film;
+  film.dosed_volume = 8e-12;
+  film.lost_volume = 2e-12;
+  const Warnings found = of_film(film);
+  ASSERT_EQ(codes_of(found), std::vector<std::string>{"oil-lost"});
+  EXPECT_THAT(found[0].text, HasSubstr("25 % of the liquid ran off"));
+}
+
 /// Codes of a contact under 10 MPa with a shear strength of 70 MPa.
 std::vector<std::string> friction_codes(const friction::Contact& contact, double spill = 0,
                                         friction::Area area = friction::Area::corrected,

@@ -24,7 +24,7 @@ struct Context {
   std::optional<std::uint64_t> seed = {};
   std::vector<std::string> warnings = {};
   std::vector<analysis::Finding> findings = {};  ///< those of the warnings that belong to numbers
-  CommandFiles files = {};  ///< that it reads and writes
+  CommandFiles files = {};                       ///< that it reads and writes
   ProgressPrinter* progress = nullptr;
 
   /// Adds a warning once; it appears in the JSON object or on stderr.
