@@ -163,6 +163,7 @@ TEST(WarningsOfFilm, TellOfFewDropletsAndOfOilThatRanOff) {
 
 TEST(WarningsOfFilm, TellTheShareOfTheOilThatRanOff) {
   lubrication::Film film;
+  film.thickness = Field::Zero(2, 2);
   film.dosed_volume = 8e-12;
   film.lost_volume = 2e-12;
   const Warnings found = of_film(film);
