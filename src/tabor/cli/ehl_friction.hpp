@@ -1,7 +1,7 @@
 #pragma once
 
-#include <optional>
 #include <string>
+#include <vector>
 
 #include "tabor/ehl/asperities.hpp"
 #include "tabor/material/lubricant.hpp"
@@ -9,13 +9,21 @@
 /// Friction that a film or its solids cannot have, or that nobody can know.
 namespace tabor::cli {
 
-/// A warning where a film whose stress knows no limit is sheared at `stress` [Pa] under `pressure`
-/// [Pa], harder than oils can be: then its friction is void.
-std::optional<std::string> sheared_too_hard(const material::Shear& shear, double stress,
-                                            double pressure);
+/// The friction of a film, and what tells whether it can be.
+struct FilmFriction {
+  double max_pressure;       ///< [Pa]
+  double solid_load_share;   ///< of the solids that need a law for their friction
+  double& max_shear_stress;  ///< [Pa]
+  double& fluid;
+  double& solid;        ///< NaN if the case gives no law for it
+  double& coefficient;  ///< of both
+};
 
-/// A warning where solids carry a share of the load and the case says nothing about their friction:
-/// then that of the whole contact is void, too.
-std::optional<std::string> frictionless(const ehl::Asperities& asperities, double load_share);
+/// Takes away (NaN) the friction of a film whose stress knows no limit where it is sheared harder
+/// than oils can be, and that of the whole contact where solids carry load and the case says
+/// nothing about their friction. Returns why.
+std::vector<std::string> void_friction(const material::Shear& shear,
+                                       const ehl::Asperities& asperities,
+                                       const FilmFriction& friction);
 
 }  // namespace tabor::cli

@@ -218,20 +218,15 @@ void write_profile(io::Hdf5Writer& writer, const ehl::LineProblem& problem,
 
 /// Takes away the friction that nobody can know, and says why.
 std::vector<std::string> void_friction(const ehl::LineProblem& problem, ehl::LineResult& result) {
-  std::vector<std::string> warnings;
-  if (const auto warning = sheared_too_hard(problem.lubricant.shear, result.max_shear_stress,
-                                            result.pressure.maxCoeff())) {
-    warnings.push_back(*warning);
-    result.friction_fluid = result.max_shear_stress = kNone;
-  }
-  if (std::isnan(result.friction_solid)) {
-    const auto warning = frictionless(problem.asperities, result.asperity_load_share);
-    if (warning) warnings.push_back(*warning);
-  }
-  if (!warnings.empty()) {
-    result.friction_coefficient = result.friction_fluid + result.friction_solid;
-    result.friction_force = result.friction_coefficient * problem.load;
-  }
+  std::vector<std::string> warnings =
+      cli::void_friction(problem.lubricant.shear, problem.asperities,
+                         {.max_pressure = result.pressure.maxCoeff(),
+                          .solid_load_share = result.asperity_load_share,
+                          .max_shear_stress = result.max_shear_stress,
+                          .fluid = result.friction_fluid,
+                          .solid = result.friction_solid,
+                          .coefficient = result.friction_coefficient});
+  if (!warnings.empty()) result.friction_force = result.friction_coefficient * problem.load;
   return warnings;
 }
 

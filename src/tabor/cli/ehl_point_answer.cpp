@@ -191,24 +191,6 @@ std::optional<PointResult> smooth_film(PointProblem problem, const Observer& obs
   return solve_point(problem, nullptr, observer);
 }
 
-/// Takes away the friction that nobody can know, and says why.
-std::vector<std::string> void_friction(const PointProblem& problem, PointMeasures& measures) {
-  std::vector<std::string> warnings;
-  if (const auto warning = sheared_too_hard(problem.lubricant.shear, measures.max_shear_stress,
-                                            measures.max_pressure)) {
-    warnings.push_back(*warning);
-    measures.friction_fluid = measures.max_shear_stress = kNone;
-  }
-  if (std::isnan(measures.friction_solid)) {
-    const auto warning = frictionless(problem.asperities, measures.boundary_load_share);
-    if (warning) warnings.push_back(*warning);
-  }
-  if (!warnings.empty()) {
-    measures.friction_coefficient = measures.friction_fluid + measures.friction_solid;
-  }
-  return warnings;
-}
-
 /// What the equations do not see.
 std::vector<std::string> doubts_of(const PointProblem& problem, bool is_still) {
   std::vector<std::string> doubts;
@@ -227,7 +209,14 @@ std::vector<std::string> doubts_of(const PointProblem& problem, bool is_still) {
 EhlAnswer point_answer(const io::Config& config, const PointProblem& problem,
                        const PointResult& result, const Context& context) {
   PointMeasures measures = measure_point(problem, result);
-  const std::vector<std::string> voids = void_friction(problem, measures);
+  const std::vector<std::string> voids =
+      void_friction(problem.lubricant.shear, problem.asperities,
+                    {.max_pressure = measures.max_pressure,
+                     .solid_load_share = measures.boundary_load_share,
+                     .max_shear_stress = measures.max_shear_stress,
+                     .fluid = measures.friction_fluid,
+                     .solid = measures.friction_solid,
+                     .coefficient = measures.friction_coefficient});
   EhlAnswer answer;
   answer.scalars = scalars_of(problem, result, measures);
   if (config.has("roughness.file")) {

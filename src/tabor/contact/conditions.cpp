@@ -24,17 +24,6 @@ constexpr double kMostSettled = 1e-6;  // of the load: more is for the solver's 
 constexpr double kExactLoad = 1e-13;   // relative: no need to correct
 
 template <typename Term>
-double sum_over(std::size_t n, const Term& term) {
-  return deterministic_sum(static_cast<Index>(n), [&](Index begin, Index end) {
-    double partial = 0;
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      partial += term(i);
-    }
-    return partial;
-  });
-}
-
-template <typename Term>
 double max_over(std::size_t n, const Term& term) {
   return parallel_max(static_cast<Index>(n), [&](Index begin, Index end) {
     double largest = -std::numeric_limits<double>::infinity();

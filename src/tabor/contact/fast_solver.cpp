@@ -30,18 +30,6 @@ constexpr double kLeastLength = 1e-4;
 constexpr int kPatience = 300;  // iterations without a better certificate before giving up
 constexpr double kUnknownFraction = std::numeric_limits<double>::quiet_NaN();
 
-/// Sum of term(k) over k < n, in fixed blocks.
-template <typename Term>
-double sum_over(std::size_t n, const Term& term) {
-  return deterministic_sum(static_cast<Index>(n), [&](Index begin, Index end) {
-    double partial = 0;
-    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-      partial += term(k);
-    }
-    return partial;
-  });
-}
-
 /// A map of zeros, written on all threads.
 FieldF zeros(Index ny, Index nx) {
   auto map = uninitialised_map<FieldF>(ny, nx);

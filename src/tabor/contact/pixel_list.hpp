@@ -45,4 +45,16 @@ void for_each(std::size_t n, const Body& body) {
   });
 }
 
+/// Sum of term(k) over k < n, in fixed blocks.
+template <typename Term>
+double sum_over(std::size_t n, const Term& term) {
+  return deterministic_sum(static_cast<Index>(n), [&](Index begin, Index end) {
+    double partial = 0;
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+      partial += term(k);
+    }
+    return partial;
+  });
+}
+
 }  // namespace tabor::contact
