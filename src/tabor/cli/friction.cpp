@@ -71,6 +71,7 @@ State state_of(const ContactResult& result, const lubrication::Film& film, doubl
                 {"friction_dry", estimate.friction_dry},
                 {"friction_lubricated", estimate.friction_lubricated},
                 {"certificate", io::number(result.state.convergence.certificate)},
+                {"contact_gap_error_m", result.summary.contact_gap_error},
                 {"converged", result.state.convergence.converged}};
   return state;
 }
