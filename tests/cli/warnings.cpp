@@ -159,14 +159,18 @@ TEST_P(WarningsOfNumbers, AreTheSameFromTheVerbAndFromAStudy) {
 INSTANTIATE_TEST_SUITE_P(Conditions, WarningsOfNumbers, testing::ValuesIn(kConditions),
                          [](const auto& suite) { return suite.param.name; });
 
+std::string sheet_with_open_edges(const Folder& folder) {
+  std::string scan = (folder / "scan.h5").string();
+  const Words words = {"generate", "edt",           "-o", scan, "--pixels", "64", "--pixel",
+                       "2um",      "--not-periodic"};
+  EXPECT_EQ(run_tabor(words).code, 0);
+  return scan;
+}
+
 /// Several states in one call: each reason once, with the cases it is about.
 TEST(Warnings, AreSaidOnceOverManyStates) {
   const Folder folder;
-  const std::string scan = (folder / "scan.h5").string();
-  ASSERT_EQ(run_tabor({"generate", "edt", "-o", scan, "--pixels", "64", "--pixel", "2um",
-                       "--not-periodic"})
-                .code,
-            0);
+  const std::string scan = sheet_with_open_edges(folder);
   const Words words = {"friction",
                        scan,
                        "--pressure",
@@ -206,11 +210,7 @@ TEST(Warnings, AreSaidOnceOverManyStates) {
 /// The words by which people and scripts look for them.
 TEST(Warnings, UseTheAgreedWords) {
   const Folder folder;
-  const std::string scan = (folder / "scan.h5").string();
-  ASSERT_EQ(run_tabor({"generate", "edt", "-o", scan, "--pixels", "64", "--pixel", "2um",
-                       "--not-periodic"})
-                .code,
-            0);
+  const std::string scan = sheet_with_open_edges(folder);
   const std::string all =
       run_tabor({"friction", scan, "--pressure", "2MPa", "--density", "20g/m^2", "--youngs-modulus",
                  "70GPa", "--poisson-ratio", "0.33", "--saturation-pressure", "240MPa",
