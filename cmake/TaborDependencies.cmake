@@ -1,4 +1,5 @@
-# Every foreign library tabor uses, found once. All are Debian packages; nothing is downloaded.
+# Every foreign library that tabor and programs that use it link, found once. All are Debian packages; nothing is
+# downloaded. Those that no installed target links stand in the CMakeLists.txt of the project.
 find_package(PkgConfig REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)
@@ -7,8 +8,6 @@ find_package(PNG REQUIRED)
 find_package(TIFF REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
-find_package(nlohmann_json REQUIRED)
-find_package(CLI11 REQUIRED)
 pkg_check_modules(FFTW REQUIRED IMPORTED_TARGET fftw3)
 pkg_check_modules(FFTWF REQUIRED IMPORTED_TARGET fftw3f)
 pkg_check_modules(HDF5 REQUIRED IMPORTED_TARGET hdf5-serial)

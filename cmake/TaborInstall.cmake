@@ -1,10 +1,16 @@
 # Install and export: find_package(tabor) gives tabor::tabor and one target per module.
 include(CMakePackageConfigHelpers)
+# The verbs of the command line (module cli) are the program's own.
 get_property(modules GLOBAL PROPERTY TABOR_MODULES)
-install(TARGETS ${modules} tabor_all EXPORT taborTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-install(DIRECTORY src/tabor/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tabor FILES_MATCHING PATTERN "*.hpp"
-        PATTERN "hdf5_library.hpp" EXCLUDE PATTERN "fftw_library.hpp" EXCLUDE)
-install(DIRECTORY ${PROJECT_BINARY_DIR}/generated/tabor/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/tabor)
+list(REMOVE_ITEM modules tabor_cli)
+foreach(target IN LISTS modules ITEMS tabor_all)
+  get_target_property(sets ${target} INTERFACE_HEADER_SETS)
+  set(headers)
+  if(sets)
+    set(headers FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  endif()
+  install(TARGETS ${target} EXPORT taborTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} ${headers})
+endforeach()
 install(EXPORT taborTargets NAMESPACE tabor:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/tabor)
 configure_package_config_file(cmake/tabor-config.cmake.in ${PROJECT_BINARY_DIR}/tabor-config.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/tabor)

@@ -1,9 +1,11 @@
-# tabor_module(<name> SOURCES ... [DEPENDS modules...] [PUBLIC targets...] [PRIVATE targets...])
+# tabor_module(<name> SOURCES ... [DEPENDS modules...] [PUBLIC targets...] [PRIVATE targets...]
+#              [PUBLIC_HEADERS headers...])
 #
 # One static library per folder of src/tabor. A module links the modules it names and nothing else,
-# so that the layer table of docs/architecture.md also holds at link time.
+# so that the layer table of docs/architecture.md also holds at link time. Public headers are
+# installed; all others are for this tree alone.
 function(tabor_module name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PUBLIC;PRIVATE;PUBLIC_HEADERS" ${ARGN})
   set(target tabor_${name})
   if(ARG_SOURCES)
     add_library(${target} STATIC ${ARG_SOURCES})
@@ -28,6 +30,37 @@ function(tabor_module name)
   list(TRANSFORM ARG_DEPENDS PREPEND tabor::)
   target_link_libraries(${target} ${scope} ${ARG_DEPENDS} ${ARG_PUBLIC})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  tabor_public_headers(${target} ${scope} ${name} ${ARG_PUBLIC_HEADERS})
+endfunction()
+
+# Installs these headers of a module with its target, and makes tabor/<name>.hpp, which includes them.
+# A header that is not in the folder is a generated one.
+function(tabor_public_headers target scope name)
+  if(NOT ARGN)
+    return()
+  endif()
+  set(generated ${PROJECT_BINARY_DIR}/generated)
+  set(includes "")
+  set(files ${generated}/tabor/${name}.hpp)
+  foreach(header IN LISTS ARGN)
+    string(APPEND includes "#include \"tabor/${name}/${header}\"\n")
+    set_property(GLOBAL APPEND PROPERTY TABOR_PUBLIC_HEADERS tabor/${name}/${header})
+    if(EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${header})
+      list(APPEND files ${CMAKE_CURRENT_SOURCE_DIR}/${header})
+    else()
+      list(APPEND files ${generated}/tabor/${name}/${header})
+    endif()
+  endforeach()
+  tabor_umbrella(${name} "The public headers of the module ${name}." "${includes}")
+  target_sources(${target} ${scope} FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}/src ${generated}
+                 FILES ${files})
+endfunction()
+
+# Makes the header tabor/<name>.hpp, which only includes others.
+function(tabor_umbrella name comment includes)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/tabor/${name}.hpp
+       CONTENT "#pragma once\n\n// ${comment}\n${includes}")
+  set_property(GLOBAL APPEND PROPERTY TABOR_UMBRELLAS tabor/${name}.hpp)
 endfunction()
 
 # Links all of the named modules, and of those below them, before a program's own objects. The linker keeps
@@ -49,7 +82,24 @@ function(tabor_link_modules_first program)
   target_link_options(${program} PRIVATE LINKER:--whole-archive ${files} LINKER:--no-whole-archive)
 endfunction()
 
+# A filter of the tests in these files whose first line ends with "// slow".
+function(tabor_slow_tests filter)
+  set(names)
+  foreach(source IN LISTS ARGN)
+    file(STRINGS ${source} lines REGEX "^TEST.*// slow$")
+    foreach(line IN LISTS lines)
+      string(REGEX REPLACE "^TEST[_FP]*\\(([A-Za-z0-9]+), ([A-Za-z0-9]+)\\).*" "\\1.\\2" test "${line}")
+      list(APPEND names ${test})
+    endforeach()
+  endforeach()
+  list(JOIN names ":" names)
+  set(${filter} "${names}" PARENT_SCOPE)
+endfunction()
+
 # tabor_test(<name> SOURCES ... LINK targets... [LABEL fast|slow])
+#
+# A test marked "// slow" among fast ones is slow: sanitizers would draw it out to minutes, and lighter
+# tests enter its code as well.
 function(tabor_test name)
   cmake_parse_arguments(ARG "" "LABEL" "SOURCES;LINK" ${ARGN})
   if(NOT ARG_LABEL)
@@ -73,7 +123,13 @@ function(tabor_test name)
     list(FILTER modules INCLUDE REGEX "^tabor::")
     tabor_link_modules_first(${name} ${modules})
   endif()
-  gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} DISCOVERY_TIMEOUT 60)
+  tabor_slow_tests(slow ${ARG_SOURCES})
+  if(slow)
+    gtest_discover_tests(${name} TEST_FILTER "${slow}" PROPERTIES LABELS slow DISCOVERY_TIMEOUT 60)
+    gtest_discover_tests(${name} TEST_FILTER "-${slow}" PROPERTIES LABELS ${ARG_LABEL} DISCOVERY_TIMEOUT 60)
+  else()
+    gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} DISCOVERY_TIMEOUT 60)
+  endif()
 endfunction()
 
 set(TABOR_COMPILE_OPTIONS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion)
@@ -93,6 +149,13 @@ if(TABOR_WERROR)
 endif()
 # No -ffast-math anywhere: NaN marks holes. -ffp-contract=off keeps results the same on every target.
 add_compile_options(-ffp-contract=off)
+if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache" AND TABOR_PRECOMPILED)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_compile_options(-fpch-preprocess)
+  else()
+    add_compile_options("SHELL:-Xclang -fno-pch-timestamp")
+  endif()
+endif()
 if(TABOR_NATIVE)
   add_compile_options(-march=native)
 endif()

@@ -1,11 +1,32 @@
-# Installs BUILD to a fresh prefix, then configures, builds and runs the project in SOURCE with it.
+# Installs BUILD to a fresh prefix, compares what lies there with the list of public headers, then
+# configures, builds and runs the projects CONSUMER and EXAMPLES with it.
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
+function(build source)
+  run(${CMAKE_COMMAND} -S ${source} -B ${WORK}/${ARGV1} -G Ninja -DCMAKE_BUILD_TYPE=Release
+      -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${FLAGS})
+  run(${CMAKE_COMMAND} --build ${WORK}/${ARGV1})
+endfunction()
+
+# What a program prints must match a regular expression.
+function(run_example expected)
+  execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE printed)
+  message("${printed}")
+  if(NOT printed MATCHES "${expected}")
+    message(FATAL_ERROR "expected ${expected}")
+  endif()
+endfunction()
+
+set(ENV{CMAKE_CXX_COMPILER_LAUNCHER} "${LAUNCHER}")
 file(REMOVE_RECURSE ${WORK})
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/prefix)
-run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -G Ninja -DCMAKE_BUILD_TYPE=Release
-    -DCMAKE_PREFIX_PATH=${WORK}/prefix -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_CXX_FLAGS=${FLAGS})
-run(${CMAKE_COMMAND} --build ${WORK}/build)
-run(${WORK}/build/consumer)
+run(${PYTHON} ${CMAKE_CURRENT_LIST_DIR}/public_headers.py ${HEADERS} ${WORK}/prefix/include)
+build(${CONSUMER} consumer)
+run(${WORK}/consumer/consumer)
+build(${EXAMPLES} examples)
+run_example("kappa +[12]\\.[0-9]+, between 1.60 and 2.51" ${WORK}/examples/contact_area)
+# As examples/05_scan_to_friction/README.md has them.
+run_example("contact 4.17 %, wet share 4.29 %, friction dry 0.2917, wet 0.2792"
+            ${WORK}/examples/scan_to_friction ${SURFACE})

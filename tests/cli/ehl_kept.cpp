@@ -9,7 +9,6 @@
 
 #include "support/folder.hpp"
 #include "tabor/cli/ehl_cases.hpp"
-#include "tabor/cli/interrupt.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/io/digest.hpp"
 
@@ -224,11 +223,10 @@ TEST_F(EhlKept, RemovesOnlyWhatItMade) {
 TEST_F(EhlKept, AnInterruptedCaseIsNoCase) {
   program_.make_chain = {};
   program_.solve = [](const io::Config& config, Context&) {
-    set_interrupted(config.number("number") == 7);
+    if (config.number("number") == 7) throw Interrupted();
     return EhlAnswer{.scalars = {{"sum", 0}}, .text = "", .converged = true};
   };
   EXPECT_THROW(run(kAll), Interrupted);
-  set_interrupted(false);
   EXPECT_EQ(files("case-").size(), 1u);
   EXPECT_TRUE(files("start-").empty());
 }

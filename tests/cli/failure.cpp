@@ -76,8 +76,9 @@ void expect_error_object(Words words, int code) {
   const std::string line = testing::PrintToString(words);
   EXPECT_EQ(outcome.code, code) << line << outcome.err;
   EXPECT_THAT(outcome.err, StartsWith("tabor: ")) << line;
-  ASSERT_TRUE(io::Json::accept(outcome.out)) << line << " printed '" << outcome.out << "'";
-  const io::Json object = io::Json::parse(outcome.out);
+  io::Json object;
+  ASSERT_NO_THROW(object = io::Json::parse(outcome.out))
+      << line << " printed '" << outcome.out << "'";
   ASSERT_TRUE(object.contains("error")) << line << object;
   const io::Json& error = object.at("error");
   for (const char* key : {"what", "got", "expected", "remedy"}) {

@@ -7,21 +7,6 @@
 namespace tabor::cli {
 namespace {
 
-TEST(FindPlateau, TakesTheLongestFlatRange) {
-  const auto plateau =
-      find_plateau({32, 64, 128, 256, 512, 1024}, {0.30, 0.20, 0.101, 0.100, 0.099, 0.05});
-  ASSERT_TRUE(plateau);
-  EXPECT_EQ(plateau->first, 128);
-  EXPECT_EQ(plateau->last, 512);
-  EXPECT_NEAR(plateau->area_fraction, 0.1, 1e-12);
-}
-
-TEST(FindPlateau, FindsNoneInASteadyDecline) {
-  EXPECT_FALSE(find_plateau({32, 64, 128, 256}, {0.4, 0.3, 0.2, 0.1}));
-}
-
-TEST(FindPlateau, NeedsThreePoints) { EXPECT_FALSE(find_plateau({32, 64}, {0.1, 0.1})); }
-
 TEST(ParseCutoffs, TakesRisingNumbersOnly) {
   EXPECT_EQ(parse_cutoffs("64,128,256"), (std::vector<double>{64, 128, 256}));
   for (const char* bad : {"", "64,", "128,64", "64,64", "0,1", "-1", "8um", "inf"}) {

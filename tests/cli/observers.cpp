@@ -7,21 +7,21 @@
 #include <vector>
 
 #include "support/folder.hpp"
+#include "tabor/comparison/combine.hpp"
+#include "tabor/comparison/registration.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/watch.hpp"
-#include "tabor/lubrication/deposition.hpp"
-#include "tabor/topography/combine.hpp"
-#include "tabor/topography/features.hpp"
-#include "tabor/topography/file.hpp"
-#include "tabor/topography/height_differences.hpp"
+#include "tabor/deposition/deposition.hpp"
+#include "tabor/metrology/features.hpp"
+#include "tabor/metrology/height_differences.hpp"
+#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/profile.hpp"
+#include "tabor/metrology/watershed.hpp"
+#include "tabor/scan/file.hpp"
+#include "tabor/synthesis/synthesis.hpp"
 #include "tabor/topography/holes.hpp"
-#include "tabor/topography/parameters.hpp"
-#include "tabor/topography/profile.hpp"
-#include "tabor/topography/registration.hpp"
-#include "tabor/topography/synthesis.hpp"
 #include "tabor/topography/treatment.hpp"
-#include "tabor/topography/watershed.hpp"
 
 namespace tabor::test {
 namespace {
@@ -29,11 +29,11 @@ namespace {
 using topography::Topography;
 
 Topography rough() {
-  topography::SelfAffine recipe;
+  synthesis::SelfAffine recipe;
   recipe.grid = {256, 256, 256e-6, 256e-6};
   recipe.rms_height = 1e-6;
   recipe.short_cutoff_wavelength = 4e-6;
-  Topography surface = topography::self_affine(recipe);
+  Topography surface = synthesis::self_affine(recipe);
   surface.periodic = false;
   return surface;
 }
@@ -51,17 +51,17 @@ struct Watched {
 };
 
 std::vector<Watched> everything(const std::string& file) {
-  using topography::ParameterOptions;
+  using metrology::ParameterOptions;
   std::vector<Watched> all;
   const Topography surface = rough();
   for (const auto model :
-       {lubrication::Model::droplets, lubrication::Model::limit, lubrication::Model::bottom_fill}) {
-    all.push_back({"deposit " + std::string(lubrication::name(model)), 10, [=](const Observer& o) {
-                     lubrication::Dose dose;
+       {deposition::Model::droplets, deposition::Model::limit, deposition::Model::bottom_fill}) {
+    all.push_back({"deposit " + std::string(deposition::name(model)), 10, [=](const Observer& o) {
+                     deposition::Dose dose;
                      dose.mean_films = {1e-7};
                      dose.droplet_height = 1e-7;
                      dose.model = model;
-                     lubrication::deposit(surface.height, surface.grid, dose, o);
+                     deposition::deposit(surface.height, surface.grid, dose, o);
                    }});
   }
   for (const char* step : {"level=plane", "level=poly4", "lowpass=hann:64/L", "lowpass=gauss:8um",
@@ -72,36 +72,35 @@ std::vector<Watched> everything(const std::string& file) {
     all.push_back({"fill holes", 2,
                    [=](const Observer& o) { topography::fill_holes(with_holes(), fill, o); }});
   }
-  all.push_back({"read", 8, [=](const Observer& o) { topography::read(file, {}, o); }});
-  for (const auto set : topography::kParameterSets) {
-    all.push_back(
-        {"parameters " + std::string(topography::name_of(set)), 4, [=](const Observer& o) {
-           ParameterOptions options;
-           options.sets = {set};
-           topography::parameters(surface, options, o);
-         }});
+  all.push_back({"read", 8, [=](const Observer& o) { scan::read(file, {}, o); }});
+  for (const auto set : metrology::kParameterSets) {
+    all.push_back({"parameters " + std::string(metrology::name_of(set)), 4, [=](const Observer& o) {
+                     ParameterOptions options;
+                     options.sets = {set};
+                     metrology::parameters(surface, options, o);
+                   }});
   }
   all.push_back({"height differences", 8, [=](const Observer& o) {
-                   topography::height_differences(surface.height, surface.grid, o);
+                   metrology::height_differences(surface.height, surface.grid, o);
                  }});
   all.push_back({"segment", 8, [=](const Observer& o) {
-                   topography::segment(surface, topography::MotifKind::hill, 1e-7, o);
+                   metrology::segment(surface, metrology::MotifKind::hill, 1e-7, o);
                  }});
   all.push_back(
-      {"features", 12, [=](const Observer& o) { topography::feature_parameters(surface, {}, o); }});
+      {"features", 12, [=](const Observer& o) { metrology::feature_parameters(surface, {}, o); }});
   all.push_back(
-      {"profiles", 8, [=](const Observer& o) { topography::profile_parameters(surface, {}, o); }});
+      {"profiles", 8, [=](const Observer& o) { metrology::profile_parameters(surface, {}, o); }});
   all.push_back({"registration", 8,
-                 [=](const Observer& o) { topography::register_scans(surface, surface, {}, o); }});
+                 [=](const Observer& o) { comparison::register_scans(surface, surface, {}, o); }});
   all.push_back(
-      {"combine", 8, [=](const Observer& o) { topography::combine(surface, surface, {}, o); }});
+      {"combine", 8, [=](const Observer& o) { comparison::combine(surface, surface, {}, o); }});
   return all;
 }
 
 class Observers : public testing::Test {
  protected:
   void SetUp() override {
-    topography::write(rough(), folder_ / "scan.sdf");
+    scan::write(rough(), folder_ / "scan.sdf");
     set_watch_period(0);
     set_thread_count(1);  // with more, chance decides which blocks the thread that is watched gets
   }

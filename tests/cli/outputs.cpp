@@ -303,11 +303,11 @@ TEST_F(Outputs, WithoutAStateAreNotMade) {
   std::ostringstream nowhere;
   const cli::Context context{.out = nowhere, .err = nowhere};
   cli::Scan scan;
-  scan.surface = topography::read(file("in.h5"));
+  scan.surface = scan::read(file("in.h5"));
   const Field map = scan.surface.height;
   for (const bool has_state : {false, true}) {
     cli::FieldsFile fields(file("out.h5"), context, scan, io::Json::object(), {});
-    if (has_state) fields.add_state(0, io::Json::object(), {{"gap", "m", "gap", map}});
+    if (has_state) fields.add_state(0, {}, {{"gap", "m", "gap", map}});
     fields.commit(context);
     EXPECT_EQ(fs::exists(file("out.h5")), has_state);
   }

@@ -118,31 +118,29 @@ TEST(Duration, OfAnEstimateHasFewDigits) {
 /// What a sweep of 4 scans with 6 contacts each prints, from its first second to its last. The
 /// workers take tasks in order; one that runs says each second how far it is.
 struct SimulatedSweep {
-  double seconds_of(study::Task::Kind kind) const {
-    using Kind = study::Task::Kind;
-    return kind == Kind::surface ? surface : kind == Kind::film ? film : contact;
+  double seconds_of(const std::string& kind) const {
+    return kind == "surface" ? surface : kind == "film" ? film : contact;
   }
 
   /// Calls look(now, share) once a second and returns when it ended.
   double run(const std::function<void(double, double)>& look) const {
-    std::vector<study::Task> tasks;
-    for (std::size_t scan = 0; scan < 4; ++scan) {
-      tasks.push_back({study::Task::Kind::surface, scan});
-      tasks.push_back({study::Task::Kind::film, scan});
-      for (std::size_t i = 0; i < 6; ++i) tasks.push_back({study::Task::Kind::contact, scan, i});
+    std::vector<std::string> jobs;
+    for (int scan = 0; scan < 4; ++scan) {
+      jobs.insert(jobs.end(), {"surface", "film"});
+      jobs.insert(jobs.end(), 6, "contact");
     }
     double now = 0;
-    study::WorkShare work(tasks, [&] { return now; });
+    study::WorkShare work(jobs, [&] { return now; });
     work.set_workers(n_workers);
-    std::vector<std::pair<std::size_t, double>> running;  // task, when it began
-    for (std::size_t next = 0; next < tasks.size() || !running.empty(); now += 0.1) {
-      std::erase_if(running, [&](const auto& task) {
-        const double share = (now - task.second) / seconds_of(tasks[task.first].kind);
-        if (share >= 1) work.end(task.first);
-        if (share < 1) work.inside(task.first, share);
+    std::vector<std::pair<std::size_t, double>> running;  // job, when it began
+    for (std::size_t next = 0; next < jobs.size() || !running.empty(); now += 0.1) {
+      std::erase_if(running, [&](const auto& job) {
+        const double share = (now - job.second) / seconds_of(jobs[job.first]);
+        if (share >= 1) work.end(job.first);
+        if (share < 1) work.inside(job.first, share);
         return share >= 1;
       });
-      while (next < tasks.size() && running.size() < static_cast<std::size_t>(n_workers)) {
+      while (next < jobs.size() && running.size() < static_cast<std::size_t>(n_workers)) {
         work.begin(next);
         running.emplace_back(next++, now);
       }

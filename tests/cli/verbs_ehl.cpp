@@ -236,7 +236,7 @@ TEST(EhlSqueeze, HasItsKeys) {
   for (const char* key : {"min_film_m", "time_min_film_s", "turning_time_s", "lag_s"}) {
     EXPECT_TRUE(closed[key].is_null()) << key;
   }
-  EXPECT_THAT(closed["warnings"].dump(), HasSubstr("would close"));
+  EXPECT_THAT(io::to_text(closed["warnings"]), HasSubstr("would close"));
 }
 
 }  // namespace

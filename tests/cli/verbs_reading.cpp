@@ -7,7 +7,7 @@
 #include "run_tabor.hpp"
 #include "support/container_files.hpp"
 #include "support/folder.hpp"
-#include "tabor/topography/file.hpp"
+#include "tabor/scan/file.hpp"
 
 namespace tabor::test {
 namespace {
@@ -46,11 +46,11 @@ TEST_F(ReadingOptions, AMissingPixelUnitOrScaleIsAskedForByItsFlag) {
 
 TEST_F(ReadingOptions, WhatIsAskedForMakesTheFileReadable) {
   const io::Json text = json_of({"info", numbers(), "--pixel", "1um", "--unit", "nm"});
-  EXPECT_DOUBLE_EQ(text.at("height_max_m"), 10e-9);
+  EXPECT_DOUBLE_EQ(text.at("height_max_m").get<double>(), 10e-9);
   const io::Json image = json_of({"info", grey(), "--pixel", "1um", "--z-scale", "2nm"});
-  EXPECT_DOUBLE_EQ(image.at("height_max_m"), 12e-9);
+  EXPECT_DOUBLE_EQ(image.at("height_max_m").get<double>(), 12e-9);
   const io::Json layer = json_of({"info", layers(), "--channel", "layer 1"});
-  EXPECT_NEAR(layer.at("height_max_m"), 50e-6, 1e-12);
+  EXPECT_NEAR(layer.at("height_max_m").get<double>(), 50e-6, 1e-12);
 }
 
 TEST_F(ReadingOptions, ContradictingTheFileNeedsTheOverride) {
@@ -59,9 +59,9 @@ TEST_F(ReadingOptions, ContradictingTheFileNeedsTheOverride) {
   expect_refusal({layers(), "--channel", "0", "--unit", "nm"}, {"--unit nm", "--override-unit"});
   const io::Json forced = json_of(
       {"info", layers(), "--channel", "0", "--pixel", "3um", "--unit", "nm", "--override-unit"});
-  EXPECT_NEAR(forced.at("height_max_m"), 5e-9, 1e-15);
-  EXPECT_DOUBLE_EQ(forced.at("pixel_x_m"), 3e-6);
-  EXPECT_THAT(forced.at("doubts").dump(),
+  EXPECT_NEAR(forced.at("height_max_m").get<double>(), 5e-9, 1e-15);
+  EXPECT_DOUBLE_EQ(forced.at("pixel_x_m").get<double>(), 3e-6);
+  EXPECT_THAT(io::to_text(forced.at("doubts")),
               AllOf(HasSubstr("pixel along x overridden"), HasSubstr("height unit overridden")));
 }
 
@@ -70,8 +70,8 @@ TEST_F(ReadingOptions, AHeightScaleForAFileThatHasOneIsRefusedOrOverrides) {
                  {"--z-scale", "--override-unit"});
   const io::Json forced =
       json_of({"info", layers(), "--channel", "0", "--z-scale", "1nm", "--override-unit"});
-  EXPECT_NEAR(forced.at("height_max_m"), 5e-9, 1e-15);
-  EXPECT_THAT(forced.at("doubts").dump(), HasSubstr("overridden"));
+  EXPECT_NEAR(forced.at("height_max_m").get<double>(), 5e-9, 1e-15);
+  EXPECT_THAT(io::to_text(forced.at("doubts")), HasSubstr("overridden"));
 }
 
 TEST_F(ReadingOptions, NonsenseIsRefusedNamingTheFlag) {
@@ -96,7 +96,7 @@ TEST_F(ReadingOptions, ADirectoryAPipeOrAnEmptyFileIsRefusedAtOnce) {
 
 TEST(Formats, NameTheirTierAndWhetherGwyddionIsInstalled) {
   const io::Json object = json_of({"formats"});
-  const bool installed = topography::gwyddion_program().has_value();
+  const bool installed = scan::gwyddion_program().has_value();
   EXPECT_EQ(object.at("gwyddion").at("installed"), installed);
   std::map<std::string, std::string> tiers;
   for (const io::Json& row : object.at("formats")) {

@@ -6,7 +6,7 @@
 
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
-#include "tabor/topography/file.hpp"
+#include "tabor/scan/file.hpp"
 
 namespace tabor::test {
 namespace {
@@ -50,8 +50,8 @@ TEST_F(ScanVerbs, InfoHasTheAgreedKeys) {
   expect_keys(info.at("channels").at(0), {"index", "name", "unit", "is_height"});
   EXPECT_EQ(info.at("nx"), 32);
   EXPECT_EQ(info.at("ny"), 24);
-  EXPECT_DOUBLE_EQ(info.at("pixel_x_m"), 1e-6);
-  EXPECT_DOUBLE_EQ(info.at("size_y_m"), 24e-6);
+  EXPECT_DOUBLE_EQ(info.at("pixel_x_m").get<double>(), 1e-6);
+  EXPECT_DOUBLE_EQ(info.at("size_y_m").get<double>(), 24e-6);
   EXPECT_NEAR(info.at("height_rms_m").get<double>(), 1e-6, 1e-12);
 }
 
@@ -86,8 +86,8 @@ TEST_F(ScanVerbs, TreatmentIsAppliedInTheOrderGiven) {
 }
 
 TEST_F(ScanVerbs, UnlevelledScansAreWarnedAbout) {
-  EXPECT_THAT(json_of({"params", scan()}).at("warnings").dump(), HasSubstr("--level plane"));
-  EXPECT_THAT(json_of({"params", scan(), "--level", "plane"}).at("warnings").dump(),
+  EXPECT_THAT(io::to_text(json_of({"params", scan()}).at("warnings")), HasSubstr("--level plane"));
+  EXPECT_THAT(io::to_text(json_of({"params", scan(), "--level", "plane"}).at("warnings")),
               testing::Not(HasSubstr("--level plane")));
 }
 
@@ -119,9 +119,9 @@ TEST_F(ScanVerbs, ConvertKeepsTheHeights) {
 TEST_F(ScanVerbs, PixelMayDifferAlongXAndY) {
   put_bytes(folder_ / "plain.txt", "1 2 3\n4 5 6\n7 8 10\n");
   const io::Json info = json_of({"info", file("plain.txt"), "--pixel", "5um,4um", "--unit", "nm"});
-  EXPECT_DOUBLE_EQ(info.at("pixel_x_m"), 5e-6);
-  EXPECT_DOUBLE_EQ(info.at("pixel_y_m"), 4e-6);
-  EXPECT_DOUBLE_EQ(info.at("height_max_m"), 10e-9);
+  EXPECT_DOUBLE_EQ(info.at("pixel_x_m").get<double>(), 5e-6);
+  EXPECT_DOUBLE_EQ(info.at("pixel_y_m").get<double>(), 4e-6);
+  EXPECT_DOUBLE_EQ(info.at("height_max_m").get<double>(), 10e-9);
 }
 
 TEST_F(ScanVerbs, InfoOfAFileThatLacksAUnitSaysWhatToGive) {
@@ -212,9 +212,9 @@ TEST_F(ScanVerbs, WarningsSpeakOfTheSurfaceAsItWasTreated) {
                        "--pixel", "1um", "--rms-height", "10nm"})
                 .code,
             0);
-  topography::Topography tilted = topography::read(file("flat.txt"));
+  topography::Topography tilted = scan::read(file("flat.txt"));
   for (Index x = 0; x < 64; ++x) tilted.height.col(x) += 1e-6 * static_cast<double>(x);
-  topography::write(tilted, folder_ / "tilted.sdf");
+  scan::write(tilted, folder_ / "tilted.sdf");
   EXPECT_THAT(run_tabor({"params", file("tilted.sdf")}).err, HasSubstr("tilt is larger"));
   EXPECT_THAT(run_tabor({"params", file("tilted.sdf"), "--level", "plane"}).err,
               testing::Not(HasSubstr("tilt")));

@@ -11,8 +11,8 @@
 #include "tabor/core/text.hpp"
 #include "tabor/io/csv.hpp"
 #include "tabor/io/hdf5.hpp"
-#include "tabor/topography/file.hpp"
-#include "tabor/topography/synthesis.hpp"
+#include "tabor/scan/file.hpp"
+#include "tabor/synthesis/synthesis.hpp"
 
 namespace tabor::test {
 namespace {
@@ -76,13 +76,13 @@ const Condition kConditions[] = {
 class WarningsOfNumbers : public testing::TestWithParam<Condition> {
  protected:
   void SetUp() override {
-    topography::SelfAffine recipe;
+    synthesis::SelfAffine recipe;
     recipe.grid = {64, 48, 64e-6, 48e-6};
     recipe.rms_slope = 0.1;
     recipe.short_cutoff_wavelength = 8e-6;
-    Topography surface = topography::self_affine(recipe);
+    Topography surface = synthesis::self_affine(recipe);
     GetParam().change(surface);
-    topography::write(surface, folder_ / "scan.h5");
+    scan::write(surface, folder_ / "scan.h5");
     put_bytes(folder_ / "study.toml", study());
   }
 

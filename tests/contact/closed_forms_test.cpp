@@ -32,7 +32,7 @@ WestergaardErrors compare_with_westergaard(Index n, double ratio) {
                                       static_cast<double>(n));
   }
   const Solved solved = solve_unit(row, mean_pressure, contact::kNoSaturation, 1e-9);
-  EXPECT_TRUE(solved.state.convergence.converged);
+  EXPECT_TRUE(solved.state.convergence.converged());
   double squares = 0;
   double difference = 0;
   double peak = 0;
@@ -98,7 +98,7 @@ TEST(SolveContact, IsExactAtFullContact) {
 TEST(SolveContact, CarriesAConstantSurfaceUniformly) {
   for (const auto& [ny, nx] : {std::pair<Index, Index>{16, 16}, {1, 9}, {5, 1}, {1, 1}}) {
     const Solved solved = solve_unit(Field::Constant(ny, nx, 3.0), 0.25);
-    EXPECT_TRUE(solved.state.convergence.converged);
+    EXPECT_TRUE(solved.state.convergence.converged());
     EXPECT_LE((solved.state.pressure - 0.25).abs().maxCoeff(), 1e-15);
     EXPECT_NEAR(solved.state.separation, 3.0, 1e-12);
   }

@@ -78,7 +78,7 @@ TEST_P(DenseCases, BothSolversFindTheDensePressure) {
   ASSERT_GE(expected.minCoeff(), 0) << "the reference itself did not finish";
   for (const auto solver : {contact::Solver::fast, contact::Solver::polonsky_keer}) {
     const Solved solved = solve_unit(height, mean_pressure, cap, 1e-12, solver, periodic);
-    ASSERT_TRUE(solved.state.convergence.converged) << solved.state.convergence.certificate;
+    ASSERT_TRUE(solved.state.convergence.converged()) << solved.state.convergence.certificate;
     const double error = (solved.state.pressure - expected).abs().maxCoeff() / expected.maxCoeff();
     expect_within(
         "Contact",

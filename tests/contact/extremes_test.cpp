@@ -35,7 +35,7 @@ Solved solve_on(const Grid& grid, const Field& height, double mean_pressure, dou
 }
 
 void expect_sound(const Solved& solved, double mean_pressure, double cap) {
-  EXPECT_TRUE(solved.state.convergence.converged) << solved.state.convergence.certificate;
+  EXPECT_TRUE(solved.state.convergence.converged()) << solved.state.convergence.certificate;
   EXPECT_NEAR(solved.state.pressure.mean() / mean_pressure, 1, 1e-10);
   EXPECT_LE(solved.state.pressure.maxCoeff(), cap);
   EXPECT_GE(solved.summary.contact_area_fraction_pixels, mean_pressure / cap * (1 - 1e-12));

@@ -7,6 +7,7 @@
 
 #include "contact/surfaces.hpp"
 #include "support/refusal.hpp"
+#include "support/stopping.hpp"
 #include "tabor/core/error.hpp"
 
 namespace tabor::test {
@@ -56,7 +57,7 @@ TEST(SolveContact, ReturnsANonConvergedStateWhenStopped) {
   int calls = 0;
   const auto state = contact::solve(*elasticity, problem, contact::Solver::fast,
                                     [&](const Progress&) { return ++calls < 3; });
-  EXPECT_FALSE(state.convergence.converged);
+  EXPECT_FALSE(state.convergence.converged());
   EXPECT_GT(state.convergence.certificate, 1e-6);
   EXPECT_NEAR(state.pressure.mean() / problem.mean_pressure, 1, 1e-10);
 }
@@ -79,7 +80,7 @@ TEST(SolveContact, AsksItsObserverFromTheFirstMoment) {
         before_fine_grid += is_fine_grid ? 0 : 1;
         return true;
       });
-  EXPECT_TRUE(whole.convergence.converged);
+  EXPECT_TRUE(whole.convergence.converged());
   EXPECT_EQ(transform_seconds_at_first, 0);
   EXPECT_GE(before_fine_grid, 5) << "two coarser grids and the first question";
   // Said once, "stop" holds, wherever it was said.
@@ -88,20 +89,55 @@ TEST(SolveContact, AsksItsObserverFromTheFirstMoment) {
     const auto state = contact::solve(*elasticity, problem, contact::Solver::fast,
                                       [&](const Progress&) { return ++calls != at; });
     EXPECT_EQ(calls, at);
-    EXPECT_FALSE(state.convergence.converged);
+    EXPECT_FALSE(state.convergence.converged());
     EXPECT_NEAR(state.pressure.mean() / problem.mean_pressure, 1, 1e-10);
   }
 }
 
-TEST(SolveContact, SaysSoWhenItRunsOutOfIterations) {
-  const auto elasticity = elastic::make_periodic(square(64), 1.0);
+contact::Problem rough_problem() {
   contact::Problem problem;
-  problem.height = self_affine(64, 0.8, 1, 16, 1);
+  problem.height = self_affine(128, 0.8, 1, 32, 1);
   problem.mean_pressure = 0.02;
+  return problem;
+}
+
+// On two grids, without a cap, with one that is tried without first, and with one that is reached.
+TEST(SolveContact, StopsAtAnyQuestion) {
+  const auto elasticity = elastic::make_periodic(square(128), 1.0);
+  for (const double cap : {contact::kNoSaturation, 100.0, 1.0, 0.1}) {
+    contact::Problem problem = rough_problem();
+    problem.saturation_pressure = cap;
+    for (const auto solver : {contact::Solver::fast, contact::Solver::polonsky_keer}) {
+      expect_to_stop_at_once([&](const Observer& observer) {
+        const auto state = contact::solve(*elasticity, problem, solver, observer);
+        EXPECT_NEAR(state.pressure.mean() / problem.mean_pressure, 1, 1e-10);
+        EXPECT_LE(state.pressure.maxCoeff(), cap);
+        return state.convergence;
+      });
+    }
+  }
+}
+
+TEST(SolveContact, SaysSoWhenItRunsOutOfIterations) {
+  const auto elasticity = elastic::make_periodic(square(128), 1.0);
+  contact::Problem problem = rough_problem();
   problem.max_iterations = 2;
   for (const auto solver : {contact::Solver::fast, contact::Solver::polonsky_keer}) {
-    EXPECT_FALSE(contact::solve(*elasticity, problem, solver).convergence.converged);
+    const Convergence ended = contact::solve(*elasticity, problem, solver).convergence;
+    EXPECT_EQ(ended.status, Status::iteration_limit);
+    EXPECT_EQ(ended.iterations, 2);
   }
+}
+
+TEST(SolveContact, SaysSoWhenItComesNoNearer) {
+  const auto elasticity = elastic::make_periodic(square(32), 1.0);
+  contact::Problem problem;
+  problem.height = wave(32, 0.01, true);
+  problem.mean_pressure = 0.005;
+  problem.tolerance = 1e-30;  // below rounding
+  const Convergence ended = contact::solve(*elasticity, problem).convergence;
+  EXPECT_EQ(ended.status, Status::stalled);
+  EXPECT_LT(ended.iterations, problem.max_iterations);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ std::vector<double> kappas(double reduced_pressure) {
   std::vector<double> values;
   for (std::uint64_t seed = 1; seed <= kRealisations; ++seed) {
     const Solved solved = solve_unit(self_affine(512, 0.8, 1, 32, seed), reduced_pressure);
-    EXPECT_TRUE(solved.state.convergence.converged);
+    EXPECT_TRUE(solved.state.convergence.converged());
     values.push_back(solved.summary.contact_area_fraction / reduced_pressure);
   }
   return values;
@@ -59,8 +59,8 @@ TEST(SolveContact, BothSolversAgreeOnRoughSurfaces) {
   for (const double cap : {contact::kNoSaturation, 0.2}) {
     const Solved fast = solve_unit(height, 0.02, cap, 1e-13);
     const Solved baseline = solve_unit(height, 0.02, cap, 1e-13, contact::Solver::polonsky_keer);
-    ASSERT_TRUE(fast.state.convergence.converged);
-    ASSERT_TRUE(baseline.state.convergence.converged);
+    ASSERT_TRUE(fast.state.convergence.converged());
+    ASSERT_TRUE(baseline.state.convergence.converged());
     expect_within("Contact",
                   std::isfinite(cap) ? "rough, saturated, n = 64" : "rough, elastic, n = 64",
                   "pressure, fast against Polonsky-Keer", "each other",

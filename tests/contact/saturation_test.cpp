@@ -8,7 +8,7 @@
 #include "contact/surfaces.hpp"
 #include "support/validation.hpp"
 #include "tabor/contact/certificate.hpp"
-#include "tabor/topography/synthesis.hpp"
+#include "tabor/synthesis/synthesis.hpp"
 
 namespace tabor::test {
 namespace {
@@ -30,7 +30,7 @@ TEST(SaturatedContact, OfAStiffSurfaceIsItsBearingArea) {
   std::sort(sorted.begin(), sorted.end(), std::greater<>());
   for (const double share : {0.01, 0.2, 0.9}) {
     const Solved solved = solve_unit(height, share * cap, cap, 1e-10);
-    ASSERT_TRUE(solved.state.convergence.converged);
+    ASSERT_TRUE(solved.state.convergence.converged());
     const double n = static_cast<double>(height.size());
     expect_within("Contact", fmt::format("bearing area, P/p_sat = {}", share), "area, pixels",
                   "A = P / p_sat",
@@ -51,7 +51,7 @@ TEST(SaturatedContact, ConvergesWhenEveryContactPixelIsSaturatedAtOnce) {
   const double cap = 1.0;
   const double mean_pressure = 256.0 / 4096 * cap * (1 - 1e-12);
   const Solved solved = solve_unit(height, mean_pressure, cap);
-  EXPECT_TRUE(solved.state.convergence.converged);
+  EXPECT_TRUE(solved.state.convergence.converged());
   EXPECT_EQ(solved.summary.contact_area_fraction_pixels, 256.0 / 4096);
 }
 
@@ -62,7 +62,7 @@ TEST_P(LoadRatios, ConvergeFromLightToNearlyFullSaturation) {
   const double ratio = GetParam();
   for (const double cap : {0.003, 0.05, 0.5}) {
     const Solved solved = solve_unit(height, ratio * cap, cap);
-    EXPECT_TRUE(solved.state.convergence.converged)
+    EXPECT_TRUE(solved.state.convergence.converged())
         << cap << ": " << solved.state.convergence.certificate << " after "
         << solved.state.convergence.iterations;
     EXPECT_GE(solved.summary.contact_area_fraction_pixels, ratio * (1 - 1e-12));
@@ -77,7 +77,7 @@ class ReducedPressures : public testing::TestWithParam<double> {};
 TEST_P(ReducedPressures, ConvergeFromLightToFullElasticContact) {
   const Field height = self_affine(256, 0.8, 2, 64, 3);
   const Solved solved = solve_unit(height, GetParam());
-  EXPECT_TRUE(solved.state.convergence.converged)
+  EXPECT_TRUE(solved.state.convergence.converged())
       << solved.state.convergence.certificate << " after " << solved.state.convergence.iterations;
 }
 
@@ -86,10 +86,10 @@ INSTANTIATE_TEST_SUITE_P(PressureOverModulusAndSlope, ReducedPressures,
 
 /// Heights of an EDT-like sheet on a unit side.
 Field sheet(Index n, std::uint64_t seed) {
-  topography::Edt recipe;
+  synthesis::Edt recipe;
   recipe.grid = square(n, static_cast<double>(n) * 0.67e-6);
   recipe.seed = seed;
-  return topography::edt(recipe).height / recipe.grid.lx;
+  return synthesis::edt(recipe).height / recipe.grid.lx;
 }
 
 /// The certificate of a pressure on a unit square, from an operator of its own (contact.md 2).
@@ -117,7 +117,7 @@ TEST(SaturatedContact, ConvergesWhereLongWavesLeadUphill) {
     const double cap = 0.35 * rms_slope(height);
     const contact::State state = solve_unit(height, mean_pressure, cap).state;
     compact_steps += state.compact_steps;
-    EXPECT_TRUE(state.convergence.converged) << "seed " << seed;
+    EXPECT_TRUE(state.convergence.converged()) << "seed " << seed;
     EXPECT_NEAR(state.pressure.mean() / mean_pressure, 1, 1e-10);
     EXPECT_LE(certificate_of(height, state.pressure, mean_pressure, cap), 1e-6);
   }

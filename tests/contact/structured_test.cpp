@@ -65,7 +65,7 @@ void expect_exact(const Shape& shape, double mean_pressure, double cap, bool per
   for (const auto solver : kSolvers) {
     SCOPED_TRACE(shape.name + (solver == contact::Solver::fast ? ", fast" : ", Polonsky-Keer"));
     const auto [state, summary] = solve_unit(height, mean_pressure, cap, 1e-8, solver, periodic);
-    EXPECT_TRUE(state.convergence.converged) << state.convergence.certificate;
+    EXPECT_TRUE(state.convergence.converged()) << state.convergence.certificate;
     EXPECT_LE(state.gap_error, state.gap_limit);
     EXPECT_EQ(differing(state.pressure > 0, exact.pressure > 0, exact.gap, 1e-6 * rms), 0);
     const Mask saturated = contact::saturated_mask(state, cap);
@@ -114,8 +114,8 @@ TEST(SaturatedContact, BothSolversAgreeOnWhatIsAtTheCap) {
     const Solved textbook =
         solve_unit(height, mean_pressure, cap, 1e-9, contact::Solver::polonsky_keer);
     SCOPED_TRACE(fmt::format("state {}: {} pixels, p_sat {}, P {}", state, n, cap, mean_pressure));
-    EXPECT_TRUE(fast.state.convergence.converged) << fast.state.convergence.certificate;
-    EXPECT_TRUE(textbook.state.convergence.converged) << textbook.state.convergence.certificate;
+    EXPECT_TRUE(fast.state.convergence.converged()) << fast.state.convergence.certificate;
+    EXPECT_TRUE(textbook.state.convergence.converged()) << textbook.state.convergence.certificate;
     const double pixel = 1.0 / static_cast<double>(height.size());
     EXPECT_NEAR(fast.summary.saturated_area_fraction, textbook.summary.saturated_area_fraction,
                 1.01 * pixel);

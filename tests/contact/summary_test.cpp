@@ -34,7 +34,7 @@ struct Block {
       state.gap(y, x) = state.pressure(y, x) < cap ? 0 : -0.25;
     }
     state.separation = 7;
-    state.convergence.converged = true;
+    state.convergence.status = Status::converged;
   }
   contact::Summary summary(bool periodic = true) const {
     return contact::summarise(state, problem, grid, periodic);
@@ -126,7 +126,7 @@ TEST(SolveContact, CertificateIsThatOfTheReturnedPressure) {
     for (const double cap : {kNoCap, 0.3}) {
       const Solved solved = solve_unit(height, 0.02, cap, 1e-2, solver);
       const double found = solved.state.convergence.certificate;
-      EXPECT_TRUE(solved.state.convergence.converged);
+      EXPECT_TRUE(solved.state.convergence.converged());
       if (solver == contact::Solver::polonsky_keer && cap == kNoCap) {  // one pair each
         EXPECT_EQ(solved.state.convergence.operator_applications,
                   solved.state.convergence.fft_pairs);

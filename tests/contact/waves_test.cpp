@@ -17,7 +17,7 @@ double jgh_area(Index n, double load_ratio) {
   const double full = reference::jgh_full_contact_pressure(1.0, kAmplitude, 1.0);
   const Solved solved =
       solve_unit(wave(n, kAmplitude, true), load_ratio * full, contact::kNoSaturation, 1e-8);
-  EXPECT_TRUE(solved.state.convergence.converged);
+  EXPECT_TRUE(solved.state.convergence.converged());
   return solved.summary.contact_area_fraction;
 }
 
@@ -47,7 +47,7 @@ TEST_P(LargeSmooth, ContactsConverge) {
   const reference::WestergaardWave wave_reference{kAmplitude, 1.0, 1.0};
   const Solved solved = solve_unit(wave(1024, kAmplitude, false),
                                    GetParam() * wave_reference.full_contact_pressure());
-  EXPECT_TRUE(solved.state.convergence.converged) << solved.state.convergence.certificate;
+  EXPECT_TRUE(solved.state.convergence.converged()) << solved.state.convergence.certificate;
   // Contact and grid are symmetric: the width changes by two pixels at once.
   EXPECT_NEAR(solved.summary.contact_area_fraction_pixels,
               wave_reference.area_fraction(GetParam() * wave_reference.full_contact_pressure()),

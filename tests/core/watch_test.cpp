@@ -18,6 +18,22 @@ namespace {
 /// Longer than the watch waits between two questions.
 void pass_time() { std::this_thread::sleep_for(std::chrono::milliseconds(110)); }
 
+TEST(Finishes, TellsWhoStoppedTheWork) {
+  const Observer never = [](const Progress&) { return false; };
+  const Observer always = [](const Progress&) { return true; };
+  bool worked = false;
+  EXPECT_FALSE(finishes(never, "work", [&](Watch&) { worked = true; }));
+  EXPECT_FALSE(worked);
+  EXPECT_TRUE(finishes(always, "work", [&](Watch&) { worked = true; }));
+  EXPECT_TRUE(worked);
+  EXPECT_TRUE(finishes({}, "work", [](Watch& watch) { watch.tell(0.5); }));
+}
+
+TEST(Finishes, LeavesTheStopOfAWatchAroundToItsOwner) {
+  const Observer nobody;
+  EXPECT_THROW(finishes(nobody, "work", [](Watch&) { throw Interrupted(); }), Interrupted);
+}
+
 TEST(Watch, AsksAtOnceAndInLoopsBelow) {
   std::vector<std::string> stages;
   const Observer observer = [&](const Progress& progress) {

@@ -25,7 +25,7 @@ TEST(LineContact, OfACylinderIsHertz) {
     for (const auto solver : {contact::Solver::fast, contact::Solver::polonsky_keer}) {
       const auto elasticity = make_line(grid, hertz.effective_modulus);
       const contact::State state = contact::solve(*elasticity, problem, solver);
-      EXPECT_TRUE(state.convergence.converged);
+      EXPECT_TRUE(state.convergence.converged());
       const double width = static_cast<double>((state.pressure > 0).count()) * grid.dx();
       EXPECT_NEAR(width, 2 * hertz.half_width, 2 * grid.dx()) << n;
       test::expect_within("Contact", fmt::format("Hertz line contact, {} nodes", n),
@@ -48,7 +48,7 @@ TEST(LineContact, SaturatesWhereThePressureIsCapped) {
   }
   const auto elasticity = make_line(grid, hertz.effective_modulus);
   const contact::State state = contact::solve(*elasticity, problem);
-  EXPECT_TRUE(state.convergence.converged);
+  EXPECT_TRUE(state.convergence.converged());
   EXPECT_LE(state.pressure.maxCoeff(), problem.saturation_pressure);
   EXPECT_NEAR(state.pressure.mean() / problem.mean_pressure, 1, 1e-9);
   EXPECT_GT((state.pressure >= problem.saturation_pressure).count(), 50);

@@ -51,7 +51,7 @@ class EhlSweepTest(ProgramTest):
             self.assertEqual(out, "")
             self.assertFalse((self.folder / "out.h5").exists())
             if stop == signal.SIGTERM:
-                self.assertIn("kept in out.h5.cases, the same command goes on", err)
+                self.assertIn("are kept in out.h5.cases; the same command continues", err)
         again, said, err = self.results("out.h5", words)
         self.assertRegex(err, rf"[{stops[-1]}-{N_CASES}] of {N_CASES} cases were done, kept in out.h5.cases")
         self.assertEqual(said, expected)

@@ -6,11 +6,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/stopping.hpp"
 #include "support/validation.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/elastic/half_space.hpp"
 #include "tabor/friction/load_search.hpp"
-#include "tabor/lubrication/reynolds_film.hpp"
+#include "tabor/friction/mixed_friction.hpp"
+#include "tabor/reynolds/reynolds_film.hpp"
 
 namespace tabor::friction {
 namespace {
@@ -107,7 +109,7 @@ TEST(FluidFilm, IsTheDryContactToTheBitWithoutOilOrSpeed) {
   for (const auto& [oil, speed] : {std::pair{0.0, 1.0}, std::pair{1e-6, 0.0}}) {
     const Case at = pressed(bumps(32), 50e6, oil, speed);
     const FluidFilmState state = at.solve();
-    EXPECT_TRUE(state.converged);
+    EXPECT_TRUE(state.convergence.converged());
     EXPECT_TRUE((state.contact.pressure == at.dry.pressure).all());
     EXPECT_EQ(state.fluid_pressure, 0);
     EXPECT_EQ(state.viscous_stress, 0);
@@ -120,7 +122,7 @@ TEST(FluidFilm, TendsToTheDryContactWithTheSpeed) {
   for (const double speed : {1.0, 0.1, 0.01, 1e-6}) {
     const Case at = pressed(bumps(32), 50e6, 0.6e-6, speed);
     const FluidFilmState state = at.solve();
-    ASSERT_TRUE(state.converged) << speed;
+    ASSERT_TRUE(state.convergence.converged()) << speed;
     const double share = state.fluid_pressure / 50e6;
     EXPECT_LT(share, share_before) << speed;
     share_before = share;
@@ -135,7 +137,7 @@ TEST(FluidFilm, TendsToTheDryContactWithTheSpeed) {
 TEST(FluidFilm, SharesTheLoad) {
   const Case at = pressed(bumps(32), 20e6, 0.6e-6, 1.0);
   const FluidFilmState state = at.solve();
-  ASSERT_TRUE(state.converged);
+  ASSERT_TRUE(state.convergence.converged());
   EXPECT_GT(state.fluid_pressure, 0.02 * 20e6);
   EXPECT_GT(state.solid_pressure, 0);
   EXPECT_NEAR((state.contact.pressure.mean() + state.film.pressure.mean()) / 20e6, 1, 1e-3);
@@ -154,16 +156,16 @@ TEST(FluidFilm, SharesTheLoad) {
 /// both ends, where the vent is.
 double pressure_on_a_line(const FluidFilmState& state, double amplitude, Index n) {
   const double middle = state.contact.gap.row(0).mean();
-  lubrication::FilmProblem line;
-  line.grid = lubrication::line_grid(-kSide / 2, kSide / 2, n);
+  reynolds::FilmProblem line;
+  line.grid = reynolds::line_grid(-kSide / 2, kSide / 2, n);
   line.film = line.grid.node.unaryExpr(
       [&](double x) { return middle - amplitude * std::cos(2 * std::numbers::pi * x / kSide); });
   line.speed = 0.5;  // half of 1 m/s
   line.left_pressure = line.right_pressure = 101325;
-  line.liquid = lubrication::constant_liquid(0.2);
-  line.cavitation = lubrication::Cavitation::mass_conserving;
-  const lubrication::FilmSolution solution = lubrication::solve_film(line);
-  EXPECT_TRUE(solution.converged);
+  line.liquid = reynolds::constant_liquid(0.2);
+  line.cavitation = reynolds::Cavitation::mass_conserving;
+  const reynolds::FilmSolution solution = reynolds::solve_film(line);
+  EXPECT_TRUE(solution.convergence.converged());
   return solution.load / kSide;
 }
 
@@ -173,7 +175,7 @@ TEST(FluidFilm, LiftsAFloodedWaveOffWhereALineFilmCarriesTheLoad) {
   const auto error = [&](Index n) {
     const Case at = pressed(wave(n), pressure, 50e-6, 1.0, 1e15);
     const FluidFilmState state = at.solve();
-    EXPECT_TRUE(state.converged);
+    EXPECT_TRUE(state.convergence.converged());
     EXPECT_EQ(state.solid_pressure, 0);
     EXPECT_TRUE((state.contact.pressure == 0).all());
     EXPECT_GT(state.contact.gap.minCoeff(), 0);
@@ -189,7 +191,7 @@ TEST(FluidFilm, LiftsAFloodedWaveOffWhereALineFilmCarriesTheLoad) {
 TEST(FluidFilm, GivesWayOnSofterSurfaces) {
   const Case at = pressed(bumps(32), 20e6, 0.6e-6, 0.2, 8e9);
   const FluidFilmState state = at.solve();
-  EXPECT_TRUE(state.converged);
+  EXPECT_TRUE(state.convergence.converged());
   EXPECT_GT(state.fluid_pressure, 0.001 * 20e6);
   EXPECT_NEAR((state.solid_pressure + state.fluid_pressure) / 20e6, 1, 1e-3);
 }
@@ -198,17 +200,17 @@ TEST(FluidFilm, PressureIsThatOfTheGapItMakes) {
   for (const double modulus : {80e9, 8e9}) {
     const Case at = pressed(bumps(32), 20e6, 0.6e-6, 1.0, modulus);
     const FluidFilmState state = at.solve();
-    ASSERT_TRUE(state.converged) << modulus;
+    ASSERT_TRUE(state.convergence.converged()) << modulus;
     ASSERT_GT(state.fluid_pressure, 0.01 * 20e6);
     Field displacement(32, 32);
     at.elasticity->apply(state.contact.pressure + state.film.pressure, displacement);
-    lubrication::PatchProblem patch;
+    reynolds::PatchProblem patch;
     patch.grid = at.elasticity->grid();
     patch.gap = state.contact.separation + displacement - at.problem.contact.height;
     patch.gap = (state.contact.pressure > 0).select(0.0, patch.gap.max(0.0));
     patch.viscosity = 0.2;
     patch.entrainment_speed = 0.5;
-    const lubrication::PatchFilm again = lubrication::steady_film(patch, at.problem.film);
+    const reynolds::PatchFilm again = reynolds::steady_film(patch, at.problem.film);
     EXPECT_NEAR(again.mean_pressure / 20e6, state.fluid_pressure / 20e6, 3e-3) << modulus;
   }
 }
@@ -217,14 +219,29 @@ TEST(FluidFilm, SaysWhenItDidNotConverge) {
   Case at = pressed(bumps(32), 20e6, 0.6e-6, 1.0);
   at.problem.max_evaluations = 1;
   const FluidFilmState state = at.solve();
-  EXPECT_FALSE(state.converged);
+  EXPECT_EQ(state.convergence.status, Status::iteration_limit);
   EXPECT_GT(std::abs(state.load_error), 1e-3);
+  EXPECT_GE(state.convergence.certificate, std::abs(state.load_error));
+}
+
+TEST(FluidFilm, StopsAtAnyQuestion) {
+  const Case at = pressed(bumps(32), 20e6, 0.6e-6, 1.0);
+  test::expect_to_stop_at_once([&](const Observer& observer) {
+    return solve_fluid_film(*at.elasticity, at.problem, at.dry, observer).convergence;
+  });
+}
+
+TEST(FluidFilm, IsNotDoubtedForBeingStopped) {
+  const Case at = pressed(bumps(32), 20e6, 0.6e-6, 1.0);
+  FluidFilmState state = at.solve();
+  state.convergence.status = Status::stopped;
+  EXPECT_TRUE(doubts(state, at.problem).empty());
 }
 
 TEST(FluidFilm, FlatSurfacesSqueezeTheOilOut) {
   const Case at = pressed(Field::Zero(8, 8), 1e6, 1e-6, 1.0);
   const FluidFilmState state = at.solve();
-  EXPECT_TRUE(state.converged);
+  EXPECT_TRUE(state.convergence.converged());
   EXPECT_EQ(state.fluid_pressure, 0);
   EXPECT_NEAR(state.film.oil.outside, 64 * 1e-6, 1e-15);
 }
@@ -234,7 +251,7 @@ TEST(FluidFilm, AnEyringOilShearsLess) {
   const FluidFilmState newtonian = at.solve();
   at.problem.lubricant.shear = material::ree_eyring_shear(1e5);
   const FluidFilmState eyring = at.solve();
-  ASSERT_TRUE(newtonian.converged && eyring.converged);
+  ASSERT_TRUE(newtonian.convergence.converged() && eyring.convergence.converged());
   EXPECT_LT(eyring.viscous_stress, newtonian.viscous_stress);
   EXPECT_LT(eyring.fluid_pressure, newtonian.fluid_pressure);
 }

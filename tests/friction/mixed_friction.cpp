@@ -76,7 +76,7 @@ struct Patch {
     state.contact.gap = Field::Constant(4, 5, 1e-6);
     state.contact.pressure.block(1, 1, 2, 2) = 12.5e6;
     state.contact.gap.block(1, 1, 2, 2) = 0;
-    state.contact.convergence.converged = true;
+    state.contact.convergence.status = Status::converged;
     state.solid_pressure = 2.5e6;
     state.fluid_pressure = 7.5e6;
     state.viscous_stress = 1e5;
@@ -86,8 +86,8 @@ struct Patch {
     state.film.fill = Field::Constant(4, 5, 0.5);
     state.film.fill.row(0) = 1;
     state.film.oil.outside = 6e-6;
-    state.film.converged = state.film.steady = true;
-    state.converged = true;
+    state.film.convergence.status = Status::converged;
+    state.convergence.status = Status::converged;
   }
   std::vector<std::string> doubts() const { return friction::doubts(state, problem); }
 };
@@ -105,7 +105,7 @@ TEST(FluidSummary, SharesTheLoadAndCountsThePixels) {
   EXPECT_EQ(found.mean_gap, 0.8e-6);
   EXPECT_DOUBLE_EQ(found.full_fraction, 5.0 / 20);
   EXPECT_DOUBLE_EQ(found.outside_film, 6e-6 / 20);
-  EXPECT_TRUE(found.converged);
+  EXPECT_TRUE(found.convergence.converged());
 }
 
 TEST(FluidSummary, OfSurfacesApartHasNoContact) {
@@ -120,19 +120,16 @@ TEST(FluidSummary, OfSurfacesApartHasNoContact) {
 TEST(FluidDoubts, AreNoneOfAGoodState) { EXPECT_THAT(Patch().doubts(), IsEmpty()); }
 
 TEST(FluidDoubts, SayWhetherTheOilStillMoves) {
-  for (const bool converged : {false, true}) {
-    for (const bool steady : {false, true}) {
-      Patch patch;
-      patch.state.converged = false;
-      patch.state.film.converged = converged;
-      patch.state.film.steady = steady;
-      EXPECT_THAT(patch.doubts(), Contains(HasSubstr("film NOT CONVERGED")));
-      const auto moves = Contains(HasSubstr("oil still on the move"));
-      if (converged && steady) {
-        EXPECT_THAT(patch.doubts(), Not(moves));
-      } else {
-        EXPECT_THAT(patch.doubts(), moves);
-      }
+  for (const Status status : {Status::converged, Status::stalled, Status::iteration_limit}) {
+    Patch patch;
+    patch.state.convergence.status = Status::iteration_limit;
+    patch.state.film.convergence.status = status;
+    EXPECT_THAT(patch.doubts(), Contains(HasSubstr("film NOT CONVERGED")));
+    const auto moves = Contains(HasSubstr("oil still on the move"));
+    if (status == Status::converged) {
+      EXPECT_THAT(patch.doubts(), Not(moves));
+    } else {
+      EXPECT_THAT(patch.doubts(), moves);
     }
   }
 }

@@ -10,7 +10,7 @@
 #include "support/instrument_files.hpp"
 #include "support/sample_map.hpp"
 #include "tabor/io/png.hpp"
-#include "tabor/topography/file.hpp"
+#include "tabor/scan/file.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::fuzz {
@@ -21,10 +21,10 @@ using test::Folder;
 /// The small map as each of our writers stores it; formats we cannot read again are no seeds.
 void add_written(std::vector<Seed>& seeds) {
   const Folder folder;
-  for (const topography::FormatRow& format : topography::formats()) {
+  for (const scan::FormatRow& format : scan::formats()) {
     if (!format.writes || !format.reads) continue;
     const std::filesystem::path file = folder / ("map" + format.extensions.front());
-    topography::write(test::small_map(), file);
+    scan::write(test::small_map(), file);
     seeds.push_back({format.name, "written", test::bytes_of(file)});
   }
 }

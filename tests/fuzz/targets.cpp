@@ -16,16 +16,16 @@
 #include "tabor/core/units.hpp"
 #include "tabor/io/csv.hpp"
 #include "tabor/io/json.hpp"
+#include "tabor/scan/file.hpp"
+#include "tabor/scan/formats/format.hpp"
 #include "tabor/study/experiment.hpp"
 #include "tabor/study/study.hpp"
-#include "tabor/topography/file.hpp"
-#include "tabor/topography/formats/format.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::fuzz {
 namespace {
 
-using topography::ReadOptions;
+using scan::ReadOptions;
 
 /// A refusal says which file or option is meant.
 void check_message(const std::string& message, const std::string& place) {
@@ -66,9 +66,9 @@ void check_map(const topography::Topography& map) {
 
 void read_every_channel(const std::filesystem::path& file) {
   constexpr std::size_t kEnough = 4;
-  std::optional<topography::ScanFile> scan;
+  std::optional<scan::ScanFile> scan;
   if (!accepted([&] { scan.emplace(file); }, file.string())) return;
-  const topography::FileInfo info = scan->info();
+  const scan::FileInfo info = scan->info();
   accepted([&] { check_map(scan->read()); }, file.string());
   for (std::size_t i = 0; i < std::min(kEnough, info.channels.size()); ++i) {
     ReadOptions options = complete();
@@ -81,8 +81,8 @@ void read_every_channel(const std::filesystem::path& file) {
 }
 
 /// Only bytes that this reader takes for its own: what others do with them is their target's work.
-void run_reader(const topography::format::Format& format, std::string_view bytes) {
-  using namespace topography::format;
+void run_reader(const scan::format::Format& format, std::string_view bytes) {
+  using namespace scan::format;
   if (format.identify(bytes.substr(0, kHeadSize)) == Match::no) return;
   const MemoryFile file(format.name == "png" ? repaired_png(bytes) : std::string(bytes));
   read_every_channel(file.path());
@@ -123,7 +123,7 @@ void run_treatment(std::string_view bytes) {
 void run_study(std::string_view bytes) {
   static const test::Folder folder;
   static const bool has_scan = [] {
-    topography::write(test::small_map(), folder / "scan_1.h5");
+    scan::write(test::small_map(), folder / "scan_1.h5");
     return true;
   }();
   (void)has_scan;
@@ -167,7 +167,7 @@ std::size_t library_bytes(const std::string& format) {
 std::vector<Target> make_targets() {
   ::setenv("PATH", "/nonexistent", 1);  // no converter: what no reader knows is refused at once
   std::vector<Target> all;
-  for (const auto& format : topography::format::table()) {
+  for (const auto& format : scan::format::table()) {
     if (format.open == nullptr || format.via_gwyddion) continue;
     all.push_back({format.name, [&format](std::string_view bytes) { run_reader(format, bytes); },
                    is_packed(format.name), library_bytes(format.name)});

@@ -12,7 +12,8 @@
 #include "support/folder.hpp"
 #include "support/sanitizers.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5_guard.hpp"
+#include "tabor/io/protection.hpp"
 
 namespace tabor::io {
 namespace {
@@ -27,26 +28,32 @@ bool survives(const std::function<void()>& action) {
   return hdf5_survives(folder / "a.h5", action);
 }
 
-TEST(Hdf5Guard, ResultsAndRefusalsSurvive) {
+class Hdf5Guard : public ::testing::Test {
+ protected:
+  Hdf5Guard() { isolate_hdf5_reading(true); }
+  ~Hdf5Guard() override { isolate_hdf5_reading(false); }
+};
+
+TEST_F(Hdf5Guard, ResultsAndRefusalsSurvive) {
   EXPECT_TRUE(survives([] {}));
   EXPECT_TRUE(survives([] { throw InputError("no scan"); }));
 }
 
-TEST(Hdf5Guard, CrashesDoNot) {
+TEST_F(Hdf5Guard, CrashesDoNot) {
   EXPECT_FALSE(survives([] { ::raise(SIGSEGV); }));
   EXPECT_FALSE(survives([] { std::abort(); }));
 }
 
 #if !defined(__SANITIZE_ADDRESS__)  // whose own memory hides what is asked for
-TEST(Hdf5Guard, NorDoesWantingFarMoreMemoryThanTheFileHas) {
+TEST_F(Hdf5Guard, NorDoesWantingFarMoreMemoryThanTheFileHas) {
   EXPECT_FALSE(survives([] { const std::vector<char> large(std::size_t{1} << 30); }));
   EXPECT_TRUE(survives([] { const std::vector<char> small(std::size_t{1} << 20); }));
 }
 #endif
 
-TEST(Hdf5Guard, AMapComesBackPieceByPiece) {
+TEST_F(Hdf5Guard, AMapComesBackPieceByPiece) {
   std::vector<double> shares;
-  const auto map = hdf5_map_from_copy(
+  const auto map = guarded_hdf5_map(
       "a.h5", {7, 5},
       [](const Rows& send) {
         send(kMap.topRows(3));
@@ -59,9 +66,9 @@ TEST(Hdf5Guard, AMapComesBackPieceByPiece) {
   EXPECT_EQ(shares.back(), 1);
 }
 
-TEST(Hdf5Guard, NoMapComesFromACopyThatBreaksOrSendsLess) {
+TEST_F(Hdf5Guard, NoMapComesFromACopyThatBreaksOrSendsLess) {
   const auto received = [](const SendRows& send) {
-    return hdf5_map_from_copy("a.h5", {7, 5}, send, {}).has_value();
+    return guarded_hdf5_map("a.h5", {7, 5}, send, {}).has_value();
   };
   EXPECT_FALSE(received([](const Rows&) { ::raise(SIGSEGV); }));
   EXPECT_FALSE(received([](const Rows& send) { send(kMap.topRows(3)); }));
@@ -75,20 +82,20 @@ TEST(Hdf5Guard, NoMapComesFromACopyThatBreaksOrSendsLess) {
   }));
 }
 
-TEST(Hdf5Guard, WhoWatchesMayStopIt) {
-  EXPECT_THROW(hdf5_map_from_copy(
+TEST_F(Hdf5Guard, WhoWatchesMayStopIt) {
+  EXPECT_THROW(guarded_hdf5_map(
                    "a.h5", {7, 5}, [](const Rows& send) { send(kMap); },
                    [](double) { throw std::runtime_error("stop"); }),
                std::runtime_error);
 }
 
-TEST(Hdf5Guard, ACopyThatWorksForEverIsEnded) {
+TEST_F(Hdf5Guard, ACopyThatWorksForEverIsEnded) {
   EXPECT_FALSE(survives([] {
     for (volatile int i = 0;;) i = 1 - i;
   }));
 }
 
-TEST(Hdf5Guard, ACopyEndsWithItsProcess) {
+TEST_F(Hdf5Guard, ACopyEndsWithItsProcess) {
   const test::Folder folder;
   test::put_bytes(folder / "a.h5", "a");
   int ends[2] = {-1, -1};
@@ -112,7 +119,7 @@ TEST(Hdf5Guard, ACopyEndsWithItsProcess) {
   ::close(ends[0]);
 }
 
-TEST(Hdf5Guard, ACopyThatWaitsForEverIsARefusal) {
+TEST_F(Hdf5Guard, ACopyThatWaitsForEverIsARefusal) {
   const pid_t original = ::getpid();
   const auto wait_in_copy = [original] {
     if (::getpid() != original) ::pause();
@@ -120,16 +127,16 @@ TEST(Hdf5Guard, ACopyThatWaitsForEverIsARefusal) {
   EXPECT_THROW(survives(wait_in_copy), InputError);
 }
 
-TEST(Hdf5Guard, SoIsAMapWhoseCopyWaitsForEver) {
+TEST_F(Hdf5Guard, SoIsAMapWhoseCopyWaitsForEver) {
   const pid_t original = ::getpid();
   const SendRows never_ends = [&](const Rows& send) {
     send(kMap);
     if (::getpid() != original) ::pause();
   };
-  EXPECT_THROW(hdf5_map_from_copy("a.h5", {7, 5}, never_ends, {}), InputError);
+  EXPECT_THROW(guarded_hdf5_map("a.h5", {7, 5}, never_ends, {}), InputError);
 }
 
-TEST(Hdf5Guard, WithoutACopyNothingIsRead) {
+TEST_F(Hdf5Guard, WithoutACopyNothingIsRead) {
   if (test::kSanitized) GTEST_SKIP() << "the sanitizer opens files itself";
   bool is_read = false;
   const auto read = [&] { is_read = true; };
@@ -140,8 +147,7 @@ TEST(Hdf5Guard, WithoutACopyNothingIsRead) {
   const rlimit none{0, before.rlim_max};  // no pipe to the copy
   ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
   EXPECT_THROW(hdf5_survives(folder / "a.h5", read), Error);
-  EXPECT_THROW(hdf5_map_from_copy(folder / "a.h5", {7, 5}, [&](const Rows&) { read(); }, {}),
-               Error);
+  EXPECT_THROW(guarded_hdf5_map(folder / "a.h5", {7, 5}, [&](const Rows&) { read(); }, {}), Error);
   ::setrlimit(RLIMIT_NOFILE, &before);
   EXPECT_FALSE(is_read);
 }

@@ -11,6 +11,7 @@
 
 #include "support/folder.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/io/protection.hpp"
 
 namespace tabor::io {
 namespace {
@@ -33,6 +34,12 @@ std::ptrdiff_t n_ones(const MappedFile& file) {
   return std::count(file.bytes().begin(), file.bytes().end(), '\1');
 }
 
+class LostPages : public ::testing::Test {
+ protected:
+  LostPages() { trap_lost_pages(true); }
+  ~LostPages() override { trap_lost_pages(false); }
+};
+
 TEST(MappedFile, HoldsTheBytesOfTheFile) {
   const test::Folder folder;
   test::put_bytes(folder / "a", std::string(kSize, '\1'));
@@ -41,7 +48,7 @@ TEST(MappedFile, HoldsTheBytesOfTheFile) {
   EXPECT_NO_THROW(file.check());
 }
 
-TEST(MappedFile, CutShortIsReadAsZerosAndNoticed) {
+TEST_F(LostPages, AreReadAsZerosAndNoticed) {
   const test::Folder folder;
   test::put_bytes(folder / "a", std::string(kSize, '\1'));
   test::put_bytes(folder / "b", std::string(kSize, '\1'));
@@ -54,7 +61,7 @@ TEST(MappedFile, CutShortIsReadAsZerosAndNoticed) {
   EXPECT_NO_THROW(whole.check());
 }
 
-TEST(MappedFile, CutShortUnderSeveralThreadsIsNoticed) {
+TEST_F(LostPages, AreNoticedUnderSeveralThreads) {
   const test::Folder folder;
   test::put_bytes(folder / "a", std::string(kSize, '\1'));
   const MappedFile file(folder / "a");
@@ -99,7 +106,7 @@ TEST(MappedFile, IsStillWhatItsNameLeadsTo) {
 }
 
 /// Whoever wants to end at a bus error of his own still does.
-TEST(MappedFileDeathTest, LeavesOtherBusErrorsToTheHandlerBefore) {
+TEST_F(LostPages, LeaveOtherBusErrorsToTheHandlerBefore) {
   const test::Folder folder;
   test::put_bytes(folder / "a", std::string(kSize, '\1'));
   EXPECT_DEATH(

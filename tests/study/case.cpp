@@ -11,32 +11,32 @@ namespace {
 using test::ExampleStudy;
 
 /// All keys of the example's first scan, after a change to the study.
-ScanUnits units_after(const std::function<void(Study&)>& change) {
+ScanTasks tasks_after(const std::function<void(Study&)>& change) {
   static const ExampleStudy example;
   Study study = example.read();
   change(study);
-  return units_of(study).front();
+  return tasks_of(study).front();
 }
 
-ScanUnits units() {
-  return units_after([](Study&) {});
+ScanTasks tasks() {
+  return tasks_after([](Study&) {});
 }
 
-TEST(Units, KeysDoNotDependOnWhereTheStudyLies) {
+TEST(Tasks, KeysDoNotDependOnWhereTheStudyLies) {
   const ExampleStudy one;
   const ExampleStudy other;
   for (const char* scan : {"scan_1.h5", "scan_2.h5"}) {  // written twice they hold two dates
     std::filesystem::copy_file(one.folder / scan, other.folder / scan,
                                std::filesystem::copy_options::overwrite_existing);
   }
-  EXPECT_EQ(units_of(one.read())[0].cases[1][1].key, units_of(other.read())[0].cases[1][1].key);
+  EXPECT_EQ(tasks_of(one.read())[0].cases[1][1].key, tasks_of(other.read())[0].cases[1][1].key);
 }
 
-TEST(Units, KeyIsTheDigestOfAFixedText) {
+TEST(Tasks, KeyIsTheDigestOfAFixedText) {
   // If this changes, stores written before are computed again: then kAlgorithms must change too.
   Study study;
   study.treatment = {"level=plane"};
-  const Unit surface = surface_unit(study, {}, "abc");
+  const Task surface = surface_task(study, {}, "abc");
   EXPECT_EQ(surface.text,
             "tabor surface 4\nscan_sha256 = 3:abc\nchannel = 0:\nunit = 0:\npixel_x_m = 0\n"
             "pixel_y_m = 0\nstep = 11:level=plane\n");
@@ -44,15 +44,15 @@ TEST(Units, KeyIsTheDigestOfAFixedText) {
   EXPECT_EQ(surface.key.size(), 16u);
 }
 
-TEST(Units, TextOfACaseWithoutFlowIsWhatItWasBeforeOilCouldFlow) {
+TEST(Tasks, TextOfACaseWithoutFlowIsWhatItWasBeforeOilCouldFlow) {
   Study study;
   study.shear_strength = 7e7;
-  Unit contact;
+  Task contact;
   contact.key = "c";
-  Unit film;
+  Task film;
   film.key = "f";
   const Scan scan{"", "one", "all", {}};
-  EXPECT_EQ(case_unit(study, scan, contact, film, 9e-4).text,
+  EXPECT_EQ(case_task(study, scan, contact, film, 9e-4).text,
             "tabor case 4\nscan = 3:one\ngroup = 3:all\ncontact = 1:c\nfilm = 1:f\n"
             "lubricant_density_kg_per_m2 = 0.00089999999999999998\n"
             "shear_strength_Pa = 70000000\narea = 9:corrected\n");
@@ -64,24 +64,24 @@ void let_flow(Study& study) {
   study.sliding_speeds = {0.01, 0.1};
 }
 
-TEST(Units, OilThatFlowsChangesOnlyTheCases) {
-  const ScanUnits before = units();
-  const ScanUnits flowing = units_after(let_flow);
+TEST(Tasks, OilThatFlowsChangesOnlyTheCases) {
+  const ScanTasks before = tasks();
+  const ScanTasks flowing = tasks_after(let_flow);
   EXPECT_EQ(flowing.surface.key, before.surface.key);
   EXPECT_EQ(flowing.film.key, before.film.key);
   EXPECT_EQ(flowing.contacts[1].key, before.contacts[1].key);
   ASSERT_EQ(flowing.cases[0].size(), 4u);  // 2 densities x 2 speeds
   EXPECT_TRUE(before.fluids[0].empty());
   std::set<std::string> keys{before.cases[0][0].key, before.cases[0][1].key};
-  for (const auto& units : {flowing.cases[0], flowing.fluids[0], flowing.fluids[1]}) {
-    for (const Unit& unit : units) keys.insert(unit.key);
+  for (const auto& tasks : {flowing.cases[0], flowing.fluids[0], flowing.fluids[1]}) {
+    for (const Task& task : tasks) keys.insert(task.key);
   }
   EXPECT_EQ(keys.size(), 14u);
 }
 
-TEST(Units, AFilmThatFlowsDoesNotKnowTheShearStrengthButItsOil) {
-  const ScanUnits before = units_after(let_flow);
-  const ScanUnits stronger = units_after([](Study& study) {
+TEST(Tasks, AFilmThatFlowsDoesNotKnowTheShearStrengthButItsOil) {
+  const ScanTasks before = tasks_after(let_flow);
+  const ScanTasks stronger = tasks_after([](Study& study) {
     let_flow(study);
     study.shear_strength = 1e6;
   });
@@ -90,27 +90,27 @@ TEST(Units, AFilmThatFlowsDoesNotKnowTheShearStrengthButItsOil) {
   for (const friction::FlowingOil& oil :
        {friction::FlowingOil{0.3, {}, {}}, friction::FlowingOil{0.2, 1e-8, {}},
         friction::FlowingOil{0.2, {}, 1e6}}) {
-    const ScanUnits other = units_after([&](Study& study) {
+    const ScanTasks other = tasks_after([&](Study& study) {
       let_flow(study);
       study.lubricant.flowing = oil;
     });
     EXPECT_NE(other.fluids[0][0].key, before.fluids[0][0].key);
     EXPECT_NE(other.cases[0][0].key, before.cases[0][0].key);
   }
-  const ScanUnits faster = units_after([](Study& study) {
+  const ScanTasks faster = tasks_after([](Study& study) {
     let_flow(study);
     study.sliding_speeds = {0.1, 0.2};
   });
   EXPECT_EQ(faster.fluids[0][0].key, before.fluids[0][1].key);  // a speed keeps its key
 }
 
-TEST(Units, AllKeysOfAStudyDiffer) {
+TEST(Tasks, AllKeysOfAStudyDiffer) {
   std::set<std::string> keys;
   std::size_t n = 0;
-  for (const ScanUnits& scan : units_of(ExampleStudy().read())) {
+  for (const ScanTasks& scan : tasks_of(ExampleStudy().read())) {
     for (const auto& cases : scan.cases) {
-      for (const Unit& unit : cases) {
-        keys.insert(unit.key);
+      for (const Task& task : cases) {
+        keys.insert(task.key);
         ++n;
       }
     }
@@ -119,33 +119,33 @@ TEST(Units, AllKeysOfAStudyDiffer) {
   EXPECT_EQ(keys.size(), n);
 }
 
-TEST(Units, ASettingChangesOnlyWhatDependsOnIt) {
-  const ScanUnits before = units();
-  const ScanUnits strength = units_after([](Study& study) { study.shear_strength = 1e6; });
+TEST(Tasks, ASettingChangesOnlyWhatDependsOnIt) {
+  const ScanTasks before = tasks();
+  const ScanTasks strength = tasks_after([](Study& study) { study.shear_strength = 1e6; });
   EXPECT_EQ(strength.contacts[0].key, before.contacts[0].key);
   EXPECT_EQ(strength.film.key, before.film.key);
   EXPECT_NE(strength.cases[0][0].key, before.cases[0][0].key);
 
-  const ScanUnits seed = units_after([](Study& study) { study.lubricant.seed = 2; });
+  const ScanTasks seed = tasks_after([](Study& study) { study.lubricant.seed = 2; });
   EXPECT_EQ(seed.contacts[0].key, before.contacts[0].key);
   EXPECT_NE(seed.film.key, before.film.key);
   EXPECT_NE(seed.cases[0][0].key, before.cases[0][0].key);
 
-  const ScanUnits modulus = units_after([](Study& study) { study.solid.youngs_modulus = 71e9; });
+  const ScanTasks modulus = tasks_after([](Study& study) { study.solid.youngs_modulus = 71e9; });
   EXPECT_EQ(modulus.film.key, before.film.key);
   EXPECT_NE(modulus.contacts[0].key, before.contacts[0].key);
 
-  const ScanUnits treatment = units_after([](Study& study) { study.treatment = {}; });
+  const ScanTasks treatment = tasks_after([](Study& study) { study.treatment = {}; });
   EXPECT_NE(treatment.surface.key, before.surface.key);
   EXPECT_NE(treatment.film.key, before.film.key);
   EXPECT_NE(treatment.contacts[0].key, before.contacts[0].key);
 }
 
-TEST(Units, APressureMoreLeavesTheOthersAlone) {
-  const ScanUnits more = units_after(
+TEST(Tasks, APressureMoreLeavesTheOthersAlone) {
+  const ScanTasks more = tasks_after(
       [](Study& study) { study.mean_pressures.insert(study.mean_pressures.begin(), 1e6); });
-  EXPECT_EQ(more.contacts[1].key, units().contacts[0].key);
-  EXPECT_EQ(more.cases[1][0].key, units().cases[0][0].key);
+  EXPECT_EQ(more.contacts[1].key, tasks().contacts[0].key);
+  EXPECT_EQ(more.cases[1][0].key, tasks().cases[0][0].key);
 }
 
 }  // namespace

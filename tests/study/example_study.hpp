@@ -6,10 +6,10 @@
 
 #include "support/folder.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/scan/file.hpp"
 #include "tabor/study/study.hpp"
 #include "tabor/study/sweep.hpp"
-#include "tabor/topography/file.hpp"
-#include "tabor/topography/synthesis.hpp"
+#include "tabor/synthesis/synthesis.hpp"
 
 namespace tabor::test {
 
@@ -39,15 +39,15 @@ class ExampleStudy {
   }
 
   void add_scan(const std::string& name, std::uint64_t seed, bool with_hole = false) const {
-    topography::SelfAffine recipe;
+    synthesis::SelfAffine recipe;
     recipe.grid = {32, 24, 32e-6, 24e-6};
     recipe.rms_height = 0.5e-6;
     recipe.seed = seed;
-    topography::Topography scan = topography::self_affine(recipe);
+    topography::Topography scan = synthesis::self_affine(recipe);
     if (with_hole) {
       scan.height(3, 4) = std::numeric_limits<double>::quiet_NaN();
     }
-    topography::write(scan, folder / name);
+    scan::write(scan, folder / name);
   }
 
   void write(const std::string& text) const { put_bytes(folder / "study.toml", text); }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "study/example_study.hpp"
+#include "tabor/core/units.hpp"
 
 namespace tabor::study {
 namespace {
@@ -80,7 +81,7 @@ TEST(ReadStudy, ReadsBackWhatItWroteAsText) {
   EXPECT_EQ(to_toml(example.read()), text);
   EXPECT_FALSE(example.read().contact.periodic);
   EXPECT_EQ(example.read().lubricant.seed, 7u);
-  EXPECT_EQ(example.read().lubricant.edge, lubrication::Edge::open);
+  EXPECT_EQ(example.read().lubricant.edge, deposition::Edge::open);
 }
 
 TEST(ReadStudy, TakesOilThatFlows) {
@@ -156,7 +157,8 @@ TEST(ReadStudy, RefusesValuesWithoutOrWithWrongUnits) {
 
 TEST(ReadStudy, RefusesValuesThatMakeNoSense) {
   EXPECT_THAT(complaint("\"5 MPa\"", "\"-5 MPa\""), HasSubstr("above zero"));
-  EXPECT_THAT(complaint("\"15 MPa\"", "\"300 MPa\""), HasSubstr("below the saturation pressure"));
+  EXPECT_THAT(complaint("\"15 MPa\"", "\"300 MPa\""),
+              HasSubstr("less than the saturation pressure 240 MPa"));
   EXPECT_THAT(complaint("\"15 MPa\"", "\"5 MPa\""), HasSubstr("twice"));
   EXPECT_THAT(complaint("0.33", "0.6"), HasSubstr("poissons_ratio"));
   EXPECT_THAT(complaint("level=mean", "levle=mean"), HasSubstr("treatment.steps"));

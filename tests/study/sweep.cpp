@@ -145,12 +145,12 @@ TEST(Sweep, SameBytesForAnyNumberOfJobs) {
 }
 
 TEST(Sweep, JobsFillThreadsOrHalfOfTheMemory) {
-  constexpr Index n_pixels = 1000 * 1000;
-  const auto room_for = [](std::size_t n_units) { return 2 * n_units * 80 * n_pixels; };
-  EXPECT_EQ(jobs_that_fit(n_pixels, room_for(8), 2), 2);
-  EXPECT_EQ(jobs_that_fit(n_pixels, room_for(8), 16), 8);
-  EXPECT_EQ(jobs_that_fit(n_pixels, room_for(1) - 1, 16), 1);
-  EXPECT_EQ(jobs_that_fit(n_pixels, 0, 16), 1);
+  constexpr std::size_t size = 80'000'000;
+  const auto room_for = [](std::size_t n_jobs) { return 2 * n_jobs * size; };
+  EXPECT_EQ(jobs_that_fit(size, room_for(8), 2), 2);
+  EXPECT_EQ(jobs_that_fit(size, room_for(8), 16), 8);
+  EXPECT_EQ(jobs_that_fit(size, room_for(1) - 1, 16), 1);
+  EXPECT_EQ(jobs_that_fit(size, 0, 16), 1);
   EXPECT_EQ(jobs_that_fit(0, room_for(8), 4), 4);
 }
 
@@ -208,7 +208,8 @@ TEST(Sweep, AScanThatFailsIsRecordedAndTheRestGoesOn) {
   EXPECT_EQ(outcome.n_done, 8u);
   EXPECT_EQ(outcome.n_failed, 4u);
   ASSERT_EQ(outcome.failures.size(), 2u);
-  EXPECT_THAT(outcome.failures[0], HasSubstr("1 missing pixels"));
+  EXPECT_THAT(outcome.failures[0],
+              HasSubstr("got 1 missing pixel; expected a height at every pixel"));
   EXPECT_THAT(outcome.failures[0], HasSubstr("fill=harmonic"));
   const io::CsvTable table = io::parse_csv(example.csv(), "results.csv");
   EXPECT_EQ(table.text(0, "friction_dry"), "");
@@ -235,18 +236,15 @@ TEST(Sweep, FailedCasesWaitForRetry) {
 void store_unfinished_contact(const ExampleStudy& example) {
   const Study study = example.read();
   const Store store(example.results(), Store::Use::alone);
-  contact::Problem problem;
-  problem.mean_pressure = study.mean_pressures[0];
-  problem.saturation_pressure = study.saturation_pressure;
-  contact::State state;
-  state.pressure = Field::Constant(24, 32, problem.mean_pressure);
-  state.gap = Field::Zero(24, 32);
-  state.convergence.certificate = 0.5;
-  contact::Summary summary;
-  summary.mean_pressure = problem.mean_pressure;
+  analysis::ContactRecord record;
+  record.state.pressure = Field::Constant(24, 32, study.mean_pressures[0]);
+  record.state.gap = Field::Zero(24, 32);
+  record.convergence.certificate = 0.5;
+  contact::Summary& summary = record.summary;
+  summary.mean_pressure = study.mean_pressures[0];
   summary.contact_area_fraction = summary.contact_area_fraction_pixels = 1;
-  write_contact(store, units_of(study)[0].contacts[0], {32, 24, 32e-6, 24e-6}, problem, state,
-                summary, {});
+  write_contact(store, tasks_of(study)[0].contacts[0], {32, 24, 32e-6, 24e-6},
+                study.saturation_pressure, record);
 }
 
 TEST(Sweep, NotConvergedCasesAreSolvedAgainOnlyByRetry) {

@@ -71,10 +71,10 @@ TEST(FlowingSweep, LeavesWhatTheContactSaysAsItWas) {
 TEST(FlowingSweep, StudiesWithoutFlowKeepTheirRecords) {
   const ExampleStudy example;
   example.run();
-  const Unit unit = units_of(example.read())[0].cases[0][0];
-  const io::Json json = io::read_json(example.results() / "store" / unit.file);
+  const Task task = tasks_of(example.read())[0].cases[0][0];
+  const io::Json json = io::read_json(example.results() / "store" / task.file);
   std::vector<std::string> keys;
-  for (const auto& item : json.items()) keys.push_back(item.key());
+  for (const auto& [key, value] : json.items()) keys.push_back(key);
   EXPECT_THAT(keys, testing::UnorderedElementsAre(
                         "canonical_text", "case_id", "certificate", "contact_area_fraction",
                         "contact_area_fraction_pixels", "converged", "error", "escaping_fraction",
@@ -89,12 +89,12 @@ TEST(FlowingSweep, AgreesWithTheSolverItself) {
   example.write(small_study());
   example.run();
   const Study study = example.read();
-  const ScanUnits units = units_of(study)[0];
-  const topography::Topography surface = treated_surface(study, study.scans[0], units.sha256, {});
+  const ScanTasks tasks = tasks_of(study)[0];
+  const topography::Topography surface = treated_surface(study, study.scans[0], tasks.sha256, {});
   const contact::State dry = solve_contact(study, surface, study.mean_pressures[0], {});
   const Store store(example.results(), Store::Use::alone);
-  const StoredFluid stored = read_fluid(store, units.fluids[0][1]);
-  ASSERT_TRUE(stored.summary.converged);
+  const analysis::FluidRecord stored = read_fluid(store, tasks.fluids[0][1]);
+  ASSERT_TRUE(stored.summary.convergence.converged());
   EXPECT_NEAR(stored.summary.load_share + stored.summary.solid_share, 1, 1.1e-3);
   EXPECT_GT(stored.summary.mean_gap, dry.gap.max(0.0).mean());
   const io::CsvTable table = table_of(example);
@@ -183,13 +183,13 @@ TEST(FlowingSweep, DeletedAndDamagedFilmsFlowAgain) {
   example.write(small_study());
   example.run();
   const std::string csv = example.csv();
-  const Unit unit = units_of(example.read())[1].fluids[0][1];
-  const std::filesystem::path file = example.results() / "store" / unit.file;
+  const Task task = tasks_of(example.read())[1].fluids[0][1];
+  const std::filesystem::path file = example.results() / "store" / task.file;
   const std::string bytes = test::bytes_of(file);
   test::put_bytes(file, bytes.substr(0, bytes.size() / 2));
   const Outcome damaged = example.run();
   EXPECT_EQ(damaged.n_fluids, 1u);
-  EXPECT_THAT(damaged.warnings, testing::Contains(HasSubstr(unit.file)));
+  EXPECT_THAT(damaged.warnings, testing::Contains(HasSubstr(task.file)));
   std::filesystem::remove(file);
   EXPECT_EQ(example.run().n_fluids, 1u);
   EXPECT_EQ(example.csv(), csv);
@@ -198,13 +198,12 @@ TEST(FlowingSweep, DeletedAndDamagedFilmsFlowAgain) {
 /// Puts a film that did not converge into the store, in place of the first of the study.
 void store_unfinished_film(const ExampleStudy& example) {
   const Store store(example.results(), Store::Use::alone);
-  friction::FluidFilmState state;
+  analysis::FluidRecord record;
+  friction::FluidFilmState& state = record.state;
   state.film.pressure = state.film.fill = state.contact.gap = Field::Zero(24, 32);
-  StoredFluid stored;
-  stored.summary.solid_share = 1;
-  stored.doubts = {"film NOT CONVERGED"};
-  write_fluid(store, units_of(example.read())[0].fluids[0][0], {32, 24, 32e-6, 24e-6}, state,
-              stored, {});
+  record.summary.solid_share = 1;
+  record.warnings = {{"fluid-film", "film NOT CONVERGED"}};
+  write_fluid(store, tasks_of(example.read())[0].fluids[0][0], {32, 24, 32e-6, 24e-6}, record, {});
 }
 
 TEST(FlowingSweep, SaysWhatDidNotConvergeAndTriesItAgainOnlyByRetry) {

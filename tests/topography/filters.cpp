@@ -2,13 +2,15 @@
 
 #include <gmock/gmock.h>
 
-#include "sample_surfaces.hpp"
+#include "support/sample_surfaces.hpp"
 #include "support/validation.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/topography/geometry.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::topography::test {
+
+using namespace tabor::test;
 namespace {
 
 using testing::HasSubstr;

@@ -2,12 +2,14 @@
 
 #include <gmock/gmock.h>
 
-#include "sample_surfaces.hpp"
+#include "support/sample_surfaces.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/topography/parameters.hpp"
+#include "tabor/metrology/parameters.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::topography::test {
+
+using namespace tabor::test;
 namespace {
 
 const Grid kGrid{12, 8, 24e-6, 8e-6};  // pixels 2 um x 1 um
@@ -73,7 +75,7 @@ TEST(Mirror, IsContinuousAcrossItsSeams) {
   EXPECT_TRUE((tiled.height.col(0) == tiled.height.col(23)).all());
   EXPECT_TRUE((tiled.height.row(7) == tiled.height.row(8)).all());
   EXPECT_TRUE((tiled.height.row(0) == tiled.height.row(15)).all());
-  EXPECT_NEAR(rms_height(tiled), rms_height(rough), 1e-20);
+  EXPECT_NEAR(metrology::rms_height(tiled), metrology::rms_height(rough), 1e-20);
 }
 
 TEST(Flip, ReversesTheOrderOfColumnsOrRows) {

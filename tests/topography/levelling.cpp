@@ -4,12 +4,14 @@
 
 #include <array>
 
-#include "sample_surfaces.hpp"
+#include "support/sample_surfaces.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/metrology/parameters.hpp"
 #include "tabor/topography/geometry.hpp"
-#include "tabor/topography/parameters.hpp"
 
 namespace tabor::topography::test {
+
+using namespace tabor::test;
 namespace {
 
 const Grid kGrid{61, 47, 61e-6, 30e-6};
@@ -75,9 +77,9 @@ TEST_P(LevelPolynomial, TheRestHasTheHeightItHadAsAField) {
   auto rough = noise(kGrid);
   punch_holes(rough, 0.2);
   const auto fit = fit_form(rough.height, GetParam());
-  const double before = rms_height(rough);
+  const double before = metrology::rms_height(rough);
   rough.height = remove_form(rough.height, fit);
-  const double after = rms_height(rough);
+  const double after = metrology::rms_height(rough);
   rough = noise(kGrid);
   punch_holes(rough, 0.2);
   EXPECT_LT(after, before);
@@ -86,7 +88,7 @@ TEST_P(LevelPolynomial, TheRestHasTheHeightItHadAsAField) {
 
 TEST(LevelPlane, TheHeightOfTheRestIsAboutItsMeanWhateverFormIsTaken) {
   const auto rough = noise(kGrid);
-  const double height = rms_height(level(rough, Form::mean));
+  const double height = metrology::rms_height(level(rough, Form::mean));
   FormFit elsewhere = fit_form(rough.height, 0);
   elsewhere.coefficients[0] += 3 * height;
   EXPECT_NEAR(rms_without_form(rough.height, elsewhere), height, 1e-10 * height);
@@ -107,7 +109,8 @@ TEST(LevelPlane, KeepsAPicometreUnderAMillimetre) {
   const auto tilted = surface(kGrid, [](double x, double y) {
     return 1e-3 + x + 1e-12 * std::cos(2 * pi * 5 * x / kGrid.lx) + 0 * y;
   });
-  EXPECT_NEAR(rms_height(level(tilted, Form::plane)), 1e-12 / std::numbers::sqrt2, 2e-14);
+  EXPECT_NEAR(metrology::rms_height(level(tilted, Form::plane)), 1e-12 / std::numbers::sqrt2,
+              2e-14);
 }
 
 TEST(LevelPlane, LeavesAResidualOrthogonalToThePlane) {

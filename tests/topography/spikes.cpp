@@ -6,23 +6,25 @@
 #include <set>
 #include <vector>
 
-#include "rough_recipe.hpp"
-#include "sample_surfaces.hpp"
 #include "support/refusal.hpp"
+#include "support/rough_recipe.hpp"
+#include "support/sample_surfaces.hpp"
 #include "support/scans.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/topography/file.hpp"
+#include "tabor/metrology/parameters.hpp"
+#include "tabor/scan/file.hpp"
 #include "tabor/topography/levelling.hpp"
-#include "tabor/topography/parameters.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::topography::test {
+
+using namespace tabor::test;
 namespace {
 
 using testing::HasSubstr;
 
 Topography rough_surface(double hurst, std::uint64_t seed, Index n = 256) {
-  return self_affine(rough_recipe(n, hurst, seed));
+  return synthesis::self_affine(rough_recipe(n, hurst, seed));
 }
 
 std::set<Index> found(const Mask& mask) {
@@ -121,7 +123,7 @@ TEST(Spikes, StandOutOfAFlat) {
 TEST(Spikes, StandOutOfAProfile) {
   auto row = noise({400, 1, 400e-6, 1e-6});
   EXPECT_EQ(find_spikes(row.height).count(), 0);
-  for (const Index x : {0, 200, 399}) row.height(0, x) += 50 * rms_height(row);
+  for (const Index x : {0, 200, 399}) row.height(0, x) += 50 * metrology::rms_height(row);
   EXPECT_EQ(found(find_spikes(row.height)), (std::set<Index>{0, 200, 399}));
   EXPECT_EQ(found(find_spikes(row.height.transpose())), (std::set<Index>{0, 200, 399}));
 }
@@ -164,7 +166,8 @@ TEST(Spikes, GiveTheSameBitsOnAnyNumberOfThreads) {
 
 TEST(Spikes, OfAMeasuredScanGoAtOnce) {
   TABOR_NEEDS_SHARED_SCAN("polished_cyl_missing.sur");
-  const auto scan = level(read(tabor::test::shared_scan("polished_cyl_missing.sur")), Form::plane);
+  const auto scan =
+      level(scan::read(tabor::test::shared_scan("polished_cyl_missing.sur")), Form::plane);
   // Along narrow bands heights jump between two levels some 7 nm apart, on a ground smooth to 0.6
   // nm.
   const auto after = remove_spikes(scan);
@@ -178,7 +181,7 @@ class SpikesOfRoughScans : public testing::TestWithParam<const char*> {};
 
 TEST_P(SpikesOfRoughScans, AreNone) {
   TABOR_NEEDS_SHARED_SCAN(GetParam());
-  EXPECT_EQ(count_spikes(read(tabor::test::shared_scan(GetParam())).height), 0);
+  EXPECT_EQ(count_spikes(scan::read(tabor::test::shared_scan(GetParam())).height), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scans, SpikesOfRoughScans,

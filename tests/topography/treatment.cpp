@@ -2,12 +2,14 @@
 
 #include <gmock/gmock.h>
 
-#include "sample_surfaces.hpp"
+#include "support/sample_surfaces.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/topography/geometry.hpp"
 #include "tabor/topography/levelling.hpp"
 
 namespace tabor::topography::test {
+
+using namespace tabor::test;
 namespace {
 
 using testing::HasSubstr;

@@ -24,7 +24,7 @@
 #include "tabor/elastic/half_space.hpp"
 #include "tabor/material/solid.hpp"
 #include "tabor/spectral/fft.hpp"
-#include "tabor/topography/synthesis.hpp"
+#include "tabor/synthesis/synthesis.hpp"
 
 namespace {
 
@@ -79,11 +79,11 @@ void add_elastic_loads(Surface& surface, const std::string& name, double unit,
 }
 
 Surface edt_surface(const Options& options) {
-  topography::Edt recipe;
+  synthesis::Edt recipe;
   recipe.grid = edt_grid(options.n);
   recipe.seed = options.seed;
   Surface surface{recipe.grid, {}, {}};
-  surface.problem.height = topography::edt(recipe).height;
+  surface.problem.height = synthesis::edt(recipe).height;
   for (const double pressure : {2e6, 5e6, 10e6, 15e6}) {
     if (options.loads.empty()) {
       surface.loads.push_back({"edt saturated", pressure, 240e6});
@@ -95,25 +95,25 @@ Surface edt_surface(const Options& options) {
 }
 
 Surface self_affine_surface(const Options& options) {
-  topography::SelfAffine recipe;
+  synthesis::SelfAffine recipe;
   recipe.grid = edt_grid(options.n);
   recipe.rms_slope = 1.0;
   recipe.roll_off_wavelength = recipe.grid.lx / 4;
   recipe.short_cutoff_wavelength = 4 * 2 * recipe.grid.dx();
   recipe.seed = options.seed;
   Surface surface{recipe.grid, {}, {}};
-  surface.problem.height = topography::self_affine(recipe).height;
+  surface.problem.height = synthesis::self_affine(recipe).height;
   add_elastic_loads(surface, "self-affine elastic", aluminium(), options,
                     {0.0025, 0.01, 0.025, 0.1});
   return surface;
 }
 
 Surface ground_surface(const Options& options) {
-  topography::Ground recipe;
+  synthesis::Ground recipe;
   recipe.grid = edt_grid(options.n);
   recipe.seed = options.seed;
   Surface surface{recipe.grid, {}, {}};
-  surface.problem.height = topography::ground(recipe).height;
+  surface.problem.height = synthesis::ground(recipe).height;
   const double unit = aluminium() * rms_slope(surface.problem.height, surface.grid);
   add_elastic_loads(surface, "ground elastic", unit, options, {0.0025, 0.01, 0.025, 0.1});
   return surface;
@@ -161,7 +161,7 @@ void run(Surface& surface, const Load& load, contact::Solver solver, const PairS
       "{:>6.2f} {:>7.1f}\n",
       load.name, solver == contact::Solver::fast ? "fast" : "polonsky-keer",
       load.mean_pressure / 1e6, 100 * area, found.iterations, found.operator_applications,
-      found.fft_pairs, found.certificate, found.converged ? "yes" : "NO", seconds,
+      found.fft_pairs, found.certificate, found.converged() ? "yes" : "NO", seconds,
       seconds / pair.plain, seconds / (found.fft_pairs * pair.fused),
       static_cast<double>(peak_memory_bytes()) / static_cast<double>(surface.grid.size()));
   std::fflush(stdout);

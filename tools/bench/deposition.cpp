@@ -20,10 +20,10 @@
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/random.hpp"
 #include "tabor/core/resources.hpp"
-#include "tabor/lubrication/deposition.hpp"
-#include "tabor/lubrication/naive.hpp"
+#include "tabor/deposition/deposition.hpp"
+#include "tabor/deposition/naive.hpp"
+#include "tabor/synthesis/synthesis.hpp"
 #include "tabor/topography/filters.hpp"
-#include "tabor/topography/synthesis.hpp"
 
 namespace {
 
@@ -42,10 +42,10 @@ struct Surface {
 };
 
 Surface as_scanned(Index side) {
-  topography::Edt recipe;
+  synthesis::Edt recipe;
   const double length = kPixel * static_cast<double>(side);
   recipe.grid = {side, side, length, length};
-  return {"as scanned", recipe.grid, topography::edt(recipe).height};
+  return {"as scanned", recipe.grid, synthesis::edt(recipe).height};
 }
 
 Surface low_passed(const Surface& scan) {
@@ -70,30 +70,30 @@ void print_row(const Surface& surface, const std::string& engine, double film, l
              per_droplet, bytes / static_cast<double>(surface.height.size()));
 }
 
-void time_model(const Surface& surface, lubrication::Model model) {
+void time_model(const Surface& surface, deposition::Model model) {
   const std::size_t before = peak_memory_bytes();
-  lubrication::Dose dose;
+  deposition::Dose dose;
   dose.mean_films = {kFilm / 2, kFilm};
   dose.droplet_height = kDroplet;
   dose.model = model;
-  const lubrication::FilmSink print = [&](lubrication::Film&& film) {
-    print_row(surface, std::string(lubrication::name(model)), film.mean_film, film.n_droplets,
+  const deposition::FilmSink print = [&](deposition::Film&& film) {
+    print_row(surface, std::string(deposition::name(model)), film.mean_film, film.n_droplets,
               film.n_pools, film.wet_fraction, film.seconds, before);
   };
-  lubrication::deposit(surface.height, surface.grid, dose, print);
+  deposition::deposit(surface.height, surface.grid, dose, print);
 }
 
 void time_naive(const Surface& surface) {
   const std::size_t before = peak_memory_bytes();
   const Stopwatch watch;
-  const auto terrain = lubrication::quantise(surface.height, lubrication::Edge::closed);
-  lubrication::NaiveRain rain(terrain, lubrication::Reading::conserving);
+  const auto terrain = deposition::quantise(surface.height, deposition::Edge::closed);
+  deposition::NaiveRain rain(terrain, deposition::Reading::conserving);
   const CounterRandom starts(1);
   const auto n = static_cast<std::uint64_t>(surface.height.size());
-  const auto droplet = static_cast<lubrication::Height>(std::lround(kDroplet / terrain.quantum));
+  const auto droplet = static_cast<deposition::Height>(std::lround(kDroplet / terrain.quantum));
   const auto n_droplets = static_cast<std::uint64_t>(std::llround(kFilm / kDroplet)) * n;
   for (std::uint64_t k = 0; k < n_droplets; ++k) {
-    rain.drop(static_cast<lubrication::Pixel>(starts.below(k, n)), droplet);
+    rain.drop(static_cast<deposition::Pixel>(starts.below(k, n)), droplet);
   }
   std::size_t n_wet = 0;
   for (std::size_t p = 0; p < n; ++p) {
@@ -136,8 +136,8 @@ int main(int argc, char** argv) {
     const Surface scan = as_scanned(side);
     const Surface smooth = low_passed(scan);
     for (const Surface* surface : {&scan, &smooth}) {
-      in_own_process([&] { time_model(*surface, lubrication::Model::limit); });
-      in_own_process([&] { time_model(*surface, lubrication::Model::droplets); });
+      in_own_process([&] { time_model(*surface, deposition::Model::limit); });
+      in_own_process([&] { time_model(*surface, deposition::Model::droplets); });
     }
     if (side <= kLargestNaive) {
       in_own_process([&] { time_naive(scan); });

@@ -11,29 +11,29 @@
 
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/resources.hpp"
-#include "tabor/lubrication/patch_flow.hpp"
-#include "tabor/topography/synthesis.hpp"
+#include "tabor/reynolds/patch_flow.hpp"
+#include "tabor/synthesis/synthesis.hpp"
 
 namespace {
 
 using namespace tabor;
 
 void print_row(Index pixels) {
-  topography::SelfAffine recipe;
+  synthesis::SelfAffine recipe;
   recipe.grid = {pixels, pixels, 100e-6, 100e-6};
   recipe.rms_height = 0.5e-6;
-  const Field height = topography::self_affine(recipe).height;
-  lubrication::PatchProblem problem;
+  const Field height = synthesis::self_affine(recipe).height;
+  reynolds::PatchProblem problem;
   problem.grid = recipe.grid;
   problem.gap = (0.5e-6 - height).max(0.0);
   problem.viscosity = 0.225;
   problem.entrainment_speed = 2.5e-3;
   problem.pressure_resolution = 100;
   const Stopwatch watch;
-  const lubrication::PatchFilm film = lubrication::steady_film(problem, 0.5 * problem.gap);
+  const reynolds::PatchFilm film = reynolds::steady_film(problem, 0.5 * problem.gap);
   fmt::print("{:>6} {:>12.4g} {:>6} {:>10} {:>9} {:>8.2f}{}\n", pixels, film.mean_pressure,
-             film.steps, film.iterations, film.products, watch.seconds(),
-             film.converged && film.steady ? "" : " not converged");
+             film.steps, film.convergence.iterations, film.convergence.operator_applications,
+             watch.seconds(), film.convergence.converged() ? "" : " not converged");
 }
 
 }  // namespace

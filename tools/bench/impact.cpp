@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "tabor/core/resources.hpp"
-#include "tabor/ehl/impact.hpp"
+#include "tabor/ehl/impact/impact.hpp"
 
 namespace {
 

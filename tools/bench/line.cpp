@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "ehl/akchurin.hpp"
+#include "ehl/line/akchurin.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/resources.hpp"
-#include "tabor/ehl/wear.hpp"
+#include "tabor/ehl/line/wear.hpp"
 
 namespace {
 
@@ -32,7 +32,7 @@ ehl::LineProblem table_6(Index nodes) {
 
 void print_row(Index nodes, const char* way, const ehl::LineResult& result, double seconds) {
   fmt::print("{:>6} {:<6} {:>9.3f} {:>10} {:>9} {:>9.4f}\n", nodes, way, result.min_film * 1e9,
-             result.newton_iterations, result.n_products, seconds);
+             result.convergence.iterations, result.convergence.operator_applications, seconds);
 }
 
 void compare(Index nodes) {
@@ -61,7 +61,8 @@ void wear_one_cycle() {
   const Stopwatch watch;
   const ehl::WearResult result = ehl::solve_wear(problem);
   fmt::print("\nwear, 1000 nodes: {} steps, {} iterations, {:.2f} s{}\n", result.history.size() - 1,
-             result.newton_iterations, watch.seconds(), result.converged ? "" : ", not converged");
+             result.convergence.iterations, watch.seconds(),
+             result.convergence.converged() ? "" : ", not converged");
 }
 
 }  // namespace

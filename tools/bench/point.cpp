@@ -15,7 +15,7 @@
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/random.hpp"
 #include "tabor/core/resources.hpp"
-#include "tabor/ehl/point.hpp"
+#include "tabor/ehl/point/point.hpp"
 
 namespace {
 
@@ -69,9 +69,9 @@ void solve(const char* surface, const char* way, int threads, const ehl::PointPr
   const ehl::PointResult result = ehl::solve_point(problem);
   const double seconds = watch.seconds();
   fmt::print("{:>6} {:<7} {:<6} {:>7} {:>9.3f} {:>10} {:>6} {:>9} {:>9.2f}{}\n", problem.nodes_x,
-             surface, way, threads, result.film.minCoeff() * 1e9, result.newton_iterations,
-             result.n_linear_iterations, result.n_products, seconds,
-             result.converged ? "" : " not converged");
+             surface, way, threads, result.film.minCoeff() * 1e9, result.convergence.iterations,
+             result.n_linear_iterations, result.convergence.operator_applications, seconds,
+             result.convergence.converged() ? "" : " not converged");
 }
 
 }  // namespace

@@ -17,8 +17,8 @@
 #include "tabor/core/resources.hpp"
 #include "tabor/io/hdf5.hpp"
 #include "tabor/io/zip.hpp"
+#include "tabor/scan/file.hpp"
 #include "tabor/topography/doubts.hpp"
-#include "tabor/topography/file.hpp"
 
 namespace {
 
@@ -113,7 +113,7 @@ std::vector<Kind> kinds() {
 void measure(const Kind& kind, const fs::path& folder, Index side) {
   constexpr int kRepeats = 3;
   const fs::path file = folder / (std::string("scan") + kind.extension);
-  tabor::topography::ReadOptions options;
+  tabor::scan::ReadOptions options;
   if (std::string(kind.extension) == ".npy") {
     options.pixel_x = 1e-6;
     options.unit = "m";
@@ -123,7 +123,7 @@ void measure(const Kind& kind, const fs::path& folder, Index side) {
   double doubts = INFINITY;
   for (int i = 0; i < kRepeats; ++i) {
     const tabor::Stopwatch reading;
-    const auto map = tabor::topography::read(file, options);
+    const auto map = tabor::scan::read(file, options);
     const double with_doubts = reading.seconds();
     const tabor::Stopwatch doubting;
     tabor::topography::doubts(map);
@@ -148,7 +148,7 @@ int main(int argc, char** argv) {
   {
     const auto map = surface(side);
     for (const Kind& kind : kinds()) {
-      tabor::topography::write(map, folder / (std::string("scan") + kind.extension));
+      tabor::scan::write(map, folder / (std::string("scan") + kind.extension));
     }
   }
   for (const Kind& kind : kinds()) measure(kind, folder, side);

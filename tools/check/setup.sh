@@ -56,8 +56,9 @@ install_missing() {
 configure() {
   local preset=$1
   shift
-  if command -v ccache >/dev/null; then
-    set -- -DCMAKE_CXX_COMPILER_LAUNCHER=ccache "$@"
+  if command -v ccache >/dev/null; then  # precompiled headers are hit only with these
+    local launcher="env;CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime;ccache"
+    set -- "-DCMAKE_CXX_COMPILER_LAUNCHER=$launcher" "$@"
   fi
   mkdir -p "build/$preset"
   cmake --preset "$preset" "$@" >"build/$preset/configure.log" 2>&1 ||

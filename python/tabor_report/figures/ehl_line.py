@@ -48,7 +48,7 @@ def _profile(source, profile):
     left.set_ylim(bottom=0)
     inside = np.abs(x) <= 0.5 * reach
     right.set_ylim(0, min(FILMS_SHOWN * np.median(film[inside]), film.max()) * NM)
-    left.set_xlabel("place along the flow (µm), inlet on the left")
+    left.set_xlabel("position along the flow (µm), inlet on the left")
     left.set_ylabel("pressure (MPa)")
     right.set_ylabel("film thickness (nm)")
     right.spines["right"].set_visible(True)

@@ -20,7 +20,7 @@ def draw(source):
     """Yields what the file holds."""
     if "contact" not in source.file:
         return
-    yield _centre_line(source, "along", "place along the flow (µm), inlet on the left")
+    yield _centre_line(source, "along", "position along the flow (µm), inlet on the left")
     yield _centre_line(source, "across", "place across the flow (µm)")
     contact = _Contact(source)
     yield _film_maps(contact)

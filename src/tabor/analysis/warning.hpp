@@ -14,6 +14,7 @@ struct Warning {
 
   bool operator==(const Warning&) const = default;
 };
+/// Those of one number.
 using Warnings = std::vector<Warning>;
 
 /// What a warning is about: it is the same for all cases that have this in common.
@@ -24,6 +25,7 @@ struct CodeEntry {
   std::string_view code;
   About about;
 };
+/// In the order in which warnings are shown.
 const std::vector<CodeEntry>& all_codes();
 
 /// Of a code in that list; a surface's for any other.

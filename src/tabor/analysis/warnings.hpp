@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "tabor/analysis/settings.hpp"
 #include "tabor/analysis/warning.hpp"
 #include "tabor/contact/contact.hpp"
+#include "tabor/deposition/deposition.hpp"
 #include "tabor/friction/bowden_tabor.hpp"
 #include "tabor/friction/mixed_friction.hpp"
-#include "tabor/lubrication/deposition.hpp"
 #include "tabor/topography/topography.hpp"
 
 // What a user must be told about each number. Verbs and studies ask the same functions, so that a
@@ -21,25 +22,21 @@ std::optional<Warning> not_levelled(const topography::Topography& surface);
 /// Doubts about a treated surface, whatever is computed with it.
 Warnings of_surface(const topography::Topography& surface);
 
-/// What the contact was asked for, as far as warnings depend on it.
-struct ContactSettings {
-  bool periodic = true;
-  double effective_modulus = 0;                         ///< E* [Pa]
-  double saturation_pressure = contact::kNoSaturation;  ///< [Pa]
-};
-
 /// Of one solved contact on the treated surface.
 Warnings of_contact(const topography::Topography& surface, const ContactSettings& settings,
                     const contact::State& state, const contact::Summary& summary);
 
 /// Of one film as it was laid down.
-Warnings of_film(const lubrication::Film& film);
+Warnings of_film(const deposition::Film& film);
 
 /// Of the friction of one contact with one film; `spill_over_fraction` of the liquid does not fit.
 Warnings of_friction(const friction::Contact& contact, const friction::Estimate& estimate,
                      double spill_over_fraction);
 
-/// Of a film that flows: `doubts` about its state, and the friction that follows from it.
-Warnings of_flow(const std::vector<std::string>& doubts, const friction::MixedEstimate& mixed);
+/// Of a film that flows, with these doubts about its state.
+Warnings of_flow(const std::vector<std::string>& doubts);
+
+/// Of the friction of solids and oil together.
+Warnings of_mixed_friction(const friction::MixedEstimate& mixed);
 
 }  // namespace tabor::analysis

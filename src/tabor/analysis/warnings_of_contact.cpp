@@ -5,7 +5,7 @@
 
 #include "tabor/analysis/warnings.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/topography/parameters.hpp"
+#include "tabor/metrology/parameters.hpp"
 
 namespace tabor::analysis {
 namespace {
@@ -57,7 +57,7 @@ void warn_of_load_on_edges(const contact::State& state, Warnings& list) {
 }
 
 void warn_of_slope(const topography::Topography& surface, Warnings& list) {
-  const double slope = topography::rms_slope(surface);
+  const double slope = metrology::rms_slope(surface);
   if (!(slope > kSteepSlope)) return;
   list.push_back(
       {"steep",
@@ -70,8 +70,8 @@ void warn_of_slope(const topography::Topography& surface, Warnings& list) {
 
 void warn_of_hardness(const ContactSettings& settings, const contact::Summary& summary,
                       Warnings& list) {
-  const double share = summary.max_pressure / settings.effective_modulus;
-  if (std::isfinite(settings.saturation_pressure) || !(share > kHardestSolid)) return;
+  const double share = summary.max_pressure / settings.effective_modulus();
+  if (settings.saturation_pressure || !(share > kHardestSolid)) return;
   list.push_back(
       {"above-hardness",
        fmt::format("the contact pressure reaches {}, {:.2g} E*: no solid is as hard as {} E* "
@@ -111,16 +111,18 @@ std::string shortfall(const contact::State& state) {
 Warnings of_contact(const topography::Topography& surface, const ContactSettings& settings,
                     const contact::State& state, const contact::Summary& summary) {
   Warnings list;
-  if (settings.periodic) {
+  if (settings.is_periodic()) {
     warn_of_edges(surface, list);
   } else {
     warn_of_load_on_edges(state, list);
   }
   warn_of_slope(surface, list);
   const Convergence& convergence = state.convergence;
-  if (!convergence.converged) {
+  if (convergence.failed()) {
     list.push_back(
-        {"not-converged", "NOT CONVERGED, " + shortfall(state), convergence.certificate});
+        {"not-converged",
+         fmt::format("NOT CONVERGED ({}), {}", name_of(convergence.status), shortfall(state)),
+         convergence.certificate});
   }
   if (!summary.area_correction_valid) {
     list.push_back({"area-correction",

@@ -28,7 +28,7 @@ void warn_of_size(const char* which, double friction, Warnings& list) {
 
 }  // namespace
 
-Warnings of_film(const lubrication::Film& film) {
+Warnings of_film(const deposition::Film& film) {
   Warnings list;
   if (const double least = film.thickness.minCoeff(); film.flooded || least > 0) {
     list.push_back({"flood",
@@ -82,9 +82,14 @@ Warnings of_friction(const friction::Contact& contact, const friction::Estimate&
   return list;
 }
 
-Warnings of_flow(const std::vector<std::string>& doubts, const friction::MixedEstimate& mixed) {
+Warnings of_flow(const std::vector<std::string>& doubts) {
   Warnings list;
   for (const std::string& doubt : doubts) list.push_back({"fluid-film", doubt});
+  return list;
+}
+
+Warnings of_mixed_friction(const friction::MixedEstimate& mixed) {
+  Warnings list;
   warn_of_size("mixed", mixed.friction_mixed, list);
   return list;
 }

@@ -4,8 +4,8 @@
 
 #include "tabor/analysis/warnings.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/metrology/parameters.hpp"
 #include "tabor/topography/levelling.hpp"
-#include "tabor/topography/parameters.hpp"
 
 namespace tabor::analysis {
 namespace {
@@ -27,7 +27,7 @@ std::optional<Warning> not_levelled(const topography::Topography& surface) {
   if (surface.periodic || is_levelled(surface)) return std::nullopt;
   const auto plane = topography::try_fit_form(surface.height, 1);
   if (!plane) return std::nullopt;  // too few points to have a tilt
-  const double before = topography::rms_height(surface);
+  const double before = metrology::rms_height(surface);
   const double after = topography::rms_without_form(surface.height, *plane);
   if (before <= after * (1 + kNegligibleTilt)) return std::nullopt;
   return Warning{

@@ -20,6 +20,7 @@
 #include "tabor/core/text.hpp"
 #include "tabor/core/version.hpp"
 #include "tabor/core/watch.hpp"
+#include "tabor/io/protection.hpp"
 
 namespace tabor::cli {
 
@@ -128,6 +129,8 @@ int run(int argc, char** argv) {
   let_idle_threads_sleep(argv);
   catch_interrupts();
   let_writing_fail();
+  io::isolate_hdf5_reading(true);
+  io::trap_lost_pages(true);
   return run(Words(argv + 1, argv + argc), std::cout, std::cerr, progress_style_of_stderr(false));
 }
 

@@ -13,8 +13,8 @@ namespace tabor::cli {
 int run(const std::vector<std::string>& args, std::ostream& out, std::ostream& err,
         ProgressStyle style = ProgressStyle::none);
 
-/// The program: sets up the process (idle threads sleep, Ctrl-C is caught) and runs. May replace
-/// the process image once, see app.cpp.
+/// The program: sets up the process (idle threads sleep, Ctrl-C is caught, files of unknown origin
+/// do no harm, see io/protection.hpp) and runs. May replace the process image once, see app.cpp.
 int run(int argc, char** argv);
 
 }  // namespace tabor::cli

@@ -7,7 +7,7 @@
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/version.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5_guard.hpp"
 
 namespace tabor::cli {
 

@@ -1,4 +1,4 @@
-#include "tabor/topography/combine.hpp"
+#include "tabor/comparison/combine.hpp"
 
 #include <fmt/format.h>
 
@@ -16,11 +16,11 @@ namespace tabor::cli {
 
 namespace {
 
-using topography::Combination;
-using topography::CombineMode;
-using topography::Registration;
-using topography::Volume;
-using topography::WearVolumes;
+using comparison::Combination;
+using comparison::CombineMode;
+using comparison::Registration;
+using comparison::Volume;
+using comparison::WearVolumes;
 
 struct Request {
   ScanRequest scan;
@@ -127,13 +127,13 @@ std::string text_of(const Request& request, const Scan& a, const Scan& b, const 
   return text;
 }
 
-topography::CombineOptions options_of(const Request& request) {
+comparison::CombineOptions options_of(const Request& request) {
   if (!request.shift.empty() && request.shift.size() != 2) {
     throw UsageError("--shift: expected two lengths, e.g. 12um,-3.5um");
   }
-  topography::CombineOptions options;
-  options.mode = *topography::combine_mode_from(request.mode);
-  options.level = *topography::level_match_from(request.match);
+  comparison::CombineOptions options;
+  options.mode = *comparison::combine_mode_from(request.mode);
+  options.level = *comparison::level_match_from(request.match);
   options.search = !request.no_register;
   options.threshold = request.threshold;
   if (!request.shift.empty()) {
@@ -173,7 +173,7 @@ int show(const Request& request, Context& context) {
   const Scan a = load_scan(request.scan, context);
   const Scan b = load_scan(second, context);
   if (options.mode != CombineMode::composite) warn_if_not_levelled(a, context);
-  const Combination c = topography::combine(a.surface, b.surface, options, context.observer());
+  const Combination c = comparison::combine(a.surface, b.surface, options, context.observer());
   warn_of_ambiguity(c, context);
   warn_of_holes(c, context);
   io::Json object = json_head(context, a);
@@ -194,7 +194,7 @@ int show(const Request& request, Context& context) {
   if (c.wear) object["wear"] = json_of(*c.wear);
   std::string text = text_of(request, a, b, c);
   if (request.output) {
-    topography::write(c.map, *request.output);
+    scan::write(c.map, *request.output);
     object["output"] = *request.output;
     text += "written " + *request.output + '\n';
   }
@@ -213,7 +213,7 @@ void declare_options(OptionSet& set, Request& request) {
                  "shift of B, not searched: what is at x in A is at x + DX in B; --shift=-3um,1um",
                  dimension::length, request.shift);
   set.choice("--match", {"none", "offset", "plane"},
-             "what of the difference is not real: fitted to places that did not change [plane]",
+             "offset or tilt between the scans to fit where nothing changed, and to remove [plane]",
              request.match);
   set.number("--threshold", "SIGMAS",
              "a change counts from here on, in deviations of the noise [4]", request.threshold);

@@ -21,29 +21,25 @@ struct Request {
   std::optional<double> shear_strength;  ///< [Pa], for its friction
 };
 
-Table table() {
-  return Table({"pressure", "contact", "pixels", "saturated", "mean gap", "max pressure", "patches",
-                "certificate", "gap error", "converged", "iterations", "time"});
+io::Json histogram_json(const contact::Histogram& histogram, const std::string& edge_key) {
+  return {{edge_key, histogram.edges}, {"count", histogram.counts}};
 }
 
-std::vector<std::string> row_of(const ContactResult& result) {
-  const contact::Summary& summary = result.summary;
-  const Convergence& convergence = result.state.convergence;
-  return {si(summary.mean_pressure, "Pa"),
-          percent(summary.contact_area_fraction),
-          percent(summary.contact_area_fraction_pixels),
-          percent(summary.saturated_area_fraction),
-          si(summary.mean_gap, "m"),
-          si(summary.max_pressure, "Pa"),
-          fmt::format("{}", summary.n_patches),
-          fmt::format("{:.1e}", convergence.certificate),
-          si(summary.contact_gap_error, "m"),
-          yes_no(convergence.converged),
-          fmt::format("{}", convergence.iterations),
-          si(result.seconds, "s")};
+/// Contact stiffness and histograms, where --statistics asks for them.
+io::Json statistics_json(const analysis::ContactRecord& record, Context& context) {
+  if (!record.statistics) return io::Json::object();
+  const analysis::ContactStatistics& statistics = *record.statistics;
+  if (!statistics.stiffness.convergence.converged()) {
+    context.warn(fmt::format("contact stiffness: NOT CONVERGED, residual {:.1e}",
+                             statistics.stiffness.convergence.certificate));
+  }
+  return {{"contact_stiffness_Pa_per_m", io::number(statistics.stiffness.value)},
+          {"pressure_histogram", histogram_json(statistics.pressure, "edge_Pa")},
+          {"gap_histogram", histogram_json(statistics.gap, "edge_m")},
+          {"patch_area_histogram", histogram_json(statistics.patch_area, "edge_m2")}};
 }
 
-void check(const Request& request) {
+void check_all(const Request& request) {
   check(request.contact);
   if (request.output && !request.cutoffs.empty()) {
     throw UsageError("--lowpass-scan keeps no maps; leave out -o");
@@ -54,54 +50,63 @@ void check(const Request& request) {
 }
 
 int show(const Request& request, Context& context) {
-  check(request);
+  check_all(request);
   const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
   if (!request.cutoffs.empty()) {
     return run_lowpass_scan(scan, request.contact, request.cutoffs, request.shear_strength,
                             context);
   }
-  const auto elasticity = make_operator(request.contact, scan.surface.grid);
-  const io::Json settings = settings_json(request.contact);
-
+  const analysis::ContactSettings& settings = request.contact.settings;
+  const io::Json in_force = settings_json(settings);
   std::optional<FieldsFile> file;
   if (request.output) {
-    file.emplace(*request.output, context, scan, settings, methods_of(request.contact));
+    file.emplace(*request.output, context, scan, in_force, analysis::references_of(settings));
   }
   io::Json object = json_head(context, scan);
   object["nx"] = scan.surface.grid.nx;
   object["ny"] = scan.surface.grid.ny;
-  object.update(settings);
+  object.update(in_force);
   object["states"] = io::Json::array();
-  Table rows = table();
+  std::vector<analysis::ContactRecord> records;  // without their maps
   std::vector<analysis::Case> cases;
-  const auto receive = [&](const ContactResult& result) {
-    const io::Json state = state_json(result);
-    if (file) file->add_state(object["states"].size(), state, fields_of(result.state));
-    object["states"].push_back(state);
-    object["states"].back().update(statistics_json(*elasticity, result, request.contact, context));
-    rows.row(row_of(result));
+  int code = kDone;
+  const auto receive = [&](analysis::ContactRecord&& record) {
+    const NamedCells cells =
+        cells_of(analysis::contact_columns(), record, analysis::media::kObject);
+    if (file) file->add_state(object["states"].size(), cells, fields_of(record));
+    object["states"].push_back(io::json_of(cells));
+    object["states"].back().update(statistics_json(record, context));
     cases.push_back(
-        {.pressure = si(result.summary.mean_pressure, "Pa"), .warnings = result.warnings});
+        {.pressure = si(record.summary.mean_pressure, "Pa"), .warnings = record.warnings});
+    if (!record.convergence.converged()) code = kNotConverged;
+    record.state = {};
+    records.push_back(std::move(record));
   };
-  const int code = solve_all(*elasticity, scan, request.contact, context, receive);
-  if (code == kInterrupted && object["states"].empty()) throw Interrupted();
+  const int ended = until_interrupted(context, [&] {
+    const auto elasticity = analysis::make_operator(settings, scan.surface.grid);
+    analysis::contact_states(*elasticity, scan.surface, settings, request.contact.pressures,
+                             receive, context.observer());
+  });
+  if (ended == kInterrupted && records.empty()) throw Interrupted();
   context.warn(analysis::findings_of(cases));
   if (file) file->commit(context);
   Facts facts;
   describe(scan, facts);
-  describe(request.contact, facts);
-  return finish(context, object, facts.text() + '\n' + rows.text(), code);
+  describe(settings, facts);
+  return finish(context, object,
+                facts.text() + '\n' + table_of(analysis::contact_columns(), records).text(),
+                ended == kInterrupted ? ended : code);
 }
 
-void declare_extras(OptionSet& set, ContactRequest& request) {
+void declare_extras(OptionSet& set, analysis::ContactSettings& settings) {
   set.toggle("--load-path",
              "the pressures are one history: the plastic indentation a state leaves is kept in the "
              "next, so that reloading below the largest is elastic",
-             request.load_path);
+             settings.load_path);
   set.toggle("--statistics",
              "add contact stiffness and histograms of pressure, gap and patch area to --json",
-             request.statistics);
+             settings.statistics);
 }
 
 void declare_lowpass_scan(OptionSet& set, Request& request) {
@@ -134,7 +139,7 @@ Verb contact_verb() {
             const auto request = std::make_shared<Request>();
             declare_scan(set, request->scan);
             declare_contact(set, request->contact);
-            declare_extras(set, request->contact);
+            declare_extras(set, request->contact.settings);
             declare_lowpass_scan(set, *request);
             declare_output(set, request->output);
             return [request](Context& context) { return show(*request, context); };

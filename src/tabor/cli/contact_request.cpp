@@ -2,24 +2,59 @@
 
 #include <fmt/format.h>
 
-#include <utility>
+#include <map>
 
 #include "tabor/cli/exit_code.hpp"
-#include "tabor/cli/interrupt.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
-#include "tabor/core/resources.hpp"
-#include "tabor/elastic/half_space.hpp"
-#include "tabor/material/solid.hpp"
+#include "tabor/core/units.hpp"
 
 namespace tabor::cli {
 
 namespace {
 
-analysis::ContactSettings analysis_settings(const ContactRequest& request) {
-  return {.periodic = request.is_periodic(),
-          .effective_modulus = effective_modulus(request),
-          .saturation_pressure = request.saturation_pressure.value_or(contact::kNoSaturation)};
+using analysis::ContactSettings;
+using analysis::FilmSettings;
+using analysis::FluidSettings;
+
+const Columns<ContactSettings>& contact_setting_columns() {
+  static const Columns<ContactSettings> columns{
+      {"youngs_modulus_Pa", "Pa", "", &ContactSettings::youngs_modulus},
+      {"poissons_ratio", "", "", &ContactSettings::poissons_ratio},
+      {"counter_youngs_modulus_Pa", "Pa", "", &ContactSettings::counter_youngs_modulus},
+      {"counter_poissons_ratio", "", "", &ContactSettings::counter_poissons_ratio},
+      {"effective_modulus_Pa", "Pa", "", &ContactSettings::effective_modulus},
+      {"saturation_pressure_Pa", "Pa", "", &ContactSettings::saturation_pressure},
+      {"boundary", "", "",
+       [](const ContactSettings& one) { return analysis::kBoundaries.of(one.boundary); }},
+      {"solver", "", "",
+       [](const ContactSettings& one) { return analysis::kSolvers.of(one.solver); }},
+      {"tolerance", "", "", &ContactSettings::tolerance},
+      {"load_path", "", "", &ContactSettings::load_path},
+      {"threads", "", "", [](const ContactSettings&) { return thread_count(); }}};
+  return columns;
+}
+
+const Columns<FilmSettings>& film_setting_columns() {
+  static const Columns<FilmSettings> columns{
+      {"model", "", "", [](const FilmSettings& one) { return deposition::kModels.of(one.model); }},
+      {"reading", "", "",
+       [](const FilmSettings& one) { return deposition::kReadings.of(one.reading); }},
+      {"edge", "", "", [](const FilmSettings& one) { return deposition::kEdges.of(one.edge); }},
+      {"seed", "", "", &FilmSettings::seed},
+      {"droplet_height_m", "m", "", &FilmSettings::droplet_height},
+      {"oil_density_kg_per_m3", "kg/m^3", "", &FilmSettings::oil_density}};
+  return columns;
+}
+
+const Columns<FluidSettings>& fluid_setting_columns() {
+  static const Columns<FluidSettings> columns{
+      {"fluid", "", "", [](const FluidSettings& one) { return analysis::kFluids.of(one.fluid); }},
+      {"sliding_speed_m_per_s", "m/s", "", &FluidSettings::sliding_speed},
+      {"viscosity_Pa_s", "Pa s", "", &FluidSettings::viscosity},
+      {"pressure_viscosity_per_Pa", "1/Pa", "", &FluidSettings::pressure_viscosity},
+      {"eyring_stress_Pa", "Pa", "", &FluidSettings::eyring_stress}};
+  return columns;
 }
 
 }  // namespace
@@ -30,175 +65,176 @@ void declare_contact(OptionSet& set, ContactRequest& request) {
                  dimension::pressure, request.pressures)
       .required = true;
   set.quantity("--youngs-modulus", "E", "Young's modulus of the rough body, e.g. 70GPa",
-               dimension::pressure, request.youngs_modulus)
+               dimension::pressure, request.settings.youngs_modulus)
       .required = true;
   set.number("--poisson-ratio", "NU", "Poisson's ratio of the rough body, e.g. 0.33",
-             request.poissons_ratio)
+             request.settings.poissons_ratio)
       .required = true;
   set.quantity("--counter-youngs-modulus", "E2", "Young's modulus of the counter body [rigid]",
-               dimension::pressure, request.counter_youngs_modulus);
+               dimension::pressure, request.settings.counter_youngs_modulus);
   set.number("--counter-poisson-ratio", "NU2", "Poisson's ratio of the counter body",
-             request.counter_poissons_ratio);
+             request.settings.counter_poissons_ratio);
   set.quantity("--saturation-pressure", "PS", "cap on the contact pressure, e.g. 240MPa [elastic]",
-               dimension::pressure, request.saturation_pressure);
-  set.choice("--boundary", {"periodic", "free"},
+               dimension::pressure, request.settings.saturation_pressure);
+  set.choice("--boundary", analysis::kBoundaries,
              "periodic: the scan repeats; free: loaded on the scan only [periodic]",
-             request.boundary);
-  set.number("--tolerance", "T", "certificate to reach, 1e-12 to 1e-4 [1e-6]", request.tolerance);
-  set.choice("--solver", {"fast", "polonsky-keer"}, "polonsky-keer is the textbook baseline [fast]",
-             request.solver);
+             request.settings.boundary);
+  set.number("--tolerance", "T", "certificate to reach, 1e-12 to 1e-4 [1e-6]",
+             request.settings.tolerance);
+  set.choice("--solver", analysis::kSolvers, "polonsky-keer is the textbook baseline [fast]",
+             request.settings.solver);
+}
+
+void declare_film(OptionSet& set, analysis::FilmSettings& settings) {
+  set.group("Lubricant");
+  set.quantities("--density", "D[,D2,...]", "areal lubricant density as dosed, e.g. 0.45g/m^2",
+                 dimension::areal_density, settings.lubricant_densities)
+      .required = true;
+  set.quantity("--oil-density", "RHO", "density of the liquid [900kg/m^3]", dimension::density,
+               settings.oil_density);
+  set.quantity("--droplet", "D", "droplet volume / pixel area [0.1um]", dimension::length,
+               settings.droplet_height);
+  set.choice(
+      "--model", deposition::kModels,
+      "droplets run downhill; limit: vanishing droplets; one level; constant film [droplets]",
+      settings.model);
+  set.choice("--reading", deposition::kReadings,
+             "what a full pit does with the rest of a droplet: pass it on or drop it [conserving]",
+             settings.reading);
+  set.choice("--edge", deposition::kEdges, "what the border of the scan is [closed]",
+             settings.edge);
+}
+
+void declare_fluid(OptionSet& set, analysis::FluidSettings& settings) {
+  set.group("Fluid film");
+  set.choice("--fluid", analysis::kFluids,
+             "reynolds: the deposited oil flows and carries part of the load [none]",
+             settings.fluid);
+  set.quantity("--speed", "U", "sliding speed along +x, e.g. 5mm/s", dimension::speed,
+               settings.sliding_speed);
+  set.quantity("--viscosity", "ETA", "dynamic viscosity of the oil, e.g. 0.225Pa*s",
+               dimension::viscosity, settings.viscosity);
+  set.quantity("--pressure-viscosity", "ALPHA",
+               "its growth with pressure by Roelands' law, e.g. 2e-8/Pa [constant]",
+               dimension::per_pressure, settings.pressure_viscosity);
+  set.quantity("--eyring-stress", "TAU", "Ree-Eyring stress of the oil, e.g. 5MPa [Newtonian]",
+               dimension::pressure, settings.eyring_stress);
+}
+
+void declare_friction(OptionSet& set, analysis::FrictionSettings& settings) {
+  set.group("Friction");
+  set.quantity("--shear-strength", "TAU", "shear strength of the contact, e.g. 70MPa",
+               dimension::pressure, settings.shear_strength)
+      .required = true;
+  set.choice("--area", friction::kAreas,
+             "contact area that friction uses: perimeter-corrected or counted [corrected]",
+             settings.area);
+}
+
+std::string flag_of(std::string_view setting) {
+  static const std::map<std::string_view, std::string_view> others = {
+      {"mean_pressure", "pressure"},
+      {"lubricant_density", "density"},
+      {"sliding_speed", "speed"},
+      {"counter_poissons_ratio", "counter-poisson-ratio"},
+      {"poissons_ratio", "poisson-ratio"}};
+  const auto found = others.find(setting);
+  std::string flag = "--" + std::string(found == others.end() ? setting : found->second);
+  for (char& c : flag) {
+    if (c == '_') c = '-';
+  }
+  return flag;
+}
+
+void check(const std::optional<analysis::Objection>& objection) {
+  if (!objection) return;
+  const bool has_value = !objection->got.empty();
+  const InputError error(has_value ? flag_of(objection->setting) : "", objection->got,
+                         objection->expected, objection->remedy);
+  if (!objection->is_about_use) throw error;
+  throw UsageError(has_value ? error.what() : objection->remedy);
 }
 
 void check(const ContactRequest& request) {
-  if (request.counter_youngs_modulus.has_value() != request.counter_poissons_ratio.has_value()) {
-    throw UsageError(
-        "--counter-youngs-modulus and --counter-poisson-ratio belong together; give both or none");
-  }
-  if (!(request.tolerance >= 1e-12 && request.tolerance <= 1e-4)) {
-    throw UsageError(fmt::format("--tolerance: got {}; expected 1e-12 to 1e-4", request.tolerance));
-  }
-  effective_modulus(request);
-  for (const double pressure : request.pressures) {
-    if (pressure <= 0) {
-      throw InputError("--pressure", si(pressure, "Pa"), "more than zero", "");
-    }
-    if (request.saturation_pressure && pressure >= *request.saturation_pressure) {
-      throw InputError(
-          "--pressure", si(pressure, "Pa"),
-          "less than the saturation pressure " + si(*request.saturation_pressure, "Pa"),
-          "no contact that saturates there can carry this load; lower --pressure or "
-          "raise --saturation-pressure");
-    }
-  }
+  check(analysis::objection(request.settings, request.pressures, flag_of));
 }
 
-double effective_modulus(const ContactRequest& request) {
-  const material::Solid solid{request.youngs_modulus, request.poissons_ratio};
-  if (!request.counter_youngs_modulus) return material::effective_modulus(solid);
-  return material::effective_modulus(
-      solid, {*request.counter_youngs_modulus, request.counter_poissons_ratio.value_or(0)});
+io::Json settings_json(const ContactSettings& settings) {
+  return io::json_of(contact_setting_columns(), settings);
 }
 
-std::unique_ptr<elastic::ElasticOperator> make_operator(const ContactRequest& request,
-                                                        const Grid& grid) {
-  const double modulus = effective_modulus(request);
-  return request.is_periodic() ? elastic::make_periodic(grid, modulus)
-                               : elastic::make_free(grid, modulus);
+io::Json settings_json(const FilmSettings& settings) {
+  return io::json_of(film_setting_columns(), settings);
 }
 
-friction::Contact for_friction(const ContactResult& result, const ContactRequest& request,
-                               double lubricated_share) {
-  return {.mean_pressure = result.summary.mean_pressure,
-          .contact_area_fraction = result.summary.contact_area_fraction,
-          .contact_area_fraction_pixels = result.summary.contact_area_fraction_pixels,
-          .saturation_pressure = request.saturation_pressure.value_or(contact::kNoSaturation),
-          .lubricated_share = lubricated_share};
+io::Json settings_json(const FluidSettings& settings) {
+  return settings.flows() ? io::json_of(fluid_setting_columns(), settings) : io::Json::object();
 }
 
-ContactResult solve(elastic::ElasticOperator& elasticity, const Field& height, double pressure,
-                    const ContactRequest& request, Context& context) {
-  contact::Problem problem{.height = height, .mean_pressure = pressure};
-  problem.saturation_pressure = request.saturation_pressure.value_or(contact::kNoSaturation);
-  problem.tolerance = request.tolerance;
-  const auto solver =
-      request.solver == "fast" ? contact::Solver::fast : contact::Solver::polonsky_keer;
-  const Stopwatch watch;
-  const double fft_before = elasticity.fft_seconds();
-  ContactResult result;
-  result.state = contact::solve(elasticity, problem, solver, context.observer());
-  // A solver that was stopped returns what it has; half a state is of no use to anybody.
-  if (interrupted()) throw Interrupted();
-  result.summary =
-      contact::summarise(result.state, problem, elasticity.grid(), request.is_periodic());
-  result.fft_seconds = elasticity.fft_seconds() - fft_before;
-  result.seconds = watch.seconds();
-  return result;
-}
-
-int solve_all(elastic::ElasticOperator& elasticity, const Scan& scan, const ContactRequest& request,
-              Context& context, const std::function<void(const ContactResult&)>& receive) {
-  int code = kDone;
-  const analysis::ContactSettings settings = analysis_settings(request);
-  const analysis::Warnings about_surface = analysis::of_surface(scan.surface);
-  try {
-    Field unloaded;  // of a load path: the surface as the states before left it
-    for (const double pressure : request.pressures) {
-      const Field& height = unloaded.size() > 0 ? unloaded : scan.surface.height;
-      ContactResult result = solve(elasticity, height, pressure, request, context);
-      result.warnings = about_surface;
-      analysis::add(analysis::of_contact(scan.surface, settings, result.state, result.summary),
-                    result.warnings);
-      receive(result);
-      if (request.load_path) unloaded = contact::unloaded_height(height, result.state);
-      if (!result.state.convergence.converged) code = kNotConverged;
-    }
-  } catch (const Interrupted&) {
-    context.warn("interrupted: only the states that were finished are shown");
-    code = kInterrupted;
-  }
-  return code;
-}
-
-std::vector<std::string> methods_of(const ContactRequest& request) {
-  std::vector<std::string> methods = {"polonsky1999", "yastrebov2017",
-                                      request.is_periodic() ? "stanley1997" : "love1929"};
-  if (request.solver == "fast") methods.insert(methods.begin(), "rey2017");
-  if (request.saturation_pressure) methods.push_back("almqvist2007");
-  return methods;
-}
-
-io::Json settings_json(const ContactRequest& request) {
-  const auto optional = [](const std::optional<double>& value) {
-    return value ? io::Json(*value) : io::Json(nullptr);
-  };
-  return {{"youngs_modulus_Pa", request.youngs_modulus},
-          {"poissons_ratio", request.poissons_ratio},
-          {"counter_youngs_modulus_Pa", optional(request.counter_youngs_modulus)},
-          {"counter_poissons_ratio", optional(request.counter_poissons_ratio)},
-          {"effective_modulus_Pa", effective_modulus(request)},
-          {"saturation_pressure_Pa", optional(request.saturation_pressure)},
-          {"boundary", request.boundary},
-          {"solver", request.solver},
-          {"tolerance", request.tolerance},
-          {"load_path", request.load_path},
-          {"threads", thread_count()}};
-}
-
-io::Json state_json(const ContactResult& result) {
-  const contact::Summary& summary = result.summary;
-  const Convergence& convergence = result.state.convergence;
-  return {{"mean_pressure_Pa", summary.mean_pressure},
-          {"contact_area_fraction", summary.contact_area_fraction},
-          {"contact_area_fraction_pixels", summary.contact_area_fraction_pixels},
-          {"area_correction_valid", summary.area_correction_valid},
-          {"saturated_area_fraction", summary.saturated_area_fraction},
-          {"mean_gap_m", summary.mean_gap},
-          {"separation_m", summary.separation},
-          {"max_pressure_Pa", summary.max_pressure},
-          {"elastic_energy_J_per_m2", summary.elastic_energy},
-          {"n_patches", summary.n_patches},
-          {"perimeter_m", summary.perimeter},
-          {"certificate", io::number(convergence.certificate)},
-          {"contact_gap_error_m", summary.contact_gap_error},
-          {"converged", convergence.converged},
-          {"warning_codes", analysis::codes_of(result.warnings)},
-          {"iterations", convergence.iterations},
-          {"operator_applications", convergence.operator_applications},
-          {"fft_seconds", result.fft_seconds},
-          {"seconds", result.seconds},
-          {"peak_memory_bytes", peak_memory_bytes()}};
-}
-
-void describe(const ContactRequest& request, Facts& facts) {
-  if (request.load_path) {
+void describe(const ContactSettings& settings, Facts& facts) {
+  if (settings.load_path) {
     facts.fact("load path", "in the order given, plastic indentation is kept");
   }
   facts.fact("contact",
-             fmt::format("E* {}, {}, {}, solver {}", si(effective_modulus(request), "Pa"),
-                         request.saturation_pressure
-                             ? "saturation " + si(*request.saturation_pressure, "Pa")
+             fmt::format("E* {}, {}, {}, solver {}", si(settings.effective_modulus(), "Pa"),
+                         settings.saturation_pressure
+                             ? "saturation " + si(*settings.saturation_pressure, "Pa")
                              : std::string("elastic"),
-                         request.boundary, request.solver));
+                         analysis::kBoundaries.of(settings.boundary),
+                         analysis::kSolvers.of(settings.solver)));
+}
+
+void describe(const FilmSettings& settings, Facts& facts) {
+  std::string text(deposition::kModels.of(settings.model));
+  if (settings.model == deposition::Model::droplets) {
+    text += fmt::format(" of {}, {}, seed {}", si(settings.droplet_height, "m"),
+                        deposition::kReadings.of(settings.reading), settings.seed);
+  }
+  facts.fact("lubricant",
+             fmt::format("{}, {} edge, oil {} kg/m^3", text, deposition::kEdges.of(settings.edge),
+                         plain(settings.oil_density)));
+}
+
+void describe(const FluidSettings& settings, Facts& facts) {
+  if (!settings.flows()) return;
+  std::string text = fmt::format("sliding at {}, {}", si(*settings.sliding_speed, "m/s"),
+                                 si(*settings.viscosity, "Pa s"));
+  if (settings.pressure_viscosity) text += ", Roelands";
+  if (settings.eyring_stress) text += ", Eyring stress " + si(*settings.eyring_stress, "Pa");
+  facts.fact("fluid film", text);
+}
+
+std::string density_text(double density) { return plain(in_g_per_m2(density)) + " g/m^2"; }
+
+std::vector<StateField> fields_of(const analysis::ContactRecord& record) {
+  return {{"pressure", "Pa", "contact pressure", record.state.pressure},
+          {"displacement", "m", "displacement of the surface, into the body",
+           record.state.displacement},
+          {"gap", "m", "gap between the deformed surface and the flat", record.state.gap}};
+}
+
+std::vector<StateField> fields_of(const analysis::FilmRecord& record) {
+  return {{"film_thickness", "m", "thickness of the lubricant film", record.film.thickness}};
+}
+
+std::vector<StateField> fields_of(const analysis::FluidRecord& record) {
+  return {
+      {"fluid_pressure", "Pa", "pressure of the oil", record.state.film.pressure},
+      {"fluid_fill", "1", "share of the gap that oil fills while sliding", record.state.film.fill},
+      {"fluid_gap", "m", "gap while sliding", record.state.contact.gap},
+      {"fluid_solid_pressure", "Pa", "contact pressure while sliding",
+       record.state.contact.pressure}};
+}
+
+int until_interrupted(Context& context, const std::function<void()>& make_states,
+                      const std::string& what) {
+  try {
+    make_states();
+  } catch (const Interrupted&) {
+    context.warn(fmt::format("interrupted: only the {} that were finished are shown", what));
+    return kInterrupted;
+  }
+  return kDone;
 }
 
 }  // namespace tabor::cli

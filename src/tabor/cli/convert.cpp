@@ -22,8 +22,7 @@ void write(const topography::Topography& surface, const std::string& file,
            const Observer& observer) {
   constexpr std::chrono::milliseconds kPeriod{200};
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-  std::future<void> writing =
-      std::async(std::launch::async, [&] { topography::write(surface, file); });
+  std::future<void> writing = std::async(std::launch::async, [&] { scan::write(surface, file); });
   while (writing.wait_for(kPeriod) != std::future_status::ready) {
     report_progress(observer, "write " + file, kUnknown);
   }

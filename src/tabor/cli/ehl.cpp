@@ -9,7 +9,6 @@
 #include "tabor/cli/ehl_cases.hpp"
 #include "tabor/cli/ehl_series.hpp"
 #include "tabor/cli/fields_file.hpp"
-#include "tabor/cli/interrupt.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
@@ -51,7 +50,7 @@ void write_result(io::Hdf5Writer& writer, const std::string& group, const io::Js
 int show_one(const EhlProgram& program, const io::Config& config, const Request& request,
              Context& context) {
   reject_unknown_keys(program, config);
-  const EhlAnswer answer = solve_whole(program.solve, config, context);
+  const EhlAnswer answer = program.solve(config, context);
   for (const std::string& warning : answer.warnings) context.warn(warning);
   if (request.output) {
     io::Hdf5Writer writer(*request.output);
@@ -60,7 +59,6 @@ int show_one(const EhlProgram& program, const io::Config& config, const Request&
     write_result(writer, "/result", answer.scalars);
     write_warnings(writer, context);
     if (answer.write) answer.write(writer);
-    if (interrupted()) throw Interrupted();
     writer.commit();
   }
   io::Json object = json_head(context);
@@ -118,8 +116,8 @@ std::string details() {
   return text +
          " 'tabor ehl PROGRAM --help' lists the keys of its cases; docs/ehl.md, docs/ehl_line.md "
          "and "
-         "docs/ehl_point.md explain what they do. A sweep with -o keeps its finished cases: "
-         "stopped, the same command goes on from there.";
+         "docs/ehl_point.md explain what they do. A sweep with -o keeps its finished cases; if "
+         "it is stopped, the same command continues it.";
 }
 
 void declare_options(OptionSet& set, Request& request) {
@@ -149,12 +147,6 @@ constexpr const char* kStribeckCurve =
     "--set motion.speed=0.1m/s..10m/s:log:3";
 
 }  // namespace
-
-EhlAnswer solve_whole(const EhlSolver& solve, const io::Config& config, Context& context) {
-  EhlAnswer answer = solve(config, context);
-  if (interrupted()) throw Interrupted();
-  return answer;
-}
 
 Verb ehl_verb() {
   return {.name = "ehl",

@@ -14,7 +14,7 @@
 namespace tabor::cli {
 
 /// What an elastohydrodynamic program found out about one case.
-struct EhlAnswer {   // NOLINT(bugprone-exception-escape): of the JSON library's own moves
+struct EhlAnswer {
   io::Json scalars;  ///< the keys of its JSON object, in their order
   std::string text;  ///< for a person
   bool converged = false;
@@ -45,11 +45,9 @@ struct EhlStudy {
   int cells_by = 1;              ///< cells come in multiples of it
 };
 
+/// Solves a case. Throws InputError, and Interrupted instead of answering with what an interruption
+/// left unfinished.
 using EhlSolver = std::function<EhlAnswer(const io::Config& config, Context& context)>;
-
-/// Solves a case. Throws Interrupted instead of answering with what an interruption left
-/// unfinished.
-EhlAnswer solve_whole(const EhlSolver& solve, const io::Config& config, Context& context);
 
 /// Solves the cases of a sweep one after the other, each of which may start from the one before.
 struct EhlChain {

@@ -28,7 +28,7 @@ io::Config case_at(const io::Config& config, const std::vector<SweepAxis>& axes,
 
 EhlAnswer solve_or_refuse(const EhlSolver& solve, const io::Config& config, Context& context) {
   try {
-    return solve_whole(solve, config, context);
+    return solve(config, context);
   } catch (const InputError& error) {
     return {.scalars = {{"refused", error.what()}, {"converged", false}},
             .text = "",

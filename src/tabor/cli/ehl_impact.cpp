@@ -10,7 +10,7 @@
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/ehl/impact_measures.hpp"
+#include "tabor/ehl/impact/measures.hpp"
 #include "tabor/reference/impact.hpp"
 
 namespace tabor::cli {
@@ -56,7 +56,7 @@ std::string_view name_of(ehl::ImpactEnd end) {
       return "rebound";
     case ehl::ImpactEnd::sticks:
       return "sticks";
-    case ehl::ImpactEnd::not_converged:
+    case ehl::ImpactEnd::unfinished:
       break;
   }
   return "not converged";
@@ -102,7 +102,8 @@ io::Json scalars_of(const ehl::ImpactProblem& problem, const ehl::ImpactResult& 
           {"n_cut_steps", result.n_cut_steps},
           {"newton_iterations", result.count.newton_iterations},
           {"n_factorizations", result.count.n_factorizations},
-          {"converged", result.converged()}};
+          {"converged", result.convergence.converged()},
+          {"status", name_of(result.convergence.status)}};
 }
 
 std::string with_time(double value, const std::string& unit, double time) {
@@ -195,12 +196,13 @@ void write_profiles(io::Hdf5Writer& writer, const ehl::ImpactProblem& problem,
 EhlAnswer solve(const io::Config& config, Context& context) {
   const ehl::ImpactProblem problem = read_problem(config);
   ehl::ImpactResult result = ehl::solve_impact(problem, context.observer());
+  throw_if_stopped(result.convergence);
   const reference::DryImpact dry = reference::hertz_impact(
       problem.radius, problem.effective_modulus, problem.mass, problem.speed);
   EhlAnswer answer;
   answer.scalars = scalars_of(problem, result, dry);
   answer.text = text_of(problem, result, dry);
-  answer.converged = result.converged();
+  answer.converged = result.convergence.converged();
   answer.warnings = result.doubts;
   if (!result.reason.empty()) answer.warnings.push_back(result.reason);
   answer.write = [problem, dry, result = std::move(result)](io::Hdf5Writer& writer) {

@@ -11,6 +11,7 @@
 #include "tabor/core/version.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/digest.hpp"
+#include "tabor/io/hdf5_guard.hpp"
 #include "tabor/io/sealed_file.hpp"
 
 namespace tabor::cli {

@@ -24,7 +24,7 @@ std::string canonical_text(const EhlProgram& program, const io::Config& config,
 void note_digests(const EhlProgram& program, const io::Config& config, Context& context);
 
 /// One case that was solved, and what the program warned of meanwhile.
-struct KeptCase {    // NOLINT(bugprone-exception-escape): of the JSON library's own moves
+struct KeptCase {
   EhlAnswer answer;  ///< without its text and its maps
   std::vector<std::string> notices;
 };

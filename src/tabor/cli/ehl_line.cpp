@@ -158,11 +158,12 @@ io::Json scalars_of(const ehl::LineProblem& problem, const ehl::LineResult& resu
           {"nodes", problem.nodes},
           {"inlet_m", -result.x[0]},
           {"outlet_m", result.x[result.x.size() - 1]},
-          {"newton_iterations", result.newton_iterations},
-          {"n_products", result.n_products},
+          {"newton_iterations", result.convergence.iterations},
+          {"n_products", result.convergence.operator_applications},
           {"load_error", io::number(result.load_error)},
           {"mass_error", io::number(result.mass_error)},
-          {"converged", result.converged}};
+          {"converged", result.convergence.converged()},
+          {"status", name_of(result.convergence.status)}};
 }
 
 std::string text_of(const ehl::LineProblem& problem, const ehl::LineResult& result) {
@@ -185,8 +186,9 @@ std::string text_of(const ehl::LineProblem& problem, const ehl::LineResult& resu
              fmt::format("M = {}, L = {}: {}", plain(film_groups_of(problem).moes_load()),
                          plain(film_groups_of(problem).moes_viscosity()),
                          si(film_groups_of(problem).moes_min_film(), "m")));
-  facts.fact("solved", fmt::format("{} iterations, load to {:.1g}, mass to {:.1g}",
-                                   result.newton_iterations, result.load_error, result.mass_error));
+  facts.fact("solved",
+             fmt::format("{} iterations; load balanced to {:.1g}, mass to {:.1g}",
+                         result.convergence.iterations, result.load_error, result.mass_error));
   return facts.text();
 }
 
@@ -202,7 +204,7 @@ void write_profile(io::Hdf5Writer& writer, const ehl::LineProblem& problem,
   };
   writer.group("/profile");
   for (const Curve& curve :
-       {Curve{"/profile/x", "m", "place along the flow, from the line of closest approach",
+       {Curve{"/profile/x", "m", "position along the flow, from the line of closest approach",
               result.x},
         Curve{"/profile/pressure", "Pa", "pressure", result.pressure},
         Curve{"/profile/asperity_pressure", "Pa", "pressure of asperities",
@@ -237,27 +239,34 @@ void void_friction(ehl::WearResult& wear) {
 EhlAnswer solve(const io::Config& config, Context& context) {
   const ehl::LineProblem problem = read_problem(config, context);
   ehl::LineResult result = ehl::solve_line(problem, context.observer());
+  throw_if_stopped(result.convergence);
   const std::vector<std::string> voids = void_friction(problem, result);
   EhlAnswer answer;
   answer.scalars = scalars_of(problem, result);
   answer.scalars.update(asperity_scalars(problem, result));
   answer.text = text_of(problem, result);
-  answer.converged = result.converged;
+  answer.converged = result.convergence.converged();
   answer.warnings = result.doubts;
   answer.warnings.insert(answer.warnings.end(), voids.begin(), voids.end());
-  if (!result.converged) {
-    answer.warnings.push_back("the film was not found: more nodes, a lower load or less viscosity");
+  if (!result.convergence.converged()) {
+    answer.warnings.push_back(
+        fmt::format("the film was not found ({}): more nodes, a lower load or less viscosity",
+                    name_of(result.convergence.status)));
   }
   std::optional<ehl::WearResult> wear;
   if (config.has("wear.coefficient")) {
     wear = ehl::solve_wear(read_wear(config, problem), context.observer());
+    throw_if_stopped(wear->convergence);
     if (!voids.empty()) void_friction(*wear);
     answer.scalars["wear"] = wear_json(config, *wear);
     answer.text += wear_text(*wear);
     answer.warnings.insert(answer.warnings.end(), wear->doubts.begin(), wear->doubts.end());
-    answer.converged = answer.converged && wear->converged;
+    if (answer.converged) answer.scalars["status"] = name_of(wear->convergence.status);
+    answer.converged = answer.converged && wear->convergence.converged();
     answer.scalars["converged"] = answer.converged;
-    if (!wear->converged) answer.warnings.emplace_back("the film was lost while the track wore");
+    if (!wear->convergence.converged()) {
+      answer.warnings.emplace_back("the film was lost while the track wore");
+    }
   }
   answer.write = [problem, wear, result = std::move(result)](io::Hdf5Writer& writer) {
     write_profile(writer, problem, result);

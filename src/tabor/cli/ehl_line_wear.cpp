@@ -86,8 +86,9 @@ io::Json wear_json(const io::Config& config, const ehl::WearResult& wear) {
                    {"friction_coefficient", io::number(last.friction_coefficient)},
                    {"time_step_s", wear.time_step},
                    {"n_steps", wear.history.size() - 1},
-                   {"newton_iterations", wear.newton_iterations},
-                   {"converged", wear.converged}};
+                   {"newton_iterations", wear.convergence.iterations},
+                   {"converged", wear.convergence.converged()},
+                   {"status", name_of(wear.convergence.status)}};
   if (config.has("wear.density") || config.has("wear.width")) {
     json["mass_kg"] = wear.worn_area *
                       positive_quantity(config, "wear.density", dimension::density) *

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "tabor/cli/ehl_keys.hpp"
-#include "tabor/ehl/wear.hpp"
+#include "tabor/ehl/line/wear.hpp"
 #include "tabor/io/hdf5.hpp"
 #include "tabor/io/json.hpp"
 #include "tabor/io/toml.hpp"

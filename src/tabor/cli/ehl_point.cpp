@@ -12,6 +12,7 @@ EhlAnswer solve(const io::Config& config, Context& context) {
   if (has_passage(config)) return passage_answer(config, context);
   const ehl::PointProblem problem = read_rough_point(config, context);
   const ehl::PointResult result = solve_point(problem, nullptr, context.observer());
+  throw_if_stopped(result.convergence);
   EhlAnswer answer = point_answer(config, problem, result, context);
   if (problem.roughness.size() > 0) add_dry_contact(problem, context.observer(), answer);
   return answer;

@@ -13,8 +13,8 @@
 #include "tabor/cli/ehl_point_fields.hpp"
 #include "tabor/cli/ehl_point_passage.hpp"
 #include "tabor/cli/table.hpp"
-#include "tabor/ehl/point_dry.hpp"
-#include "tabor/ehl/point_measures.hpp"
+#include "tabor/ehl/point/dry.hpp"
+#include "tabor/ehl/point/measures.hpp"
 
 namespace tabor::cli {
 
@@ -110,11 +110,12 @@ io::Json scalars_of(const PointProblem& problem, const PointResult& result,
           {"nodes_y", problem.nodes_y},
           {"domain", 1},
           {"spacing_m", result.grid.dx()},
-          {"newton_iterations", result.newton_iterations},
-          {"n_products", result.n_products},
+          {"newton_iterations", result.convergence.iterations},
+          {"n_products", result.convergence.operator_applications},
           {"load_error", io::number(result.load_error)},
           {"mass_error", io::number(result.mass_error)},
-          {"converged", result.converged}};
+          {"converged", result.convergence.converged()},
+          {"status", name_of(result.convergence.status)}};
 }
 
 std::string with_moes(double film, double unit) {
@@ -177,9 +178,10 @@ std::string text_of(const PointProblem& problem, const PointResult& result,
   facts.fact("largest pressure", si(measures.max_pressure, "Pa"));
   describe_solids(facts, problem, measures);
   if (problem.sliding_speed != 0) facts.fact("friction", friction_text(measures));
-  facts.fact("solved", fmt::format("{} x {} nodes, {} iterations, load to {:.1g}, mass to {:.1g}",
-                                   problem.nodes_x, problem.nodes_y, result.newton_iterations,
-                                   result.load_error, result.mass_error));
+  facts.fact("solved",
+             fmt::format("{} x {} nodes, {} iterations; load balanced to {:.1g}, mass to {:.1g}",
+                         problem.nodes_x, problem.nodes_y, result.convergence.iterations,
+                         result.load_error, result.mass_error));
   return facts.text();
 }
 
@@ -188,7 +190,9 @@ std::string text_of(const PointProblem& problem, const PointResult& result,
 std::optional<PointResult> smooth_film(PointProblem problem, const Observer& observer) {
   if (problem.roughness.size() == 0) return std::nullopt;
   problem.roughness.resize(0, 0);
-  return solve_point(problem, nullptr, observer);
+  PointResult smooth = solve_point(problem, nullptr, observer);
+  throw_if_stopped(smooth.convergence);
+  return smooth;
 }
 
 /// What the equations do not see.
@@ -224,15 +228,16 @@ EhlAnswer point_answer(const io::Config& config, const PointProblem& problem,
     answer.scalars["scan"] = {{"path", scan.string()}, {"sha256", context.files.sha256_of(scan)}};
   }
   answer.text = text_of(problem, result, measures);
-  answer.converged = result.converged;
+  answer.converged = result.convergence.converged();
   answer.warnings = result.doubts;
   for (const auto& more : {voids, doubts_of(problem, !has_passage(config))}) {
     answer.warnings.insert(answer.warnings.end(), more.begin(), more.end());
   }
-  if (!result.converged) {
-    answer.warnings.emplace_back(
-        "the film was not found: more nodes, or a sweep that comes down "
-        "from a higher speed");
+  if (!result.convergence.converged()) {
+    answer.warnings.push_back(
+        fmt::format("the film was not found ({}): more nodes, or a sweep that comes down from a "
+                    "higher speed",
+                    name_of(result.convergence.status)));
   }
   answer.write = [problem, result, observer = context.observer()](io::Hdf5Writer& writer) {
     const std::optional<PointResult> smooth = smooth_film(problem, observer);
@@ -243,13 +248,15 @@ EhlAnswer point_answer(const io::Config& config, const PointProblem& problem,
 
 void add_dry_contact(const PointProblem& problem, const Observer& observer, EhlAnswer& answer) {
   const PointResult result = solve_point_dry(problem, observer);
+  throw_if_stopped(result.convergence);
   const PointMeasures measures = measure_point(problem, result);
   answer.scalars["dry"] = {{"solid_contact_fraction", io::number(measures.solid_contact_fraction)},
                            {"plastic_fraction", io::number(measures.plastic_fraction)},
                            {"max_pressure_Pa", io::number(measures.max_pressure)},
                            {"max_plastic_depth_m", io::number(measures.max_plastic_depth)},
                            {"friction_solid", io::number(measures.friction_solid)},
-                           {"converged", result.converged}};
+                           {"converged", result.convergence.converged()},
+                           {"status", name_of(result.convergence.status)}};
   const std::string friction = std::isnan(measures.friction_solid)
                                    ? "not known without [asperities]"
                                    : plain(measures.friction_solid);
@@ -258,7 +265,10 @@ void add_dry_contact(const PointProblem& problem, const Observer& observer, EhlA
                                                percent(measures.solid_contact_fraction),
                                                percent(measures.plastic_fraction), friction));
   answer.text += facts.text();
-  if (!result.converged) answer.warnings.emplace_back("the dry contact was not found");
+  if (!result.convergence.converged()) {
+    answer.warnings.push_back(
+        fmt::format("the dry contact was not found ({})", name_of(result.convergence.status)));
+  }
 }
 
 }  // namespace tabor::cli

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "tabor/cli/ehl.hpp"
-#include "tabor/ehl/point.hpp"
+#include "tabor/ehl/point/point.hpp"
 
 /// What `tabor ehl point` says of a film (docs/ehl_point.md).
 namespace tabor::cli {

@@ -7,7 +7,7 @@
 
 #include "tabor/cli/ehl_keys.hpp"
 #include "tabor/cli/verb.hpp"
-#include "tabor/ehl/point.hpp"
+#include "tabor/ehl/point/point.hpp"
 #include "tabor/io/toml.hpp"
 
 /// A case of `tabor ehl point`.

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tabor/ehl/point_measures.hpp"
+#include "tabor/ehl/point/measures.hpp"
 
 namespace tabor::cli {
 
@@ -94,7 +94,7 @@ void write_cuts(io::Hdf5Writer& writer, const ehl::PointProblem& problem,
   x.abs().minCoeff(&column);
   write_cut(writer,
             {.group = "/along",
-             .place_name = "place along the flow, from the centre",
+             .place_name = "position along the flow, from the centre",
              .place = x,
              .dry = x.unaryExpr([&](double at) { return hertz_pressure(hertz, at, 0); }),
              .is_row = true,

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tabor/ehl/point.hpp"
+#include "tabor/ehl/point/point.hpp"
 #include "tabor/io/hdf5.hpp"
 
 /// What `tabor ehl point -o` keeps of a film (docs/ehl_point.md).

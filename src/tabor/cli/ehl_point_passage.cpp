@@ -12,7 +12,7 @@
 #include "tabor/cli/ehl_point_case.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/ehl/point_transient.hpp"
+#include "tabor/ehl/point/transient.hpp"
 
 namespace tabor::cli {
 
@@ -78,6 +78,7 @@ PointPassage solve_passage(const io::Config& config, Context& context) {
   PointPassage passage{.at_end = problem.contact,
                        .speed = speed,
                        .film = solve_point_transient(problem, context.observer())};
+  throw_if_stopped(passage.film.convergence);
   passage.at_end.roughness = problem.roughness(passage.film.history.back().time);
   return passage;
 }
@@ -106,7 +107,7 @@ void add_history(const PointPassage& passage, EhlAnswer& answer) {
                          si(least->time, "s"), si(most->max_pressure, "Pa"), si(most->time, "s")));
   facts.fact("speed of roughness", si(passage.speed, "m/s"));
   answer.text += facts.text();
-  answer.converged = passage.film.converged;
+  answer.converged = passage.film.convergence.converged();
   if (!answer.converged) {
     answer.warnings.push_back(fmt::format(
         "no film was found after {}: where solids would touch, the passage ends", si(end, "s")));

@@ -9,10 +9,10 @@
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/ehl/point_roughness.hpp"
-#include "tabor/topography/file.hpp"
+#include "tabor/ehl/point/roughness.hpp"
+#include "tabor/scan/file.hpp"
+#include "tabor/synthesis/synthesis.hpp"
 #include "tabor/topography/holes.hpp"
-#include "tabor/topography/synthesis.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::cli {
@@ -97,24 +97,24 @@ Topography generate(const io::Config& config, const ehl::PointProblem& problem, 
   if (kind == kGround) {
     const double spacing =
         positive_quantity_or(config, "roughness.groove_spacing", dimension::length, kGrooveSpacing);
-    return topography::ground({.grid = grid,
-                               .rms_height = rms(kGroundRms),
-                               .groove_spacing = spacing,
-                               .groove_length = kGrooveSlenderness * spacing,
-                               .seed = seed});
+    return synthesis::ground({.grid = grid,
+                              .rms_height = rms(kGroundRms),
+                              .groove_spacing = spacing,
+                              .groove_length = kGrooveSlenderness * spacing,
+                              .seed = seed});
   }
   std::vector<std::string> names = {kGround};
   for (const Finish& finish : kFinishes) {
     names.emplace_back(finish.name);
     if (kind != finish.name) continue;
-    topography::SelfAffine recipe;
+    synthesis::SelfAffine recipe;
     recipe.grid = grid;
     recipe.hurst = kHurst;
     recipe.rms_height = rms(finish.rms_height);
     recipe.roll_off_wavelength = finish.roll_off;
     recipe.random_amplitudes = true;
     recipe.seed = seed;
-    return topography::self_affine(recipe);
+    return synthesis::self_affine(recipe);
   }
   throw InputError(config.place("roughness.kind"), "'" + kind + "'",
                    fmt::format("{}{}", fmt::join(names, ", "), suggestion(kind, names)), "");
@@ -174,17 +174,15 @@ bool read_is_turned(const io::Config& config) {
 
 Topography read_scan(const io::Config& config, Context& context) {
   const std::filesystem::path file = named_file(config, "roughness.file");
-  topography::ReadOptions options;
+  scan::ReadOptions options;
   if (config.has("roughness.channel")) options.channel = config.text("roughness.channel");
   topography::Treatment treatment = {"level=plane"};
   if (config.has("roughness.treatment")) treatment = config.texts("roughness.treatment");
   Topography scan =
       topography::apply(treatment, read_input(file, options, context), context.observer());
   warn_of_doubts(scan, file.string(), context);
-  if (const Index holes = topography::count_holes(scan); holes > 0) {
-    throw InputError(config.place("roughness.file"), fmt::format("{} missing pixels", holes),
-                     "a height at every pixel", "treatment = [\"fill=harmonic\", \"level=plane\"]");
-  }
+  topography::require_no_holes(scan, config.place("roughness.file"),
+                               "treatment = [\"fill=harmonic\", \"level=plane\"]");
   return scan;
 }
 

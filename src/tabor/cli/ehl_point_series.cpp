@@ -99,7 +99,7 @@ Previous read_previous(const io::Hdf5Reader& reader) {
   problem.nodes_y = result.pressure.rows();
   result.grid = {problem.nodes_x, problem.nodes_y, reader.number(kGroup, "size_x"),
                  reader.number(kGroup, "size_y")};
-  result.converged = true;
+  result.convergence.status = Status::converged;
   return previous;
 }
 
@@ -115,9 +115,10 @@ EhlChain make_point_chain() {
     const bool has_start = previous->has_value() && are_neighbours((*previous)->problem, problem);
     PointResult result =
         solve_point(problem, has_start ? &(*previous)->result : nullptr, context.observer());
+    throw_if_stopped(result.convergence);
     EhlAnswer answer = point_answer(config, problem, result, context);
     previous->reset();
-    if (result.converged) *previous = Previous{std::move(problem), std::move(result)};
+    if (result.convergence.converged()) *previous = Previous{std::move(problem), std::move(result)};
     return answer;
   };
   chain.write_start = [previous](io::Hdf5Writer& writer) {

@@ -147,11 +147,10 @@ double value_at(const EhlStudy& study, double usual, double factor) {
 }
 
 int say_interrupted(const KeptCases& kept, std::size_t n_cases, Context& context) {
-  return fail(
-      context,
-      fmt::format("interrupted; {} of {} cases are kept in {}, the same command goes on from there",
-                  kept.n_kept(), n_cases, kept.folder().string()),
-      kInterrupted);
+  return fail(context,
+              fmt::format("interrupted; {} of {} cases are kept in {}; the same command continues",
+                          kept.n_kept(), n_cases, kept.folder().string()),
+              kInterrupted);
 }
 
 /// The table, or the JSON object.

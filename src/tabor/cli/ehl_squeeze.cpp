@@ -9,7 +9,7 @@
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/ehl/squeeze.hpp"
+#include "tabor/ehl/impact/squeeze.hpp"
 
 namespace tabor::cli {
 
@@ -51,7 +51,8 @@ io::Json scalars_of(const ehl::SqueezeResult& result) {
           {"lag_s", io::number(result.lag)},
           {"gap_closing_at_turning", result.gap_closing_at_turning},
           {"n_steps", result.history.size() - 1},
-          {"converged", result.converged}};
+          {"converged", result.convergence.converged()},
+          {"status", name_of(result.convergence.status)}};
 }
 
 std::string text_of(const ehl::SqueezeResult& result) {
@@ -62,7 +63,7 @@ std::string text_of(const ehl::SqueezeResult& result) {
              fmt::format("{} at {}", si(result.min_film, "m"), si(result.time_min_film, "s")));
   facts.fact("film behind force", si(result.lag, "s"));
   facts.fact("roller turns", si(result.turning_time, "s"));
-  facts.fact("gap closes then",
+  facts.fact("gap still closing at the turn",
              std::isnan(result.turning_time) ? "-" : yes_no(result.gap_closing_at_turning));
   facts.fact("end", result.reason);
   return facts.text();
@@ -105,7 +106,7 @@ EhlAnswer solve_linear(const io::Config& config) {
   result.time_min_film = result.turning_time = linear.time_max_displacement();
   result.min_film = layer - linear.displacement(result.time_min_film);
   result.lag = result.time_min_film - result.time_max_force;
-  result.converged = true;
+  result.convergence = exact();
   if (result.min_film <= 0) {
     result.reason =
         "the film would close, and no equation goes on from there: more damping, more stiffness or "
@@ -126,7 +127,8 @@ EhlAnswer solve(const io::Config& config, Context& context) {
                      "hydrodynamic or linear" + suggestion(model, {"hydrodynamic", "linear"}), "");
   }
   ehl::SqueezeResult result = ehl::solve_squeeze(read_problem(config), context.observer());
-  EhlAnswer answer{scalars_of(result), text_of(result), result.converged};
+  throw_if_stopped(result.convergence);
+  EhlAnswer answer{scalars_of(result), text_of(result), result.convergence.converged()};
   if (!result.reason.empty()) answer.warnings.push_back(result.reason);
   answer.write = [result = std::move(result)](io::Hdf5Writer& writer) {
     write_history(writer, "/history", kHistory, result.history);

@@ -22,9 +22,8 @@ std::string text_of(double value, const EhlColumn& column) {
 double number_of(const io::Json& scalars, const std::string& key) {
   const io::Json* node = &scalars;
   for (const std::string& name : split(key, '.')) {
-    const auto found = node->find(name);
-    if (found == node->end()) return kNone;
-    node = &*found;
+    node = node->find(name);
+    if (!node) return kNone;
   }
   return node->is_number() ? node->get<double>() : kNone;
 }

@@ -7,6 +7,7 @@
 #include <ctime>
 
 #include "tabor/core/version.hpp"
+#include "tabor/io/columns.hpp"
 #include "tabor/topography/surface_group.hpp"
 
 namespace tabor::cli {
@@ -64,12 +65,6 @@ std::string toml_of(const io::Json& settings) {
   return text;
 }
 
-std::vector<StateField> fields_of(const contact::State& state) {
-  return {{"pressure", "Pa", "contact pressure", state.pressure},
-          {"displacement", "m", "displacement of the surface, into the body", state.displacement},
-          {"gap", "m", "gap between the deformed surface and the flat", state.gap}};
-}
-
 FieldsFile::FieldsFile(const std::filesystem::path& file, const Context& context, const Scan& scan,
                        const io::Json& settings, const std::vector<std::string>& methods)
     : writer_(file), grid_(scan.surface.grid) {
@@ -84,7 +79,7 @@ void FieldsFile::write_root(const Context& context, const Scan& scan, const io::
   writer_.attribute("/", "default", "surface");
 }
 
-void FieldsFile::add_state(std::size_t number, const io::Json& scalars,
+void FieldsFile::add_state(std::size_t number, const NamedCells& scalars,
                            const std::vector<StateField>& fields) {
   ++n_states_;
   const std::string group = fmt::format("/states/{:04}", number);
@@ -97,7 +92,7 @@ void FieldsFile::add_state(std::size_t number, const io::Json& scalars,
     writer_.attach_axes(path);
   }
   writer_.nxdata(group, fields.front().name);
-  write_scalars(writer_, group, scalars);
+  io::write_attributes(writer_, group, scalars);
 }
 
 void FieldsFile::commit(const Context& context) {

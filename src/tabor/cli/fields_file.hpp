@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tabor/cli/result.hpp"
-#include "tabor/contact/contact.hpp"
+#include "tabor/core/column.hpp"
 #include "tabor/io/hdf5.hpp"
 
 namespace tabor::cli {
@@ -27,7 +27,7 @@ class FieldsFile {
              const io::Json& settings, const std::vector<std::string>& methods);
 
   /// Adds /states/NNNN: scalars as attributes, the first field as what viewers plot.
-  void add_state(std::size_t number, const io::Json& scalars,
+  void add_state(std::size_t number, const NamedCells& scalars,
                  const std::vector<StateField>& fields);
   /// With all warnings so far. A file without a state would look finished: none is made.
   void commit(const Context& context);
@@ -40,9 +40,6 @@ class FieldsFile {
   Grid grid_;
   std::size_t n_states_ = 0;
 };
-
-/// Pressure, displacement and gap of a contact.
-std::vector<StateField> fields_of(const contact::State& state);
 
 /// The attributes every result file begins with; `methods` are keys of references.bib.
 void write_result_head(io::Hdf5Writer& writer, const Context& context,

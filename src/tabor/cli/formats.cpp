@@ -7,13 +7,13 @@
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
-#include "tabor/topography/file.hpp"
+#include "tabor/scan/file.hpp"
 
 namespace tabor::cli {
 
 namespace {
 
-std::string tier_of(const topography::FormatRow& row) {
+std::string tier_of(const scan::FormatRow& row) {
   if (row.via_gwyddion) return "through gwyddion";
   if (row.reads && row.writes) return "read and write";
   return row.reads ? "read" : "write";
@@ -25,13 +25,13 @@ std::string line_about(const std::optional<std::filesystem::path>& gwyddion) {
 }
 
 int list_formats(Context& context) {
-  const auto gwyddion = topography::gwyddion_program();
+  const auto gwyddion = scan::gwyddion_program();
   io::Json object = json_head(context);
   object["gwyddion"] = {{"installed", gwyddion.has_value()},
                         {"path", gwyddion ? io::Json(gwyddion->string()) : io::Json()}};
   object["formats"] = io::Json::array();
   Table table({"name", "tier", "extensions", "description"});
-  for (const topography::FormatRow& row : topography::formats()) {
+  for (const scan::FormatRow& row : scan::formats()) {
     object["formats"].push_back({{"name", row.name},
                                  {"description", row.description},
                                  {"extensions", row.extensions},

@@ -10,8 +10,8 @@
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/topography/parameters.hpp"
-#include "tabor/topography/synthesis.hpp"
+#include "tabor/metrology/parameters.hpp"
+#include "tabor/synthesis/synthesis.hpp"
 
 namespace tabor::cli {
 
@@ -80,7 +80,7 @@ Grid grid_of(const Request& request) {
 
 Topography make_self_affine(Request& request, std::uint64_t seed) {
   Given& given = request.given;
-  topography::SelfAffine recipe;
+  synthesis::SelfAffine recipe;
   recipe.grid = grid_of(request);
   recipe.hurst = given.take_or("--hurst", recipe.hurst);
   recipe.rms_height = given.take("--rms-height");
@@ -94,47 +94,47 @@ Topography make_self_affine(Request& request, std::uint64_t seed) {
   if (recipe.rms_height.has_value() == recipe.rms_slope.has_value()) {
     throw UsageError("generate self-affine: give either --rms-height or --rms-slope");
   }
-  return topography::self_affine(recipe);
+  return synthesis::self_affine(recipe);
 }
 
 Topography make_edt(Request& request, std::uint64_t seed) {
-  topography::Edt recipe{.grid = grid_of(request)};
+  synthesis::Edt recipe{.grid = grid_of(request)};
   recipe.mean_abs_height = request.given.take_or("--mean-height", recipe.mean_abs_height);
   recipe.hurst = request.given.take_or("--hurst", recipe.hurst);
   recipe.stage =
-      request.stage == "after" ? topography::EdtStage::after : topography::EdtStage::before;
+      request.stage == "after" ? synthesis::EdtStage::after : synthesis::EdtStage::before;
   recipe.periodic = !request.not_periodic;
   recipe.seed = seed;
-  return topography::edt(recipe);
+  return synthesis::edt(recipe);
 }
 
 Topography make_ground(Request& request, std::uint64_t seed) {
-  topography::Ground recipe{.grid = grid_of(request)};
+  synthesis::Ground recipe{.grid = grid_of(request)};
   recipe.rms_height = request.given.take_or("--rms-height", recipe.rms_height);
   recipe.hurst = request.given.take_or("--hurst", recipe.hurst);
   recipe.groove_spacing = request.given.take_or("--groove-spacing", recipe.groove_spacing);
   recipe.groove_length = request.given.take_or("--groove-length", recipe.groove_length);
   recipe.seed = seed;
-  return topography::ground(recipe);
+  return synthesis::ground(recipe);
 }
 
 Topography make_sinusoid(Request& request, std::uint64_t) {
-  topography::Sinusoid recipe{.grid = grid_of(request)};
+  synthesis::Sinusoid recipe{.grid = grid_of(request)};
   recipe.amplitude = request.given.need("sinusoid", "--amplitude");
   recipe.wavelength_x = request.given.take_or("--wavelength-x", 0);
   recipe.wavelength_y = request.given.take_or("--wavelength-y", 0);
-  return topography::sinusoid(recipe);
+  return synthesis::sinusoid(recipe);
 }
 
 Topography make_sphere(Request& request, std::uint64_t) {
-  return topography::sphere(
+  return synthesis::sphere(
       {.grid = grid_of(request), .radius = request.given.need("sphere", "--radius")});
 }
 
 Topography make_bump(Request& request, std::uint64_t) {
-  return topography::bump({.grid = grid_of(request),
-                           .height = request.given.need("bump", "--height"),
-                           .radius = request.given.need("bump", "--radius")});
+  return synthesis::bump({.grid = grid_of(request),
+                          .height = request.given.need("bump", "--height"),
+                          .radius = request.given.need("bump", "--radius")});
 }
 
 using Maker = Topography (*)(Request&, std::uint64_t);
@@ -162,9 +162,9 @@ Topography make(Request& request, std::uint64_t seed) {
 int generate(Request request, Context& context) {
   const Topography surface = make(request, context.seed_or_default());
   const std::string output = request.output.value();
-  topography::write(surface, output);
-  const double rms = topography::rms_height(surface);
-  const double slope = topography::rms_slope(surface);
+  scan::write(surface, output);
+  const double rms = metrology::rms_height(surface);
+  const double slope = metrology::rms_slope(surface);
   io::Json object = json_head(context);
   object.update({{"output", output},
                  {"kind", request.kind},

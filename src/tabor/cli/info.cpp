@@ -9,14 +9,14 @@
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/metrology/parameters.hpp"
 #include "tabor/topography/doubts.hpp"
-#include "tabor/topography/parameters.hpp"
 
 namespace tabor::cli {
 
 namespace {
 
-using topography::FileInfo;
+using scan::FileInfo;
 using topography::Topography;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -40,7 +40,7 @@ Heights heights_of(const Topography& surface) {
     heights.min = std::min(heights.min, z);
     heights.max = std::max(heights.max, z);
   }
-  heights.rms = topography::rms_height(surface);
+  heights.rms = metrology::rms_height(surface);
   const double quantum = topography::height_quantum(surface.height);
   if (quantum > 0) heights.quantum = quantum;
   return heights;
@@ -48,7 +48,7 @@ Heights heights_of(const Topography& surface) {
 
 io::Json channels_of(const FileInfo& file) {
   io::Json channels = io::Json::array();
-  for (const topography::Channel& channel : file.channels) {
+  for (const scan::Channel& channel : file.channels) {
     channels.push_back({{"index", channel.index},
                         {"name", channel.name},
                         {"unit", channel.unit},
@@ -62,7 +62,7 @@ void describe(const FileInfo& file, const std::string& path, const std::string& 
   facts.fact("file", path);
   facts.fact("format", file.format);
   facts.fact("instrument", instrument);
-  for (const topography::Channel& channel : file.channels) {
+  for (const scan::Channel& channel : file.channels) {
     const bool is_unknown = channel.unit.empty();
     const std::string remark = channel.is_height ? ""
                                : is_unknown      ? ", a height with --unit or --z-scale only"
@@ -125,7 +125,7 @@ std::string text_of(const Scan& scan, const FileInfo& file, const Heights& heigh
 }
 
 /// A sound file that needs a word from the user: what is in it, and what to say.
-int show_incomplete(const ScanRequest& request, const topography::ScanFile& scan_file,
+int show_incomplete(const ScanRequest& request, const scan::ScanFile& scan_file,
                     const std::string& doubt, Context& context) {
   const FileInfo file = scan_file.info();
   io::Json object = json_head(context);
@@ -150,7 +150,7 @@ int show_incomplete(const ScanRequest& request, const topography::ScanFile& scan
 }
 
 int show(const ScanRequest& request, Context& context) {
-  const topography::ScanFile scan_file(request.file, context.observer());
+  const scan::ScanFile scan_file(request.file, context.observer());
   const FileInfo file = scan_file.info();
   try {
     const Scan scan = load_scan(scan_file, request, context);

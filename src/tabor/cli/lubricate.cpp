@@ -5,9 +5,7 @@
 #include <optional>
 
 #include "tabor/analysis/warnings.hpp"
-#include "tabor/cli/fields_file.hpp"
-#include "tabor/cli/film_request.hpp"
-#include "tabor/cli/table.hpp"
+#include "tabor/cli/contact_request.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 
@@ -17,80 +15,61 @@ namespace {
 
 struct Request {
   ScanRequest scan;
-  FilmRequest film;
+  analysis::FilmSettings film;
   std::optional<std::string> output;
 };
 
-std::vector<std::string> row_of(const io::Json& state) {
-  const auto number = [&](const char* key) { return state.at(key).get<double>(); };
-  return {plain(number("lubricant_density_g_per_m2")) + " g/m²",
-          si(number("mean_film_m"), "m"),
-          percent(number("wet_fraction")),
-          si(number("max_film_m"), "m"),
-          fmt::format("{}", state.at("n_pools").get<std::int64_t>()),
-          fmt::format("{}", state.at("n_droplets").get<std::int64_t>()),
-          percent(number("lost_volume_m3") / number("dosed_volume_m3")),
-          state.at("flooded").get<bool>() ? "YES" : "no",
-          si(number("seconds"), "s")};
-}
-
-analysis::Case case_of(double density, const lubrication::Film& film,
-                       const analysis::Warnings& about_surface) {
-  analysis::Case one{.density = density_text(density), .warnings = about_surface};
-  analysis::add(analysis::of_film(film), one.warnings);
-  return one;
-}
-
-std::vector<analysis::Case> values_of(const std::map<std::size_t, analysis::Case>& cases) {
-  std::vector<analysis::Case> values;
-  for (const auto& [place, one] : cases) values.push_back(one);
-  return values;
+analysis::Case case_of(const analysis::FilmRecord& record) {
+  return {.density = density_text(record.lubricant_density), .warnings = record.warnings};
 }
 
 int show(const Request& request, Context& context) {
-  check(request.film);
+  analysis::FilmSettings settings = request.film;
+  settings.seed = context.seed_or_default();
+  check(analysis::objection(settings));
   const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
-  const io::Json settings = settings_json(request.film, context);
+  const io::Json in_force = settings_json(settings);
   std::optional<FieldsFile> file;
   if (request.output) {
-    file.emplace(*request.output, context, scan, settings, methods_of(request.film));
+    file.emplace(*request.output, context, scan, in_force, analysis::references_of(settings));
   }
 
   const analysis::Warnings about_surface = analysis::of_surface(scan.surface);
-  std::map<std::size_t, io::Json> states;  // films come in rising order of dose
-  std::map<std::size_t, analysis::Case> cases;
-  int code = kDone;
-  try {
-    rain(scan, request.film, context, [&](std::size_t place, lubrication::Film&& film) {
-      cases[place] = case_of(request.film.densities[place], film, about_surface);
-      states[place] = state_json(request.film.densities[place], film);
-      states[place]["warning_codes"] = analysis::codes_of(cases[place].warnings);
-      if (!file) return;
-      file->add_state(place, states[place],
-                      {{"film_thickness", "m", "thickness of the lubricant film", film.thickness}});
-    });
-  } catch (const Interrupted&) {
-    if (states.empty()) throw;
-    context.warn("interrupted: only the densities that were finished are shown");
-    code = kInterrupted;
+  std::map<std::size_t, analysis::FilmRecord> films;  // they come in rising order of dose
+  const auto receive = [&](analysis::FilmRecord&& record) {
+    analysis::Warnings warnings = about_surface;
+    analysis::add(record.warnings, warnings);
+    record.warnings = std::move(warnings);
+    const std::size_t place = record.film.request;
+    if (file) {
+      file->add_state(place, cells_of(analysis::film_columns(), record, analysis::media::kObject),
+                      fields_of(record));
+    }
+    record.film.thickness = {};
+    films.emplace(place, std::move(record));
+  };
+  const int code = until_interrupted(
+      context, [&] { analysis::film_state(scan.surface, settings, receive, context.observer()); },
+      "densities");
+  if (films.empty()) throw Interrupted();
+  std::vector<analysis::FilmRecord> records;
+  std::vector<analysis::Case> cases;
+  for (auto& [place, record] : films) {
+    cases.push_back(case_of(record));
+    records.push_back(std::move(record));
   }
-  context.warn(analysis::findings_of(values_of(cases)));
+  context.warn(analysis::findings_of(cases));
   if (file) file->commit(context);
 
   io::Json object = json_head(context, scan);
-  object.update(settings);
-  object["states"] = io::Json::array();
-  Table table(
-      {"density", "mean film", "wet", "max film", "pools", "droplets", "lost", "flooded", "time"});
-  for (const auto& [place, state] : states) {
-    object["states"].push_back(state);
-    table.row(row_of(state));
-  }
+  object.update(in_force);
+  object["states"] = states_json(analysis::film_columns(), records);
   Facts facts;
   describe(scan, facts);
-  describe(request.film, context, facts);
-  return finish(context, object, facts.text() + '\n' + table.text(), code);
+  describe(settings, facts);
+  return finish(context, object,
+                facts.text() + '\n' + table_of(analysis::film_columns(), records).text(), code);
 }
 
 }  // namespace

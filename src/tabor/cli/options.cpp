@@ -83,12 +83,18 @@ Option& OptionSet::text(const std::string& flag, const std::string& placeholder,
 
 Option& OptionSet::choice(const std::string& flag, const std::vector<std::string>& words,
                           const std::string& help, std::string& target) {
-  const auto assign = [flag, words, &target](const std::string& word) {
+  return choice(flag, words, help, [&target](const std::string& word) { target = word; });
+}
+
+Option& OptionSet::choice(const std::string& flag, const std::vector<std::string>& words,
+                          const std::string& help,
+                          const std::function<void(const std::string&)>& take) {
+  const auto assign = [flag, words, take](const std::string& word) {
     if (std::find(words.begin(), words.end(), word) == words.end()) {
       throw UsageError(fmt::format("{}: got '{}'; expected {}{}", flag, word,
                                    fmt::join(words, ", "), suggestion(word, words)));
     }
-    target = word;
+    take(word);
   };
   return add({.flag = flag,
               .placeholder = fmt::format("{}", fmt::join(words, "|")),

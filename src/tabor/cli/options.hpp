@@ -56,6 +56,15 @@ class OptionSet {
                std::optional<std::string>& target);
   Option& choice(const std::string& flag, const std::vector<std::string>& words,
                  const std::string& help, std::string& target);
+  /// One of the names of an enumeration (core/names.hpp).
+  template <typename Names, typename Enum>
+  Option& choice(const std::string& flag, const Names& names, const std::string& help,
+                 Enum& target) {
+    return choice(flag, names.all(), help,
+                  [names, &target](const std::string& word) { target = *names.find(word); });
+  }
+  Option& choice(const std::string& flag, const std::vector<std::string>& words,
+                 const std::string& help, const std::function<void(const std::string&)>& take);
   Option& count(const std::string& flag, const std::string& help, std::uint64_t& target);
   Option& count(const std::string& flag, const std::string& help,
                 std::optional<std::uint64_t>& target);

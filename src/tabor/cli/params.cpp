@@ -14,18 +14,18 @@
 #include "tabor/core/text.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/csv.hpp"
-#include "tabor/topography/parameters.hpp"
+#include "tabor/metrology/parameters.hpp"
 
 namespace tabor::cli {
 
 namespace {
 
-using topography::ParameterSet;
+using metrology::ParameterSet;
 
 struct Request {
   ScanRequest scan;  ///< how each of the files is read and treated
   std::vector<std::string> files;
-  topography::ParameterOptions options;
+  metrology::ParameterOptions options;
   std::string stencil = "forward";
   std::string triangles = "two";
   std::string profile_standard = "iso21920";
@@ -37,7 +37,7 @@ struct Request {
 };
 
 /// One scan read, treated and measured, ready for every kind of output.
-struct Measured {  // NOLINT(bugprone-exception-escape): of the JSON library's own moves
+struct Measured {
   ScanParameters row;
   io::Json object;
   std::string facts;
@@ -45,11 +45,11 @@ struct Measured {  // NOLINT(bugprone-exception-escape): of the JSON library's o
 
 std::vector<ParameterSet> sets_from(const std::string& text) {
   std::vector<std::string> words;
-  words.reserve(topography::kParameterSets.size());
-  for (const ParameterSet set : topography::kParameterSets) words.emplace_back(name_of(set));
+  words.reserve(metrology::kParameterSets.size());
+  for (const ParameterSet set : metrology::kParameterSets) words.emplace_back(name_of(set));
   std::vector<ParameterSet> sets;
   for (const std::string& word : io::parse_csv(text + "\n", "--set").columns) {
-    const auto set = topography::parameter_set_from(word);
+    const auto set = metrology::parameter_set_from(word);
     if (!set) {
       throw UsageError(fmt::format("--set: got '{}'; expected {}{}", word, fmt::join(words, ", "),
                                    suggestion(word, words)));
@@ -59,15 +59,15 @@ std::vector<ParameterSet> sets_from(const std::string& text) {
   return sets;
 }
 
-topography::ProfileOptions profile_options_of(const Request& request) {
-  using topography::ProfileKind;
-  topography::ProfileOptions options = request.options.profile;
+metrology::ProfileOptions profile_options_of(const Request& request) {
+  using metrology::ProfileKind;
+  metrology::ProfileOptions options = request.options.profile;
   if (request.profile_standard == "iso4287") {
-    options.standard = topography::ProfileStandard::iso4287;
+    options.standard = metrology::ProfileStandard::iso4287;
   }
   if (request.profile_kind == "primary") options.kind = ProfileKind::primary;
   if (request.profile_kind == "waviness") options.kind = ProfileKind::waviness;
-  if (request.profile_ends == "trim") options.ends = topography::ProfileEnds::trim;
+  if (request.profile_ends == "trim") options.ends = metrology::ProfileEnds::trim;
   if (request.profile_sections) {
     options.sections =
         static_cast<int>(std::min<std::uint64_t>(*request.profile_sections, 1000000));
@@ -75,11 +75,11 @@ topography::ProfileOptions profile_options_of(const Request& request) {
   return options;
 }
 
-topography::ParameterOptions options_of(const Request& request) {
-  topography::ParameterOptions options = request.options;
+metrology::ParameterOptions options_of(const Request& request) {
+  metrology::ParameterOptions options = request.options;
   options.profile = profile_options_of(request);
-  if (request.stencil == "seven-point") options.stencil = topography::SlopeStencil::seven_point;
-  if (request.triangles == "four") options.triangles = topography::AreaTriangles::four;
+  if (request.stencil == "seven-point") options.stencil = metrology::SlopeStencil::seven_point;
+  if (request.triangles == "four") options.triangles = metrology::AreaTriangles::four;
   return options;
 }
 
@@ -104,7 +104,7 @@ Measured measure(const Request& request, const std::string& file, Context& conte
                     .object = json_head(context, scan),
                     .facts = facts_of(scan)};
   measured.row.parameters =
-      topography::parameters(scan.surface, options_of(request), context.observer());
+      metrology::parameters(scan.surface, options_of(request), context.observer());
   const Index holes = topography::count_holes(scan.surface);
   measured.object["valid_points"] = scan.surface.grid.size() - holes;
   measured.object["parameters"] = json_of(measured.row.parameters);
@@ -201,7 +201,7 @@ void declare_scans(OptionSet& set, Request& request) {
   }
 }
 
-void assign_ratios(topography::ParameterOptions& options, const std::string& text) {
+void assign_ratios(metrology::ParameterOptions& options, const std::string& text) {
   const std::vector<double> ratios = parse_si_list(text, dimension::none, "--material-ratios");
   if (ratios.size() != 2) throw UsageError("--material-ratios: expected two per cents, e.g. 10,80");
   options.peak_ratio = ratios.front();
@@ -209,7 +209,7 @@ void assign_ratios(topography::ParameterOptions& options, const std::string& tex
 }
 
 void declare_parameters(OptionSet& set, Request& request) {
-  topography::ParameterOptions& options = request.options;
+  metrology::ParameterOptions& options = request.options;
   set.group("Parameters");
   set.add({.flag = "--set",
            .placeholder = "SET[,SET...]",

@@ -15,8 +15,8 @@ namespace tabor::cli {
 
 namespace {
 
-using topography::Parameter;
-using topography::ParameterSet;
+using metrology::Parameter;
+using metrology::ParameterSet;
 
 /// How a unit follows that of length: "µm²", "1/mm²", "µm³/µm²".
 struct LengthUnit {

@@ -4,16 +4,16 @@
 #include <vector>
 
 #include "tabor/io/json.hpp"
-#include "tabor/topography/parameter.hpp"
+#include "tabor/metrology/parameter.hpp"
 
 namespace tabor::cli {
 
 /// What became of one scan of a batch.
 struct ScanParameters {
   std::string path;
-  std::string treatment;                               ///< the filter chain, "none" without
-  std::vector<topography::Parameter> parameters = {};  ///< empty if the scan failed
-  std::string failure = {};                            ///< why there are none
+  std::string treatment;                              ///< the filter chain, "none" without
+  std::vector<metrology::Parameter> parameters = {};  ///< empty if the scan failed
+  std::string failure = {};                           ///< why there are none
 };
 
 /// A length, area, volume or density in a unit that is easy to read.
@@ -27,7 +27,7 @@ struct ReadableUnit {
 ReadableUnit readable_unit(const std::string& si_unit, double largest);
 
 /// Symbol, value with unit and definition, one table per set.
-std::string grouped_table(const std::vector<topography::Parameter>& parameters);
+std::string grouped_table(const std::vector<metrology::Parameter>& parameters);
 
 /// A row per parameter, a column per scan that has any, all in the row's unit; for exactly two
 /// scans their ratio, or difference where a ratio says nothing (per cent, angles, signed numbers).
@@ -37,6 +37,6 @@ std::string comparison_table(const std::vector<ScanParameters>& scans);
 std::string csv_table(const std::vector<ScanParameters>& scans);
 
 /// {"Sq": {"value", "unit", "definition", "note", "set"}, ...}
-io::Json json_of(const std::vector<topography::Parameter>& parameters);
+io::Json json_of(const std::vector<metrology::Parameter>& parameters);
 
 }  // namespace tabor::cli

@@ -5,7 +5,7 @@
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/topography/parameters.hpp"
+#include "tabor/metrology/parameters.hpp"
 
 namespace tabor::cli {
 
@@ -23,12 +23,12 @@ struct Request {
   std::optional<std::string> output;
 };
 
-topography::PsdOptions options_of(const Request& request) {
+metrology::PsdOptions options_of(const Request& request) {
   if (request.fit_min && request.fit_max && !(*request.fit_min < *request.fit_max)) {
     throw UsageError("--fit-min and --fit-max: expected a range, the smaller one first");
   }
-  return {.convention = *topography::psd_convention_from(request.convention),
-          .window = topography::psd_window_from(request.window),
+  return {.convention = *metrology::psd_convention_from(request.convention),
+          .window = metrology::psd_window_from(request.window),
           .fit_q_min = request.fit_min,
           .fit_q_max = request.fit_max};
 }
@@ -38,17 +38,17 @@ PsdCurves compute(const Request& request, const Scan& scan, Context& context) {
   const bool holes = topography::count_holes(surface) > 0;
   if (!request.acf && !request.hdf) require_no_holes(scan);
   PsdCurves curves;
-  curves.trusted = topography::trusted_range(surface.height, surface.grid, request.tip_radius);
+  curves.trusted = metrology::trusted_range(surface.height, surface.grid, request.tip_radius);
   curves.with_tip = request.tip_radius.has_value();
   if (holes) {
     context.warn("no power spectra: they need every height (--fill harmonic)");
   } else {
-    curves.spectra = topography::power_spectra(surface, options_of(request));
+    curves.spectra = metrology::power_spectra(surface, options_of(request));
   }
-  if (request.acf) curves.acf = topography::autocorrelation(surface.height, surface.grid);
+  if (request.acf) curves.acf = metrology::autocorrelation(surface.height, surface.grid);
   if (request.hdf) {
-    curves.hdf = topography::height_differences(surface.height, surface.grid, context.observer());
-    const double rms = topography::rms_height(surface);
+    curves.hdf = metrology::height_differences(surface.height, surface.grid, context.observer());
+    const double rms = metrology::rms_height(surface);
     curves.mean_square = rms * rms;
   }
   return curves;

@@ -11,10 +11,10 @@ namespace tabor::cli {
 
 namespace {
 
-using topography::Autocorrelation;
-using topography::HeightDifference;
-using topography::PowerSpectra;
-using topography::Spectrum;
+using metrology::Autocorrelation;
+using metrology::HeightDifference;
+using metrology::PowerSpectra;
+using metrology::Spectrum;
 
 // Keys name SI units; the unit of the chosen convention stands beside them.
 io::Json json_of(const Spectrum& spectrum, const std::string& density_key) {
@@ -44,7 +44,7 @@ std::string range_of(const Fit& fit, const std::string& range) {
 
 void add_row(const std::string& name, const Spectrum& spectrum, Table& table) {
   if (spectrum.q.empty()) return;
-  const topography::HurstFit& fit = spectrum.hurst;
+  const metrology::HurstFit& fit = spectrum.hurst;
   table.row({name, exponent(fit),
              range_of(fit, fmt::format("{:.3g} to {:.3g} rad/m", fit.q_min, fit.q_max)),
              fmt::format("{}", fit.n_bins), si(spectrum.rms_height, "m"),
@@ -71,7 +71,7 @@ io::Json json_of(const Autocorrelation& acf) {
     for (const double value : values) list.push_back(io::number(value));
     return list;
   };
-  const topography::CorrelationLengths lengths = topography::correlation_lengths(acf);
+  const metrology::CorrelationLengths lengths = metrology::correlation_lengths(acf);
   const auto aspect = lengths.texture_aspect();
   const bool has_bound = !aspect && !topography::is_profile(acf.grid());
   return {{"lag_x_m", lags(acf.grid().nx, acf.grid().dx())},
@@ -86,7 +86,7 @@ io::Json json_of(const Autocorrelation& acf) {
 
 io::Json json_of(const HeightDifference& difference, double mean_square) {
   if (difference.lag.empty()) return nullptr;
-  const topography::DifferenceHurst fit = topography::fit_hurst(difference, mean_square);
+  const metrology::DifferenceHurst fit = metrology::fit_hurst(difference, mean_square);
   return {{"lag_m", difference.lag},
           {"mean_square_m2", difference.mean_square},
           {"pairs", difference.pairs},
@@ -97,7 +97,7 @@ io::Json json_of(const HeightDifference& difference, double mean_square) {
           {"fit_bins", fit.n_bins}};
 }
 
-io::Json json_of(const topography::TrustedRange& range) {
+io::Json json_of(const metrology::TrustedRange& range) {
   return {{"shortest_wavelength_m", range.shortest},
           {"longest_wavelength_m", range.longest},
           {"shortest_is_limited_by", range.tip_limits ? "tip" : "pixel"}};
@@ -106,7 +106,7 @@ io::Json json_of(const topography::TrustedRange& range) {
 void add_row(const std::string& name, const HeightDifference& difference, double mean_square,
              Table& table) {
   if (difference.lag.empty()) return;
-  const topography::DifferenceHurst fit = topography::fit_hurst(difference, mean_square);
+  const metrology::DifferenceHurst fit = metrology::fit_hurst(difference, mean_square);
   table.row({name, exponent(fit),
              range_of(fit, fmt::format("{} to {}", si(fit.lag_min, "m"), si(fit.lag_max, "m"))),
              fmt::format("{}", fit.n_bins), "-", fmt::format("{} [m^2]", difference.lag.size())});
@@ -121,7 +121,7 @@ void describe(const PowerSpectra& spectra, Facts& facts) {
   facts.fact("rms slope", plain(spectra.rms_slope));
 }
 
-void describe(const topography::TrustedRange& range, bool with_tip, Facts& facts) {
+void describe(const metrology::TrustedRange& range, bool with_tip, Facts& facts) {
   const std::string from = range.tip_limits ? "what the tip leaves" : "4 pixels";
   facts.fact("trust", range.shortest < range.longest
                           ? fmt::format("wavelengths {} to {} (rule of thumb: {} to a quarter of "
@@ -184,7 +184,7 @@ std::string text_of(const Scan& scan, const PsdCurves& curves) {
   if (curves.spectra) describe(*curves.spectra, facts);
   describe(curves.trusted, curves.with_tip, facts);
   if (curves.acf) {
-    const auto lengths = topography::correlation_lengths(*curves.acf);
+    const auto lengths = metrology::correlation_lengths(*curves.acf);
     const auto aspect = lengths.texture_aspect();
     const std::string texture =
         topography::is_profile(curves.acf->grid())
@@ -208,7 +208,7 @@ std::string text_of(const Scan& scan, const PsdCurves& curves) {
 
 std::string doubt_about_exponents(const PowerSpectra& spectra) {
   std::string strange;
-  const auto look_at = [&strange](const std::string& name, const topography::HurstFit& fit) {
+  const auto look_at = [&strange](const std::string& name, const metrology::HurstFit& fit) {
     if (!(fit.hurst - fit.standard_error > 1) && !(fit.hurst + fit.standard_error < 0)) return;
     strange += fmt::format("{}{} {}", strange.empty() ? "" : ", ", name, plain(fit.hurst, 3));
   };

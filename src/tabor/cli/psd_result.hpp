@@ -7,20 +7,20 @@
 #include "tabor/cli/psd_curves.hpp"
 #include "tabor/cli/scan.hpp"
 #include "tabor/io/json.hpp"
-#include "tabor/topography/correlation.hpp"
-#include "tabor/topography/height_differences.hpp"
-#include "tabor/topography/psd.hpp"
-#include "tabor/topography/reliability.hpp"
+#include "tabor/metrology/correlation.hpp"
+#include "tabor/metrology/height_differences.hpp"
+#include "tabor/metrology/psd.hpp"
+#include "tabor/metrology/reliability.hpp"
 
 namespace tabor::cli {
 
 /// Everything that was asked for; without filled holes there are no spectra.
 struct PsdCurves {
-  std::optional<topography::PowerSpectra> spectra;
-  std::optional<topography::Autocorrelation> acf;
-  std::optional<topography::HeightDifferences> hdf;
+  std::optional<metrology::PowerSpectra> spectra;
+  std::optional<metrology::Autocorrelation> acf;
+  std::optional<metrology::HeightDifferences> hdf;
   double mean_square = 0;  ///< [m^2], of the valid heights about their mean
-  topography::TrustedRange trusted;
+  metrology::TrustedRange trusted;
   bool with_tip = false;  ///< a tip radius was given
 };
 
@@ -28,7 +28,7 @@ struct PsdCurves {
 void add_curves(io::Json& object, const PsdCurves& curves);
 
 /// Names exponents more than their error outside 0 to 1, in one sentence; "" if there are none.
-std::string doubt_about_exponents(const topography::PowerSpectra& spectra);
+std::string doubt_about_exponents(const metrology::PowerSpectra& spectra);
 
 /// Facts and a table for people.
 std::string text_of(const Scan& scan, const PsdCurves& curves);

@@ -4,7 +4,7 @@
 
 #include "tabor/core/printable.hpp"
 #include "tabor/core/version.hpp"
-#include "tabor/topography/file.hpp"
+#include "tabor/scan/file.hpp"
 
 namespace tabor::cli {
 
@@ -60,7 +60,7 @@ const std::vector<std::string>& hdf5_extensions() {
 
 std::vector<std::string> scan_extensions() {
   std::vector<std::string> extensions;
-  for (const topography::FormatRow& row : topography::formats()) {
+  for (const scan::FormatRow& row : scan::formats()) {
     if (!row.writes) continue;
     extensions.insert(extensions.end(), row.extensions.begin(), row.extensions.end());
   }

@@ -19,14 +19,14 @@ namespace {
 
 using topography::Topography;
 
-void assign_pixel(topography::ReadOptions& read, const std::string& text) {
+void assign_pixel(scan::ReadOptions& read, const std::string& text) {
   const std::vector<double> pixel = parse_si_list(text, dimension::length, "--pixel");
   if (pixel.size() > 2) throw UsageError("--pixel: expected one length or two (x,y)");
   read.pixel_x = pixel.front();
   if (pixel.size() == 2) read.pixel_y = pixel.back();
 }
 
-void declare_reading(OptionSet& set, topography::ReadOptions& read) {
+void declare_reading(OptionSet& set, scan::ReadOptions& read) {
   set.group("Reading");
   set.text("--channel", "NAME", "height channel, by name or number as in 'tabor info'",
            read.channel);
@@ -61,7 +61,7 @@ void declare_treatment(OptionSet& set, topography::Treatment& treatment) {
 /// A digest is a matter of one thread: it is made beside the reading, and given up with it.
 class ScanDigest {
  public:
-  explicit ScanDigest(const topography::ScanFile& file)
+  explicit ScanDigest(const scan::ScanFile& file)
       : sha256_(std::async(std::launch::async, [this, &file] {
           return file.sha256([this] {
             if (is_given_up_) throw Interrupted();
@@ -84,7 +84,7 @@ class ScanDigest {
   std::future<std::string> sha256_;  // last: its end waits for the thread
 };
 
-Scan read_scan(const topography::ScanFile& file, const ScanRequest& request, Context& context) {
+Scan read_scan(const scan::ScanFile& file, const ScanRequest& request, Context& context) {
   ScanDigest sha256(file);
   Topography surface =
       topography::apply(request.treatment, file.read(request.read), context.observer());
@@ -108,22 +108,22 @@ void warn_of_doubts(const Topography& surface, const std::string& name, Context&
 }
 
 Scan read_scan(const ScanRequest& request, Context& context) {
-  return read_scan(topography::ScanFile(request.file, context.observer()), request, context);
+  return read_scan(scan::ScanFile(request.file, context.observer()), request, context);
 }
 
 Scan load_scan(const ScanRequest& request, Context& context) {
-  return load_scan(topography::ScanFile(request.file, context.observer()), request, context);
+  return load_scan(scan::ScanFile(request.file, context.observer()), request, context);
 }
 
-Scan load_scan(const topography::ScanFile& file, const ScanRequest& request, Context& context) {
+Scan load_scan(const scan::ScanFile& file, const ScanRequest& request, Context& context) {
   Scan scan = read_scan(file, request, context);
   warn_of_doubts(scan.surface, request.file, context);
   return scan;
 }
 
-Topography read_input(const std::filesystem::path& file, const topography::ReadOptions& options,
+Topography read_input(const std::filesystem::path& file, const scan::ReadOptions& options,
                       Context& context) {
-  const topography::ScanFile scan(file, context.observer());
+  const scan::ScanFile scan(file, context.observer());
   context.files.holds(file, scan.sha256());
   return scan.read(options);
 }
@@ -133,10 +133,7 @@ void warn_if_not_levelled(const Scan& scan, Context& context) {
 }
 
 void require_no_holes(const Scan& scan) {
-  const Index holes = topography::count_holes(scan.surface);
-  if (holes == 0) return;
-  throw InputError(scan.path, fmt::format("{} missing pixels", holes), "a height at every pixel",
-                   "add --fill harmonic");
+  topography::require_no_holes(scan.surface, scan.path, "add --fill harmonic");
 }
 
 std::string pixels_text(const Grid& grid) {

@@ -5,7 +5,7 @@
 
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verb.hpp"
-#include "tabor/topography/file.hpp"
+#include "tabor/scan/file.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::cli {
@@ -13,7 +13,7 @@ namespace tabor::cli {
 /// A scan as the command line asks for it.
 struct ScanRequest {
   std::string file;
-  topography::ReadOptions read;
+  scan::ReadOptions read;
   topography::Treatment treatment;  ///< in the order given
 };
 
@@ -40,11 +40,11 @@ Scan read_scan(const ScanRequest& request, Context& context);
 /// The same where there are no such numbers: doubts become warnings at once.
 Scan load_scan(const ScanRequest& request, Context& context);
 /// The same for a file that is open already.
-Scan load_scan(const topography::ScanFile& file, const ScanRequest& request, Context& context);
+Scan load_scan(const scan::ScanFile& file, const ScanRequest& request, Context& context);
 
 /// A scan that a case names, untreated; the digest of its bytes is stated to context.files.
 topography::Topography read_input(const std::filesystem::path& file,
-                                  const topography::ReadOptions& options, Context& context);
+                                  const scan::ReadOptions& options, Context& context);
 
 /// Warns when a scan that does not close on itself is used as it was read, and says by how much a
 /// plane would change it.

@@ -34,6 +34,23 @@ std::string without_trailing_blanks(std::string line) {
   return line + '\n';
 }
 
+std::string count_text(const Cell& cell) {
+  return std::holds_alternative<std::monostate>(cell) ? "-" : fmt::format("{}", integer_in(cell));
+}
+
+std::string number_text(double value, const ColumnHead& head) {
+  switch (head.style.shown) {
+    case Shown::percent:
+      return percent(value);
+    case Shown::exponent:
+      return std::isnan(value) ? "-" : fmt::format("{:.1e}", value);
+    case Shown::unscaled:
+      return plain(value) + " " + head.unit;
+    default:
+      return head.unit.empty() ? plain(value) : si(value, head.unit);
+  }
+}
+
 }  // namespace
 
 void Table::row(std::vector<std::string> cells) {
@@ -80,6 +97,15 @@ std::string Facts::text() const {
   for (const auto& [label, value] : lines_)
     text += aligned(label, room, false) + "  " + value + '\n';
   return text;
+}
+
+std::string text_of(const Cell& cell, const ColumnHead& head) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* is_on = std::get_if<bool>(&cell)) {
+    return head.style.shown == Shown::alarm ? (*is_on ? "YES" : "no") : yes_no(*is_on);
+  }
+  if (!std::holds_alternative<double>(cell) && head.unit.empty()) return count_text(cell);
+  return number_text(number_in(cell), head);
 }
 
 std::string percent(double fraction, int digits) {

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "tabor/core/column.hpp"
 
 namespace tabor::cli {
 
@@ -27,6 +30,33 @@ class Facts {
  private:
   std::vector<std::pair<std::string, std::string>> lines_;
 };
+
+/// What people read of one value, in the words of its column.
+std::string text_of(const Cell& cell, const ColumnHead& head);
+
+/// The columns that have a heading and that any of the records has a value in.
+template <typename Record>
+Table table_of(const Columns<Record>& columns, const std::vector<Record>& records) {
+  Columns<Record> shown;
+  std::vector<std::string> headings;
+  for (const Column<Record>& column : columns) {
+    const bool is_there = std::any_of(records.begin(), records.end(), [&](const Record& record) {
+      return !std::holds_alternative<std::monostate>(column.value(record));
+    });
+    if (column.heading.empty() || !is_there) continue;
+    shown.push_back(column);
+    headings.push_back(column.heading);
+  }
+  Table table(headings);
+  for (const Record& record : records) {
+    std::vector<std::string> cells;
+    for (const Column<Record>& column : shown) {
+      cells.push_back(text_of(column.value(record), column));
+    }
+    table.row(cells);
+  }
+  return table;
+}
 
 std::string percent(double fraction, int digits = 3);   ///< 0.02134 -> "2.13 %", NaN -> "-"
 std::string si(double value, const std::string& unit);  ///< "7 MPa", NaN -> "-"

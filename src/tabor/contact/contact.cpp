@@ -18,6 +18,7 @@
 #include "tabor/core/large_pages.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/numerics/field_statistics.hpp"
 
 namespace tabor::contact {
 namespace {
@@ -57,23 +58,11 @@ void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
   }
 }
 
-/// Rms slope by forward differences, without wrapping around.
+/// Rms slope by forward differences, without wrapping around; 0 along an axis of one pixel.
 double rms_slope(const Field& height, const Grid& grid) {
-  Eigen::ArrayXd along_x(grid.ny);
-  Eigen::ArrayXd along_y(grid.ny);
-  parallel_for(grid.ny, 16, [&](Index begin, Index end) {
-    for (Index y = begin; y < end; ++y) {
-      const auto row = height.row(y);
-      const auto below = height.row(std::min(y + 1, grid.ny - 1));
-      along_x(y) = (row.tail(grid.nx - 1) - row.head(grid.nx - 1)).square().sum();
-      along_y(y) = (below - row).square().sum();
-    }
-  });
-  const auto mean_square = [](double sum, Index n, double spacing) {
-    return n == 0 ? 0.0 : sum / (static_cast<double>(n) * spacing * spacing);
-  };
-  return std::sqrt(mean_square(along_x.sum(), (grid.nx - 1) * grid.ny, grid.dx()) +
-                   mean_square(along_y.sum(), (grid.ny - 1) * grid.nx, grid.dy()));
+  const numerics::SquareSlopes slopes = numerics::mean_square_slopes(height, grid);
+  const auto known = [](double value) { return std::isnan(value) ? 0 : value; };
+  return std::sqrt(known(slopes.along_x) + known(slopes.along_y));
 }
 
 /// What to take off heights before solving [m]: their highest where all lie farther from zero than
@@ -112,19 +101,25 @@ bool try_full_contact(elastic::ElasticOperator& elasticity, const Problem& probl
       Conditions(elasticity, problem, problem.saturation_pressure)
           .certificate({{state.pressure.data(), state.pressure.data() + state.pressure.size()},
                         {residual.data(), residual.data() + residual.size()}});
-  state.convergence.converged = state.convergence.certificate <= problem.tolerance;
-  return state.convergence.converged;
+  if (!(state.convergence.certificate <= problem.tolerance)) return false;
+  state.convergence.status = Status::converged;
+  return true;
 }
 
 State run(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
           const Observer& observer) {
-  // Asked before the first iteration as well; who stops there is not asked again.
-  const bool stopped =
-      observer && !observer({solver == Solver::fast ? "contact" : "contact (Polonsky-Keer)"});
-  const Observer no_more = [](const Progress&) { return false; };
-  const Observer& asked = stopped ? no_more : observer;
-  return solver == Solver::fast ? solve_fast(elasticity, problem, asked)
-                                : solve_polonsky_keer(elasticity, problem, asked);
+  return solver == Solver::fast ? solve_fast(elasticity, problem, observer)
+                                : solve_polonsky_keer(elasticity, problem, observer);
+}
+
+/// Where the solver would have begun: what is left of a solution that was stopped before.
+State stopped_at_start(elastic::ElasticOperator& elasticity, const Problem& problem,
+                       Solver solver) {
+  Problem start = problem;
+  start.max_iterations = 0;
+  State state = run(elasticity, start, solver, {});
+  state.convergence.status = Status::stopped;
+  return state;
 }
 
 /// True where so few contact pixels are at the cap that the error of the certificate may have put
@@ -153,12 +148,14 @@ State run_capped(elastic::ElasticOperator& elasticity, const Problem& problem, S
   State state;
   const bool probably_idle = cap > 10 * flattening_pressure(elasticity, problem);
   if (!probably_idle || !try_elastic(state)) {
-    state = run(elasticity, problem, solver, observer);
+    state = state.convergence.stopped() ? stopped_at_start(elasticity, problem, solver)
+                                        : run(elasticity, problem, solver, observer);
     pairs_spent += state.convergence.fft_pairs;
-    State elastic_state;
-    if (!probably_idle && state.convergence.converged && cap_may_be_idle(state, cap) &&
-        try_elastic(elastic_state)) {
-      state = std::move(elastic_state);
+    if (!probably_idle && state.convergence.converged() && cap_may_be_idle(state, cap)) {
+      State elastic_state;
+      const bool is_idle = try_elastic(elastic_state);
+      if (elastic_state.convergence.stopped()) state.convergence.status = Status::stopped;
+      if (is_idle) state = std::move(elastic_state);
     }
   }
   state.convergence.fft_pairs = pairs_spent;
@@ -209,20 +206,14 @@ State solve(elastic::ElasticOperator& elasticity, const Problem& problem, Solver
     state.separation += offset;
     return state;
   }
-  // Asked before any work; once it says stop, every part of the solution stops at its next
-  // question.
-  bool stopped = false;
-  const Observer asked = [&](const Progress& progress) {
-    stopped = stopped || (observer && !observer(progress));
-    return !stopped;
-  };
-  asked({"contact"});
   State state;
   bool cap_is_idle = !std::isfinite(problem.saturation_pressure);
-  if (!try_full_contact(elasticity, problem, state)) {
+  if (asks_to_stop(observer, {"contact"})) {
+    state = stopped_at_start(elasticity, problem, solver);
+  } else if (!try_full_contact(elasticity, problem, state)) {
     const double pairs_spent = state.convergence.fft_pairs;
-    state = cap_is_idle ? run(elasticity, problem, solver, asked)
-                        : run_capped(elasticity, problem, solver, asked, cap_is_idle);
+    state = cap_is_idle ? run(elasticity, problem, solver, observer)
+                        : run_capped(elasticity, problem, solver, observer, cap_is_idle);
     state.convergence.fft_pairs += pairs_spent;
   }
   finish_state(elasticity, problem, cap_is_idle ? kNoSaturation : problem.saturation_pressure,

@@ -10,6 +10,7 @@ namespace tabor::contact {
 
 inline constexpr double kNoSaturation = std::numeric_limits<double>::infinity();
 
+/// Both reach the same certificate.
 enum class Solver {
   fast,  ///< preconditioned projected spectral gradient, one operator application per iteration
   polonsky_keer  ///< Polonsky & Keer 1999: the textbook baseline, two applications per iteration
@@ -39,7 +40,8 @@ struct State {
 };
 
 /// Solves the contact problem. Throws InputError for input that makes no sense (P >= p_sat, NaN,
-/// wrong shape); returns a State with converged == false when the tolerance was not reached.
+/// wrong shape). Not reaching the tolerance is returned, and so is being stopped: with the load
+/// carried and within the bounds as ever, and the certificate of where the solution stood.
 State solve(elastic::ElasticOperator& elasticity, const Problem& problem,
             Solver solver = Solver::fast, const Observer& observer = {});
 
@@ -59,6 +61,7 @@ struct Summary {
   double perimeter = 0;  ///< [m], along pixel edges (4/pi of a circle's)
 };
 
+/// `periodic`: opposite borders of the map are neighbours. Shapes are those of the grid.
 Summary summarise(const State& state, const Problem& problem, const Grid& grid, bool periodic);
 
 /// The surface after unloading: heights less the residual plastic indentation max(-gap, 0) of the

@@ -28,7 +28,6 @@ constexpr double kSettledShare = 1e-4;  // of the pixels changing between free a
 // gap is far too large to be felt by others, and the next one looks at each pixel alone.
 constexpr double kLeastLength = 1e-4;
 constexpr int kPatience = 300;  // iterations without a better certificate before giving up
-constexpr double kUnknownFraction = std::numeric_limits<double>::quiet_NaN();
 
 /// A map of zeros, written on all threads.
 FieldF zeros(Index ny, Index nx) {
@@ -68,6 +67,7 @@ class ProjectedGradient {
   void refresh();
   void certify();
   bool meets_conditions();
+  bool ends(const Observer& observer);
   void find_separation();
   void choose_active_set();
   void find_direction();
@@ -326,10 +326,25 @@ void ProjectedGradient::accept(double length) {
   residual_is_fresh_ = false;
 }
 
+/// Whether this iteration is the last, and why.
+bool ProjectedGradient::ends(const Observer& observer) {
+  if (convergence_.stopped()) return true;  // on a coarser grid
+  if (meets_conditions()) {
+    convergence_.status = Status::converged;
+  } else if (convergence_.iterations - best_iteration_ > kPatience) {
+    convergence_.status = Status::stalled;
+  }
+  const bool is_last = convergence_.status != Status::iteration_limit ||
+                       convergence_.iterations >= problem_.max_iterations;
+  if (!asks_to_stop(observer, {.stage = "contact", .convergence = &convergence_})) return is_last;
+  convergence_.status = Status::stopped;
+  return true;
+}
+
 State ProjectedGradient::run(const Observer& observer) {
   const Index ny = problem_.height.rows();
   const Index nx = problem_.height.cols();
-  residual_ = starting_pressure(elasticity_, problem_, observer, convergence_.fft_pairs);
+  residual_ = starting_pressure(elasticity_, problem_, observer, convergence_);
   candidates_ = pressed_pixels(residual_);
   refresh();
   work_ = zeros(ny, nx);
@@ -343,16 +358,11 @@ State ProjectedGradient::run(const Observer& observer) {
       refresh();
       continue;
     }
-    convergence_.converged = meets_conditions();
-    const bool give_up = convergence_.iterations >= problem_.max_iterations ||
-                         convergence_.iterations - best_iteration_ > kPatience;
-    const bool stop = observer && !observer({"contact", kUnknownFraction, &convergence_});
-    if (convergence_.converged || give_up || stop) {
-      break;
-    }
+    if (ends(observer)) break;
     find_separation();
     choose_active_set();
     if (active_.empty()) {
+      convergence_.status = Status::stalled;
       break;
     }
     find_direction();
@@ -360,6 +370,7 @@ State ProjectedGradient::run(const Observer& observer) {
       choose_step();
     }
     if (!move()) {
+      convergence_.status = Status::stalled;
       break;
     }
     convergence_.iterations += 1;
@@ -367,7 +378,7 @@ State ProjectedGradient::run(const Observer& observer) {
   if (!residual_is_fresh_) {
     refresh();
     certify();
-    convergence_.converged = meets_conditions();
+    if (!convergence_.stopped() && meets_conditions()) convergence_.status = Status::converged;
   }
   State state;
   work_ = FieldF();

@@ -13,6 +13,7 @@ struct Patches {
   Index size() const { return static_cast<Index>(pixel_counts.size()); }
 };
 
+/// 4-connected patches; `periodic` joins those at opposite borders.
 Patches find_patches(const Mask& contact, bool periodic);
 
 /// Number of neighbouring pixel pairs of which exactly one is in contact.
@@ -22,6 +23,7 @@ struct Transitions {
   Index total() const { return along_rows + along_columns; }
 };
 
+/// Counts edges between contact and open pixels, across borders too if `periodic`.
 Transitions count_transitions(const Mask& contact, bool periodic);
 
 }  // namespace tabor::contact

@@ -87,8 +87,9 @@ Conditions::Settled ConjugateGradient::settle(Convergence& convergence) {
   }
   const std::span<double> pressure(pressure_.data(), n);
   const Conditions::Settled settled = conditions_.settle(pressure, gap);
-  convergence.converged =
-      settled == Conditions::Settled::already && conditions_.gaps_close(pressure, gap);
+  if (settled == Conditions::Settled::already && conditions_.gaps_close(pressure, gap)) {
+    convergence.status = Status::converged;
+  }
   return settled;
 }
 
@@ -163,12 +164,10 @@ State ConjugateGradient::run(const Observer& observer) {
       conjugacy_ = 0;
       continue;
     }
-    const bool stop =
-        observer && !observer({"contact (Polonsky-Keer)", std::numeric_limits<double>::quiet_NaN(),
-                               &convergence});
-    if (convergence.converged || stop || convergence.iterations >= problem_.max_iterations) {
-      break;
+    if (asks_to_stop(observer, {.stage = "contact (Polonsky-Keer)", .convergence = &convergence})) {
+      convergence.status = Status::stopped;
     }
+    if (!convergence.failed() || convergence.iterations >= problem_.max_iterations) break;
     gap_ -= level();
     const double length = update_direction();
     convergence.operator_applications += 1;

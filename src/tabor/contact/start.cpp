@@ -87,7 +87,7 @@ void fit_to_load(Field& pressure, double mean_pressure, double saturation_pressu
 }
 
 Field starting_pressure(const elastic::ElasticOperator& elasticity, const Problem& problem,
-                        const Observer& observer, double& fft_pairs) {
+                        const Observer& observer, Convergence& convergence) {
   const Grid& grid = elasticity.grid();
   Field pressure;
   if (std::min(grid.nx, grid.ny) >= 2 * kCoarsestSize) {
@@ -96,11 +96,12 @@ Field starting_pressure(const elastic::ElasticOperator& elasticity, const Proble
     const Grid coarse_grid{coarse.height.cols(), coarse.height.rows(), grid.lx, grid.ly};
     const auto coarse_operator = elasticity.on_grid(coarse_grid);
     const Observer asked = [&](const Progress& progress) {
-      return !observer || observer({progress.stage});
+      return !asks_to_stop(observer, {progress.stage});
     };
     const State state = solve_fast(*coarse_operator, coarse, asked);
-    fft_pairs += state.convergence.fft_pairs * static_cast<double>(coarse_grid.size()) /
-                 static_cast<double>(grid.size());
+    convergence.fft_pairs += state.convergence.fft_pairs * static_cast<double>(coarse_grid.size()) /
+                             static_cast<double>(grid.size());
+    if (state.convergence.stopped()) convergence.status = Status::stopped;
     pressure = doubled(state.pressure, grid.ny, grid.nx);
   } else {
     pressure = bearing_pressure(problem);

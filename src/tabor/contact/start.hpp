@@ -7,9 +7,9 @@ namespace tabor::contact {
 /// A first pressure that carries the load: the solution of the same problem on a grid of half the
 /// resolution where that exists (recursively), else the bearing area of the heights. Adds the work
 /// of the coarse grids to fft_pairs, weighted by their share of pixels. The observer is asked on
-/// the coarse grids too, and told no certificate of theirs.
+/// the coarse grids too, and told no certificate of theirs; if it stops them, so is `convergence`.
 Field starting_pressure(const elastic::ElasticOperator& elasticity, const Problem& problem,
-                        const Observer& observer, double& fft_pairs);
+                        const Observer& observer, Convergence& convergence);
 
 /// Scales or shifts p on its support so that mean(p) = P exactly, within the bounds; a support too
 /// small for the load is widened to all pixels.

@@ -76,9 +76,7 @@ Stiffness contact_stiffness(elastic::ElasticOperator& elasticity, const State& s
                             double saturation_pressure, double tolerance) {
   const PixelList set = free_pixels(state, saturation_pressure);
   Stiffness stiffness;
-  stiffness.convergence.tolerance = tolerance;
-  stiffness.convergence.certificate = 0;
-  stiffness.convergence.converged = true;
+  stiffness.convergence = exact(tolerance);
   const Index n_pixels = state.pressure.size();
   if (set.empty()) {
     return stiffness;
@@ -95,6 +93,7 @@ Stiffness contact_stiffness(elastic::ElasticOperator& elasticity, const State& s
   const auto norm = static_cast<double>(set.size());
   Convergence& convergence = stiffness.convergence;
   convergence.certificate = 1;
+  convergence.status = Status::iteration_limit;
   while (convergence.certificate > tolerance && convergence.iterations < kMostIterations) {
     const std::vector<double> response = restricted.displacement(search);
     const double length = product / dot(search, response);
@@ -112,7 +111,7 @@ Stiffness contact_stiffness(elastic::ElasticOperator& elasticity, const State& s
     convergence.certificate = std::sqrt(dot(residual, residual) / norm);
   }
   convergence.operator_applications = convergence.iterations;
-  convergence.converged = convergence.certificate <= tolerance;
+  if (convergence.certificate <= tolerance) convergence.status = Status::converged;
   stiffness.value =
       dot(solution, std::vector<double>(set.size(), 1.0)) / static_cast<double>(n_pixels);
   return stiffness;

@@ -4,6 +4,7 @@
 
 namespace tabor::contact {
 
+/// How stiff a contact is, and how well that is known.
 struct Stiffness {
   double value = 0;  ///< -dP / d(separation) [Pa/m]; infinite for a periodic cell in full contact
   Convergence convergence;  ///< certificate: relative residual

@@ -15,11 +15,16 @@ namespace tabor {
 template <typename Enum, std::size_t N>
 class Names {
  public:
+  /// One name for each enumerator.
   constexpr explicit Names(const std::array<std::string_view, N>& names) : names_(names) {}
 
+  /// The name of an enumerator.
   constexpr std::string_view of(Enum value) const {
     return names_[static_cast<std::size_t>(value)];
   }
+
+  /// All names, in the order of the enumerators.
+  std::vector<std::string> all() const { return {names_.begin(), names_.end()}; }
 
   /// nullopt if there is no such name.
   constexpr std::optional<Enum> find(std::string_view name) const {
@@ -36,8 +41,7 @@ class Names {
     for (const std::string_view known : names_) {
       expected += (expected.empty() ? "" : ", ") + std::string(known);
     }
-    const std::vector<std::string> all(names_.begin(), names_.end());
-    throw InputError(what, "'" + std::string(name) + "'" + suggestion(name, all), expected, "");
+    throw InputError(what, "'" + std::string(name) + "'" + suggestion(name, all()), expected, "");
   }
 
  private:

@@ -15,7 +15,7 @@
 namespace tabor {
 namespace {
 
-int requested_threads = 0;
+std::atomic<int> requested_threads = 0;
 
 /// Runs body(0..n_blocks-1) on all threads; the first exception is rethrown after the loop, since
 /// OpenMP lets none escape from a parallel region.
@@ -66,7 +66,10 @@ std::vector<double> block_values(Index n, const std::function<double(Index, Inde
 
 void set_thread_count(int n) { requested_threads = std::max(0, n); }
 
-int thread_count() { return requested_threads > 0 ? requested_threads : omp_get_max_threads(); }
+int thread_count() {
+  const int requested = requested_threads;
+  return requested > 0 ? requested : omp_get_max_threads();
+}
 
 void parallel_for(Index n, Index block, const std::function<void(Index, Index)>& body) {
   for_each_block(count_blocks(n, block), [&](Index k) {

@@ -7,8 +7,11 @@
 
 namespace tabor {
 
+/// The parts between separators, empty ones too.
 std::vector<std::string> split(std::string_view text, char separator);
+/// Without the white space at both ends.
 std::string_view trim(std::string_view text);
+/// In lower case; letters of ASCII alone change.
 std::string lower(std::string_view text);
 
 /// The whole of `text` as a number in the C locale, whatever the user's locale; nullopt otherwise.

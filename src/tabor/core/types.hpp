@@ -4,6 +4,7 @@
 
 namespace tabor {
 
+/// Counts and positions of pixels.
 using Index = Eigen::Index;
 
 /// A map sampled on a Grid: shape (ny, nx), row 0 is the top row, x (columns) is the fast axis and
@@ -21,10 +22,15 @@ struct Grid {
   double lx = 0;  ///< [m]
   double ly = 0;  ///< [m]
 
+  /// Width of a pixel [m].
   double dx() const { return lx / static_cast<double>(nx); }
+  /// Height of a pixel [m].
   double dy() const { return ly / static_cast<double>(ny); }
+  /// [m^2]
   double pixel_area() const { return dx() * dy(); }
+  /// Nominal area [m^2].
   double area() const { return lx * ly; }
+  /// Number of pixels.
   Index size() const { return nx * ny; }
   bool operator==(const Grid&) const = default;
 };

@@ -162,7 +162,7 @@ Quantity parse_quantity(std::string_view text) {
   std::string_view rest = trim(text);
   const auto number = take_number(rest);
   if (!number || !std::isfinite(*number)) {
-    throw InputError(fmt::format("'{}' does not start with a finite number", text));
+    throw InputError(fmt::format("'{}', which does not begin with a finite number", text));
   }
   std::string culprit;
   const auto unit = find_expression(trim(rest), culprit);
@@ -225,6 +225,10 @@ std::string format_si(double value, std::string_view si_unit, int significant_di
   }
   return fmt::format("{:.{}g} {}{}", value * std::pow(1000.0, static_cast<double>(-step)),
                      significant_digits, *std::next(prefixes.begin(), step + plain), si_unit);
+}
+
+double in_g_per_m2(double lubricant_density) {
+  return parse_number(fmt::format("{:.15g}", 1e3 * lubricant_density)).value();
 }
 
 }  // namespace tabor

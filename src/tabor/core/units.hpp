@@ -32,6 +32,7 @@ inline constexpr Dimension time{0, 0, 1, 0};
 inline constexpr Dimension temperature{0, 0, 0, 1};
 }  // namespace dimension
 
+/// A value with its dimension.
 struct Quantity {
   double value = 0;  ///< SI
   Dimension dimension;
@@ -55,5 +56,9 @@ std::optional<double> unit_factor(std::string_view unit, Dimension expected);
 
 /// Engineering form for people: format_si(6.7e-7, "m") = "670 nm", format_si(7e6, "Pa") = "7 MPa".
 std::string format_si(double value, std::string_view si_unit, int significant_digits = 4);
+
+/// Areal density [kg/m^2] as it is dosed, in g/m^2: 0.45 for 0.45e-3, free of the rounding of the
+/// factor 1000.
+double in_g_per_m2(double lubricant_density);
 
 }  // namespace tabor

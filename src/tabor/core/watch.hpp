@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "tabor/core/convergence.hpp"
+#include "tabor/core/error.hpp"
 
 namespace tabor {
 
@@ -37,6 +38,20 @@ class Watch {
   double asked_ = 0;  ///< [s]
   Watch* outer_;
 };
+
+/// Works under a watch, which is handed to `work`. False, and no exception, if the observer stopped
+/// it; what a watch around says ends the work by Interrupted as ever.
+template <typename Work>
+bool finishes(const Observer& observer, std::string_view stage, const Work& work) {
+  try {
+    Watch watch(observer, stage);
+    work(watch);
+    return true;
+  } catch (const Interrupted&) {
+    if (!observer) throw;
+    return false;
+  }
+}
 
 /// For serial loops that take longer than an eye blink, every few thousand items: asks the observer
 /// that watches this thread, if there is one and a tenth of a second has passed since it was asked.

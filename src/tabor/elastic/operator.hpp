@@ -12,6 +12,7 @@ class ElasticOperator {
  public:
   virtual ~ElasticOperator() = default;
 
+  /// Shape of the maps that apply() takes.
   virtual const Grid& grid() const = 0;
   virtual double effective_modulus() const = 0;  ///< E* [Pa]
 

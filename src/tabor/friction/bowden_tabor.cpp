@@ -6,17 +6,12 @@
 #include <cmath>
 #include <string>
 
+#include "tabor/core/checks.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 
 namespace tabor::friction {
 namespace {
-
-void check_positive(double value, const std::string& what) {
-  if (!(value > 0) || !std::isfinite(value)) {
-    throw InputError(what, fmt::format("{} Pa", value), "a positive pressure", "");
-  }
-}
 
 /// A share may exceed its bounds by rounding alone; NaN is refused too.
 void check_share(double value, const std::string& what) {
@@ -32,23 +27,15 @@ double least_area_fraction(const Contact& contact, Area area) {
 
 }  // namespace
 
-std::string_view name(Area area) { return area == Area::corrected ? "corrected" : "pixels"; }
+std::string_view name(Area area) { return kAreas.of(area); }
 
-Area parse_area(std::string_view text) {
-  for (const Area area : {Area::corrected, Area::pixels}) {
-    if (text == name(area)) {
-      return area;
-    }
-  }
-  throw InputError("area", "'" + std::string(text) + "'",
-                   "corrected or pixels" + suggestion(text, {"corrected", "pixels"}), "");
-}
+Area parse_area(std::string_view text) { return kAreas.parse(text, "area"); }
 
 Estimate estimate(const Contact& contact, double shear_strength, Area area) {
-  check_positive(contact.mean_pressure, "mean pressure");
-  check_positive(shear_strength, "shear strength");
+  check_positive("mean pressure", contact.mean_pressure, "Pa");
+  check_positive("shear strength", shear_strength, "Pa");
   if (!(contact.saturation_pressure > 0)) {
-    check_positive(contact.saturation_pressure, "saturation pressure");
+    check_positive("saturation pressure", contact.saturation_pressure, "Pa");
   }
   check_share(contact.contact_area_fraction, "contact area fraction");
   check_share(contact.contact_area_fraction_pixels, "contact area fraction in pixels");

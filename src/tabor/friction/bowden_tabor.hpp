@@ -3,6 +3,8 @@
 #include <limits>
 #include <string_view>
 
+#include "tabor/core/names.hpp"
+
 namespace tabor::friction {
 
 /// Which count of the real contact area friction uses.
@@ -11,6 +13,9 @@ enum class Area {
   pixels      ///< counted contact pixels, as Costagliola et al. 2021 do
 };
 
+inline constexpr auto kAreas = names<Area>("corrected", "pixels");
+
+/// As on the command line.
 std::string_view name(Area area);
 Area parse_area(std::string_view text);  ///< throws InputError with the nearest match
 
@@ -23,6 +28,7 @@ struct Contact {
   double lubricated_share = 0;  ///< wet contact pixels / contact pixels
 };
 
+/// What Bowden and Tabor's rule says of one state.
 struct Estimate {
   double area_fraction = 0;        ///< A_real / A0 that was used
   Area area = Area::corrected;     ///< and how it was counted

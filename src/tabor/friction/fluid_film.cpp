@@ -65,14 +65,13 @@ class Solver {
         felt_(Field::Zero(elasticity.grid().ny, elasticity.grid().nx)),
         deflection_(felt_) {}
 
-  FluidFilmState run(const contact::State& dry) {
+  /// Advances `state`, which holds the dry contact, to the shared load.
+  void run(FluidFilmState& state) {
     LoadSearch search;
-    FluidFilmState state;
-    state.contact = dry;
-    state.solid_pressure = load_;
-    while (true) {
+    Convergence& convergence = state.convergence;
+    do {
       flow(state);
-      if (state.converged || state.evaluations >= problem_.max_evaluations) return state;
+      if (!convergence.failed() || convergence.iterations >= problem_.max_evaluations) return;
       feel(state);
       if (state.gap_error > kMuch && mean(felt_) < kLargestFeltShare * load_) {
         // The surface is still giving way: the solids carry what the pressure it has felt does not.
@@ -82,10 +81,13 @@ class Solver {
       } else {
         const double carried = (state.solid_pressure + state.fluid_pressure) / load_;
         const double next = search.next(position_, std::log(std::max(carried, 1e-300)));
-        if (search.met_a_jump()) return state;
+        if (search.met_a_jump()) {
+          convergence.status = Status::stalled;
+          return;
+        }
         close(next, state);
       }
-    }
+    } while (!convergence.stopped());
   }
 
  private:
@@ -103,7 +105,7 @@ class Solver {
       solids.height = height;
       solids.mean_pressure = state.solid_pressure;
       state.contact = contact::solve(elasticity_, solids, contact::Solver::fast, observer_);
-      report_progress(observer_, "film", std::nan(""));
+      if (state.contact.convergence.stopped()) state.convergence.status = Status::stopped;
       state.contact.displacement += deflection_;
       return;
     }
@@ -113,8 +115,7 @@ class Solver {
     state.contact.displacement = deflection_;
     state.contact.separation = lift + height.maxCoeff();
     state.contact.gap = state.contact.separation - height;
-    state.contact.convergence.certificate = 0;
-    state.contact.convergence.converged = true;
+    state.contact.convergence = exact(problem_.contact.tolerance);
   }
 
   /// Scale of the distance between surfaces that do not touch.
@@ -122,12 +123,16 @@ class Solver {
 
   /// The film in the gap of `state`, and what follows from it.
   void flow(FluidFilmState& state) {
-    ++state.evaluations;
+    ++state.convergence.iterations;
     // Elsewhere the oil starts from its deposit again: where it went before must not matter.
-    const bool has_guess = state.evaluations > 1 && load_fits(state);
-    const lubrication::PatchProblem patch = patch_of(state);
+    const bool has_guess = state.convergence.iterations > 1 && load_fits(state);
+    const reynolds::PatchProblem patch = patch_of(state);
     state.film = has_guess ? steady_film(patch, problem_.film, state.film, observer_)
                            : steady_film(patch, problem_.film, observer_);
+    if (state.film.convergence.stopped()) {
+      state.convergence.status = Status::stopped;
+      return;
+    }
     state.fluid_pressure = state.film.mean_pressure;
     state.mean_gap = mean(state.contact.gap.max(0.0));
     state.load_error = (state.solid_pressure + state.fluid_pressure) / load_ - 1;
@@ -135,13 +140,17 @@ class Solver {
     state.pressure_error = mean((state.film.pressure - felt_).abs()) / load_;
     state.viscous_stress = viscous_stress(state);
     // A few pixels of a high pressure may hardly change the gap's rms and yet most of the load.
-    state.converged = load_fits(state) && state.gap_error <= problem_.tolerance &&
-                      state.pressure_error <= problem_.tolerance && state.film.converged &&
-                      state.film.steady && state.contact.convergence.converged;
+    state.convergence.certificate =
+        std::max({std::abs(state.load_error), state.gap_error, state.pressure_error});
+    const bool fits = load_fits(state) && state.gap_error <= problem_.tolerance &&
+                      state.pressure_error <= problem_.tolerance;
+    if (fits && state.film.convergence.converged() && state.contact.convergence.converged()) {
+      state.convergence.status = Status::converged;
+    }
   }
 
-  lubrication::PatchProblem patch_of(const FluidFilmState& state) const {
-    lubrication::PatchProblem patch;
+  reynolds::PatchProblem patch_of(const FluidFilmState& state) const {
+    reynolds::PatchProblem patch;
     patch.grid = elasticity_.grid();
     patch.gap = state.contact.gap;
     patch.entrainment_speed = problem_.sliding_speed / 2;
@@ -233,9 +242,14 @@ class Solver {
 FluidFilmState solve_fluid_film(elastic::ElasticOperator& elasticity,
                                 const FluidFilmProblem& problem, const contact::State& dry,
                                 const Observer& observer) {
-  const Watch watch(observer, "film");
   check(elasticity, problem, dry);
-  return Solver(elasticity, problem, observer).run(dry);
+  FluidFilmState state;
+  state.contact = dry;
+  state.solid_pressure = problem.contact.mean_pressure;
+  state.convergence.tolerance = problem.tolerance;
+  const auto work = [&](Watch&) { Solver(elasticity, problem, observer).run(state); };
+  if (!finishes(observer, "film", work)) state.convergence.status = Status::stopped;
+  return state;
 }
 
 }  // namespace tabor::friction

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "tabor/contact/contact.hpp"
-#include "tabor/lubrication/patch_flow.hpp"
 #include "tabor/material/lubricant.hpp"
+#include "tabor/reynolds/patch_flow.hpp"
 
 namespace tabor::friction {
 
@@ -18,28 +18,31 @@ struct FluidFilmProblem {
   int max_evaluations = 40;  ///< of contact and film together
 };
 
+/// A contact and the film that carries a part of its load.
 struct FluidFilmState {
   contact::State contact;  ///< pressure of the solids alone; gap and displacement under both
-  lubrication::PatchFilm film;
+  reynolds::PatchFilm film;
   double solid_pressure = 0;  ///< mean over the patch [Pa]
   double fluid_pressure = 0;  ///< mean over the patch [Pa]
   double viscous_stress = 0;  ///< mean shear stress that the oil puts on the flat [Pa]
   double mean_gap = 0;        ///< [m]
-  double load_error = 0;      ///< (solid + fluid pressure)/P - 1
-  double gap_error = 0;  ///< rms of what the last change of the fluid's pressure moves the gap by,
-                         ///< over the mean gap
+  /// Evaluations of contact and film together are its iterations, the largest of the three errors
+  /// below its certificate. Stalled where the load jumps across what the oil could carry.
+  Convergence convergence;
+  double load_error = 0;  ///< (solid + fluid pressure)/P - 1
+  double gap_error = 0;   ///< rms of what the last change of the fluid's pressure moves the gap by,
+                          ///< over the mean gap
   double pressure_error = 0;  ///< mean of what the fluid's pressure is beside the one that the
                               ///< surface has given way to, over P
-  int evaluations = 0;
-  bool converged = false;
 };
 
 /// Shares the load between the solids and the oil: the solids are in dry contact under what the
 /// film does not carry, on the surface as the film's pressure has deformed it; the film flows in
-/// the gap they leave (lubrication/patch_flow.hpp). Where oil alone carries the load the surfaces
+/// the gap they leave (reynolds/patch_flow.hpp). Where oil alone carries the load the surfaces
 /// part. `dry` is the contact's state at P without oil: it begins the search, and is the answer
 /// where the oil carries less than the tolerance. The operator must be periodic. Throws InputError
-/// for input that makes no sense, Interrupted; not converging is returned.
+/// for input that makes no sense; not converging is returned, and so is being stopped: with
+/// what was reached, in which the film has no fields before its first step.
 FluidFilmState solve_fluid_film(elastic::ElasticOperator& elasticity,
                                 const FluidFilmProblem& problem, const contact::State& dry,
                                 const Observer& observer = {});

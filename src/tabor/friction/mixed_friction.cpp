@@ -41,9 +41,8 @@ FluidSummary summarise(const FluidFilmState& state, const FluidFilmProblem& prob
   fluid.load_error = state.load_error;
   fluid.gap_error = state.gap_error;
   fluid.pressure_error = state.pressure_error;
-  fluid.evaluations = state.evaluations;
-  fluid.iterations = state.film.iterations;
-  fluid.converged = state.converged;
+  fluid.film_iterations = state.film.convergence.iterations;
+  fluid.convergence = state.convergence;
   return fluid;
 }
 
@@ -66,11 +65,11 @@ MixedEstimate estimate(const FluidSummary& fluid, double mean_pressure, double s
 
 std::vector<std::string> doubts(const FluidFilmState& state, const FluidFilmProblem& problem) {
   std::vector<std::string> found;
-  if (!state.converged) {
-    const bool steady = state.film.converged && state.film.steady;
+  if (state.convergence.failed()) {
     found.push_back(fmt::format(
-        "film NOT CONVERGED, load balance {:.1e}, gap {:.1e} instead of {:.0e}{}", state.load_error,
-        state.gap_error, problem.tolerance, steady ? "" : ", oil still on the move"));
+        "film NOT CONVERGED ({}), load balance {:.1e}, gap {:.1e} instead of {:.0e}{}",
+        name_of(state.convergence.status), state.load_error, state.gap_error, problem.tolerance,
+        state.film.convergence.converged() ? "" : ", oil still on the move"));
   }
   const double highest = state.film.pressure.maxCoeff();
   for (std::string& doubt : material::doubts(problem.lubricant, highest)) {

@@ -35,11 +35,11 @@ struct FluidSummary {
   double load_error = 0;
   double gap_error = 0;
   double pressure_error = 0;
-  int evaluations = 0;
-  int iterations = 0;
-  bool converged = false;
+  int film_iterations = 0;  ///< of the last film
+  Convergence convergence;  ///< as that of FluidFilmState
 };
 
+/// The numbers of a state, over the patch.
 FluidSummary summarise(const FluidFilmState& state, const FluidFilmProblem& problem,
                        const Grid& grid);
 

@@ -126,39 +126,6 @@ class Hdf5Reader {
   std::unique_ptr<File> file_;
 };
 
-/// Whether a copy of this process (fork) gets through `action`, by a result or an exception, in 2 s
-/// of processor time and 256 MiB of memory, and more for large files. The library trusts what a
-/// file says about its lists, sizes and texts and crashes over damaged ones (H5HG_read of version
-/// 1.10.8 checks an index only in debug builds) or asks for gigabytes: files of others are tried in
-/// a copy first. Nothing is read without one: throws Error if no copy can be made, InputError if it
-/// waits for something for more than 5 s.
-bool hdf5_survives(const std::filesystem::path& file, const std::function<void()>& action);
-
-/// The map of this shape that `send` makes, run in a copy of this process: pieces of rows from the
-/// top, handed over to its argument. Nullopt if the copy breaks, sends less, or needs far more
-/// memory or processor time than a map of this size; throws as hdf5_survives() does. `progress` is
-/// told the share received so far.
-using SendRows = std::function<void(const std::function<void(const Field& rows)>& accept)>;
-std::optional<Field> hdf5_map_from_copy(const std::filesystem::path& file,
-                                        std::array<Index, 2> shape, const SendRows& send,
-                                        const std::function<void(double share)>& progress);
-/// The same without a copy.
-Field hdf5_map_directly(std::array<Index, 2> shape, const SendRows& send);
-
-/// Throws InputError for a file over which the copy breaks.
-void require_hdf5_survives(const std::filesystem::path& file, const std::function<void()>& action);
-
-/// What `read` makes of the file, which a copy of this process has read first. Throws InputError,
-/// also whatever `read` throws.
-template <typename Read>
-auto read_guarded(const std::filesystem::path& file, const Read& read) {
-  require_hdf5_survives(file, [&] { read(Hdf5Reader(file)); });
-  return read(Hdf5Reader(file));
-}
-
-/// The map at `path` of this file, read by a copy of this process. Throws InputError.
-Field read_guarded_map(const std::filesystem::path& file, const std::string& path);
-
 /// True if the file begins like HDF5 (at offset 0).
 bool is_hdf5(const std::filesystem::path& file);
 

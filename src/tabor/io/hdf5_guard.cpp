@@ -1,3 +1,5 @@
+#include "tabor/io/hdf5_guard.hpp"
+
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
@@ -9,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <ctime>
@@ -17,8 +20,8 @@
 #include <utility>
 
 #include "tabor/core/error.hpp"
-#include "tabor/io/hdf5.hpp"
 #include "tabor/io/hdf5_library.hpp"
+#include "tabor/io/protection.hpp"
 
 namespace tabor::io {
 namespace {
@@ -249,9 +252,45 @@ bool one_ends_well(const std::filesystem::path& file, const std::function<End()>
                    "a file that can be read", "copy it to a local disk and try again");
 }
 
+std::optional<Field> map_from_copy(const std::filesystem::path& file, std::array<Index, 2> shape,
+                                   const SendRows& send_rows,
+                                   const std::function<void(double)>& progress) {
+  Field map(shape[0], shape[1]);
+  const Limits limits = limits_for(static_cast<std::size_t>(map.size()) * sizeof(double));
+  const bool is_whole = one_ends_well(file, [&] {
+    Copy copy(file, limits,
+              [&](int pipe) { send_rows([pipe](const Field& rows) { send(pipe, rows); }); });
+    return receive_map(copy, map, progress);
+  });
+  return is_whole ? std::optional(std::move(map)) : std::nullopt;
+}
+
+std::optional<Field> map_from_this_process(std::array<Index, 2> shape, const SendRows& send_rows,
+                                           const std::function<void(double)>& progress) {
+  Field map(shape[0], shape[1]);
+  Index n_rows = 0;
+  send_rows([&](const Field& rows) {
+    if (n_rows + rows.rows() <= map.rows()) map.middleRows(n_rows, rows.rows()) = rows;
+    n_rows += rows.rows();
+    if (progress) progress(static_cast<double>(n_rows) / static_cast<double>(map.rows()));
+  });
+  return n_rows == map.rows() ? std::optional(std::move(map)) : std::nullopt;
+}
+
+std::atomic<bool> is_isolated{false};
+
+[[noreturn]] void reject_damaged(const std::filesystem::path& file) {
+  throw InputError(file.string() + ": damaged HDF5 file");
+}
+
 }  // namespace
 
+void isolate_hdf5_reading(bool on) { is_isolated = on; }
+
+bool hdf5_reading_is_isolated() { return is_isolated; }
+
 bool hdf5_survives(const std::filesystem::path& file, const std::function<void()>& action) {
+  if (!is_isolated) return true;
   std::error_code unknown;
   const auto size = std::filesystem::file_size(file, unknown);
   const Limits limits = limits_for(unknown ? 0 : size);
@@ -261,17 +300,26 @@ bool hdf5_survives(const std::filesystem::path& file, const std::function<void()
   });
 }
 
-std::optional<Field> hdf5_map_from_copy(const std::filesystem::path& file,
-                                        std::array<Index, 2> shape, const SendRows& send_rows,
-                                        const std::function<void(double)>& progress) {
-  Field map(shape[0], shape[1]);
-  const Limits limits = limits_for(static_cast<std::size_t>(map.size()) * sizeof(double));
-  const bool is_whole = one_ends_well(file, [&] {
-    Copy copy(file, limits,
-              [&](int pipe) { send_rows([pipe](const Field& rows) { send(pipe, rows); }); });
-    return receive_map(copy, map, progress);
-  });
-  return is_whole ? std::optional(std::move(map)) : std::nullopt;
+std::optional<Field> guarded_hdf5_map(const std::filesystem::path& file, std::array<Index, 2> shape,
+                                      const SendRows& send_rows,
+                                      const std::function<void(double)>& progress) {
+  return is_isolated ? map_from_copy(file, shape, send_rows, progress)
+                     : map_from_this_process(shape, send_rows, progress);
+}
+
+void require_hdf5_survives(const std::filesystem::path& file, const std::function<void()>& action) {
+  if (!hdf5_survives(file, action)) reject_damaged(file);
+}
+
+Field read_guarded_map(const std::filesystem::path& file, const std::string& path) {
+  const std::array<Index, 2> shape =
+      read_guarded(file, [&](const Hdf5Reader& reader) { return reader.map_shape(path); });
+  const SendRows send_rows = [&](const std::function<void(const Field&)>& accept) {
+    Hdf5Reader(file).for_rows(path, [&](Index, const Field& rows) { accept(rows); });
+  };
+  std::optional<Field> map = guarded_hdf5_map(file, shape, send_rows, {});
+  if (!map) reject_damaged(file);
+  return std::move(*map);
 }
 
 }  // namespace tabor::io

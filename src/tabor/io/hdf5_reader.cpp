@@ -469,16 +469,6 @@ std::string Hdf5Reader::text(const std::string& path, const std::string& name) c
   return values.front();
 }
 
-Field hdf5_map_directly(std::array<Index, 2> shape, const SendRows& send) {
-  Field map(shape[0], shape[1]);
-  Index first = 0;
-  send([&](const Field& rows) {
-    map.middleRows(first, rows.rows()) = rows;
-    first += rows.rows();
-  });
-  return map;
-}
-
 bool is_hdf5(const fs::path& file) {
   std::array<char, 8> begin{};
   try {

@@ -11,6 +11,8 @@
 #include <functional>
 #include <mutex>
 
+#include "tabor/io/protection.hpp"
+
 namespace tabor::io {
 
 /// Where a watched map lies. The signal handler reads these, and it must not wait for a lock.
@@ -29,6 +31,7 @@ namespace {
 
 std::array<WatchedPages::Place, 256> places;
 struct sigaction earlier_handler {};
+bool handler_is_installed = false;
 std::size_t page_size = 4096;  // asked for before there is a signal
 
 /// Puts zeros from the page of this address to the end of its map; false if it is in none.
@@ -65,10 +68,20 @@ void install_handler() {
 
 }  // namespace
 
+bool lost_pages_are_trapped() { return handler_is_installed; }
+
+void trap_lost_pages(bool on) {
+  if (on == handler_is_installed) return;
+  if (on) {
+    install_handler();
+  } else {
+    ::sigaction(SIGBUS, &earlier_handler, nullptr);
+  }
+  handler_is_installed = on;
+}
+
 void WatchedPages::watch(std::string_view map) {
-  static std::once_flag installed;
   static std::mutex mutex;
-  std::call_once(installed, &install_handler);
   const std::lock_guard<std::mutex> lock(mutex);
   Place* const free = std::find_if(places.begin(), places.end(),
                                    [](const Place& place) { return place.begin == nullptr; });

@@ -5,8 +5,9 @@
 namespace tabor::io {
 
 /// Pages of a mapped file that may vanish: another program cuts the file short, a network drive
-/// goes away. Touching one raises SIGBUS, which would end the program; while its map is watched,
-/// zeros take the place of everything from that page on, and were_lost() says so.
+/// goes away. Touching one raises SIGBUS, which ends the program, unless it called
+/// trap_lost_pages() (protection.hpp): then zeros take the place of everything from that page on
+/// while its map is watched, and were_lost() says so.
 class WatchedPages {
  public:
   WatchedPages() = default;

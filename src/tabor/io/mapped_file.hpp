@@ -8,9 +8,8 @@ namespace tabor::io {
 
 /// The bytes of a file, read only, as pages of the file itself: nothing is copied, and a page takes
 /// memory only from its first use until release(). Another program may cut the file short or write
-/// it anew meanwhile; check() tells. Touching a page that is gone raises the signal SIGBUS, for
-/// which the first of these objects installs a handler: it puts zeros there, and leaves what is no
-/// page of these to the handler before it.
+/// it anew meanwhile; check() tells. Touching a page that is gone raises the signal SIGBUS; a
+/// program that called trap_lost_pages() (protection.hpp) reads zeros there instead.
 class MappedFile {
  public:
   /// Throws InputError: no such file, a folder, device or pipe (none of which is waited for), no

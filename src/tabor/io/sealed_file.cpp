@@ -87,8 +87,8 @@ Json sealed(Json object) {
 }
 
 bool is_sealed(const Json& object) {
-  const auto seal = object.find(kKey);
-  return seal != object.end() && *seal == sha256(text_without_seal(object));
+  const Json* seal = object.find(kKey);
+  return seal && *seal == sha256(text_without_seal(object));
 }
 
 }  // namespace tabor::io

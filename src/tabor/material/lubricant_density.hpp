@@ -14,12 +14,14 @@ struct RelativeDensity {
   double pressure_scale = 1e100;  ///< c [Pa]; no pressure comes near the default
   double limit = 1;               ///< k [-]; 1 is incompressible
 
+  /// At a pressure [Pa].
   LawValue at(double pressure) const {
     const double sum = pressure_scale + pressure;
     return {(pressure_scale + limit * pressure) / sum, (limit - 1) * pressure_scale / (sum * sum)};
   }
 };
 
+/// The density laws by name.
 enum class DensityLaw { constant, dowson_higginson, rounded_dowson_higginson };
 
 /// "constant", "dowson-higginson", "rounded-dowson-higginson". Throws InputError with the nearest

@@ -23,12 +23,14 @@ struct LimitingShear {
   double limit_at(double pressure) const;  ///< tau_L [Pa]
 };
 
+/// One of the shear laws.
 using Shear = std::variant<NewtonianShear, ReeEyringShear, LimitingShear>;
 
 /// Throw InputError for stresses that are not positive or a negative coefficient.
 ReeEyringShear ree_eyring_shear(double eyring_stress);
 LimitingShear limiting_shear(double ambient_limit, double pressure_coefficient);
 
+/// The shear laws by name.
 enum class ShearLaw { newtonian, ree_eyring, limiting };
 
 /// "newtonian", "ree-eyring", "limiting". Throws InputError with the nearest name.
@@ -39,6 +41,7 @@ ShearLaw law_of(const Shear& shear);
 /// What a thin film that shears at `rate` opposes to a small pressure gradient, and its
 /// derivatives.
 struct FlowViscosity {
+  /// Viscosity along one direction of the film.
   struct Direction {
     double value = 0;         ///< [Pa s]
     double by_viscosity = 0;  ///< [-], at fixed rate and pressure

@@ -19,7 +19,9 @@ struct ThermalThinning {
 struct ConstantViscosity {
   double ambient = 0;  ///< eta0 [Pa s]
 
+  /// At a pressure [Pa].
   LawValue at(double) const { return {ambient, 0}; }
+  /// At a pressure [Pa] and a temperature [K].
   ThermalLawValue at(double, double) const { return {ambient, 0, 0}; }
 };
 
@@ -30,7 +32,9 @@ struct BarusViscosity {
   double pressure_coefficient = 0;  ///< alpha [1/Pa]
   ThermalThinning thermal;
 
+  /// At a pressure [Pa].
   LawValue at(double pressure) const;
+  /// At a pressure [Pa] and a temperature [K].
   ThermalLawValue at(double pressure, double kelvin) const;
 };
 
@@ -44,13 +48,16 @@ struct RoelandsViscosity {
   double log_ratio = 0;  ///< ln eta0 + 9.67 [-]
   ThermalThinning thermal;
 
+  /// At a pressure [Pa].
   LawValue at(double pressure) const;
+  /// At a pressure [Pa] and a temperature [K].
   ThermalLawValue at(double pressure, double kelvin) const;
 
   double pressure_coefficient() const;  ///< alpha [1/Pa] = d ln(eta) / dp at p = 0
   double temperature_slope() const;     ///< S0 [-]
 };
 
+/// One of the viscosity laws.
 using Viscosity = std::variant<ConstantViscosity, BarusViscosity, RoelandsViscosity>;
 
 /// The factories throw InputError for ambient viscosities that are not positive, coefficients that
@@ -65,6 +72,7 @@ RoelandsViscosity roelands_viscosity(double ambient, double pressure_coefficient
 RoelandsViscosity roelands_viscosity_from_z(double ambient, double z,
                                             const ThermalThinning& thermal = {});
 
+/// The viscosity laws by name.
 enum class ViscosityLaw { constant, barus, roelands };
 
 /// The law by its name: "constant", "barus", "roelands". Throws InputError with the nearest name.

@@ -38,6 +38,7 @@ double jgh_area_at_low_load(double load_ratio);
 /// Area fraction near full contact, P -> p*: 1 - 3 / (2 pi) (1 - P / p*).
 double jgh_area_at_high_load(double load_ratio);
 
+/// One entry of kJghTable.
 struct JghPoint {
   double load_ratio;     ///< P / p*
   double area_fraction;  ///< A / A0, within 3e-3

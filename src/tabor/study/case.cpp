@@ -11,117 +11,106 @@
 namespace tabor::study {
 namespace {
 
-std::string line(std::string_view name, double value) {
-  return fmt::format("{} = {:.17g}\n", name, value);
-}
-
-/// Length first, so that no text can look like the lines around it.
-std::string line(std::string_view name, std::string_view value) {
-  return fmt::format("{} = {}:{}\n", name, value.size(), value);
-}
-
-Unit unit(std::string_view kind, std::string_view extension, const std::string& body) {
-  Unit made;
-  made.text = fmt::format("tabor {} {}\n{}", kind, kAlgorithms, body);
-  made.key = io::sha256(made.text).substr(0, 16);
-  made.file = fmt::format("{}-{}.{}", kind, made.key, extension);
-  return made;
+Task task_of(std::string_view kind, std::string_view extension, const std::string& body) {
+  return make_task(kind, extension, fmt::format("tabor {} {}\n{}", kind, kAlgorithms, body));
 }
 
 /// The contact under one pressure, and what is computed from it.
-void add_pressure(const Study& study, const Scan& scan, double pressure, ScanUnits& units) {
-  const Unit contact = contact_unit(study, units.surface, pressure);
+void add_pressure(const Study& study, const Scan& scan, double pressure, ScanTasks& tasks) {
+  const Task contact = contact_task(study, tasks.surface, pressure);
   const std::vector<Condition> conditions = study.conditions();
-  std::vector<Unit> cases;
-  std::vector<Unit> fluids;
+  std::vector<Task> cases;
+  std::vector<Task> fluids;
   cases.reserve(conditions.size());
   fluids.reserve(conditions.size());
   for (const Condition& condition : conditions) {
-    if (study.flows()) fluids.push_back(fluid_unit(study, contact, units.film, condition));
-    cases.push_back(case_unit(study, scan, contact, units.film,
+    if (study.flows()) fluids.push_back(fluid_task(study, contact, tasks.film, condition));
+    cases.push_back(case_task(study, scan, contact, tasks.film,
                               study.lubricant_densities[condition.density],
                               study.flows() ? &fluids.back() : nullptr));
   }
-  units.contacts.push_back(contact);
-  units.cases.push_back(std::move(cases));
-  units.fluids.push_back(std::move(fluids));
+  tasks.contacts.push_back(contact);
+  tasks.cases.push_back(std::move(cases));
+  tasks.fluids.push_back(std::move(fluids));
 }
 
 }  // namespace
 
-Unit surface_unit(const Study& study, const Scan& scan, const std::string& scan_sha256) {
-  std::string body = line("scan_sha256", scan_sha256);
-  body += line("channel", scan.read.channel.value_or(""));
-  body += line("unit", scan.read.unit.value_or(""));
-  body += line("pixel_x_m", scan.read.pixel_x.value_or(0));
-  body += line("pixel_y_m", scan.read.pixel_y.value_or(0));
+Task surface_task(const Study& study, const Scan& scan, const std::string& scan_sha256) {
+  std::string body = text_line("scan_sha256", scan_sha256);
+  body += text_line("channel", scan.read.channel.value_or(""));
+  body += text_line("unit", scan.read.unit.value_or(""));
+  body += text_line("pixel_x_m", scan.read.pixel_x.value_or(0));
+  body += text_line("pixel_y_m", scan.read.pixel_y.value_or(0));
   for (const std::string& step : study.treatment) {
-    body += line("step", step);
+    body += text_line("step", step);
   }
-  return unit("surface", "h5", body);
+  return task_of("surface", "h5", body);
 }
 
-Unit contact_unit(const Study& study, const Unit& surface, double mean_pressure) {
+Task contact_task(const Study& study, const Task& surface, double mean_pressure) {
   const bool fast = study.contact.solver == contact::Solver::fast;
-  return unit("contact", "h5",
-              line("surface", surface.key) + line("mean_pressure_Pa", mean_pressure) +
-                  line("effective_modulus_Pa", study.effective_modulus()) +
-                  line("saturation_pressure_Pa", study.saturation_pressure) +
-                  line("boundary", study.contact.periodic ? "periodic" : "free") +
-                  line("solver", fast ? "fast" : "polonsky-keer") +
-                  line("tolerance", study.contact.tolerance));
+  return task_of("contact", "h5",
+                 text_line("surface", surface.key) + text_line("mean_pressure_Pa", mean_pressure) +
+                     text_line("effective_modulus_Pa", study.effective_modulus()) +
+                     text_line("saturation_pressure_Pa", study.saturation_pressure) +
+                     text_line("boundary", study.contact.periodic ? "periodic" : "free") +
+                     text_line("solver", fast ? "fast" : "polonsky-keer") +
+                     text_line("tolerance", study.contact.tolerance));
 }
 
-Unit film_unit(const Study& study, const Unit& surface) {
+Task film_task(const Study& study, const Task& surface) {
   const LubricantSettings& lubricant = study.lubricant;
-  std::string body = line("surface", surface.key) +
-                     line("oil_density_kg_per_m3", lubricant.oil_density) +
-                     line("model", lubrication::name(lubricant.model)) +
-                     line("reading", lubrication::name(lubricant.reading)) +
-                     line("edge", lubrication::name(lubricant.edge)) +
-                     line("droplet_height_m", lubricant.droplet_height) +
-                     line("seed", std::to_string(lubricant.seed));
+  std::string body = text_line("surface", surface.key) +
+                     text_line("oil_density_kg_per_m3", lubricant.oil_density) +
+                     text_line("model", deposition::name(lubricant.model)) +
+                     text_line("reading", deposition::name(lubricant.reading)) +
+                     text_line("edge", deposition::name(lubricant.edge)) +
+                     text_line("droplet_height_m", lubricant.droplet_height) +
+                     text_line("seed", std::to_string(lubricant.seed));
   for (const double density : study.lubricant_densities) {
-    body += line("lubricant_density_kg_per_m2", density);
+    body += text_line("lubricant_density_kg_per_m2", density);
   }
-  return unit("film", "h5", body);
+  return task_of("film", "h5", body);
 }
 
-Unit fluid_unit(const Study& study, const Unit& contact, const Unit& film,
+Task fluid_task(const Study& study, const Task& contact, const Task& film,
                 const Condition& condition) {
   const friction::FlowingOil& oil = study.lubricant.flowing.value();
   std::string body =
-      line("fluid_algorithms", kFluidAlgorithms) + line("contact", contact.key) +
-      line("film", film.key) +
-      line("lubricant_density_kg_per_m2", study.lubricant_densities.at(condition.density)) +
-      line("sliding_speed_m_per_s", study.sliding_speeds.at(condition.speed)) +
-      line("viscosity_Pa_s", oil.viscosity);
-  if (oil.pressure_viscosity) body += line("pressure_viscosity_per_Pa", *oil.pressure_viscosity);
-  if (oil.eyring_stress) body += line("eyring_stress_Pa", *oil.eyring_stress);
-  return unit("fluid", "h5", body);
+      text_line("fluid_algorithms", kFluidAlgorithms) + text_line("contact", contact.key) +
+      text_line("film", film.key) +
+      text_line("lubricant_density_kg_per_m2", study.lubricant_densities.at(condition.density)) +
+      text_line("sliding_speed_m_per_s", study.sliding_speeds.at(condition.speed)) +
+      text_line("viscosity_Pa_s", oil.viscosity);
+  if (oil.pressure_viscosity)
+    body += text_line("pressure_viscosity_per_Pa", *oil.pressure_viscosity);
+  if (oil.eyring_stress) body += text_line("eyring_stress_Pa", *oil.eyring_stress);
+  return task_of("fluid", "h5", body);
 }
 
-Unit case_unit(const Study& study, const Scan& scan, const Unit& contact, const Unit& film,
-               double lubricant_density, const Unit* fluid) {
-  return unit("case", "json",
-              line("scan", scan.label) + line("group", scan.group) + line("contact", contact.key) +
-                  line("film", film.key) + line("lubricant_density_kg_per_m2", lubricant_density) +
-                  line("shear_strength_Pa", study.shear_strength) +
-                  line("area", friction::name(study.area)) +
-                  (fluid != nullptr ? line("fluid", fluid->key) : ""));
+Task case_task(const Study& study, const Scan& scan, const Task& contact, const Task& film,
+               double lubricant_density, const Task* fluid) {
+  return task_of("case", "json",
+                 text_line("scan", scan.label) + text_line("group", scan.group) +
+                     text_line("contact", contact.key) + text_line("film", film.key) +
+                     text_line("lubricant_density_kg_per_m2", lubricant_density) +
+                     text_line("shear_strength_Pa", study.shear_strength) +
+                     text_line("area", friction::name(study.area)) +
+                     (fluid != nullptr ? text_line("fluid", fluid->key) : ""));
 }
 
-std::vector<ScanUnits> units_of(const Study& study, const Observer& observer) {
-  std::vector<ScanUnits> all;
+std::vector<ScanTasks> tasks_of(const Study& study, const Observer& observer) {
+  std::vector<ScanTasks> all;
   for (const Scan& scan : study.scans) {
-    ScanUnits units;
+    ScanTasks tasks;
     const std::string stage = stage_name("hash", scan);
-    units.sha256 =
+    tasks.sha256 =
         io::sha256_of_file(scan.file, [&] { report_progress(observer, stage, std::nan("")); });
-    units.surface = surface_unit(study, scan, units.sha256);
-    units.film = film_unit(study, units.surface);
-    for (const double pressure : study.mean_pressures) add_pressure(study, scan, pressure, units);
-    all.push_back(std::move(units));
+    tasks.surface = surface_task(study, scan, tasks.sha256);
+    tasks.film = film_task(study, tasks.surface);
+    for (const double pressure : study.mean_pressures) add_pressure(study, scan, pressure, tasks);
+    all.push_back(std::move(tasks));
   }
   return all;
 }

@@ -4,53 +4,48 @@
 #include <vector>
 
 #include "tabor/study/study.hpp"
+#include "tabor/study/task.hpp"
 
 namespace tabor::study {
 
-/// One thing the store keeps. Its text states everything its result depends on, in SI with 17
-/// digits; its key, the first 16 hexadecimal digits of the text's SHA-256, names its file. Change
-/// kAlgorithms when the same text gives other numbers than before.
-struct Unit {
-  std::string text;
-  std::string key;
-  std::string file;  ///< name inside DIR/store
-};
+// The tasks of a study, and the texts that their keys are made of.
 
+/// Change it when the same text gives other numbers than before.
 inline constexpr int kAlgorithms = 4;
 inline constexpr int kFluidAlgorithms = 1;  ///< the same for films that flow alone
 
 /// The treated scan; `scan_sha256` is of the scan file's bytes.
-Unit surface_unit(const Study& study, const Scan& scan, const std::string& scan_sha256);
+Task surface_task(const Study& study, const Scan& scan, const std::string& scan_sha256);
 
 /// One contact: surface and pressure.
-Unit contact_unit(const Study& study, const Unit& surface, double mean_pressure);
+Task contact_task(const Study& study, const Task& surface, double mean_pressure);
 
 /// The films of all densities on one surface.
-Unit film_unit(const Study& study, const Unit& surface);
+Task film_task(const Study& study, const Task& surface);
 
 /// The film that flows between one contact's surfaces, under one condition.
-Unit fluid_unit(const Study& study, const Unit& contact, const Unit& film,
+Task fluid_task(const Study& study, const Task& contact, const Task& film,
                 const Condition& condition);
 
 /// One row of the results. Names of scan and group belong to it: they are columns. `fluid` is null
 /// where the oil does not flow.
-Unit case_unit(const Study& study, const Scan& scan, const Unit& contact, const Unit& film,
-               double lubricant_density, const Unit* fluid = nullptr);
+Task case_task(const Study& study, const Scan& scan, const Task& contact, const Task& film,
+               double lubricant_density, const Task* fluid = nullptr);
 
 /// Everything a study needs of one scan.
-struct ScanUnits {
+struct ScanTasks {
   std::string sha256;
-  Unit surface;
-  Unit film;
-  std::vector<Unit> contacts;             ///< one per pressure
-  std::vector<std::vector<Unit>> cases;   ///< [pressure][condition]
-  std::vector<std::vector<Unit>> fluids;  ///< the same; empty lists where the oil does not flow
+  Task surface;
+  Task film;
+  std::vector<Task> contacts;             ///< one per pressure
+  std::vector<std::vector<Task>> cases;   ///< [pressure][condition]
+  std::vector<std::vector<Task>> fluids;  ///< the same; empty lists where the oil does not flow
 };
 
 /// Reads every scan file once, for its digest. Throws InputError.
-std::vector<ScanUnits> units_of(const Study& study, const Observer& observer = {});
+std::vector<ScanTasks> tasks_of(const Study& study, const Observer& observer = {});
 
-/// "contact surface.x3p 7 MPa": what a person watching calls the unit.
+/// "contact surface.x3p 7 MPa": what a person watching calls the task.
 std::string stage_name(const std::string& what, const Scan& scan, double mean_pressure = 0);
 
 }  // namespace tabor::study

@@ -31,12 +31,6 @@ class MadeOnce {
     return value_;
   }
 
-  /// Gives its memory back when nobody holds it any more.
-  void drop() {
-    const std::lock_guard lock(mutex_);
-    value_.reset();
-  }
-
  private:
   std::mutex mutex_;
   std::shared_ptr<const Value> value_;

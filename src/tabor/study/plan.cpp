@@ -11,96 +11,126 @@
 namespace tabor::study {
 namespace {
 
-enum class Found { absent, damaged, complete };
-
 class Planner {
  public:
-  Planner(const Store& store, const Study& study, bool retry, std::vector<std::string>& warnings,
-          const Observer& observer)
-      : store_(store), study_(study), retry_(retry), warnings_(warnings), observer_(observer) {}
+  Planner(const std::vector<Job>& jobs, const Store* store, bool retry, const Observer& observer)
+      : jobs_(jobs),
+        store_(store),
+        retry_(retry),
+        observer_(observer),
+        looks_(jobs.size()),
+        users_(jobs.size()) {
+    plan_.entries.resize(jobs.size());
+  }
 
-  ScanPlan plan(const ScanUnits& units, const std::vector<std::size_t>& mine) {
-    ScanPlan plan;
-    plan.retry.assign(study_.mean_pressures.size(), false);
-    bool film_wanted = false;
-    for (const std::size_t pressure : mine) {
-      const Rows rows = look_at(units.cases[pressure]);
-      const Found contact = find(units.contacts[pressure]);
-      // A contact that could not be solved leaves failed rows and no file: it is not tried again.
-      const bool contact_wanted =
-          contact == Found::damaged || (contact == Found::absent && !rows.all_failed);
-      const bool flow_wanted = add_flows(units, pressure, plan);
-      if (rows.missing || contact_wanted || flow_wanted) {
-        plan.pressures.push_back(pressure);
-      }
-      plan.retry[pressure] = rows.not_converged;
-      film_wanted = film_wanted || rows.missing || !rows.all_failed;
+  Plan plan(const Shard& shard) {
+    const std::vector<bool> mine = jobs_of(shard);
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+      if (mine[i]) want_what_is_missing(i);
     }
-    if (!mine.empty()) {
-      const bool rows_missing = !plan.pressures.empty();
-      const Found film = find(units.film);
-      plan.film = film == Found::damaged || rows_missing || (film == Found::absent && film_wanted);
-      plan.surface = find(units.surface) != Found::complete && (film_wanted || rows_missing);
+    for (std::size_t i = jobs_.size(); i-- > 0;) {
+      if (mine[i]) ask_its_users(i);
     }
-    return plan;
+    for (std::size_t i = 0; i < jobs_.size(); ++i) {
+      plan_.n_found += looks_[i].is_whole && !plan_.entries[i].wanted ? 1 : 0;
+    }
+    return std::move(plan_);
   }
 
  private:
-  struct Rows {
-    bool missing = false;        ///< at least one is to be computed
-    bool all_failed = true;      ///< each is there and holds an error
-    bool not_converged = false;  ///< one is to be tried again
+  /// What the store holds of a job.
+  struct Look {
+    bool is_whole = false;
+    bool is_damaged = false;
+    Quality quality = Quality::converged;
+    bool failed_before = false;  ///< has no file, since it failed
   };
 
-  /// A film that could not flow leaves a failed row and no file, as a contact does.
-  bool add_flows(const ScanUnits& units, std::size_t pressure, ScanPlan& plan) {
-    const std::size_t n_before = plan.flows.size();
-    for (std::size_t i = 0; i < units.fluids[pressure].size(); ++i) {
-      const Rows row = look_at({units.cases[pressure][i]});
-      const Found fluid = find(units.fluids[pressure][i]);
-      if (row.missing || fluid == Found::damaged || (fluid == Found::absent && !row.all_failed)) {
-        plan.flows.push_back({pressure, i, row.not_converged});
+  /// Fills users_ with the jobs of the shard.
+  std::vector<bool> jobs_of(const Shard& shard) {
+    std::vector<bool> mine(jobs_.size(), false);
+    std::vector<bool> is_needed(jobs_.size(), false);
+    for (const Job& job : jobs_) {
+      for (const std::size_t other : others_of(job)) is_needed[other] = true;
+    }
+    for (std::size_t i = jobs_.size(); i-- > 0;) {
+      const Job& job = jobs_[i];
+      mine[i] = mine[i] || (job.part ? belongs(*job.part, shard) : !is_needed[i]);
+      if (!mine[i]) continue;
+      for (const std::size_t other : others_of(job)) {
+        mine[other] = true;
+        users_[other].push_back(i);
       }
     }
-    return plan.flows.size() > n_before;
+    return mine;
   }
 
-  Rows look_at(const std::vector<Unit>& cases) {
-    Rows rows;
-    for (const Unit& unit : cases) {
-      if (find(unit) != Found::complete) {
-        rows.missing = true;
-        rows.all_failed = false;
-        continue;
-      }
-      const Row row = read_row(store_, unit);
-      const bool again = retry_ && (row.failed() || !row.converged);
-      rows.not_converged = rows.not_converged || again;
-      rows.missing = rows.missing || again;
-      rows.all_failed = rows.all_failed && row.failed() && !again;
-    }
-    return rows;
+  static std::vector<std::size_t> others_of(const Job& job) {
+    std::vector<std::size_t> others = job.needs;
+    others.insert(others.end(), job.wants.begin(), job.wants.end());
+    return others;
   }
 
-  Found find(const Unit& unit) {
-    if (!store_.has(unit)) {
-      return Found::absent;
-    }
+  static bool belongs(std::size_t part, const Shard& shard) {
+    return part % static_cast<std::size_t>(shard.count) ==
+           static_cast<std::size_t>(shard.index - 1);
+  }
+
+  void want_what_is_missing(std::size_t i) {
+    const Job& job = jobs_[i];
+    Look& look = looks_[i] = look_at(job);
+    Plan::Entry& entry = plan_.entries[i];
+    const bool needs_retried =
+        std::any_of(job.needs.begin(), job.needs.end(),
+                    [&](std::size_t need) { return plan_.entries[need].retried; });
+    entry.retried =
+        look.is_whole && (needs_retried || (retry_ && look.quality != Quality::converged));
+    entry.wanted = !look.is_whole || entry.retried;
+  }
+
+  void ask_its_users(std::size_t i) {
+    const Job& job = jobs_[i];
+    const auto& users = users_[i];
+    Plan::Entry& entry = plan_.entries[i];
+    const bool used = std::any_of(users.begin(), users.end(),
+                                  [&](std::size_t user) { return plan_.entries[user].wanted; });
+    if (job.task.file.empty()) entry.wanted = users.empty() || used;
+    if (looks_[i].is_whole && used && job.can_serve && !job.can_serve()) entry.wanted = true;
+    looks_[i].failed_before = !looks_[i].is_whole && !looks_[i].is_damaged && !users.empty() &&
+                              !job.record_failure && !job.task.file.empty() &&
+                              std::all_of(users.begin(), users.end(),
+                                          [&](std::size_t user) { return stays_failed(user); });
+    if (looks_[i].failed_before) entry.wanted = false;
+  }
+
+  bool stays_failed(std::size_t i) const {
+    const bool is_recorded = looks_[i].is_whole && looks_[i].quality == Quality::failed;
+    return !plan_.entries[i].wanted && (is_recorded || looks_[i].failed_before);
+  }
+
+  Look look_at(const Job& job) {
+    Look look;
+    if (store_ == nullptr || job.task.file.empty() || !store_->has(job.task)) return look;
     report_progress(observer_, "look at the store", std::nan(""));
-    const std::string problem = defect(store_, unit);
-    if (problem.empty()) {
-      return Found::complete;
+    const std::string problem = job.defect ? job.defect() : "";
+    look.is_whole = problem.empty();
+    look.is_damaged = !look.is_whole;
+    if (look.is_damaged) {
+      plan_.warnings.push_back("damaged, computed again: " + problem);
+      store_->remove(job.task);
+    } else if (job.quality && (retry_ || job.record_failure)) {
+      look.quality = job.quality();
     }
-    warnings_.push_back(fmt::format("damaged, computed again: {}", problem));
-    store_.remove(unit);
-    return Found::damaged;
+    return look;
   }
 
-  const Store& store_;
-  const Study& study_;
+  const std::vector<Job>& jobs_;
+  const Store* store_;
   bool retry_;
-  std::vector<std::string>& warnings_;
   const Observer& observer_;
+  Plan plan_;
+  std::vector<Look> looks_;
+  std::vector<std::vector<std::size_t>> users_;  // jobs of this shard that need or want it
 };
 
 }  // namespace
@@ -119,32 +149,13 @@ Shard parse_shard(std::string_view text) {
                    "");
 }
 
-std::vector<ScanPlan> plan(const Store& store, const Study& study,
-                           const std::vector<ScanUnits>& units, const Shard& shard, bool retry,
-                           std::vector<std::string>& warnings, const Observer& observer) {
-  Planner planner(store, study, retry, warnings, observer);
-  std::vector<ScanPlan> plans;
-  std::size_t pair = 0;
-  for (const ScanUnits& scan : units) {
-    std::vector<std::size_t> mine;
-    for (std::size_t pressure = 0; pressure < study.mean_pressures.size(); ++pressure, ++pair) {
-      if (pair % static_cast<std::size_t>(shard.count) ==
-          static_cast<std::size_t>(shard.index - 1)) {
-        mine.push_back(pressure);
-      }
-    }
-    plans.push_back(planner.plan(scan, mine));
-  }
-  return plans;
+Plan plan_jobs(const std::vector<Job>& jobs, const Store* store, const Shard& shard, bool retry,
+               const Observer& observer) {
+  return Planner(jobs, store, retry, observer).plan(shard);
 }
 
-int jobs_that_fit(Index n_pixels, std::size_t available_bytes, int n_threads, bool oil_flows) {
-  // Of one unit with its surface; tools/bench/study prints it. With oil that flows, what the peak
-  // of `tabor friction --fluid reynolds` grows by with the pixels of a flooded scan, and a little.
-  const std::size_t bytes_per_pixel = oil_flows ? 500 : 80;
-  const std::size_t fitting =
-      available_bytes / 2 /
-      (bytes_per_pixel * static_cast<std::size_t>(std::max<Index>(1, n_pixels)));
+int jobs_that_fit(std::size_t bytes_per_job, std::size_t available_bytes, int n_threads) {
+  const std::size_t fitting = available_bytes / 2 / std::max<std::size_t>(1, bytes_per_job);
   return static_cast<int>(std::clamp<std::size_t>(fitting, 1, static_cast<std::size_t>(n_threads)));
 }
 

@@ -4,7 +4,9 @@
 #include <string_view>
 #include <vector>
 
-#include "tabor/study/record.hpp"
+#include "tabor/core/convergence.hpp"
+#include "tabor/study/job.hpp"
+#include "tabor/study/store.hpp"
 
 namespace tabor::study {
 
@@ -17,37 +19,24 @@ struct Shard {
 /// "2/8". Throws InputError.
 Shard parse_shard(std::string_view text);
 
-/// What one scan still needs.
-struct ScanPlan {
-  bool surface = false;  ///< the stored surface itself
-  bool film = false;
-  std::vector<std::size_t> pressures;  ///< whose rows, or whose contact, are still to be computed
-  std::vector<bool> retry;             ///< per pressure of the study: solve again although stored
-  /// Positions of pressure and condition of the films still to flow, and of their rows; none where
-  /// the oil of the study does not flow: there a row comes with its contact.
-  struct Flow {
-    std::size_t pressure;
-    std::size_t condition;
-    bool retry;  ///< solve again although stored
+/// Which jobs of a list are to be done.
+struct Plan {
+  struct Entry {
+    bool wanted = false;   ///< to be done
+    bool retried = false;  ///< although its file is whole
   };
-  std::vector<Flow> flows;
-
-  bool empty() const { return !surface && !film && pressures.empty(); }
-  std::size_t n_tasks() const {
-    return (surface ? 1 : 0) + (film ? 1 : 0) + pressures.size() + flows.size();
-  }
+  std::vector<Entry> entries;         ///< one per job
+  std::size_t n_found = 0;            ///< jobs of this shard whose files are whole and stay
+  std::vector<std::string> warnings;  ///< one per damaged file, which is removed
 };
 
-/// Compares the study with its store. Whole (scan, pressure) pairs are dealt out to the shards in
-/// turn. With `retry`, cases that failed or did not converge count as missing. Damaged files are
-/// named in `warnings`; they are computed again. Throws Interrupted when the observer stops it.
-std::vector<ScanPlan> plan(const Store& store, const Study& study,
-                           const std::vector<ScanUnits>& units, const Shard& shard, bool retry,
-                           std::vector<std::string>& warnings, const Observer& observer = {});
+/// Compares the jobs with the store; without one, all that anybody needs are to be done. Throws
+/// Interrupted when the observer stops it, OutputError if a damaged file cannot be removed.
+Plan plan_jobs(const std::vector<Job>& jobs, const Store* store, const Shard& shard, bool retry,
+               const Observer& observer = {});
 
-/// How many units on surfaces of `n_pixels` are computed at the same time: one per thread, a film
-/// being laid down by one thread, as long as they fit in half of the free memory; at least one.
-int jobs_that_fit(Index n_pixels, std::size_t available_bytes, int n_threads,
-                  bool oil_flows = false);
+/// How many jobs run at the same time: one per thread as long as they fit in half of the available
+/// memory; at least one.
+int jobs_that_fit(std::size_t bytes_per_job, std::size_t available_bytes, int n_threads);
 
 }  // namespace tabor::study

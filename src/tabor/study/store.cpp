@@ -1,5 +1,6 @@
 #include "tabor/study/store.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 #include <utility>
@@ -12,30 +13,50 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kLockName = "lock";
+
+bool is_of_kind(const fs::path& file, const std::vector<std::string>& kinds) {
+  const std::string name = file.filename().string();
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [&](const std::string& kind) { return name.starts_with(kind + "-"); });
+}
+
 }  // namespace
 
-Store::Store(const fs::path& directory, Use use)
-    : directory_(directory),
-      folder_(directory / "store"),
+Store::Store(const fs::path& folder, Use use, const std::string& busy)
+    : folder_(folder),
       use_(use),
       lock_(io::FileLock::take_or_refuse(
-          folder_ / "lock",
-          use == Use::alone ? io::FileLock::Kind::alone : io::FileLock::Kind::shared,
-          directory.string() +
-              ": another sweep works on these results; wait for it to end, give another -o, or "
-              "split one study with --shard i/n")) {
-  if (use == Use::alone) {
-    io::remove_all_leftovers(directory_);
-    io::remove_all_leftovers(folder_);
+          folder_ / kLockName,
+          use == Use::alone ? io::FileLock::Kind::alone : io::FileLock::Kind::shared, busy)) {
+  if (use == Use::alone) io::remove_all_leftovers(folder_);
+}
+
+Store::Store(const fs::path& directory, Use use)
+    : Store(directory / "store", use,
+            directory.string() +
+                ": another sweep works on these results; wait for it to end, give another -o, or "
+                "split one study with --shard i/n") {
+  if (use == Use::alone) io::remove_all_leftovers(directory);
+}
+
+void Store::remove(const Task& task) const {
+  std::error_code error;
+  fs::remove(path(task), error);
+  if (error) {
+    throw OutputError(path(task).string() + ": cannot be removed: " + error.message());
   }
 }
 
-void Store::remove(const Unit& unit) const {
-  std::error_code error;
-  fs::remove(path(unit), error);
-  if (error) {
-    throw OutputError(path(unit).string() + ": cannot be removed: " + error.message());
+void Store::discard(const std::vector<std::string>& kinds) {
+  std::error_code ignored;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder_, ignored)) files.push_back(entry.path());
+  for (const fs::path& file : files) {
+    if (is_of_kind(file, kinds) || io::is_temporary_name(file)) fs::remove(file, ignored);
   }
+  fs::remove(folder_ / kLockName, ignored);
+  fs::remove(folder_, ignored);
 }
 
 std::optional<io::FileLock> Store::lock(const std::string& name,

@@ -1,7 +1,9 @@
 #include "tabor/study/study.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <cmath>
 #include <string_view>
 
 #include "tabor/core/error.hpp"
@@ -49,16 +51,13 @@ const std::vector<std::string> kKnownKeys{"title",
                                           "scan[].unit",
                                           "experiment.file"};
 
-/// One of two words, as a bool that is true for the first.
-bool either(const io::Config& config, std::string_view key, std::string_view first,
-            std::string_view second) {
+/// A key whose values have names.
+template <typename Names>
+auto named(const io::Config& config, std::string_view key, const Names& names) {
   const std::string word = config.text(key);
-  if (word != first && word != second) {
-    refuse(config, key, "'" + word + "'",
-           fmt::format("{} or {}", first, second) +
-               suggestion(word, {std::string(first), std::string(second)}));
-  }
-  return word == first;
+  if (const auto value = names.find(word)) return *value;
+  refuse(config, key, "'" + word + "'",
+         fmt::format("{}", fmt::join(names.all(), " or ")) + suggestion(word, names.all()));
 }
 
 material::Solid read_solid(const io::Config& config, const std::string& prefix) {
@@ -86,12 +85,11 @@ void read_material(const io::Config& config, Study& study) {
 
 void read_contact(const io::Config& config, ContactSettings& contact) {
   if (config.has("contact.boundary")) {
-    contact.periodic = either(config, "contact.boundary", "periodic", "free");
+    contact.periodic =
+        named(config, "contact.boundary", analysis::kBoundaries) == analysis::Boundary::periodic;
   }
   if (config.has("contact.solver")) {
-    contact.solver = either(config, "contact.solver", "fast", "polonsky-keer")
-                         ? contact::Solver::fast
-                         : contact::Solver::polonsky_keer;
+    contact.solver = named(config, "contact.solver", analysis::kSolvers);
   }
   if (config.has("contact.tolerance")) {
     contact.tolerance = positive(config, "contact.tolerance", dimension::none);
@@ -103,13 +101,13 @@ void read_lubricant(const io::Config& config, LubricantSettings& lubricant) {
     lubricant.oil_density = positive(config, "lubricant.oil_density", dimension::density);
   }
   if (config.has("lubricant.model")) {
-    lubricant.model = at_key(config, "lubricant.model", lubrication::parse_model);
+    lubricant.model = at_key(config, "lubricant.model", deposition::parse_model);
   }
   if (config.has("lubricant.reading")) {
-    lubricant.reading = at_key(config, "lubricant.reading", lubrication::parse_reading);
+    lubricant.reading = at_key(config, "lubricant.reading", deposition::parse_reading);
   }
   if (config.has("lubricant.edge")) {
-    lubricant.edge = at_key(config, "lubricant.edge", lubrication::parse_edge);
+    lubricant.edge = at_key(config, "lubricant.edge", deposition::parse_edge);
   }
   if (config.has("lubricant.droplet")) {
     lubricant.droplet_height = positive(config, "lubricant.droplet", dimension::length);
@@ -130,13 +128,20 @@ void read_sweep(const io::Config& config, Study& study) {
     study.lubricant_densities =
         read_axis(config, "sweep.lubricant_density", dimension::areal_density, true);
   }
-  for (const double pressure : study.mean_pressures) {
-    if (pressure >= study.saturation_pressure) {
-      refuse(config, "sweep.mean_pressure", format_si(pressure, "Pa"),
-             "pressures below the saturation pressure " +
-                 format_si(study.saturation_pressure, "Pa") + ", which no load can exceed");
-    }
-  }
+}
+
+/// Where the study file says what analysis calls by this name.
+std::string key_of(std::string_view setting) {
+  if (setting == "mean_pressure") return "sweep.mean_pressure";
+  if (setting == "tolerance" || setting == "boundary") return "contact." + std::string(setting);
+  return "material." + std::string(setting);
+}
+
+void check_contact(const io::Config& config, const Study& study) {
+  const auto found = analysis::objection(study.contact_settings(), study.mean_pressures, key_of);
+  if (!found) return;
+  throw InputError(config.place(key_of(found->setting)), found->got, found->expected,
+                   found->remedy);
 }
 
 }  // namespace
@@ -156,8 +161,37 @@ std::vector<Condition> Study::conditions() const {
   return all;
 }
 
-double in_g_per_m2(double lubricant_density) {
-  return parse_number(fmt::format("{:.15g}", 1e3 * lubricant_density)).value();
+analysis::ContactSettings Study::contact_settings() const {
+  analysis::ContactSettings settings{.youngs_modulus = solid.youngs_modulus,
+                                     .poissons_ratio = solid.poissons_ratio,
+                                     .solver = contact.solver,
+                                     .tolerance = contact.tolerance};
+  if (counter_solid) {
+    settings.counter_youngs_modulus = counter_solid->youngs_modulus;
+    settings.counter_poissons_ratio = counter_solid->poissons_ratio;
+  }
+  if (std::isfinite(saturation_pressure)) settings.saturation_pressure = saturation_pressure;
+  if (!contact.periodic) settings.boundary = analysis::Boundary::free;
+  return settings;
+}
+
+analysis::FilmSettings Study::film_settings() const {
+  return {.lubricant_densities = lubricant_densities,
+          .oil_density = lubricant.oil_density,
+          .droplet_height = lubricant.droplet_height,
+          .model = lubricant.model,
+          .reading = lubricant.reading,
+          .edge = lubricant.edge,
+          .seed = lubricant.seed};
+}
+
+analysis::FluidSettings Study::fluid_settings(const Condition& condition) const {
+  if (!flows()) return {};
+  return {.fluid = analysis::Fluid::reynolds,
+          .sliding_speed = sliding_speeds.at(condition.speed),
+          .viscosity = lubricant.flowing->viscosity,
+          .pressure_viscosity = lubricant.flowing->pressure_viscosity,
+          .eyring_stress = lubricant.flowing->eyring_stress};
 }
 
 Study read_study(const fs::path& file) {
@@ -175,6 +209,7 @@ Study read_study(const fs::path& file) {
   read_contact(config, study.contact);
   read_lubricant(config, study.lubricant);
   read_sweep(config, study);
+  check_contact(config, study);
   read_flowing_oil(config, study);
   if (config.has("treatment.steps")) {
     study.treatment = config.texts("treatment.steps");

@@ -6,12 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "tabor/analysis/settings.hpp"
 #include "tabor/contact/contact.hpp"
+#include "tabor/deposition/deposition.hpp"
 #include "tabor/friction/mixed_friction.hpp"
-#include "tabor/lubrication/deposition.hpp"
 #include "tabor/material/solid.hpp"
+#include "tabor/scan/file.hpp"
 #include "tabor/study/experiment.hpp"
-#include "tabor/topography/file.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::study {
@@ -21,7 +22,7 @@ struct Scan {
   std::filesystem::path file;  ///< where it is
   std::string label;           ///< how the study calls it: its path relative to the study file
   std::string group;           ///< averages are taken over the scans of a group
-  topography::ReadOptions read;
+  scan::ReadOptions read;
 };
 
 /// How every contact of a study is solved.
@@ -34,9 +35,9 @@ struct ContactSettings {
 /// How every film of a study is laid down.
 struct LubricantSettings {
   double oil_density = 900;  ///< [kg/m^3]
-  lubrication::Model model = lubrication::Model::droplets;
-  lubrication::Reading reading = lubrication::Reading::conserving;
-  lubrication::Edge edge = lubrication::Edge::closed;
+  deposition::Model model = deposition::Model::droplets;
+  deposition::Reading reading = deposition::Reading::conserving;
+  deposition::Edge edge = deposition::Edge::closed;
   double droplet_height = 1e-7;  ///< [m]
   std::uint64_t seed = 1;
   std::optional<friction::FlowingOil> flowing;  ///< absent: oil only keeps contact from rubbing
@@ -71,6 +72,11 @@ struct Study {
   std::size_t n_cases() const { return scans.size() * mean_pressures.size() * conditions().size(); }
   /// Densities, and for each all speeds, in the order of the study.
   std::vector<Condition> conditions() const;
+
+  /// What analysis is asked for; `condition` says how fast the oil flows.
+  analysis::ContactSettings contact_settings() const;
+  analysis::FilmSettings film_settings() const;
+  analysis::FluidSettings fluid_settings(const Condition& condition) const;
 };
 
 /// Reads a study file. File names in it, which may be patterns ("before_*.x3p"), are relative to
@@ -80,9 +86,5 @@ Study read_study(const std::filesystem::path& file);
 
 /// Every setting in force, defaults included, as a study file that gives the same study again.
 std::string to_toml(const Study& study);
-
-/// Areal density [kg/m^2] as it is dosed, in g/m^2: 0.45 for 0.45e-3, free of the rounding of the
-/// factor 1000.
-double in_g_per_m2(double lubricant_density);
 
 }  // namespace tabor::study

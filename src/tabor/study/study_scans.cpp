@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void read_file_options(const io::Config& config, const std::string& prefix,
-                       topography::ReadOptions& options) {
+                       scan::ReadOptions& options) {
   if (config.has(prefix + "channel")) {
     options.channel = config.text(prefix + "channel");
   }
@@ -83,11 +83,11 @@ std::string label_of(const fs::path& file, const fs::path& folder) {
 }  // namespace
 
 void read_scans(const io::Config& config, const fs::path& folder, Study& study) {
-  topography::ReadOptions common;
+  scan::ReadOptions common;
   read_file_options(config, "treatment.", common);
   std::set<fs::path> seen;
   for (const io::Config& entry : config.tables("scan")) {
-    topography::ReadOptions options = common;
+    scan::ReadOptions options = common;
     read_file_options(entry, "", options);
     for (const std::string& name : entry.texts("file")) {
       for (const fs::path& file : find_files(entry, folder, name)) {

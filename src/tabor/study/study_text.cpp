@@ -72,8 +72,8 @@ std::string lubricant_table(const LubricantSettings& lubricant) {
   const std::string text = fmt::format(
       "\n[lubricant]\noil_density = {}\nmodel = {}\nreading = {}\nedge = {}\ndroplet = {}\n"
       "seed = {}\n",
-      quantity(lubricant.oil_density, "kg/m^3"), toml_text(lubrication::name(lubricant.model)),
-      toml_text(lubrication::name(lubricant.reading)), toml_text(lubrication::name(lubricant.edge)),
+      quantity(lubricant.oil_density, "kg/m^3"), toml_text(deposition::name(lubricant.model)),
+      toml_text(deposition::name(lubricant.reading)), toml_text(deposition::name(lubricant.edge)),
       quantity(lubricant.droplet_height, "m"), lubricant.seed);
   return lubricant.flowing ? text + flowing_lines(*lubricant.flowing) : text;
 }
@@ -105,11 +105,10 @@ std::string to_toml(const Study& study) {
                   quantity(study.shear_strength, "Pa"), toml_text(friction::name(study.area)));
   text += material_table(study);
   text += fmt::format("\n[treatment]\nsteps = [{}]\n", fmt::join(steps, ", "));
-  text += fmt::format(
-      "\n[contact]\nboundary = {}\nsolver = {}\ntolerance = {}\n",
-      toml_text(study.contact.periodic ? "periodic" : "free"),
-      toml_text(study.contact.solver == contact::Solver::fast ? "fast" : "polonsky-keer"),
-      decimal(study.contact.tolerance));
+  text += fmt::format("\n[contact]\nboundary = {}\nsolver = {}\ntolerance = {}\n",
+                      toml_text(study.contact.periodic ? "periodic" : "free"),
+                      toml_text(analysis::kSolvers.of(study.contact.solver)),
+                      decimal(study.contact.tolerance));
   text += fmt::format("\n[sweep]\nmean_pressure = {}\nlubricant_density = {}\n",
                       quantities(study.mean_pressures, "Pa"),
                       quantities(study.lubricant_densities, "kg/m^2"));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <exception>
 
-#include "tabor/study/sweep_workers.hpp"
+#include "tabor/study/friction_jobs.hpp"
 #include "tabor/study/tables.hpp"
 
 namespace tabor::study {
@@ -26,11 +26,20 @@ void count_rows(const std::vector<Row>& rows, Outcome& outcome) {
   outcome.failures.erase(last, outcome.failures.end());
 }
 
-void warn_about_copies(const Study& study, const std::vector<ScanUnits>& units,
+void count_computed(const Report& report, Outcome& outcome) {
+  outcome.n_surfaces = report.computed("surface");
+  outcome.n_contacts = report.computed("contact");
+  outcome.n_films = report.computed("film");
+  outcome.n_fluids = report.computed("fluid");
+  outcome.n_rows = report.computed("case");
+  outcome.warnings.insert(outcome.warnings.end(), report.warnings.begin(), report.warnings.end());
+}
+
+void warn_about_copies(const Study& study, const std::vector<ScanTasks>& tasks,
                        std::vector<std::string>& warnings) {
-  for (std::size_t i = 0; i < units.size(); ++i) {
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (units[i].sha256 == units[j].sha256) {
+      if (tasks[i].sha256 == tasks[j].sha256) {
         warnings.push_back(
             fmt::format("{} and {} hold the same bytes; if both are in one average, its error is "
                         "too small",
@@ -44,25 +53,19 @@ void warn_about_copies(const Study& study, const std::vector<ScanUnits>& units,
 
 Outcome run(const Study& study, const std::filesystem::path& directory,
             const SweepOptions& options) {
-  const Stopwatch since_start;
   const Store store(directory, options.shard ? Store::Use::shared : Store::Use::alone);
   Outcome outcome;
   outcome.n_cases = study.n_cases();
-  const std::vector<ScanUnits> units = units_of(study, options.observer);
-  warn_about_copies(study, units, outcome.warnings);
-  const auto plans = plan(store, study, units, options.shard.value_or(Shard{}), options.retry,
-                          outcome.warnings, options.observer);
-  std::exception_ptr error;
-  try {
-    compute_missing(store, study, units, plans, options, since_start, outcome);
-  } catch (...) {
-    error = std::current_exception();
-  }
+  const std::vector<ScanTasks> tasks = tasks_of(study, options.observer);
+  warn_about_copies(study, tasks, outcome.warnings);
+  const Report report = run_jobs(friction_jobs(store, study, tasks), &store, options);
+  count_computed(report, outcome);
+  std::exception_ptr error = report.ended_by;
   try {
     // One shard at a time: whoever comes last has seen every row.
     const auto lock = store.lock("results", [] {});
-    const std::vector<Row> rows = rows_in(store, units);
-    write_tables(store, study, units, rows, options.command);
+    const std::vector<Row> rows = rows_in(store, tasks);
+    write_tables(store, study, tasks, rows, options.command);
     count_rows(rows, outcome);
   } catch (...) {
     error = error ? error : std::current_exception();

@@ -1,24 +1,17 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "tabor/analysis/findings.hpp"
-#include "tabor/core/convergence.hpp"
-#include "tabor/study/plan.hpp"
+#include "tabor/study/engine.hpp"
 #include "tabor/study/study.hpp"
 
 namespace tabor::study {
 
-struct SweepOptions {
-  int jobs = 0;                ///< units computed at the same time, each with its own memory;
-                               ///< 0: as many as there are threads and room for
-  std::optional<Shard> shard;  ///< this process computes only its part
-  bool retry = false;          ///< compute failed and not converged cases again
-  std::string command;         ///< command line, kept in results.h5
-  Observer observer;           ///< called by one thread at a time, not always the same
+struct SweepOptions : RunOptions {
+  std::string command;  ///< command line, kept in results.h5
 };
 
 /// How a sweep ended.
@@ -27,7 +20,7 @@ struct Outcome {
   std::size_t n_done = 0;           ///< rows in results.csv, those of earlier runs included
   std::size_t n_failed = 0;         ///< of them without numbers
   std::size_t n_not_converged = 0;  ///< of them with numbers of less than the quality asked for
-  std::size_t n_surfaces = 0;       ///< units this run computed
+  std::size_t n_surfaces = 0;       ///< tasks this run computed
   std::size_t n_contacts = 0;
   std::size_t n_films = 0;
   std::size_t n_fluids = 0;  ///< states whose oil flows
@@ -39,7 +32,7 @@ struct Outcome {
 
 /// Computes what the store in `directory` does not hold yet: each scan is treated once, each
 /// contact solved once per scan and pressure, each film laid down once per scan for all densities;
-/// where the oil flows, every condition of a contact is one more unit.
+/// where the oil flows, every condition of a contact is one more task.
 /// A case that fails is recorded and the rest goes on. results.csv, averages.csv and results.h5 are
 /// rebuilt from the store at the end, also of an interrupted run. Results do not depend on jobs,
 /// shards, threads or interruptions.

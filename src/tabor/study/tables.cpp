@@ -6,62 +6,15 @@
 
 #include <cmath>
 #include <ctime>
-#include <functional>
-#include <optional>
 #include <utility>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/io/atomic_file.hpp"
-#include "tabor/io/csv.hpp"
+#include "tabor/io/columns.hpp"
 
 namespace tabor::study {
 namespace {
-
-/// A column of a table: either numbers or text. Both files are written from one list of these.
-template <typename Entry>
-struct Column {
-  std::string name;
-  std::function<double(const Entry&)> number;
-  std::function<std::string(const Entry&)> text = nullptr;
-};
-
-const std::vector<Column<Row>>& contact_columns() {
-  static const std::vector<Column<Row>> columns{
-      {"case_id", nullptr, [](const Row& row) { return row.case_id; }},
-      {"scan", nullptr, [](const Row& row) { return row.scan; }},
-      {"group", nullptr, [](const Row& row) { return row.group; }},
-      {"mean_pressure_Pa", [](const Row& row) { return row.mean_pressure; }},
-      {"lubricant_density_g_per_m2",
-       [](const Row& row) { return in_g_per_m2(row.lubricant_density); }},
-      {"contact_area_fraction", [](const Row& row) { return row.contact_area_fraction; }},
-      {"contact_area_fraction_pixels",
-       [](const Row& row) { return row.contact_area_fraction_pixels; }},
-      {"saturated_area_fraction", [](const Row& row) { return row.saturated_area_fraction; }},
-      {"mean_gap_m", [](const Row& row) { return row.mean_gap; }},
-      {"lubricated_share", [](const Row& row) { return row.lubricated_share; }},
-      {"spill_over_fraction", [](const Row& row) { return row.spill_over_fraction; }},
-      {"friction_dry", [](const Row& row) { return row.friction_dry; }},
-      {"friction_lubricated", [](const Row& row) { return row.friction_lubricated; }},
-      {"certificate", [](const Row& row) { return row.certificate; }},
-      {"converged", nullptr, [](const Row& row) { return row.converged ? "true" : "false"; }}};
-  return columns;
-}
-
-/// Those of a film that flows come after the others, so that these stay where they are.
-std::vector<Column<Row>> row_columns(bool oil_flows) {
-  std::vector<Column<Row>> columns = contact_columns();
-  if (!oil_flows) return columns;
-  for (const auto& [name, member] : kFluidColumns) {
-    columns.push_back({name, [value = member](const Row& row) {
-                         return row.fluid ? (*row.fluid).*value : kNoValue;
-                       }});
-  }
-  columns.push_back({"fluid_converged", nullptr, [](const Row& row) {
-                       return row.fluid && row.fluid->converged ? "true" : "false";
-                     }});
-  return columns;
-}
 
 /// One line per warning.
 std::string warning_texts(const Row& row) {
@@ -76,95 +29,49 @@ std::string warning_codes(const Row& row) {
   return fmt::format("{}", fmt::join(analysis::codes_of(row.warnings), " "));
 }
 
-/// Only in results.h5, so that results.csv keeps its agreed columns.
-const std::vector<Column<Row>>& further_columns() {
-  static const std::vector<Column<Row>> columns{
-      {"trapped_fraction", [](const Row& row) { return row.trapped_fraction; }},
-      {"escaping_fraction", [](const Row& row) { return row.escaping_fraction; }},
-      {"error", nullptr, [](const Row& row) { return row.error; }},
-      {"warnings", nullptr, warning_texts},
-      {"warning_codes", nullptr, warning_codes}};
+/// What is not in results.csv, so that it keeps its agreed columns, is in results.h5 alone. Columns
+/// of a film that flows come after the others, so that these stay where they are.
+Columns<Row> row_columns(bool oil_flows) {
+  constexpr ColumnStyle tabled{.media = analysis::media::kTable};
+  return joined<Row>(joined<Row>({{"case_id", "", "", &Row::case_id},
+                                  {"scan", "", "", &Row::scan},
+                                  {"group", "", "", &Row::group}},
+                                 inherited<Row>(analysis::friction_columns(oil_flows))),
+                     {{"error", "", "", &Row::error, tabled},
+                      {"warnings", "", "", warning_texts, tabled},
+                      {"warning_codes", "", "", warning_codes, tabled}});
+}
+
+const Columns<Mean>& mean_columns() {
+  static const Columns<Mean> columns{{"_mean", "", "", &Mean::mean},
+                                     {"_std", "", "", &Mean::standard_deviation},
+                                     {"_sem", "", "", &Mean::standard_error}};
   return columns;
 }
 
-template <typename MeanOf>
-void add_mean(std::vector<Column<Average>>& columns, const std::string& name,
-              const MeanOf& mean_of) {
-  columns.push_back({name + "_mean", [mean_of](const Average& a) { return mean_of(a).mean; }});
-  columns.push_back(
-      {name + "_std", [mean_of](const Average& a) { return mean_of(a).standard_deviation; }});
-  columns.push_back(
-      {name + "_sem", [mean_of](const Average& a) { return mean_of(a).standard_error; }});
+template <typename Record>
+void add_mean(const std::string& name, Mean Record::*mean, Columns<Record>& columns) {
+  for (Column<Record>& column : within(mean_columns(), mean)) {
+    column.key = name + column.key;
+    columns.push_back(column);
+  }
 }
 
-std::vector<Column<Average>> average_columns(bool oil_flows) {
-  std::vector<Column<Average>> made{
-      {"group", nullptr, [](const Average& a) { return a.group; }},
-      {"mean_pressure_Pa", [](const Average& a) { return a.mean_pressure; }},
-      {"lubricant_density_g_per_m2",
-       [](const Average& a) { return in_g_per_m2(a.lubricant_density); }},
-      {"n", [](const Average& a) { return static_cast<double>(a.n); }}};
-  add_mean(made, "friction_dry", [](const Average& a) { return a.friction_dry; });
-  add_mean(made, "friction_lubricated", [](const Average& a) { return a.friction_lubricated; });
-  if (!oil_flows) return made;
-  made.push_back({"sliding_speed_m_per_s",
-                  [](const Average& a) { return a.fluid.value_or(FluidAverage{}).sliding_speed; }});
-  const auto of_fluid = [](Mean FluidAverage::*mean) {
-    return [mean](const Average& a) { return a.fluid.value_or(FluidAverage{}).*mean; };
-  };
-  add_mean(made, "fluid_load_share", of_fluid(&FluidAverage::load_share));
-  add_mean(made, "friction_viscous", of_fluid(&FluidAverage::friction_viscous));
-  add_mean(made, "friction_mixed", of_fluid(&FluidAverage::friction_mixed));
-  return made;
-}
-
-template <typename Entry>
-std::string to_csv(const std::vector<Column<Entry>>& columns, const std::vector<Entry>& entries) {
-  std::vector<std::string> cells;
-  cells.reserve(columns.size());
-  for (const Column<Entry>& column : columns) {
-    cells.push_back(column.name);
-  }
-  std::string csv = io::csv_line(cells);
-  for (const Entry& entry : entries) {
-    cells.clear();
-    for (const Column<Entry>& column : columns) {
-      cells.push_back(column.text ? column.text(entry) : io::csv_number(column.number(entry)));
-    }
-    csv += io::csv_line(cells);
-  }
-  return csv;
-}
-
-template <typename Entry>
-void write_columns(io::Hdf5Writer& writer, const std::string& group,
-                   const std::vector<Column<Entry>>& columns, const std::vector<Entry>& entries) {
-  for (const Column<Entry>& column : columns) {
-    const std::string path = group + "/" + column.name;
-    if (column.name == "n" || column.name.ends_with("converged")) {
-      std::vector<std::int64_t> values;
-      values.reserve(entries.size());
-      for (const Entry& entry : entries) {
-        values.push_back(column.text ? column.text(entry) == "true"
-                                     : std::lround(column.number(entry)));
-      }
-      writer.write(path, values);
-    } else if (column.text) {
-      std::vector<std::string> values;
-      values.reserve(entries.size());
-      for (const Entry& entry : entries) {
-        values.push_back(column.text(entry));
-      }
-      writer.write(path, values);
-    } else {
-      std::vector<double> values;
-      values.reserve(entries.size());
-      for (const Entry& entry : entries) {
-        values.push_back(column.number(entry));
-      }
-      writer.write(path, values);
-    }
-  }
+Columns<Average> average_columns(bool oil_flows) {
+  Columns<Average> columns{
+      {"group", "", "", &Average::group},
+      {"mean_pressure_Pa", "", "", &Average::mean_pressure},
+      {"lubricant_density_g_per_m2", "", "",
+       [](const Average& average) { return in_g_per_m2(average.lubricant_density); }},
+      {"n", "", "", &Average::n}};
+  add_mean("friction_dry", &Average::friction_dry, columns);
+  add_mean("friction_lubricated", &Average::friction_lubricated, columns);
+  if (!oil_flows) return columns;
+  Columns<FluidAverage> fluid{{"sliding_speed_m_per_s", "", "", &FluidAverage::sliding_speed}};
+  add_mean("fluid_load_share", &FluidAverage::load_share, fluid);
+  add_mean("friction_viscous", &FluidAverage::friction_viscous, fluid);
+  add_mean("friction_mixed", &FluidAverage::friction_mixed, fluid);
+  return joined(columns, within(fluid, &Average::fluid));
 }
 
 void write_oil(io::Hdf5Writer& writer, const friction::FlowingOil& oil) {
@@ -209,39 +116,39 @@ void write_surface_facts(io::Hdf5Writer& writer, const std::string& group,
 
 /// Links into the store, only to what is there.
 void write_links(io::Hdf5Writer& writer, const std::string& group, const Store& store,
-                 const ScanUnits& units, std::size_t n_films) {
-  const auto link = [&](const std::string& name, const Unit& unit, const std::string& target) {
-    if (store.has(unit)) {
-      writer.external_link(group + "/" + name, "store/" + unit.file, target);
+                 const ScanTasks& tasks, std::size_t n_films) {
+  const auto link = [&](const std::string& name, const Task& task, const std::string& target) {
+    if (store.has(task)) {
+      writer.external_link(group + "/" + name, "store/" + task.file, target);
     }
   };
-  link("surface", units.surface, "/surface");
-  link("psd", units.surface, "/psd");
-  for (std::size_t i = 0; i < units.contacts.size(); ++i) {
-    link(fmt::format("contact/{:04}", i), units.contacts[i], "/contact");
+  link("surface", tasks.surface, "/surface");
+  link("psd", tasks.surface, "/psd");
+  for (std::size_t i = 0; i < tasks.contacts.size(); ++i) {
+    link(fmt::format("contact/{:04}", i), tasks.contacts[i], "/contact");
   }
   for (std::size_t i = 0; i < n_films; ++i) {
-    link(fmt::format("films/{:04}", i), units.film, film_group(i));
+    link(fmt::format("films/{:04}", i), tasks.film, film_group(i));
   }
   std::size_t place = 0;
-  for (const std::vector<Unit>& fluids : units.fluids) {
-    for (const Unit& unit : fluids) link(fmt::format("fluid/{:04}", place++), unit, "/fluid");
+  for (const std::vector<Task>& fluids : tasks.fluids) {
+    for (const Task& task : fluids) link(fmt::format("fluid/{:04}", place++), task, "/fluid");
   }
 }
 
 void write_scans(io::Hdf5Writer& writer, const Store& store, const Study& study,
-                 const std::vector<ScanUnits>& units) {
+                 const std::vector<ScanTasks>& tasks) {
   writer.group("/scans");
-  for (std::size_t i = 0; i < units.size(); ++i) {
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
     const std::string group = fmt::format("/scans/{:04}", i);
     writer.group(group);
     writer.attribute(group, "file", study.scans[i].label);
     writer.attribute(group, "group", study.scans[i].group);
-    writer.attribute(group, "input_sha256", units[i].sha256);
-    if (store.has(units[i].surface) && defect(store, units[i].surface).empty()) {
-      write_surface_facts(writer, group, read_surface_facts(store, units[i].surface));
+    writer.attribute(group, "input_sha256", tasks[i].sha256);
+    if (store.has(tasks[i].surface) && defect(store, tasks[i].surface).empty()) {
+      write_surface_facts(writer, group, read_surface_facts(store, tasks[i].surface));
     }
-    write_links(writer, group, store, units[i], study.lubricant_densities.size());
+    write_links(writer, group, store, tasks[i], study.lubricant_densities.size());
   }
 }
 
@@ -258,13 +165,13 @@ void write_experiment(io::Hdf5Writer& writer, const Experiment& experiment) {
 
 }  // namespace
 
-std::vector<Row> rows_in(const Store& store, const std::vector<ScanUnits>& units) {
+std::vector<Row> rows_in(const Store& store, const std::vector<ScanTasks>& tasks) {
   std::vector<Row> rows;
-  for (const ScanUnits& scan : units) {
-    for (const std::vector<Unit>& cases : scan.cases) {
-      for (const Unit& unit : cases) {
-        if (store.has(unit) && defect(store, unit).empty()) {
-          rows.push_back(read_row(store, unit));
+  for (const ScanTasks& scan : tasks) {
+    for (const std::vector<Task>& cases : scan.cases) {
+      for (const Task& task : cases) {
+        if (store.has(task) && defect(store, task).empty()) {
+          rows.push_back(read_row(store, task));
         }
       }
     }
@@ -287,14 +194,14 @@ std::vector<analysis::Finding> findings_in(const std::vector<Row>& rows) {
 }
 
 std::string results_csv(const std::vector<Row>& rows, bool oil_flows) {
-  return to_csv(row_columns(oil_flows), rows);
+  return io::csv_of(row_columns(oil_flows), rows, analysis::media::kCsv);
 }
 
 std::string averages_csv(const std::vector<Average>& averages, bool oil_flows) {
-  return to_csv(average_columns(oil_flows), averages);
+  return io::csv_of(average_columns(oil_flows), averages);
 }
 
-void write_tables(const Store& store, const Study& study, const std::vector<ScanUnits>& units,
+void write_tables(const Store& store, const Study& study, const std::vector<ScanTasks>& tasks,
                   const std::vector<Row>& rows, const std::string& command) {
   const std::vector<Average> means = averages(rows);
   io::write_file(store.directory() / "results.csv", results_csv(rows, study.flows()));
@@ -308,10 +215,9 @@ void write_tables(const Store& store, const Study& study, const std::vector<Scan
     lines.push_back(analysis::line_of(finding));
   }
   writer.attribute("/", "warnings", lines);
-  write_columns(writer, "/table", row_columns(study.flows()), rows);
-  write_columns(writer, "/table", further_columns(), rows);
-  write_columns(writer, "/averages", average_columns(study.flows()), means);
-  write_scans(writer, store, study, units);
+  io::write_datasets(writer, "/table", row_columns(study.flows()), rows, analysis::media::kTable);
+  io::write_datasets(writer, "/averages", average_columns(study.flows()), means);
+  write_scans(writer, store, study, tasks);
   if (study.experiment) {
     write_experiment(writer, *study.experiment);
   }

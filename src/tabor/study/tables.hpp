@@ -11,7 +11,7 @@ namespace tabor::study {
 
 /// The rows the store holds so far, in the order scan, pressure, density of the study. Damaged ones
 /// are left out.
-std::vector<Row> rows_in(const Store& store, const std::vector<ScanUnits>& units);
+std::vector<Row> rows_in(const Store& store, const std::vector<ScanTasks>& tasks);
 
 /// What must be said of the numbers of these rows, each once with its cases.
 std::vector<analysis::Finding> findings_in(const std::vector<Row>& rows);
@@ -23,7 +23,7 @@ std::string averages_csv(const std::vector<Average>& averages, bool oil_flows = 
 
 /// Writes results.csv, averages.csv and results.h5 into the study's folder from what the store
 /// holds. `command` is the command line that asked for it. Throws OutputError.
-void write_tables(const Store& store, const Study& study, const std::vector<ScanUnits>& units,
+void write_tables(const Store& store, const Study& study, const std::vector<ScanTasks>& tasks,
                   const std::vector<Row>& rows, const std::string& command);
 
 }  // namespace tabor::study

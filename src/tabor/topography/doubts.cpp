@@ -8,10 +8,10 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
+#include "tabor/core/rows.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/spectral/fft.hpp"
 #include "tabor/topography/levelling.hpp"
-#include "tabor/topography/rows.hpp"
 #include "tabor/topography/spikes.hpp"
 
 namespace tabor::topography {

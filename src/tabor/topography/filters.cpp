@@ -13,9 +13,9 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/numerics/field_statistics.hpp"
 #include "tabor/spectral/fft.hpp"
 #include "tabor/topography/gaussian.hpp"
-#include "tabor/topography/parameters.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -138,13 +138,18 @@ std::string describe(std::string_view step, const Filter& filter, double side,
                      const Topography& before, const Topography& after) {
   const double pixel = std::max(before.grid.dx(), before.grid.dy());
   const bool mild = filter.cutoff_wavelength(side) <= 2 * pixel;
-  const double slope = rms_slope(before);  // of a profile there is none
-  return fmt::format(
-      "{}={}: {}, {:.4g} pixels{}; Sq {} -> {}{}", step, to_string(filter),
-      cutoff_text(filter, side), filter.cutoff_wavelength(side) / pixel,
-      mild ? " (mild: its end lies beyond Nyquist)" : "", format_si(rms_height(before), "m"),
-      format_si(rms_height(after), "m"),
-      std::isnan(slope) ? "" : fmt::format(", Sdq {:.4g} -> {:.4g}", slope, rms_slope(after)));
+  const auto rms = [](const Topography& surface) {
+    return format_si(numerics::rms_height(surface.height), "m");
+  };
+  const auto slope = [](const Topography& surface) {  // of a profile there is none
+    return numerics::rms_slope(surface.height, surface.grid);
+  };
+  return fmt::format("{}={}: {}, {:.4g} pixels{}; Sq {} -> {}{}", step, to_string(filter),
+                     cutoff_text(filter, side), filter.cutoff_wavelength(side) / pixel,
+                     mild ? " (mild: its end lies beyond Nyquist)" : "", rms(before), rms(after),
+                     std::isnan(slope(before))
+                         ? ""
+                         : fmt::format(", Sdq {:.4g} -> {:.4g}", slope(before), slope(after)));
 }
 
 bool is_gaussian(FilterKind kind) {

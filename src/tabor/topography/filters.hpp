@@ -23,6 +23,7 @@ struct Filter {
   double wavelength = 0;       ///< [m], cutoff wavelength; 0 = see cycles_per_side
   double cycles_per_side = 0;  ///< "512/L": cutoff = cycles_per_side / L, L = sqrt(lx ly)
 
+  /// [m], on a scan of this side [m].
   double cutoff_wavelength(double side) const {
     return wavelength > 0 ? wavelength : side / cycles_per_side;
   }

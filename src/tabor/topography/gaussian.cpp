@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "tabor/topography/rows.hpp"
+#include "tabor/core/rows.hpp"
 
 namespace tabor::topography {
 namespace {

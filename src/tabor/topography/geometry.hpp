@@ -38,6 +38,7 @@ struct Lattice {
 /// Heights between the pixels, by cubic splines along both axes.
 class Interpolant {
  public:
+  /// Of heights without or with holes (NaN).
   explicit Interpolant(const Field& height);
   /// Shape (lattice.ny, lattice.nx). NaN beyond the outermost pixel centres and where one of the
   /// four nearest pixels is a hole.
@@ -55,6 +56,7 @@ Field cell_means(const Field& height, double width_x, double width_y);
 /// 2 x 2 tiling with its mirror images: twice the size, continuous across the edges, periodic.
 Topography mirror(Topography topography);
 
+/// A direction of the map.
 enum class Axis { x, y };
 
 /// Reverses the order of the columns (x) or rows (y).

@@ -272,13 +272,9 @@ class Solver {
     double product = 0;
     while (true) {
       convergence.certificate = kTolerance * (target > 0 ? largest_residual() / target : 0);
-      convergence.converged = convergence.certificate <= kTolerance;
-      if (observer && !observer({"fill holes", 0.0, &convergence})) {
-        throw Interrupted();
-      }
-      if (convergence.converged || convergence.iterations == kMaxIterations) {
-        return convergence;
-      }
+      if (convergence.certificate <= kTolerance) convergence.status = Status::converged;
+      if (asks_to_stop(observer, {"fill holes", 0.0, &convergence})) throw Interrupted();
+      if (convergence.converged() || convergence.iterations == kMaxIterations) return convergence;
       product = iterate(product, convergence.iterations == 0);
       ++convergence.iterations;
       ++convergence.operator_applications;

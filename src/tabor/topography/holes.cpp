@@ -8,9 +8,9 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/names.hpp"
+#include "tabor/core/rows.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/topography/harmonic.hpp"
-#include "tabor/topography/rows.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -118,7 +118,7 @@ std::string describe(const FillResult& result, Fill fill, Index n_pixels) {
   if (fill == Fill::harmonic) {
     text += fmt::format(" in {} holes, largest {} pixels, residual {:.1e} of the height range{}",
                         result.n_holes, result.largest, result.convergence.certificate,
-                        result.convergence.converged ? "" : " (NOT CONVERGED)");
+                        result.convergence.converged() ? "" : " (NOT CONVERGED)");
   }
   return text;
 }
@@ -151,15 +151,13 @@ FillResult fill_holes(const Field& height, const Grid& grid, Fill fill, const Ob
   FillResult result;
   if (n_missing == 0) {
     result.height = height;
-    result.convergence.converged = true;
-    result.convergence.certificate = 0;
+    result.convergence = exact();
   } else if (fill == Fill::harmonic) {
     result = fill_by_laplace(height, grid, observer);
   } else {
     result.height = fill == Fill::nearest ? fill_nearest(height, grid)
                                           : fill_mean(height, height.size() - n_missing);
-    result.convergence.converged = true;
-    result.convergence.certificate = 0;
+    result.convergence = exact();
   }
   result.n_filled = n_missing;
   return result;

@@ -14,9 +14,12 @@ namespace tabor::topography {
 /// distance. mean: the mean of all valid heights.
 enum class Fill { harmonic, nearest, mean };
 
+/// "harmonic" and so on; nullopt if there is no such way.
 std::optional<Fill> fill_from(std::string_view name);
+/// The inverse of fill_from().
 std::string_view name_of(Fill fill);
 
+/// A filled map, and how it was filled.
 struct FillResult {
   Field height;             ///< without holes
   Index n_filled = 0;       ///< pixels that were holes

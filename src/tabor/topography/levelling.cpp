@@ -10,9 +10,9 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/names.hpp"
 #include "tabor/core/parallel.hpp"
+#include "tabor/core/rows.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/topography/parameters.hpp"
-#include "tabor/topography/rows.hpp"
+#include "tabor/numerics/field_statistics.hpp"
 #include "tabor/topography/small_matrices.hpp"
 
 namespace tabor::topography {
@@ -206,7 +206,7 @@ std::string describe(const Topography& topography, const FormFit& fit, double rm
     text += ", mean " + format_si(fit.coefficients[0], "m", 6);
   }
   return text + fmt::format(", Sq {} -> {}", format_si(rms_before, "m"),
-                            format_si(rms_height(topography), "m"));
+                            format_si(numerics::rms_height(topography.height), "m"));
 }
 
 }  // namespace
@@ -267,7 +267,7 @@ Topography level(Topography topography, Form form) {
     return topography;
   }
   const auto fit = fit_form(topography.height, degree_of(form));
-  const double rms_before = rms_height(topography);
+  const double rms_before = numerics::rms_height(topography.height);
   topography.height = remove_form(std::move(topography.height), fit);
   topography.periodic = topography.periodic && form == Form::mean;  // a tilt does not tile
   topography.history.push_back(

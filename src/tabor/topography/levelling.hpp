@@ -25,6 +25,7 @@ struct FormFit {
   std::array<double, kMaxTerms> coefficients{};  ///< [m], by rising degree, x first
   Index n_valid = 0;                             ///< points the fit used
 
+  /// Number of coefficients in use.
   int n_terms() const { return (degree + 1) * (degree + 2) / 2; }
 };
 

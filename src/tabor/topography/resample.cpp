@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/rows.hpp"
 #include "tabor/topography/geometry.hpp"
 #include "tabor/topography/holes.hpp"
-#include "tabor/topography/rows.hpp"
 
 namespace tabor::topography {
 namespace {

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/rows.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/topography/rows.hpp"
 
 namespace tabor::topography {
 namespace {

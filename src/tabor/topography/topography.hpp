@@ -10,6 +10,7 @@ namespace tabor::topography {
 
 /// What a careful user should know, in one sentence, and how long it holds.
 struct Doubt {
+  /// How long a doubt holds.
   enum class About {
     record,   ///< the file or a step of its treatment: for good
     heights,  ///< the heights as they are: asked anew after a treatment
@@ -43,5 +44,9 @@ bool is_profile(const Grid& grid);
 
 Mask holes(const Topography& topography);  ///< true where height is NaN
 Index count_holes(const Topography& topography);
+
+/// Throws InputError if heights are missing: how many, and the remedy. `name`: of the scan.
+void require_no_holes(const Topography& topography, const std::string& name,
+                      const std::string& remedy);
 
 }  // namespace tabor::topography

@@ -29,5 +29,5 @@ int main() {
   const double found = state.pressure.maxCoeff();
   std::printf("largest pressure %.4g Pa, Westergaard %.4g Pa, certificate %.1e\n", found, expected,
               state.convergence.certificate);
-  return state.convergence.converged && std::abs(found / expected - 1) < 1e-3 ? 0 : 1;
+  return state.convergence.converged() && std::abs(found / expected - 1) < 1e-3 ? 0 : 1;
 }

@@ -90,7 +90,7 @@ io::Json solve(const Request& request) {
   json["iterations"] = state.convergence.iterations;
   json["fft_pairs"] = state.convergence.fft_pairs;
   json["own_error"] = io::number(state.convergence.certificate);
-  json["converged"] = state.convergence.converged;
+  json["converged"] = state.convergence.converged();
   bench::write_npy(state.pressure, request.pressure_file);
   return json;
 }

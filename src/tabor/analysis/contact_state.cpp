@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <utility>
+
+#include "tabor/analysis/states.hpp"
+#include "tabor/analysis/warnings.hpp"
+#include "tabor/core/resources.hpp"
+#include "tabor/core/watch.hpp"
+#include "tabor/elastic/half_space.hpp"
+
+namespace tabor::analysis {
+namespace {
+
+ContactStatistics statistics_of(elastic::ElasticOperator& elasticity, const contact::State& state,
+                                const ContactSettings& settings) {
+  return {.stiffness = contact::contact_stiffness(elasticity, state, settings.pressure_cap()),
+          .pressure = contact::pressure_histogram(state),
+          .gap = contact::gap_histogram(state),
+          .patch_area =
+              contact::patch_area_histogram(state, elasticity.grid(), settings.is_periodic())};
+}
+
+ContactRecord solve(elastic::ElasticOperator& elasticity, const Field& height,
+                    const ContactSettings& settings, double mean_pressure,
+                    const Observer& observer) {
+  const contact::Problem problem{.height = height,
+                                 .mean_pressure = mean_pressure,
+                                 .saturation_pressure = settings.pressure_cap(),
+                                 .tolerance = settings.tolerance};
+  const Stopwatch watch;
+  const double fft_before = elasticity.fft_seconds();
+  ContactRecord record;
+  record.state = contact::solve(elasticity, problem, settings.solver, observer);
+  throw_if_stopped(record.state.convergence);  // half a state is of no use to anybody
+  record.convergence = record.state.convergence;
+  record.summary =
+      contact::summarise(record.state, problem, elasticity.grid(), settings.is_periodic());
+  record.fft_seconds = elasticity.fft_seconds() - fft_before;
+  record.seconds = watch.seconds();
+  record.peak_memory = peak_memory_bytes();
+  return record;
+}
+
+/// `height` is that of the surface, or what a load path has made of it.
+ContactRecord state_of(elastic::ElasticOperator& elasticity, const topography::Topography& surface,
+                       const Field& height, const ContactSettings& settings, double mean_pressure,
+                       const Observer& observer) {
+  ContactRecord record = solve(elasticity, height, settings, mean_pressure, observer);
+  record.warnings = of_surface(surface);
+  add(of_contact(surface, settings, record.state, record.summary), record.warnings);
+  if (settings.statistics) record.statistics = statistics_of(elasticity, record.state, settings);
+  return record;
+}
+
+}  // namespace
+
+std::unique_ptr<elastic::ElasticOperator> make_operator(const ContactSettings& settings,
+                                                        const Grid& grid) {
+  return settings.is_periodic() ? elastic::make_periodic(grid, settings.effective_modulus())
+                                : elastic::make_free(grid, settings.effective_modulus());
+}
+
+ContactRecord contact_state(elastic::ElasticOperator& elasticity,
+                            const topography::Topography& surface, const ContactSettings& settings,
+                            double mean_pressure, const Observer& observer) {
+  return state_of(elasticity, surface, surface.height, settings, mean_pressure, observer);
+}
+
+ContactRecord contact_state(const topography::Topography& surface, const ContactSettings& settings,
+                            double mean_pressure, const Observer& observer) {
+  return contact_state(*make_operator(settings, surface.grid), surface, settings, mean_pressure,
+                       observer);
+}
+
+void contact_states(elastic::ElasticOperator& elasticity, const topography::Topography& surface,
+                    const ContactSettings& settings, const std::vector<double>& mean_pressures,
+                    const std::function<void(ContactRecord&&)>& receive, const Observer& observer) {
+  Field unloaded;  // of a load path: the surface as the states before left it
+  for (const double pressure : mean_pressures) {
+    const Field& height = unloaded.size() > 0 ? unloaded : surface.height;
+    ContactRecord record = state_of(elasticity, surface, height, settings, pressure, observer);
+    if (settings.load_path) unloaded = contact::unloaded_height(height, record.state);
+    receive(std::move(record));
+  }
+}
+
+std::vector<std::string> references_of(const ContactSettings& settings) {
+  std::vector<std::string> keys = {"polonsky1999", "yastrebov2017",
+                                   settings.is_periodic() ? "stanley1997" : "love1929"};
+  if (settings.solver == contact::Solver::fast) keys.insert(keys.begin(), "rey2017");
+  if (settings.saturation_pressure) keys.emplace_back("almqvist2007");
+  return keys;
+}
+
+}  // namespace tabor::analysis

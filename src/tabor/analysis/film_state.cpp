@@ -1,0 +1,84 @@
+#include <utility>
+
+#include "tabor/analysis/states.hpp"
+#include "tabor/analysis/warnings.hpp"
+#include "tabor/core/resources.hpp"
+#include "tabor/core/watch.hpp"
+
+namespace tabor::analysis {
+namespace {
+
+deposition::Dose dose_of(const FilmSettings& settings) {
+  deposition::Dose dose;
+  for (const double density : settings.lubricant_densities) {
+    dose.mean_films.push_back(deposition::mean_film(density, settings.oil_density));
+  }
+  dose.droplet_height = settings.droplet_height;
+  dose.model = settings.model;
+  dose.reading = settings.reading;
+  dose.edge = settings.edge;
+  dose.seed = settings.seed;
+  return dose;
+}
+
+FilmRecord record_of(deposition::Film&& film, const FilmSettings& settings) {
+  FilmRecord record{.lubricant_density = settings.lubricant_densities[film.request],
+                    .film = {},
+                    .peak_memory = peak_memory_bytes(),
+                    .warnings = of_film(film)};
+  record.film = std::move(film);
+  return record;
+}
+
+}  // namespace
+
+void film_state(const topography::Topography& surface, const FilmSettings& settings,
+                const std::function<void(FilmRecord&&)>& receive, const Observer& observer) {
+  const deposition::FilmSink sink = [&](deposition::Film&& film) {
+    receive(record_of(std::move(film), settings));
+  };
+  deposition::deposit(surface.height, surface.grid, dose_of(settings), sink, observer);
+}
+
+std::vector<FilmRecord> film_state(const topography::Topography& surface,
+                                   const FilmSettings& settings, const Observer& observer) {
+  std::vector<FilmRecord> films(settings.lubricant_densities.size());
+  const auto receive = [&films](FilmRecord&& record) {
+    films[record.film.request] = std::move(record);
+  };
+  film_state(surface, settings, receive, observer);
+  return films;
+}
+
+FluidRecord fluid_state(elastic::ElasticOperator& elasticity, const Field& height,
+                        const contact::State& dry, double mean_pressure, const Field& film,
+                        const ContactSettings& contact, const FluidSettings& settings,
+                        const Observer& observer) {
+  friction::FluidFilmProblem problem;
+  problem.contact.height = height;
+  problem.contact.mean_pressure = mean_pressure;
+  problem.contact.saturation_pressure = contact.pressure_cap();
+  problem.contact.tolerance = contact.tolerance;
+  problem.film = film;
+  problem.sliding_speed = settings.sliding_speed.value_or(0);
+  problem.lubricant = friction::lubricant_of(settings.oil());
+  FluidRecord record;
+  record.state = friction::solve_fluid_film(elasticity, problem, dry, observer);
+  throw_if_stopped(record.state.convergence);
+  record.summary = friction::summarise(record.state, problem, elasticity.grid());
+  record.sliding_speed = problem.sliding_speed;
+  record.warnings = of_flow(friction::doubts(record.state, problem));
+  return record;
+}
+
+std::vector<std::string> references_of(const FilmSettings& settings) {
+  if (settings.model == deposition::Model::limit) return {"costagliola2021", "barnes2021"};
+  return {"costagliola2021"};
+}
+
+std::vector<std::string> references_of(const FluidSettings& settings) {
+  if (!settings.flows()) return {};
+  return {"elrod1981"};
+}
+
+}  // namespace tabor::analysis

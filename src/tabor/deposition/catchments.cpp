@@ -1,0 +1,103 @@
+#include "tabor/deposition/catchments.hpp"
+
+#include "tabor/core/watch.hpp"
+
+namespace tabor::deposition {
+
+Catchments::Catchments(Pools& pools)
+    : pools_(pools),
+      drains_to_(static_cast<std::size_t>(pools.terrain().size()), kNoPool),
+      area_(pools.count(), 0),
+      runs_to_(pools.count(), kNoPool) {
+  drain_all();
+  for (const PoolId leaf : drains_to_) {
+    ++area_[static_cast<std::size_t>(leaf)];
+  }
+}
+
+/// Order of height, pixel numbers breaking ties; beyond an open edge lies the lowest place.
+bool Catchments::lower(Pixel a, Pixel b) const {
+  if (a == kOutside || b == kOutside) {
+    return a == kOutside && b != kOutside;
+  }
+  const Height height_a = pools_.height(a);
+  const Height height_b = pools_.height(b);
+  return height_a < height_b || (height_a == height_b && a < b);
+}
+
+/// The lowest neighbour if it is lower than p, else p itself.
+Pixel Catchments::downhill(Pixel p) const {
+  Pixel lowest = p;
+  for_each_neighbour(pools_.terrain(), p, [&](Pixel q) {
+    if (lower(q, lowest)) {
+      lowest = q;
+    }
+  });
+  return lowest;
+}
+
+void Catchments::drain_all() {
+  std::vector<Pixel> path;
+  for (Pixel start = 0; start < pools_.terrain().size(); ++start) {
+    go_on_or_throw(static_cast<std::size_t>(start));
+    PoolId leaf = kNoPool;
+    for (Pixel p = start; leaf == kNoPool;) {
+      leaf = drains_to_[static_cast<std::size_t>(p)];
+      if (leaf == kNoPool) {
+        path.push_back(p);
+        const Pixel next = downhill(p);
+        leaf = next == kOutside ? kOcean : next == p ? pools_.home(p) : kNoPool;
+        p = next;
+      }
+    }
+    for (const Pixel p : path) {
+      drains_to_[static_cast<std::size_t>(p)] = leaf;
+    }
+    path.clear();
+  }
+}
+
+void Catchments::rain(Volume film) {
+  const auto n_pools = static_cast<PoolId>(area_.size());
+  for (PoolId leaf = 0; leaf < n_pools; ++leaf) {
+    go_on_or_throw(static_cast<std::size_t>(leaf));
+    Volume carried = film * area_[static_cast<std::size_t>(leaf)];
+    PoolId pool = leaf;
+    while (carried > 0) {
+      pool = overflow(pool);
+      carried = pools_.pour(pool, carried);
+    }
+  }
+}
+
+/// The first pool that is not full on the way liquid takes from `pool`, with path compression: as
+/// long as a pool is full and apart, what it spills into is full and apart too, or merges with it.
+PoolId Catchments::overflow(PoolId pool) {
+  passed_.clear();
+  pool = pools_.owner(pool);
+  while (pools_[pool].full()) {
+    passed_.push_back(pool);
+    const PoolId known = runs_to_[static_cast<std::size_t>(pool)];
+    pool = pools_.owner(known == kNoPool ? across_saddle(pool) : known);
+  }
+  for (const PoolId full : passed_) {
+    runs_to_[static_cast<std::size_t>(full)] = pool;
+  }
+  return pool;
+}
+
+/// Over the saddle pixel to its lowest neighbour in a pool that is not full yet.
+PoolId Catchments::across_saddle(PoolId full) {
+  const Pixel saddle = pools_.saddle(full);
+  Pixel lowest = saddle;
+  for_each_neighbour(pools_.terrain(), saddle, [&](Pixel q) {
+    if (lower(q, lowest)) {
+      const PoolId pool = q == kOutside ? kOcean : pools_.owner(pools_.home(q));
+      const bool is_full = pools_[pool].full() && pools_[pool].parent == pools_[full].parent;
+      lowest = is_full ? lowest : q;
+    }
+  });
+  return lowest == kOutside ? kOcean : drains_to_[static_cast<std::size_t>(lowest)];
+}
+
+}  // namespace tabor::deposition

@@ -1,0 +1,226 @@
+#include "tabor/deposition/deposition.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/resources.hpp"
+#include "tabor/core/units.hpp"
+#include "tabor/core/watch.hpp"
+#include "tabor/deposition/film_measures.hpp"
+#include "tabor/deposition/pool_builder.hpp"
+#include "tabor/deposition/rain.hpp"
+
+namespace tabor::deposition {
+namespace {
+
+constexpr double kMostVolume = 4e18;  // quanta * pixels, fits 63 bits with room for a last droplet
+
+void check(const Field& height, const Grid& grid, const Dose& dose) {
+  if (height.rows() != grid.ny || height.cols() != grid.nx) {
+    throw InputError("surface to lubricate",
+                     fmt::format("{} x {} heights", height.cols(), height.rows()),
+                     fmt::format("{} x {} as in its grid", grid.nx, grid.ny), "");
+  }
+  if (!(grid.lx > 0 && grid.ly > 0)) {
+    throw InputError("surface to lubricate", fmt::format("a size of {} m x {} m", grid.lx, grid.ly),
+                     "a positive size", "");
+  }
+  if (dose.mean_films.empty()) {
+    throw InputError("lubricant dose", "no mean film", "at least one", "give a density");
+  }
+  for (const double film : dose.mean_films) {
+    if (!(film >= 0 && std::isfinite(film))) {
+      throw InputError("mean film", fmt::format("{} m", film), "zero or more", "");
+    }
+  }
+  if (!(dose.droplet_height > 0 && std::isfinite(dose.droplet_height))) {
+    throw InputError("droplet height", fmt::format("{} m", dose.droplet_height), "more than zero",
+                     "the droplet's volume is this height times the pixel area, e.g. 0.1 um");
+  }
+}
+
+/// One run of deposit(): the doses in ascending order, and films made of the state of the liquid.
+class Deposition {
+ public:
+  Deposition(const Field& height, const Grid& grid, const Dose& dose, const FilmSink& sink)
+      : height_(height), grid_(grid), dose_(dose), sink_(sink), requests_(dose.mean_films.size()) {
+    std::iota(requests_.begin(), requests_.end(), std::size_t{0});
+    std::stable_sort(requests_.begin(), requests_.end(), [&](std::size_t a, std::size_t b) {
+      return dose.mean_films[a] < dose.mean_films[b];
+    });
+  }
+
+  void run(const Observer& observer) {
+    if (dose_.model == Model::uniform) {
+      spread_uniformly();
+      return;
+    }
+    terrain_ = quantise(height_, dose_.edge);
+    if (dose_.model == Model::bottom_fill) {
+      fill_from_the_bottom();
+      return;
+    }
+    const Ties ties = dose_.model == Model::droplets ? Ties::connected : Ties::ordered;
+    Pools pools(terrain_, ties);
+    terrain_.height = {};
+    const auto reached = [&](std::size_t i, const RainState& state) { emit(i, state, pools); };
+    if (dose_.model == Model::droplets) {
+      rain_droplets(pools, droplet(), dose_.reading, dose_.seed, doses(terrain_.size()), reached,
+                    observer);
+    } else {
+      rain_evenly(pools, doses(1), reached, observer);
+    }
+  }
+
+ private:
+  Film new_film(std::size_t i) const {
+    Film film;
+    film.request = requests_[i];
+    film.mean_film = dose_.mean_films[film.request];
+    return film;
+  }
+
+  double cubic_metres(double quanta) const {
+    return quanta * terrain_.quantum * grid_.pixel_area();
+  }
+
+  /// Ascending doses in quanta, for `n_pixels` pixels.
+  std::vector<Volume> doses(Pixel n_pixels) const {
+    std::vector<Volume> result;
+    for (const std::size_t request : requests_) {
+      const double film = dose_.mean_films[request] / terrain_.quantum;
+      if (film * static_cast<double>(terrain_.size()) > kMostVolume) {
+        throw InputError("mean film", format_si(dose_.mean_films[request], "m"),
+                         "at most " + format_si(kMostVolume / static_cast<double>(terrain_.size()) *
+                                                    terrain_.quantum,
+                                                "m"),
+                         "that much liquid drowns the surface");
+      }
+      result.push_back(std::llround(film * n_pixels));
+    }
+    return result;
+  }
+
+  Height droplet() const {
+    const double quanta = std::nearbyint(dose_.droplet_height / terrain_.quantum);
+    if (quanta < 1 || quanta > kNoRim) {
+      throw InputError("droplet height", format_si(dose_.droplet_height, "m"),
+                       format_si(terrain_.quantum, "m") + " to " +
+                           format_si(terrain_.quantum * kNoRim, "m") + " for this range of heights",
+                       "");
+    }
+    return static_cast<Height>(quanta);
+  }
+
+  void emit(std::size_t i, const RainState& state, Pools& pools) {
+    Film film = new_film(i);
+    const Volume lost = dose_.edge == Edge::open ? pools.beyond() : 0;
+    const double flood = static_cast<double>(pools.beyond() - lost) / terrain_.size();
+    film.thickness.resize(grid_.ny, grid_.nx);
+    for (Pixel p = 0; p < terrain_.size(); ++p) {
+      go_on_or_throw(static_cast<std::size_t>(p));
+      const Volume level = pools[pools.owner(pools.home(p))].level;
+      const auto depth = static_cast<double>(std::max<Volume>(0, level - pools.height(p)));
+      film.thickness.data()[p] = (depth + flood) * terrain_.quantum;
+    }
+    film.dosed_volume = cubic_metres(static_cast<double>(state.dosed));
+    film.lost_volume = cubic_metres(static_cast<double>(lost));
+    film.deposited_volume = cubic_metres(static_cast<double>(state.dosed - lost));
+    film.n_droplets = state.n_droplets;
+    film.flooded = flood > 0;
+    finish(std::move(film));
+  }
+
+  void fill_from_the_bottom() {
+    const std::vector<Pixel> ascending = ascending_pixels(terrain_);
+    const std::vector<Volume> volumes = doses(terrain_.size());
+    const auto height = [&](std::size_t place) -> Volume {
+      return terrain_.height[static_cast<std::size_t>(ascending[place])];
+    };
+    std::size_t area = 0;  // pixels below the level
+    Volume level = height(0);
+    Volume below = 0;  // liquid below the level
+    for (std::size_t i = 0; i < volumes.size(); ++i) {
+      while (area < ascending.size()) {
+        const Volume step = (height(area) - level) * static_cast<Volume>(area);
+        if (below + step > volumes[i]) {
+          break;
+        }
+        below += step;
+        level = height(area++);
+      }
+      const double rest = static_cast<double>(volumes[i] - below) / static_cast<double>(area);
+      emit_level(i, static_cast<double>(level) + rest, volumes[i], area == ascending.size());
+    }
+  }
+
+  void emit_level(std::size_t i, double level, Volume volume, bool all_under) {
+    Film film = new_film(i);
+    film.thickness.resize(grid_.ny, grid_.nx);
+    for (std::size_t p = 0; p < terrain_.height.size(); ++p) {
+      film.thickness.data()[p] = std::max(0.0, level - terrain_.height[p]) * terrain_.quantum;
+    }
+    film.dosed_volume = film.deposited_volume = cubic_metres(static_cast<double>(volume));
+    film.flooded = all_under && film.thickness.minCoeff() > 0;
+    finish(std::move(film));
+  }
+
+  void spread_uniformly() {
+    for (std::size_t i = 0; i < requests_.size(); ++i) {
+      Film film = new_film(i);
+      film.thickness = Field::Constant(grid_.ny, grid_.nx, film.mean_film);
+      film.dosed_volume = film.deposited_volume = film.mean_film * grid_.area();
+      finish(std::move(film));
+    }
+  }
+
+  void finish(Film film) {
+    measure(film, dose_.edge);
+    film.height_quantum = dose_.model == Model::uniform ? 0 : terrain_.quantum;
+    film.seconds = watch_.seconds();
+    sink_(std::move(film));
+  }
+
+  const Field& height_;
+  const Grid& grid_;
+  const Dose& dose_;
+  const FilmSink& sink_;
+  std::vector<std::size_t> requests_;  // positions in mean_films, ascending in dose
+  Stopwatch watch_;
+  Terrain terrain_;
+};
+
+}  // namespace
+
+void deposit(const Field& height, const Grid& grid, const Dose& dose, const FilmSink& sink,
+             const Observer& observer) {
+  const Watch watch(observer, "pools");
+  check(height, grid, dose);
+  Deposition(height, grid, dose, sink).run(observer);
+}
+
+std::vector<Film> deposit(const Field& height, const Grid& grid, const Dose& dose,
+                          const Observer& observer) {
+  std::vector<Film> films(dose.mean_films.size());
+  deposit(
+      height, grid, dose, [&](Film&& film) { films[film.request] = std::move(film); }, observer);
+  return films;
+}
+
+double mean_film(double lubricant_density, double oil_density) {
+  if (!(lubricant_density >= 0 && std::isfinite(lubricant_density))) {
+    throw InputError("lubricant density", fmt::format("{} kg/m^2", lubricant_density),
+                     "zero or more", "");
+  }
+  if (!(oil_density > 0 && std::isfinite(oil_density))) {
+    throw InputError("oil density", fmt::format("{} kg/m^3", oil_density), "more than zero",
+                     "mineral oil has about 900 kg/m^3");
+  }
+  return lubricant_density / oil_density;
+}
+
+}  // namespace tabor::deposition

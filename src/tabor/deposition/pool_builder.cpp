@@ -1,0 +1,298 @@
+#include "tabor/deposition/pool_builder.hpp"
+#include "tabor/core/large_pages.hpp"
+#include "tabor/core/watch.hpp"
+
+#include <algorithm>
+#include <array>
+#include <unordered_map>
+#include <utility>
+
+namespace tabor::deposition {
+namespace {
+
+// Pixels in order of height lie anywhere: how many ahead of its turn one is asked of the memory.
+constexpr std::size_t kNear = 16;
+constexpr std::size_t kFar = 24;
+constexpr std::int32_t kAbsorbed = -1;  // `area` of a pool that turned out to be part of another
+
+/// Stable sort of `keys` by bits [shift, shift + 11), from `keys` to `sorted`.
+void radix_pass(const std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& sorted,
+                int shift) {
+  constexpr std::uint64_t mask = 2047;
+  std::array<std::size_t, mask + 2> start{};
+  for (const std::uint64_t key : keys) {
+    ++start[((key >> shift) & mask) + 1];
+  }
+  for (std::size_t digit = 1; digit < start.size(); ++digit) {
+    start[digit] += start[digit - 1];
+  }
+  for (const std::uint64_t key : keys) {
+    sorted[start[(key >> shift) & mask]++] = key;
+  }
+}
+
+}  // namespace
+
+std::vector<Pixel> ascending_pixels(const Terrain& terrain) {
+  const auto n = static_cast<std::size_t>(terrain.size());
+  std::vector<std::uint64_t> keys;
+  reserve_large_pages(keys, n);
+  keys.resize(n);
+  for (std::size_t p = 0; p < n; ++p) {
+    const auto unsigned_height = static_cast<std::uint32_t>(terrain.height[p]) ^ 0x80000000U;
+    keys[p] = (std::uint64_t{unsigned_height} << 32) | p;
+  }
+  {
+    std::vector<std::uint64_t> sorted;
+    reserve_large_pages(sorted, n);
+    sorted.resize(n);
+    for (const int shift : {32, 43, 54}) {  // pixel numbers, the low half, are in order already
+      go_on_or_throw();
+      radix_pass(keys, sorted, shift);
+      keys.swap(sorted);
+    }
+  }
+  std::vector<Pixel> order(n);
+  std::transform(keys.begin(), keys.end(), order.begin(),
+                 [](std::uint64_t key) { return static_cast<Pixel>(key & 0xFFFFFFFFU); });
+  return order;
+}
+
+void PoolBuilder::build() {
+  const Terrain& terrain = to_.terrain();
+  std::vector<Pixel> ascending = ascending_pixels(terrain);
+  reserve_large_pages(to_.sites_, ascending.size());
+  to_.sites_.resize(ascending.size());
+  for (std::size_t p = 0; p < ascending.size(); ++p) {
+    to_.sites_[p].height = terrain.height[p];
+  }
+  if (terrain.edge == Edge::open) {
+    pool(new_pool(kDry)).area = 1;  // of the ocean: a droplet raises it by its own volume
+  }
+  for (std::size_t begin = 0; begin < ascending.size();) {
+    const Height height = to_.height(ascending[begin]);
+    std::size_t end = begin;
+    do {
+      go_on_or_throw(end);
+      prefetch_neighbours(ascending, end + kFar);
+      add(ascending[end++]);
+    } while (ties_ == Ties::connected && end < ascending.size() &&
+             to_.height(ascending[end]) == height);
+    settle_homes({&ascending[begin], end - begin});
+    begin = end;
+  }
+  to_.last_ = grown(home(0));
+  forget_absorbed();
+  go_on_or_throw();
+  number_by_place();
+  go_on_or_throw();
+  make_arcs(ascending);
+  go_on_or_throw();
+  start_leaves();
+}
+
+PoolId PoolBuilder::grown(PoolId id) {
+  while (pool(id).owner != id) {
+    pool(id).owner = pool(pool(id).owner).owner;
+    id = pool(id).owner;
+  }
+  return id;
+}
+
+PoolId PoolBuilder::new_pool(Height base) {
+  const auto id = static_cast<PoolId>(to_.pools_.size());
+  to_.pools_.push_back({.owner = id, .level = base});
+  return id;
+}
+
+void PoolBuilder::prefetch_site(const std::vector<Pixel>& ascending, std::size_t place) const {
+  if (place < ascending.size()) {
+    __builtin_prefetch(&to_.sites_[static_cast<std::size_t>(ascending[place])]);
+  }
+}
+
+/// The rows above and below; the neighbours in the row most likely come with the pixel itself.
+void PoolBuilder::prefetch_neighbours(const std::vector<Pixel>& ascending,
+                                      std::size_t place) const {
+  if (place >= ascending.size()) {
+    return;
+  }
+  const Pixel p = ascending[place];
+  const Pixel nx = to_.terrain().nx;
+  for (const Pixel q : {p, std::max(p - nx, 0), std::min(p + nx, to_.terrain().size() - 1)}) {
+    __builtin_prefetch(&to_.sites_[static_cast<std::size_t>(q)]);
+  }
+}
+
+void PoolBuilder::add(Pixel p) {
+  const Height height = to_.height(p);
+  meeting_.clear();
+  for_each_neighbour(to_.terrain(), p, [&](Pixel q) {
+    const PoolId at = q == kOutside ? kOcean : home(q);
+    const PoolId top = at == kNoPool ? kNoPool : grown(at);
+    if (top != kNoPool && std::find(meeting_.begin(), meeting_.end(), top) == meeting_.end()) {
+      meeting_.push_back(top);
+    }
+  });
+  if (meeting_.empty()) {
+    home(p) = new_pool(height);
+  } else {
+    home(p) = meeting_.size() == 1 ? meeting_.front() : merge(height);
+  }
+}
+
+/// The pools in meeting_ become children of one pool whose lowest pixels are at `base`. With
+/// connected ties, a pool that itself begins at `base` is no child but a part of that one.
+PoolId PoolBuilder::merge(Height base) {
+  PoolId into = kNoPool;
+  if (ties_ == Ties::connected) {
+    const auto same = std::find_if(meeting_.begin(), meeting_.end(),
+                                   [&](PoolId id) { return pool(id).level == base; });
+    into = same == meeting_.end() ? kNoPool : *same;
+  }
+  if (into == kNoPool) {
+    into = new_pool(base);
+  }
+  for (const PoolId id : meeting_) {
+    if (id != into) {
+      join(into, id, base);
+    }
+  }
+  return into;
+}
+
+void PoolBuilder::join(PoolId into, PoolId id, Height base) {
+  Pool& joining = pool(id);
+  joining.parent = into;
+  joining.owner = into;
+  if (ties_ == Ties::connected && joining.level == base) {
+    pool(into).open_children += joining.open_children;
+    joining.area = kAbsorbed;
+  } else {
+    ++pool(into).open_children;
+  }
+}
+
+/// Pixels at the height of a merge belong to the merged pool, even those added before it.
+void PoolBuilder::settle_homes(Group group) {
+  if (group.size() > 1) {
+    for (const Pixel p : group) {
+      home(p) = grown(home(p));
+    }
+  }
+}
+
+/// Children of absorbed pools get the absorbing one as parent.
+void PoolBuilder::forget_absorbed() {
+  for (Pool& child : to_.pools_) {
+    while (child.parent != kNoPool && pool(child.parent).area == kAbsorbed) {
+      child.parent = pool(child.parent).parent;
+    }
+  }
+}
+
+/// Numbers pools in the order in which a walk along the rows meets them, so that pools of
+/// neighbouring pixels are neighbours in memory; absorbed pools, which no pixel belongs to, vanish.
+void PoolBuilder::number_by_place() {
+  std::vector<PoolId> number(to_.pools_.size(), kNoPool);
+  PoolId count = 0;
+  if (to_.terrain().edge == Edge::open) {
+    number[kOcean] = count++;
+  }
+  for (auto& site : to_.sites_) {
+    PoolId& renamed = number[static_cast<std::size_t>(site.home)];
+    if (renamed == kNoPool) {
+      renamed = count++;
+    }
+    site.home = renamed;
+  }
+  std::vector<Pool> pools;
+  reserve_large_pages(pools, static_cast<std::size_t>(count));
+  pools.resize(static_cast<std::size_t>(count));
+  for (std::size_t id = 0; id < number.size(); ++id) {
+    if (number[id] != kNoPool) {
+      Pool& renamed = pools[static_cast<std::size_t>(number[id])];
+      renamed = to_.pools_[id];
+      if (renamed.parent != kNoPool) {
+        renamed.parent = number[static_cast<std::size_t>(renamed.parent)];
+      }
+    }
+  }
+  to_.last_ = number[static_cast<std::size_t>(to_.last_)];
+  to_.pools_ = std::move(pools);
+}
+
+void PoolBuilder::make_arcs(const std::vector<Pixel>& ascending) {
+  for (const auto& site : to_.sites_) {
+    ++pool(site.home).next;
+  }
+  std::int32_t begin = 0;
+  for (Pool& each : to_.pools_) {
+    const std::int32_t size = each.next + 1;
+    each.next = begin;
+    begin += size;
+  }
+  const auto n_places = static_cast<std::size_t>(begin);
+  reserve_large_pages(to_.arcs_, n_places);
+  to_.arcs_.resize(n_places);
+  to_.is_rim_.resize(n_places);
+  fill_arcs(ascending);
+  begin = 0;
+  for (Pool& each : to_.pools_) {
+    const auto rim = static_cast<std::size_t>(each.next);
+    to_.arcs_[rim] = each.parent == kNoPool ? kNoRim : pool(each.parent).level;
+    to_.is_rim_[rim] = true;
+    each.next = std::exchange(begin, each.next + 1);
+  }
+}
+
+/// Puts all heights in their places and finds the lowest pixels of all pools but leaves; with
+/// ordered ties that is always one.
+void PoolBuilder::fill_arcs(const std::vector<Pixel>& ascending) {
+  std::unordered_map<PoolId, std::vector<Pixel>> several;
+  for (std::size_t i = 0; i < ascending.size(); ++i) {
+    go_on_or_throw(i);
+    prefetch_site(ascending, i + kNear);
+    const Pixel p = ascending[i];
+    const auto& site = to_.sites_[static_cast<std::size_t>(p)];
+    Pool& at = pool(site.home);
+    to_.arcs_[static_cast<std::size_t>(at.next++)] = site.height;
+    if (at.open_children == 0 || at.level != site.height) {
+      continue;
+    }
+    if (at.area == 0) {
+      at.area = 1;
+      at.remainder = p;
+    } else if (ties_ == Ties::connected) {
+      several[site.home].push_back(p);
+    }
+  }
+  for (const auto& [id, more] : several) {
+    std::int32_t& lowest = pool(id).remainder;
+    const Pixel first = std::exchange(lowest, ~static_cast<std::int32_t>(to_.saddles_.size()));
+    to_.saddles_.push_back(static_cast<Pixel>(more.size()) + 1);
+    to_.saddles_.push_back(first);
+    to_.saddles_.insert(to_.saddles_.end(), more.begin(), more.end());
+  }
+}
+
+/// Leaves hold liquid from the start; all other pools wait for their children.
+void PoolBuilder::start_leaves() {
+  const PoolId first = to_.terrain().edge == Edge::open ? kOcean + 1 : 0;
+  const auto count = static_cast<PoolId>(to_.pools_.size());
+  for (PoolId id = 0; id < count; ++id) {
+    Pool& each = pool(id);
+    each.owner = id;
+    if (!each.active()) {
+      each.level = kDry;
+      each.area = 0;
+    }
+  }
+  for (PoolId id = first; id < count; ++id) {
+    if (pool(id).active() && pool(id).area == 0) {  // an area: absorbed, or active since just now
+      to_.take_in(id);
+    }
+  }
+}
+
+}  // namespace tabor::deposition

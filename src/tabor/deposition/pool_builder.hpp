@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "tabor/deposition/pools.hpp"
+
+namespace tabor::deposition {
+
+/// All pixels, ascending in (height, pixel number). Radix sort: 16 bytes per pixel for a while.
+std::vector<Pixel> ascending_pixels(const Terrain& terrain);
+
+/// Grows all pools at once: pixels are added from the lowest to the highest, and pools that meet
+/// at a pixel become children of a new one (the merge tree of the sublevel sets, by union-find).
+class PoolBuilder {
+ public:
+  PoolBuilder(Pools& result, Ties ties) : to_(result), ties_(ties) {}
+  void build();
+
+ private:
+  using Group = std::span<const Pixel>;  ///< pixels of equal height
+
+  PoolId grown(PoolId id);  ///< what `id` has merged into so far
+  void add(Pixel p);
+  void prefetch_site(const std::vector<Pixel>& ascending, std::size_t place) const;
+  void prefetch_neighbours(const std::vector<Pixel>& ascending, std::size_t place) const;
+  PoolId new_pool(Height base);
+  PoolId merge(Height base);
+  void join(PoolId into, PoolId id, Height base);
+  void settle_homes(Group group);
+  void make_arcs(const std::vector<Pixel>& ascending);
+  void fill_arcs(const std::vector<Pixel>& ascending);
+  void forget_absorbed();
+  void number_by_place();
+  void start_leaves();
+  Pool& pool(PoolId id) { return to_.pools_[static_cast<std::size_t>(id)]; }
+  PoolId& home(Pixel p) { return to_.sites_[static_cast<std::size_t>(p)].home; }
+
+  Pools& to_;
+  Ties ties_;
+  std::vector<PoolId> meeting_;  ///< pools around the pixel being added
+};
+
+}  // namespace tabor::deposition

@@ -1,0 +1,140 @@
+#include "tabor/deposition/pools.hpp"
+
+#include <algorithm>
+
+#include "tabor/core/large_pages.hpp"
+#include "tabor/deposition/pool_builder.hpp"
+
+namespace tabor::deposition {
+
+Pools::Pools(const Terrain& terrain, Ties ties) : terrain_(&terrain), ties_(ties) {
+  PoolBuilder(*this, ties).build();
+}
+
+void Pools::shorten(PoolId id, PoolId root) {
+  while (id != root) {
+    const PoolId up = step_up(id);
+    pools_[static_cast<std::size_t>(id)].owner = root;
+    id = up;
+  }
+}
+
+Volume Pools::pour(PoolId id, Volume carried) {
+  Pool& pool = pools_[static_cast<std::size_t>(id)];
+  while (pool.stop != kNoRim) {
+    const Volume space = (Volume{pool.stop} - pool.level) * pool.area - pool.remainder;
+    if (carried < space) {
+      const Volume total = pool.remainder + carried;
+      const Volume rise = total / pool.area;
+      pool.level += static_cast<Height>(rise);
+      pool.remainder = static_cast<std::int32_t>(total - rise * pool.area);
+      return 0;
+    }
+    carried -= space;
+    pool.level = pool.stop;
+    pool.remainder = 0;
+    take_in(id);
+    if (pool.full() || carried == 0) {
+      return carried;
+    }
+  }
+  beyond_ += carried;
+  return 0;
+}
+
+Volume Pools::raise(PoolId id, Height rise) {
+  Pool& pool = pools_[static_cast<std::size_t>(id)];
+  if (pool.stop == kNoRim) {
+    beyond_ += Volume{rise} * pool.area;
+    return Volume{rise} * pool.area;
+  }
+  const Volume climb = std::min<Volume>(rise, Volume{pool.stop} - pool.level);
+  const Volume volume = climb * pool.area;
+  pool.level = static_cast<Height>(pool.level + climb);
+  if (pool.level == pool.stop) {
+    take_in(id);
+  }
+  return volume;
+}
+
+/// The pool `id` has risen to its stop: takes in the pixels there, or else is full and, if it is
+/// the last of its siblings to be so, their parent becomes active (several times where arcs have no
+/// height, as they may with ordered ties).
+void Pools::take_in(PoolId id) {
+  while (true) {
+    Pool& pool = pools_[static_cast<std::size_t>(id)];
+    auto next = static_cast<std::size_t>(pool.next);
+    while (!is_rim_[next] && arcs_[next] == pool.level) {
+      ++next;
+    }
+    pool.area += static_cast<std::int32_t>(next) - pool.next;
+    pool.next = static_cast<std::int32_t>(next);
+    pool.stop = arcs_[next];
+    if (!pool.full()) {
+      return;
+    }
+    Pool& parent = pools_[static_cast<std::size_t>(pool.parent)];
+    pool.next = std::max(parent.remainder, kSeveral);
+    parent.area += pool.area;
+    pool.remember_overflow({});
+    if (--parent.open_children > 0) {
+      return;
+    }
+    parent.level = pool.level;
+    parent.remainder = 0;
+    id = pool.parent;
+  }
+}
+
+std::span<const Pixel> Pools::bottom(PoolId id) const {
+  const std::int32_t& lowest = (*this)[id].remainder;
+  if (lowest >= 0) {
+    return {&lowest, 1};
+  }
+  const std::int32_t place = ~lowest;
+  const Pixel* const listed = &saddles_[static_cast<std::size_t>(place)];
+  return {listed + 1, static_cast<std::size_t>(*listed)};
+}
+
+std::vector<PoolId> Pools::renumber() {
+  const auto n_before = static_cast<PoolId>(pools_.size());
+  std::vector<PoolId> renamed(pools_.size(), kNoPool);
+  std::vector<PoolId> kept;
+  for (PoolId id = 0; id < n_before; ++id) {
+    if (owner(id) == id) {
+      renamed[static_cast<std::size_t>(id)] = static_cast<PoolId>(kept.size());
+      kept.push_back(id);
+    }
+  }
+  const auto new_number = [&](PoolId id) { return renamed[static_cast<std::size_t>(owner(id))]; };
+  std::vector<Pool> pools;
+  reserve_large_pages(pools, kept.size());
+  for (const PoolId id : kept) {
+    Pool pool = (*this)[id];
+    pool.owner = new_number(id);
+    pool.parent = pool.parent == kNoPool ? kNoPool : new_number(pool.parent);
+    if (pool.full()) {
+      pool.remember_overflow({new_number(pool.overflow().end), pool.overflow().bound});
+    }
+    pools.push_back(pool);
+  }
+  for (PoolId id = 0; id < n_before; ++id) {
+    renamed[static_cast<std::size_t>(id)] = new_number(id);
+  }
+  for (Site& site : sites_) {
+    site.home = renamed[static_cast<std::size_t>(site.home)];
+  }
+  last_ = renamed[static_cast<std::size_t>(last_)];
+  pools_ = std::move(pools);
+  return renamed;
+}
+
+bool Pools::flooded() const {
+  if (terrain_->edge == Edge::open) {
+    return false;
+  }
+  const Pool& all = (*this)[last_];
+  return all.active() && all.stop == kNoRim;
+}
+
+}  // namespace tabor::deposition

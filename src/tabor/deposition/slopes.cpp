@@ -1,0 +1,276 @@
+#include "tabor/deposition/slopes.hpp"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "tabor/core/large_pages.hpp"
+#include "tabor/core/watch.hpp"
+
+namespace tabor::deposition {
+namespace {
+
+constexpr Slopes::Target kUnknown = std::numeric_limits<Slopes::Target>::min();
+
+/// Which pool can become part of which: numbers in the order of a walk through the tree of pools,
+/// in which all descendants of a pool follow it directly.
+class Descent {
+ public:
+  explicit Descent(const Pools& pools) : first_(pools.count()), end_(pools.count()) {
+    const auto n = static_cast<PoolId>(pools.count());
+    std::vector<PoolId> child(pools.count(), kNoPool);
+    std::vector<PoolId> sibling(pools.count(), kNoPool);
+    std::vector<PoolId> open;
+    for (PoolId id = 0; id < n; ++id) {
+      const PoolId parent = pools[id].parent;
+      PoolId& head = parent == kNoPool ? open.emplace_back(id) : child[place(parent)];
+      if (parent != kNoPool) {
+        sibling[place(id)] = head;
+        head = id;
+      }
+    }
+    walk(child, sibling, open);
+  }
+
+  bool within(PoolId inner, PoolId outer) const {
+    return first_[place(outer)] <= first_[place(inner)] &&
+           first_[place(inner)] < end_[place(outer)];
+  }
+
+ private:
+  static std::size_t place(PoolId id) { return static_cast<std::size_t>(id); }
+
+  void walk(const std::vector<PoolId>& child, const std::vector<PoolId>& sibling,
+            std::vector<PoolId>& open) {
+    std::int32_t count = 0;
+    while (!open.empty()) {
+      const PoolId id = open.back();
+      if (id < 0) {  // the complement: all descendants have been numbered
+        end_[place(~id)] = count;
+        open.pop_back();
+        continue;
+      }
+      go_on_or_throw(static_cast<std::size_t>(count));
+      first_[place(id)] = count++;
+      open.back() = ~id;
+      for (PoolId next = child[place(id)]; next != kNoPool; next = sibling[place(next)]) {
+        open.push_back(next);
+      }
+    }
+  }
+
+  std::vector<std::int32_t> first_;
+  std::vector<std::int32_t> end_;
+};
+
+}  // namespace
+
+/// Fills in Slopes: follows every pixel downhill to what is known, a pool or a fork.
+class SlopeFinder {
+ public:
+  SlopeFinder(Slopes& result, const Pools& pools) : to_(result), pools_(pools), descent_(pools) {}
+
+  void find() {
+    const Pixel n = pools_.terrain().size();
+    reserve_large_pages(to_.leads_to_, static_cast<std::size_t>(n));
+    to_.leads_to_.assign(static_cast<std::size_t>(n), kUnknown);
+    for (Pixel start = 0; start < n; ++start) {
+      go_on_or_throw(static_cast<std::size_t>(start));
+      path_.clear();
+      Slopes::Target target = known(start);
+      for (Pixel p = start; target == kUnknown; target = p == kOutside ? kOcean : known(p)) {
+        p = pass(p);
+      }
+      for (const Pixel p : path_) {
+        known(p) = target;
+      }
+    }
+    for (std::size_t number = 0; number < to_.forks_.size(); ++number) {
+      const auto branches = to_.branches(~static_cast<Slopes::Target>(number));
+      for (Slopes::Branch& branch : branches) {
+        if (branches.size() > 1) {
+          branch.leads_to = known(branch.leads_to);  // so far it named the pixel
+        }
+      }
+    }
+    move_to_large_pages(to_.forks_);
+    move_to_large_pages(to_.branches_);
+  }
+
+ private:
+  Slopes::Target& known(Pixel p) { return to_.leads_to_[static_cast<std::size_t>(p)]; }
+
+  Height height(Pixel p) const { return p == kOutside ? kDry : pools_.height(p); }
+  PoolId home(Pixel p) const { return p == kOutside ? kOcean : pools_.home(p); }
+
+  /// Puts p on the path and returns the next pixel, or makes p known and returns it.
+  Pixel pass(Pixel p) {
+    lower_.clear();
+    add_lower_neighbours(p);
+    if (!lower_.empty()) {
+      path_.push_back(p);
+      return lowest_or_fork(p);
+    }
+    const PoolId pool = pools_.home(p);
+    const Height here = pools_.height(p);
+    if (pools_[pool].active() && pools_[pool].level == here) {
+      known(p) = pool;
+      return p;
+    }
+    if (!pools_[pool].active() && pools_.height(pools_.bottom(pool).front()) == here) {
+      lower_ = {p};
+      known(p) = add_fork();
+      return p;
+    }
+    add_plateau(p);
+    return lowest_or_fork(p);
+  }
+
+  void add_lower_neighbours(Pixel p) {
+    for_each_neighbour(pools_.terrain(), p, [&](Pixel q) {
+      if (height(q) < pools_.height(p)) {
+        lower_.push_back(q);
+      }
+    });
+  }
+
+  /// A dry plateau on a slope: all its pixels without a lower neighbour of their own go the same
+  /// way, and all lower neighbours of any of its pixels are theirs.
+  void add_plateau(Pixel p) {
+    std::vector<Pixel> plateau{p};
+    std::unordered_set<Pixel> seen{p};
+    for (std::size_t i = 0; i < plateau.size(); ++i) {
+      const std::size_t n_before = lower_.size();
+      add_lower_neighbours(plateau[i]);
+      if (lower_.size() == n_before) {
+        path_.push_back(plateau[i]);
+      }
+      for_each_neighbour(pools_.terrain(), plateau[i], [&](Pixel q) {
+        if (height(q) == pools_.height(p) && seen.insert(q).second) {
+          plateau.push_back(q);
+        }
+      });
+    }
+  }
+
+  /// The lowest of the lower neighbours of p if they are nested; else p, which becomes a fork.
+  Pixel lowest_or_fork(Pixel p) {
+    std::sort(lower_.begin(), lower_.end(), [&](Pixel a, Pixel b) {
+      return height(a) < height(b) || (height(a) == height(b) && a < b);
+    });
+    bool nested = true;
+    for (std::size_t i = 1; i < lower_.size() && nested; ++i) {
+      nested = is_nested(lower_[i - 1], lower_[i]);
+    }
+    if (nested || lower_.front() == kOutside) {
+      return lower_.front();
+    }
+    std::sort(lower_.begin(), lower_.end());
+    lower_.erase(std::unique(lower_.begin(), lower_.end()), lower_.end());
+    known(p) = add_fork();
+    return p;
+  }
+
+  /// Of two pixels, ascending: true if water that reaches b covers a too. Not if b is one of
+  /// several equal pixels of a saddle: full up to there, the pool of a may be as high as b, still
+  /// dry.
+  bool is_nested(Pixel a, Pixel b) const {
+    const PoolId inner = home(a);
+    const PoolId outer = home(b);
+    if (inner == outer) {
+      return true;
+    }
+    if (!descent_.within(inner, outer)) {
+      return false;
+    }
+    const auto bottom = pools_.bottom(outer);
+    return bottom.size() == 1 || height(b) > height(bottom.front());
+  }
+
+  Slopes::Branch branch(Pixel q) const { return {height(q), home(q), q}; }
+
+  Slopes::Target add_fork() {
+    Slopes::Fork& fork = to_.forks_.emplace_back();
+    if (lower_.size() == 2) {
+      fork.two = {branch(lower_[0]), branch(lower_[1])};
+    } else {
+      fork.list(to_.branches_.size(), lower_.size());
+      for (const Pixel q : lower_) {
+        to_.branches_.push_back(branch(q));
+      }
+    }
+    return ~static_cast<Slopes::Target>(to_.forks_.size() - 1);
+  }
+
+  Slopes& to_;
+  const Pools& pools_;
+  Descent descent_;
+  std::vector<Pixel> path_;
+  std::vector<Pixel> lower_;
+};
+
+namespace {
+
+/// The pool that covers all branches of a fork, or kNoPool.
+PoolId pool_over_all(std::span<const Slopes::Branch> branches, Pools& pools) {
+  const PoolId over_first = pools.owner(branches.front().home);
+  for (const Slopes::Branch& branch : branches) {
+    const PoolId pool = pools.owner(branch.home);
+    if (pool != over_first || pools[pool].level < branch.height) {
+      return kNoPool;
+    }
+  }
+  return over_first;
+}
+
+}  // namespace
+
+Slopes::Slopes(const Pools& pools) { SlopeFinder(*this, pools).find(); }
+
+void Slopes::settle(Pools& pools, const std::vector<PoolId>& renamed) {
+  const auto rename = [&](PoolId& pool) { pool = renamed[static_cast<std::size_t>(pool)]; };
+  for (std::size_t number = 0; number < forks_.size(); ++number) {
+    rename(forks_[number].way.end);
+    for (Branch& branch : branches(~static_cast<Target>(number))) {
+      rename(branch.home);
+    }
+  }
+  go_on_or_throw();
+  const std::vector<Target> now = renumber_forks(pools);
+  go_on_or_throw();
+  const auto settle = [&](Target& target) {
+    target = is_pool(target) ? renamed[static_cast<std::size_t>(target)] : now[place_of(target)];
+  };
+  for (Target& target : leads_to_) {
+    settle(target);
+  }
+  for (std::size_t number = 0; number < forks_.size(); ++number) {
+    const auto all = branches(~static_cast<Target>(number));
+    for (Branch& branch : all) {
+      if (all.size() > 1) {  // a single one names a pixel
+        settle(branch.leads_to);
+      }
+    }
+  }
+}
+
+/// Keeps the forks that still offer a choice; returns what each old number has become.
+std::vector<Slopes::Target> Slopes::renumber_forks(Pools& pools) {
+  std::vector<Target> now(forks_.size());
+  std::vector<std::size_t> kept;
+  for (std::size_t number = 0; number < forks_.size(); ++number) {
+    const PoolId pool = pool_over_all(branches(~static_cast<Target>(number)), pools);
+    now[number] = pool == kNoPool ? ~static_cast<Target>(kept.size()) : pool;
+    if (pool == kNoPool) {
+      kept.push_back(number);
+    }
+  }
+  std::vector<Fork> forks;
+  reserve_large_pages(forks, kept.size());
+  for (const std::size_t number : kept) {
+    forks.push_back(forks_[number]);
+  }
+  forks_ = std::move(forks);
+  return now;
+}
+
+}  // namespace tabor::deposition

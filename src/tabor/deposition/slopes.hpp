@@ -1,0 +1,87 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "tabor/deposition/pools.hpp"
+
+namespace tabor::deposition {
+
+/// Where the dry surface leads a droplet, found once and true for any amount of liquid.
+///
+/// Most pixels have no choice. Of two lower neighbours of a dry pixel let the higher one, when the
+/// water reaches it, lie in a pool that holds the lower one too: then the droplet goes to the lower
+/// one while that is dry, and into the same pool by either when it is wet. A pixel whose lower
+/// neighbours are nested like this is as good as the lowest of them, and so on downhill, until a
+/// lowest place (a leaf pool) or a fork: a place whose lower neighbours can fill independently, so
+/// that the levels of the day decide. About one pixel in nine of a rough surface is a fork.
+///
+/// If a pool covers any place on such a way it covers all below; hence a start in the water ends in
+/// that pool, or at a fork whose branches are all in it.
+class Slopes {
+ public:
+  using Target = std::int32_t;  ///< a PoolId, or the complement of the number of a fork
+
+  /// A lower neighbour of a fork.
+  struct Branch {
+    Height height = 0;
+    PoolId home = kNoPool;  ///< the smallest pool that can cover it
+    Target leads_to = 0;    ///< while it is dry
+  };
+
+  /// A fork has two branches or more, ascending in pixel number; or one, if it is a pixel without
+  /// lower neighbours on a saddle of several equal pixels: that pixel, with the pool above as home.
+  /// Two branches, the common number, lie in the fork: half a cache line.
+  struct alignas(32) Fork {
+    Way way;  ///< of the last droplet
+    std::array<Branch, 2> two;
+
+    bool has_two() const { return two[0].home != kNoPool; }
+    std::size_t first_listed() const { return static_cast<std::size_t>(two[0].height); }
+    std::size_t n_listed() const { return static_cast<std::size_t>(two[0].leads_to); }
+    void list(std::size_t first, std::size_t n) {
+      two[0] = {static_cast<Height>(first), kNoPool, static_cast<Target>(n)};
+    }
+  };
+
+  static bool is_pool(Target target) { return target >= 0; }
+
+  /// For pools with connected ties that hold no liquid yet.
+  explicit Slopes(const Pools& pools);
+
+  Target from(Pixel p) const { return leads_to_[static_cast<std::size_t>(p)]; }
+  std::span<Branch> branches(Target fork) {
+    Fork& at = forks_[place_of(fork)];
+    return at.has_two() ? std::span<Branch>(at.two)
+                        : std::span(branches_).subspan(at.first_listed(), at.n_listed());
+  }
+
+  /// The last droplet's way from a fork, or from a full pool.
+  Way way_from(const Pools& pools, Target at) const {
+    return is_pool(at) ? pools[at].overflow() : forks_[place_of(at)].way;
+  }
+  void remember(Target fork, const Way& way) { forks_[place_of(fork)].way = way; }
+
+  /// Follows Pools::renumber(), and forgets choices that the water has taken away: forks with all
+  /// branches in one pool give way to that pool.
+  void settle(Pools& pools, const std::vector<PoolId>& renamed);
+
+  void prefetch(Pixel p) const { __builtin_prefetch(&leads_to_[static_cast<std::size_t>(p)]); }
+  void prefetch_fork(Target fork) const { __builtin_prefetch(&forks_[place_of(fork)]); }
+
+ private:
+  friend class SlopeFinder;
+
+  static std::size_t place_of(Target fork) {
+    const Target complement = ~fork;
+    return static_cast<std::size_t>(complement);
+  }
+  std::vector<Target> renumber_forks(Pools& pools);
+
+  std::vector<Target> leads_to_;  ///< per pixel
+  std::vector<Fork> forks_;
+  std::vector<Branch> branches_;  ///< of the forks that have not two
+};
+
+}  // namespace tabor::deposition

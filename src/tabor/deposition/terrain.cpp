@@ -1,0 +1,51 @@
+#include "tabor/deposition/terrain.hpp"
+
+#include <cmath>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/watch.hpp"
+
+namespace tabor::deposition {
+namespace {
+
+constexpr double kPicometre = 1e-12;                 // [m]
+constexpr double kFinestQuantum = kPicometre / 256;  // far below any instrument's noise [m]
+constexpr double kUsableQuanta = 4294967292.0;       // 2^32 without kDry, kNoRim and rounding
+
+constexpr Index kMostPixels = (1 << 30) - 2;  // places of pixels and of rims, one a pool, fit Pixel
+
+double quantum_for(double range) {
+  double quantum = kFinestQuantum;
+  while (range > kUsableQuanta * quantum) {
+    quantum *= 2;
+  }
+  return quantum;
+}
+
+}  // namespace
+
+Terrain quantise(const Field& height, Edge edge) {
+  if (height.size() == 0 || height.size() > kMostPixels) {
+    throw InputError("surface to lubricate", std::to_string(height.size()) + " pixels",
+                     "1 to " + std::to_string(kMostPixels), "");
+  }
+  if (!height.allFinite()) {
+    throw InputError("surface to lubricate", "missing or infinite heights",
+                     "a height at every pixel", "fill the holes first (--fill harmonic)");
+  }
+  const double lowest = height.minCoeff();
+  Terrain terrain;
+  terrain.nx = static_cast<Pixel>(height.cols());
+  terrain.ny = static_cast<Pixel>(height.rows());
+  terrain.edge = edge;
+  terrain.quantum = quantum_for(height.maxCoeff() - lowest);
+  terrain.height.resize(static_cast<std::size_t>(height.size()));
+  for (std::size_t p = 0; p < terrain.height.size(); ++p) {
+    go_on_or_throw(p);
+    const double quanta = std::nearbyint((height.data()[p] - lowest) / terrain.quantum);
+    terrain.height[p] = static_cast<Height>(static_cast<std::int64_t>(quanta) + kDry + 1);
+  }
+  return terrain;
+}
+
+}  // namespace tabor::deposition

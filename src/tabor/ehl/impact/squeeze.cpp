@@ -1,0 +1,297 @@
+#include "tabor/ehl/impact/squeeze.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "tabor/core/checks.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/units.hpp"
+#include "tabor/core/watch.hpp"
+
+namespace tabor::ehl {
+
+namespace {
+
+using std::numbers::pi;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
+constexpr int kIntervals = 200;          // of the integral of the pressure
+constexpr int kBisections = 55;          // of the angle of the exit
+constexpr double kFilmAccuracy = 1e-12;  // relative
+constexpr int kStepsPerLayer = 2000;
+constexpr double kLongest = 5;  // times the layer over the speed until we give up waiting
+
+/// Integrals from -pi/2 of cos^2, sin cos^3 and cos^4.
+struct Integrals {
+  double sine, cosine, square, mixed, fourth;
+
+  explicit Integrals(double angle) : sine(std::sin(angle)), cosine(std::cos(angle)) {
+    const double from = angle + pi / 2;
+    const double sine_of_double = 2 * sine * cosine;
+    const double cosine_of_double = 1 - 2 * sine * sine;
+    square = from / 2 + sine_of_double / 4;
+    mixed = -cosine * cosine * cosine * cosine / 4;
+    fourth = 3 * from / 8 + sine_of_double / 4 + sine_of_double * cosine_of_double / 16;
+  }
+};
+
+/// The reduced pressure q over the angle: unit * (a I2 + b I13 + c I4), zero with its slope at the
+/// exit.
+class ReducedPressure {
+ public:
+  ReducedPressure(const SqueezeProblem& problem, double film, double film_speed)
+      : length_(std::sqrt(2 * problem.radius * film)),
+        slide_(6 * problem.sliding_speed * film),
+        squeeze_(12 * film_speed * length_),
+        unit_(problem.viscosity * length_ / (film * film * film)) {
+    exit_ = find_exit();
+    const double cosine = std::cos(exit_);
+    // At pi/2 (no sliding) the constant vanishes.
+    constant_ = slide_ == 0 ? 0 : -slide_ / (cosine * cosine) - squeeze_ * std::tan(exit_);
+  }
+
+  double exit() const { return exit_; }
+  double length() const { return length_; }
+
+  double at(const Integrals& integrals) const {
+    return unit_ *
+           (slide_ * integrals.square + squeeze_ * integrals.mixed + constant_ * integrals.fourth);
+  }
+
+ private:
+  /// Where the film ends. Without sliding: nowhere while it closes, at once while it opens.
+  double find_exit() const {
+    if (slide_ == 0) return squeeze_ < 0 ? pi / 2 : -pi / 2;
+    double inside = -pi / 2;
+    double outside = pi / 2;
+    for (int i = 0; i < kBisections; ++i) {
+      const double middle = (inside + outside) / 2;
+      (end_value(middle) > 0 ? inside : outside) = middle;
+    }
+    return inside;
+  }
+
+  /// q at an exit there, times cos^2: positive before the right place, negative behind it.
+  double end_value(double angle) const {
+    const Integrals integrals(angle);
+    const double cosine = integrals.cosine;
+    return cosine * cosine * (slide_ * integrals.square + squeeze_ * integrals.mixed) -
+           (slide_ + squeeze_ * integrals.sine * cosine) * integrals.fourth;
+  }
+
+  double length_, slide_, squeeze_, unit_;
+  double exit_ = 0, constant_ = 0;
+};
+
+void check(const SqueezeProblem& problem) {
+  check_positive("mass of the roller", problem.mass);
+  check_positive("effective radius", problem.radius);
+  check_positive("spring", problem.spring);
+  check_positive("speed of the roller", problem.speed);
+  check_positive("viscosity", problem.viscosity);
+  check_positive("layer", problem.layer);
+  if (!(problem.sliding_speed >= 0) || !(problem.pressure_coefficient >= 0)) {
+    throw InputError("sliding speed and pressure-viscosity coefficient", "a negative one",
+                     "zero or more", "");
+  }
+}
+
+/// Time marching: second-order differences for the film, the trapezoidal rule for the roller.
+class Roller {
+ public:
+  explicit Roller(const SqueezeProblem& problem) : problem_(problem) {
+    step_ = problem.time_step > 0 ? problem.time_step
+                                  : problem.layer / (kStepsPerLayer * problem.speed);
+  }
+
+  SqueezeInstant start() const {
+    SqueezeInstant at;
+    at.film = problem_.layer;
+    at.film_speed = at.roller_speed = -problem_.speed;
+    at.force = squeeze_slide_load(problem_, at.film, at.film_speed);
+    at.roller = at.film - at.force / problem_.spring;
+    return at;
+  }
+
+  /// The instant after `now`; `before` the one before it, or null.
+  SqueezeInstant after(const SqueezeInstant& now, const SqueezeInstant* before) const {
+    const auto value = [&](double film) { return excess(film, now, before); };
+    SqueezeInstant next = at_film(root(value, now), now, before);
+    next.time = now.time + step_;
+    return next;
+  }
+
+ private:
+  SqueezeInstant at_film(double film, const SqueezeInstant& now,
+                         const SqueezeInstant* before) const {
+    SqueezeInstant next;
+    next.film = film;
+    next.film_speed =
+        before ? (3 * film - 4 * now.film + before->film) / (2 * step_) : (film - now.film) / step_;
+    next.force = squeeze_slide_load(problem_, film, next.film_speed);
+    const double acceleration = (now.force + next.force) / (2 * problem_.mass) - problem_.gravity;
+    next.roller_speed = now.roller_speed + step_ * acceleration;
+    next.roller = now.roller + step_ * (now.roller_speed + next.roller_speed) / 2;
+    return next;
+  }
+
+  /// h0 - (hr + W/k_e): grows with the film, -infinity where the film is too thin for any load.
+  double excess(double film, const SqueezeInstant& now, const SqueezeInstant* before) const {
+    if (film <= 0) return -kInfinity;
+    const SqueezeInstant next = at_film(film, now, before);
+    if (!std::isfinite(next.force)) return -kInfinity;
+    return film - next.roller - next.force / problem_.spring;
+  }
+
+  /// The film at which a growing function is zero: Illinois' variant of the false position,
+  /// bisection where the film is too thin for a finite value.
+  template <typename Value>
+  double root(const Value& value, const SqueezeInstant& now) const {
+    double reach = std::max(std::abs(now.film_speed) * step_, 1e-3 * now.film);
+    double high = now.film;
+    while (value(high) < 0) high += reach *= 2;
+    double low = std::max(0.0, high - 2 * reach);
+    while (value(low) > 0) low = std::max(0.0, low - (reach *= 2));
+    double at_high = value(high);
+    double at_low = value(low);
+    while (high - low > kFilmAccuracy * high) {
+      const bool is_finite = std::isfinite(at_low);
+      const double middle =
+          is_finite ? (low * at_high - high * at_low) / (at_high - at_low) : (low + high) / 2;
+      if (!(middle > low && middle < high)) return middle;
+      const double at_middle = value(middle);
+      if (std::abs(at_middle) <= kFilmAccuracy * high) return middle;
+      if (at_middle < 0) {
+        low = middle;
+        at_low = at_middle;
+        at_high /= 2;
+      } else {
+        high = middle;
+        at_high = at_middle;
+        at_low /= 2;
+      }
+    }
+    return high;
+  }
+
+  const SqueezeProblem& problem_;
+  double step_ = 0;
+};
+
+/// Where a straight line between two instants passes zero.
+double zero_between(double t0, double v0, double t1, double v1) {
+  return t0 + (t1 - t0) * v0 / (v0 - v1);
+}
+
+/// Adds instants until the gap opens again.
+void follow(const SqueezeProblem& problem, const Roller& roller, Watch& watch,
+            std::vector<SqueezeInstant>& history) {
+  const double longest = kLongest * problem.layer / problem.speed;
+  while (history.back().time < longest) {
+    const std::size_t n = history.size();
+    const SqueezeInstant next = roller.after(history[n - 1], n > 1 ? &history[n - 2] : nullptr);
+    history.push_back(next);
+    watch.tell(next.time / longest);
+    if (next.film_speed > 0 && next.roller_speed > 0) return;
+  }
+}
+
+void measure(SqueezeResult& result) {
+  const std::vector<SqueezeInstant>& history = result.history;
+  const auto strongest = std::max_element(
+      history.begin(), history.end(),
+      [](const SqueezeInstant& a, const SqueezeInstant& b) { return a.force < b.force; });
+  const auto thinnest = std::min_element(
+      history.begin(), history.end(),
+      [](const SqueezeInstant& a, const SqueezeInstant& b) { return a.film < b.film; });
+  result.max_force = strongest->force;
+  result.time_max_force = strongest->time;
+  result.min_film = thinnest->film;
+  result.time_min_film = result.turning_time = kNothing;
+  for (std::size_t i = 1; i < history.size(); ++i) {
+    const SqueezeInstant& a = history[i - 1];
+    const SqueezeInstant& b = history[i];
+    if (a.film_speed < 0 && b.film_speed >= 0) {
+      result.time_min_film = zero_between(a.time, a.film_speed, b.time, b.film_speed);
+    }
+    if (a.roller_speed < 0 && b.roller_speed >= 0) {
+      result.turning_time = zero_between(a.time, a.roller_speed, b.time, b.roller_speed);
+      result.gap_closing_at_turning = b.film_speed < 0;
+    }
+  }
+  result.lag = result.time_min_film - result.time_max_force;
+}
+
+}  // namespace
+
+double squeeze_slide_load(const SqueezeProblem& problem, double film, double film_speed) {
+  const ReducedPressure reduced(problem, film, film_speed);
+  const double width = (reduced.exit() + pi / 2) / kIntervals;
+  const double alpha = problem.pressure_coefficient;
+  double sum = 0;
+  for (int i = 1; i < kIntervals; ++i) {  // Simpson's rule; p / cos^2 vanishes at both ends
+    const Integrals integrals(-pi / 2 + i * width);
+    const double q = reduced.at(integrals);
+    if (alpha * q >= 1) return kInfinity;
+    const double pressure = alpha > 0 ? -std::log1p(-alpha * q) / alpha : q;
+    sum += (i % 2 == 1 ? 4 : 2) * pressure / (integrals.cosine * integrals.cosine);
+  }
+  return width / 3 * reduced.length() * sum;
+}
+
+SqueezeResult solve_squeeze(const SqueezeProblem& problem, const Observer& observer) {
+  check(problem);
+  const Roller roller(problem);
+  SqueezeResult result;
+  result.history.push_back(roller.start());
+  const auto work = [&](Watch& watch) { follow(problem, roller, watch, result.history); };
+  const bool stopped = !finishes(observer, "squeeze", work);
+  measure(result);
+  result.convergence = {.certificate = kFilmAccuracy, .tolerance = kFilmAccuracy};
+  result.convergence.status = std::isfinite(result.max_force) ? Status::converged : Status::stalled;
+  if (stopped) {
+    result.convergence.status = Status::stopped;
+  } else if (std::isnan(result.turning_time)) {
+    result.reason = fmt::format("the roller had not turned after {}",
+                                format_si(result.history.back().time, "s"));
+  }
+  return result;
+}
+
+double LinearSqueeze::angular_frequency() const {
+  return std::sqrt(stiffness / mass - damping * damping / (4 * mass * mass));
+}
+
+double LinearSqueeze::phase() const {
+  // tan(phi) = c w / (k - c^2/(2 m)): the quadrant matters when the damping is strong.
+  return std::atan2(damping * angular_frequency(), stiffness - damping * damping / (2 * mass));
+}
+
+double LinearSqueeze::displacement(double time) const {
+  const double w = angular_frequency();
+  return speed / w * std::exp(-damping * time / (2 * mass)) * std::sin(w * time);
+}
+
+double LinearSqueeze::force(double time) const {
+  const double w = angular_frequency();
+  const double decay = damping / (2 * mass);
+  const double x_speed =
+      speed / w * std::exp(-decay * time) * (w * std::cos(w * time) - decay * std::sin(w * time));
+  return stiffness * displacement(time) + damping * x_speed;
+}
+
+double LinearSqueeze::time_max_displacement() const {
+  const double w = angular_frequency();
+  return std::atan2(w, damping / (2 * mass)) / w;
+}
+
+double LinearSqueeze::time_max_force() const {
+  return std::max(0.0, time_max_displacement() - phase() / angular_frequency());
+}
+
+}  // namespace tabor::ehl

@@ -1,0 +1,119 @@
+#include <algorithm>
+#include <cmath>
+
+#include "tabor/ehl/line/film.hpp"
+
+// What solids that touch add to the film: P >= 0, h >= h_b, P (h - h_b) = 0. All of it is solved
+// with the film, by an interior point method: P (h - h_b) = mu at every node, with a mu that falls
+// when Newton's method has come near, and steps that leave P and h - h_b above zero. A set of
+// touching nodes with their film held at h_b is no way: the liquid before a node that has just been
+// held cannot pass, and the next step knows nothing of its lifting the node.
+namespace tabor::ehl {
+namespace {
+
+constexpr double kFirstProduct = 3;  // mu in units of pressure and film, to begin with
+constexpr double kLastProduct = 1e-10;
+constexpr double kFirstFall = 0.1;  // of mu from one solution to the next
+constexpr double kLeastFall = 0.93;
+constexpr int kMaxIterations = 25;  // for one mu
+constexpr double kOnTheWay = 1e-3;  // accuracy of the balances at a mu that is not the last
+constexpr double kNearProduct = 0.1;
+constexpr double kShareOfTheWay = 0.9;  // to where P or h - h_b would be zero
+
+}  // namespace
+
+/// Asperities that carry everything, with a mu that keeps them far above h_b.
+LineState LineFilm::asperity_start() const {
+  LineState state = hertz_start(problem_.asperities.boundary_film + kFirstProduct * film_scale_);
+  update_film(state);
+  state.touch_product = kFirstProduct;
+  state.asperity_pressure = state.pressure.max(kFirstProduct * units_.pressure * film_scale_ /
+                                               (state.film - problem_.asperities.boundary_film));
+  state.pressure.setZero();
+  update_film(state);
+  const double lacking = problem_.asperities.boundary_film + film_scale_ - state.film.minCoeff();
+  state.separation += std::max(0.0, lacking);
+  return state;
+}
+
+LineFilm::Outcome LineFilm::solve_touching(LineState& state, const Observer& observer) const {
+  state = asperity_start();
+  Outcome outcome = solve(state, {}, 2 * kMaxIterations, observer);
+  double fall = kFirstFall;
+  while (outcome.convergence.converged() && state.touch_product > kLastProduct) {
+    LineState next = state;
+    next.touch_product = std::max(kLastProduct, fall * state.touch_product);
+    Outcome now = solve(next, {}, kMaxIterations, observer);
+    if (now.convergence.converged()) {
+      state = next;
+      fall *= std::sqrt(fall);
+    } else {
+      fall = std::sqrt(std::sqrt(fall));
+    }
+    fall = std::max(fall, kFirstFall);
+    outcome = outcome + now;
+    // Tried again with a mu nearer to the one that was solved.
+    if (now.convergence.failed() && fall < kLeastFall) {
+      outcome.convergence.status = Status::converged;
+    }
+  }
+  return outcome;
+}
+
+/// Whether the balances hold: less well on the way to the last mu.
+bool LineFilm::is_balanced(const LineState& state, const Outcome& outcome) const {
+  const double error = std::max(outcome.mass_error, outcome.load_error);
+  if (state.asperity_pressure.size() == 0) return error <= kLineTolerance;
+  const double off = (overlap_products(state) / state.touch_product - 1).abs().maxCoeff();
+  const double accuracy = state.touch_product > kLastProduct ? kOnTheWay : kLineTolerance;
+  return error <= accuracy && off <= kNearProduct;
+}
+
+/// P (h - h_b) over the units of pressure and film.
+Eigen::ArrayXd LineFilm::overlap_products(const LineState& state) const {
+  return state.asperity_pressure / units_.pressure *
+         (state.film - problem_.asperities.boundary_film) / film_scale_;
+}
+
+/// The equations of P, each divided by the sum of its factors.
+void LineFilm::add_touch(const LineState& state, LineLinear& linear) const {
+  const Eigen::ArrayXd room = (state.film - problem_.asperities.boundary_film) / units_.film;
+  const Eigen::ArrayXd pressure = state.asperity_pressure / units_.pressure;
+  const Eigen::ArrayXd scale = room + pressure;
+  const double aim = state.touch_product * film_scale_ / units_.film;
+  linear.system.touch = {pressure / scale, room / scale};
+  linear.residual.conservativeResize(linear.system.size());
+  linear.residual.segment(n_, n_) = (room * pressure - aim) / scale;
+  const double total = (state.pressure + state.asperity_pressure).sum();
+  linear.load_residual() = (elastic_.load_weight() * total - load) / units_.load;
+}
+
+/// How much of a step can be taken before P or h - h_b is zero somewhere, and a little less; 1 at
+/// most.
+double LineFilm::share_before_touch(const LineState& old, const Eigen::VectorXd& step) const {
+  LineState whole = old;
+  whole.pressure += units_.pressure * step.head(n_).array();
+  whole.asperity_pressure += units_.pressure * step.segment(n_, n_).array();
+  whole.separation += units_.film * step[step.size() - 1];
+  update_film(whole);
+  const Eigen::ArrayXd room = old.film - problem_.asperities.boundary_film;
+  const double film = ((old.film - whole.film) / room).maxCoeff();
+  const double pressure =
+      ((old.asperity_pressure - whole.asperity_pressure) / old.asperity_pressure).maxCoeff();
+  return std::min(1.0, kShareOfTheWay / std::max({film, pressure, kShareOfTheWay}));
+}
+
+/// Without asperities a step must leave some of the film.
+bool LineFilm::is_open(const LineState& state, double floor) const {
+  if (state.asperity_pressure.size() == 0) return state.film.minCoeff() > floor;
+  return state.film.minCoeff() > problem_.asperities.boundary_film &&
+         state.asperity_pressure.minCoeff() > 0;
+}
+
+Eigen::ArrayXd LineFilm::touching_pressure(const LineState& state) const {
+  if (state.asperity_pressure.size() == 0) return Eigen::ArrayXd::Zero(n_);
+  const Eigen::ArrayXd room = (state.film - problem_.asperities.boundary_film) / film_scale_;
+  return (state.asperity_pressure / units_.pressure > room).select(state.asperity_pressure, 0.0);
+}
+
+}  // namespace tabor::ehl

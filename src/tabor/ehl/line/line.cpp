@@ -1,0 +1,204 @@
+#include "tabor/ehl/line/line.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "tabor/core/checks.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/ehl/line/film.hpp"
+
+namespace tabor::ehl {
+namespace {
+
+constexpr int kMaxIterations = 40;
+constexpr double kMinNodesPerHalfWidth = 8;
+/// The film of the first guess over Moes': Newton's method comes down safely from a thick film,
+/// where the flow depends on the pressure gradient, and may jump far from a thin one.
+constexpr double kFirstFilms[] = {10, 3, 40};
+constexpr double kFirstStep = 0.5;  // of the continuation in the pressure coefficient
+constexpr double kSmallestStep = 1.0 / 64;
+
+void check_domain(const LineProblem& problem) {
+  const double half_width = hertz_of(problem).half_width;
+  const Eigen::ArrayXd x = line_nodes(problem);
+  const double room = std::min(-x[0], x[x.size() - 1]);
+  if (!(room > half_width)) {
+    throw InputError("domain of a line contact", fmt::format("{:.4g} m beside the centre", room),
+                     fmt::format("more than the half width of Hertz, {:.4g} m", half_width),
+                     "make the domain longer or leave it to the program");
+  }
+  const double spacing = x[1] - x[0];
+  const double film = film_groups_of(problem).moes_min_film();
+  const double width = half_width + std::sqrt(2 * problem.radius * film);
+  if (!(width >= kMinNodesPerHalfWidth * spacing)) {
+    throw InputError(
+        "grid of a line contact", fmt::format("{} nodes, {:.4g} m apart", problem.nodes, spacing),
+        fmt::format("{} nodes in the half width, {:.4g} m", kMinNodesPerHalfWidth, width),
+        "give more nodes or a shorter domain");
+  }
+}
+
+/// A film whose inlet is not on the grid is no solution.
+void require_inlet(const LineProblem& problem, const LineFilm& film, const LineState& state,
+                   LineFilm::Outcome& outcome) {
+  if (outcome.convergence.converged() && !sees_inlet(problem, film.x(), state.film)) {
+    outcome.convergence.status = Status::stalled;
+  }
+}
+
+/// From Hertz' pressure and a film `first` times that of Moes.
+LineFilm::Outcome solve_from_hertz(const LineProblem& problem, const LineFilm& film, double first,
+                                   LineState& state, const Observer& observer) {
+  state = film.hertz_start(first * film_groups_of(problem).moes_min_film());
+  LineFilm::Outcome outcome = film.solve(state, {}, kMaxIterations, observer);
+  require_inlet(problem, film, state, outcome);
+  return outcome;
+}
+
+material::Viscosity with_share_of_coefficient(const material::Viscosity& viscosity, double share) {
+  return material::make_viscosity(material::law_of(viscosity),
+                                  material::ambient_viscosity(viscosity),
+                                  share * material::pressure_coefficient(viscosity));
+}
+
+/// Leads a film from share 0 to share 1 of what `apply` sets, in steps that shrink when one fails.
+/// Stalled where they would be too short.
+LineFilm::Outcome ramp(LineFilm& film, LineState& state, const std::function<void(double)>& apply,
+                       const Observer& observer) {
+  LineFilm::Outcome outcome;
+  double share = 0;
+  Convergence& convergence = outcome.convergence;
+  for (double step = kFirstStep; share < 1 && step > kSmallestStep && !convergence.stopped();) {
+    LineState next = state;
+    const double aim = std::min(1.0, share + step);
+    apply(aim);
+    outcome = outcome + film.solve(next, {}, kMaxIterations, observer);
+    if (convergence.converged()) {
+      state = next;
+      share = aim;
+    }
+    step *= convergence.converged() ? 1.5 : 0.5;
+  }
+  apply(1);
+  if (convergence.failed()) convergence.status = Status::stalled;
+  return outcome;
+}
+
+/// From the pressure of Hertz; with asperities if they touch, or if that fails.
+LineFilm::Outcome solve_directly(const LineProblem& problem, const LineFilm& film, LineState& state,
+                                 const Observer& observer) {
+  LineFilm::Outcome outcome;
+  for (const double first : kFirstFilms) {
+    outcome = outcome + solve_from_hertz(problem, film, first, state, observer);
+    const bool is_open = outcome.convergence.converged() &&
+                         state.film.minCoeff() >= problem.asperities.boundary_film;
+    if (film.has_asperities() && !is_open && !outcome.convergence.stopped()) {
+      outcome = outcome + film.solve_touching(state, observer);
+    }
+    if (!outcome.convergence.failed() || film.has_asperities()) break;
+  }
+  return outcome;
+}
+
+/// From Hertz' pressure; if that fails, from the film of smooth bodies and, if that fails too, of a
+/// viscosity that does not grow with pressure.
+LineFilm::Outcome solve_cold(const LineProblem& problem, LineFilm& film,
+                             const Eigen::ArrayXd& roughness, LineState& state,
+                             const Observer& observer) {
+  LineFilm::Outcome outcome = solve_directly(problem, film, state, observer);
+  if (!outcome.convergence.failed()) return outcome;
+  if (roughness.size() > 0) {
+    const Eigen::ArrayXd rough = film.shape;
+    film.shape = rough + roughness;
+    outcome = outcome + solve_cold(problem, film, {}, state, observer);
+    if (!outcome.convergence.converged()) return outcome;
+    const auto roughen = [&](double share) { film.shape = rough + (1 - share) * roughness; };
+    return outcome + ramp(film, state, roughen, observer);
+  }
+  const material::Viscosity viscosity = film.lubricant.viscosity;
+  if (!(material::pressure_coefficient(viscosity) > 0)) return outcome;
+  film.lubricant.viscosity = with_share_of_coefficient(viscosity, 0);
+  outcome = outcome + solve_directly(problem, film, state, observer);
+  if (!outcome.convergence.converged()) return outcome;
+  const auto thicken = [&](double share) {
+    film.lubricant.viscosity = with_share_of_coefficient(viscosity, share);
+  };
+  return outcome + ramp(film, state, thicken, observer);
+}
+
+}  // namespace
+
+reference::HertzLineContact hertz_of(const LineProblem& problem) {
+  return reference::hertz_line_at_load(problem.radius, problem.effective_modulus, problem.load);
+}
+
+reference::LineContactFilm film_groups_of(const LineProblem& problem) {
+  return {.radius = problem.radius,
+          .effective_modulus = problem.effective_modulus,
+          .load = problem.load,
+          .entrainment_speed = problem.entrainment_speed,
+          .viscosity = material::ambient_viscosity(problem.lubricant.viscosity),
+          .pressure_coefficient = material::pressure_coefficient(problem.lubricant.viscosity)};
+}
+
+Eigen::ArrayXd line_nodes(const LineProblem& problem) {
+  const double half_width = hertz_of(problem).half_width;
+  const double film = film_groups_of(problem).moes_min_film();
+  const double rigid = std::sqrt(2 * problem.radius * film);
+  const double inlet = problem.inlet > 0 ? problem.inlet : 4 * half_width + 10 * rigid;
+  const double outlet = problem.outlet > 0 ? problem.outlet : 1.5 * half_width + 3 * rigid;
+  return Eigen::ArrayXd::LinSpaced(problem.nodes, -inlet, outlet);
+}
+
+void check_line(const LineProblem& problem) {
+  check_positive("radius", problem.radius, "m");
+  check_positive("load", problem.load, "N/m");
+  check_positive("effective modulus", problem.effective_modulus, "Pa");
+  check_positive("entrainment speed", problem.entrainment_speed, "m/s");
+  if (problem.cavitation == LineCavitation::penalty) {
+    check_positive("penalty", problem.penalty, "");
+  }
+  if (problem.nodes < 3) {
+    throw InputError("nodes of a line contact", fmt::format("{}", problem.nodes), "3 or more", "");
+  }
+  if (problem.roughness.size() > 0 && problem.roughness.size() != problem.nodes) {
+    throw InputError("roughness", fmt::format("{} values", problem.roughness.size()),
+                     fmt::format("{}, one per node", problem.nodes), "");
+  }
+  const double half_width = hertz_of(problem).half_width;
+  if (!(half_width < problem.radius)) {
+    throw InputError("load of a line contact", fmt::format("{} N/m", problem.load),
+                     fmt::format("a contact narrower than its radius, {} m", problem.radius),
+                     "the theory of small deformations ends before");
+  }
+  material::check_pressure(problem.lubricant, hertz_of(problem).max_pressure);
+  check(problem.asperities);
+  check_domain(problem);
+}
+
+LineResult solve_line(const LineProblem& problem, const Observer& observer) {
+  check_line(problem);
+  LineFilm film(problem);
+  LineState state;
+  LineFilm::Outcome outcome = solve_cold(problem, film, problem.roughness, state, observer);
+  require_inlet(problem, film, state, outcome);
+  LineResult result;
+  result.x = film.x();
+  result.pressure = state.pressure;
+  result.film = state.film;
+  result.separation = state.separation;
+  result.convergence = outcome.convergence;
+  result.mass_error = outcome.mass_error;
+  result.load_error = outcome.load_error;
+  result.contact_error = outcome.contact_error;
+  if (film.has_asperities()) {
+    result.asperity_pressure = film.touching_pressure(state);
+  }
+  measure_line(problem, result);
+  return result;
+}
+
+}  // namespace tabor::ehl

@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tabor/ehl/film.hpp"
+#include "tabor/ehl/line/film.hpp"
+#include "tabor/ehl/line/line.hpp"
+
+namespace tabor::ehl {
+namespace {
+
+constexpr double kFewestInletNodes = 0.1;
+/// Rounding may leave a trace of pressure in the cavity: the film ends before it.
+constexpr double kFilmEnd = 1e-6;
+
+/// Nodes in the inlet over which a film [m] is built up, where the gap of Hertz is as large as it.
+double inlet_nodes(const LineProblem& problem, double film, double spacing) {
+  const double half_width = hertz_of(problem).half_width;
+  const double elastic =
+      std::pow(film * problem.radius / (half_width * half_width), 2.0 / 3) * half_width;
+  return std::min(elastic, std::sqrt(2 * problem.radius * film)) / spacing;
+}
+
+std::vector<std::string> doubts_of(const LineProblem& problem, const LineResult& result) {
+  std::vector<std::string> doubts = material::doubts(problem.lubricant, result.pressure.maxCoeff());
+  const double film =
+      std::max(film_groups_of(problem).moes_min_film(), problem.asperities.boundary_film);
+  const double nodes = inlet_nodes(problem, film, result.x[1] - result.x[0]);
+  if (nodes < 2) {
+    doubts.push_back(fmt::format(
+        "the grid has {:.2g} nodes where the film is built up: its thickness is uncertain; give "
+        "about {:.2g} times as many nodes",
+        nodes, 3 / nodes));
+  }
+  return doubts;
+}
+
+bool touches(const LineResult& result, Index i) {
+  return result.asperity_pressure.size() > 0 && result.asperity_pressure[i] > 0;
+}
+
+/// Friction of the film [N/m], its largest stress and where it ends.
+double measure_liquid(const LineProblem& problem, LineResult& result) {
+  material::NodeLaws laws;
+  const auto n = static_cast<std::size_t>(result.pressure.size());
+  material::evaluate(problem.lubricant, {result.pressure.data(), n}, laws);
+  const double film_end = kFilmEnd * result.pressure.maxCoeff();
+  double force = 0;
+  for (Index i = 0; i < result.x.size(); ++i) {
+    if (!(result.pressure[i] > 0)) continue;
+    if (result.pressure[i] > film_end) result.rupture = result.x[i];
+    if (touches(result, i)) continue;
+    const double rate = problem.sliding_speed / result.film[i];
+    const double stress =
+        material::shear_stress(problem.lubricant.shear, laws.viscosity[i], rate, result.pressure[i])
+            .value;
+    force += (result.x[1] - result.x[0]) * stress;
+    result.max_shear_stress = std::max(result.max_shear_stress, std::abs(stress));
+  }
+  return force;
+}
+
+/// Load and width that asperities carry; their friction [N/m].
+double measure_asperities(const LineProblem& problem, LineResult& result) {
+  if (result.asperity_pressure.size() == 0) return 0;
+  const double spacing = result.x[1] - result.x[0];
+  const double carried = spacing * result.asperity_pressure.sum();
+  result.asperity_load_share = carried / problem.load;
+  result.contact_width = spacing * static_cast<double>((result.asperity_pressure > 0).count());
+  const double force = problem.asperities.friction(carried, result.contact_width);
+  return problem.sliding_speed == 0 ? 0 : std::copysign(force, problem.sliding_speed);
+}
+
+}  // namespace
+
+bool sees_inlet(const LineProblem& problem, const Eigen::ArrayXd& x, const Eigen::ArrayXd& film) {
+  const double spacing = x[1] - x[0];
+  const double half_width = std::max(spacing, hertz_of(problem).half_width);
+  const Eigen::ArrayXd inside = (x.abs() <= half_width).cast<double>();
+  const double thickness = (inside * film).sum() / inside.sum();
+  const double thinnest = film.minCoeff();
+  if (problem.asperities.boundary_film >= (1 - 1e-3) * thinnest) return thinnest > 0;
+  return thinnest > 0 && inlet_nodes(problem, thickness, spacing) >= kFewestInletNodes;
+}
+
+void measure_line(const LineProblem& problem, LineResult& result) {
+  const bool touches_somewhere = (result.asperity_pressure > 0).any();
+  result.min_film = touches_somewhere ? result.film.minCoeff() : smallest_film(result.film);
+  result.central_film = value_between_nodes(result.x, result.film, 0);
+  result.max_pressure = result.asperity_pressure.size() > 0
+                            ? (result.pressure + result.asperity_pressure).maxCoeff()
+                            : result.pressure.maxCoeff();
+  const double liquid = measure_liquid(problem, result);
+  const double solid = measure_asperities(problem, result);
+  result.friction_force = liquid + solid;
+  result.friction_coefficient = result.friction_force / problem.load;
+  result.friction_fluid = liquid / problem.load;
+  result.friction_solid = solid / problem.load;
+  result.doubts = doubts_of(problem, result);
+}
+
+}  // namespace tabor::ehl

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "tabor/ehl/point/film.hpp"
+
+namespace tabor::ehl {
+
+/// The work of both, and what the second found.
+PointFilm::Outcome operator+(const PointFilm::Outcome& before, PointFilm::Outcome now);
+
+/// Solves `film`, of smooth bodies, without a state to begin with: from Hertz' pressure on a coarse
+/// grid, through grids of half the spacing each, to the grid of the film; where that fails, from
+/// thicker and thinner first films, and from a viscosity that grows less with pressure. Nothing of
+/// `film` is changed in the end.
+PointFilm::Outcome solve_cold(const PointProblem& problem, PointFilm& film, PointState& state,
+                              const Observer& observer = {});
+
+/// The state of a result, which may be of another grid.
+PointState state_of(const PointFilm& film, const PointResult& result);
+
+/// The result of a film without touching or plastic solids.
+PointResult result_of(const PointProblem& problem, const PointFilm& film, const PointState& state,
+                      const PointFilm::Outcome& outcome);
+
+}  // namespace tabor::ehl

@@ -1,0 +1,114 @@
+#include "tabor/io/columns.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/io/csv.hpp"
+
+namespace tabor::io {
+namespace {
+
+template <typename Value>
+bool is(const Cell& cell) {
+  return std::holds_alternative<Value>(cell);
+}
+
+bool is_whole(const Cell& cell) {
+  return is<bool>(cell) || is<std::int64_t>(cell) || is<std::uint64_t>(cell);
+}
+
+Json value_of(const Cell& cell) {
+  return std::visit(
+      [](const auto& value) -> Json {
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, std::monostate>) {
+          return nullptr;
+        } else if constexpr (std::is_same_v<Value, double>) {
+          return number(value);
+        } else {
+          return value;
+        }
+      },
+      cell);
+}
+
+std::string text_of(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+  if (const auto* value = std::get_if<bool>(&cell)) return *value ? "true" : "false";
+  return csv_number(number_in(cell));
+}
+
+}  // namespace
+
+Json json_of(const NamedCells& cells) {
+  Json object = Json::object();
+  for (const NamedCell& cell : cells) {
+    Json* place = &object;
+    for (const std::string& name : split(cell.head.key, '.')) place = &(*place)[name];
+    *place = value_of(cell.cell);
+  }
+  return object;
+}
+
+void write_attributes(Hdf5Writer& writer, const std::string& path, const NamedCells& cells) {
+  for (const auto& [head, cell] : cells) {
+    if (is_whole(cell)) {
+      writer.attribute(path, head.key, integer_in(cell));
+    } else if (const auto* text = std::get_if<std::string>(&cell)) {
+      writer.attribute(path, head.key, *text);
+    } else if (const auto* texts = std::get_if<std::vector<std::string>>(&cell)) {
+      writer.attribute(path, head.key, *texts);
+    } else {
+      writer.attribute(path, head.key, number_in(cell));
+    }
+  }
+}
+
+void write_dataset(Hdf5Writer& writer, const std::string& path, const std::vector<Cell>& cells,
+                   const Cell& kind) {
+  if (is<std::string>(kind)) {
+    std::vector<std::string> values;
+    for (const Cell& cell : cells) values.push_back(text_of(cell));
+    writer.write(path, values);
+  } else if (is_whole(kind)) {
+    std::vector<std::int64_t> values;
+    for (const Cell& cell : cells) values.push_back(is_whole(cell) ? integer_in(cell) : 0);
+    writer.write(path, values);
+  } else {
+    std::vector<double> values;
+    for (const Cell& cell : cells) values.push_back(number_in(cell));
+    writer.write(path, values);
+  }
+}
+
+std::string csv_line_of(const std::vector<Cell>& cells) {
+  std::vector<std::string> texts;
+  texts.reserve(cells.size());
+  for (const Cell& cell : cells) texts.push_back(text_of(cell));
+  return csv_line(texts);
+}
+
+Cell cell_in(const Json& object, const std::string& key) {
+  const Json* place = &object;
+  for (const std::string& name : split(key, '.')) {
+    place = place->find(name);
+    if (!place) throw InputError(key + ": not there");
+  }
+  if (place->is_null()) return std::numeric_limits<double>::quiet_NaN();
+  if (place->is_boolean()) return place->get<bool>();
+  if (place->is_number_integer()) return place->get<std::int64_t>();
+  if (place->is_number()) return place->get<double>();
+  if (place->is_string()) return place->get<std::string>();
+  throw InputError(key + ": neither a number nor a text");
+}
+
+Cell cell_in(const Hdf5Reader& reader, const std::string& path, const std::string& name,
+             const Cell& kind) {
+  if (is<std::string>(kind)) return reader.text(path, name);
+  if (is<std::vector<std::string>>(kind)) return reader.attribute_texts(path, name);
+  return reader.number(path, name);
+}
+
+}  // namespace tabor::io

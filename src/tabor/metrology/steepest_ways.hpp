@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "tabor/metrology/neighbours.hpp"
+#include "tabor/metrology/watershed.hpp"
+
+namespace tabor::metrology {
+
+/// Maps must be smaller, so that a number and a pixel can share 32 bits.
+inline constexpr PixelIndex kPixelLimit = 0x80000000U;
+
+/// The heights as a flood of hills sees them: dales are hills of -z.
+struct Relief {
+  const topography::Topography& map;
+  Neighbours neighbours;
+  double sign;
+
+  Relief(const topography::Topography& topography, MotifKind kind)
+      : map(topography), neighbours(topography), sign(kind == MotifKind::hill ? 1 : -1) {}
+  double operator()(PixelIndex p) const { return sign * map.height.data()[p]; }
+  PixelIndex n_pixels() const { return static_cast<PixelIndex>(map.height.size()); }
+};
+
+/// Where the steepest ways up from every pixel end.
+struct Ascents {
+  std::vector<PixelIndex> peaks;     ///< highest first, equal ones by rising pixel
+  std::vector<std::uint32_t> label;  ///< per pixel: number of its peak in `peaks`; kNoMotif: hole
+};
+
+/// Pixels of a plateau without a higher neighbour take the nearest way off it, in steps to
+/// neighbours; the first pixel of a plateau without a way off is the peak.
+Ascents climb(const Relief& relief);
+
+}  // namespace tabor::metrology

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "tabor/core/types.hpp"
+
+namespace tabor::numerics {
+
+/// Straight lines between the nodes of two grids of the same domain, from border to border. Their
+/// numbers of nodes may be any, two or more along each side.
+class NodeTransfer {
+ public:
+  /// Only the numbers of nodes of the grids count.
+  NodeTransfer(const Grid& fine, const Grid& coarse);
+
+  /// Values between the nodes of the coarse grid: (ny, nx) of the coarse grid to those of the fine.
+  Field to_fine(const Field& coarse) const;
+  /// The transposed of to_fine().
+  Field transposed(const Field& fine) const;
+  /// Means around the nodes of the coarse grid.
+  Field mean(const Field& fine) const { return transposed(fine) / weight_; }
+
+ private:
+  struct Place {
+    Index lower;   // node of the coarse grid
+    double share;  // of the next one
+  };
+  static std::vector<Place> places(Index fine, Index coarse);
+
+  Grid fine_, coarse_;
+  std::vector<Place> x_, y_;
+  Field weight_;  // transposed(1)
+};
+
+}  // namespace tabor::numerics

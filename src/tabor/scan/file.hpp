@@ -1,0 +1,96 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tabor/core/convergence.hpp"
+#include "tabor/topography/topography.hpp"
+
+namespace tabor::scan {
+
+/// One image channel of a scan file.
+struct Channel {
+  int index = 0;
+  std::string name;
+  std::string unit;        ///< as in the file
+  bool is_height = false;  ///< its unit is a length (only such channels can be read as heights)
+};
+
+/// What the user says about a file that the file does not say itself. A value the file fixes wins
+/// and contradicting it is refused, unless override_unit is set.
+struct ReadOptions {
+  std::optional<std::string> channel;  ///< name or index
+  std::optional<double> pixel_x;       ///< [m]
+  std::optional<double> pixel_y;       ///< [m]
+  std::optional<std::string> unit;     ///< of the heights in the file: "um", "nm", ...
+  std::optional<double> z_scale;       ///< [m] per count, for integer images
+  bool override_unit = false;
+};
+
+/// Format and channels of a file, without loading heights where the format allows that.
+struct FileInfo {
+  std::string format;
+  std::string instrument;
+  std::vector<Channel> channels;
+};
+
+/// One row of the explicit, ordered format table.
+struct FormatRow {
+  std::string name;                     ///< "x3p"
+  std::string description;              ///< "ISO 25178-72 / 5436-2 XML"
+  std::vector<std::string> extensions;  ///< {".x3p"}
+  bool reads = false;
+  bool writes = false;
+  bool via_gwyddion = false;
+};
+
+/// All formats, in the order in which they are tried.
+std::vector<FormatRow> formats();
+
+/// The Gwyddion program that converts files of other formats, if it is installed.
+std::optional<std::filesystem::path> gwyddion_program();
+
+/// A scan file that is open: recognised by its content, described, its heights not yet loaded. The
+/// file must not be changed meanwhile.
+class ScanFile {
+ public:
+  /// Throws InputError (file, what was found, what to do); Interrupted when the observer stops it.
+  explicit ScanFile(const std::filesystem::path& file, const Observer& observer = {});
+  ~ScanFile();
+  ScanFile(ScanFile&&) noexcept;
+  ScanFile& operator=(ScanFile&&) = delete;
+
+  /// Format and channels.
+  FileInfo info() const;
+  /// The heights of one channel. Throws InputError where file and options leave a unit open.
+  topography::Topography read(const ReadOptions& options = {}) const;
+  /// Of the file's bytes, hexadecimal. `between` is called after every 4 MiB; what it throws ends
+  /// the reading.
+  std::string sha256(const std::function<void()>& between = {}) const;
+
+ private:
+  struct Opened;
+  std::unique_ptr<Opened> opened_;
+};
+
+/// The same for a file that is needed once.
+FileInfo inspect(const std::filesystem::path& file);
+topography::Topography read(const std::filesystem::path& file, const ReadOptions& options = {},
+                            const Observer& observer = {});
+
+/// Throws InputError if no format that can be written has the file name's extension.
+void require_writer(const std::filesystem::path& file);
+
+/// Writes by the file name's extension (.h5 .gwy .gsf .sdf .x3p .npy .txt .xyz .vti), to a
+/// temporary name that is then renamed. Throws OutputError, or InputError for an unknown extension.
+void write(const topography::Topography& topography, const std::filesystem::path& file);
+
+/// SHA-256 of the file's bytes, hexadecimal.
+std::string sha256(const std::filesystem::path& file);
+
+}  // namespace tabor::scan

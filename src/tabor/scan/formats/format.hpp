@@ -1,0 +1,130 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tabor/core/convergence.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/io/mapped_file.hpp"
+#include "tabor/scan/file.hpp"
+
+namespace tabor::scan::format {
+
+/// A whole scan file, or a part of one with a layout of its own.
+struct Contents {
+  std::filesystem::path file;
+  std::string_view bytes;
+  const io::MappedFile* source = nullptr;  ///< what `bytes` lie in, if they are a file's
+  const Observer* observer = nullptr;      ///< who follows the reading
+
+  /// The same file with other bytes: an unpacked member, a block.
+  Contents part(std::string_view bytes_of_part) const {
+    return {file, bytes_of_part, source, observer};
+  }
+  /// These bytes are decoded: their memory may be given back, and `share` of the reading is done.
+  /// Throws Interrupted.
+  void finished(std::string_view decoded, double share) const;
+};
+
+/// One image channel as the file describes it. A stored value times `scale` is the height in
+/// `unit`; what the file leaves open is left empty here and asked from the user.
+struct Layer {
+  std::string name = {};
+  std::string unit = {};    ///< as in the file; "" if the file does not say
+  double scale = 1;         ///< stored value -> `unit`
+  bool is_count = false;    ///< integers without any scale: needs ReadOptions::z_scale
+  bool is_picture = false;  ///< known not to hold heights (intensity, colour), whatever its unit
+  std::optional<int> index = {};  ///< number the file itself gives the channel, else its position
+  Index nx = 0;
+  Index ny = 0;
+  std::optional<double> pixel_x = {};      ///< [m]
+  std::optional<double> pixel_y = {};      ///< [m]
+  std::optional<double> pixel_ratio = {};  ///< y over x, where the file says no more
+  std::string pixel_hint = {};  ///< what the file says about the missing pixel, for the message
+  std::function<Field()> load = {};  ///< stored values (ny, nx), row 0 on top, NaN = hole
+  std::shared_ptr<std::vector<std::string>> late_doubts = {};  ///< what load() found, or null
+};
+
+/// What a file holds, before any heights are loaded.
+struct Document {
+  std::string format = {};  ///< name of the format table, or what a converter says it is
+  std::string instrument = {};
+  std::map<std::string, std::string> metadata = {};
+  std::vector<std::string> doubts = {};  ///< what the reader had to assume
+  std::vector<topography::Doubt> lasting =
+      {};                                 ///< doubts recorded in the file that nothing dispels
+  std::vector<std::string> history = {};  ///< treatment recorded in the file
+  bool periodic = false;
+  std::vector<Layer> layers = {};
+};
+
+enum class Match { no, maybe, yes };
+
+/// Bytes from the start of a file that identify() may look at.
+inline constexpr std::size_t kHeadSize = 4096;
+
+/// One row of the format table: all that tabor knows about a format. Readers describe a file;
+/// choosing the channel, applying the user's options and checking units is the same for all and
+/// done once, in file.cpp.
+struct Format {
+  std::string name;
+  std::string description;
+  std::vector<std::string> extensions;
+  Match (*identify)(std::string_view head) = nullptr;  ///< null: cannot be read
+  Document (*open)(const Contents& contents) = nullptr;
+  void (*write)(const topography::Topography& topography,
+                const std::filesystem::path& file) = nullptr;
+  bool via_gwyddion = false;
+};
+
+/// All formats in the order in which they are tried.
+const std::vector<Format>& table();
+
+/// Thrown by open() when the container is not this format after all (a ZIP archive without
+/// main.xml): the next format is tried.
+class Unrecognised : public InputError {
+ public:
+  Unrecognised(const Contents& contents, const std::string& got, const std::string& remedy)
+      : InputError(contents.file.string(), got, "a scan file", remedy),
+        got_(got),
+        remedy_(remedy) {}
+  const std::string& got() const { return got_; }
+  const std::string& remedy() const { return remedy_; }
+
+ private:
+  std::string got_;
+  std::string remedy_;
+};
+
+/// Throws InputError "<file>: got ...; expected ...; <remedy>".
+[[noreturn]] void refuse(const Contents& contents, const std::string& got,
+                         const std::string& expected, const std::string& remedy = "");
+
+/// The same for a sound file that lacks what only the user can say: throws IncompleteError.
+[[noreturn]] void ask(const Contents& contents, const std::string& got, const std::string& expected,
+                      const std::string& remedy);
+
+/// The one remedy for files that end too early or contradict themselves.
+inline constexpr const char* kDamaged = "the file is damaged or truncated: export or copy it again";
+
+/// Refuses sizes below one pixel and sizes that need more samples than `available`: a header must
+/// not make a reader allocate more than its file can hold.
+void check_size(const Contents& contents, double nx, double ny, std::size_t available);
+
+/// Whether anything could be scanned in pixels of this length [m]. Outside, squares of lengths
+/// leave the range of numbers.
+bool is_pixel(double length);
+
+/// "pixel" as such a length, or a refusal.
+double checked_pixel(const Contents& contents, double pixel);
+
+inline constexpr double kHole = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace tabor::scan::format

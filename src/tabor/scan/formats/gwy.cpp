@@ -1,0 +1,189 @@
+// GWY, Gwyddion's native format: channels "/N/data" with masks "/N/mask" in one container.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tabor/core/rows.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/core/units.hpp"
+#include "tabor/io/atomic_file.hpp"
+#include "tabor/scan/formats/bytes.hpp"
+#include "tabor/scan/formats/gwy_object.hpp"
+#include "tabor/scan/formats/readers.hpp"
+
+namespace tabor::scan::format {
+namespace {
+
+constexpr std::string_view kMagic = "GWYP";
+constexpr const char* kInstrument = "Instrument";
+
+std::string unit_of(const GwyObject& field, const std::string& which) {
+  const GwyObject* unit = field.object(which, "GwySIUnit");
+  return unit == nullptr ? "" : unit->text("unitstr");
+}
+
+/// Raw float64 bytes of a data field of the given size.
+std::string_view data_of(const Contents& contents, const GwyObject& field, Index nx, Index ny) {
+  const auto data = field.items.find("data");
+  const std::size_t expected = static_cast<std::size_t>(nx * ny) * sizeof(double);
+  if (data == field.items.end() || data->second.type != 'D' ||
+      data->second.array.size() != expected || field.number("xres", 0) != static_cast<double>(nx) ||
+      field.number("yres", 0) != static_cast<double>(ny)) {
+    refuse(contents, "a data field without its data", fmt::format("{} x {} numbers", nx, ny),
+           kDamaged);
+  }
+  return data->second.array;
+}
+
+std::optional<double> pixel(const Contents& contents, const GwyObject& field,
+                            const std::string& real, Index n) {
+  const auto factor = unit_factor(unit_of(field, "si_unit_xy"), dimension::length);
+  if (!factor || field.items.count(real) == 0) return std::nullopt;
+  return checked_pixel(contents, field.number(real, 0) * *factor / static_cast<double>(n));
+}
+
+/// What Gwyddion shows under a mask is interpolated: those pixels are holes.
+Field masked(const Contents& contents, std::string_view data, std::string_view mask,
+             const Raster& raster) {
+  Field heights = decode(contents, data, raster);
+  if (mask.empty()) return heights;
+  const auto pitch = static_cast<std::size_t>(raster.nx) * sizeof(double);
+  for_each_row(raster.ny, [&](Index y) {
+    const char* row = mask.data() + static_cast<std::size_t>(y) * pitch;
+    for (Index x = 0; x < raster.nx; ++x) {
+      double value;
+      std::memcpy(&value, row + static_cast<std::size_t>(x) * sizeof value, sizeof value);
+      if (value > 0.5) heights(y, x) = kHole;
+    }
+  });
+  contents.finished(mask, 1);
+  return heights;
+}
+
+Layer layer_of(const Contents& contents, const GwyObject& root, const GwyObject& field, int id) {
+  const std::string prefix = fmt::format("/{}/", id);
+  const double nx = field.number("xres", 0);
+  const double ny = field.number("yres", 0);
+  check_size(contents, nx, ny, contents.bytes.size() / sizeof(double));
+  Layer layer{.name = root.text(prefix + "data/title"), .unit = unit_of(field, "si_unit_z")};
+  if (layer.name.empty()) layer.name = fmt::format("channel {}", id);
+  layer.index = id;
+  layer.nx = static_cast<Index>(nx);
+  layer.ny = static_cast<Index>(ny);
+  layer.pixel_x = pixel(contents, field, "xreal", layer.nx);
+  layer.pixel_y = pixel(contents, field, "yreal", layer.ny);
+  const std::string_view data = data_of(contents, field, layer.nx, layer.ny);
+  std::string_view mask;
+  if (const GwyObject* mask_field = root.object(prefix + "mask", "GwyDataField")) {
+    mask = data_of(contents, *mask_field, layer.nx, layer.ny);
+  }
+  const Raster raster{.nx = layer.nx, .ny = layer.ny};
+  layer.load = [contents, data, mask, raster] { return masked(contents, data, mask, raster); };
+  return layer;
+}
+
+/// The N of "/N/data"; nullopt for every other key.
+std::optional<int> channel_id(const std::string& key) {
+  const std::vector<std::string> parts = split(key, '/');
+  if (parts.size() != 3 || !parts[0].empty() || parts[2] != "data") return std::nullopt;
+  constexpr std::size_t most_digits = 6;
+  const std::string& digits = parts[1];
+  const bool is_number = !digits.empty() && digits.size() <= most_digits &&
+                         digits.find_first_not_of("0123456789") == std::string::npos;
+  return is_number ? std::optional(std::stoi(digits)) : std::nullopt;
+}
+
+void add_metadata(Document& document, const GwyObject& root, int id) {
+  const GwyObject* meta = root.object(fmt::format("/{}/meta", id), "GwyContainer");
+  if (meta == nullptr) return;
+  for (const auto& [key, value] : meta->items) {
+    if (value.text.empty()) continue;
+    if (key == kInstrument && document.instrument.empty()) {
+      document.instrument = value.text;
+    } else {
+      document.metadata.emplace(key, value.text);
+    }
+  }
+}
+
+}  // namespace
+
+Match identify_gwy(std::string_view head) {
+  return head.starts_with(kMagic) ? Match::yes : Match::no;
+}
+
+Document open_gwy(const Contents& contents) {
+  const GwyObject root = parse_gwy(contents);
+  Document document{.format = "gwy"};
+  std::map<int, const GwyObject*> fields;
+  for (const auto& [key, value] : root.items) {
+    const auto id = channel_id(key);
+    const GwyObject* field = root.object(key, "GwyDataField");
+    if (id && field != nullptr) fields[*id] = field;
+  }
+  for (const auto& [id, field] : fields) {
+    document.layers.push_back(layer_of(contents, root, *field, id));
+    add_metadata(document, root, id);
+  }
+  if (document.layers.empty()) {
+    refuse(contents, "no image channel", "a height map (/0/data)",
+           "profiles, volumes and point clouds cannot be read");
+  }
+  return document;
+}
+
+namespace {
+
+GwyBuilder unit(const std::string& text) {
+  GwyBuilder builder("GwySIUnit");
+  builder.add("unitstr", text);
+  return builder;
+}
+
+GwyBuilder data_field(const Grid& grid, const Field& values, const std::string& z_unit) {
+  GwyBuilder builder("GwyDataField");
+  builder.add("xres", static_cast<std::int32_t>(grid.nx));
+  builder.add("yres", static_cast<std::int32_t>(grid.ny));
+  builder.add("xreal", grid.lx);
+  builder.add("yreal", grid.ly);
+  builder.add("si_unit_xy", unit("m"));
+  builder.add("si_unit_z", unit(z_unit));
+  builder.add("data", values);
+  return builder;
+}
+
+/// Objects of the format count their bytes in 32 bits.
+void require_countable(const topography::Topography& topography, bool with_mask,
+                       const std::filesystem::path& file) {
+  constexpr std::size_t most_bytes = 0xffffffff - (1 << 20);  // some for names and metadata
+  const Grid& grid = topography.grid;
+  const std::size_t bytes_per_pixel = with_mask ? 2 * sizeof(double) : sizeof(double);
+  if (static_cast<std::size_t>(grid.size()) * bytes_per_pixel <= most_bytes) return;
+  throw InputError(file.string(), fmt::format("{} x {} pixels", grid.nx, grid.ny),
+                   "at most 4 GiB of heights and mask in GWY", "write .h5 instead");
+}
+
+}  // namespace
+
+void write_gwy(const topography::Topography& topography, const std::filesystem::path& file) {
+  const Mask hole = topography::holes(topography);
+  require_countable(topography, hole.any(), file);
+  // Gwyddion computes with the values under a mask, so they must be numbers: the mean height.
+  const double n_valid = static_cast<double>(hole.size() - hole.count());
+  const double mean = hole.select(0, topography.height).sum() / std::max(1.0, n_valid);
+  GwyBuilder root("GwyContainer");
+  root.add("/0/data", data_field(topography.grid, hole.select(mean, topography.height), "m"));
+  root.add("/0/data/title", topography.channel.empty() ? "height" : topography.channel);
+  if (hole.any()) {
+    root.add("/0/mask", data_field(topography.grid, hole.cast<double>(), ""));
+  }
+  GwyBuilder meta("GwyContainer");
+  std::map<std::string, std::string> entries = topography.metadata;
+  entries["Source"] = topography.source;
+  entries[kInstrument] = topography.instrument;
+  for (const auto& [key, value] : entries) meta.add(key, value);
+  root.add("/0/meta", meta);
+  io::write_file(file, std::string_view(std::string(kMagic) + root.bytes()));
+}
+
+}  // namespace tabor::scan::format

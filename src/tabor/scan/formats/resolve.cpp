@@ -1,0 +1,197 @@
+#include "tabor/scan/formats/resolve.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tabor/core/text.hpp"
+#include "tabor/core/units.hpp"
+
+namespace tabor::scan::format {
+namespace {
+
+bool is_length(const std::string& unit) { return unit_factor(unit, dimension::length).has_value(); }
+
+bool is_height(const Layer& layer) { return !layer.is_picture && is_length(layer.unit); }
+
+/// Whether heights could be in it if the user names the unit.
+bool may_be_height(const Layer& layer) {
+  return !layer.is_picture && (layer.unit.empty() || is_length(layer.unit));
+}
+
+int index_of(const Document& document, const Layer& layer) {
+  return layer.index.value_or(static_cast<int>(&layer - document.layers.data()));
+}
+
+std::string list(const Document& document) {
+  std::string text;
+  for (const Layer& layer : document.layers) {
+    text += fmt::format("{}{} '{}' [{}]", text.empty() ? "" : ", ", index_of(document, layer),
+                        layer.name, layer.unit.empty() ? "no unit" : layer.unit);
+  }
+  return text;
+}
+
+const Layer& named_layer(const Contents& contents, const Document& document,
+                         const std::string& channel) {
+  const auto number = parse_number(channel);
+  const Layer* found = nullptr;
+  for (const Layer& layer : document.layers) {
+    if (number && index_of(document, layer) == *number) return layer;
+    if (lower(layer.name) != lower(channel)) continue;
+    if (found != nullptr) {
+      refuse(contents, "several channels named '" + channel + "': " + list(document), "one channel",
+             "give its number: --channel " + std::to_string(index_of(document, *found)));
+    }
+    found = &layer;
+  }
+  if (found == nullptr) {
+    refuse(contents, "no channel '" + channel + "'", "one of " + list(document),
+           "give its number or name with --channel");
+  }
+  return *found;
+}
+
+std::string flag(const char* name, double metres) {
+  return fmt::format("{} {:g}um", name, metres * 1e6);
+}
+
+/// The pixel along one axis.
+double resolve_pixel(const Contents& contents, const Layer& layer, char axis,
+                     const std::optional<double>& given, bool override_it,
+                     std::vector<std::string>& doubts) {
+  const std::optional<double>& own = axis == 'x' ? layer.pixel_x : layer.pixel_y;
+  if (!own && !given) {
+    ask(contents, layer.pixel_hint.empty() ? "no pixel size in the file" : layer.pixel_hint,
+        "a pixel size",
+        std::string("add it, for example --pixel 0.67um") +
+            (layer.unit.empty() && !layer.is_count ? " --unit um" : ""));
+  }
+  if (!given) return checked_pixel(contents, *own);
+  if (!is_pixel(*given)) {
+    refuse(contents, fmt::format("--pixel {} m", *given), "a positive length, from 1e-15 to 1e6 m");
+  }
+  constexpr double kSame = 1e-6;  // what a user types has fewer digits than the file
+  if (!own) return *given;
+  if (std::abs(*given - *own) <= kSame * *own) return *own;
+  if (!override_it) {
+    refuse(contents, flag("--pixel", *given),
+           fmt::format("{:g} um along {}, which the file fixes", *own * 1e6, axis),
+           "drop --pixel, or add --override-unit if the file is wrong");
+  }
+  doubts.push_back(fmt::format("pixel along {} overridden: {:g} um instead of the file's {:g} um",
+                               axis, *given * 1e6, *own * 1e6));
+  return *given;
+}
+
+double factor_of_unit(const Contents& contents, const std::string& unit) {
+  const auto factor = unit_factor(unit, dimension::length);
+  if (!factor) refuse(contents, "--unit " + unit, "a length such as um or nm");
+  return *factor;
+}
+
+/// A count has no size of its own: only the user's --z-scale gives it one.
+double scale_of_counts(const Contents& contents, const ReadOptions& options) {
+  if (!options.z_scale) {
+    ask(contents, "counts without a height scale", "the height of one count",
+        "add it, for example --z-scale 1nm");
+  }
+  if (!(std::abs(*options.z_scale) > 0) || !std::isfinite(*options.z_scale)) {
+    refuse(contents, fmt::format("--z-scale {}", *options.z_scale), "a length other than zero");
+  }
+  return *options.z_scale;
+}
+
+}  // namespace
+
+std::vector<Channel> channels_of(const Document& document) {
+  std::vector<Channel> channels;
+  for (const Layer& layer : document.layers) {
+    channels.push_back({.index = index_of(document, layer),
+                        .name = layer.name,
+                        .unit = layer.unit,
+                        .is_height = is_height(layer)});
+  }
+  return channels;
+}
+
+const Layer& choose_layer(const Contents& contents, const Document& document,
+                          const ReadOptions& options) {
+  if (options.channel) return named_layer(contents, document, *options.channel);
+  for (const auto suits : {is_height, may_be_height}) {
+    const Layer* only = nullptr;
+    int count = 0;
+    for (const Layer& layer : document.layers) {
+      if (!suits(layer)) continue;
+      if (count++ == 0) only = &layer;
+    }
+    if (count == 1) return *only;
+    if (count > 1) {
+      ask(contents, fmt::format("{} height channels: {}", count, list(document)), "one",
+          fmt::format("choose it, for example --channel {}", index_of(document, *only)));
+    }
+  }
+  ask(contents, "no channel whose unit is a length: " + list(document), "heights",
+      "choose one with --channel and --unit um --override-unit if it does hold heights");
+}
+
+Grid resolve_grid(const Contents& contents, const Layer& layer, const ReadOptions& options,
+                  std::vector<std::string>& doubts) {
+  const double dx =
+      resolve_pixel(contents, layer, 'x', options.pixel_x, options.override_unit, doubts);
+  const bool has_ratio = layer.pixel_ratio && options.pixel_x && !layer.pixel_y;
+  const double ratio = has_ratio ? *layer.pixel_ratio : 1;
+  const auto given_y = options.pixel_y   ? options.pixel_y
+                       : options.pixel_x ? std::optional(ratio * *options.pixel_x)
+                                         : std::nullopt;
+  constexpr double same_ratio = 1e-3;
+  if (has_ratio && std::abs(*given_y / *options.pixel_x - ratio) > same_ratio * ratio &&
+      !options.override_unit) {
+    refuse(contents, fmt::format("pixels {:g} times as high as wide", *given_y / *options.pixel_x),
+           fmt::format("{:g} times, as the coordinates have them", ratio),
+           "give the pixel along x only, or add --override-unit");
+  }
+  const double dy = resolve_pixel(contents, layer, 'y', given_y, options.override_unit, doubts);
+  return {.nx = layer.nx,
+          .ny = layer.ny,
+          .lx = dx * static_cast<double>(layer.nx),
+          .ly = dy * static_cast<double>(layer.ny)};
+}
+
+double resolve_height_factor(const Contents& contents, const Layer& layer,
+                             const ReadOptions& options, std::vector<std::string>& doubts) {
+  const bool is_fixed = !layer.is_count && !layer.unit.empty();
+  if (options.z_scale && is_fixed && !options.override_unit) {
+    refuse(contents, flag("--z-scale", *options.z_scale), "heights whose scale the file fixes",
+           "drop --z-scale, or add --override-unit if the file is wrong");
+  }
+  if (options.z_scale) {
+    if (is_fixed) {
+      doubts.push_back("height scale overridden: " + flag("--z-scale", *options.z_scale));
+    }
+    return scale_of_counts(contents, options);
+  }
+  if (layer.unit.empty() && layer.is_count && !options.unit) {
+    return scale_of_counts(contents, options);
+  }
+  const auto own = unit_factor(layer.unit, dimension::length);
+  if (options.unit && (!own || factor_of_unit(contents, *options.unit) != *own)) {
+    const double given = factor_of_unit(contents, *options.unit);
+    if (layer.unit.empty()) return layer.scale * given;
+    if (!options.override_unit) {
+      refuse(contents, "--unit " + *options.unit, "'" + layer.unit + "', which the file fixes",
+             "drop --unit, or add --override-unit if the file is wrong");
+    }
+    doubts.push_back("height unit overridden: " + *options.unit + " instead of the file's '" +
+                     layer.unit + "'");
+    return layer.scale * given;
+  }
+  if (own) return layer.scale * *own;
+  if (layer.unit.empty()) {
+    ask(contents, "heights without a unit", "a unit", "add it, for example --unit um");
+  }
+  refuse(contents, "channel '" + layer.name + "' in '" + layer.unit + "'", "heights",
+         "choose another --channel, or give --unit with --override-unit if the file is wrong");
+}
+
+}  // namespace tabor::scan::format

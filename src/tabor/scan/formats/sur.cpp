@@ -1,0 +1,188 @@
+// SUR, Digital Surf's surface files (Mountains and many instruments), plain and compressed.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "tabor/core/text.hpp"
+#include "tabor/core/units.hpp"
+#include "tabor/io/deflate.hpp"
+#include "tabor/scan/formats/bytes.hpp"
+#include "tabor/scan/formats/readers.hpp"
+
+namespace tabor::scan::format {
+namespace {
+
+constexpr std::string_view kPlain = "DIGITAL SURF";
+constexpr std::string_view kCompressed = "DSCOMPRESSED";
+constexpr int kProfile = 1;
+constexpr int kSurface = 2;
+
+struct Header {
+  int objects = 1;
+  int type = 0;
+  std::string name;
+  bool marks_missing = false;
+  int bits = 0;
+  std::int32_t z_min = 0;
+  double nx = 0;
+  double ny = 0;
+  double n_points = 0;
+  bool is_inverted = false;
+  double dx = 0, dy = 0, dz = 0;
+  std::string dx_unit, dy_unit, dz_unit;
+  double z_offset = 0;
+  std::size_t n_skipped = 0;  ///< comment and private bytes between header and data
+};
+
+Header take_header(const Contents& contents) {
+  Cursor cursor(contents);
+  Header header;
+  cursor.seek(14);
+  header.objects = cursor.take<std::int16_t>();
+  cursor.seek(18);
+  header.type = cursor.take<std::int16_t>();
+  header.name = cursor.take_text(30);
+  cursor.seek(86);
+  header.marks_missing = cursor.take<std::int16_t>() == 1;
+  cursor.seek(98);
+  header.bits = cursor.take<std::int16_t>();
+  header.z_min = cursor.take<std::int32_t>();
+  cursor.seek(108);
+  header.nx = cursor.take<std::int32_t>();
+  header.ny = cursor.take<std::int32_t>();
+  header.n_points = cursor.take<std::int32_t>();
+  cursor.seek(120);
+  header.dx = cursor.take<float>();
+  header.dy = cursor.take<float>();
+  header.dz = cursor.take<float>();
+  cursor.seek(132 + 3 * 16);
+  header.dx_unit = cursor.take_text(16);
+  header.dy_unit = cursor.take_text(16);
+  header.dz_unit = cursor.take_text(16);
+  cursor.seek(290);
+  header.is_inverted = cursor.take<std::int16_t>() != 0;
+  cursor.seek(334);
+  header.n_skipped = cursor.take<std::uint16_t>();
+  header.n_skipped += cursor.take<std::uint16_t>();
+  cursor.seek(466 + 2 * 4);
+  header.z_offset = cursor.take<float>();
+  return header;
+}
+
+std::optional<double> lateral(const Contents& contents, double pixel, const std::string& unit) {
+  if (unit.empty()) return std::nullopt;
+  const auto factor = unit_factor(unit, dimension::length);
+  if (!factor) refuse(contents, "pixels in '" + unit + "'", "a length", kDamaged);
+  return checked_pixel(contents, pixel * *factor);
+}
+
+void require_surface(const Contents& contents, const Header& header) {
+  // Gwyddion writes type 1 (profile) for surfaces.
+  const bool is_surface = header.type == kSurface || (header.type == kProfile && header.ny >= 1);
+  if (!is_surface) {
+    refuse(contents, fmt::format("a Digital Surf object of type {}", header.type),
+           "a surface (type 2)", "export the height layer alone");
+  }
+  if (header.n_points != 0 && header.n_points != header.nx * header.ny) {
+    refuse(contents, fmt::format("{} points", header.n_points),
+           fmt::format("{} x {}", header.nx, header.ny), kDamaged);
+  }
+  if (header.bits != 16 && header.bits != 32) {
+    refuse(contents, fmt::format("{} bits per point", header.bits), "16 or 32", kDamaged);
+  }
+  if (!std::isfinite(header.dz) || header.dz == 0 || !std::isfinite(header.z_offset)) {
+    refuse(contents, fmt::format("a height step of {}", header.dz), "a length", kDamaged);
+  }
+}
+
+/// Compressed data: a count of streams, their raw and packed sizes, the zlib streams one after the
+/// other.
+std::string unpack(const Contents& contents, Cursor& cursor, std::size_t expected) {
+  const auto n_streams = cursor.take<std::uint32_t>();
+  if (n_streams == 0) refuse(contents, "no compressed heights", "at least one stream", kDamaged);
+  const std::size_t kEntry = 2 * sizeof(std::uint32_t);
+  check_size(contents, 1, n_streams, cursor.left() / kEntry);
+  std::vector<std::pair<std::size_t, std::size_t>> sizes;
+  for (std::uint32_t i = 0; i < n_streams; ++i) {
+    const std::size_t raw = cursor.take<std::uint32_t>();
+    sizes.emplace_back(raw, cursor.take<std::uint32_t>());
+  }
+  std::string data;
+  for (const auto& [raw, packed] : sizes) {
+    const std::string_view stream = cursor.take(packed);
+    if (raw > expected - data.size()) break;
+    data += io::inflate(stream, raw, contents.file.string());
+  }
+  if (data.size() != expected) {
+    refuse(contents, fmt::format("{} bytes of unpacked heights", data.size()),
+           fmt::format("{}", expected), kDamaged);
+  }
+  return data;
+}
+
+RowStep to_heights(const Header& header) {
+  const double missing = header.marks_missing ? static_cast<double>(header.z_min) - 2 : kHole;
+  return [missing, dz = header.dz, offset = header.z_offset](std::span<double> row) {
+    for (double& z : row) z = z == missing ? kHole : z * dz + offset;
+  };
+}
+
+/// The heights' bytes are only unpacked when they are asked for.
+Field heights(const Contents& contents, std::size_t data_begin, const Raster& raster,
+              const Header& header) {
+  Cursor cursor(contents);
+  cursor.seek(data_begin);
+  if (!contents.bytes.starts_with(kCompressed)) {
+    return decode(contents, cursor.take(byte_size(raster)), raster, to_heights(header));
+  }
+  const std::string unpacked = unpack(contents, cursor, byte_size(raster));
+  return decode(contents, unpacked, raster, to_heights(header));
+}
+
+}  // namespace
+
+Match identify_sur(std::string_view head) {
+  return head.starts_with(kPlain) || head.starts_with(kCompressed) ? Match::yes : Match::no;
+}
+
+Document open_sur(const Contents& contents) {
+  const Header header = take_header(contents);
+  require_surface(contents, header);
+  const bool is_compressed = contents.bytes.starts_with(kCompressed);
+  Raster raster{.sample = header.bits == 16 ? Sample::i16 : Sample::i32};
+  // A deflate stream unpacks to at most 1032 times its size.
+  const std::size_t most = contents.bytes.size() * (is_compressed ? 1032 : 1);
+  check_size(contents, header.nx, header.ny, most / size_of(raster.sample));
+  raster.nx = static_cast<Index>(header.nx);
+  raster.ny = static_cast<Index>(header.ny);
+  Cursor cursor(contents);
+  const std::size_t data_begin = 512 + header.n_skipped;
+  cursor.seek(data_begin);
+  Document document{.format = "sur"};
+  if (!is_compressed) {
+    cursor.take(byte_size(raster));
+    if (header.objects <= 1) doubt_surplus(cursor, document);
+  }
+  doubt_negative_scale(header.dz, document);
+  if (header.is_inverted) {
+    document.doubts.push_back("the file says that its heights were inverted: is up really up?");
+  }
+  if (header.objects > 1) {
+    document.doubts.push_back(fmt::format("only the first of {} objects is read", header.objects));
+  }
+  const auto dx = lateral(contents, header.dx, header.dx_unit);
+  const bool is_profile = raster.ny == 1 && header.dy_unit.empty();
+  document.layers.push_back(
+      {.name = header.name.empty() ? "height" : header.name,
+       .unit = header.dz_unit,
+       .nx = raster.nx,
+       .ny = raster.ny,
+       .pixel_x = dx,
+       .pixel_y = is_profile ? dx : lateral(contents, header.dy, header.dy_unit),
+       .load = [contents, data_begin, raster, header] {
+         return heights(contents, data_begin, raster, header);
+       }});
+  return document;
+}
+
+}  // namespace tabor::scan::format

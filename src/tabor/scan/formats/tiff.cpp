@@ -1,0 +1,54 @@
+// TIFF with grey values as counts: the user must say what a count and a pixel are.
+#include "tabor/io/tiff.hpp"
+
+#include <fmt/format.h>
+
+#include "tabor/scan/formats/archive.hpp"
+#include "tabor/scan/formats/readers.hpp"
+
+namespace tabor::scan::format {
+namespace {
+
+/// Microscopes keep heights in tags of their own beside a picture: those are Gwyddion's matter.
+void require_plain_grey(const Contents& contents, const io::TiffDescription& image) {
+  if (image.is_grey && !image.has_park_tags) return;
+  throw Unrecognised(contents,
+                     image.has_park_tags ? "a TIFF of a Park microscope"
+                                         : "a TIFF that is no plain grey picture (colours, alpha, "
+                                           "or white as zero)",
+                     "save heights as 16-bit grey");
+}
+
+}  // namespace
+
+Match identify_tiff(std::string_view head) {
+  for (const std::string_view magic :
+       {std::string_view("II*\0", 4), std::string_view("MM\0*", 4), std::string_view("II+\0", 4),
+        std::string_view("MM\0+", 4)}) {
+    if (head.starts_with(magic)) return Match::maybe;
+  }
+  return Match::no;
+}
+
+Document open_tiff(const Contents& contents) {
+  const io::TiffDescription image = io::describe_tiff(contents.file);
+  require_plain_grey(contents, image);
+  const std::size_t most = contents.bytes.size() * (image.is_compressed ? kLargestDeflateRatio : 1);
+  check_size(contents, static_cast<double>(image.nx), static_cast<double>(image.ny),
+             most / static_cast<std::size_t>(std::max(1, image.bits / 8)));
+  Document document{.format = "tiff"};
+  if (image.n_images > 1) {
+    document.doubts.push_back(fmt::format("only the first of {} images is read", image.n_images));
+  }
+  if (image.bits < 16) {
+    document.doubts.push_back(fmt::format("only {} bits per pixel: coarse heights", image.bits));
+  }
+  document.layers.push_back(
+      {.name = "grey values", .is_count = true, .nx = image.nx, .ny = image.ny, .load = [contents] {
+         return io::read_tiff(contents.file,
+                              [&contents](double share) { contents.finished({}, share); });
+       }});
+  return document;
+}
+
+}  // namespace tabor::scan::format

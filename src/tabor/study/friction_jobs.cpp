@@ -1,0 +1,202 @@
+#include "tabor/study/friction_jobs.hpp"
+
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "tabor/core/error.hpp"
+#include "tabor/io/hdf5_guard.hpp"
+#include "tabor/study/compute.hpp"
+#include "tabor/study/made_once.hpp"
+
+namespace tabor::study {
+namespace {
+
+/// Of a job with its surface [bytes]; tools/bench/study prints it. With oil that flows, what the
+/// peak of `tabor friction --fluid reynolds` grows by with the pixels of a flooded scan, and a
+/// little.
+constexpr std::size_t kBytesPerPixel = 80;
+constexpr std::size_t kBytesPerFlowingPixel = 500;
+
+Quality quality_of_row(const Row& row) {
+  if (row.failed()) return Quality::failed;
+  return row.converged ? Quality::converged : Quality::not_converged;
+}
+
+Quality quality_of(bool converged) {
+  return converged ? Quality::converged : Quality::not_converged;
+}
+
+/// Without its maps.
+bool contact_converged(const Store& store, const Task& task) {
+  return io::read_guarded(store.path(task), [](const io::Hdf5Reader& reader) {
+           return reader.number("/contact", "converged");
+         }) != 0;
+}
+
+/// What the jobs of one scan share: all that outlives them, and its treated surface.
+struct ScanOfJobs {
+  const Store& store;
+  const Study& study;
+  const Scan& scan;
+  const ScanTasks& tasks;
+  MadeOnce<topography::Topography> treated = {};
+
+  /// Made by the first who asks, and gone with the last job.
+  std::shared_ptr<const topography::Topography> surface(const Monitor& monitor) {
+    return treated.get([&] {
+      return treated_surface(study, scan, tasks.sha256, monitor.shared(stage_name("read", scan)));
+    });
+  }
+};
+using SharedScan = std::shared_ptr<ScanOfJobs>;
+using SharedContact = std::shared_ptr<MadeOnce<contact::State>>;
+
+Job job_of(const std::string& kind, const SharedScan& scan, const Task& task) {
+  Job job;
+  job.task = task;
+  job.kind = kind;
+  job.defect = [scan, task] { return defect(scan->store, task); };
+  job.memory = [scan](const Monitor& monitor) {
+    return static_cast<std::size_t>(scan->surface(monitor)->height.size()) *
+           (scan->study.flows() ? kBytesPerFlowingPixel : kBytesPerPixel);
+  };
+  return job;
+}
+
+Job surface_job(const SharedScan& scan) {
+  Job job = job_of("surface", scan, scan->tasks.surface);
+  job.stage = stage_name("surface", scan->scan);
+  job.compute = [scan](const Monitor& monitor) {
+    compute_surface(scan->store, scan->tasks.surface, *scan->surface(monitor));
+  };
+  return job;
+}
+
+Job film_job(const SharedScan& scan) {
+  Job job = job_of("film", scan, scan->tasks.film);
+  job.stage = stage_name("film", scan->scan);
+  job.is_serial = true;
+  job.compute = [scan](const Monitor& monitor) {
+    compute_film(scan->store, scan->tasks.film, scan->study, *scan->surface(monitor), monitor.own);
+  };
+  return job;
+}
+
+Job contact_job(const SharedScan& scan, std::size_t pressure) {
+  const Task& task = scan->tasks.contacts[pressure];
+  const double load = scan->study.mean_pressures[pressure];
+  Job job = job_of("contact", scan, task);
+  job.stage = stage_name("contact", scan->scan, load);
+  job.quality = [scan, task] { return quality_of(contact_converged(scan->store, task)); };
+  job.compute = [scan, task, load](const Monitor& monitor) {
+    compute_contact(scan->store, task, scan->study, *scan->surface(monitor), load, monitor.own);
+  };
+  return job;
+}
+
+Job fluid_job(const SharedScan& scan, const SharedContact& dry, std::size_t pressure,
+              std::size_t condition) {
+  const Task& task = scan->tasks.fluids[pressure][condition];
+  const double load = scan->study.mean_pressures[pressure];
+  Job job = job_of("fluid", scan, task);
+  job.stage = stage_name("flow", scan->scan, load);
+  job.restarts = true;  // with a contact within each step of the film
+  job.quality = [scan, task] {
+    return quality_of(read_fluid(scan->store, task).summary.convergence.converged());
+  };
+  job.compute = [scan, dry, load, pressure, condition](const Monitor& monitor) {
+    const auto surface = scan->surface(monitor);
+    const auto contact =
+        dry->get([&] { return solve_contact(scan->study, *surface, load, monitor.own); });
+    compute_fluid(scan->store, scan->study, *surface, *contact, scan->tasks, pressure, condition,
+                  monitor.own);
+  };
+  return job;
+}
+
+Job row_job(const SharedScan& scan, std::size_t pressure, std::size_t condition) {
+  const Task& task = scan->tasks.cases[pressure][condition];
+  Job job = job_of("case", scan, task);
+  job.is_brief = true;
+  job.memory = nullptr;
+  job.quality = [scan, task] { return quality_of_row(read_row(scan->store, task)); };
+  job.compute = [scan, pressure, condition](const Monitor&) {
+    try {
+      compute_row(scan->store, scan->study, scan->scan, scan->tasks, pressure, condition);
+    } catch (const InputError& damage) {  // of a file of this store, which is no fault of the case
+      throw Error(damage.what());
+    }
+  };
+  job.record_failure = [scan, pressure, condition](const std::string& error) {
+    record_failure(scan->store, scan->study, scan->scan, scan->tasks, pressure, condition, error);
+  };
+  return job;
+}
+
+/// The list of all jobs as it grows.
+class JobList {
+ public:
+  void add(const SharedScan& scan) {
+    surface_ = add(surface_job(scan), {});
+    film_ = add(film_job(scan), {});
+    const std::size_t n_pressures = scan->tasks.contacts.size();
+    contacts_.clear();
+    for (std::size_t pressure = 0; pressure < n_pressures; ++pressure) add_contact(scan, pressure);
+    for (std::size_t pressure = 0; pressure < n_pressures; ++pressure) add_flows(scan, pressure);
+    part_ += n_pressures;
+  }
+
+  std::vector<Job> take() { return std::move(jobs_); }
+
+ private:
+  void add_contact(const SharedScan& scan, std::size_t pressure) {
+    contacts_.push_back(add(contact_job(scan, pressure), {}, part_ + pressure));
+    if (scan->study.flows()) return;
+    for (std::size_t i = 0; i < scan->tasks.cases[pressure].size(); ++i) {
+      add_row(scan, pressure, i, {contacts_[pressure], film_});
+    }
+  }
+
+  /// The contact without oil is solved once for all films that flow in it.
+  void add_flows(const SharedScan& scan, std::size_t pressure) {
+    const auto dry = std::make_shared<MadeOnce<contact::State>>();
+    for (std::size_t i = 0; i < scan->tasks.fluids[pressure].size(); ++i) {
+      const std::size_t fluid =
+          add(fluid_job(scan, dry, pressure, i), {contacts_[pressure], film_}, part_ + pressure);
+      add_row(scan, pressure, i, {contacts_[pressure], film_, fluid});
+    }
+  }
+
+  void add_row(const SharedScan& scan, std::size_t pressure, std::size_t condition,
+               std::vector<std::size_t> needs) {
+    add(row_job(scan, pressure, condition), std::move(needs), part_ + pressure);
+    jobs_.back().wants = {surface_};
+  }
+
+  std::size_t add(Job job, std::vector<std::size_t> needs, std::optional<std::size_t> part = {}) {
+    job.needs = std::move(needs);
+    job.part = part;
+    jobs_.push_back(std::move(job));
+    return jobs_.size() - 1;
+  }
+
+  std::vector<Job> jobs_;
+  std::size_t part_ = 0;  // of the first pressure of the scan
+  std::size_t surface_ = 0;
+  std::size_t film_ = 0;
+  std::vector<std::size_t> contacts_;
+};
+
+}  // namespace
+
+std::vector<Job> friction_jobs(const Store& store, const Study& study,
+                               const std::vector<ScanTasks>& tasks) {
+  JobList jobs;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    jobs.add(SharedScan(new ScanOfJobs{store, study, study.scans[i], tasks[i]}));
+  }
+  return jobs.take();
+}
+
+}  // namespace tabor::study

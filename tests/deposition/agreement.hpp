@@ -1,0 +1,57 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "deposition/random_terrain.hpp"
+
+namespace tabor::deposition::testing {
+
+/// The naive rule's levels after a third of the droplets and after all, and the doses reached then.
+struct Expected {
+  std::vector<Volume> doses;
+  std::vector<std::vector<std::int64_t>> levels;
+  Volume lost = 0;
+  std::int64_t n_droplets = 0;
+};
+
+inline Expected rain_naively(const RandomCase& c) {
+  NaiveRain naive(c.terrain, c.reading);
+  const CounterRandom starts(c.seed);
+  Expected expected;
+  Volume dosed = 0;
+  for (const std::int64_t until : {c.n_droplets / 3 + 1, c.n_droplets + 1}) {
+    for (; expected.n_droplets < until; ++expected.n_droplets) {
+      const auto start = starts.below(static_cast<std::uint64_t>(expected.n_droplets),
+                                      static_cast<std::uint64_t>(c.terrain.size()));
+      dosed += naive.drop(static_cast<Pixel>(start), c.droplet);
+    }
+    expected.doses.push_back(dosed);
+    expected.levels.push_back(naive.levels());
+  }
+  expected.lost = naive.lost();
+  return expected;
+}
+
+/// True if the fast engine reaches the same doses with the same levels, to the last bit.
+inline bool fast_engine_agrees(const RandomCase& c) {
+  const Expected expected = rain_naively(c);
+  Pools pools(c.terrain, Ties::connected);
+  bool agrees = true;
+  RainState last;
+  const auto compare = [&](std::size_t i, const RainState& state) {
+    agrees &= state.dosed == expected.doses[i] && levels_of(pools) == expected.levels[i];
+    last = state;
+  };
+  rain_droplets(pools, c.droplet, c.reading, c.seed, expected.doses, compare, {});
+  agrees &= last.n_droplets == expected.n_droplets;
+  agrees &= c.terrain.edge != Edge::open || pools.beyond() == expected.lost;
+  return agrees;
+}
+
+inline void expect_agreement(std::uint64_t first, std::uint64_t count, Pixel largest_side) {
+  for (std::uint64_t number = first; number < first + count; ++number) {
+    ASSERT_TRUE(fast_engine_agrees(random_case(number, largest_side))) << "case " << number;
+  }
+}
+
+}  // namespace tabor::deposition::testing

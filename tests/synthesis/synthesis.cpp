@@ -1,0 +1,281 @@
+#include "tabor/synthesis/synthesis.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "support/sample_surfaces.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/psd.hpp"
+
+namespace tabor::synthesis::test {
+
+using namespace tabor::test;
+namespace {
+
+SelfAffine recipe_of(Index n = 128) {
+  SelfAffine recipe;
+  recipe.grid = {n, n, 128e-6, 128e-6};
+  recipe.rms_height = 1e-6;
+  return recipe;
+}
+
+double parameter(const topography::Topography& topography, const std::string& symbol) {
+  for (const metrology::Parameter& p : metrology::parameters(topography)) {
+    if (p.symbol == symbol) {
+      return p.value;
+    }
+  }
+  return kHole;
+}
+
+TEST(SelfAffine, HasExactlyTheRmsHeightAskedFor) {
+  EXPECT_NEAR(metrology::rms_height(self_affine(recipe_of())) / 1e-6, 1, 1e-12);
+  auto odd = recipe_of();
+  odd.grid = {81, 120, 1e-4, 2e-4};
+  odd.random_amplitudes = true;
+  EXPECT_NEAR(metrology::rms_height(self_affine(odd)) / 1e-6, 1, 1e-12);
+}
+
+TEST(SelfAffine, HasExactlyTheSpectralRmsSlopeAskedFor) {
+  auto recipe = recipe_of();
+  recipe.rms_height.reset();
+  recipe.rms_slope = 0.2;
+  EXPECT_NEAR(metrology::power_spectra(self_affine(recipe)).rms_slope, 0.2, 1e-12);
+}
+
+TEST(SelfAffine, HasTheSamePointsAtTwiceTheResolution) {
+  auto coarse = recipe_of(64), fine = recipe_of(128);
+  coarse.short_cutoff_wavelength = fine.short_cutoff_wavelength = 8e-6;
+  const Field a = self_affine(coarse).height, b = self_affine(fine).height;
+  for (Index y = 0; y < 64; ++y) {
+    for (Index x = 0; x < 64; ++x) {
+      ASSERT_NEAR(a(y, x), b(2 * y, 2 * x), 1e-18);
+    }
+  }
+}
+
+TEST(SelfAffine, DependsOnTheSeedAndNotOnThreads) {
+  auto recipe = recipe_of();
+  recipe.random_amplitudes = true;
+  expect_same_bits_on_any_threads([&] { return self_affine(recipe).height; });
+  const Field first = self_affine(recipe).height;
+  recipe.seed = 2;
+  EXPECT_GT(largest_difference(self_affine(recipe).height, first), 1e-7);
+}
+
+TEST(SelfAffine, HasNoPowerOutsideItsCutoffs) {
+  auto recipe = recipe_of();
+  recipe.short_cutoff_wavelength = 8e-6;
+  recipe.long_cutoff_wavelength = 32e-6;
+  const auto spectrum = metrology::power_spectra(self_affine(recipe)).radial;
+  double inside = 0, outside = 0;
+  for (std::size_t i = 0; i < spectrum.q.size(); ++i) {
+    const double wavelength = 2 * pi / spectrum.q[i];
+    const bool within = wavelength > 9e-6 && wavelength < 28e-6;
+    const bool beyond = wavelength < 7e-6 || wavelength > 40e-6;
+    (within ? inside : beyond ? outside : inside) += spectrum.density[i];
+  }
+  EXPECT_GT(inside, 0);
+  EXPECT_LT(outside, 1e-20 * inside);
+}
+
+TEST(SelfAffine, IsFlatBelowTheRollOff) {
+  auto recipe = recipe_of();
+  recipe.roll_off_wavelength = 16e-6;
+  const auto spectrum = metrology::power_spectra(self_affine(recipe)).radial;
+  EXPECT_NEAR(spectrum.density[1] / spectrum.density[5], 1, 1e-9);
+  EXPECT_LT(spectrum.density[31], 0.02 * spectrum.density[5]);
+}
+
+TEST(SelfAffine, IsLongerAlongXWhenStretched) {
+  auto recipe = recipe_of();
+  recipe.stretch = 4;
+  const auto spectra = metrology::power_spectra(self_affine(recipe));
+  EXPECT_GT(spectra.y.rms_slope, 2 * spectra.x.rms_slope);
+}
+
+TEST(SelfAffine, IsPeriodicAndRecordsItsRecipe) {
+  const auto surface = self_affine(recipe_of());
+  EXPECT_TRUE(surface.periodic);
+  EXPECT_THAT(surface.history.front(), testing::HasSubstr("H = 0.8"));
+  EXPECT_THAT(surface.source, testing::HasSubstr("seed 1"));
+}
+
+TEST(SelfAffine, RefusesRecipesThatMakeNoSense) {
+  auto recipe = recipe_of();
+  recipe.rms_slope = 0.1;
+  EXPECT_THROW(self_affine(recipe), InputError);  // two amplitudes
+  recipe.rms_slope.reset();
+  recipe.rms_height.reset();
+  EXPECT_THROW(self_affine(recipe), InputError);  // none
+  recipe = recipe_of();
+  recipe.hurst = 1.5;
+  EXPECT_THROW(self_affine(recipe), InputError);
+  recipe = recipe_of();
+  recipe.rms_height = -1e-6;
+  EXPECT_THROW(self_affine(recipe), InputError);
+  recipe = recipe_of();
+  recipe.short_cutoff_wavelength = 1;  // longer than the scan
+  EXPECT_THROW(self_affine(recipe), InputError);
+  recipe = recipe_of();
+  recipe.grid.lx = 0;
+  EXPECT_THROW(self_affine(recipe), InputError);
+}
+
+Edt edt_recipe(Index n = 512, std::uint64_t seed = 1) {
+  Edt recipe;
+  const double side = static_cast<double>(n) * 0.67e-6;
+  recipe.grid = {n, n, side, side};
+  recipe.seed = seed;
+  return recipe;
+}
+
+TEST(EdtSurface, HasTheSaOfTheSheet) {  // slow
+  EXPECT_NEAR(parameter(edt(edt_recipe()), "Sa") / 0.9e-6, 1, 1e-12);
+}
+
+TEST(EdtSurface, FallsAsAPowerLawWithHBetween7And8Tenths) {
+  for (const std::uint64_t seed : {1, 2}) {
+    const auto spectra = metrology::power_spectra(edt(edt_recipe(512, seed)));
+    for (const metrology::HurstFit& fit :
+         {spectra.x.hurst, spectra.y.hurst, spectra.radial.hurst}) {
+      EXPECT_GT(fit.hurst, 0.7);
+      EXPECT_LT(fit.hurst, 0.8);
+      EXPECT_LT(fit.standard_error, 0.04);
+      EXPECT_GT(fit.q_max / fit.q_min, 10);
+    }
+  }
+}
+
+TEST(EdtSurface, HasPlateausAndPocketsAndALay) {  // slow
+  const auto surface = edt(edt_recipe());
+  EXPECT_LT(parameter(surface, "Ssk"), -0.2);
+  const auto spectra = metrology::power_spectra(surface);
+  EXPECT_GT(spectra.y.rms_slope, 1.05 * spectra.x.rms_slope);  // longer along x
+}
+
+TEST(EdtSurface, IsPeriodicOrNot) {
+  auto recipe = edt_recipe(256);
+  const auto tiled = edt(recipe);
+  recipe.periodic = false;
+  const auto cut = edt(recipe);
+  EXPECT_TRUE(tiled.periodic);
+  EXPECT_FALSE(cut.periodic);
+  const auto seam = [](const Field& z) {
+    return std::sqrt((z.col(0) - z.col(z.cols() - 1)).square().mean());
+  };
+  EXPECT_LT(seam(tiled.height), 0.3e-6);
+  EXPECT_GT(seam(cut.height), 0.5e-6);
+  EXPECT_NEAR(parameter(cut, "Sa") / 0.9e-6, 1, 1e-12);
+}
+
+TEST(EdtSurface, AfterSlidingHasFlatTopsWithGroovesAlongX) {  // slow
+  auto recipe = edt_recipe();
+  const auto before = edt(recipe);
+  recipe.stage = EdtStage::after;
+  const auto after = edt(recipe);
+  EXPECT_LT(parameter(after, "Ssk"), parameter(before, "Ssk"));
+  EXPECT_LT(parameter(after, "Sp"), 0.7 * parameter(before, "Sp"));
+  EXPECT_NEAR(parameter(after, "Sv") / parameter(before, "Sv"), 1, 0.1);  // pockets stay
+  // On the tops of both, slopes along y exceed those along x by more than before sliding.
+  const auto anisotropy = [](const topography::Topography& surface) {
+    const Field& z = surface.height;
+    double along_x = 0, along_y = 0;
+    std::vector<double> sorted(z.data(), z.data() + z.size());
+    const auto rank = sorted.size() * 9 / 10;
+    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank),
+                     sorted.end());
+    const double tops = sorted[rank];
+    for (Index y = 0; y + 1 < z.rows(); ++y) {
+      for (Index x = 0; x + 1 < z.cols(); ++x) {
+        if (z(y, x) > tops && z(y, x + 1) > tops && z(y + 1, x) > tops) {
+          along_x += std::pow(z(y, x + 1) - z(y, x), 2);
+          along_y += std::pow(z(y + 1, x) - z(y, x), 2);
+        }
+      }
+    }
+    return along_y / along_x;
+  };
+  EXPECT_GT(anisotropy(after), 1.2 * anisotropy(before));
+}
+
+TEST(EdtSurface, DependsOnTheSeedAndNotOnThreads) {
+  expect_same_bits_on_any_threads([] { return edt(edt_recipe(200)).height; });
+  EXPECT_GT(largest_difference(edt(edt_recipe(200, 1)).height, edt(edt_recipe(200, 2)).height),
+            1e-7);
+}
+
+TEST(EdtSurface, HasAnySize) {
+  for (const auto& [nx, ny] : {std::pair<Index, Index>{16, 16}, {100, 33}, {37, 250}}) {
+    Edt recipe;
+    recipe.grid = {nx, ny, static_cast<double>(nx) * 0.67e-6, static_cast<double>(ny) * 0.67e-6};
+    for (const bool periodic : {true, false}) {
+      recipe.periodic = periodic;
+      const auto surface = edt(recipe);
+      EXPECT_EQ(surface.height.cols(), nx);
+      EXPECT_EQ(surface.height.rows(), ny);
+      EXPECT_FALSE(surface.height.hasNaN());
+      EXPECT_NEAR(parameter(surface, "Sa") / 0.9e-6, 1, 1e-12);
+    }
+  }
+}
+
+TEST(EdtSurface, RefusesRecipesThatMakeNoSense) {
+  auto recipe = edt_recipe();
+  recipe.mean_abs_height = 0;
+  EXPECT_THROW(edt(recipe), InputError);
+  recipe = edt_recipe();
+  recipe.grid.nx = 1;
+  EXPECT_THROW(edt(recipe), InputError);
+}
+
+TEST(GroundSurface, HasGroovesAlongX) {
+  const auto surface = ground({.grid = {256, 256, 256e-6, 256e-6}});
+  EXPECT_NEAR(metrology::rms_height(surface) / 0.3e-6, 1, 1e-12);
+  const auto spectra = metrology::power_spectra(surface);
+  EXPECT_GT(spectra.y.rms_slope, 5 * spectra.x.rms_slope);
+}
+
+TEST(Sinusoid, HasACrestOnTheFirstPixel) {
+  const auto wave =
+      sinusoid({.grid = {64, 32, 64e-6, 32e-6}, .amplitude = 2e-6, .wavelength_x = 16e-6});
+  EXPECT_DOUBLE_EQ(wave.height(0, 0), 2e-6);
+  EXPECT_NEAR(wave.height(5, 8), -2e-6, 1e-20);
+  EXPECT_NEAR(metrology::rms_height(wave), 2e-6 / std::numbers::sqrt2, 1e-18);
+  EXPECT_TRUE(wave.periodic);
+}
+
+TEST(Sinusoid, IsNotPeriodicWithHalfAWavelength) {
+  EXPECT_FALSE(sinusoid({.grid = {64, 32, 72e-6, 32e-6}, .wavelength_x = 16e-6}).periodic);
+  EXPECT_THROW(sinusoid({.grid = {64, 32, 72e-6, 32e-6}}), InputError);
+}
+
+TEST(Sinusoid, HasTwoPixelsAWave) {
+  const Grid grid{64, 32, 64e-6, 32e-6};
+  EXPECT_GT(sinusoid({.grid = grid, .amplitude = 1e-6, .wavelength_x = 2e-6}).height.maxCoeff(), 0);
+  EXPECT_THROW(sinusoid({.grid = grid, .amplitude = 1e-6, .wavelength_x = 1e-7}), InputError);
+  EXPECT_THROW(sinusoid({.grid = grid, .amplitude = 1e-6, .wavelength_y = 1.9e-6}), InputError);
+}
+
+TEST(SphereSurface, HasItsCurvatureAtThePole) {
+  const double radius = 1e-3;
+  const auto cap = sphere({.grid = {101, 101, 101e-7, 101e-7}, .radius = radius});
+  EXPECT_EQ(cap.height(50, 50), 0);
+  const double r = 50 * 1e-7;
+  EXPECT_NEAR(cap.height(50, 100) / (std::sqrt(radius * radius - r * r) - radius), 1, 1e-6);
+  EXPECT_NEAR(-2 * cap.height(50, 60) / 1e-12, 1 / radius, 1e-3 / radius);
+}
+
+TEST(BumpSurface, RisesSmoothlyFromAFlat) {
+  const auto hill = bump({.grid = {101, 101, 101e-7, 101e-7}, .height = 1e-6, .radius = 3e-6});
+  EXPECT_DOUBLE_EQ(hill.height(50, 50), 1e-6);
+  EXPECT_NEAR(hill.height(50, 65), 0.5e-6, 1e-18);  // half the radius
+  EXPECT_EQ(hill.height(0, 0), 0);
+}
+
+}  // namespace
+}  // namespace tabor::synthesis::test
