@@ -46,7 +46,7 @@ TEST(Tasks, KeyIsTheDigestOfAFixedText) {
 
 TEST(Tasks, TextOfACaseWithoutFlowIsWhatItWasBeforeOilCouldFlow) {
   Study study;
-  study.shear_strength = 7e7;
+  study.settings.friction.shear_strength = 7e7;
   Task contact;
   contact.key = "c";
   Task film;
@@ -58,9 +58,17 @@ TEST(Tasks, TextOfACaseWithoutFlowIsWhatItWasBeforeOilCouldFlow) {
             "shear_strength_Pa = 70000000\narea = 9:corrected\n");
 }
 
+analysis::FluidSettings flowing(double viscosity, std::optional<double> pressure_viscosity = {},
+                                std::optional<double> eyring_stress = {}) {
+  return {.fluid = analysis::Fluid::reynolds,
+          .viscosity = viscosity,
+          .pressure_viscosity = pressure_viscosity,
+          .eyring_stress = eyring_stress};
+}
+
 /// Lets the oil of a study flow.
 void let_flow(Study& study) {
-  study.lubricant.flowing = friction::FlowingOil{0.2, {}, {}};
+  study.settings.fluid = flowing(0.2);
   study.sliding_speeds = {0.01, 0.1};
 }
 
@@ -83,16 +91,15 @@ TEST(Tasks, AFilmThatFlowsDoesNotKnowTheShearStrengthButItsOil) {
   const ScanTasks before = tasks_after(let_flow);
   const ScanTasks stronger = tasks_after([](Study& study) {
     let_flow(study);
-    study.shear_strength = 1e6;
+    study.settings.friction.shear_strength = 1e6;
   });
   EXPECT_EQ(stronger.fluids[0][0].key, before.fluids[0][0].key);
   EXPECT_NE(stronger.cases[0][0].key, before.cases[0][0].key);
-  for (const friction::FlowingOil& oil :
-       {friction::FlowingOil{0.3, {}, {}}, friction::FlowingOil{0.2, 1e-8, {}},
-        friction::FlowingOil{0.2, {}, 1e6}}) {
+  for (const analysis::FluidSettings& oil :
+       {flowing(0.3), flowing(0.2, 1e-8), flowing(0.2, {}, 1e6)}) {
     const ScanTasks other = tasks_after([&](Study& study) {
       let_flow(study);
-      study.lubricant.flowing = oil;
+      study.settings.fluid = oil;
     });
     EXPECT_NE(other.fluids[0][0].key, before.fluids[0][0].key);
     EXPECT_NE(other.cases[0][0].key, before.cases[0][0].key);
@@ -121,17 +128,19 @@ TEST(Tasks, AllKeysOfAStudyDiffer) {
 
 TEST(Tasks, ASettingChangesOnlyWhatDependsOnIt) {
   const ScanTasks before = tasks();
-  const ScanTasks strength = tasks_after([](Study& study) { study.shear_strength = 1e6; });
+  const ScanTasks strength =
+      tasks_after([](Study& study) { study.settings.friction.shear_strength = 1e6; });
   EXPECT_EQ(strength.contacts[0].key, before.contacts[0].key);
   EXPECT_EQ(strength.film.key, before.film.key);
   EXPECT_NE(strength.cases[0][0].key, before.cases[0][0].key);
 
-  const ScanTasks seed = tasks_after([](Study& study) { study.lubricant.seed = 2; });
+  const ScanTasks seed = tasks_after([](Study& study) { study.settings.film.seed = 2; });
   EXPECT_EQ(seed.contacts[0].key, before.contacts[0].key);
   EXPECT_NE(seed.film.key, before.film.key);
   EXPECT_NE(seed.cases[0][0].key, before.cases[0][0].key);
 
-  const ScanTasks modulus = tasks_after([](Study& study) { study.solid.youngs_modulus = 71e9; });
+  const ScanTasks modulus =
+      tasks_after([](Study& study) { study.settings.contact.youngs_modulus = 71e9; });
   EXPECT_EQ(modulus.film.key, before.film.key);
   EXPECT_NE(modulus.contacts[0].key, before.contacts[0].key);
 
@@ -142,8 +151,9 @@ TEST(Tasks, ASettingChangesOnlyWhatDependsOnIt) {
 }
 
 TEST(Tasks, APressureMoreLeavesTheOthersAlone) {
-  const ScanTasks more = tasks_after(
-      [](Study& study) { study.mean_pressures.insert(study.mean_pressures.begin(), 1e6); });
+  const ScanTasks more = tasks_after([](Study& study) {
+    study.settings.mean_pressures.insert(study.settings.mean_pressures.begin(), 1e6);
+  });
   EXPECT_EQ(more.contacts[1].key, tasks().contacts[0].key);
   EXPECT_EQ(more.cases[1][0].key, tasks().cases[0][0].key);
 }

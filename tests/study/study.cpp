@@ -25,13 +25,13 @@ std::string complaint(const std::string& part, const std::string& by) {
 TEST(ReadStudy, ConvertsEverythingToSi) {
   const Study study = ExampleStudy().read();
   EXPECT_EQ(study.title, "two small scans");
-  EXPECT_EQ(study.shear_strength, 70e6);
-  EXPECT_EQ(study.saturation_pressure, 240e6);
-  EXPECT_THAT(study.mean_pressures, ElementsAre(5e6, 15e6));
+  EXPECT_EQ(study.settings.friction.shear_strength, 70e6);
+  EXPECT_EQ(study.settings.contact.saturation_pressure, 240e6);
+  EXPECT_THAT(study.settings.mean_pressures, ElementsAre(5e6, 15e6));
   EXPECT_THAT(study.treatment, ElementsAre("level=mean"));
-  EXPECT_NEAR(study.effective_modulus(), 70e9 / (1 - 0.33 * 0.33), 1);
-  EXPECT_EQ(in_g_per_m2(study.lubricant_densities[0]), 0.45);
-  EXPECT_EQ(in_g_per_m2(study.lubricant_densities[1]), 0.9);
+  EXPECT_NEAR(study.settings.contact.effective_modulus(), 70e9 / (1 - 0.33 * 0.33), 1);
+  EXPECT_EQ(in_g_per_m2(study.settings.film.lubricant_densities[0]), 0.45);
+  EXPECT_EQ(in_g_per_m2(study.settings.film.lubricant_densities[1]), 0.9);
   EXPECT_EQ(study.n_cases(), 8u);
 }
 
@@ -67,8 +67,8 @@ TEST(ReadStudy, WithoutSaturationIsElasticAndWithoutDensityIsDry) {
   std::string text = replaced(kStudyText, "saturation_pressure = \"240 MPa\"\n", "");
   text = replaced(text, "lubricant_density = [\"0.45 g/m^2\", \"0.9 g/m^2\"]\n", "");
   example.write(text);
-  EXPECT_TRUE(std::isinf(example.read().saturation_pressure));
-  EXPECT_THAT(example.read().lubricant_densities, ElementsAre(0));
+  EXPECT_TRUE(std::isinf(example.read().settings.contact.pressure_cap()));
+  EXPECT_THAT(example.read().settings.film.lubricant_densities, ElementsAre(0));
 }
 
 TEST(ReadStudy, ReadsBackWhatItWroteAsText) {
@@ -79,9 +79,9 @@ TEST(ReadStudy, ReadsBackWhatItWroteAsText) {
   const std::string text = to_toml(example.read());
   example.write(text);
   EXPECT_EQ(to_toml(example.read()), text);
-  EXPECT_FALSE(example.read().contact.periodic);
-  EXPECT_EQ(example.read().lubricant.seed, 7u);
-  EXPECT_EQ(example.read().lubricant.edge, deposition::Edge::open);
+  EXPECT_FALSE(example.read().settings.contact.is_periodic());
+  EXPECT_EQ(example.read().settings.film.seed, 7u);
+  EXPECT_EQ(example.read().settings.film.edge, deposition::Edge::open);
 }
 
 TEST(ReadStudy, TakesOilThatFlows) {
@@ -93,9 +93,9 @@ TEST(ReadStudy, TakesOilThatFlows) {
   example.write(text);
   const Study study = example.read();
   ASSERT_TRUE(study.flows());
-  EXPECT_EQ(study.lubricant.flowing->viscosity, 0.2);
-  EXPECT_NEAR(study.lubricant.flowing->pressure_viscosity.value(), 2e-8, 1e-20);
-  EXPECT_EQ(study.lubricant.flowing->eyring_stress, 5e6);
+  EXPECT_EQ(study.settings.fluid.viscosity, 0.2);
+  EXPECT_NEAR(study.settings.fluid.pressure_viscosity.value(), 2e-8, 1e-20);
+  EXPECT_EQ(study.settings.fluid.eyring_stress, 5e6);
   EXPECT_THAT(study.sliding_speeds, ElementsAre(0.1, 1));
   EXPECT_EQ(study.n_cases(), 16u);
   example.write(to_toml(study));

@@ -176,11 +176,13 @@ TEST(Sweep, StoppedAnywhereAndResumedGivesTheSameBytes) {
 TEST(Sweep, InterruptedKeepsWhatIsFinished) {
   const ExampleStudy example;
   SweepOptions options;
-  options.observer = [](const Progress& progress) { return !(progress.whole >= 0.6); };
+  options.jobs = 1;
+  options.observer = [](const Progress& progress) {
+    return progress.stage != "contact scan_1.h5 15 MPa";  // the second contact
+  };
   EXPECT_THROW(example.run(options), Interrupted);
   const io::CsvTable table = io::parse_csv(example.csv(), "results.csv");
-  EXPECT_GE(table.rows.size(), 2u);
-  EXPECT_LT(table.rows.size(), 8u);
+  EXPECT_EQ(table.rows.size(), 2u);  // both densities of the first
   const Outcome rest = example.run();
   EXPECT_EQ(rest.n_rows, 8 - table.rows.size());
 }
@@ -237,14 +239,14 @@ void store_unfinished_contact(const ExampleStudy& example) {
   const Study study = example.read();
   const Store store(example.results(), Store::Use::alone);
   analysis::ContactRecord record;
-  record.state.pressure = Field::Constant(24, 32, study.mean_pressures[0]);
+  record.state.pressure = Field::Constant(24, 32, study.settings.mean_pressures[0]);
   record.state.gap = Field::Zero(24, 32);
   record.convergence.certificate = 0.5;
   contact::Summary& summary = record.summary;
-  summary.mean_pressure = study.mean_pressures[0];
+  summary.mean_pressure = study.settings.mean_pressures[0];
   summary.contact_area_fraction = summary.contact_area_fraction_pixels = 1;
   write_contact(store, tasks_of(study)[0].contacts[0], {32, 24, 32e-6, 24e-6},
-                study.saturation_pressure, record);
+                study.settings.contact.pressure_cap(), record);
 }
 
 TEST(Sweep, NotConvergedCasesAreSolvedAgainOnlyByRetry) {

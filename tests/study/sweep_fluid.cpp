@@ -91,7 +91,7 @@ TEST(FlowingSweep, AgreesWithTheSolverItself) {
   const Study study = example.read();
   const ScanTasks tasks = tasks_of(study)[0];
   const topography::Topography surface = treated_surface(study, study.scans[0], tasks.sha256, {});
-  const contact::State dry = solve_contact(study, surface, study.mean_pressures[0], {});
+  const contact::State dry = solve_contact(study, surface, study.settings.mean_pressures[0], {});
   const Store store(example.results(), Store::Use::alone);
   const analysis::FluidRecord stored = read_fluid(store, tasks.fluids[0][1]);
   ASSERT_TRUE(stored.summary.convergence.converged());
@@ -100,10 +100,10 @@ TEST(FlowingSweep, AgreesWithTheSolverItself) {
   const io::CsvTable table = table_of(example);
   EXPECT_EQ(table.number(1, "fluid_load_share"), stored.summary.load_share);
   EXPECT_EQ(table.number(1, "friction_viscous"),
-            stored.summary.viscous_stress / study.mean_pressures[0]);
+            stored.summary.viscous_stress / study.settings.mean_pressures[0]);
   const io::Hdf5Reader results(example.results() / "results.h5");
   const Field pressure = results.field("/scans/0000/fluid/0001/fluid_pressure");
-  EXPECT_NEAR(pressure.mean() / study.mean_pressures[0], stored.summary.load_share, 1e-6);
+  EXPECT_NEAR(pressure.mean() / study.settings.mean_pressures[0], stored.summary.load_share, 1e-6);
   EXPECT_EQ(results.number("/scans/0000/fluid/0001", "sliding_speed_m_per_s"), 1.0);
   EXPECT_EQ(results.text("/", "fluid"), "reynolds");
   EXPECT_EQ(results.numbers("/averages/friction_mixed_mean").size(), 2u);

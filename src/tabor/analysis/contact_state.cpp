@@ -71,15 +71,21 @@ ContactRecord contact_state(const topography::Topography& surface, const Contact
                        observer);
 }
 
+ContactRecord contact_state(elastic::ElasticOperator& elasticity,
+                            const topography::Topography& surface, const ContactSettings& settings,
+                            double mean_pressure, LoadPath& path, const Observer& observer) {
+  const Field& height = path.height.size() > 0 ? path.height : surface.height;
+  ContactRecord record = state_of(elasticity, surface, height, settings, mean_pressure, observer);
+  if (settings.load_path) path.height = contact::unloaded_height(height, record.state);
+  return record;
+}
+
 void contact_states(elastic::ElasticOperator& elasticity, const topography::Topography& surface,
                     const ContactSettings& settings, const std::vector<double>& mean_pressures,
                     const std::function<void(ContactRecord&&)>& receive, const Observer& observer) {
-  Field unloaded;  // of a load path: the surface as the states before left it
+  LoadPath path;
   for (const double pressure : mean_pressures) {
-    const Field& height = unloaded.size() > 0 ? unloaded : surface.height;
-    ContactRecord record = state_of(elasticity, surface, height, settings, pressure, observer);
-    if (settings.load_path) unloaded = contact::unloaded_height(height, record.state);
-    receive(std::move(record));
+    receive(contact_state(elasticity, surface, settings, pressure, path, observer));
   }
 }
 

@@ -78,6 +78,15 @@ struct FrictionSettings {
   friction::Area area = friction::Area::corrected;
 };
 
+/// Friction of one surface under every pressure with every density.
+struct CaseSettings {
+  std::vector<double> mean_pressures = {};  ///< [Pa]
+  ContactSettings contact = {};
+  FilmSettings film = {};
+  FluidSettings fluid = {};
+  FrictionSettings friction = {};
+};
+
 /// What is wrong with settings before anything is computed.
 struct Objection {
   std::string setting;  ///< "saturation_pressure": whoever asked knows how he called it

@@ -26,6 +26,17 @@ ContactRecord contact_state(elastic::ElasticOperator& elasticity,
 ContactRecord contact_state(const topography::Topography& surface, const ContactSettings& settings,
                             double mean_pressure, const Observer& observer = {});
 
+/// The surface as the contacts of a load path have left it so far.
+struct LoadPath {
+  Field height;  ///< unloaded [m]; empty before the first contact
+};
+
+/// The next contact of a load path, on the surface that those before it have left. Where the
+/// settings ask for no load path, that of the surface as it is.
+ContactRecord contact_state(elastic::ElasticOperator& elasticity,
+                            const topography::Topography& surface, const ContactSettings& settings,
+                            double mean_pressure, LoadPath& path, const Observer& observer = {});
+
 /// All pressures, one after the other, each record handed on and then dropped: along a load path
 /// on the surface that the contact before has left.
 void contact_states(elastic::ElasticOperator& elasticity, const topography::Topography& surface,

@@ -15,7 +15,7 @@ namespace {
 
 struct Request {
   ScanRequest scan;
-  ContactRequest contact;
+  analysis::CaseSettings settings;
   std::optional<std::string> output;
   std::vector<double> cutoffs;           ///< of --lowpass-scan
   std::optional<double> shear_strength;  ///< [Pa], for its friction
@@ -40,7 +40,7 @@ io::Json statistics_json(const analysis::ContactRecord& record, Context& context
 }
 
 void check_all(const Request& request) {
-  check(request.contact);
+  check_contact(request.settings);
   if (request.output && !request.cutoffs.empty()) {
     throw UsageError("--lowpass-scan keeps no maps; leave out -o");
   }
@@ -54,10 +54,10 @@ int show(const Request& request, Context& context) {
   const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
   if (!request.cutoffs.empty()) {
-    return run_lowpass_scan(scan, request.contact, request.cutoffs, request.shear_strength,
+    return run_lowpass_scan(scan, request.settings, request.cutoffs, request.shear_strength,
                             context);
   }
-  const analysis::ContactSettings& settings = request.contact.settings;
+  const analysis::ContactSettings& settings = request.settings.contact;
   const io::Json in_force = settings_json(settings);
   std::optional<FieldsFile> file;
   if (request.output) {
@@ -85,7 +85,7 @@ int show(const Request& request, Context& context) {
   };
   const int ended = until_interrupted(context, [&] {
     const auto elasticity = analysis::make_operator(settings, scan.surface.grid);
-    analysis::contact_states(*elasticity, scan.surface, settings, request.contact.pressures,
+    analysis::contact_states(*elasticity, scan.surface, settings, request.settings.mean_pressures,
                              receive, context.observer());
   });
   if (ended == kInterrupted && records.empty()) throw Interrupted();
@@ -138,8 +138,8 @@ Verb contact_verb() {
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_scan(set, request->scan);
-            declare_contact(set, request->contact);
-            declare_extras(set, request->contact.settings);
+            declare_contact(set, request->settings);
+            declare_extras(set, request->settings.contact);
             declare_lowpass_scan(set, *request);
             declare_output(set, request->output);
             return [request](Context& context) { return show(*request, context); };

@@ -59,30 +59,30 @@ const Columns<FluidSettings>& fluid_setting_columns() {
 
 }  // namespace
 
-void declare_contact(OptionSet& set, ContactRequest& request) {
+void declare_contact(OptionSet& set, analysis::CaseSettings& settings) {
   set.group("Contact");
   set.quantities("--pressure", "P[,P2,...]", "mean pressure, load / nominal area, e.g. 2MPa,7MPa",
-                 dimension::pressure, request.pressures)
+                 dimension::pressure, settings.mean_pressures)
       .required = true;
   set.quantity("--youngs-modulus", "E", "Young's modulus of the rough body, e.g. 70GPa",
-               dimension::pressure, request.settings.youngs_modulus)
+               dimension::pressure, settings.contact.youngs_modulus)
       .required = true;
   set.number("--poisson-ratio", "NU", "Poisson's ratio of the rough body, e.g. 0.33",
-             request.settings.poissons_ratio)
+             settings.contact.poissons_ratio)
       .required = true;
   set.quantity("--counter-youngs-modulus", "E2", "Young's modulus of the counter body [rigid]",
-               dimension::pressure, request.settings.counter_youngs_modulus);
+               dimension::pressure, settings.contact.counter_youngs_modulus);
   set.number("--counter-poisson-ratio", "NU2", "Poisson's ratio of the counter body",
-             request.settings.counter_poissons_ratio);
+             settings.contact.counter_poissons_ratio);
   set.quantity("--saturation-pressure", "PS", "cap on the contact pressure, e.g. 240MPa [elastic]",
-               dimension::pressure, request.settings.saturation_pressure);
+               dimension::pressure, settings.contact.saturation_pressure);
   set.choice("--boundary", analysis::kBoundaries,
              "periodic: the scan repeats; free: loaded on the scan only [periodic]",
-             request.settings.boundary);
+             settings.contact.boundary);
   set.number("--tolerance", "T", "certificate to reach, 1e-12 to 1e-4 [1e-6]",
-             request.settings.tolerance);
+             settings.contact.tolerance);
   set.choice("--solver", analysis::kSolvers, "polonsky-keer is the textbook baseline [fast]",
-             request.settings.solver);
+             settings.contact.solver);
 }
 
 void declare_film(OptionSet& set, analysis::FilmSettings& settings) {
@@ -155,8 +155,8 @@ void check(const std::optional<analysis::Objection>& objection) {
   throw UsageError(has_value ? error.what() : objection->remedy);
 }
 
-void check(const ContactRequest& request) {
-  check(analysis::objection(request.settings, request.pressures, flag_of));
+void check_contact(const analysis::CaseSettings& settings) {
+  check(analysis::objection(settings.contact, settings.mean_pressures, flag_of));
 }
 
 io::Json settings_json(const ContactSettings& settings) {

@@ -17,12 +17,8 @@
 // checks them, and are shown with the results.
 namespace tabor::cli {
 
-struct ContactRequest {
-  std::vector<double> pressures;  ///< [Pa]
-  analysis::ContactSettings settings;
-};
-
-void declare_contact(OptionSet& set, ContactRequest& request);
+/// Pressures and what the contact of each needs.
+void declare_contact(OptionSet& set, analysis::CaseSettings& settings);
 void declare_film(OptionSet& set, analysis::FilmSettings& settings);
 void declare_fluid(OptionSet& set, analysis::FluidSettings& settings);
 void declare_friction(OptionSet& set, analysis::FrictionSettings& settings);
@@ -31,7 +27,7 @@ void declare_friction(OptionSet& set, analysis::FrictionSettings& settings);
 std::string flag_of(std::string_view setting);
 /// Throws what analysis objects to, before a scan is read.
 void check(const std::optional<analysis::Objection>& objection);
-void check(const ContactRequest& request);
+void check_contact(const analysis::CaseSettings& settings);
 
 /// Settings in force, for the JSON head and the result file.
 io::Json settings_json(const analysis::ContactSettings& settings);

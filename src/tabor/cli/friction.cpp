@@ -6,6 +6,7 @@
 #include "tabor/cli/contact_request.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/study/scan_friction.hpp"
 
 namespace tabor::cli {
 
@@ -13,93 +14,72 @@ namespace {
 
 struct Request {
   ScanRequest scan;
-  ContactRequest contact;
-  analysis::FilmSettings film;
-  analysis::FluidSettings fluid;
-  analysis::FrictionSettings friction;
+  analysis::CaseSettings settings;
   std::optional<std::string> output;
 };
 
-void check_all(const Request& request) {
-  check(request.contact);
-  check(analysis::objection(request.film));
-  check(analysis::objection(request.fluid, request.contact.settings, flag_of));
-  check(analysis::objection(request.friction));
+void check_all(const analysis::CaseSettings& settings) {
+  check_contact(settings);
+  check(analysis::objection(settings.film));
+  check(analysis::objection(settings.fluid, settings.contact, flag_of));
+  check(analysis::objection(settings.friction));
 }
 
-io::Json all_settings(const Request& request) {
-  io::Json settings = settings_json(request.contact.settings);
-  settings.update(settings_json(request.film));
-  settings.update(settings_json(request.fluid));
-  settings["shear_strength_Pa"] = request.friction.shear_strength;
-  settings["area"] = friction::kAreas.of(request.friction.area);
-  return settings;
-}
-
-std::vector<std::string> all_references(const Request& request) {
-  std::vector<std::string> all = analysis::references_of(request.contact.settings);
-  const auto add = [&all](const std::vector<std::string>& more) {
-    all.insert(all.end(), more.begin(), more.end());
-  };
-  add(analysis::references_of(request.film));
-  add(analysis::references_of(request.friction));
-  add(analysis::references_of(request.fluid));
+io::Json all_settings(const analysis::CaseSettings& settings) {
+  io::Json all = settings_json(settings.contact);
+  all.update(settings_json(settings.film));
+  all.update(settings_json(settings.fluid));
+  all["shear_strength_Pa"] = settings.friction.shear_strength;
+  all["area"] = friction::kAreas.of(settings.friction.area);
   return all;
 }
 
-std::vector<StateField> maps_of(const analysis::ContactRecord& contact,
-                                const analysis::FilmRecord& film,
-                                const std::optional<analysis::FluidRecord>& fluid) {
-  std::vector<StateField> fields = fields_of(contact);
-  for (const StateField& field : fields_of(film)) fields.push_back(field);
-  if (!fluid) return fields;
-  for (const StateField& field : fields_of(*fluid)) fields.push_back(field);
+std::vector<std::string> all_references(const analysis::CaseSettings& settings) {
+  std::vector<std::string> all = analysis::references_of(settings.contact);
+  const auto add = [&all](const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  add(analysis::references_of(settings.film));
+  add(analysis::references_of(settings.friction));
+  add(analysis::references_of(settings.fluid));
+  return all;
+}
+
+std::vector<StateField> maps_of(const study::FrictionState& state) {
+  std::vector<StateField> fields = fields_of(state.contact);
+  for (const StateField& field : fields_of(state.film)) fields.push_back(field);
+  if (state.fluid == nullptr) return fields;
+  for (const StateField& field : fields_of(*state.fluid)) fields.push_back(field);
   return fields;
 }
 
-std::string text_of(const Scan& scan, const Request& request, const Table& rows) {
+std::string text_of(const Scan& scan, const analysis::CaseSettings& settings, const Table& rows) {
   Facts facts;
   describe(scan, facts);
-  describe(request.contact.settings, facts);
-  describe(request.film, facts);
-  describe(request.fluid, facts);
+  describe(settings.contact, facts);
+  describe(settings.film, facts);
+  describe(settings.fluid, facts);
   facts.fact("friction", fmt::format("shear strength {}, {} contact area",
-                                     si(request.friction.shear_strength, "Pa"),
-                                     friction::kAreas.of(request.friction.area)));
+                                     si(settings.friction.shear_strength, "Pa"),
+                                     friction::kAreas.of(settings.friction.area)));
   return facts.text() + '\n' + rows.text();
 }
 
-/// Every pressure with every density. Each density is rained once and each pressure solved once,
-/// never once per combination.
 int solve_all(const Request& request, const topography::Topography& surface,
               std::vector<analysis::FrictionRecord>& records, FieldsFile* file, Context& context) {
-  const std::vector<analysis::FilmRecord> films =
-      analysis::film_state(surface, request.film, context.observer());
-  const analysis::ContactSettings& settings = request.contact.settings;
-  const auto elasticity = analysis::make_operator(settings, surface.grid);
-  const auto receive = [&](analysis::ContactRecord&& contact) {
-    const Mask touching = contact.state.pressure > 0;
-    for (const analysis::FilmRecord& film : films) {
-      std::optional<analysis::FluidRecord> fluid;
-      if (request.fluid.flows()) {
-        fluid = analysis::fluid_state(*elasticity, surface.height, contact.state,
-                                      contact.summary.mean_pressure, film.film.thickness, settings,
-                                      request.fluid, context.observer());
-      }
-      records.push_back(
-          analysis::friction_state(contact, {touching, contact.state.gap, surface.grid}, film,
-                                   fluid ? &*fluid : nullptr, settings, request.friction));
-      if (file == nullptr) continue;
-      file->add_state(
-          records.size() - 1,
-          cells_of(analysis::friction_columns(), records.back(), analysis::media::kObject),
-          maps_of(contact, film, fluid));
-    }
+  const auto receive = [&](const study::FrictionState& state) {
+    records.push_back(state.friction);
+    if (file == nullptr) return;
+    file->add_state(
+        records.size() - 1,
+        cells_of(analysis::friction_columns(), state.friction, analysis::media::kObject),
+        maps_of(state));
   };
-  return until_interrupted(context, [&] {
-    analysis::contact_states(*elasticity, surface, settings, request.contact.pressures, receive,
-                             context.observer());
-  });
+  study::RunOptions options;
+  options.observer = context.observer();
+  const auto maps = file != nullptr ? study::ContactMaps::kept : study::ContactMaps::dropped;
+  return until_interrupted(
+      context, [&] { study::friction_of(surface, request.settings, receive, maps, options); });
 }
 
 analysis::Case case_of(const analysis::FrictionRecord& record) {
@@ -109,14 +89,14 @@ analysis::Case case_of(const analysis::FrictionRecord& record) {
 }
 
 int show(Request request, Context& context) {
-  request.film.seed = context.seed_or_default();
-  check_all(request);
+  request.settings.film.seed = context.seed_or_default();
+  check_all(request.settings);
   const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
-  const io::Json settings = all_settings(request);
+  const io::Json settings = all_settings(request.settings);
   std::optional<FieldsFile> file;
   if (request.output) {
-    file.emplace(*request.output, context, scan, settings, all_references(request));
+    file.emplace(*request.output, context, scan, settings, all_references(request.settings));
   }
   std::vector<analysis::FrictionRecord> records;
   int code = solve_all(request, scan.surface, records, file ? &*file : nullptr, context);
@@ -132,7 +112,8 @@ int show(Request request, Context& context) {
   object.update(settings);
   object["states"] = states_json(analysis::friction_columns(), records);
   return finish(context, object,
-                text_of(scan, request, table_of(analysis::friction_columns(), records)), code);
+                text_of(scan, request.settings, table_of(analysis::friction_columns(), records)),
+                code);
 }
 
 }  // namespace
@@ -164,10 +145,11 @@ Verb friction_verb() {
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_scan(set, request->scan);
-            declare_contact(set, request->contact);
-            declare_film(set, request->film);
-            declare_fluid(set, request->fluid);
-            declare_friction(set, request->friction);
+            analysis::CaseSettings& settings = request->settings;
+            declare_contact(set, settings);
+            declare_film(set, settings.film);
+            declare_fluid(set, settings.fluid);
+            declare_friction(set, settings.friction);
             declare_output(set, request->output);
             return [request](Context& context) { return show(*request, context); };
           }};

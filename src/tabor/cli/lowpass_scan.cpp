@@ -14,14 +14,14 @@ namespace tabor::cli {
 namespace {
 
 // Cutoffs that were not reached after Ctrl-C have no area; the plateau is sought among the rest.
-io::Json plateaus_of(const ContactRequest& request, const std::vector<double>& cutoffs,
+io::Json plateaus_of(const analysis::CaseSettings& settings, const std::vector<double>& cutoffs,
                      const std::vector<std::vector<double>>& all_areas, Facts& facts) {
   io::Json plateaus = io::Json::array();
-  for (std::size_t i = 0; i < request.pressures.size(); ++i) {
+  for (std::size_t i = 0; i < settings.mean_pressures.size(); ++i) {
     const std::vector<double>& areas = all_areas[i];
     const auto known = static_cast<std::ptrdiff_t>(areas.size());
     const auto plateau = analysis::find_plateau({cutoffs.begin(), cutoffs.begin() + known}, areas);
-    const std::string label = "plateau at " + si(request.pressures[i], "Pa");
+    const std::string label = "plateau at " + si(settings.mean_pressures[i], "Pa");
     if (!plateau) {
       facts.fact(label, "none within 5 %: the area depends on the cutoff");
       plateaus.push_back(nullptr);
@@ -29,7 +29,7 @@ io::Json plateaus_of(const ContactRequest& request, const std::vector<double>& c
     }
     facts.fact(label, fmt::format("{}/L to {}/L, contact {}", plain(plateau->first),
                                   plain(plateau->last), percent(plateau->area_fraction)));
-    plateaus.push_back({{"mean_pressure_Pa", request.pressures[i]},
+    plateaus.push_back({{"mean_pressure_Pa", settings.mean_pressures[i]},
                         {"first_cutoff_per_length", plateau->first},
                         {"last_cutoff_per_length", plateau->last},
                         {"contact_area_fraction", plateau->area_fraction}});
@@ -60,12 +60,12 @@ std::vector<double> parse_cutoffs(const std::string& text) {
   return cutoffs;
 }
 
-int run_lowpass_scan(const Scan& scan, const ContactRequest& request,
+int run_lowpass_scan(const Scan& scan, const analysis::CaseSettings& settings,
                      const std::vector<double>& cutoffs,
                      const std::optional<double>& shear_strength, Context& context) {
   std::vector<analysis::LowpassRecord> records;
   std::vector<analysis::Case> cases;
-  std::vector<std::vector<double>> areas(request.pressures.size());  // [pressure][cutoff]
+  std::vector<std::vector<double>> areas(settings.mean_pressures.size());  // [pressure][cutoff]
   const auto receive = [&](analysis::LowpassRecord&& record, std::size_t pressure) {
     areas[pressure].push_back(record.contact.summary.contact_area_fraction);
     cases.push_back(case_of(record));
@@ -75,8 +75,8 @@ int run_lowpass_scan(const Scan& scan, const ContactRequest& request,
   std::optional<analysis::FrictionSettings> friction;
   if (shear_strength) friction = analysis::FrictionSettings{.shear_strength = *shear_strength};
   int code = until_interrupted(context, [&] {
-    analysis::lowpass_states(scan.surface, request.settings, request.pressures, cutoffs, friction,
-                             receive, context.observer());
+    analysis::lowpass_states(scan.surface, settings.contact, settings.mean_pressures, cutoffs,
+                             friction, receive, context.observer());
   });
   for (const analysis::LowpassRecord& record : records) {
     if (code == kDone && !record.contact.convergence.converged()) code = kNotConverged;
@@ -85,13 +85,13 @@ int run_lowpass_scan(const Scan& scan, const ContactRequest& request,
   io::Json object = json_head(context, scan);
   object["nx"] = scan.surface.grid.nx;
   object["ny"] = scan.surface.grid.ny;
-  object.update(settings_json(request.settings));
+  object.update(settings_json(settings.contact));
   object["states"] = states_json(analysis::lowpass_columns(), records);
   Facts head;
   describe(scan, head);
-  describe(request.settings, head);
+  describe(settings.contact, head);
   Facts facts;
-  object["plateaus"] = plateaus_of(request, cutoffs, areas, facts);
+  object["plateaus"] = plateaus_of(settings, cutoffs, areas, facts);
   return finish(context, object,
                 head.text() + '\n' + table_of(analysis::lowpass_columns(), records).text() + '\n' +
                     facts.text(),

@@ -36,7 +36,7 @@ struct Request {
 
 study::Study read_study(const Request& request, const Context& context) {
   study::Study study = study::read_study(request.study);
-  if (context.seed) study.lubricant.seed = *context.seed;
+  if (context.seed) study.settings.film.seed = *context.seed;
   return study;
 }
 

@@ -25,8 +25,7 @@ void add_pressure(const Study& study, const Scan& scan, double pressure, ScanTas
   fluids.reserve(conditions.size());
   for (const Condition& condition : conditions) {
     if (study.flows()) fluids.push_back(fluid_task(study, contact, tasks.film, condition));
-    cases.push_back(case_task(study, scan, contact, tasks.film,
-                              study.lubricant_densities[condition.density],
+    cases.push_back(case_task(study, scan, contact, tasks.film, study.lubricant_density(condition),
                               study.flows() ? &fluids.back() : nullptr));
   }
   tasks.contacts.push_back(contact);
@@ -49,18 +48,18 @@ Task surface_task(const Study& study, const Scan& scan, const std::string& scan_
 }
 
 Task contact_task(const Study& study, const Task& surface, double mean_pressure) {
-  const bool fast = study.contact.solver == contact::Solver::fast;
+  const analysis::ContactSettings& settings = study.settings.contact;
   return task_of("contact", "h5",
                  text_line("surface", surface.key) + text_line("mean_pressure_Pa", mean_pressure) +
-                     text_line("effective_modulus_Pa", study.effective_modulus()) +
-                     text_line("saturation_pressure_Pa", study.saturation_pressure) +
-                     text_line("boundary", study.contact.periodic ? "periodic" : "free") +
-                     text_line("solver", fast ? "fast" : "polonsky-keer") +
-                     text_line("tolerance", study.contact.tolerance));
+                     text_line("effective_modulus_Pa", settings.effective_modulus()) +
+                     text_line("saturation_pressure_Pa", settings.pressure_cap()) +
+                     text_line("boundary", analysis::kBoundaries.of(settings.boundary)) +
+                     text_line("solver", analysis::kSolvers.of(settings.solver)) +
+                     text_line("tolerance", settings.tolerance));
 }
 
 Task film_task(const Study& study, const Task& surface) {
-  const LubricantSettings& lubricant = study.lubricant;
+  const analysis::FilmSettings& lubricant = study.settings.film;
   std::string body = text_line("surface", surface.key) +
                      text_line("oil_density_kg_per_m3", lubricant.oil_density) +
                      text_line("model", deposition::name(lubricant.model)) +
@@ -68,7 +67,7 @@ Task film_task(const Study& study, const Task& surface) {
                      text_line("edge", deposition::name(lubricant.edge)) +
                      text_line("droplet_height_m", lubricant.droplet_height) +
                      text_line("seed", std::to_string(lubricant.seed));
-  for (const double density : study.lubricant_densities) {
+  for (const double density : lubricant.lubricant_densities) {
     body += text_line("lubricant_density_kg_per_m2", density);
   }
   return task_of("film", "h5", body);
@@ -76,13 +75,12 @@ Task film_task(const Study& study, const Task& surface) {
 
 Task fluid_task(const Study& study, const Task& contact, const Task& film,
                 const Condition& condition) {
-  const friction::FlowingOil& oil = study.lubricant.flowing.value();
-  std::string body =
-      text_line("fluid_algorithms", kFluidAlgorithms) + text_line("contact", contact.key) +
-      text_line("film", film.key) +
-      text_line("lubricant_density_kg_per_m2", study.lubricant_densities.at(condition.density)) +
-      text_line("sliding_speed_m_per_s", study.sliding_speeds.at(condition.speed)) +
-      text_line("viscosity_Pa_s", oil.viscosity);
+  const friction::FlowingOil oil = study.settings.fluid.oil();
+  std::string body = text_line("fluid_algorithms", kFluidAlgorithms) +
+                     text_line("contact", contact.key) + text_line("film", film.key) +
+                     text_line("lubricant_density_kg_per_m2", study.lubricant_density(condition)) +
+                     text_line("sliding_speed_m_per_s", study.sliding_speeds.at(condition.speed)) +
+                     text_line("viscosity_Pa_s", oil.viscosity);
   if (oil.pressure_viscosity)
     body += text_line("pressure_viscosity_per_Pa", *oil.pressure_viscosity);
   if (oil.eyring_stress) body += text_line("eyring_stress_Pa", *oil.eyring_stress);
@@ -95,8 +93,8 @@ Task case_task(const Study& study, const Scan& scan, const Task& contact, const 
                  text_line("scan", scan.label) + text_line("group", scan.group) +
                      text_line("contact", contact.key) + text_line("film", film.key) +
                      text_line("lubricant_density_kg_per_m2", lubricant_density) +
-                     text_line("shear_strength_Pa", study.shear_strength) +
-                     text_line("area", friction::name(study.area)) +
+                     text_line("shear_strength_Pa", study.settings.friction.shear_strength) +
+                     text_line("area", friction::name(study.settings.friction.area)) +
                      (fluid != nullptr ? text_line("fluid", fluid->key) : ""));
 }
 
@@ -109,7 +107,9 @@ std::vector<ScanTasks> tasks_of(const Study& study, const Observer& observer) {
         io::sha256_of_file(scan.file, [&] { report_progress(observer, stage, std::nan("")); });
     tasks.surface = surface_task(study, scan, tasks.sha256);
     tasks.film = film_task(study, tasks.surface);
-    for (const double pressure : study.mean_pressures) add_pressure(study, scan, pressure, tasks);
+    for (const double pressure : study.settings.mean_pressures) {
+      add_pressure(study, scan, pressure, tasks);
+    }
     all.push_back(std::move(tasks));
   }
   return all;

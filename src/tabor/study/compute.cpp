@@ -11,6 +11,11 @@
 namespace tabor::study {
 namespace {
 
+/// Of a job with its surface; tools/bench/study prints it. With oil that flows, what the peak of
+/// `tabor friction --fluid reynolds` grows by with the pixels of a flooded scan, and a little.
+constexpr std::size_t kBytesPerPixel = 80;
+constexpr std::size_t kBytesPerFlowingPixel = 500;
+
 /// A row that has its place and no numbers yet.
 Row empty_row(const Study& study, const Scan& scan, const Task& task, std::size_t pressure,
               const Condition& condition) {
@@ -18,8 +23,8 @@ Row empty_row(const Study& study, const Scan& scan, const Task& task, std::size_
   row.case_id = task.key;
   row.scan = scan.label;
   row.group = scan.group;
-  row.mean_pressure = study.mean_pressures[pressure];
-  row.lubricant_density = study.lubricant_densities[condition.density];
+  row.mean_pressure = study.settings.mean_pressures[pressure];
+  row.lubricant_density = study.lubricant_density(condition);
   if (study.flows()) {
     row.fluid.emplace().sliding_speed = study.sliding_speeds[condition.speed];
   }
@@ -68,6 +73,11 @@ topography::Topography treated_surface(const Study& study, const Scan& scan,
   return treated;
 }
 
+std::size_t bytes_of_job(const Grid& grid, bool oil_flows) {
+  return static_cast<std::size_t>(grid.nx * grid.ny) *
+         (oil_flows ? kBytesPerFlowingPixel : kBytesPerPixel);
+}
+
 void compute_surface(const Store& store, const Task& task,
                      const topography::Topography& topography) {
   write_surface(store, task, topography, metrology::power_spectra(topography));
@@ -75,23 +85,22 @@ void compute_surface(const Store& store, const Task& task,
 
 contact::State solve_contact(const Study& study, const topography::Topography& topography,
                              double mean_pressure, const Observer& observer) {
-  return analysis::contact_state(topography, study.contact_settings(), mean_pressure, observer)
-      .state;
+  return analysis::contact_state(topography, study.settings.contact, mean_pressure, observer).state;
 }
 
 void compute_contact(const Store& store, const Task& task, const Study& study,
                      const topography::Topography& topography, double mean_pressure,
                      const Observer& observer) {
   write_contact(
-      store, task, topography.grid, study.saturation_pressure,
-      analysis::contact_state(topography, study.contact_settings(), mean_pressure, observer));
+      store, task, topography.grid, study.settings.contact.pressure_cap(),
+      analysis::contact_state(topography, study.settings.contact, mean_pressure, observer));
 }
 
 void compute_film(const Store& store, const Task& task, const Study& study,
                   const topography::Topography& topography, const Observer& observer) {
   FilmFile file(store, task, topography.grid);
   const auto receive = [&file](analysis::FilmRecord&& record) { file.add(record); };
-  analysis::film_state(topography, study.film_settings(), receive, observer);
+  analysis::film_state(topography, study.settings.film, receive, observer);
   file.commit();
 }
 
@@ -99,17 +108,16 @@ void compute_fluid(const Store& store, const Study& study, const topography::Top
                    const contact::State& dry, const ScanTasks& tasks, std::size_t pressure,
                    std::size_t condition, const Observer& observer) {
   const Condition under = study.conditions().at(condition);
-  const analysis::ContactSettings settings = study.contact_settings();
-  const double mean_pressure = study.mean_pressures[pressure];
+  const analysis::ContactSettings settings = study.settings.contact;
+  const double mean_pressure = study.settings.mean_pressures[pressure];
   const auto elasticity = analysis::make_operator(settings, topography.grid);
   const analysis::FluidRecord record = analysis::fluid_state(
       *elasticity, topography.height, dry, mean_pressure,
       read_film(store, tasks.film, under.density), settings, study.fluid_settings(under), observer);
-  write_fluid(
-      store, tasks.fluids[pressure][condition], topography.grid, record,
-      {{"mean_pressure_Pa", mean_pressure},
-       {"lubricant_density_g_per_m2", in_g_per_m2(study.lubricant_densities[under.density])},
-       {"sliding_speed_m_per_s", record.sliding_speed}});
+  write_fluid(store, tasks.fluids[pressure][condition], topography.grid, record,
+              {{"mean_pressure_Pa", mean_pressure},
+               {"lubricant_density_g_per_m2", in_g_per_m2(study.lubricant_density(under))},
+               {"sliding_speed_m_per_s", record.sliding_speed}});
 }
 
 void compute_row(const Store& store, const Study& study, const Scan& scan, const ScanTasks& tasks,
@@ -118,7 +126,7 @@ void compute_row(const Store& store, const Study& study, const Scan& scan, const
   const Condition under = study.conditions().at(condition);
   const Task& task = tasks.cases[pressure][condition];
   analysis::FilmRecord film = read_film_record(store, tasks.film, under.density);
-  film.lubricant_density = study.lubricant_densities[under.density];
+  film.lubricant_density = study.lubricant_density(under);
   require_one_size(contact, film.film.thickness);
   std::optional<analysis::FluidRecord> fluid;
   if (study.flows()) {
@@ -128,8 +136,8 @@ void compute_row(const Store& store, const Study& study, const Scan& scan, const
   Row row = empty_row(study, scan, task, pressure, under);
   static_cast<analysis::FrictionRecord&>(row) = analysis::friction_state(
       contact, {contact.contact, contact.gap, contact.grid}, film, fluid ? &*fluid : nullptr,
-      study.contact_settings(), {study.shear_strength, study.area});
-  row.mean_pressure = study.mean_pressures[pressure];
+      study.settings.contact, study.settings.friction);
+  row.mean_pressure = study.settings.mean_pressures[pressure];
   write_row(store, task, row);
 }
 

@@ -12,6 +12,9 @@ namespace tabor::study {
 topography::Topography treated_surface(const Study& study, const Scan& scan,
                                        const std::string& scan_sha256, const Observer& observer);
 
+/// Memory of one job with its surface [bytes].
+std::size_t bytes_of_job(const Grid& grid, bool oil_flows);
+
 /// Power spectra and map of the treated scan into the store.
 void compute_surface(const Store& store, const Task& task,
                      const topography::Topography& topography);

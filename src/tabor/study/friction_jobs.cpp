@@ -12,12 +12,6 @@
 namespace tabor::study {
 namespace {
 
-/// Of a job with its surface [bytes]; tools/bench/study prints it. With oil that flows, what the
-/// peak of `tabor friction --fluid reynolds` grows by with the pixels of a flooded scan, and a
-/// little.
-constexpr std::size_t kBytesPerPixel = 80;
-constexpr std::size_t kBytesPerFlowingPixel = 500;
-
 Quality quality_of_row(const Row& row) {
   if (row.failed()) return Quality::failed;
   return row.converged ? Quality::converged : Quality::not_converged;
@@ -58,8 +52,7 @@ Job job_of(const std::string& kind, const SharedScan& scan, const Task& task) {
   job.kind = kind;
   job.defect = [scan, task] { return defect(scan->store, task); };
   job.memory = [scan](const Monitor& monitor) {
-    return static_cast<std::size_t>(scan->surface(monitor)->height.size()) *
-           (scan->study.flows() ? kBytesPerFlowingPixel : kBytesPerPixel);
+    return bytes_of_job(scan->surface(monitor)->grid, scan->study.flows());
   };
   return job;
 }
@@ -85,7 +78,7 @@ Job film_job(const SharedScan& scan) {
 
 Job contact_job(const SharedScan& scan, std::size_t pressure) {
   const Task& task = scan->tasks.contacts[pressure];
-  const double load = scan->study.mean_pressures[pressure];
+  const double load = scan->study.settings.mean_pressures[pressure];
   Job job = job_of("contact", scan, task);
   job.stage = stage_name("contact", scan->scan, load);
   job.quality = [scan, task] { return quality_of(contact_converged(scan->store, task)); };
@@ -98,7 +91,7 @@ Job contact_job(const SharedScan& scan, std::size_t pressure) {
 Job fluid_job(const SharedScan& scan, const SharedContact& dry, std::size_t pressure,
               std::size_t condition) {
   const Task& task = scan->tasks.fluids[pressure][condition];
-  const double load = scan->study.mean_pressures[pressure];
+  const double load = scan->study.settings.mean_pressures[pressure];
   Job job = job_of("fluid", scan, task);
   job.stage = stage_name("flow", scan->scan, load);
   job.restarts = true;  // with a contact within each step of the film

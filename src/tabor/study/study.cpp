@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cmath>
 #include <string_view>
 
 #include "tabor/core/error.hpp"
@@ -60,33 +59,35 @@ auto named(const io::Config& config, std::string_view key, const Names& names) {
          fmt::format("{}", fmt::join(names.all(), " or ")) + suggestion(word, names.all()));
 }
 
-material::Solid read_solid(const io::Config& config, const std::string& prefix) {
-  material::Solid solid;
-  solid.youngs_modulus = positive(config, prefix + "youngs_modulus", dimension::pressure);
-  solid.poissons_ratio = config.number(prefix + "poissons_ratio");
-  if (!(solid.poissons_ratio > -1 && solid.poissons_ratio <= 0.5)) {
-    refuse(config, prefix + "poissons_ratio", fmt::format("{}", solid.poissons_ratio),
-           "a ratio above -1 and at most 0.5");
-  }
-  return solid;
+double read_modulus(const io::Config& config, const std::string& key) {
+  return positive(config, key, dimension::pressure);
 }
 
-void read_material(const io::Config& config, Study& study) {
-  study.solid = read_solid(config, "material.");
+double read_poissons_ratio(const io::Config& config, const std::string& key) {
+  const double ratio = config.number(key);
+  if (!(ratio > -1 && ratio <= 0.5)) {
+    refuse(config, key, fmt::format("{}", ratio), "a ratio above -1 and at most 0.5");
+  }
+  return ratio;
+}
+
+void read_material(const io::Config& config, analysis::ContactSettings& contact) {
+  contact.youngs_modulus = read_modulus(config, "material.youngs_modulus");
+  contact.poissons_ratio = read_poissons_ratio(config, "material.poissons_ratio");
   if (config.has("material.counter_youngs_modulus") ||
       config.has("material.counter_poissons_ratio")) {
-    study.counter_solid = read_solid(config, "material.counter_");
+    contact.counter_youngs_modulus = read_modulus(config, "material.counter_youngs_modulus");
+    contact.counter_poissons_ratio = read_poissons_ratio(config, "material.counter_poissons_ratio");
   }
   if (config.has("material.saturation_pressure")) {
-    study.saturation_pressure =
+    contact.saturation_pressure =
         positive(config, "material.saturation_pressure", dimension::pressure);
   }
 }
 
-void read_contact(const io::Config& config, ContactSettings& contact) {
+void read_contact(const io::Config& config, analysis::ContactSettings& contact) {
   if (config.has("contact.boundary")) {
-    contact.periodic =
-        named(config, "contact.boundary", analysis::kBoundaries) == analysis::Boundary::periodic;
+    contact.boundary = named(config, "contact.boundary", analysis::kBoundaries);
   }
   if (config.has("contact.solver")) {
     contact.solver = named(config, "contact.solver", analysis::kSolvers);
@@ -96,7 +97,7 @@ void read_contact(const io::Config& config, ContactSettings& contact) {
   }
 }
 
-void read_lubricant(const io::Config& config, LubricantSettings& lubricant) {
+void read_lubricant(const io::Config& config, analysis::FilmSettings& lubricant) {
   if (config.has("lubricant.oil_density")) {
     lubricant.oil_density = positive(config, "lubricant.oil_density", dimension::density);
   }
@@ -121,11 +122,11 @@ void read_lubricant(const io::Config& config, LubricantSettings& lubricant) {
   }
 }
 
-void read_sweep(const io::Config& config, Study& study) {
-  study.mean_pressures = read_axis(config, "sweep.mean_pressure", dimension::pressure, false);
-  study.lubricant_densities = {0};  // no density asked for: dry friction alone
+void read_sweep(const io::Config& config, analysis::CaseSettings& settings) {
+  settings.mean_pressures = read_axis(config, "sweep.mean_pressure", dimension::pressure, false);
+  settings.film.lubricant_densities = {0};  // no density asked for: dry friction alone
   if (config.has("sweep.lubricant_density")) {
-    study.lubricant_densities =
+    settings.film.lubricant_densities =
         read_axis(config, "sweep.lubricant_density", dimension::areal_density, true);
   }
 }
@@ -137,8 +138,8 @@ std::string key_of(std::string_view setting) {
   return "material." + std::string(setting);
 }
 
-void check_contact(const io::Config& config, const Study& study) {
-  const auto found = analysis::objection(study.contact_settings(), study.mean_pressures, key_of);
+void check_contact(const io::Config& config, const analysis::CaseSettings& settings) {
+  const auto found = analysis::objection(settings.contact, settings.mean_pressures, key_of);
   if (!found) return;
   throw InputError(config.place(key_of(found->setting)), found->got, found->expected,
                    found->remedy);
@@ -146,52 +147,25 @@ void check_contact(const io::Config& config, const Study& study) {
 
 }  // namespace
 
-double Study::effective_modulus() const {
-  return counter_solid ? material::effective_modulus(solid, *counter_solid)
-                       : material::effective_modulus(solid);
-}
-
 std::vector<Condition> Study::conditions() const {
   std::vector<Condition> all;
   const std::size_t n_speeds = flows() ? sliding_speeds.size() : 1;
-  all.reserve(lubricant_densities.size() * n_speeds);
-  for (std::size_t density = 0; density < lubricant_densities.size(); ++density) {
+  const std::size_t n_densities = settings.film.lubricant_densities.size();
+  all.reserve(n_densities * n_speeds);
+  for (std::size_t density = 0; density < n_densities; ++density) {
     for (std::size_t speed = 0; speed < n_speeds; ++speed) all.push_back({density, speed});
   }
   return all;
 }
 
-analysis::ContactSettings Study::contact_settings() const {
-  analysis::ContactSettings settings{.youngs_modulus = solid.youngs_modulus,
-                                     .poissons_ratio = solid.poissons_ratio,
-                                     .solver = contact.solver,
-                                     .tolerance = contact.tolerance};
-  if (counter_solid) {
-    settings.counter_youngs_modulus = counter_solid->youngs_modulus;
-    settings.counter_poissons_ratio = counter_solid->poissons_ratio;
-  }
-  if (std::isfinite(saturation_pressure)) settings.saturation_pressure = saturation_pressure;
-  if (!contact.periodic) settings.boundary = analysis::Boundary::free;
-  return settings;
-}
-
-analysis::FilmSettings Study::film_settings() const {
-  return {.lubricant_densities = lubricant_densities,
-          .oil_density = lubricant.oil_density,
-          .droplet_height = lubricant.droplet_height,
-          .model = lubricant.model,
-          .reading = lubricant.reading,
-          .edge = lubricant.edge,
-          .seed = lubricant.seed};
+double Study::lubricant_density(const Condition& condition) const {
+  return settings.film.lubricant_densities.at(condition.density);
 }
 
 analysis::FluidSettings Study::fluid_settings(const Condition& condition) const {
-  if (!flows()) return {};
-  return {.fluid = analysis::Fluid::reynolds,
-          .sliding_speed = sliding_speeds.at(condition.speed),
-          .viscosity = lubricant.flowing->viscosity,
-          .pressure_viscosity = lubricant.flowing->pressure_viscosity,
-          .eyring_stress = lubricant.flowing->eyring_stress};
+  analysis::FluidSettings fluid = settings.fluid;
+  if (flows()) fluid.sliding_speed = sliding_speeds.at(condition.speed);
+  return fluid;
 }
 
 Study read_study(const fs::path& file) {
@@ -201,15 +175,16 @@ Study read_study(const fs::path& file) {
   Study study;
   study.file = file;
   study.title = config.has("title") ? config.text("title") : file.stem().string();
-  study.shear_strength = positive(config, "shear_strength", dimension::pressure);
+  analysis::CaseSettings& settings = study.settings;
+  settings.friction.shear_strength = positive(config, "shear_strength", dimension::pressure);
   if (config.has("area")) {
-    study.area = at_key(config, "area", friction::parse_area);
+    settings.friction.area = at_key(config, "area", friction::parse_area);
   }
-  read_material(config, study);
-  read_contact(config, study.contact);
-  read_lubricant(config, study.lubricant);
-  read_sweep(config, study);
-  check_contact(config, study);
+  read_material(config, settings.contact);
+  read_contact(config, settings.contact);
+  read_lubricant(config, settings.film);
+  read_sweep(config, settings);
+  check_contact(config, settings);
   read_flowing_oil(config, study);
   if (config.has("treatment.steps")) {
     study.treatment = config.texts("treatment.steps");

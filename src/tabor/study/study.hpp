@@ -1,16 +1,11 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tabor/analysis/settings.hpp"
-#include "tabor/contact/contact.hpp"
-#include "tabor/deposition/deposition.hpp"
-#include "tabor/friction/mixed_friction.hpp"
-#include "tabor/material/solid.hpp"
 #include "tabor/scan/file.hpp"
 #include "tabor/study/experiment.hpp"
 #include "tabor/topography/treatment.hpp"
@@ -25,24 +20,6 @@ struct Scan {
   scan::ReadOptions read;
 };
 
-/// How every contact of a study is solved.
-struct ContactSettings {
-  bool periodic = true;
-  contact::Solver solver = contact::Solver::fast;
-  double tolerance = 1e-6;
-};
-
-/// How every film of a study is laid down.
-struct LubricantSettings {
-  double oil_density = 900;  ///< [kg/m^3]
-  deposition::Model model = deposition::Model::droplets;
-  deposition::Reading reading = deposition::Reading::conserving;
-  deposition::Edge edge = deposition::Edge::closed;
-  double droplet_height = 1e-7;  ///< [m]
-  std::uint64_t seed = 1;
-  std::optional<friction::FlowingOil> flowing;  ///< absent: oil only keeps contact from rubbing
-};
-
 /// Under what each contact is repeated: positions in the lists of a study.
 struct Condition {
   std::size_t density = 0;
@@ -53,30 +30,20 @@ struct Condition {
 struct Study {
   std::string title;
   std::filesystem::path file;  ///< the study file
-  double shear_strength = 0;   ///< tau_y [Pa]
-  friction::Area area = friction::Area::corrected;
-  material::Solid solid;
-  std::optional<material::Solid> counter_solid;  ///< rigid if absent
-  double saturation_pressure = contact::kNoSaturation;
   topography::Treatment treatment;
-  ContactSettings contact;
-  LubricantSettings lubricant;
-  std::vector<double> mean_pressures;       ///< [Pa]
-  std::vector<double> lubricant_densities;  ///< [kg/m^2]
-  std::vector<double> sliding_speeds;       ///< [m/s]; empty unless the oil flows
+  analysis::CaseSettings settings;     ///< of every scan; its speed is each of sliding_speeds
+  std::vector<double> sliding_speeds;  ///< [m/s]; empty unless the oil flows
   std::vector<Scan> scans;
   std::optional<Experiment> experiment;
 
-  double effective_modulus() const;  ///< E* [Pa]
-  bool flows() const { return lubricant.flowing.has_value(); }
-  std::size_t n_cases() const { return scans.size() * mean_pressures.size() * conditions().size(); }
+  bool flows() const { return settings.fluid.flows(); }
+  std::size_t n_cases() const {
+    return scans.size() * settings.mean_pressures.size() * conditions().size();
+  }
   /// Densities, and for each all speeds, in the order of the study.
   std::vector<Condition> conditions() const;
-
-  /// What analysis is asked for; `condition` says how fast the oil flows.
-  analysis::ContactSettings contact_settings() const;
-  analysis::FilmSettings film_settings() const;
-  analysis::FluidSettings fluid_settings(const Condition& condition) const;
+  double lubricant_density(const Condition& condition) const;                ///< [kg/m^2]
+  analysis::FluidSettings fluid_settings(const Condition& condition) const;  ///< at its speed
 };
 
 /// Reads a study file. File names in it, which may be patterns ("before_*.x3p"), are relative to

@@ -1,16 +1,12 @@
-#include "tabor/core/names.hpp"
 #include "tabor/study/study_keys.hpp"
 
 namespace tabor::study {
 namespace {
 
-enum class Fluid { none, reynolds };
-constexpr auto kFluids = names<Fluid>("none", "reynolds");
-
 bool is_asked(const io::Config& config) {
   return config.has("lubricant.fluid") &&
          at_key(config, "lubricant.fluid", [](const std::string& name) {
-           return kFluids.parse(name, "fluid film") == Fluid::reynolds;
+           return analysis::kFluids.parse(name, "fluid film") == analysis::Fluid::reynolds;
          });
 }
 
@@ -30,7 +26,8 @@ void read_flowing_oil(const io::Config& config, Study& study) {
     refuse_idle_keys(config);
     return;
   }
-  friction::FlowingOil oil;
+  analysis::FluidSettings& oil = study.settings.fluid;
+  oil.fluid = analysis::Fluid::reynolds;
   oil.viscosity = positive(config, "lubricant.viscosity", dimension::viscosity);
   if (config.has("lubricant.pressure_viscosity")) {
     oil.pressure_viscosity =
@@ -40,13 +37,12 @@ void read_flowing_oil(const io::Config& config, Study& study) {
     oil.eyring_stress = positive(config, "lubricant.eyring_stress", dimension::pressure);
   }
   at_key(config, "lubricant.viscosity",
-         [&](const std::string&) { return friction::lubricant_of(oil); });
+         [&](const std::string&) { return friction::lubricant_of(oil.oil()); });
   study.sliding_speeds = read_axis(config, "sweep.sliding_speed", dimension::speed, true);
-  if (!study.contact.periodic) {
+  if (!study.settings.contact.is_periodic()) {
     refuse(config, "contact.boundary", "'free'",
            "'periodic': a film that flows is solved on a patch that repeats");
   }
-  study.lubricant.flowing = oil;
 }
 
 }  // namespace tabor::study

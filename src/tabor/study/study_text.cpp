@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <cmath>
 #include <string_view>
 
 #include "tabor/study/study.hpp"
@@ -39,26 +38,28 @@ std::string decimal(double value) {
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
-std::string solid_lines(const material::Solid& solid, std::string_view prefix) {
+std::string solid_lines(double youngs_modulus, double poissons_ratio, std::string_view prefix) {
   return fmt::format("{0}youngs_modulus = {1}\n{0}poissons_ratio = {2}\n", prefix,
-                     quantity(solid.youngs_modulus, "Pa"), decimal(solid.poissons_ratio));
+                     quantity(youngs_modulus, "Pa"), decimal(poissons_ratio));
 }
 
-std::string material_table(const Study& study) {
-  std::string text = "\n[material]\n" + solid_lines(study.solid, "");
-  if (study.counter_solid) {
-    text += solid_lines(*study.counter_solid, "counter_");
+std::string material_table(const analysis::ContactSettings& contact) {
+  std::string text =
+      "\n[material]\n" + solid_lines(contact.youngs_modulus, contact.poissons_ratio, "");
+  if (contact.counter_youngs_modulus) {
+    text += solid_lines(*contact.counter_youngs_modulus, contact.counter_poissons_ratio.value_or(0),
+                        "counter_");
   }
-  if (std::isfinite(study.saturation_pressure)) {
-    text += fmt::format("saturation_pressure = {}\n", quantity(study.saturation_pressure, "Pa"));
+  if (contact.saturation_pressure) {
+    text += fmt::format("saturation_pressure = {}\n", quantity(*contact.saturation_pressure, "Pa"));
   }
   return text;
 }
 
 /// Lines of the table [lubricant] that only a film that flows has.
-std::string flowing_lines(const friction::FlowingOil& oil) {
+std::string flowing_lines(const analysis::FluidSettings& oil) {
   std::string text =
-      fmt::format("fluid = \"reynolds\"\nviscosity = {}\n", quantity(oil.viscosity, "Pa s"));
+      fmt::format("fluid = \"reynolds\"\nviscosity = {}\n", quantity(*oil.viscosity, "Pa s"));
   if (oil.pressure_viscosity) {
     text += fmt::format("pressure_viscosity = {}\n", quantity(*oil.pressure_viscosity, "1/Pa"));
   }
@@ -68,14 +69,15 @@ std::string flowing_lines(const friction::FlowingOil& oil) {
   return text;
 }
 
-std::string lubricant_table(const LubricantSettings& lubricant) {
+std::string lubricant_table(const analysis::FilmSettings& lubricant,
+                            const analysis::FluidSettings& fluid) {
   const std::string text = fmt::format(
       "\n[lubricant]\noil_density = {}\nmodel = {}\nreading = {}\nedge = {}\ndroplet = {}\n"
       "seed = {}\n",
       quantity(lubricant.oil_density, "kg/m^3"), toml_text(deposition::name(lubricant.model)),
       toml_text(deposition::name(lubricant.reading)), toml_text(deposition::name(lubricant.edge)),
       quantity(lubricant.droplet_height, "m"), lubricant.seed);
-  return lubricant.flowing ? text + flowing_lines(*lubricant.flowing) : text;
+  return fluid.flows() ? text + flowing_lines(fluid) : text;
 }
 
 std::string scan_table(const Scan& scan) {
@@ -96,26 +98,28 @@ std::string scan_table(const Scan& scan) {
 }  // namespace
 
 std::string to_toml(const Study& study) {
+  const analysis::CaseSettings& settings = study.settings;
   std::vector<std::string> steps;
   for (const std::string& step : study.treatment) {
     steps.push_back(toml_text(step));
   }
   std::string text =
       fmt::format("title = {}\nshear_strength = {}\narea = {}\n", toml_text(study.title),
-                  quantity(study.shear_strength, "Pa"), toml_text(friction::name(study.area)));
-  text += material_table(study);
+                  quantity(settings.friction.shear_strength, "Pa"),
+                  toml_text(friction::name(settings.friction.area)));
+  text += material_table(settings.contact);
   text += fmt::format("\n[treatment]\nsteps = [{}]\n", fmt::join(steps, ", "));
   text += fmt::format("\n[contact]\nboundary = {}\nsolver = {}\ntolerance = {}\n",
-                      toml_text(study.contact.periodic ? "periodic" : "free"),
-                      toml_text(analysis::kSolvers.of(study.contact.solver)),
-                      decimal(study.contact.tolerance));
+                      toml_text(analysis::kBoundaries.of(settings.contact.boundary)),
+                      toml_text(analysis::kSolvers.of(settings.contact.solver)),
+                      decimal(settings.contact.tolerance));
   text += fmt::format("\n[sweep]\nmean_pressure = {}\nlubricant_density = {}\n",
-                      quantities(study.mean_pressures, "Pa"),
-                      quantities(study.lubricant_densities, "kg/m^2"));
+                      quantities(settings.mean_pressures, "Pa"),
+                      quantities(settings.film.lubricant_densities, "kg/m^2"));
   if (study.flows()) {
     text += fmt::format("sliding_speed = {}\n", quantities(study.sliding_speeds, "m/s"));
   }
-  text += lubricant_table(study.lubricant);
+  text += lubricant_table(settings.film, settings.fluid);
   for (const Scan& scan : study.scans) {
     text += scan_table(scan);
   }

@@ -84,22 +84,23 @@ void write_oil(io::Hdf5Writer& writer, const friction::FlowingOil& oil) {
 }
 
 void write_settings(io::Hdf5Writer& writer, const Study& study, const std::string& command) {
+  const analysis::ContactSettings& contact = study.settings.contact;
   write_root(writer, "scans/0000/surface");
   writer.attribute("/", "command", command);
   writer.attribute("/", "config_toml", to_toml(study));
   writer.attribute("/", "created",
                    fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))));
   writer.attribute("/", "title", study.title);
-  writer.attribute("/", "shear_strength_Pa", study.shear_strength);
-  writer.attribute("/", "youngs_modulus_Pa", study.solid.youngs_modulus);
-  writer.attribute("/", "poissons_ratio", study.solid.poissons_ratio);
-  writer.attribute("/", "effective_modulus_Pa", study.effective_modulus());
-  if (std::isfinite(study.saturation_pressure)) {
-    writer.attribute("/", "saturation_pressure_Pa", study.saturation_pressure);
+  writer.attribute("/", "shear_strength_Pa", study.settings.friction.shear_strength);
+  writer.attribute("/", "youngs_modulus_Pa", contact.youngs_modulus);
+  writer.attribute("/", "poissons_ratio", contact.poissons_ratio);
+  writer.attribute("/", "effective_modulus_Pa", contact.effective_modulus());
+  if (contact.saturation_pressure) {
+    writer.attribute("/", "saturation_pressure_Pa", *contact.saturation_pressure);
   }
-  writer.attribute("/", "oil_density_kg_per_m3", study.lubricant.oil_density);
-  writer.attribute("/", "area", std::string(friction::name(study.area)));
-  if (study.flows()) write_oil(writer, *study.lubricant.flowing);
+  writer.attribute("/", "oil_density_kg_per_m3", study.settings.film.oil_density);
+  writer.attribute("/", "area", std::string(friction::name(study.settings.friction.area)));
+  if (study.flows()) write_oil(writer, study.settings.fluid.oil());
 }
 
 void write_surface_facts(io::Hdf5Writer& writer, const std::string& group,
@@ -148,7 +149,7 @@ void write_scans(io::Hdf5Writer& writer, const Store& store, const Study& study,
     if (store.has(tasks[i].surface) && defect(store, tasks[i].surface).empty()) {
       write_surface_facts(writer, group, read_surface_facts(store, tasks[i].surface));
     }
-    write_links(writer, group, store, tasks[i], study.lubricant_densities.size());
+    write_links(writer, group, store, tasks[i], study.settings.film.lubricant_densities.size());
   }
 }
 

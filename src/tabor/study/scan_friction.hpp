@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+
+#include "tabor/analysis/records.hpp"
+#include "tabor/analysis/settings.hpp"
+#include "tabor/study/engine.hpp"
+#include "tabor/topography/topography.hpp"
+
+// Friction of one surface without a store: its rain, its contacts and what follows from both are
+// jobs of the one engine. The rain is one thread's work, so that contacts are solved beside it.
+namespace tabor::study {
+
+/// One pressure with one density. The references hold during the call that hands the state on.
+struct FrictionState {
+  const analysis::FrictionRecord& friction;
+  const analysis::ContactRecord& contact;  ///< its maps of pressure and displacement if asked for
+  const analysis::FilmRecord& film;
+  const analysis::FluidRecord* fluid;  ///< null where the oil does not flow
+};
+
+/// Whether whoever receives the states looks at maps of contacts that friction does not need. They
+/// wait for the rain in memory: 16 bytes per pixel and contact.
+enum class ContactMaps { dropped, kept };
+
+/// Hands on every pressure with every density, the densities of the first pressure first, one at a
+/// time and not always by the same thread. Each density is rained once and each pressure solved
+/// once. Records do not depend on the number of jobs or threads; a shard and retry mean nothing
+/// here. Throws InputError for settings and surfaces that make no sense, Interrupted where the
+/// observer stops it (what was handed on before is whole), and whatever `receive` throws.
+void friction_of(const topography::Topography& surface, const analysis::CaseSettings& settings,
+                 const std::function<void(const FrictionState&)>& receive,
+                 ContactMaps maps = ContactMaps::kept, const RunOptions& options = {});
+
+}  // namespace tabor::study

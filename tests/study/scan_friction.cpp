@@ -1,0 +1,160 @@
+// Friction of one surface by jobs beside each other: the same numbers as one after the other.
+
+#include "tabor/study/scan_friction.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "support/refusal.hpp"
+#include "tabor/analysis/states.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/io/columns.hpp"
+#include "tabor/synthesis/synthesis.hpp"
+
+namespace tabor::study {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Place = std::array<double, 2>;  // pressure [Pa], density [kg/m^2]
+
+topography::Topography rough() {
+  synthesis::SelfAffine recipe;
+  recipe.grid = {48, 32, 48e-6, 32e-6};
+  recipe.rms_height = 0.5e-6;
+  return synthesis::self_affine(recipe);
+}
+
+analysis::CaseSettings settings() {
+  analysis::CaseSettings settings;
+  settings.mean_pressures = {15e6, 2e6, 7e6};
+  settings.contact = {.youngs_modulus = 70e9, .poissons_ratio = 0.33, .saturation_pressure = 240e6};
+  settings.film.lubricant_densities = {9e-4, 4.5e-4};
+  settings.friction.shear_strength = 70e6;
+  return settings;
+}
+
+analysis::CaseSettings along_a_load_path() {
+  analysis::CaseSettings path = settings();
+  path.contact.load_path = true;
+  return path;
+}
+
+analysis::CaseSettings flowing() {
+  analysis::CaseSettings flow = settings();
+  flow.mean_pressures = {7e6};
+  flow.fluid = {.fluid = analysis::Fluid::reynolds, .sliding_speed = 0.01, .viscosity = 0.2};
+  return flow;
+}
+
+/// What a state says, and a sum over its maps.
+std::string text_of(const FrictionState& state) {
+  const io::Json numbers =
+      io::json_of(analysis::friction_columns(), state.friction, analysis::media::kObject);
+  return fmt::format("{} {} {}", io::to_text(numbers, -1), state.contact.state.gap.sum(),
+                     state.film.film.thickness.sum());
+}
+
+std::vector<std::string> states_of(const analysis::CaseSettings& asked, int jobs,
+                                   ContactMaps maps = ContactMaps::kept) {
+  std::vector<std::string> texts;
+  RunOptions options;
+  options.jobs = jobs;
+  friction_of(
+      rough(), asked, [&](const FrictionState& state) { texts.push_back(text_of(state)); }, maps,
+      options);
+  return texts;
+}
+
+/// The same by the functions of analysis, one after the other.
+std::vector<std::string> states_in_turn(const analysis::CaseSettings& asked) {
+  const topography::Topography surface = rough();
+  const auto films = analysis::film_state(surface, asked.film);
+  const auto elasticity = analysis::make_operator(asked.contact, surface.grid);
+  std::vector<std::string> texts;
+  const auto receive = [&](analysis::ContactRecord&& contact) {
+    const Mask touching = contact::contact_mask(contact.state);
+    for (const analysis::FilmRecord& film : films) {
+      const analysis::FrictionRecord friction =
+          analysis::friction_state(contact, {touching, contact.state.gap, surface.grid}, film,
+                                   nullptr, asked.contact, asked.friction);
+      texts.push_back(
+          text_of({.friction = friction, .contact = contact, .film = film, .fluid = nullptr}));
+    }
+  };
+  analysis::contact_states(*elasticity, surface, asked.contact, asked.mean_pressures, receive);
+  return texts;
+}
+
+TEST(FrictionOf, HandsOnWhatTheStatesGiveOneAfterTheOther) {
+  EXPECT_EQ(states_of(settings(), 1), states_in_turn(settings()));
+  EXPECT_EQ(states_of(along_a_load_path(), 1), states_in_turn(along_a_load_path()));
+  EXPECT_NE(states_of(along_a_load_path(), 1), states_of(settings(), 1));
+}
+
+TEST(FrictionOf, DoesNotDependOnTheNumberOfJobs) {
+  for (const analysis::CaseSettings& asked : {settings(), along_a_load_path(), flowing()}) {
+    const std::vector<std::string> alone = states_of(asked, 1);
+    EXPECT_EQ(states_of(asked, 4), alone);
+    EXPECT_EQ(states_of(asked, 4, ContactMaps::dropped), alone);
+  }
+}
+
+TEST(FrictionOf, GoesThroughPressuresAndDensitiesAsTheyWereGiven) {
+  std::vector<Place> places;
+  friction_of(rough(), settings(), [&](const FrictionState& state) {
+    places.push_back({state.friction.mean_pressure, state.friction.lubricant_density});
+  });
+  EXPECT_THAT(places, ElementsAre(Place{15e6, 9e-4}, Place{15e6, 4.5e-4}, Place{2e6, 9e-4},
+                                  Place{2e6, 4.5e-4}, Place{7e6, 9e-4}, Place{7e6, 4.5e-4}));
+}
+
+TEST(FrictionOf, KeepsMapsOfPressureOnlyForThoseWhoLook) {
+  for (const ContactMaps maps : {ContactMaps::kept, ContactMaps::dropped}) {
+    friction_of(
+        rough(), settings(),
+        [&](const FrictionState& state) {
+          EXPECT_EQ(state.contact.state.pressure.size() > 0, maps == ContactMaps::kept);
+          EXPECT_EQ(state.contact.state.displacement.size() > 0, maps == ContactMaps::kept);
+          EXPECT_EQ(state.contact.state.gap.size(), 48 * 32);
+        },
+        maps);
+  }
+}
+
+TEST(FrictionOf, StopsWhenAskedAndWhatItHandedOnIsWhole) {
+  std::size_t n_states = 0;
+  RunOptions options;
+  options.jobs = 2;
+  options.observer = [&](const Progress&) { return n_states < 2; };
+  const auto receive = [&](const FrictionState& state) {
+    ++n_states;
+    EXPECT_TRUE(state.friction.converged);
+  };
+  EXPECT_THROW(friction_of(rough(), settings(), receive, ContactMaps::kept, options), Interrupted);
+  EXPECT_GE(n_states, 2u);
+}
+
+TEST(FrictionOf, PassesOnWhatTheReceiverThrows) {
+  const auto full_disk = [](const FrictionState&) { throw OutputError("out.h5: no space"); };
+  EXPECT_THROW(friction_of(rough(), settings(), full_disk), OutputError);
+}
+
+TEST(FrictionOf, RefusesSettingsThatMakeNoSense) {
+  const auto refused = [](const analysis::CaseSettings& asked) {
+    return test::refusal([&] { friction_of(rough(), asked, [](const FrictionState&) {}); });
+  };
+  analysis::CaseSettings too_high = settings();
+  too_high.mean_pressures.back() = 240e6;
+  EXPECT_THAT(refused(too_high), HasSubstr("saturation pressure"));
+  analysis::CaseSettings negative = settings();
+  negative.film.lubricant_densities = {-1};
+  EXPECT_THAT(refused(negative), HasSubstr("density"));
+}
+
+}  // namespace
+}  // namespace tabor::study
