@@ -51,12 +51,11 @@ analysis::CaseSettings flowing() {
   return flow;
 }
 
-/// What a state says, and a sum over its maps.
+/// What a state says, and a sum over its film.
 std::string text_of(const FrictionState& state) {
   const io::Json numbers =
       io::json_of(analysis::friction_columns(), state.friction, analysis::media::kObject);
-  return fmt::format("{} {} {}", io::to_text(numbers, -1), state.contact.state.gap.sum(),
-                     state.film.film.thickness.sum());
+  return fmt::format("{} {}", io::to_text(numbers, -1), state.film.film.thickness.sum());
 }
 
 std::vector<std::string> states_of(const analysis::CaseSettings& asked, int jobs,
@@ -113,14 +112,14 @@ TEST(FrictionOf, GoesThroughPressuresAndDensitiesAsTheyWereGiven) {
                                   Place{2e6, 4.5e-4}, Place{7e6, 9e-4}, Place{7e6, 4.5e-4}));
 }
 
-TEST(FrictionOf, KeepsMapsOfPressureOnlyForThoseWhoLook) {
+TEST(FrictionOf, KeepsMapsOfContactsOnlyForThoseWhoLook) {
   for (const ContactMaps maps : {ContactMaps::kept, ContactMaps::dropped}) {
     friction_of(
         rough(), settings(),
         [&](const FrictionState& state) {
           EXPECT_EQ(state.contact.state.pressure.size() > 0, maps == ContactMaps::kept);
           EXPECT_EQ(state.contact.state.displacement.size() > 0, maps == ContactMaps::kept);
-          EXPECT_EQ(state.contact.state.gap.size(), 48 * 32);
+          EXPECT_EQ(state.contact.state.gap.size() > 0, maps == ContactMaps::kept);
         },
         maps);
   }

@@ -54,11 +54,12 @@ class Operators {
   std::vector<std::unique_ptr<Operator>> idle_;
 };
 
-/// A contact that waits for its films, and what flows in it.
-struct Waiting {
+/// What is known of one pressure so far. The lists have one element per density.
+struct Pressure {
   analysis::ContactRecord contact;
   Mask touching;
-  std::vector<std::optional<analysis::FluidRecord>> fluids;  ///< one per density
+  std::vector<std::optional<analysis::FluidRecord>> fluids;
+  std::vector<analysis::FrictionRecord> frictions;
 };
 
 /// How many contacts may wait for the rain: what fits in a quarter of the memory, at least two.
@@ -80,13 +81,13 @@ class ScanFriction {
         drops_maps_(maps == ContactMaps::dropped && !settings.fluid.flows()),
         window_(n_waiting(surface.grid, !drops_maps_)),
         operators_(settings.contact, surface.grid),
-        waiting_(settings.mean_pressures.size()) {}
+        pressures_(settings.mean_pressures.size()) {}
 
   /// The rain first, and with each contact what waits for it: among the jobs that are ready the
   /// engine takes the first.
   std::vector<Job> jobs() {
     std::vector<Job> jobs = {film_job()};
-    for (std::size_t i = 0; i < waiting_.size(); ++i) add_pressure(i, jobs);
+    for (std::size_t i = 0; i < pressures_.size(); ++i) add_pressure(i, jobs);
     return jobs;
   }
 
@@ -117,16 +118,19 @@ class ScanFriction {
     Job contact = contact_job(i);
     if (settings_.contact.load_path && i > 0) contact.needs.push_back(contacts_[i - 1]);
     if (i >= window_) contact.needs.push_back(results_[i - window_]);
-    Job result = result_job(i);
     contacts_.push_back(jobs.size());
-    result.needs = {kFilm, contacts_[i]};
-    if (i > 0) result.needs.push_back(results_[i - 1]);  // in their order
     jobs.push_back(std::move(contact));
+    Job friction = friction_job(i);
+    friction.needs = {kFilm, contacts_[i]};
     for (std::size_t d = 0; settings_.fluid.flows() && d < n_densities(); ++d) {
-      result.needs.push_back(jobs.size());
+      friction.needs.push_back(jobs.size());
       jobs.push_back(fluid_job(i, d));
       jobs.back().needs = {kFilm, contacts_[i]};
     }
+    Job result = result_job(i);
+    result.needs = {jobs.size()};
+    if (i > 0) result.needs.push_back(results_[i - 1]);  // in their order
+    jobs.push_back(std::move(friction));
     results_.push_back(jobs.size());
     jobs.push_back(std::move(result));
   }
@@ -134,13 +138,13 @@ class ScanFriction {
   Job contact_job(std::size_t i) {
     Job job = job_of("contact", i);
     job.compute = [this, i](const Monitor& monitor) {
-      Waiting& waiting = waiting_[i];
-      waiting.contact =
+      Pressure& pressure = pressures_[i];
+      pressure.contact =
           analysis::contact_state(*operators_.borrow(), surface_, settings_.contact,
                                   settings_.mean_pressures[i], load_path_, monitor.own);
-      contact::State& state = waiting.contact.state;
-      waiting.touching = contact::contact_mask(state);
-      waiting.fluids.resize(n_densities());
+      contact::State& state = pressure.contact.state;
+      pressure.touching = contact::contact_mask(state);
+      pressure.fluids.resize(n_densities());
       if (drops_maps_) state.pressure = state.displacement = Field();
     };
     return job;
@@ -150,30 +154,48 @@ class ScanFriction {
     Job job = job_of("flow", i);
     job.restarts = true;  // with a contact within each step of the film
     job.compute = [this, i, density](const Monitor& monitor) {
-      waiting_[i].fluids[density] = analysis::fluid_state(
-          *operators_.borrow(), surface_.height, waiting_[i].contact.state,
-          waiting_[i].contact.summary.mean_pressure, films_[density].film.thickness,
+      pressures_[i].fluids[density] = analysis::fluid_state(
+          *operators_.borrow(), surface_.height, pressures_[i].contact.state,
+          pressures_[i].contact.summary.mean_pressure, films_[density].film.thickness,
           settings_.contact, settings_.fluid, monitor.own);
     };
     return job;
   }
 
-  Job result_job(std::size_t i) {
+  Job friction_job(std::size_t i) {
     Job job = job_of("friction", i);
-    job.is_brief = drops_maps_;  // nobody keeps maps, which takes longer than their friction
-    job.compute = [this, i](const Monitor&) { hand_on(std::exchange(waiting_[i], {})); };
+    job.compute = [this, i](const Monitor&) {
+      Pressure& pressure = pressures_[i];
+      contact::State& state = pressure.contact.state;
+      for (std::size_t d = 0; d < films_.size(); ++d) {
+        pressure.frictions.push_back(analysis::friction_state(
+            pressure.contact, {pressure.touching, state.gap, surface_.grid}, films_[d],
+            fluid_of(pressure, d), settings_.contact, settings_.friction));
+      }
+      if (drops_maps_) state.gap = Field();
+      pressure.touching = Mask();
+    };
     return job;
   }
 
-  void hand_on(const Waiting& waiting) {
-    const analysis::ContactRecord& contact = waiting.contact;
+  Job result_job(std::size_t i) {
+    Job job = job_of("keep", i);
+    job.is_brief = drops_maps_;  // whoever looks at maps writes them
+    job.compute = [this, i](const Monitor&) { hand_on(std::exchange(pressures_[i], {})); };
+    return job;
+  }
+
+  void hand_on(const Pressure& pressure) {
     for (std::size_t d = 0; d < films_.size(); ++d) {
-      const analysis::FluidRecord* fluid = waiting.fluids[d] ? &*waiting.fluids[d] : nullptr;
-      const analysis::FrictionRecord friction =
-          analysis::friction_state(contact, {waiting.touching, contact.state.gap, surface_.grid},
-                                   films_[d], fluid, settings_.contact, settings_.friction);
-      receive_({.friction = friction, .contact = contact, .film = films_[d], .fluid = fluid});
+      receive_({.friction = pressure.frictions[d],
+                .contact = pressure.contact,
+                .film = films_[d],
+                .fluid = fluid_of(pressure, d)});
     }
+  }
+
+  static const analysis::FluidRecord* fluid_of(const Pressure& pressure, std::size_t density) {
+    return pressure.fluids[density] ? &*pressure.fluids[density] : nullptr;
   }
 
   static constexpr std::size_t kFilm = 0;  // its place among the jobs
@@ -186,7 +208,7 @@ class ScanFriction {
   Operators operators_;
   analysis::LoadPath load_path_;  // contacts of a load path wait for each other
   std::vector<analysis::FilmRecord> films_;
-  std::vector<Waiting> waiting_;
+  std::vector<Pressure> pressures_;
   std::vector<std::size_t> contacts_;  // places of their jobs
   std::vector<std::size_t> results_;
 };

@@ -14,13 +14,13 @@ namespace tabor::study {
 /// One pressure with one density. The references hold during the call that hands the state on.
 struct FrictionState {
   const analysis::FrictionRecord& friction;
-  const analysis::ContactRecord& contact;  ///< its maps of pressure and displacement if asked for
+  const analysis::ContactRecord& contact;  ///< its maps if asked for
   const analysis::FilmRecord& film;
   const analysis::FluidRecord* fluid;  ///< null where the oil does not flow
 };
 
-/// Whether whoever receives the states looks at maps of contacts that friction does not need. They
-/// wait for the rain in memory: 16 bytes per pixel and contact.
+/// Whether whoever receives the states looks at the maps of contacts. Each contact waits for the
+/// rain in memory: with 9 bytes per pixel for what friction needs of it, with 25 for all maps.
 enum class ContactMaps { dropped, kept };
 
 /// Hands on every pressure with every density, the densities of the first pressure first, one at a
