@@ -6,6 +6,7 @@
 #include "study/example_study.hpp"
 #include "tabor/io/csv.hpp"
 #include "tabor/io/hdf5.hpp"
+#include "tabor/study/plan.hpp"
 #include "tabor/study/record.hpp"
 
 namespace tabor::study {

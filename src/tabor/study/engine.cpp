@@ -13,6 +13,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/watch.hpp"
+#include "tabor/study/plan.hpp"
 #include "tabor/study/work_share.hpp"
 
 namespace tabor::study {

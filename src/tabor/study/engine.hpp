@@ -1,15 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <exception>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "tabor/core/convergence.hpp"
-#include "tabor/core/resources.hpp"
 #include "tabor/study/job.hpp"
-#include "tabor/study/plan.hpp"
+#include "tabor/study/run_options.hpp"
 #include "tabor/study/store.hpp"
 
 // The one engine that runs many cases of any kind: it plans, stores, resumes and retries them, runs
@@ -42,14 +40,6 @@
 //     throwing it, the next one starts anew, and `quality` says so to --retry. After it all that
 //     follow in the chain are computed again, too.
 namespace tabor::study {
-
-struct RunOptions {
-  int jobs = 0;  ///< that run at the same time; 0: as many as there are threads and memory
-  std::optional<Shard> shard;  ///< this process does only its part; the store must be shared
-  bool retry = false;          ///< what failed or did not converge is computed again
-  Observer observer;           ///< called by one thread at a time, not always the same
-  Stopwatch since_start;       ///< of the whole command: the time left is counted on from it
-};
 
 /// How a run ended.
 struct Report {

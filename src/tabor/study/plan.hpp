@@ -1,23 +1,14 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "tabor/core/convergence.hpp"
 #include "tabor/study/job.hpp"
+#include "tabor/study/run_options.hpp"
 #include "tabor/study/store.hpp"
 
 namespace tabor::study {
-
-/// Part `index` of `count` of a study, from 1; the parts together are the whole.
-struct Shard {
-  int index = 1;
-  int count = 1;
-};
-
-/// "2/8". Throws InputError.
-Shard parse_shard(std::string_view text);
 
 /// Which jobs of a list are to be done.
 struct Plan {

@@ -12,6 +12,7 @@
 #include "tabor/core/resources.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/study/compute.hpp"
+#include "tabor/study/engine.hpp"
 
 namespace tabor::study {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "tabor/analysis/records.hpp"
 #include "tabor/analysis/settings.hpp"
-#include "tabor/study/engine.hpp"
+#include "tabor/study/run_options.hpp"
 #include "tabor/topography/topography.hpp"
 
 // Friction of one surface without a store: its rain, its contacts and what follows from both are

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <exception>
 
+#include "tabor/study/engine.hpp"
 #include "tabor/study/friction_jobs.hpp"
+#include "tabor/study/store.hpp"
 #include "tabor/study/tables.hpp"
 
 namespace tabor::study {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tabor/analysis/findings.hpp"
-#include "tabor/study/engine.hpp"
+#include "tabor/study/run_options.hpp"
 #include "tabor/study/study.hpp"
 
 namespace tabor::study {
