@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <ostream>
@@ -13,8 +14,8 @@
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/printable.hpp"
-#include "tabor/core/text.hpp"
-#include "tabor/io/csv.hpp"
+#include "tabor/core/units.hpp"
+#include "tabor/io/columns.hpp"
 
 namespace tabor::cli {
 
@@ -50,48 +51,37 @@ study::SweepOptions options_for(const Request& request, const Context& context) 
   return options;
 }
 
-// Cells of averages.csv that hold numbers become numbers, empty ones null.
-io::Json averages_json(const io::CsvTable& csv) {
+io::Json averages_json(const study::Study& study, const std::vector<study::Average>& averages) {
+  const auto columns = study::average_columns(study.flows());
   io::Json rows = io::Json::array();
-  for (const auto& cells : csv.rows) {
-    io::Json row = io::Json::object();
-    for (std::size_t i = 0; i < csv.columns.size(); ++i) {
-      const std::optional<double> number = parse_number(cells[i]);
-      row[csv.columns[i]] = csv.columns[i] == "group" ? io::Json(cells[i])
-                            : number                  ? io::Json(*number)
-                                                      : io::Json(nullptr);
-    }
-    rows.push_back(row);
-  }
+  for (const study::Average& average : averages) rows.push_back(io::json_of(columns, average));
   return rows;
 }
 
-std::string with_deviation(const io::Json& row, const std::string& name) {
-  const io::Json& mean = row.at(name + "_mean");
-  const io::Json& deviation = row.at(name + "_std");
-  if (mean.is_null()) return "-";
-  const std::string text = plain(mean.get<double>());
-  return deviation.is_null() ? text : text + " ± " + plain(deviation.get<double>(), 2);
+/// "0.29 ± 0.012"
+std::string with_deviation(const study::Mean& mean) {
+  if (std::isnan(mean.mean)) return "-";
+  const std::string text = plain(mean.mean);
+  return std::isnan(mean.standard_deviation) ? text
+                                             : text + " ± " + plain(mean.standard_deviation, 2);
 }
 
-std::string averages_text(const io::Json& rows) {
-  const bool oil_flows = !rows.empty() && rows.at(0).contains("friction_mixed_mean");
+std::string averages_text(const study::Study& study, const std::vector<study::Average>& averages) {
   std::vector<std::string> titles = {"group", "pressure",     "lubricant",
                                      "n",     "friction dry", "friction wet"};
-  if (oil_flows) titles.insert(titles.end(), {"speed", "oil carries", "friction mixed"});
+  if (study.flows()) titles.insert(titles.end(), {"speed", "oil carries", "friction mixed"});
   Table table(titles);
-  for (const io::Json& row : rows) {
-    std::vector<std::string> cells = {
-        row.at("group").get<std::string>(),
-        si(row.at("mean_pressure_Pa").get<double>(), "Pa"),
-        plain(row.at("lubricant_density_g_per_m2").get<double>()) + " g/m²",
-        plain(row.at("n").get<double>()),
-        with_deviation(row, "friction_dry"),
-        with_deviation(row, "friction_lubricated")};
-    if (oil_flows) {
-      cells.insert(cells.end(), {si(row.at("sliding_speed_m_per_s").get<double>(), "m/s"),
-                                 with_deviation(row, "fluid_load_share"),
-                                 with_deviation(row, "friction_mixed")});
+  for (const study::Average& one : averages) {
+    std::vector<std::string> cells = {one.group,
+                                      si(one.mean_pressure, "Pa"),
+                                      plain(in_g_per_m2(one.lubricant_density)) + " g/m²",
+                                      std::to_string(one.n),
+                                      with_deviation(one.friction_dry),
+                                      with_deviation(one.friction_lubricated)};
+    if (one.fluid) {
+      cells.insert(cells.end(),
+                   {si(one.fluid->sliding_speed, "m/s"), with_deviation(one.fluid->load_share),
+                    with_deviation(one.fluid->friction_mixed)});
     }
     table.row(cells);
   }
@@ -153,20 +143,18 @@ int sweep(const Request& request, Context& context) {
   try {
     outcome = study::run(study, request.folder(), options_for(request, context));
   } catch (const Interrupted&) {
-    return fail(
-        context,
-        fmt::format("interrupted; what was finished is kept in {}, the same command goes on "
-                    "from there",
-                    printable(request.folder().string())),
-        kInterrupted);
+    return fail(context,
+                fmt::format("interrupted; the finished cases are in {}; the same command continues",
+                            printable(request.folder().string())),
+                kInterrupted);
   }
   for (const std::string& warning : outcome.warnings) context.warn(warning);
   context.warn(outcome.findings);
   for (const std::string& failure : outcome.failures) context.warn("failed: " + failure);
   io::Json object = outcome_json(context, request, outcome);
-  object["averages"] = averages_json(io::read_csv(request.folder() / "averages.csv"));
+  object["averages"] = averages_json(study, outcome.averages);
   const std::string text =
-      outcome_text(request, outcome) + '\n' + averages_text(object["averages"]);
+      outcome_text(request, outcome) + '\n' + averages_text(study, outcome.averages);
   return finish(context, object, text, code_of(outcome));
 }
 

@@ -5,6 +5,10 @@
 #include <cmath>
 #include <numeric>
 #include <tuple>
+#include <utility>
+
+#include "tabor/core/units.hpp"
+#include "tabor/study/record.hpp"
 
 namespace tabor::study {
 namespace {
@@ -81,6 +85,21 @@ Average average_over(const Key& key, const std::vector<const Row*>& rows) {
   return average;
 }
 
+const Columns<Mean>& mean_columns() {
+  static const Columns<Mean> columns{{"_mean", "", "", &Mean::mean},
+                                     {"_std", "", "", &Mean::standard_deviation},
+                                     {"_sem", "", "", &Mean::standard_error}};
+  return columns;
+}
+
+template <typename Record>
+void add_mean(const std::string& name, Mean Record::*mean, Columns<Record>& columns) {
+  for (Column<Record>& column : within(mean_columns(), mean)) {
+    column.key = name + column.key;
+    columns.push_back(column);
+  }
+}
+
 }  // namespace
 
 Mean mean_of(const std::vector<double>& values) {
@@ -112,6 +131,23 @@ std::vector<Average> averages(const std::vector<Row>& rows) {
     result.push_back(average_over(key, counted));
   }
   return result;
+}
+
+Columns<Average> average_columns(bool oil_flows) {
+  Columns<Average> columns{
+      {"group", "", "", &Average::group},
+      {"mean_pressure_Pa", "", "", &Average::mean_pressure},
+      {"lubricant_density_g_per_m2", "", "",
+       [](const Average& average) { return in_g_per_m2(average.lubricant_density); }},
+      {"n", "", "", &Average::n}};
+  add_mean("friction_dry", &Average::friction_dry, columns);
+  add_mean("friction_lubricated", &Average::friction_lubricated, columns);
+  if (!oil_flows) return columns;
+  Columns<FluidAverage> fluid{{"sliding_speed_m_per_s", "", "", &FluidAverage::sliding_speed}};
+  add_mean("fluid_load_share", &FluidAverage::load_share, fluid);
+  add_mean("friction_viscous", &FluidAverage::friction_viscous, fluid);
+  add_mean("friction_mixed", &FluidAverage::friction_mixed, fluid);
+  return joined(columns, within(fluid, &Average::fluid));
 }
 
 }  // namespace tabor::study

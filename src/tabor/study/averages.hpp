@@ -4,16 +4,19 @@
 #include <string>
 #include <vector>
 
-#include "tabor/study/record.hpp"
+#include "tabor/analysis/records.hpp"
+#include "tabor/core/column.hpp"
 
 namespace tabor::study {
+
+struct Row;
 
 /// Statistics of repeated values. NaN where they do not exist: mean for n = 0, the rest for n < 2.
 struct Mean {
   std::size_t n = 0;
-  double mean = kNoValue;
-  double standard_deviation = kNoValue;  ///< with n - 1
-  double standard_error = kNoValue;      ///< standard deviation / sqrt(n)
+  double mean = analysis::kNoValue;
+  double standard_deviation = analysis::kNoValue;  ///< with n - 1
+  double standard_error = analysis::kNoValue;      ///< standard deviation / sqrt(n)
 };
 
 Mean mean_of(const std::vector<double>& values);
@@ -41,5 +44,8 @@ struct Average {
 /// Groups, pressures, densities and speeds in the order of their first row. Rows that failed or did
 /// not converge do not count: n says how many did.
 std::vector<Average> averages(const std::vector<Row>& rows);
+
+/// Of averages.csv, results.h5 and JSON, with or without those of a film that flows.
+Columns<Average> average_columns(bool oil_flows);
 
 }  // namespace tabor::study

@@ -67,7 +67,8 @@ Outcome run(const Study& study, const std::filesystem::path& directory,
     // One shard at a time: whoever comes last has seen every row.
     const auto lock = store.lock("results", [] {});
     const std::vector<Row> rows = rows_in(store, tasks);
-    write_tables(store, study, tasks, rows, options.command);
+    outcome.averages = averages(rows);
+    write_tables(store, study, tasks, rows, outcome.averages, options.command);
     count_rows(rows, outcome);
   } catch (...) {
     error = error ? error : std::current_exception();

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tabor/analysis/findings.hpp"
+#include "tabor/study/averages.hpp"
 #include "tabor/study/run_options.hpp"
 #include "tabor/study/study.hpp"
 
@@ -28,6 +29,7 @@ struct Outcome {
   std::vector<std::string> failures;        ///< one line per scan and pressure that has no numbers
   std::vector<std::string> warnings;        ///< about the sweep itself
   std::vector<analysis::Finding> findings;  ///< about the numbers of its rows
+  std::vector<Average> averages;            ///< over the scans of each group
 };
 
 /// Computes what the store in `directory` does not hold yet: each scan is treated once, each

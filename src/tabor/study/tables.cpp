@@ -42,38 +42,6 @@ Columns<Row> row_columns(bool oil_flows) {
                       {"warning_codes", "", "", warning_codes, tabled}});
 }
 
-const Columns<Mean>& mean_columns() {
-  static const Columns<Mean> columns{{"_mean", "", "", &Mean::mean},
-                                     {"_std", "", "", &Mean::standard_deviation},
-                                     {"_sem", "", "", &Mean::standard_error}};
-  return columns;
-}
-
-template <typename Record>
-void add_mean(const std::string& name, Mean Record::*mean, Columns<Record>& columns) {
-  for (Column<Record>& column : within(mean_columns(), mean)) {
-    column.key = name + column.key;
-    columns.push_back(column);
-  }
-}
-
-Columns<Average> average_columns(bool oil_flows) {
-  Columns<Average> columns{
-      {"group", "", "", &Average::group},
-      {"mean_pressure_Pa", "", "", &Average::mean_pressure},
-      {"lubricant_density_g_per_m2", "", "",
-       [](const Average& average) { return in_g_per_m2(average.lubricant_density); }},
-      {"n", "", "", &Average::n}};
-  add_mean("friction_dry", &Average::friction_dry, columns);
-  add_mean("friction_lubricated", &Average::friction_lubricated, columns);
-  if (!oil_flows) return columns;
-  Columns<FluidAverage> fluid{{"sliding_speed_m_per_s", "", "", &FluidAverage::sliding_speed}};
-  add_mean("fluid_load_share", &FluidAverage::load_share, fluid);
-  add_mean("friction_viscous", &FluidAverage::friction_viscous, fluid);
-  add_mean("friction_mixed", &FluidAverage::friction_mixed, fluid);
-  return joined(columns, within(fluid, &Average::fluid));
-}
-
 void write_oil(io::Hdf5Writer& writer, const friction::FlowingOil& oil) {
   writer.attribute("/", "fluid", "reynolds");
   writer.attribute("/", "viscosity_Pa_s", oil.viscosity);
@@ -203,8 +171,8 @@ std::string averages_csv(const std::vector<Average>& averages, bool oil_flows) {
 }
 
 void write_tables(const Store& store, const Study& study, const std::vector<ScanTasks>& tasks,
-                  const std::vector<Row>& rows, const std::string& command) {
-  const std::vector<Average> means = averages(rows);
+                  const std::vector<Row>& rows, const std::vector<Average>& means,
+                  const std::string& command) {
   io::write_file(store.directory() / "results.csv", results_csv(rows, study.flows()));
   io::write_file(store.directory() / "averages.csv", averages_csv(means, study.flows()));
   io::Hdf5Writer writer(store.directory() / "results.h5");

@@ -22,8 +22,10 @@ std::string results_csv(const std::vector<Row>& rows, bool oil_flows = false);
 std::string averages_csv(const std::vector<Average>& averages, bool oil_flows = false);
 
 /// Writes results.csv, averages.csv and results.h5 into the study's folder from what the store
-/// holds. `command` is the command line that asked for it. Throws OutputError.
+/// holds. `means`: of the rows; `command` is the command line that asked for it. Throws
+/// OutputError.
 void write_tables(const Store& store, const Study& study, const std::vector<ScanTasks>& tasks,
-                  const std::vector<Row>& rows, const std::string& command);
+                  const std::vector<Row>& rows, const std::vector<Average>& means,
+                  const std::string& command);
 
 }  // namespace tabor::study
