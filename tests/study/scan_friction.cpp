@@ -112,6 +112,14 @@ TEST(FrictionOf, GoesThroughPressuresAndDensitiesAsTheyWereGiven) {
                                   Place{2e6, 4.5e-4}, Place{7e6, 9e-4}, Place{7e6, 4.5e-4}));
 }
 
+TEST(FrictionOf, SaysWhatToCite) {
+  for (const analysis::CaseSettings& asked : {settings(), flowing()}) {
+    friction_of(rough(), asked, [&](const FrictionState& state) {
+      EXPECT_EQ(state.friction.references, analysis::references_of(asked));
+    });
+  }
+}
+
 TEST(FrictionOf, KeepsMapsOfContactsOnlyForThoseWhoLook) {
   for (const ContactMaps maps : {ContactMaps::kept, ContactMaps::dropped}) {
     friction_of(

@@ -46,6 +46,7 @@ ContactRecord state_of(elastic::ElasticOperator& elasticity, const topography::T
                        const Observer& observer) {
   ContactRecord record = solve(elasticity, height, settings, mean_pressure, observer);
   record.warnings = of_surface(surface);
+  record.references = references_of(settings);
   add(of_contact(surface, settings, record.state, record.summary), record.warnings);
   if (settings.statistics) record.statistics = statistics_of(elasticity, record.state, settings);
   return record;
@@ -87,14 +88,6 @@ void contact_states(elastic::ElasticOperator& elasticity, const topography::Topo
   for (const double pressure : mean_pressures) {
     receive(contact_state(elasticity, surface, settings, pressure, path, observer));
   }
-}
-
-std::vector<std::string> references_of(const ContactSettings& settings) {
-  std::vector<std::string> keys = {"polonsky1999", "yastrebov2017",
-                                   settings.is_periodic() ? "stanley1997" : "love1929"};
-  if (settings.solver == contact::Solver::fast) keys.insert(keys.begin(), "rey2017");
-  if (settings.saturation_pressure) keys.emplace_back("almqvist2007");
-  return keys;
 }
 
 }  // namespace tabor::analysis

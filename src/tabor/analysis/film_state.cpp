@@ -25,7 +25,8 @@ FilmRecord record_of(deposition::Film&& film, const FilmSettings& settings) {
   FilmRecord record{.lubricant_density = settings.lubricant_densities[film.request],
                     .film = {},
                     .peak_memory = peak_memory_bytes(),
-                    .warnings = of_film(film)};
+                    .warnings = of_film(film),
+                    .references = references_of(settings)};
   record.film = std::move(film);
   return record;
 }
@@ -67,18 +68,9 @@ FluidRecord fluid_state(elastic::ElasticOperator& elasticity, const Field& heigh
   throw_if_stopped(record.state.convergence);
   record.summary = friction::summarise(record.state, problem, elasticity.grid());
   record.sliding_speed = problem.sliding_speed;
+  record.references = references_of(settings);
   record.warnings = of_flow(friction::doubts(record.state, problem));
   return record;
-}
-
-std::vector<std::string> references_of(const FilmSettings& settings) {
-  if (settings.model == deposition::Model::limit) return {"costagliola2021", "barnes2021"};
-  return {"costagliola2021"};
-}
-
-std::vector<std::string> references_of(const FluidSettings& settings) {
-  if (!settings.flows()) return {};
-  return {"elrod1981"};
 }
 
 }  // namespace tabor::analysis

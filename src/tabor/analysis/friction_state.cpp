@@ -20,6 +20,8 @@ FrictionRecord numbers_of(const ContactRecord& contact, const FilmRecord& film) 
   record.converged = contact.convergence.converged();
   record.warnings = contact.warnings;
   add(film.warnings, record.warnings);
+  record.references = contact.references;
+  add(film.references, record.references);
   return record;
 }
 
@@ -54,6 +56,7 @@ void add_flow(const FluidRecord& fluid, const friction::MixedEstimate& mixed,
                                  .converged = summary.convergence.converged()};
   record.converged = record.converged && record.fluid->converged;
   add(fluid.warnings, record.warnings);
+  add(fluid.references, record.references);
   add(of_mixed_friction(mixed), record.warnings);
 }
 
@@ -83,6 +86,7 @@ FrictionRecord friction_state(const ContactRecord& contact, const Closed& closed
   const friction::Estimate estimate =
       dry_friction(contact, record.lubricated_share, record.spill_over_fraction, contact_settings,
                    settings, record.warnings);
+  add(references_of(settings), record.references);
   record.area = estimate.area;
   record.friction_area_fraction = estimate.area_fraction;
   record.dry_at_bound = estimate.at_bound;
@@ -97,7 +101,5 @@ FrictionRecord friction_state(const ContactRecord& contact, const Closed& closed
   }
   return record;
 }
-
-std::vector<std::string> references_of(const FrictionSettings&) { return {"bowden1950"}; }
 
 }  // namespace tabor::analysis

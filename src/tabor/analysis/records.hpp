@@ -51,17 +51,19 @@ struct ContactRecord {
   double seconds = 0;
   std::size_t peak_memory = 0;  ///< of the program so far [bytes]
   std::optional<ContactStatistics> statistics;
-  Warnings warnings;     ///< of its surface and its own
-  contact::State state;  ///< maps; empty in a record that was read from a store
+  Warnings warnings;                    ///< of its surface and its own
+  std::vector<std::string> references;  ///< to cite: keys of references.bib; not kept in a store
+  contact::State state;                 ///< maps; empty in a record that was read from a store
 };
 const Columns<ContactRecord>& contact_columns();
 
 /// One film as it was laid down.
 struct FilmRecord {
-  double lubricant_density = 0;  ///< [kg/m^2]
-  deposition::Film film;         ///< its place in the settings is film.request
-  std::size_t peak_memory = 0;   ///< of the program so far [bytes]
-  Warnings warnings;             ///< its own
+  double lubricant_density = 0;         ///< [kg/m^2]
+  deposition::Film film;                ///< its place in the settings is film.request
+  std::size_t peak_memory = 0;          ///< of the program so far [bytes]
+  Warnings warnings;                    ///< its own
+  std::vector<std::string> references;  ///< to cite; not kept in a store
 };
 const Columns<FilmRecord>& film_columns();
 
@@ -70,7 +72,8 @@ struct FluidRecord {
   double sliding_speed = 0;  ///< [m/s]
   friction::FluidSummary summary;
   Warnings warnings;
-  friction::FluidFilmState state;  ///< maps; empty in a record that was read from a store
+  std::vector<std::string> references;  ///< to cite; not kept in a store
+  friction::FluidFilmState state;       ///< maps; empty in a record that was read from a store
 };
 /// Of the store alone: to a user they are numbers of friction.
 const Columns<FluidRecord>& fluid_columns();
@@ -118,6 +121,7 @@ struct FrictionRecord {
   bool converged = false;                ///< contact, and film if it flows
   std::optional<FlowingFriction> fluid;  ///< absent where the oil does not flow
   Warnings warnings;                     ///< of its surface, contact, film and friction
+  std::vector<std::string> references;   ///< of all of them, to cite; not kept in a store
 };
 /// With or without those of a film that flows.
 Columns<FrictionRecord> friction_columns(bool oil_flows = true);

@@ -82,5 +82,9 @@ std::vector<std::string> references_of(const ContactSettings& settings);
 std::vector<std::string> references_of(const FilmSettings& settings);
 std::vector<std::string> references_of(const FluidSettings& settings);
 std::vector<std::string> references_of(const FrictionSettings& settings);
+std::vector<std::string> references_of(const CaseSettings& settings);
+
+/// Appends the keys that are not in the list yet.
+void add(const std::vector<std::string>& more, std::vector<std::string>& references);
 
 }  // namespace tabor::analysis

@@ -34,17 +34,6 @@ io::Json all_settings(const analysis::CaseSettings& settings) {
   return all;
 }
 
-std::vector<std::string> all_references(const analysis::CaseSettings& settings) {
-  std::vector<std::string> all = analysis::references_of(settings.contact);
-  const auto add = [&all](const std::vector<std::string>& more) {
-    all.insert(all.end(), more.begin(), more.end());
-  };
-  add(analysis::references_of(settings.film));
-  add(analysis::references_of(settings.friction));
-  add(analysis::references_of(settings.fluid));
-  return all;
-}
-
 std::vector<StateField> maps_of(const study::FrictionState& state) {
   std::vector<StateField> fields = fields_of(state.contact);
   for (const StateField& field : fields_of(state.film)) fields.push_back(field);
@@ -96,7 +85,8 @@ int show(Request request, Context& context) {
   const io::Json settings = all_settings(request.settings);
   std::optional<FieldsFile> file;
   if (request.output) {
-    file.emplace(*request.output, context, scan, settings, all_references(request.settings));
+    file.emplace(*request.output, context, scan, settings,
+                 analysis::references_of(request.settings));
   }
   std::vector<analysis::FrictionRecord> records;
   int code = solve_all(request, scan.surface, records, file ? &*file : nullptr, context);
