@@ -144,7 +144,7 @@ int sweep(const Request& request, Context& context) {
     outcome = study::run(study, request.folder(), options_for(request, context));
   } catch (const Interrupted&) {
     return fail(context,
-                fmt::format("interrupted; the finished cases are in {}; the same command continues",
+                fmt::format("interrupted; the finished cases are kept in {}; the same command continues",
                             printable(request.folder().string())),
                 kInterrupted);
   }
