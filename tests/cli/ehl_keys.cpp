@@ -180,8 +180,9 @@ void expect_same(const io::Json& a, const io::Json& b, const std::string& where)
     EXPECT_NEAR(a.get<double>(), b.get<double>(), 1e-5 * std::abs(b.get<double>())) << where;
   } else if (a.is_object() && b.is_object()) {
     ASSERT_EQ(a.size(), b.size()) << where;
-    for (const auto& [key, value] : a.items())
+    for (const auto& [key, value] : a.items()) {
       expect_same(value, b.value(key, io::Json()), where + " " + key);
+    }
   } else {
     EXPECT_EQ(a, b) << where;
   }

@@ -55,8 +55,9 @@ TEST(GatherWarnings, LumpsCasesThatMakeNoSense) {
 
 TEST(GatherWarnings, HasMarksBeyondTheAlphabet) {
   std::vector<std::string> texts;
-  for (int i = 0; i < 30; ++i)
+  for (int i = 0; i < 30; ++i) {
     texts.push_back("kind " + std::string(static_cast<std::size_t>(i), 'x'));
+  }
   const EhlWarnings warnings = gather_warnings({warning(texts)}, {.key = "a", .values = {"1"}});
   EXPECT_THAT(warnings.lines[25], HasSubstr("[z] "));
   EXPECT_THAT(warnings.lines[26], HasSubstr("[a1] "));

@@ -84,9 +84,7 @@ TEST(TimeLeft, OfSteadyWorkIsRightAndNeverEarly) {
   TimeLeft left;
   for (double now = 0; now < 100; now += 0.1) {
     const auto told = left.at(now, now / 100);
-    if (now < 5 || now > 8) {
-      EXPECT_EQ(told.has_value(), now > 8) << now;
-    }
+    if (now < 5 || now > 8) EXPECT_EQ(told.has_value(), now > 8) << now;
     EXPECT_NEAR(told.value_or(100 - now), 100 - now, 1e-6);
   }
 }

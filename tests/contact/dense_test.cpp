@@ -62,9 +62,7 @@ Field solve_dense(const Field& height, double mean_pressure, double cap, bool pe
       }
       changed = changed || set != before;
     }
-    if (!changed) {
-      break;
-    }
+    if (!changed) break;
   }
   return pressure.array().reshaped<Eigen::RowMajor>(height.rows(), height.cols());
 }

@@ -123,13 +123,9 @@ inline bool improve(std::vector<Set>& sets, const Vector& wanted, Real cap, bool
       worst = i;
     }
   }
-  if (next == sets) {
-    return false;
-  }
+  if (next == sets) return false;
   sets[worst] = next[worst];
-  if (all) {
-    sets = next;
-  }
+  if (all) sets = next;
   if (std::count(sets.begin(), sets.end(), Set::free) == 0) {  // none left to carry the rest
     Index nearest = 0;
     wanted.array().min(cap - wanted.array()).maxCoeff(&nearest);
@@ -142,9 +138,7 @@ inline bool improve(std::vector<Set>& sets, const Vector& wanted, Real cap, bool
 inline std::vector<Set> first_sets(const Field& heights, double mean_pressure, double cap) {
   const auto n = static_cast<std::size_t>(heights.size());
   std::vector<Set> sets(n, Set::free);
-  if (!std::isfinite(cap)) {
-    return sets;
-  }
+  if (!std::isfinite(cap)) return sets;
   std::vector<double> sorted(heights.data(), heights.data() + n);
   std::sort(sorted.begin(), sorted.end(), std::greater<>());
   const auto rank = static_cast<std::size_t>(mean_pressure / cap * static_cast<double>(n));
@@ -165,9 +159,7 @@ inline Exact solve_exactly(const Field& heights, const Grid& grid, double mean_p
   const Matrix matrix = influence(grid, periodic);
   const Real compliance = matrix(0, 0);
   Vector height(n);
-  for (Index i = 0; i < n; ++i) {
-    height(i) = heights(i);
-  }
+  for (Index i = 0; i < n; ++i) height(i) = heights(i);
   std::vector<Set> sets = first_sets(heights, mean_pressure, cap);
   Exact exact;
   Vector pressure;

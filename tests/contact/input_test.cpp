@@ -73,9 +73,7 @@ TEST(SolveContact, AsksItsObserverFromTheFirstMoment) {
   double transform_seconds_at_first = -1;
   const auto whole =
       contact::solve(*elasticity, problem, contact::Solver::fast, [&](const Progress& progress) {
-        if (before_fine_grid == 0) {
-          transform_seconds_at_first = elasticity->fft_seconds();
-        }
+        if (before_fine_grid == 0) transform_seconds_at_first = elasticity->fft_seconds();
         is_fine_grid = is_fine_grid || progress.convergence != nullptr;
         before_fine_grid += is_fine_grid ? 0 : 1;
         return true;

@@ -22,9 +22,7 @@ constexpr double kNoCap = std::numeric_limits<double>::infinity();
 std::vector<double> random_values(std::size_t n, std::uint64_t seed) {
   const CounterRandom random(seed);
   std::vector<double> values(n);
-  for (std::size_t k = 0; k < n; ++k) {
-    values[k] = random.normal(k) * 1e8;
-  }
+  for (std::size_t k = 0; k < n; ++k) values[k] = random.normal(k) * 1e8;
   return values;
 }
 
@@ -79,18 +77,14 @@ TEST(CandidateSet, LeavesOutNothingThatMatters) {
   const double step = 0.3;
   const auto separation = [&](const Candidates& values, double cap) {
     std::vector<double> wanted(values.pressure);
-    for (std::size_t k = 0; k < wanted.size(); ++k) {
-      wanted[k] -= step * values.residual[k];
-    }
+    for (std::size_t k = 0; k < wanted.size(); ++k) wanted[k] -= step * values.residual[k];
     return -shift_for_load(wanted, load, cap) / step;
   };
   const Candidates all{{pressure.data(), pressure.data() + n * n},
                        {residual.data(), residual.data() + n * n}};
   for (const double cap : {kNoCap, 1.0, 1.5}) {
     CandidateSet set = pressed_pixels(pressure);
-    for (std::size_t k = 0; k < set.size(); ++k) {
-      set.values.residual[k] = residual(set.pixels[k]);
-    }
+    for (std::size_t k = 0; k < set.size(); ++k) set.values.residual[k] = residual(set.pixels[k]);
     const double threshold = candidate_threshold(set, load, cap, step);
     FieldF change = residual.cast<float>();
     collect_candidates(
@@ -135,9 +129,7 @@ TEST(Preconditioner, RowSumsAreTheAnswerToAConstant) {
   const Preconditioner preconditioner(grid, 1.0, true);
   FieldF residual = FieldF::Zero(40, 40);
   const PixelList set{3, 4, 5, 44, 820, 821, 860};
-  for (const std::uint32_t pixel : set) {
-    residual(pixel) = 2.0F;
-  }
+  for (const std::uint32_t pixel : set) residual(pixel) = 2.0F;
   std::vector<float> out;
   std::vector<float> row_sums;
   preconditioner.apply(set, residual, out, row_sums);

@@ -83,9 +83,7 @@ TEST(SolveContact, ShiftedSurfacesGiveShiftedPressures) {
   const Field height = self_affine(96, 0.8, 1, 24, 2);
   Field shifted(96, 96);
   for (Index y = 0; y < 96; ++y) {
-    for (Index x = 0; x < 96; ++x) {
-      shifted((y + 31) % 96, (x + 50) % 96) = height(y, x);
-    }
+    for (Index x = 0; x < 96; ++x) shifted((y + 31) % 96, (x + 50) % 96) = height(y, x);
   }
   const Solved direct = solve_unit(height, 0.02, kNoCap, 1e-9);
   const Solved other = solve_unit(shifted, 0.02, kNoCap, 1e-9);
@@ -161,9 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(SolveContact, AgreesOnNonSquarePixels) {
   const Field fine = wave(128, 0.01, true);
   Field coarse(128, 64);  // every second column: pixels twice as wide as high
-  for (Index x = 0; x < 64; ++x) {
-    coarse.col(x) = 0.5 * (fine.col(2 * x) + fine.col(2 * x + 1));
-  }
+  for (Index x = 0; x < 64; ++x) coarse.col(x) = 0.5 * (fine.col(2 * x) + fine.col(2 * x + 1));
   const Grid grid{64, 128, 1.0, 1.0};
   const auto elasticity = elastic::make_periodic(grid, 1.0);
   contact::Problem problem;
@@ -218,9 +214,7 @@ TEST(Distributions, CountEveryPixelAndPatchOnce) {
   const auto total = [](const contact::Histogram& histogram) {
     EXPECT_EQ(histogram.edges.size(), histogram.counts.size() + 1);
     Index sum = 0;
-    for (const Index count : histogram.counts) {
-      sum += count;
-    }
+    for (const Index count : histogram.counts) sum += count;
     return sum;
   };
   const Index n_contact = contact::contact_mask(solved.state).count();

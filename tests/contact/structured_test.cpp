@@ -44,9 +44,7 @@ std::vector<Shape> shapes() {
 Field sampled(const Shape& shape, double amplitude) {
   Field height(8, 8);
   for (Index y = 0; y < 8; ++y) {
-    for (Index x = 0; x < 8; ++x) {
-      height(y, x) = amplitude * shape.height(y, x);
-    }
+    for (Index x = 0; x < 8; ++x) height(y, x) = amplitude * shape.height(y, x);
   }
   return height;
 }

@@ -25,9 +25,7 @@ inline Field self_affine(Index n, double hurst, double k_low, double k_high, std
     for (Index kx = 1; kx < n / 2; ++kx) {
       const auto y = static_cast<double>(ky <= n / 2 ? ky : ky - n);
       const double k = std::hypot(static_cast<double>(kx), y);
-      if (k < k_low || k > k_high) {
-        continue;
-      }
+      if (k < k_low || k > k_high) continue;
       const double amplitude = std::pow(k, -1 - hurst);
       const auto pixel = static_cast<std::uint64_t>(ky * n + kx);
       spectrum[static_cast<std::size_t>(ky * (n / 2 + 1) + kx)] =

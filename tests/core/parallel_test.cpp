@@ -39,9 +39,7 @@ TEST_F(Parallel, RethrowsWhatTheBodyThrows) {
   set_thread_count(2);
   EXPECT_THROW(parallel_for(100, 1,
                             [](Index begin, Index) {
-                              if (begin == 57) {
-                                throw std::runtime_error("57");
-                              }
+                              if (begin == 57) throw std::runtime_error("57");
                             }),
                std::runtime_error);
 }

@@ -34,9 +34,7 @@ Field rough(Index nx, Index ny, std::uint64_t seed) {
   }
   Field height = noise;
   for (Index y = 0; y < ny; ++y) {
-    for (Index x = 0; x < nx; ++x) {
-      height(y, x) += noise((y + 1) % ny, x) + noise(y, (x + 1) % nx);
-    }
+    for (Index x = 0; x < nx; ++x) height(y, x) += noise((y + 1) % ny, x) + noise(y, (x + 1) % nx);
   }
   return height;
 }
@@ -63,12 +61,8 @@ template <class Check>
 void for_each_pair(const Field& field, Check check) {
   for (Index y = 0; y < field.rows(); ++y) {
     for (Index x = 0; x < field.cols(); ++x) {
-      if (x + 1 < field.cols()) {
-        check(y, x, y, x + 1);
-      }
-      if (y + 1 < field.rows()) {
-        check(y, x, y + 1, x);
-      }
+      if (x + 1 < field.cols()) check(y, x, y, x + 1);
+      if (y + 1 < field.rows()) check(y, x, y + 1, x);
     }
   }
 }
@@ -142,12 +136,8 @@ TEST(Deposition, NeverRisesAboveARim) {
     const Field level = height + film.thickness;
     for_each_pair(height, [&](Index y, Index x, Index v, Index u) {
       const double slack = 2 * film.height_quantum;
-      if (film.thickness(y, x) > 0) {
-        EXPECT_LE(level(y, x), level(v, u) + slack);
-      }
-      if (film.thickness(v, u) > 0) {
-        EXPECT_LE(level(v, u), level(y, x) + slack);
-      }
+      if (film.thickness(y, x) > 0) EXPECT_LE(level(y, x), level(v, u) + slack);
+      if (film.thickness(v, u) > 0) EXPECT_LE(level(v, u), level(y, x) + slack);
     });
   }
 }

@@ -38,9 +38,7 @@ inline RandomCase random_case(std::uint64_t number, Pixel largest_side) {
   result.seed = number;
   result.n_droplets = 1 + below(30 + 2 * result.terrain.size());
   result.terrain.height.resize(static_cast<std::size_t>(result.terrain.size()));
-  for (Height& height : result.terrain.height) {
-    height = below(n_heights) * step;
-  }
+  for (Height& height : result.terrain.height) height = below(n_heights) * step;
   return result;
 }
 

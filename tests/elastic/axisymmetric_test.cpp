@@ -133,9 +133,7 @@ TEST(AxisymmetricHalfSpace, LinearShapeIsExactUnderACone) {
   const Eigen::VectorXd u_fine =
       displaced(AxisymmetricHalfSpace(fine, kModulus, PressureShape::linear),
                 1e6 * (1 - fine / 1e-4).matrix());
-  for (Index i = 0; i < u.size(); ++i) {
-    EXPECT_NEAR(u[i] / u_fine[8 * i], 1, 1e-7) << i;
-  }
+  for (Index i = 0; i < u.size(); ++i) EXPECT_NEAR(u[i] / u_fine[8 * i], 1, 1e-7) << i;
 }
 
 TEST(AxisymmetricHalfSpace, UniformShapeIsExactUnderADisc) {

@@ -50,9 +50,7 @@ double worst_hertz_error(Index n, PressureShape shape) {
     const LineHalfSpace line(6 * n + 1, hertz.half_width / (static_cast<double>(n) + shift),
                              kModulus, shape);
     Eigen::VectorXd pressure(line.size());
-    for (Index i = 0; i < line.size(); ++i) {
-      pressure[i] = hertz.pressure(place(line, i));
-    }
+    for (Index i = 0; i < line.size(); ++i) pressure[i] = hertz.pressure(place(line, i));
     const auto u = applied(line, pressure);
     for (Index i = 0; i < line.size(); ++i) {
       const double expected = hertz.displacement(place(line, i), line.datum());
@@ -170,9 +168,7 @@ TEST(LineHalfSpace, GivesEveryWaveItsCompliance) {
   for (const PressureShape shape : kShapes) {
     const LineHalfSpace line(n, 1e-6, kModulus, shape);
     Eigen::ArrayXd kernel(n);
-    for (Index k = 0; k < n; ++k) {
-      kernel[k] = (k == 0 ? 1 : 2) * line.second_difference(k);
-    }
+    for (Index k = 0; k < n; ++k) kernel[k] = (k == 0 ? 1 : 2) * line.second_difference(k);
     const Eigen::ArrayXd offset = Eigen::ArrayXd::LinSpaced(n, 0, static_cast<double>(n - 1));
     for (const double theta : {0.05, 0.3, 1.0, 2.5}) {
       const double summed = (kernel * (theta * offset).cos()).sum();

@@ -18,9 +18,7 @@ std::string big_endian(std::uint32_t value) {
 
 std::uint32_t from_big_endian(std::string_view bytes) {
   std::uint32_t value = 0;
-  for (const char byte : bytes.substr(0, 4)) {
-    value = value << 8 | static_cast<unsigned char>(byte);
-  }
+  for (const char byte : bytes.substr(0, 4)) value = value << 8 | static_cast<unsigned char>(byte);
   return value;
 }
 
@@ -52,9 +50,7 @@ std::string png_chunk(std::string_view type, std::string_view data) {
 std::string plain_png(int bits, int colour_type, int interlace) {
   constexpr std::uint32_t kWidth = 4, kHeight = 3;
   std::string header = big_endian(kWidth) + big_endian(kHeight);
-  for (const int byte : {bits, colour_type, 0, 0, interlace}) {
-    header += static_cast<char>(byte);
-  }
+  for (const int byte : {bits, colour_type, 0, 0, interlace}) header += static_cast<char>(byte);
   const std::string pixels(64, '\0');  // more than any of these images needs
   return std::string(kSignature) + png_chunk("IHDR", header) + png_chunk("IDAT", pixels) +
          png_chunk("IEND", "");

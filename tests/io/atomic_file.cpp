@@ -133,9 +133,7 @@ TEST(WriteFile, RefusesLinksInACircle) {
 }
 
 TEST(WriteFile, RefusesAnUnwritableFolder) {
-  if (::geteuid() == 0) {
-    GTEST_SKIP() << "root may write anywhere";
-  }
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
   const Folder folder;
   std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read);
   EXPECT_THROW(write_file(folder / "a", "x"), OutputError);

@@ -18,9 +18,7 @@ using testing::HasSubstr;
 
 Field sample_map(Index ny, Index nx) {
   Field map(ny, nx);
-  for (Index i = 0; i < map.size(); ++i) {
-    map.data()[i] = std::sin(static_cast<double>(i)) * 1e-6;
-  }
+  for (Index i = 0; i < map.size(); ++i) map.data()[i] = std::sin(static_cast<double>(i)) * 1e-6;
   map(ny / 2, nx / 2) = std::nan("");
   return map;
 }
@@ -237,9 +235,7 @@ TEST(Hdf5, FilesMayBeUsedFromSeveralThreads) {
       }
     });
   }
-  for (std::thread& thread : threads) {
-    thread.join();
-  }
+  for (std::thread& thread : threads) thread.join();
 }
 
 TEST(Hdf5, IsRecognisedByItsFirstBytes) {

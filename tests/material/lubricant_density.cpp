@@ -72,9 +72,7 @@ TEST(RelativeDensity, IsPositiveInsideItsComputableRangeOnly) {
 }
 
 TEST(RelativeDensity, LawsAreKnownByName) {
-  for (const DensityLaw law : kLaws) {
-    EXPECT_EQ(parse_density_law(name(law)), law);
-  }
+  for (const DensityLaw law : kLaws) EXPECT_EQ(parse_density_law(name(law)), law);
   const std::string message = test::refusal([] { parse_density_law("dowson"); });
   EXPECT_NE(message.find("dowson-higginson"), std::string::npos) << message;
 }

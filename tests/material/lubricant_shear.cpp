@@ -166,9 +166,7 @@ TEST(Shear, SeriesForSlowFilmsMeetsTheClosedForm) {
 }
 
 TEST(Shear, LawsAreKnownByName) {
-  for (const Shear& law : kLaws) {
-    EXPECT_EQ(parse_shear_law(name(law_of(law))), law_of(law));
-  }
+  for (const Shear& law : kLaws) EXPECT_EQ(parse_shear_law(name(law_of(law))), law_of(law));
   const std::string message = test::refusal([] { parse_shear_law("eyring"); });
   EXPECT_NE(message.find("ree-eyring"), std::string::npos) << message;
 }

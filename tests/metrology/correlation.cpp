@@ -191,9 +191,7 @@ TEST(Correlation, GivesTheSameBitsOnAnyNumberOfThreads) {
   expect_same_bits_on_any_threads([&] {
     const auto acf = autocorrelation(rough.height, rough.grid);
     Field values(200, 300);
-    for (Index i = 0; i < values.size(); ++i) {
-      values.data()[i] = acf(i / 300, i % 300);
-    }
+    for (Index i = 0; i < values.size(); ++i) values.data()[i] = acf(i / 300, i % 300);
     return values;
   });
   expect_same_bits_on_any_threads([&] {

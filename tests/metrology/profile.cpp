@@ -266,9 +266,7 @@ TEST(ProfileElements, ReadBothWaysDifferWhereSmallPortionsLieBetween) {
 
 TEST(ProfileElements, DoNotReachAcrossHoles) {
   Eigen::ArrayXd z(200);
-  for (Index i = 0; i < 200; ++i) {
-    z[i] = std::sin(2 * pi * (static_cast<double>(i) + 0.5) / 20);
-  }
+  for (Index i = 0; i < 200; ++i) z[i] = std::sin(2 * pi * (static_cast<double>(i) + 0.5) / 20);
   EXPECT_EQ(profile_elements(z, {}).size(), 9U);
   z[105] = kHole;
   const auto elements = profile_elements(z, {});

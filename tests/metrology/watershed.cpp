@@ -19,9 +19,7 @@ class NaiveWatershed {
  public:
   NaiveWatershed(const topography::Topography& topography, double least_difference)
       : z_(topography.height), grid_(topography.grid), periodic_(topography.periodic) {
-    for (Index p = 0; p < z_.size(); ++p) {
-      hill_.push_back(std::isnan(z(p)) ? kNone : climb(p));
-    }
+    for (Index p = 0; p < z_.size(); ++p) hill_.push_back(std::isnan(z(p)) ? kNone : climb(p));
     while (prune_one(least_difference)) {
     }
   }
@@ -150,9 +148,7 @@ void expect_like_naive(const topography::Topography& topography, double least_di
   for (const Motif& motif : fast.motifs) {
     const auto pass = naive.pass_of(motif.extremum);
     ASSERT_EQ(motif.saddle == kNoPixel, pass.to < 0);
-    if (motif.saddle != kNoPixel) {
-      ASSERT_EQ(at(topography, motif.saddle), pass.height);
-    }
+    if (motif.saddle != kNoPixel) ASSERT_EQ(at(topography, motif.saddle), pass.height);
   }
 }
 
@@ -174,8 +170,9 @@ TEST(Segment, EqualsTheDefinitionOnRandomMapsWithHoles) {
     // does nothing where the least difference is zero and no area is a single pixel.
     bool cut_off = false;
     const NaiveWatershed unpruned(topography, 1e9);
-    for (const Index peak : unpruned.peaks())
+    for (const Index peak : unpruned.peaks()) {
       cut_off = cut_off || unpruned.neighbours(peak).empty();
+    }
     if (cut_off) continue;
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     expect_like_naive(topography, 0);
@@ -230,9 +227,7 @@ std::set<std::vector<double>> hills_by_heights(const topography::Topography& top
   const auto hills = segment(topography, MotifKind::hill, least);
   std::vector<std::vector<double>> heights(hills.motifs.size());
   for (std::size_t i = 0; i < hills.label.size(); ++i) {
-    if (hills.label[i] != kNoMotif) {
-      heights[hills.label[i]].push_back(topography.height.data()[i]);
-    }
+    if (hills.label[i] != kNoMotif) heights[hills.label[i]].push_back(topography.height.data()[i]);
   }
   for (auto& hill : heights) std::sort(hill.begin(), hill.end());
   return {heights.begin(), heights.end()};

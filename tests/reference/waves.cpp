@@ -18,17 +18,13 @@ double x_of(int i) { return kWave.wavelength * (i + 0.5) / kPoints; }
 
 std::vector<double> sampled_pressure(double mean_pressure) {
   std::vector<double> p;
-  for (int i = 0; i < kPoints; ++i) {
-    p.push_back(kWave.pressure(mean_pressure, x_of(i)));
-  }
+  for (int i = 0; i < kPoints; ++i) p.push_back(kWave.pressure(mean_pressure, x_of(i)));
   return p;
 }
 
 double mean(const std::vector<double>& values) {
   double sum = 0;
-  for (const double v : values) {
-    sum += v;
-  }
+  for (const double v : values) sum += v;
   return sum / static_cast<double>(values.size());
 }
 

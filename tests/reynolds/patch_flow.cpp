@@ -27,8 +27,9 @@ PatchProblem bearing(Index n, double pressure, const Film& film) {
   const double length = 20e-3;
   problem.grid = {n, 1, length, length / static_cast<double>(n)};
   problem.gap.resize(1, n);
-  for (Index i = 0; i < n; ++i)
+  for (Index i = 0; i < n; ++i) {
     problem.gap(0, i) = film(problem.grid.dx() * static_cast<double>(i));
+  }
   problem.viscosity = 0.01;
   problem.entrainment_speed = 0.5;
   problem.reservoir = Mask::Constant(1, n, false);

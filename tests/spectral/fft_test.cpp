@@ -123,9 +123,7 @@ TEST(Convolution, HasTheSameBitsForAnyThreadCount) {
     set_thread_count(threads);
     FieldF result(120, 90);
     Convolution<float>(120, 90).apply(map.data(), smooth, result.data());
-    if (threads == 1) {
-      first = result;
-    }
+    if (threads == 1) first = result;
     EXPECT_TRUE((result == first).all()) << threads;
   }
   set_thread_count(0);

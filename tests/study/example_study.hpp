@@ -44,9 +44,7 @@ class ExampleStudy {
     recipe.rms_height = 0.5e-6;
     recipe.seed = seed;
     topography::Topography scan = synthesis::self_affine(recipe);
-    if (with_hole) {
-      scan.height(3, 4) = std::numeric_limits<double>::quiet_NaN();
-    }
+    if (with_hole) scan.height(3, 4) = std::numeric_limits<double>::quiet_NaN();
     scan::write(scan, folder / name);
   }
 

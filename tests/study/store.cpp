@@ -79,9 +79,7 @@ TEST(Store, ATaskLockMakesOtherShardsWait) {
   {
     const auto held = one.lock("film-1", [] {});
     const auto give_up = [&] {
-      if (++n_asked == 2) {
-        throw Interrupted();
-      }
+      if (++n_asked == 2) throw Interrupted();
     };
     EXPECT_THROW(other.lock("film-1", give_up), Interrupted);
     EXPECT_NO_THROW(other.lock("film-2", [] { throw Interrupted(); }));

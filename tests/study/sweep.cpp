@@ -194,9 +194,7 @@ TEST(Sweep, AnExceptionOfTheObserverEndsItWithoutLoss) {
   SweepOptions options;
   options.jobs = 2;
   options.observer = [](const Progress& progress) -> bool {
-    if (progress.whole > 0.5) {
-      throw std::runtime_error("from outside");
-    }
+    if (progress.whole > 0.5) throw std::runtime_error("from outside");
     return true;
   };
   EXPECT_THROW(example.run(options), std::runtime_error);

@@ -16,9 +16,7 @@ using testing::HasSubstr;
 std::vector<std::filesystem::path> stored(const ExampleStudy& example, const std::string& kind) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(example.results() / "store")) {
-    if (entry.path().filename().string().starts_with(kind)) {
-      files.push_back(entry.path());
-    }
+    if (entry.path().filename().string().starts_with(kind)) files.push_back(entry.path());
   }
   return files;
 }
@@ -51,14 +49,10 @@ TEST(DamagedStore, DamageInsideAMapIsFoundBeforeItIsUsed) {
     std::string bytes = test::bytes_of(file);
     // The compressed gap is the largest piece of the file: break its middle.
     const std::size_t at = bytes.size() * 2 / 3;
-    for (std::size_t i = at; i < at + 8; ++i) {
-      bytes[i] = static_cast<char>(~bytes[i]);
-    }
+    for (std::size_t i = at; i < at + 8; ++i) bytes[i] = static_cast<char>(~bytes[i]);
     test::put_bytes(file, bytes);
   }
-  for (const auto& file : stored(example, "case-")) {
-    std::filesystem::remove(file);
-  }
+  for (const auto& file : stored(example, "case-")) std::filesystem::remove(file);
   const Outcome outcome = example.run();
   EXPECT_EQ(outcome.n_failed, 0u);
   EXPECT_EQ(example.csv(), csv);

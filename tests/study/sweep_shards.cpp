@@ -59,9 +59,7 @@ TEST(TwoSweeps, OnOneStoreAreRefusedInOneLine) {
   std::string message;
   SweepOptions options;
   options.observer = [&](const Progress&) {
-    if (message.empty()) {
-      message = message_of([&] { example.run(); });
-    }
+    if (message.empty()) message = message_of([&] { example.run(); });
     return true;
   };
   example.run(options);

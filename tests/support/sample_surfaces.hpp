@@ -42,9 +42,7 @@ inline topography::Topography noise(const Grid& grid, std::uint64_t seed = 1) {
 inline void punch_holes(topography::Topography& topography, double share, std::uint64_t seed = 7) {
   const CounterRandom random(seed);
   for (Index i = 0; i < topography.height.size(); ++i) {
-    if (random.uniform(static_cast<std::uint64_t>(i)) < share) {
-      topography.height.data()[i] = kHole;
-    }
+    if (random.uniform(static_cast<std::uint64_t>(i)) < share) topography.height.data()[i] = kHole;
   }
 }
 

@@ -16,9 +16,7 @@ namespace tabor::test {
 inline std::string json_string(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      quoted += '\\';
-    }
+    if (c == '"' || c == '\\') quoted += '\\';
     quoted += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
   }
   return quoted + '"';
@@ -37,16 +35,12 @@ inline std::string current_test_name() {
 /// nothing without it. `tools/validation` gathers the lines.
 inline void append_validation(const std::string& line) {
   const char* path = std::getenv("TABOR_VALIDATION_FILE");
-  if (!path || !*path) {
-    return;
-  }
+  if (!path || !*path) return;
   // One write() in append mode: lines of tests that run side by side do not mix.
   const int file = open(path, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   const bool written =
       file >= 0 && write(file, line.data(), line.size()) == static_cast<ssize_t>(line.size());
-  if (file >= 0) {
-    close(file);
-  }
+  if (file >= 0) close(file);
   EXPECT_TRUE(written) << "cannot append to " << path;
 }
 

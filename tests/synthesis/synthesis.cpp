@@ -25,9 +25,7 @@ SelfAffine recipe_of(Index n = 128) {
 
 double parameter(const topography::Topography& topography, const std::string& symbol) {
   for (const metrology::Parameter& p : metrology::parameters(topography)) {
-    if (p.symbol == symbol) {
-      return p.value;
-    }
+    if (p.symbol == symbol) return p.value;
   }
   return kHole;
 }
@@ -52,9 +50,7 @@ TEST(SelfAffine, HasTheSamePointsAtTwiceTheResolution) {
   coarse.short_cutoff_wavelength = fine.short_cutoff_wavelength = 8e-6;
   const Field a = self_affine(coarse).height, b = self_affine(fine).height;
   for (Index y = 0; y < 64; ++y) {
-    for (Index x = 0; x < 64; ++x) {
-      ASSERT_NEAR(a(y, x), b(2 * y, 2 * x), 1e-18);
-    }
+    for (Index x = 0; x < 64; ++x) ASSERT_NEAR(a(y, x), b(2 * y, 2 * x), 1e-18);
   }
 }
 

@@ -138,9 +138,7 @@ TEST(FillNearest, TakesAPixelThatIsNearest) {
         for (Index u = 0; u < kGrid.nx; ++u) {
           if (!std::isnan(holed.height(v, u))) {
             nearest = std::min(nearest, distance(y, x, v, u));
-            if (holed.height(v, u) == result(y, x)) {
-              taken = distance(y, x, v, u);
-            }
+            if (holed.height(v, u) == result(y, x)) taken = distance(y, x, v, u);
           }
         }
       }

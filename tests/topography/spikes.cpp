@@ -30,9 +30,7 @@ Topography rough_surface(double hurst, std::uint64_t seed, Index n = 256) {
 std::set<Index> found(const Mask& mask) {
   std::set<Index> pixels;
   for (Index i = 0; i < mask.size(); ++i) {
-    if (mask.data()[i]) {
-      pixels.insert(i);
-    }
+    if (mask.data()[i]) pixels.insert(i);
   }
   return pixels;
 }
@@ -56,9 +54,7 @@ void plant_spikes_everywhere(Topography& surface, double share) {
   const double limit =
       sorted[static_cast<std::size_t>((1 - share) * static_cast<double>(sorted.size()))];
   for (Index i = 0; i < chance.size(); ++i) {
-    if (chance.data()[i] > limit) {
-      surface.height.data()[i] += (i % 2 == 0 ? 0.5 : -0.5) * range;
-    }
+    if (chance.data()[i] > limit) surface.height.data()[i] += (i % 2 == 0 ? 0.5 : -0.5) * range;
   }
 }
 

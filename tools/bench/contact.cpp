@@ -85,9 +85,7 @@ Surface edt_surface(const Options& options) {
   Surface surface{recipe.grid, {}, {}};
   surface.problem.height = synthesis::edt(recipe).height;
   for (const double pressure : {2e6, 5e6, 10e6, 15e6}) {
-    if (options.loads.empty()) {
-      surface.loads.push_back({"edt saturated", pressure, 240e6});
-    }
+    if (options.loads.empty()) surface.loads.push_back({"edt saturated", pressure, 240e6});
   }
   const double unit = aluminium() * rms_slope(surface.problem.height, surface.grid);
   add_elastic_loads(surface, "edt elastic", unit, options, {0.0025, 0.01, 0.025});
@@ -170,9 +168,7 @@ void run(Surface& surface, const Load& load, contact::Solver solver, const PairS
 void run_all(Surface surface, bool with_baseline, const PairSeconds& pair) {
   for (const Load& load : surface.loads) {
     run(surface, load, contact::Solver::fast, pair);
-    if (with_baseline) {
-      run(surface, load, contact::Solver::polonsky_keer, pair);
-    }
+    if (with_baseline) run(surface, load, contact::Solver::polonsky_keer, pair);
   }
 }
 
@@ -211,9 +207,7 @@ int main(int argc, char** argv) {
              "surface", "solver", "P [MPa]", "area [%]", "iter", "S p", "pairs", "certif.", "conv",
              "seconds", "s/pair", "t/fft", "B/px");
   const bool all = options.surface == "all";
-  if (all || options.surface == "edt") {
-    run_all(edt_surface(options), options.baseline, pair);
-  }
+  if (all || options.surface == "edt") run_all(edt_surface(options), options.baseline, pair);
   if (all || options.surface == "self-affine") {
     run_all(self_affine_surface(options), options.baseline, pair);
   }

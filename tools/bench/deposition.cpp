@@ -96,9 +96,7 @@ void time_naive(const Surface& surface) {
     rain.drop(static_cast<deposition::Pixel>(starts.below(k, n)), droplet);
   }
   std::size_t n_wet = 0;
-  for (std::size_t p = 0; p < n; ++p) {
-    n_wet += rain.levels()[p] > terrain.height[p] ? 1 : 0;
-  }
+  for (std::size_t p = 0; p < n; ++p) n_wet += rain.levels()[p] > terrain.height[p] ? 1 : 0;
   print_row(surface, "naive", kFilm, static_cast<long long>(n_droplets), 0,
             static_cast<double>(n_wet) / static_cast<double>(n), watch.seconds(), before);
 }
@@ -125,12 +123,8 @@ void in_own_process(Work work) {
 int main(int argc, char** argv) {
   set_thread_count(1);
   std::vector<Index> sides;
-  for (int i = 1; i < argc; ++i) {
-    sides.push_back(std::atol(argv[i]));
-  }
-  if (sides.empty()) {
-    sides = {kLargestNaive, 256, 1024};
-  }
+  for (int i = 1; i < argc; ++i) sides.push_back(std::atol(argv[i]));
+  if (sides.empty()) sides = {kLargestNaive, 256, 1024};
   print_head();
   for (const Index side : sides) {
     const Surface scan = as_scanned(side);
@@ -139,9 +133,7 @@ int main(int argc, char** argv) {
       in_own_process([&] { time_model(*surface, deposition::Model::limit); });
       in_own_process([&] { time_model(*surface, deposition::Model::droplets); });
     }
-    if (side <= kLargestNaive) {
-      in_own_process([&] { time_naive(scan); });
-    }
+    if (side <= kLargestNaive) in_own_process([&] { time_naive(scan); });
   }
   return 0;
 }

@@ -70,9 +70,7 @@ bool are_neighbours(const PointProblem& a, const PointProblem& b) {
 
 void write_previous(io::Hdf5Writer& writer, const Previous& previous) {
   const auto& [problem, result] = previous;
-  for (const auto& common : kCommon) {
-    writer.attribute(kGroup, common.name, problem.*common.value);
-  }
+  for (const auto& common : kCommon) writer.attribute(kGroup, common.name, problem.*common.value);
   for (const auto& number : kNumbers) writer.attribute(kGroup, number.name, result.*number.value);
   writer.attribute(kGroup, "size_x", result.grid.lx);
   writer.attribute(kGroup, "size_y", result.grid.ly);
@@ -86,9 +84,7 @@ void write_previous(io::Hdf5Writer& writer, const Previous& previous) {
 Previous read_previous(const io::Hdf5Reader& reader) {
   Previous previous;
   auto& [problem, result] = previous;
-  for (const auto& common : kCommon) {
-    problem.*common.value = reader.number(kGroup, common.name);
-  }
+  for (const auto& common : kCommon) problem.*common.value = reader.number(kGroup, common.name);
   for (const auto& number : kNumbers) result.*number.value = reader.number(kGroup, number.name);
   for (const NamedMap& map : kMaps) {
     const std::string path = kGroup + "/" + map.name;

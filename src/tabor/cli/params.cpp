@@ -62,9 +62,7 @@ std::vector<ParameterSet> sets_from(const std::string& text) {
 metrology::ProfileOptions profile_options_of(const Request& request) {
   using metrology::ProfileKind;
   metrology::ProfileOptions options = request.options.profile;
-  if (request.profile_standard == "iso4287") {
-    options.standard = metrology::ProfileStandard::iso4287;
-  }
+  if (request.profile_standard == "iso4287") options.standard = metrology::ProfileStandard::iso4287;
   if (request.profile_kind == "primary") options.kind = ProfileKind::primary;
   if (request.profile_kind == "waviness") options.kind = ProfileKind::waviness;
   if (request.profile_ends == "trim") options.ends = metrology::ProfileEnds::trim;

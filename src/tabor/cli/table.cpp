@@ -94,8 +94,9 @@ std::string Facts::text() const {
   std::size_t room = 0;
   for (const auto& [label, value] : lines_) room = std::max(room, width(label));
   std::string text;
-  for (const auto& [label, value] : lines_)
+  for (const auto& [label, value] : lines_) {
     text += aligned(label, room, false) + "  " + value + '\n';
+  }
   return text;
 }
 

@@ -20,9 +20,7 @@ constexpr double kAlwaysWithin = 5;   // [s] that nobody minds
 
 std::optional<double> TimeLeft::at(double now, double share) {
   const double gone = now - start_;
-  if (!(share >= kLeastShare) || share >= 1 || gone < kLeastTime) {
-    return std::nullopt;
-  }
+  if (!(share >= kLeastShare) || share >= 1 || gone < kLeastTime) return std::nullopt;
   const double left = gone * (1 - share) / share;
   if (!end_) {
     end_ = now + left;

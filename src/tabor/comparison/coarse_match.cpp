@@ -108,9 +108,7 @@ CoarseMatch match_coarsely(const Field& a, const Field& b, double smallest_overl
   std::vector<double> sizes;
   for (Index y = 0; y < score.rows(); ++y) {
     for (Index x = 0; x < score.cols(); ++x) {
-      if (std::isnan(score(y, x))) {
-        continue;
-      }
+      if (std::isnan(score(y, x))) continue;
       sizes.push_back(std::abs(score(y, x)));
       if (score(y, x) > best) {
         best = score(y, x);
@@ -121,9 +119,7 @@ CoarseMatch match_coarsely(const Field& a, const Field& b, double smallest_overl
     }
   }
   match.n_shifts = std::ssize(sizes);
-  if (sizes.empty()) {
-    return match;
-  }
+  if (sizes.empty()) return match;
   const auto middle = sizes.begin() + std::ssize(sizes) / 2;
   std::nth_element(sizes.begin(), middle, sizes.end());
   match.distinction = best / (1.482602218505602 * *middle);

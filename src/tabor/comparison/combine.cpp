@@ -24,9 +24,7 @@ constexpr auto kMatches = names<LevelMatch>("none", "offset", "plane");
 /// A on pixels as large as B's, where those are larger by half or more.
 topography::Topography onto_coarser_pixels(topography::Topography a, const Grid& b) {
   const double x = std::max(1.0, b.dx() / a.grid.dx()), y = std::max(1.0, b.dy() / a.grid.dy());
-  if (x < 1.5 && y < 1.5) {
-    return a;
-  }
+  if (x < 1.5 && y < 1.5) return a;
   const double dx = a.grid.dx() * x, dy = a.grid.dy() * y;
   a.height = topography::cell_means(a.height, x, y);
   a.grid.nx = a.height.cols();
@@ -46,12 +44,8 @@ topography::Topography onto_coarser_pixels(topography::Topography a, const Grid&
 /// First and last row with a value.
 std::pair<Index, Index> extent(const Eigen::Array<bool, Eigen::Dynamic, 1>& any) {
   Index first = 0, last = any.size() - 1;
-  while (first < last && !any[first]) {
-    ++first;
-  }
-  while (last > first && !any[last]) {
-    --last;
-  }
+  while (first < last && !any[first]) ++first;
+  while (last > first && !any[last]) --last;
   return {first, last};
 }
 
@@ -102,9 +96,7 @@ void find_shift(const topography::Topography& a, const topography::Topography& b
 }
 
 RobustPlane plane_of(const Field& difference, LevelMatch match) {
-  if (match == LevelMatch::none) {
-    return {.spread = robust_spread(difference)};
-  }
+  if (match == LevelMatch::none) return {.spread = robust_spread(difference)};
   RobustPlane plane = fit_robust_plane(difference);
   if (match == LevelMatch::offset) {
     // The robust mean of what is left of the tilt: its plane goes through the same centre.

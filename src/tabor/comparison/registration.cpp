@@ -88,9 +88,7 @@ class Refinement {
       const auto solution = equations_.solution();
       shift_x -= solution[0];
       shift_y -= solution[1];
-      if (std::hypot(solution[0] / grid_.dx(), solution[1] / grid_.dy()) < tolerance) {
-        return step;
-      }
+      if (std::hypot(solution[0] / grid_.dx(), solution[1] / grid_.dy()) < tolerance) return step;
     }
     return kMostSteps;
   }
@@ -157,9 +155,7 @@ class Refinement {
                               for (Index x = left; x < right; ++x) {
                                 const double r = residual_(top + row, x);
                                 const Eigen::Array<double, 5, 1> j = columns(top + row, x).array();
-                                if (!std::isnan(r + j.sum())) {
-                                  sums += biweight(r, cutoff_) * r * j;
-                                }
+                                if (!std::isnan(r + j.sum())) sums += biweight(r, cutoff_) * r * j;
                               }
                               return sums;
                             })
@@ -233,9 +229,7 @@ struct Agreement {
 Agreement agreement(const Field& a, const Field& b) {
   const Field only_a = b.isNaN().select(kNaN, a), only_b = a.isNaN().select(kNaN, b);
   const auto n = static_cast<double>((!only_a.isNaN()).count());
-  if (n < 9) {
-    return {kNaN, n};
-  }
+  if (n < 9) return {kNaN, n};
   const Field za = topography::remove_form(only_a, topography::fit_form(only_a, 1));
   const Field zb = topography::remove_form(only_b, topography::fit_form(only_b, 1));
   const auto sums = sum_over_rows<3>(za.rows(), [&](Index y) {

@@ -29,13 +29,9 @@ double spread_about(const Field& height, const double* centre) {
   std::vector<double> values;
   std::copy_if(height.data(), height.data() + height.size(), std::back_inserter(values),
                [](double z) { return !std::isnan(z); });
-  if (values.empty()) {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
   const double middle = centre ? *centre : median(values);
-  for (double& value : values) {
-    value = std::abs(value - middle);
-  }
+  for (double& value : values) value = std::abs(value - middle);
   return 1.482602218505602 * median(values);
 }
 
@@ -78,9 +74,7 @@ RobustPlane fit_robust_plane(const Field& height) {
     // About the plane, not about the median: half of the heights must lie within the cutoff.
     const double zero = 0;
     plane.spread = spread_about(remove_plane(height, plane), &zero);
-    if (step > 0 && change.cwiseAbs().maxCoeff() <= 1e-6 * plane.spread) {
-      break;
-    }
+    if (step > 0 && change.cwiseAbs().maxCoeff() <= 1e-6 * plane.spread) break;
     // Heights that are a plane but for rounding all count.
     const double rounding =
         1e-12 * (std::abs(plane.offset) + std::abs(plane.tilt_x) + std::abs(plane.tilt_y));

@@ -27,9 +27,7 @@ struct NormalEquations {
 
 /// Weight of a residual by Tukey's biweight; 1 without a cutoff.
 inline double biweight(double residual, double cutoff) {
-  if (!(cutoff > 0)) {
-    return 1;
-  }
+  if (!(cutoff > 0)) return 1;
   const double t = residual / cutoff;
   return std::abs(t) < 1 ? (1 - t * t) * (1 - t * t) : 0;
 }

@@ -36,9 +36,7 @@ double correlated_pixels(const metrology::Autocorrelation& acf) {
     }
   }
   double total = 1 + sums[0];
-  for (std::size_t ring = 1; ring < n_rings && sums[ring] > 0; ++ring) {
-    total += sums[ring];
-  }
+  for (std::size_t ring = 1; ring < n_rings && sums[ring] > 0; ++ring) total += sums[ring];
   return std::max(1.0, total);
 }
 
@@ -88,9 +86,7 @@ double noise_floor(const Field& quiet, const Field& smooth, double deviation, do
     return Eigen::Array2d(product.isNaN().select(0, product).sum(),
                           static_cast<double>((!product.isNaN()).count()));
   });
-  if (sums[1] == 0 || !(deviation > 0)) {
-    return 0;
-  }
+  if (sums[1] == 0 || !(deviation > 0)) return 0;
   const double density = std::exp(-t * t / 2) / std::sqrt(2 * std::numbers::pi);
   return sums[0] / deviation * density;
 }

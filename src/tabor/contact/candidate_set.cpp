@@ -28,9 +28,7 @@ PixelList candidates_in(const CandidateSet& old, const double* v, double thresho
   for (Index chunk = begin; chunk < end; chunk += kChunk) {
     const Index n = std::min(kChunk, end - chunk);
     const bool has_old = k < old.size() && old.pixels[k] < chunk + n;
-    if (!has_old && Eigen::Map<const Eigen::ArrayXd>(v + chunk, n).minCoeff() > threshold) {
-      continue;
-    }
+    if (!has_old && Eigen::Map<const Eigen::ArrayXd>(v + chunk, n).minCoeff() > threshold) continue;
     for (Index i = chunk; i < chunk + n; ++i) {
       const bool is_old = k < old.size() && old.pixels[k] == i;
       if (v[i] <= threshold || (is_old && old.values.pressure[k] > 0)) {
@@ -55,9 +53,7 @@ void join(const PixelList& pixels, const CandidateSet& old, const double* v, con
           std::size_t k, CandidateSet& set) {
   std::size_t before = pixels.empty() ? 0 : place_of(old, pixels.front());
   for (const std::uint32_t pixel : pixels) {
-    while (before < old.size() && old.pixels[before] < pixel) {
-      ++before;
-    }
+    while (before < old.size() && old.pixels[before] < pixel) ++before;
     const bool is_old = before < old.size() && old.pixels[before] == pixel;
     set.pixels[k] = pixel;
     set.values.residual[k] = v[pixel];
@@ -109,19 +105,13 @@ double candidate_threshold(const CandidateSet& set, double load, double saturati
   if (std::none_of(pressure.begin(), pressure.end(), [](double p) { return p > 0; })) {
     return std::numeric_limits<double>::infinity();
   }
-  if (!std::isfinite(saturation_pressure)) {
-    return mean_residual_under_pressure(set.values);
-  }
+  if (!std::isfinite(saturation_pressure)) return mean_residual_under_pressure(set.values);
   std::vector<double> v;
   for (std::size_t k = 0; k < set.size(); ++k) {
-    if (pressure[k] > 0) {
-      v.push_back(residual[k]);
-    }
+    if (pressure[k] > 0) v.push_back(residual[k]);
   }
   const double highest = *std::max_element(v.begin(), v.end());
-  if (static_cast<double>(v.size()) * saturation_pressure <= load) {
-    return highest;
-  }
+  if (static_cast<double>(v.size()) * saturation_pressure <= load) return highest;
   const auto n_full =
       std::min(v.size() - 1, static_cast<std::size_t>(std::floor(load / saturation_pressure)));
   const auto knapsack = v.begin() + static_cast<std::ptrdiff_t>(n_full);
@@ -130,9 +120,7 @@ double candidate_threshold(const CandidateSet& set, double load, double saturati
   std::vector<double>& wanted = v;
   wanted.clear();
   for (std::size_t k = 0; k < set.size(); ++k) {
-    if (pressure[k] > 0) {
-      wanted.push_back(pressure[k] - diagonal_step * residual[k]);
-    }
+    if (pressure[k] > 0) wanted.push_back(pressure[k] - diagonal_step * residual[k]);
   }
   const double separation = -shift_for_load(wanted, load, saturation_pressure) / diagonal_step;
   return std::min(highest, std::max(separation, threshold));
@@ -148,23 +136,17 @@ void collect_candidates(const Field& residual, FieldF* change, double threshold,
     lists[static_cast<std::size_t>(begin / kBlock)] = candidates_in(set, v, threshold, begin, end);
   });
   std::vector<std::size_t> starts{0};
-  for (const PixelList& list : lists) {
-    starts.push_back(starts.back() + list.size());
-  }
+  for (const PixelList& list : lists) starts.push_back(starts.back() + list.size());
   set.values.residual = {};  // makes room
   float* s = change == nullptr ? nullptr : change->data();
-  if (s != nullptr) {
-    set.response = {};
-  }
+  if (s != nullptr) set.response = {};
   CandidateSet next;
   resize(next, starts.back());
   parallel_for(residual.size(), kBlock, [&](Index begin, Index end) {
     const auto b = static_cast<std::size_t>(begin / kBlock);
     join(lists[b], set, v, s, starts[b], next);
     lists[b] = {};
-    if (s != nullptr) {
-      std::fill(s + begin, s + end, 0.0F);
-    }
+    if (s != nullptr) std::fill(s + begin, s + end, 0.0F);
   });
   set = std::move(next);
 }

@@ -23,9 +23,7 @@ Knapsack fill_knapsack(const Candidates& candidates, double load, double saturat
           ? std::min(static_cast<std::size_t>(std::floor(load / saturation_pressure)),
                      residual.size() - 1)
           : 0;
-  if (n_full == 0) {
-    return {{}, *std::min_element(residual.begin(), residual.end())};
-  }
+  if (n_full == 0) return {{}, *std::min_element(residual.begin(), residual.end())};
   std::vector<double> sorted_start = residual;
   const auto threshold = sorted_start.begin() + static_cast<std::ptrdiff_t>(n_full);
   std::nth_element(sorted_start.begin(), threshold, sorted_start.end());
@@ -37,9 +35,7 @@ Knapsack fill_knapsack(const Candidates& candidates, double load, double saturat
 }  // namespace
 
 double duality_gap(const Candidates& candidates, double load, double saturation_pressure) {
-  if (candidates.residual.empty()) {
-    return 0;
-  }
+  if (candidates.residual.empty()) return 0;
   const Knapsack knapsack = fill_knapsack(candidates, load, saturation_pressure);
   // Measured from the threshold, both products are small where the pressure is nearly optimal.
   const double threshold = knapsack.threshold;

@@ -103,9 +103,7 @@ double Conditions::settled_pressure(double p, double gap) const {
   const auto is_false = [&](double pressure, double closing) {
     return closing > std::max(kFalseContact * pressure * pixel_compliance_, rounding_);
   };
-  if (p <= 0 || p >= cap_) {
-    return p;
-  }
+  if (p <= 0 || p >= cap_) return p;
   return is_false(p, gap) ? 0 : (at_cap(p, cap_) || is_false(cap_ - p, -gap) ? cap_ : p);
 }
 
@@ -123,9 +121,7 @@ bool Conditions::share_rest(std::span<double> p) const {
       kExactLoad * load_) {
     return true;
   }
-  if (!(rest > 0 && rest < cap_ * static_cast<double>(values.size()))) {
-    return false;
-  }
+  if (!(rest > 0 && rest < cap_ * static_cast<double>(values.size()))) return false;
   project_on_load(values, rest, cap_);
   for_each(free.size(), [&](std::size_t k) { p[free[k]] = values[k]; });
   return true;
@@ -139,12 +135,8 @@ Conditions::Settled Conditions::settle(std::span<double> p, std::span<const doub
       sum_over(p.size(), [&](std::size_t i) { return settled[i] == p[i] ? 0.0 : 1.0; });
   const double moved_load =
       sum_over(p.size(), [&](std::size_t i) { return std::abs(settled[i] - p[i]); });
-  if (n_moved == 0) {
-    return Settled::already;
-  }
-  if (moved_load > kMostSettled * load_ || !share_rest(settled)) {
-    return Settled::not_yet;
-  }
+  if (n_moved == 0) return Settled::already;
+  if (moved_load > kMostSettled * load_ || !share_rest(settled)) return Settled::not_yet;
   std::copy(settled.begin(), settled.end(), p.begin());
   return Settled::now;
 }

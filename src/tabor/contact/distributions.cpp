@@ -13,9 +13,7 @@ namespace {
 Histogram equal_bins(const Field& field, const Mask& selected, int n_bins) {
   Histogram histogram;
   const double largest = selected.any() ? selected.select(field, 0.0).maxCoeff() : 0.0;
-  for (int k = 0; k <= n_bins; ++k) {
-    histogram.edges.push_back(largest * k / n_bins);
-  }
+  for (int k = 0; k <= n_bins; ++k) histogram.edges.push_back(largest * k / n_bins);
   histogram.counts.assign(static_cast<std::size_t>(n_bins), 0);
   for (Index i = 0; i < field.size(); ++i) {
     if (selected(i)) {

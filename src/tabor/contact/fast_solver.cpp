@@ -123,9 +123,7 @@ void ProjectedGradient::refresh() {
   const double* height = problem_.height.data();
   collect([&](std::uint32_t pixel) { return v[pixel] - height[pixel]; }, nullptr,
           [&](Index begin, Index end) {
-            for (Index i = begin; i < end; ++i) {
-              v[i] -= height[i];
-            }
+            for (Index i = begin; i < end; ++i) v[i] -= height[i];
           });
   convergence_.operator_applications += 1;
   convergence_.fft_pairs += 1;
@@ -224,9 +222,7 @@ void ProjectedGradient::add_long_waves() {
   long_waves_.start_anew();
   for (int round = 0; round < kBlockRounds && long_waves_.useful(); ++round) {
     const double n_changed = hold_at_bounds();
-    if (round > 1 && n_changed <= kSettledShare * static_cast<double>(active_.size())) {
-      break;
-    }
+    if (round > 1 && n_changed <= kSettledShare * static_cast<double>(active_.size())) break;
     const auto accuracy = round == 0 ? LongWaves::Accuracy::rough : LongWaves::Accuracy::full;
     long_waves_.correct(active_, stiffness_, moved_, compact_direction_, accuracy, direction_);
   }
@@ -254,9 +250,7 @@ void ProjectedGradient::choose_step() {
     const float previous = candidates_.direction[places_[k]];
     return (static_cast<double>(direction_[k]) - previous) * (response(k) - mean);
   });
-  if (step_curvature_ > 0 && curvature > 0) {
-    step_ = step_curvature_ / curvature;
-  }
+  if (step_curvature_ > 0 && curvature > 0) step_ = step_curvature_ / curvature;
 }
 
 /// Tries a step along the direction: trial_ within bounds and load, dp into work_. Returns the
@@ -366,9 +360,7 @@ State ProjectedGradient::run(const Observer& observer) {
       break;
     }
     find_direction();
-    if (convergence_.iterations > 0) {
-      choose_step();
-    }
+    if (convergence_.iterations > 0) choose_step();
     if (!move()) {
       convergence_.status = Status::stalled;
       break;

@@ -117,9 +117,7 @@ void LongWaves::gather_row(const PixelList& set, const std::vector<float>& stiff
     Sums sums;
     for (; in_row(); ++k) {
       const Neighbours& column = columns_[static_cast<std::size_t>(set[k] - first)];
-      if (column.lower != columns.lower || column.upper != columns.upper) {
-        break;
-      }
+      if (column.lower != columns.lower || column.upper != columns.upper) break;
       const float upper = column.weight;
       const float lower = 1 - upper;
       const float m = moved[k] == compact[k] ? stiffness[k] : 0.0F;

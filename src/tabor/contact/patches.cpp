@@ -47,25 +47,17 @@ Patches find_patches(const Mask& contact, bool periodic) {
   };
   for (Index y = 0; y < ny; ++y) {
     for (Index x = 0; x < nx; ++x) {
-      if (x + 1 < nx || periodic) {
-        join(y, x, y, (x + 1) % nx);
-      }
-      if (y + 1 < ny || periodic) {
-        join(y, x, (y + 1) % ny, x);
-      }
+      if (x + 1 < nx || periodic) join(y, x, y, (x + 1) % nx);
+      if (y + 1 < ny || periodic) join(y, x, (y + 1) % ny, x);
     }
   }
   std::vector<std::uint32_t> counts(static_cast<std::size_t>(contact.size()), 0);
   for (Index i = 0; i < contact.size(); ++i) {
-    if (contact(i)) {
-      counts[components.root(static_cast<std::uint32_t>(i))] += 1;
-    }
+    if (contact(i)) counts[components.root(static_cast<std::uint32_t>(i))] += 1;
   }
   Patches patches;
   for (const std::uint32_t count : counts) {
-    if (count > 0) {
-      patches.pixel_counts.push_back(count);
-    }
+    if (count > 0) patches.pixel_counts.push_back(count);
   }
   return patches;
 }
@@ -76,9 +68,7 @@ Transitions count_transitions(const Mask& contact, bool periodic) {
   const auto count = [&](auto&& differs) {
     return static_cast<Index>(deterministic_sum(contact.size(), [&](Index begin, Index end) {
       Index n = 0;
-      for (Index i = begin; i < end; ++i) {
-        n += differs(i / nx, i % nx) ? 1 : 0;
-      }
+      for (Index i = begin; i < end; ++i) n += differs(i / nx, i % nx) ? 1 : 0;
       return static_cast<double>(n);
     }));
   };

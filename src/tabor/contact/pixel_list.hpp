@@ -18,20 +18,14 @@ PixelList list_where(Index n, const Chosen& chosen) {
   parallel_for(n, kBlock, [&](Index begin, Index end) {
     PixelList& list = lists[static_cast<std::size_t>(begin / kBlock)];
     for (Index i = begin; i < end; ++i) {
-      if (chosen(i)) {
-        list.push_back(static_cast<std::uint32_t>(i));
-      }
+      if (chosen(i)) list.push_back(static_cast<std::uint32_t>(i));
     }
   });
   std::size_t size = 0;
-  for (const PixelList& list : lists) {
-    size += list.size();
-  }
+  for (const PixelList& list : lists) size += list.size();
   PixelList all;
   all.reserve(size);
-  for (const PixelList& list : lists) {
-    all.insert(all.end(), list.begin(), list.end());
-  }
+  for (const PixelList& list : lists) all.insert(all.end(), list.begin(), list.end());
   return all;
 }
 
@@ -39,9 +33,7 @@ PixelList list_where(Index n, const Chosen& chosen) {
 template <typename Body>
 void for_each(std::size_t n, const Body& body) {
   parallel_for(static_cast<Index>(n), kBlock, [&](Index begin, Index end) {
-    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-      body(k);
-    }
+    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) body(k);
   });
 }
 

@@ -64,9 +64,7 @@ double ConjugateGradient::mean_over_free(const Field& field) const {
 /// Separation in the units of gap_: the mean over the free pixels; with a cap, where there may be
 /// none, the level at which a step along the gap carries the load.
 double ConjugateGradient::level() const {
-  if (!std::isfinite(cap_)) {
-    return mean_over_free(gap_);
-  }
+  if (!std::isfinite(cap_)) return mean_over_free(gap_);
   std::vector<double> trial(static_cast<std::size_t>(gap_.size()));
   for (Index i = 0; i < gap_.size(); ++i) {
     trial[static_cast<std::size_t>(i)] = pressure_(i) - step_length_ * gap_(i);
@@ -82,9 +80,7 @@ Conditions::Settled ConjugateGradient::settle(Convergence& convergence) {
   const std::span<const double> gap(gap_.data(), n);
   convergence.certificate =
       conditions_.certificate({{pressure_.data(), pressure_.data() + n}, {gap.begin(), gap.end()}});
-  if (!(convergence.certificate <= problem_.tolerance)) {
-    return Conditions::Settled::not_yet;
-  }
+  if (!(convergence.certificate <= problem_.tolerance)) return Conditions::Settled::not_yet;
   const std::span<double> pressure(pressure_.data(), n);
   const Conditions::Settled settled = conditions_.settle(pressure, gap);
   if (settled == Conditions::Settled::already && conditions_.gaps_close(pressure, gap)) {
@@ -96,9 +92,7 @@ Conditions::Settled ConjugateGradient::settle(Convergence& convergence) {
 /// t = g + delta G / G_old t on the free pixels; returns the step length <g, t> / <r, t>.
 double ConjugateGradient::update_direction() {
   double norm = 0;
-  for (Index i = 0; i < gap_.size(); ++i) {
-    norm += is_free(i) ? gap_(i) * gap_(i) : 0;
-  }
+  for (Index i = 0; i < gap_.size(); ++i) norm += is_free(i) ? gap_(i) * gap_(i) : 0;
   const double ratio = conjugacy_ * norm / previous_norm_;
   for (Index i = 0; i < gap_.size(); ++i) {
     direction_(i) = is_free(i) ? gap_(i) + ratio * direction_(i) : 0;

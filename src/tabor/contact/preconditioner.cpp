@@ -44,9 +44,7 @@ float total(const Lanes& lanes) {
   std::array<float, kRowLength> sums{};
   std::memcpy(sums.data(), &lanes, sizeof lanes);
   for (std::size_t half = kRowLength / 2; half > 0; half /= 2) {
-    for (std::size_t i = 0; i < half; ++i) {
-      sums[i] += sums[i + half];
-    }
+    for (std::size_t i = 0; i < half; ++i) sums[i] += sums[i + half];
   }
   return sums[0];
 }
@@ -103,9 +101,7 @@ Preconditioner::Sums Preconditioner::sum_at_edge(const FieldF& residual, Index y
 
 /// Where pixel k of n lies: on the other side if the grid wraps, else nowhere if it is outside.
 Index Preconditioner::pixel_or_none(Index k, Index n) const {
-  if (wraps_) {
-    return ((k % n) + n) % n;
-  }
+  if (wraps_) return ((k % n) + n) % n;
   return k < 0 || k >= n ? kNone : k;
 }
 

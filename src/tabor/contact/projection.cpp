@@ -45,9 +45,7 @@ double shift_for_load(const std::vector<double>& x, double load, double cap) {
   for (int step = 0; step < most_steps; ++step) {
     const auto [sum, n_inside] = load_and_slope(x, shift, cap);
     const double excess = sum - load;
-    if (std::abs(excess) <= 1e-15 * load) {
-      break;
-    }
+    if (std::abs(excess) <= 1e-15 * load) break;
     (excess > 0 ? low : high) = shift;
     const double newton = n_inside > 0 ? shift + excess / n_inside : low;
     const double next = (newton > low && newton < high) ? newton : 0.5 * (low + high);

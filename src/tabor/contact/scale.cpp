@@ -24,9 +24,7 @@ double length_scale(const elastic::ElasticOperator& elasticity, const Problem& p
   const double mean = sum(problem.height) / n;
   const double squares = deterministic_sum(problem.height.size(), [&](Index begin, Index end) {
     double partial = 0;
-    for (Index i = begin; i < end; ++i) {
-      partial += (height[i] - mean) * (height[i] - mean);
-    }
+    for (Index i = begin; i < end; ++i) partial += (height[i] - mean) * (height[i] - mean);
     return partial;
   });
   const double rms_height = std::sqrt(squares / n);

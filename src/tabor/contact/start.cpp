@@ -38,9 +38,7 @@ Field doubled(const Field& coarse, Index ny, Index nx) {
   auto fine = uninitialised_map<Field>(ny, nx);
   parallel_for(ny, 16, [&](Index begin, Index end) {
     for (Index y = begin; y < end; ++y) {
-      for (Index x = 0; x < nx; ++x) {
-        fine(y, x) = coarse(y / 2, x / 2);
-      }
+      for (Index x = 0; x < nx; ++x) fine(y, x) = coarse(y / 2, x / 2);
     }
   });
   return fine;

@@ -23,9 +23,7 @@ PixelList free_pixels(const State& state, double saturation_pressure) {
 
 double dot(const std::vector<double>& a, const std::vector<double>& b) {
   double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    sum += a[k] * b[k];
-  }
+  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
   return sum;
 }
 
@@ -40,14 +38,10 @@ class Restricted {
         residual_(FieldF::Zero(elasticity.grid().ny, elasticity.grid().nx)) {}
 
   std::vector<double> displacement(const std::vector<double>& pressure) {
-    for (std::size_t k = 0; k < set_.size(); ++k) {
-      pressure_(set_[k]) = pressure[k];
-    }
+    for (std::size_t k = 0; k < set_.size(); ++k) pressure_(set_[k]) = pressure[k];
     elasticity_.apply(pressure_, displacement_);
     std::vector<double> values(set_.size());
-    for (std::size_t k = 0; k < set_.size(); ++k) {
-      values[k] = displacement_(set_[k]);
-    }
+    for (std::size_t k = 0; k < set_.size(); ++k) values[k] = displacement_(set_[k]);
     return values;
   }
 
@@ -78,9 +72,7 @@ Stiffness contact_stiffness(elastic::ElasticOperator& elasticity, const State& s
   Stiffness stiffness;
   stiffness.convergence = exact(tolerance);
   const Index n_pixels = state.pressure.size();
-  if (set.empty()) {
-    return stiffness;
-  }
+  if (set.empty()) return stiffness;
   if (elasticity.drops_mean() && static_cast<Index>(set.size()) == n_pixels) {
     stiffness.value = std::numeric_limits<double>::infinity();
     return stiffness;

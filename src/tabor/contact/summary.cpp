@@ -19,9 +19,7 @@ double mean_of(Index n, const std::function<double(Index)>& value) {
   return deterministic_sum(n,
                            [&](Index begin, Index end) {
                              double partial = 0;
-                             for (Index i = begin; i < end; ++i) {
-                               partial += value(i);
-                             }
+                             for (Index i = begin; i < end; ++i) partial += value(i);
                              return partial;
                            }) /
          static_cast<double>(n);
@@ -30,9 +28,7 @@ double mean_of(Index n, const std::function<double(Index)>& value) {
 /// The correction takes a contact line to cut pixels at random. A region of saturated pixels that
 /// fills whole rows or columns ends on the pixel grid instead.
 bool fills_whole_lines(const State& state, double saturation_pressure) {
-  if (!std::isfinite(saturation_pressure)) {
-    return false;
-  }
+  if (!std::isfinite(saturation_pressure)) return false;
   const Mask saturated = saturated_mask(state, saturation_pressure);
   return saturated.rowwise().all().any() || saturated.colwise().all().any();
 }

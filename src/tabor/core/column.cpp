@@ -62,12 +62,14 @@ void assign(const Cell& cell, std::vector<std::string>& target) {
 }
 
 std::int64_t integer_in(const Cell& cell) {
-  if (const auto* value = std::get_if<std::uint64_t>(&cell))
+  if (const auto* value = std::get_if<std::uint64_t>(&cell)) {
     return static_cast<std::int64_t>(*value);
+  }
   if (const auto* value = std::get_if<std::int64_t>(&cell)) return *value;
   const double value = number_in(cell);
-  if (!(std::abs(value) < 0x1p63))
+  if (!(std::abs(value) < 0x1p63)) {
     throw InputError("a value of a record", "no count", "a count", "");
+  }
   return std::llround(value);
 }
 

@@ -17,9 +17,7 @@ std::string one_line(const std::string& what, const std::string& got, const std:
     line += separator + ("expected " + expected);
     separator = "; ";
   }
-  if (!remedy.empty()) {
-    line += separator + remedy;
-  }
+  if (!remedy.empty()) line += separator + remedy;
   return line;
 }
 

@@ -40,14 +40,10 @@ void for_each_block(Index n_blocks, const std::function<void(Index)>& body) {
     } catch (...) {
       failed = true;
       const std::lock_guard lock(error_mutex);
-      if (!first_error) {
-        first_error = std::current_exception();
-      }
+      if (!first_error) first_error = std::current_exception();
     }
   }
-  if (first_error) {
-    std::rethrow_exception(first_error);
-  }
+  if (first_error) std::rethrow_exception(first_error);
 }
 
 Index count_blocks(Index n, Index block) { return (n + block - 1) / block; }
@@ -80,17 +76,13 @@ void parallel_for(Index n, Index block, const std::function<void(Index, Index)>&
 
 double deterministic_sum(Index n, const std::function<double(Index, Index)>& partial) {
   double total = 0;
-  for (const double value : block_values(n, partial)) {
-    total += value;
-  }
+  for (const double value : block_values(n, partial)) total += value;
   return total;
 }
 
 double parallel_max(Index n, const std::function<double(Index, Index)>& partial) {
   double largest = -std::numeric_limits<double>::infinity();
-  for (const double value : block_values(n, partial)) {
-    largest = std::max(largest, value);
-  }
+  for (const double value : block_values(n, partial)) largest = std::max(largest, value);
   return largest;
 }
 

@@ -19,9 +19,7 @@ std::size_t available_memory_bytes() {
   std::string rest;
   std::size_t kibibytes = 0;
   while (meminfo >> key >> kibibytes) {
-    if (key == "MemAvailable:") {
-      return kibibytes * 1024;
-    }
+    if (key == "MemAvailable:") return kibibytes * 1024;
     std::getline(meminfo, rest);
   }
   return 0;

@@ -13,9 +13,7 @@ inline constexpr Index kRowsPerBlock = 16;
 template <typename Body>
 void for_each_row(Index n_rows, const Body& body) {
   parallel_for(n_rows, kRowsPerBlock, [&body](Index begin, Index end) {
-    for (Index y = begin; y < end; ++y) {
-      body(y);
-    }
+    for (Index y = begin; y < end; ++y) body(y);
   });
 }
 
@@ -27,9 +25,7 @@ Eigen::Array<double, N, 1> sum_over_rows(Index n_rows, const OfRow& of_row) {
   std::vector<Sums> rows(static_cast<std::size_t>(n_rows));
   for_each_row(n_rows, [&](Index y) { rows[static_cast<std::size_t>(y)] = of_row(y); });
   Sums total = Sums::Zero();
-  for (const Sums& row : rows) {
-    total += row;
-  }
+  for (const Sums& row : rows) total += row;
   return total;
 }
 

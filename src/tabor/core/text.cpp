@@ -35,20 +35,14 @@ std::vector<std::string> split(std::string_view text, char separator) {
   while (true) {
     const std::size_t end = text.find(separator, begin);
     parts.emplace_back(text.substr(begin, end - begin));
-    if (end == std::string_view::npos) {
-      return parts;
-    }
+    if (end == std::string_view::npos) return parts;
     begin = end + 1;
   }
 }
 
 std::string_view trim(std::string_view text) {
-  while (!text.empty() && is_space(text.front())) {
-    text.remove_prefix(1);
-  }
-  while (!text.empty() && is_space(text.back())) {
-    text.remove_suffix(1);
-  }
+  while (!text.empty() && is_space(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_space(text.back())) text.remove_suffix(1);
   return text;
 }
 
@@ -63,15 +57,11 @@ std::optional<double> parse_number(std::string_view text) {
   text = trim(text);
   if (text.starts_with('+')) {
     text.remove_prefix(1);  // std::from_chars takes no plus sign
-    if (text.starts_with('-')) {
-      return std::nullopt;
-    }
+    if (text.starts_with('-')) return std::nullopt;
   }
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size()) {
-    return std::nullopt;
-  }
+  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
   return value;
 }
 

@@ -64,14 +64,10 @@ Dimension added(Dimension a, Dimension b) {
 /// One unit name, with or without a prefix, without a power.
 std::optional<Quantity> find_unit(std::string_view name) {
   for (const Unit& unit : kUnits) {
-    if (name == unit.name) {
-      return Quantity{unit.factor, unit.dimension};
-    }
+    if (name == unit.name) return Quantity{unit.factor, unit.dimension};
   }
   for (const Prefix& prefix : kPrefixes) {
-    if (!name.starts_with(prefix.name)) {
-      continue;
-    }
+    if (!name.starts_with(prefix.name)) continue;
     const std::string_view stem = name.substr(prefix.name.size());
     for (const Unit& unit : kUnits) {
       if (unit.takes_prefix && stem == unit.name) {
@@ -103,9 +99,7 @@ std::optional<Quantity> find_power(std::string_view factor) {
     name = name.substr(0, digits);
   }
   const auto unit = find_unit(name);
-  if (!unit) {
-    return std::nullopt;
-  }
+  if (!unit) return std::nullopt;
   return Quantity{std::pow(unit->value, power), scaled(unit->dimension, power)};
 }
 
@@ -128,9 +122,7 @@ std::optional<Quantity> find_expression(std::string_view expression, std::string
       result.dimension = added(result.dimension, scaled(unit->dimension, sign));
       sign = 1;
     }
-    if (end < expression.size() && expression[end] == '/') {
-      sign = -1;
-    }
+    if (end < expression.size() && expression[end] == '/') sign = -1;
     begin = end + 1;
   }
   return result;
@@ -138,14 +130,10 @@ std::optional<Quantity> find_expression(std::string_view expression, std::string
 
 /// Splits "7e6Pa" into the longest number at its start and the rest.
 std::optional<double> take_number(std::string_view& text) {
-  if (text.starts_with('+')) {
-    text.remove_prefix(1);
-  }
+  if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{}) {
-    return std::nullopt;
-  }
+  if (error != std::errc{}) return std::nullopt;
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return value;
 }
@@ -166,9 +154,7 @@ Quantity parse_quantity(std::string_view text) {
   }
   std::string culprit;
   const auto unit = find_expression(trim(rest), culprit);
-  if (!unit) {
-    throw InputError(fmt::format("'{}': unknown unit '{}'", text, culprit));
-  }
+  if (!unit) throw InputError(fmt::format("'{}': unknown unit '{}'", text, culprit));
   return {*number * unit->value, unit->dimension};
 }
 
@@ -182,9 +168,7 @@ double parse_si(std::string_view text, Dimension expected, std::string_view name
                                    : "a value like " + shown(name, example_value(name, expected));
     throw InputError(std::string(name), error.what(), likely, "");
   }
-  if (quantity.dimension == expected) {
-    return quantity.value;
-  }
+  if (quantity.dimension == expected) return quantity.value;
   if (quantity.dimension == dimension::none) {
     const WrittenValue likely = with_likely_unit(trim(text), name, expected);
     throw InputError(std::string(name), fmt::format("'{}' without a unit", trim(text)), "",
@@ -200,18 +184,14 @@ double parse_si(std::string_view text, Dimension expected, std::string_view name
 std::vector<double> parse_si_list(std::string_view text, Dimension expected,
                                   std::string_view name) {
   std::vector<double> values;
-  for (const std::string& part : split(text, ',')) {
-    values.push_back(parse_si(part, expected, name));
-  }
+  for (const std::string& part : split(text, ',')) values.push_back(parse_si(part, expected, name));
   return values;
 }
 
 std::optional<double> unit_factor(std::string_view unit, Dimension expected) {
   std::string culprit;
   const auto found = find_expression(trim(unit), culprit);
-  if (!found || found->dimension != expected) {
-    return std::nullopt;
-  }
+  if (!found || found->dimension != expected) return std::nullopt;
   return found->value;
 }
 

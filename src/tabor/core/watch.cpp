@@ -37,9 +37,7 @@ void Watch::tell(double fraction) {
 
 void Watch::ask() {
   asked_ = now();
-  if (observer_ && !observer_({stage_, fraction_, nullptr})) {
-    throw Interrupted();
-  }
+  if (observer_ && !observer_({stage_, fraction_, nullptr})) throw Interrupted();
 }
 
 void go_on_or_throw() {

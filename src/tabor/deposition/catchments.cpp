@@ -10,16 +10,12 @@ Catchments::Catchments(Pools& pools)
       area_(pools.count(), 0),
       runs_to_(pools.count(), kNoPool) {
   drain_all();
-  for (const PoolId leaf : drains_to_) {
-    ++area_[static_cast<std::size_t>(leaf)];
-  }
+  for (const PoolId leaf : drains_to_) ++area_[static_cast<std::size_t>(leaf)];
 }
 
 /// Order of height, pixel numbers breaking ties; beyond an open edge lies the lowest place.
 bool Catchments::lower(Pixel a, Pixel b) const {
-  if (a == kOutside || b == kOutside) {
-    return a == kOutside && b != kOutside;
-  }
+  if (a == kOutside || b == kOutside) return a == kOutside && b != kOutside;
   const Height height_a = pools_.height(a);
   const Height height_b = pools_.height(b);
   return height_a < height_b || (height_a == height_b && a < b);
@@ -29,9 +25,7 @@ bool Catchments::lower(Pixel a, Pixel b) const {
 Pixel Catchments::downhill(Pixel p) const {
   Pixel lowest = p;
   for_each_neighbour(pools_.terrain(), p, [&](Pixel q) {
-    if (lower(q, lowest)) {
-      lowest = q;
-    }
+    if (lower(q, lowest)) lowest = q;
   });
   return lowest;
 }
@@ -50,9 +44,7 @@ void Catchments::drain_all() {
         p = next;
       }
     }
-    for (const Pixel p : path) {
-      drains_to_[static_cast<std::size_t>(p)] = leaf;
-    }
+    for (const Pixel p : path) drains_to_[static_cast<std::size_t>(p)] = leaf;
     path.clear();
   }
 }
@@ -80,9 +72,7 @@ PoolId Catchments::overflow(PoolId pool) {
     const PoolId known = runs_to_[static_cast<std::size_t>(pool)];
     pool = pools_.owner(known == kNoPool ? across_saddle(pool) : known);
   }
-  for (const PoolId full : passed_) {
-    runs_to_[static_cast<std::size_t>(full)] = pool;
-  }
+  for (const PoolId full : passed_) runs_to_[static_cast<std::size_t>(full)] = pool;
   return pool;
 }
 

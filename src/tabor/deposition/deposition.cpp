@@ -147,9 +147,7 @@ class Deposition {
     for (std::size_t i = 0; i < volumes.size(); ++i) {
       while (area < ascending.size()) {
         const Volume step = (height(area) - level) * static_cast<Volume>(area);
-        if (below + step > volumes[i]) {
-          break;
-        }
+        if (below + step > volumes[i]) break;
         below += step;
         level = height(area++);
       }

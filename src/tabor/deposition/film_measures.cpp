@@ -47,12 +47,8 @@ class Labels {
 std::vector<Run> runs_of(const Field& thickness, Index row, Labels& labels) {
   std::vector<Run> runs;
   for (Index column = 0; column < thickness.cols(); ++column) {
-    if (!(thickness(row, column) > 0)) {
-      continue;
-    }
-    if (runs.empty() || runs.back().end != column) {
-      runs.push_back({column, column, labels.add()});
-    }
+    if (!(thickness(row, column) > 0)) continue;
+    if (runs.empty() || runs.back().end != column) runs.push_back({column, column, labels.add()});
     runs.back().end = column + 1;
   }
   return runs;
@@ -85,17 +81,11 @@ Index count_wet_regions(const Field& thickness, bool periodic) {
     go_on_or_throw();
     std::vector<Run> current = runs_of(thickness, row, labels);
     unite_touching(previous, current, labels);
-    if (periodic) {
-      unite_ends(current, thickness.cols(), labels);
-    }
-    if (row == 0) {
-      first = current;
-    }
+    if (periodic) unite_ends(current, thickness.cols(), labels);
+    if (row == 0) first = current;
     previous = std::move(current);
   }
-  if (periodic) {
-    unite_touching(previous, first, labels);
-  }
+  if (periodic) unite_touching(previous, first, labels);
   return labels.count();
 }
 

@@ -18,9 +18,7 @@ NaiveRain::NaiveRain(Terrain terrain, Reading reading)
       remainder_(terrain_.height.size(), 0) {}
 
 NaiveRain::Place NaiveRain::place(Pixel p) const {
-  if (p == kOutside) {
-    return {kBelowEverything, kOutside};
-  }
+  if (p == kOutside) return {kBelowEverything, kOutside};
   return {level_[static_cast<std::size_t>(p)], p};
 }
 
@@ -50,9 +48,7 @@ NaiveRain::Place NaiveRain::lowest_around(const std::vector<Pixel>& region) cons
   Place lowest{kAboveEverything, 0};
   for (const Pixel p : region) {
     for_each_neighbour(terrain_, p, [&](Pixel q) {
-      if (place(q).level != level) {
-        lowest = std::min(lowest, place(q));
-      }
+      if (place(q).level != level) lowest = std::min(lowest, place(q));
     });
   }
   return lowest;
@@ -65,9 +61,7 @@ Volume NaiveRain::fill(const std::vector<Pixel>& region, std::int64_t rim, Volum
   const Volume total = remainder_[keeper] + carried;
   const bool fits = rim == kAboveEverything || total < (rim - level) * area;
   const std::int64_t rise = fits ? total / area : rim - level;
-  for (const Pixel p : region) {
-    level_[static_cast<std::size_t>(p)] += rise;
-  }
+  for (const Pixel p : region) level_[static_cast<std::size_t>(p)] += rise;
   remainder_[keeper] = fits ? total % area : 0;
   return fits ? 0 : total - rise * area;
 }
@@ -77,9 +71,7 @@ Volume NaiveRain::fill_literally(const std::vector<Pixel>& region, std::int64_t 
   const std::int64_t level = place(region.front()).level;
   const std::int64_t rise =
       rim == kAboveEverything ? volume : std::min<std::int64_t>(volume, rim - level);
-  for (const Pixel p : region) {
-    level_[static_cast<std::size_t>(p)] += rise;
-  }
+  for (const Pixel p : region) level_[static_cast<std::size_t>(p)] += rise;
   return rise * static_cast<Volume>(region.size());
 }
 
@@ -92,9 +84,7 @@ Volume NaiveRain::drop(Pixel start, Height volume) {
       const std::vector<Pixel> region = region_of(p);
       next = lowest_around(region);
       if (next.level > place(p).level) {
-        if (reading_ == Reading::literal) {
-          return fill_literally(region, next.level, volume);
-        }
+        if (reading_ == Reading::literal) return fill_literally(region, next.level, volume);
         carried = fill(region, next.level, carried);
         continue;  // from the same pixel: the region has grown, or it holds the whole droplet
       }

@@ -20,15 +20,9 @@ void radix_pass(const std::vector<std::uint64_t>& keys, std::vector<std::uint64_
                 int shift) {
   constexpr std::uint64_t mask = 2047;
   std::array<std::size_t, mask + 2> start{};
-  for (const std::uint64_t key : keys) {
-    ++start[((key >> shift) & mask) + 1];
-  }
-  for (std::size_t digit = 1; digit < start.size(); ++digit) {
-    start[digit] += start[digit - 1];
-  }
-  for (const std::uint64_t key : keys) {
-    sorted[start[(key >> shift) & mask]++] = key;
-  }
+  for (const std::uint64_t key : keys) ++start[((key >> shift) & mask) + 1];
+  for (std::size_t digit = 1; digit < start.size(); ++digit) start[digit] += start[digit - 1];
+  for (const std::uint64_t key : keys) sorted[start[(key >> shift) & mask]++] = key;
 }
 
 }  // namespace
@@ -63,9 +57,7 @@ void PoolBuilder::build() {
   std::vector<Pixel> ascending = ascending_pixels(terrain);
   reserve_large_pages(to_.sites_, ascending.size());
   to_.sites_.resize(ascending.size());
-  for (std::size_t p = 0; p < ascending.size(); ++p) {
-    to_.sites_[p].height = terrain.height[p];
-  }
+  for (std::size_t p = 0; p < ascending.size(); ++p) to_.sites_[p].height = terrain.height[p];
   if (terrain.edge == Edge::open) {
     pool(new_pool(kDry)).area = 1;  // of the ocean: a droplet raises it by its own volume
   }
@@ -114,9 +106,7 @@ void PoolBuilder::prefetch_site(const std::vector<Pixel>& ascending, std::size_t
 /// The rows above and below; the neighbours in the row most likely come with the pixel itself.
 void PoolBuilder::prefetch_neighbours(const std::vector<Pixel>& ascending,
                                       std::size_t place) const {
-  if (place >= ascending.size()) {
-    return;
-  }
+  if (place >= ascending.size()) return;
   const Pixel p = ascending[place];
   const Pixel nx = to_.terrain().nx;
   for (const Pixel q : {p, std::max(p - nx, 0), std::min(p + nx, to_.terrain().size() - 1)}) {
@@ -150,13 +140,9 @@ PoolId PoolBuilder::merge(Height base) {
                                    [&](PoolId id) { return pool(id).level == base; });
     into = same == meeting_.end() ? kNoPool : *same;
   }
-  if (into == kNoPool) {
-    into = new_pool(base);
-  }
+  if (into == kNoPool) into = new_pool(base);
   for (const PoolId id : meeting_) {
-    if (id != into) {
-      join(into, id, base);
-    }
+    if (id != into) join(into, id, base);
   }
   return into;
 }
@@ -176,9 +162,7 @@ void PoolBuilder::join(PoolId into, PoolId id, Height base) {
 /// Pixels at the height of a merge belong to the merged pool, even those added before it.
 void PoolBuilder::settle_homes(Group group) {
   if (group.size() > 1) {
-    for (const Pixel p : group) {
-      home(p) = grown(home(p));
-    }
+    for (const Pixel p : group) home(p) = grown(home(p));
   }
 }
 
@@ -196,14 +180,10 @@ void PoolBuilder::forget_absorbed() {
 void PoolBuilder::number_by_place() {
   std::vector<PoolId> number(to_.pools_.size(), kNoPool);
   PoolId count = 0;
-  if (to_.terrain().edge == Edge::open) {
-    number[kOcean] = count++;
-  }
+  if (to_.terrain().edge == Edge::open) number[kOcean] = count++;
   for (auto& site : to_.sites_) {
     PoolId& renamed = number[static_cast<std::size_t>(site.home)];
-    if (renamed == kNoPool) {
-      renamed = count++;
-    }
+    if (renamed == kNoPool) renamed = count++;
     site.home = renamed;
   }
   std::vector<Pool> pools;
@@ -223,9 +203,7 @@ void PoolBuilder::number_by_place() {
 }
 
 void PoolBuilder::make_arcs(const std::vector<Pixel>& ascending) {
-  for (const auto& site : to_.sites_) {
-    ++pool(site.home).next;
-  }
+  for (const auto& site : to_.sites_) ++pool(site.home).next;
   std::int32_t begin = 0;
   for (Pool& each : to_.pools_) {
     const std::int32_t size = each.next + 1;
@@ -257,9 +235,7 @@ void PoolBuilder::fill_arcs(const std::vector<Pixel>& ascending) {
     const auto& site = to_.sites_[static_cast<std::size_t>(p)];
     Pool& at = pool(site.home);
     to_.arcs_[static_cast<std::size_t>(at.next++)] = site.height;
-    if (at.open_children == 0 || at.level != site.height) {
-      continue;
-    }
+    if (at.open_children == 0 || at.level != site.height) continue;
     if (at.area == 0) {
       at.area = 1;
       at.remainder = p;

@@ -34,9 +34,7 @@ Volume Pools::pour(PoolId id, Volume carried) {
     pool.level = pool.stop;
     pool.remainder = 0;
     take_in(id);
-    if (pool.full() || carried == 0) {
-      return carried;
-    }
+    if (pool.full() || carried == 0) return carried;
   }
   beyond_ += carried;
   return 0;
@@ -51,9 +49,7 @@ Volume Pools::raise(PoolId id, Height rise) {
   const Volume climb = std::min<Volume>(rise, Volume{pool.stop} - pool.level);
   const Volume volume = climb * pool.area;
   pool.level = static_cast<Height>(pool.level + climb);
-  if (pool.level == pool.stop) {
-    take_in(id);
-  }
+  if (pool.level == pool.stop) take_in(id);
   return volume;
 }
 
@@ -64,22 +60,16 @@ void Pools::take_in(PoolId id) {
   while (true) {
     Pool& pool = pools_[static_cast<std::size_t>(id)];
     auto next = static_cast<std::size_t>(pool.next);
-    while (!is_rim_[next] && arcs_[next] == pool.level) {
-      ++next;
-    }
+    while (!is_rim_[next] && arcs_[next] == pool.level) ++next;
     pool.area += static_cast<std::int32_t>(next) - pool.next;
     pool.next = static_cast<std::int32_t>(next);
     pool.stop = arcs_[next];
-    if (!pool.full()) {
-      return;
-    }
+    if (!pool.full()) return;
     Pool& parent = pools_[static_cast<std::size_t>(pool.parent)];
     pool.next = std::max(parent.remainder, kSeveral);
     parent.area += pool.area;
     pool.remember_overflow({});
-    if (--parent.open_children > 0) {
-      return;
-    }
+    if (--parent.open_children > 0) return;
     parent.level = pool.level;
     parent.remainder = 0;
     id = pool.parent;
@@ -88,9 +78,7 @@ void Pools::take_in(PoolId id) {
 
 std::span<const Pixel> Pools::bottom(PoolId id) const {
   const std::int32_t& lowest = (*this)[id].remainder;
-  if (lowest >= 0) {
-    return {&lowest, 1};
-  }
+  if (lowest >= 0) return {&lowest, 1};
   const std::int32_t place = ~lowest;
   const Pixel* const listed = &saddles_[static_cast<std::size_t>(place)];
   return {listed + 1, static_cast<std::size_t>(*listed)};
@@ -118,21 +106,15 @@ std::vector<PoolId> Pools::renumber() {
     }
     pools.push_back(pool);
   }
-  for (PoolId id = 0; id < n_before; ++id) {
-    renamed[static_cast<std::size_t>(id)] = new_number(id);
-  }
-  for (Site& site : sites_) {
-    site.home = renamed[static_cast<std::size_t>(site.home)];
-  }
+  for (PoolId id = 0; id < n_before; ++id) renamed[static_cast<std::size_t>(id)] = new_number(id);
+  for (Site& site : sites_) site.home = renamed[static_cast<std::size_t>(site.home)];
   last_ = renamed[static_cast<std::size_t>(last_)];
   pools_ = std::move(pools);
   return renamed;
 }
 
 bool Pools::flooded() const {
-  if (terrain_->edge == Edge::open) {
-    return false;
-  }
+  if (terrain_->edge == Edge::open) return false;
   const Pool& all = (*this)[last_];
   return all.active() && all.stop == kNoRim;
 }

@@ -68,23 +68,17 @@ class Pools {
     PoolId root = id;
     while (true) {
       const PoolId up = step_up(root);
-      if (up == root) {
-        break;
-      }
+      if (up == root) break;
       root = up;
     }
-    if (root != id) {
-      shorten(id, root);
-    }
+    if (root != id) shorten(id, root);
     return root;
   }
 
   /// The same, but a full pool that has become part of its parent since may stand for it: saves
   /// looking at the parent.
   PoolId holder(PoolId id) const {
-    while ((*this)[id].owner != id) {
-      id = (*this)[id].owner;
-    }
+    while ((*this)[id].owner != id) id = (*this)[id].owner;
     return id;
   }
 
@@ -129,9 +123,7 @@ class Pools {
 
   PoolId step_up(PoolId id) const {
     const Pool& pool = (*this)[id];
-    if (pool.owner != id || !pool.full() || pool.parent == kNoPool) {
-      return pool.owner;
-    }
+    if (pool.owner != id || !pool.full() || pool.parent == kNoPool) return pool.owner;
     return (*this)[pool.parent].active() ? pool.parent : id;
   }
   void shorten(PoolId id, PoolId root);

@@ -40,9 +40,7 @@ class Rain {
         scouts_.start();
         settle_at_ += std::min(settle_at_, kRarestSettling * pools_.terrain().size());
       }
-      if (place % Scouts::kBlock == 0) {
-        scouts_.advance(&starts_[place]);
-      }
+      if (place % Scouts::kBlock == 0) scouts_.advance(&starts_[place]);
       state_.dosed += drop(starts_[place]);
       ++state_.n_droplets;
     }
@@ -62,9 +60,7 @@ class Rain {
  private:
   void draw_starts() {
     const std::int64_t batch = state_.n_droplets / static_cast<std::int64_t>(batch_size_);
-    if (batch == drawn_) {
-      return;
-    }
+    if (batch == drawn_) return;
     drawn_ = batch;
     const auto n = static_cast<std::uint64_t>(pools_.terrain().size());
     const auto first = static_cast<std::uint64_t>(batch) * batch_size_;
@@ -77,9 +73,7 @@ class Rain {
 
   Volume drop(Pixel start) {
     PoolId pool = router_.from_pixel(start);
-    if (reading_ == Reading::literal) {
-      return pools_.raise(pool, droplet_);
-    }
+    if (reading_ == Reading::literal) return pools_.raise(pool, droplet_);
     for (Volume carried = pools_.pour(pool, droplet_); carried > 0;
          carried = pools_.pour(pool, carried)) {
       pool = router_.from_full_pool(pool);
@@ -111,9 +105,7 @@ void rain_droplets(Pools& pools, Height droplet, Reading reading, std::uint64_t 
     while (!pools.flooded() && rain.rain_batch(doses[i])) {
       watch.tell(static_cast<double>(rain.state().dosed) / static_cast<double>(doses.back()));
     }
-    if (pools.flooded()) {
-      rain.rain_on_flood(doses[i]);
-    }
+    if (pools.flooded()) rain.rain_on_flood(doses[i]);
     reached(i, rain.state());
   }
 }

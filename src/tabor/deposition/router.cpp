@@ -34,18 +34,12 @@ std::int32_t place_of(Pixel p, std::span<const Pixel> sorted) {
 void Router::Choice::consider(const Candidate& candidate) {
   const bool same_pool = candidate.wet_by != kNoPool && candidate.wet_by == best.wet_by;
   const Candidate other = candidate.before(best) ? best : candidate;
-  if (candidate.before(best)) {
-    best = candidate;
-  }
-  if (!same_pool) {
-    doubt = std::min(doubt, other.height);
-  }
+  if (candidate.before(best)) best = candidate;
+  if (!same_pool) doubt = std::min(doubt, other.height);
 }
 
 Router::Candidate Router::candidate(Pixel q) {
-  if (q == kOutside) {
-    return {kDry, kOutside, kNoPool};
-  }
+  if (q == kOutside) return {kDry, kOutside, kNoPool};
   const PoolId pool = pools_.owner(pools_.home(q));
   const Height level = pools_[pool].level;
   const Height solid = pools_.height(q);
@@ -53,9 +47,7 @@ Router::Candidate Router::candidate(Pixel q) {
 }
 
 Router::Target Router::toward(const Candidate& candidate) const {
-  if (candidate.wet_by != kNoPool) {
-    return candidate.wet_by;
-  }
+  if (candidate.wet_by != kNoPool) return candidate.wet_by;
   return candidate.pixel == kOutside ? kOcean : slopes_.from(candidate.pixel);
 }
 
@@ -147,17 +139,13 @@ void Router::record(PoolId end) {
 Router::Target Router::drain_of_saddle(PoolId above, PoolId full, Pixel on) {
   Saddle& saddle = saddles_[above];
   for (bool fresh = false;; fresh = true) {
-    if (fresh || saddle.open_children != pools_[above].open_children) {
-      saddle = find_regions(above);
-    }
+    if (fresh || saddle.open_children != pools_[above].open_children) saddle = find_regions(above);
     const std::int32_t place =
         full == kNoPool ? place_of(on, pools_.bottom(above)) : saddle.region_of_full.at(full);
     const auto region = static_cast<std::size_t>(saddle.region_of[static_cast<std::size_t>(place)]);
     const Choice& drain = saddle.drain[region];
     const Candidate now = candidate(drain.best.pixel);
-    if (fresh || now.height == drain.best.height || now.height < drain.doubt) {
-      return toward(now);
-    }
+    if (fresh || now.height == drain.best.height || now.height < drain.doubt) return toward(now);
   }
 }
 
@@ -181,9 +169,7 @@ Router::Saddle Router::find_regions(PoolId above) {
     saddle.region_of.push_back(regions.root(static_cast<std::int32_t>(i)));
     Choice& drain = saddle.drain[static_cast<std::size_t>(saddle.region_of.back())];
     for_each_neighbour(pools_.terrain(), pixels[i], [&](Pixel q) {
-      if (const Candidate next = candidate(q); next.height < height) {
-        drain.consider(next);
-      }
+      if (const Candidate next = candidate(q); next.height < height) drain.consider(next);
     });
   }
   return saddle;

@@ -3,9 +3,7 @@
 namespace tabor::deposition {
 
 void Scouts::advance(const Pixel* starts) {
-  for (std::size_t i = kAhead; i < kAhead + kBlock; ++i) {
-    slopes_.prefetch(starts[i]);
-  }
+  for (std::size_t i = kAhead; i < kAhead + kBlock; ++i) slopes_.prefetch(starts[i]);
   ++first_;
   land(block(8), starts + 8 * kBlock);
   run(block(7));
@@ -73,9 +71,7 @@ void Scouts::cross(Block& block) const {
 }
 
 Scouts::Target Scouts::next(Target at) const {
-  if (!Slopes::is_pool(at)) {
-    return slopes_.way_from(pools_, at).end;
-  }
+  if (!Slopes::is_pool(at)) return slopes_.way_from(pools_, at).end;
   const Pool& pool = pools_[at];
   return pool.owner == at && pool.full() ? pool.overflow().end : pool.owner;
 }

@@ -80,9 +80,7 @@ class SlopeFinder {
       for (Pixel p = start; target == kUnknown; target = p == kOutside ? kOcean : known(p)) {
         p = pass(p);
       }
-      for (const Pixel p : path_) {
-        known(p) = target;
-      }
+      for (const Pixel p : path_) known(p) = target;
     }
     for (std::size_t number = 0; number < to_.forks_.size(); ++number) {
       const auto branches = to_.branches(~static_cast<Slopes::Target>(number));
@@ -127,9 +125,7 @@ class SlopeFinder {
 
   void add_lower_neighbours(Pixel p) {
     for_each_neighbour(pools_.terrain(), p, [&](Pixel q) {
-      if (height(q) < pools_.height(p)) {
-        lower_.push_back(q);
-      }
+      if (height(q) < pools_.height(p)) lower_.push_back(q);
     });
   }
 
@@ -141,13 +137,9 @@ class SlopeFinder {
     for (std::size_t i = 0; i < plateau.size(); ++i) {
       const std::size_t n_before = lower_.size();
       add_lower_neighbours(plateau[i]);
-      if (lower_.size() == n_before) {
-        path_.push_back(plateau[i]);
-      }
+      if (lower_.size() == n_before) path_.push_back(plateau[i]);
       for_each_neighbour(pools_.terrain(), plateau[i], [&](Pixel q) {
-        if (height(q) == pools_.height(p) && seen.insert(q).second) {
-          plateau.push_back(q);
-        }
+        if (height(q) == pools_.height(p) && seen.insert(q).second) plateau.push_back(q);
       });
     }
   }
@@ -161,9 +153,7 @@ class SlopeFinder {
     for (std::size_t i = 1; i < lower_.size() && nested; ++i) {
       nested = is_nested(lower_[i - 1], lower_[i]);
     }
-    if (nested || lower_.front() == kOutside) {
-      return lower_.front();
-    }
+    if (nested || lower_.front() == kOutside) return lower_.front();
     std::sort(lower_.begin(), lower_.end());
     lower_.erase(std::unique(lower_.begin(), lower_.end()), lower_.end());
     known(p) = add_fork();
@@ -176,12 +166,8 @@ class SlopeFinder {
   bool is_nested(Pixel a, Pixel b) const {
     const PoolId inner = home(a);
     const PoolId outer = home(b);
-    if (inner == outer) {
-      return true;
-    }
-    if (!descent_.within(inner, outer)) {
-      return false;
-    }
+    if (inner == outer) return true;
+    if (!descent_.within(inner, outer)) return false;
     const auto bottom = pools_.bottom(outer);
     return bottom.size() == 1 || height(b) > height(bottom.front());
   }
@@ -194,9 +180,7 @@ class SlopeFinder {
       fork.two = {branch(lower_[0]), branch(lower_[1])};
     } else {
       fork.list(to_.branches_.size(), lower_.size());
-      for (const Pixel q : lower_) {
-        to_.branches_.push_back(branch(q));
-      }
+      for (const Pixel q : lower_) to_.branches_.push_back(branch(q));
     }
     return ~static_cast<Slopes::Target>(to_.forks_.size() - 1);
   }
@@ -215,9 +199,7 @@ PoolId pool_over_all(std::span<const Slopes::Branch> branches, Pools& pools) {
   const PoolId over_first = pools.owner(branches.front().home);
   for (const Slopes::Branch& branch : branches) {
     const PoolId pool = pools.owner(branch.home);
-    if (pool != over_first || pools[pool].level < branch.height) {
-      return kNoPool;
-    }
+    if (pool != over_first || pools[pool].level < branch.height) return kNoPool;
   }
   return over_first;
 }
@@ -230,9 +212,7 @@ void Slopes::settle(Pools& pools, const std::vector<PoolId>& renamed) {
   const auto rename = [&](PoolId& pool) { pool = renamed[static_cast<std::size_t>(pool)]; };
   for (std::size_t number = 0; number < forks_.size(); ++number) {
     rename(forks_[number].way.end);
-    for (Branch& branch : branches(~static_cast<Target>(number))) {
-      rename(branch.home);
-    }
+    for (Branch& branch : branches(~static_cast<Target>(number))) rename(branch.home);
   }
   go_on_or_throw();
   const std::vector<Target> now = renumber_forks(pools);
@@ -240,9 +220,7 @@ void Slopes::settle(Pools& pools, const std::vector<PoolId>& renamed) {
   const auto settle = [&](Target& target) {
     target = is_pool(target) ? renamed[static_cast<std::size_t>(target)] : now[place_of(target)];
   };
-  for (Target& target : leads_to_) {
-    settle(target);
-  }
+  for (Target& target : leads_to_) settle(target);
   for (std::size_t number = 0; number < forks_.size(); ++number) {
     const auto all = branches(~static_cast<Target>(number));
     for (Branch& branch : all) {
@@ -260,15 +238,11 @@ std::vector<Slopes::Target> Slopes::renumber_forks(Pools& pools) {
   for (std::size_t number = 0; number < forks_.size(); ++number) {
     const PoolId pool = pool_over_all(branches(~static_cast<Target>(number)), pools);
     now[number] = pool == kNoPool ? ~static_cast<Target>(kept.size()) : pool;
-    if (pool == kNoPool) {
-      kept.push_back(number);
-    }
+    if (pool == kNoPool) kept.push_back(number);
   }
   std::vector<Fork> forks;
   reserve_large_pages(forks, kept.size());
-  for (const std::size_t number : kept) {
-    forks.push_back(forks_[number]);
-  }
+  for (const std::size_t number : kept) forks.push_back(forks_[number]);
   forks_ = std::move(forks);
   return now;
 }

@@ -16,9 +16,7 @@ constexpr Index kMostPixels = (1 << 30) - 2;  // places of pixels and of rims, o
 
 double quantum_for(double range) {
   double quantum = kFinestQuantum;
-  while (range > kUsableQuanta * quantum) {
-    quantum *= 2;
-  }
+  while (range > kUsableQuanta * quantum) quantum *= 2;
   return quantum;
 }
 

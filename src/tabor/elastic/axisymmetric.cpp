@@ -109,16 +109,10 @@ void check(const Eigen::ArrayXd& radii, double effective_modulus) {
 }  // namespace
 
 double disc_displacement(double r, double c, double effective_modulus) {
-  if (c == 0) {
-    return 0;
-  }
+  if (c == 0) return 0;
   const double scale = 4 / (pi * effective_modulus);
-  if (r == c) {
-    return scale * c;
-  }
-  if (r < c) {
-    return scale * c * integrals_of(r / c).second;
-  }
+  if (r == c) return scale * c;
+  if (r < c) return scale * c * integrals_of(r / c).second;
   const double k = c / r;
   return scale * c * k * integrals_of(k).narrow;
 }
@@ -136,9 +130,7 @@ Eigen::ArrayXd graded_radii(Index n, double r_max, double spacing_ratio) {
   const Eigen::ArrayXd place = Eigen::ArrayXd::LinSpaced(n, 0, intervals);
   // Spacings q^0 .. q^(n - 2) sum up to (q^i - 1) / (q - 1).
   const double log_growth = n > 2 ? std::log(spacing_ratio) / (intervals - 1) : 0;
-  if (log_growth == 0) {
-    return r_max / intervals * place;
-  }
+  if (log_growth == 0) return r_max / intervals * place;
   Eigen::ArrayXd radii = r_max * (log_growth * place).unaryExpr([](double x) {
     return std::expm1(x);
   }) / std::expm1(log_growth * intervals);

@@ -44,9 +44,7 @@ class ConvolutionOperator : public ElasticOperator {
     const bool was_single = single_.has_value();
     single_.reset();
     run<double>(double_, in, values, out);
-    if (was_single) {
-      double_.reset();
-    }
+    if (was_single) double_.reset();
   }
 
   virtual void fill(Index kx, std::span<double> values) const = 0;
@@ -93,9 +91,7 @@ class PeriodicHalfSpace final : public ConvolutionOperator {
   /// E* |q| / 2.
   void stiffness(Index kx, std::span<double> values) const {
     compliance(kx, values);
-    for (double& value : values) {
-      value = value > 0 ? 1 / value : 0;
-    }
+    for (double& value : values) value = value > 0 ? 1 / value : 0;
   }
 
   void fill(Index kx, std::span<double> values) const override { compliance(kx, values); }
@@ -113,9 +109,7 @@ class PeriodicHalfSpace final : public ConvolutionOperator {
       const auto k = static_cast<Real>(ky);
       values[ky] = twice_compliance / std::sqrt(qx2 + dqy2 * k * k);
     }
-    if (kx == 0) {
-      values[0] = 0;
-    }
+    if (kx == 0) values[0] = 0;
   }
 };
 

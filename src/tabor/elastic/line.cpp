@@ -58,9 +58,7 @@ double x2_log(double x) { return 0.5 * x * x_log(x) - 0.75 * x * x; }
 /// Integral of ln|offset - s| over the element of one node, lengths in spacings.
 double mean_log(PressureShape shape, Index offset) {
   const auto k = static_cast<double>(std::abs(offset));
-  if (k >= kFar) {
-    return std::log(k) - far_series(shape, k);
-  }
+  if (k >= kFar) return std::log(k) - far_series(shape, k);
   return shape == PressureShape::uniform ? x_log(k + 0.5) - x_log(k - 0.5) - 1
                                          : x2_log(k + 1) - 2 * x2_log(k) + x2_log(k - 1);
 }
@@ -185,9 +183,7 @@ Eigen::ArrayXd LineHalfSpace::spectrum_of(const Coefficient& coefficient) const 
       static_cast<std::size_t>(transform_.spectrum_columns()));
   transform_.forward(row.data(), spectrum.data());
   Eigen::ArrayXd real(transform_.spectrum_columns());  // the row is even
-  for (Index k = 0; k < real.size(); ++k) {
-    real[k] = spectrum[static_cast<std::size_t>(k)].real();
-  }
+  for (Index k = 0; k < real.size(); ++k) real[k] = spectrum[static_cast<std::size_t>(k)].real();
   return real;
 }
 
@@ -240,9 +236,7 @@ void displacement_from_differences(std::span<const double> differences,
     displacement[i] = value;
   }
   const double turn = (last - first - value) / static_cast<double>(n - 1);
-  for (std::size_t i = 0; i < n; ++i) {
-    displacement[i] += first + turn * static_cast<double>(i);
-  }
+  for (std::size_t i = 0; i < n; ++i) displacement[i] += first + turn * static_cast<double>(i);
 }
 
 std::unique_ptr<ElasticOperator> make_line(const Grid& grid, double effective_modulus) {

@@ -17,9 +17,7 @@ class Regions {
   Regions(Index n, bool periodic)
       : parent_(static_cast<std::size_t>(n)), open_(static_cast<std::size_t>(n), 0) {
     std::iota(parent_.begin(), parent_.end(), std::int32_t{0});
-    if (periodic) {
-      shift_.resize(static_cast<std::size_t>(n), Shift{0, 0});
-    }
+    if (periodic) shift_.resize(static_cast<std::size_t>(n), Shift{0, 0});
   }
 
   Index root(Index pixel) {
@@ -45,9 +43,7 @@ class Regions {
     const Index root_b = root(b);
     const Shift between = shift_from_root(a) + Shift{cells_x, cells_y} - shift_from_root(b);
     if (root_a == root_b) {
-      if (between.x != 0 || between.y != 0) {
-        mark_open(root_a);
-      }
+      if (between.x != 0 || between.y != 0) mark_open(root_a);
       return;
     }
     const bool open = is_open(root_a) || is_open(root_b);
@@ -76,9 +72,7 @@ class Regions {
   Shift shift_from_root(Index pixel) const { return shift(pixel); }
   void set(Index pixel, Index new_parent, Shift new_shift) {
     parent_[static_cast<std::size_t>(pixel)] = static_cast<std::int32_t>(new_parent);
-    if (!shift_.empty()) {
-      shift_[static_cast<std::size_t>(pixel)] = new_shift;
-    }
+    if (!shift_.empty()) shift_[static_cast<std::size_t>(pixel)] = new_shift;
   }
 
   std::vector<std::int32_t> parent_;
@@ -96,9 +90,7 @@ void join_neighbours(Regions& regions, const Mask& contact, const Grid& grid, bo
   const auto is_gap = [&](Index row, Index column) { return !contact(row, column); };
   for (Index row = 0; row < grid.ny; ++row) {
     for (Index column = 0; column < grid.nx; ++column) {
-      if (!is_gap(row, column)) {
-        continue;
-      }
+      if (!is_gap(row, column)) continue;
       const Index pixel = row * grid.nx + column;
       const bool last_column = column + 1 == grid.nx;
       const bool last_row = row + 1 == grid.ny;

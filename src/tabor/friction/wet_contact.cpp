@@ -22,9 +22,7 @@ void check_shapes(const Map& other, const Field& film) {
 }
 
 void check_sum(double total, const char* what) {
-  if (!std::isfinite(total)) {
-    throw InputError(std::string(what) + " has NaN or infinite values");
-  }
+  if (!std::isfinite(total)) throw InputError(std::string(what) + " has NaN or infinite values");
 }
 
 }  // namespace
@@ -37,9 +35,7 @@ double lubricated_share(const Mask& contact, const Field& film) {
   const auto count_where = [&](auto selected) {
     return deterministic_sum(film.size(), [&](Index begin, Index end) {
       double count = 0;
-      for (Index i = begin; i < end; ++i) {
-        count += selected(i) ? 1 : 0;
-      }
+      for (Index i = begin; i < end; ++i) count += selected(i) ? 1 : 0;
       return count;
     });
   };

@@ -33,9 +33,7 @@ class Descriptor {
   Descriptor(const fs::path& path, int flags)
       : value_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
   ~Descriptor() {
-    if (value_ >= 0) {
-      ::close(value_);
-    }
+    if (value_ >= 0) ::close(value_);
   }
   Descriptor(const Descriptor&) = delete;
   Descriptor& operator=(const Descriptor&) = delete;
@@ -99,12 +97,8 @@ void remove_where(const fs::path& folder, const IsLeftover& is_leftover) {
 void write_all(int descriptor, std::span<const std::byte> bytes, const fs::path& file) {
   while (!bytes.empty()) {
     const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) {
-      continue;
-    }
-    if (written < 0) {
-      fail(file, "write", errno);
-    }
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(file, "write", errno);
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
 }
@@ -116,19 +110,13 @@ fs::path written_file(const fs::path& file) {
   fs::path target = file;
   std::error_code error;
   for (int n_links = 0; fs::is_symlink(target, error); ++n_links) {
-    if (n_links == most_links) {
-      fail(file, "write", ELOOP);
-    }
+    if (n_links == most_links) fail(file, "write", ELOOP);
     const fs::path link = fs::read_symlink(target, error);
-    if (error) {
-      fail(file, "write", error.value());
-    }
+    if (error) fail(file, "write", error.value());
     target = target.parent_path() / link;
   }
   const fs::file_status status = fs::status(target, error);
-  if (fs::is_directory(status)) {
-    fail(file, "write", EISDIR);
-  }
+  if (fs::is_directory(status)) fail(file, "write", EISDIR);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
     throw OutputError(file.string() + ": got a device or pipe; expected the name of a file");
   }
@@ -152,9 +140,7 @@ bool TemporaryFile::create() {
 }
 
 TemporaryFile::~TemporaryFile() {
-  if (!temporary_.empty()) {
-    ::unlink(temporary_.c_str());
-  }
+  if (!temporary_.empty()) ::unlink(temporary_.c_str());
   if (locked_ >= 0) ::close(locked_);
 }
 
@@ -167,17 +153,13 @@ void TemporaryFile::commit() {
   if (!descriptor.is_open() || ::fsync(descriptor.value()) != 0 || !descriptor.close()) {
     fail(file_, "write", errno);
   }
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) {
-    fail(file_, "write", errno);
-  }
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(file_, "write", errno);
   temporary_.clear();
   // The new name itself lives in the folder. A folder that cannot be synchronised (some network
   // file systems) is no reason to call a written file lost.
   const fs::path folder = target_.parent_path();
   const Descriptor directory(folder.empty() ? fs::path(".") : folder, O_RDONLY | O_DIRECTORY);
-  if (directory.is_open()) {
-    ::fsync(directory.value());
-  }
+  if (directory.is_open()) ::fsync(directory.value());
 }
 
 bool is_temporary_name(const fs::path& file) {
@@ -199,13 +181,9 @@ void write_file(const fs::path& file, std::span<const std::byte> bytes) {
   TemporaryFile temporary(file);
   {
     Descriptor descriptor(temporary.path(), O_WRONLY | O_TRUNC);
-    if (!descriptor.is_open()) {
-      fail(file, "write", errno);
-    }
+    if (!descriptor.is_open()) fail(file, "write", errno);
     write_all(descriptor.value(), bytes, file);
-    if (!descriptor.close()) {
-      fail(file, "write", errno);
-    }
+    if (!descriptor.close()) fail(file, "write", errno);
   }
   temporary.commit();
 }

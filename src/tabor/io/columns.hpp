@@ -104,9 +104,7 @@ template <typename Record>
 void read_json(const Json& object, const Columns<Record>& columns, Record& record,
                Media media = kEverywhere) {
   for (const Column<Record>& column : columns) {
-    if (column.is_in(media) && column.assign) {
-      column.assign(record, cell_in(object, column.key));
-    }
+    if (column.is_in(media) && column.assign) column.assign(record, cell_in(object, column.key));
   }
 }
 

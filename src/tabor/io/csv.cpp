@@ -43,9 +43,7 @@ class Records {
 
   bool skip_blank_or_comment() {
     const std::string_view next = trim(rest_.substr(0, rest_.find('\n')));
-    if (!next.empty() && next.front() != '#') {
-      return false;
-    }
+    if (!next.empty() && next.front() != '#') return false;
     take_line();
     return true;
   }
@@ -77,9 +75,7 @@ class Records {
   }
 
   std::string cell() {
-    while (rest_.starts_with(' ') || rest_.starts_with('\t')) {
-      rest_.remove_prefix(1);
-    }
+    while (rest_.starts_with(' ') || rest_.starts_with('\t')) rest_.remove_prefix(1);
     return without_apostrophe(take('"') ? quoted_cell() : plain_cell());
   }
 
@@ -96,9 +92,7 @@ class Records {
     while (!rest_.empty()) {
       const char c = rest_.front();
       rest_.remove_prefix(1);
-      if (c == '"' && !take('"')) {
-        return content;
-      }
+      if (c == '"' && !take('"')) return content;
       line_ += c == '\n' ? 1 : 0;
       content += c;
     }
@@ -119,9 +113,7 @@ std::optional<std::size_t> CsvTable::find(std::string_view wanted) const {
 }
 
 std::size_t CsvTable::column(std::string_view wanted) const {
-  if (const auto found = find(wanted)) {
-    return *found;
-  }
+  if (const auto found = find(wanted)) return *found;
   throw InputError(fmt::format("{}: no column '{}' in the header row ({}){}", name, wanted,
                                fmt::join(columns, ", "), suggestion(wanted, columns)));
 }
@@ -145,9 +137,7 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
   table.name = name;
   Records records(text, name);
   while (!records.done()) {
-    if (records.skip_blank_or_comment()) {
-      continue;
-    }
+    if (records.skip_blank_or_comment()) continue;
     const int line = records.line();
     std::vector<std::string> cells = records.record();
     if (table.columns.empty()) {
@@ -161,9 +151,7 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
     table.rows.push_back(std::move(cells));
     table.lines.push_back(line);
   }
-  if (table.columns.empty()) {
-    throw InputError(name, "no line of text", "a header row", "");
-  }
+  if (table.columns.empty()) throw InputError(name, "no line of text", "a header row", "");
   return table;
 }
 
@@ -182,9 +170,7 @@ std::string csv_line(const std::vector<std::string>& cells) {
       continue;
     }
     line += '"';
-    for (const char c : cell) {
-      line += c == '"' ? std::string("\"\"") : std::string(1, c);
-    }
+    for (const char c : cell) line += c == '"' ? std::string("\"\"") : std::string(1, c);
     line += '"';
   }
   return line + "\n";

@@ -39,9 +39,7 @@ class Digest {
 
  private:
   static void check(bool done) {
-    if (!done) {
-      throw Error("the cryptographic library offers no such digest");
-    }
+    if (!done) throw Error("the cryptographic library offers no such digest");
   }
   std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
 };

@@ -33,9 +33,7 @@ H5FD_t* open_file(const char* name, unsigned flags, hid_t, haddr_t) {
                    ((flags & H5F_ACC_TRUNC) != 0 ? O_TRUNC : 0) |
                    ((flags & H5F_ACC_CREAT) != 0 ? O_CREAT : 0);
   const int descriptor = ::open(name, mode | O_CLOEXEC, 0666);
-  if (descriptor < 0) {
-    return nullptr;
-  }
+  if (descriptor < 0) return nullptr;
   struct stat status {};
   ::fstat(descriptor, &status);
   auto* file = new File{{}, descriptor, 0, static_cast<haddr_t>(status.st_size), false};
@@ -73,12 +71,8 @@ herr_t read(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, size_t size, void*
   auto* bytes = static_cast<char*>(buffer);
   while (size > 0) {
     const ssize_t n = ::pread(file_of(base)->descriptor, bytes, size, static_cast<off_t>(address));
-    if (n < 0 && errno == EINTR) {
-      continue;
-    }
-    if (n < 0) {
-      return -1;
-    }
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return -1;
     if (n == 0) {  // beyond the end: reserved and not yet written
       std::memset(bytes, 0, size);
       return 0;
@@ -96,9 +90,7 @@ herr_t write(H5FD_t* base, H5FD_mem_t, hid_t, haddr_t address, size_t size, cons
   file.end_of_file = std::max(file.end_of_file, address + size);
   while (size > 0 && !file.failed) {
     const ssize_t n = ::pwrite(file.descriptor, bytes, size, static_cast<off_t>(address));
-    if (n < 0 && errno == EINTR) {
-      continue;
-    }
+    if (n < 0 && errno == EINTR) continue;
     if (n <= 0) {
       file.failed = true;
       break;

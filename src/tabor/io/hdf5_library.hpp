@@ -77,9 +77,7 @@ bool write_failed(hid_t file);
 inline std::uint64_t count_of(const std::vector<hsize_t>& shape) {
   std::uint64_t count = 1;
   for (const hsize_t n : shape) {
-    if (__builtin_mul_overflow(count, static_cast<std::uint64_t>(n), &count)) {
-      return UINT64_MAX;
-    }
+    if (__builtin_mul_overflow(count, static_cast<std::uint64_t>(n), &count)) return UINT64_MAX;
   }
   return count;
 }

@@ -20,9 +20,7 @@ namespace fs = std::filesystem;
 std::vector<hsize_t> shape_of(hid_t space) {
   const int rank = H5Sget_simple_extent_ndims(space);
   std::vector<hsize_t> shape(static_cast<std::size_t>(std::max(rank, 0)));
-  if (rank > 0) {
-    H5Sget_simple_extent_dims(space, shape.data(), nullptr);
-  }
+  if (rank > 0) H5Sget_simple_extent_dims(space, shape.data(), nullptr);
   return shape;
 }
 
@@ -102,9 +100,7 @@ struct Hdf5Reader::File {
                           H5Oexists_by_name(id, part.c_str(), H5P_DEFAULT) <= 0)) {
         return false;
       }
-      if (end == std::string::npos) {
-        return true;
-      }
+      if (end == std::string::npos) return true;
     }
   }
 
@@ -114,9 +110,7 @@ struct Hdf5Reader::File {
       fail(path, "is missing");
     }
     Handle dataset(H5Dopen2(id, path.c_str(), H5P_DEFAULT), &H5Dclose);
-    if (!dataset.valid()) {
-      fail(path, "is not a readable dataset");
-    }
+    if (!dataset.valid()) fail(path, "is not a readable dataset");
     refuse_values_elsewhere(dataset, path);
     return dataset;
   }
@@ -147,9 +141,7 @@ struct Hdf5Reader::File {
   Handle open_attribute(const std::string& path, const std::string& attribute) const {
     Handle opened(H5Aopen_by_name(id, path.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
                   &H5Aclose);
-    if (!opened.valid()) {
-      fail(path, "has no attribute " + attribute);
-    }
+    if (!opened.valid()) fail(path, "has no attribute " + attribute);
     return opened;
   }
 
@@ -246,29 +238,19 @@ struct Hdf5Reader::File {
       fail(path, "is not text");
     }
     std::vector<std::string> values;
-    if (what.count == 0) {
-      return values;
-    }
+    if (what.count == 0) return values;
     if (H5Tis_variable_str(what.type) > 0) {
       std::vector<char*> pointers(what.count, nullptr);
       const Handle memory_type(H5Tcopy(what.type), &H5Tclose);
-      if (read(memory_type, pointers.data()) < 0) {
-        fail(path, "is damaged");
-      }
-      for (const char* pointer : pointers) {
-        values.emplace_back(pointer == nullptr ? "" : pointer);
-      }
+      if (read(memory_type, pointers.data()) < 0) fail(path, "is damaged");
+      for (const char* pointer : pointers) values.emplace_back(pointer == nullptr ? "" : pointer);
       H5Dvlen_reclaim(memory_type, what.space, H5P_DEFAULT, pointers.data());
       return values;
     }
     const std::size_t size = H5Tget_size(what.type);
-    if (size > (1u << 20) || what.count * size > (1u << 28)) {
-      fail(path, "is too long a text");
-    }
+    if (size > (1u << 20) || what.count * size > (1u << 28)) fail(path, "is too long a text");
     std::vector<char> block(what.count * size);
-    if (read(what.type, block.data()) < 0) {
-      fail(path, "is damaged");
-    }
+    if (read(what.type, block.data()) < 0) fail(path, "is damaged");
     for (std::size_t i = 0; i < what.count; ++i) {
       const char* begin = block.data() + i * size;
       values.emplace_back(begin, std::find(begin, begin + size, '\0'));
@@ -328,9 +310,7 @@ std::vector<std::string> Hdf5Reader::children(const std::string& group) const {
 bool Hdf5Reader::is_dataset(const std::string& path) const {
   const Session session;
   const Handle object(H5Oopen(file_->id, path.c_str(), H5P_DEFAULT), &H5Oclose);
-  if (!object.valid()) {
-    file_->fail(path, "is missing");
-  }
+  if (!object.valid()) file_->fail(path, "is missing");
   return H5Iget_type(object) == H5I_DATASET;
 }
 
@@ -339,9 +319,7 @@ std::vector<Index> Hdf5Reader::shape(const std::string& path) const {
   const Handle dataset = file_->open_dataset(path);
   const Handle space(H5Dget_space(dataset), &H5Sclose);
   std::vector<Index> shape;
-  for (const hsize_t n : shape_of(space)) {
-    shape.push_back(static_cast<Index>(n));
-  }
+  for (const hsize_t n : shape_of(space)) shape.push_back(static_cast<Index>(n));
   return shape;
 }
 
@@ -463,9 +441,7 @@ std::vector<std::string> Hdf5Reader::attribute_texts(const std::string& path,
 
 std::string Hdf5Reader::text(const std::string& path, const std::string& name) const {
   const std::vector<std::string> values = attribute_texts(path, name);
-  if (values.size() != 1) {
-    file_->fail(path + "@" + name, "is not one text");
-  }
+  if (values.size() != 1) file_->fail(path + "@" + name, "is not one text");
   return values.front();
 }
 

@@ -53,9 +53,7 @@ Handle dataset_creation(const std::vector<hsize_t>& shape, bool compressed) {
 std::vector<const char*> c_strings(const std::vector<std::string>& values) {
   std::vector<const char*> pointers;
   pointers.reserve(values.size() + 1);
-  for (const std::string& value : values) {
-    pointers.push_back(value.c_str());
-  }
+  for (const std::string& value : values) pointers.push_back(value.c_str());
   pointers.push_back(nullptr);  // so that data() of an empty list is a valid address
   return pointers;
 }
@@ -65,9 +63,7 @@ std::vector<const char*> c_strings(const std::vector<std::string>& values) {
 struct Hdf5Writer::File {
   File(const fs::path& name, Seal wanted)
       : temporary(name), id(create(temporary.path()), &H5Fclose), seal(wanted) {
-    if (!id.valid()) {
-      fail("");
-    }
+    if (!id.valid()) fail("");
   }
 
   static hid_t create(const fs::path& path) {
@@ -82,9 +78,7 @@ struct Hdf5Writer::File {
   }
 
   void check(bool done, const std::string& path) const {
-    if (!done || write_failed(id)) {
-      fail(path);
-    }
+    if (!done || write_failed(id)) fail(path);
   }
 
   void write(const std::string& path, hid_t file_type, hid_t memory_type,
@@ -106,9 +100,7 @@ struct Hdf5Writer::File {
                  const void* data) {
     const Handle object(H5Oopen(id, path.c_str(), H5P_DEFAULT), &H5Oclose);
     check(object.valid(), path);
-    if (H5Aexists(object, name.c_str()) > 0) {
-      H5Adelete(object, name.c_str());
-    }
+    if (H5Aexists(object, name.c_str()) > 0) H5Adelete(object, name.c_str());
     Handle made(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), &H5Aclose);
     check(made.valid() && H5Awrite(made, type, data) >= 0 && made.reset(), path + "@" + name);
   }
@@ -131,9 +123,7 @@ Hdf5Writer::~Hdf5Writer() {
 void Hdf5Writer::commit() {
   const Session session;
   file_->check(H5Fflush(file_->id, H5F_SCOPE_GLOBAL) >= 0, "");
-  if (!file_->id.reset()) {
-    file_->fail("");
-  }
+  if (!file_->id.reset()) file_->fail("");
   if (file_->seal == Seal::yes) io::seal(file_->temporary.path());
   file_->temporary.commit();
 }

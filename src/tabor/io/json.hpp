@@ -158,9 +158,7 @@ T Json::get() const {
     return as_text();
   } else {
     T list;
-    for (const Json& element : *this) {
-      list.push_back(element.get<typename T::value_type>());
-    }
+    for (const Json& element : *this) list.push_back(element.get<typename T::value_type>());
     return list;
   }
 }

@@ -117,9 +117,7 @@ void check_grey(const Reader& reader, const std::string& name) {
 void write_png(const Picture& picture, const std::filesystem::path& file) {
   TemporaryFile temporary(file);
   Stream stream(std::fopen(temporary.path().c_str(), "wb"), &std::fclose);
-  if (!stream) {
-    throw OutputError(file.string() + ": cannot write: " + std::strerror(errno));
-  }
+  if (!stream) throw OutputError(file.string() + ": cannot write: " + std::strerror(errno));
   write_to(stream.get(), picture, file.string());
   if (std::fclose(stream.release()) != 0) {
     throw OutputError(file.string() + ": cannot write: " + std::strerror(errno));
@@ -131,9 +129,7 @@ GreyImage read_png(const std::filesystem::path& file) {
   std::string name = file.string();
   const RegularFile opened(file);
   const Stream stream(::fdopen(::dup(opened.descriptor()), "rb"), &std::fclose);
-  if (!stream) {
-    throw InputError(name + ": cannot be read: " + std::strerror(errno));
-  }
+  if (!stream) throw InputError(name + ": cannot be read: " + std::strerror(errno));
   const Reader reader(&name);
   png_init_io(reader.png, stream.get());
   png_read_info(reader.png, reader.info);

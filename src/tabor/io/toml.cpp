@@ -50,9 +50,7 @@ std::string kind_of(const toml::node& node) {
 
 double to_quantity(const toml::node& node, Dimension expected, const std::string& place,
                    std::string_view key) {
-  if (const auto* text = node.as_string()) {
-    return parse_si(text->get(), expected, place);
-  }
+  if (const auto* text = node.as_string()) return parse_si(text->get(), expected, place);
   const auto number = node.value<double>();
   if (!number || node.is_boolean()) {
     wrong(place, node,
@@ -110,9 +108,7 @@ toml::table parse_table(std::string_view text, const std::string& name) {
 
 const toml::node& find(const toml::table& values, std::string_view key, const std::string& place) {
   const toml::node* node = values.at_path(key).node();
-  if (node == nullptr) {
-    throw InputError(place + " is missing");
-  }
+  if (node == nullptr) throw InputError(place + " is missing");
   return *node;
 }
 
@@ -151,9 +147,7 @@ std::string Config::place(std::string_view key) const {
 
 std::string Config::text(std::string_view key) const {
   const toml::node& node = find(table_->values, key, place(key));
-  if (!node.is_string()) {
-    wrong(place(key), node, "text in quotes");
-  }
+  if (!node.is_string()) wrong(place(key), node, "text in quotes");
   return node.as_string()->get();
 }
 
@@ -161,30 +155,22 @@ double Config::number(std::string_view key) const { return quantity(key, dimensi
 
 std::int64_t Config::integer(std::string_view key) const {
   const toml::node& node = find(table_->values, key, place(key));
-  if (!node.is_integer()) {
-    wrong(place(key), node, "a whole number");
-  }
+  if (!node.is_integer()) wrong(place(key), node, "a whole number");
   return node.as_integer()->get();
 }
 
 bool Config::flag(std::string_view key) const {
   const toml::node& node = find(table_->values, key, place(key));
-  if (!node.is_boolean()) {
-    wrong(place(key), node, "true or false");
-  }
+  if (!node.is_boolean()) wrong(place(key), node, "true or false");
   return node.as_boolean()->get();
 }
 
 std::vector<std::string> Config::texts(std::string_view key) const {
   const toml::node& node = find(table_->values, key, place(key));
-  if (!node.is_array()) {
-    return {text(key)};
-  }
+  if (!node.is_array()) return {text(key)};
   std::vector<std::string> values;
   for (const auto& element : *node.as_array()) {
-    if (!element.is_string()) {
-      wrong(place(key), element, "an array of texts in quotes");
-    }
+    if (!element.is_string()) wrong(place(key), element, "an array of texts in quotes");
     values.push_back(element.as_string()->get());
   }
   return values;
@@ -196,25 +182,19 @@ double Config::quantity(std::string_view key, Dimension expected) const {
 
 std::vector<double> Config::quantities(std::string_view key, Dimension expected) const {
   const toml::node& node = find(table_->values, key, place(key));
-  if (!node.is_array()) {
-    return {quantity(key, expected)};
-  }
+  if (!node.is_array()) return {quantity(key, expected)};
   std::vector<double> values;
   for (const auto& element : *node.as_array()) {
     values.push_back(to_quantity(element, expected, place(key), key));
   }
-  if (values.empty()) {
-    throw InputError(place(key), "an empty array", "at least one value", "");
-  }
+  if (values.empty()) throw InputError(place(key), "an empty array", "at least one value", "");
   return values;
 }
 
 std::vector<Config> Config::tables(std::string_view key) const {
   const toml::node* node = table_->values.at_path(key).node();
   std::vector<Config> result;
-  if (node == nullptr) {
-    return result;
-  }
+  if (node == nullptr) return result;
   if (!node->is_array_of_tables()) {
     wrong(place(key), *node, fmt::format("tables that begin with [[{}]]", key));
   }

@@ -40,9 +40,7 @@ PressureRange computable_range(const RelativeDensity& density) {
 
 PressureRange trusted_range(const RelativeDensity& density) {
   PressureRange range = computable_range(density);
-  if (density.limit != 1) {
-    range.highest = 0.4e9;
-  }
+  if (density.limit != 1) range.highest = 0.4e9;
   return range;
 }
 

@@ -60,9 +60,7 @@ class LostPairs {
             const spectral::StripTransform<float>& transform)
       : width_(2 * transform.n_frequencies()),
         unit_(std::max(1.0, 2 * (static_cast<double>(grid.size()) - n_valid) / 65535)) {
-    if (n_valid == static_cast<double>(grid.size())) {
-      return;
-    }
+    if (n_valid == static_cast<double>(grid.size())) return;
     const auto valid = self_correlation(transform, mask_rows(height));
     codes_.resize(valid.size() * 2);
     for_each_row(grid.ny, [&](Index ly) {
@@ -125,9 +123,7 @@ double Autocorrelation::operator()(Index ly, Index lx) const {
     ly = -ly;
     lx = -lx;
   }
-  if (ly >= grid_.ny || std::abs(lx) >= grid_.nx) {
-    return kNaN;
-  }
+  if (ly >= grid_.ny || std::abs(lx) >= grid_.nx) return kNaN;
   return reinterpret_cast<const float*>(
       values_.data())[ly * row_length_ + (lx < 0 ? padded_nx_ + lx : lx)];
 }
@@ -163,12 +159,8 @@ Ray follow(const Autocorrelation& acf, double angle, double threshold) {
   for (Index i = 1;; ++i) {
     const double radius = static_cast<double>(i) * step;
     const double value = acf.at(radius * s, radius * c);
-    if (!std::isfinite(value)) {
-      return {radius - step, false};
-    }
-    if (value <= threshold) {
-      return {radius - step * (threshold - value) / (before - value), true};
-    }
+    if (!std::isfinite(value)) return {radius - step, false};
+    if (value <= threshold) return {radius - step * (threshold - value) / (before - value), true};
     before = value;
   }
 }
@@ -208,9 +200,7 @@ CorrelationLengths correlation_lengths(const Autocorrelation& acf, double thresh
       lengths.longest_angle = pi * static_cast<double>(i) / static_cast<double>(n_rays);
     }
   }
-  if (finished) {
-    lengths.longest = longest;
-  }
+  if (finished) lengths.longest = longest;
   return lengths;
 }
 

@@ -72,14 +72,10 @@ void add_strip(const spectral::StripTransform<double>& transform, const Strip& s
   std::vector<Eigen::ArrayXd> sums(static_cast<std::size_t>(n_blocks)), distances(sums);
   transform.rows_inverse(strip, range, [&](Index y, std::span<const double> row) {
     const auto block = static_cast<std::size_t>(y / block_rows);
-    if (y % block_rows == 0) {
-      sums[block] = distances[block] = Eigen::ArrayXd::Zero(rings.n);
-    }
+    if (y % block_rows == 0) sums[block] = distances[block] = Eigen::ArrayXd::Zero(rings.n);
     add_to_rings(rings, y, row, sums[block], distances[block]);
     total.along_y[y] += row[0];
-    if (y == 0) {
-      total.along_x += Eigen::Map<const Eigen::ArrayXd>(row.data(), rings.grid.nx);
-    }
+    if (y == 0) total.along_x += Eigen::Map<const Eigen::ArrayXd>(row.data(), rings.grid.nx);
   });
   for (std::size_t block = 0; block < sums.size(); ++block) {
     total.over_rings += sums[block];

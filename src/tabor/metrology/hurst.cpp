@@ -21,9 +21,7 @@ std::vector<Bin> log_bins(const std::vector<double>& q, const std::vector<double
   std::vector<Bin> bins;
   double number = 0, current = -1;
   for (std::size_t i = 0; i < q.size(); ++i) {
-    if (q[i] < q_min || q[i] > q_max || !(density[i] > 0)) {
-      continue;
-    }
+    if (q[i] < q_min || q[i] > q_max || !(density[i] > 0)) continue;
     const double index = std::floor(kBinsPerDecade * std::log10(q[i] / q_min));
     if (index != current || bins.empty()) {
       bins.emplace_back();
@@ -66,9 +64,7 @@ double find_cut(const std::vector<Bin>& bins, double offset, double from) {
   for (std::size_t i = 0; i + reach / 2 < bins.size(); ++i) {
     const Bin& last = bins[std::min(i + reach, bins.size() - 1)];
     const double slope = (last.log_density - bins[i].log_density) / (last.log_q - bins[i].log_q);
-    if (std::exp(bins[i].log_q) > from && slope < -(offset + 3)) {
-      return std::exp(bins[i].log_q);
-    }
+    if (std::exp(bins[i].log_q) > from && slope < -(offset + 3)) return std::exp(bins[i].log_q);
   }
   return std::numeric_limits<double>::infinity();
 }
@@ -91,9 +87,7 @@ HurstFit fit_hurst(const std::vector<double>& q, const std::vector<double>& dens
 DifferenceHurst fit_hurst(const HeightDifference& differences, double mean_square) {
   DifferenceHurst result;
   result.hurst = result.standard_error = std::numeric_limits<double>::quiet_NaN();
-  if (differences.lag.size() < 3) {
-    return result;
-  }
+  if (differences.lag.size() < 3) return result;
   std::size_t last = 1;
   while (last + 1 < differences.lag.size() &&
          differences.mean_square[last + 1] <= 0.2 * 2 * mean_square) {
@@ -115,9 +109,7 @@ DifferenceHurst fit_hurst(const HeightDifference& differences, double mean_squar
 
 FitRange find_fit_range(const std::vector<double>& q, const std::vector<double>& density,
                         double offset) {
-  if (q.empty()) {
-    return {};
-  }
+  if (q.empty()) return {};
   const auto bins = log_bins(q, density, q.front(), q.back());
   const auto peak = std::max_element(bins.begin(), bins.end(), [&](const Bin& a, const Bin& b) {
     return a.log_density + offset * a.log_q < b.log_density + offset * b.log_q;

@@ -26,14 +26,10 @@ Eigen::ArrayXd accumulate_rows(Index n_rows, Index n_values, const AddRow& add_r
   parallel_for(n_rows, block_rows, [&](Index begin, Index end) {
     Eigen::ArrayXd& sums = blocks[static_cast<std::size_t>(begin / block_rows)];
     sums = Eigen::ArrayXd::Zero(n_values);
-    for (Index y = begin; y < end; ++y) {
-      add_row(y, sums);
-    }
+    for (Index y = begin; y < end; ++y) add_row(y, sums);
   });
   Eigen::ArrayXd total = Eigen::ArrayXd::Zero(n_values);
-  for (const auto& block : blocks) {
-    total += block;
-  }
+  for (const auto& block : blocks) total += block;
   return total;
 }
 

@@ -29,13 +29,9 @@ void convert(PowerSpectra& spectra, PsdConvention convention) {
   spectra.convention = convention;
   spectra.x.unit = spectra.y.unit = "m^3";
   spectra.radial.unit = convention == PsdConvention::gwyddion ? "m^3" : "m^4";
-  if (convention == PsdConvention::jacobs) {
-    return;
-  }
+  if (convention == PsdConvention::jacobs) return;
   for (Spectrum* line : {&spectra.x, &spectra.y}) {
-    for (double& density : line->density) {
-      density /= 2 * pi;
-    }
+    for (double& density : line->density) density /= 2 * pi;
   }
   for (std::size_t i = 0; i < spectra.radial.q.size(); ++i) {
     const bool persson = convention == PsdConvention::persson;

@@ -34,9 +34,7 @@ double mean_over(const Grid& grid, const OfPixel& of_pixel) {
   return sum_over_rows<1>(grid.ny,
                           [&](Index y) {
                             Eigen::Array<double, 1, 1> total = Eigen::Array<double, 1, 1>::Zero();
-                            for (Index x = 0; x < grid.nx; ++x) {
-                              total += of_pixel(y, x);
-                            }
+                            for (Index x = 0; x < grid.nx; ++x) total += of_pixel(y, x);
                             return total;
                           })[0] /
          static_cast<double>(grid.size());
@@ -113,9 +111,7 @@ RingSums ring_sums(const WindowedHeights& heights, const Grid& grid, double dq, 
   const spectral::ColumnRange all{0, transform.n_frequencies()};
   std::vector<std::complex<double>> spectrum;
   const auto rows = [&](Index y, std::span<double> row) {
-    for (std::size_t x = 0; x < row.size(); ++x) {
-      row[x] = heights(y, static_cast<Index>(x));
-    }
+    for (std::size_t x = 0; x < row.size(); ++x) row[x] = heights(y, static_cast<Index>(x));
   };
   transform.rows_forward(rows, all, spectrum);
   constexpr Index block = spectral::kColumnsPerStripBlock;
@@ -127,9 +123,7 @@ RingSums ring_sums(const WindowedHeights& heights, const Grid& grid, double dq, 
         add_column(grid, kx, columns[0], dq, n_rings, blocks[static_cast<std::size_t>(kx / block)]);
       });
   Eigen::ArrayXd total = Eigen::ArrayXd::Zero(3 * n_rings + 2);
-  for (const auto& sums : blocks) {
-    total += sums;
-  }
+  for (const auto& sums : blocks) total += sums;
   return {total.head(n_rings), total.segment(n_rings, n_rings), total.segment(2 * n_rings, n_rings),
           total[3 * n_rings], total[3 * n_rings + 1]};
 }

@@ -53,9 +53,7 @@ double tip_limited_wavelength(const Field& height, const Grid& grid, double tip_
   const double limit = 0.5 / tip_radius;
   const Index most = (std::max(grid.nx, grid.ny) - 1) / 2;
   Index k = 0;
-  while (k < most && sharpest_peak(height, grid, k + 1) > limit) {
-    ++k;
-  }
+  while (k < most && sharpest_peak(height, grid, k + 1) > limit) ++k;
   return 2 * static_cast<double>(k) * pixel_of(grid);
 }
 

@@ -11,9 +11,7 @@ double mean_of_valid(const Field& field, Index& n) {
   const auto sums = sum_over_rows<2>(field.rows(), [&](Index y) {
     Eigen::Array2d row = Eigen::Array2d::Zero();
     for (Index x = 0; x < field.cols(); ++x) {
-      if (!std::isnan(field(y, x))) {
-        row += Eigen::Array2d(field(y, x), 1);
-      }
+      if (!std::isnan(field(y, x))) row += Eigen::Array2d(field(y, x), 1);
     }
     return row;
   });

@@ -49,9 +49,7 @@ double CylinderFilm::martin_exit() const {
 }
 
 double CylinderFilm::martin_pressure(double x) const {
-  if (x >= martin_exit()) {
-    return 0;
-  }
+  if (x >= martin_exit()) return 0;
   const double length = std::sqrt(2 * radius * min_film);
   return 12 * viscosity * entrainment_speed * length / (min_film * min_film) *
          martin_shape(std::atan(x / length), martin_exit_angle());
@@ -135,12 +133,8 @@ double CavitatedPocket::pressure(double x) const {
   const auto between = [x](double x1, double p1, double x2, double p2) {
     return p1 + (p2 - p1) * (x - x1) / (x2 - x1);
   };
-  if (x < begin) {
-    return between(0, ambient_pressure, begin, cavity_pressure);
-  }
-  if (x < reformation()) {
-    return cavity_pressure;
-  }
+  if (x < begin) return between(0, ambient_pressure, begin, cavity_pressure);
+  if (x < reformation()) return cavity_pressure;
   return x < end ? between(reformation(), cavity_pressure, end, end_pressure())
                  : between(end, end_pressure(), length, ambient_pressure);
 }
@@ -154,9 +148,7 @@ double CavitatedPocket::load() const {
 
 double barus_pressure(double constant_viscosity_pressure, double pressure_coefficient) {
   const double reduced = pressure_coefficient * constant_viscosity_pressure;
-  if (pressure_coefficient == 0) {
-    return constant_viscosity_pressure;
-  }
+  if (pressure_coefficient == 0) return constant_viscosity_pressure;
   return reduced < 1 ? -std::log1p(-reduced) / pressure_coefficient
                      : std::numeric_limits<double>::infinity();
 }

@@ -32,9 +32,7 @@ double hertz_displacement(const HertzContact& contact, double r) {
   const double a = contact.radius;
   const double R = contact.sphere_radius;
   r = std::abs(r);
-  if (r <= a) {
-    return contact.approach - r * r / (2 * R);
-  }
+  if (r <= a) return contact.approach - r * r / (2 * R);
   return ((2 * a * a - r * r) * std::asin(a / r) + a * std::sqrt(r * r - a * a)) /
          (std::numbers::pi * R);
 }

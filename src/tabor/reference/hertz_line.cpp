@@ -37,9 +37,7 @@ double HertzLineContact::displacement(double x, double datum) const {
 
 double hertz_gap(double sphere_radius, double contact_radius, double r) {
   const double q = std::abs(r) / contact_radius;
-  if (q <= 1) {
-    return 0;
-  }
+  if (q <= 1) return 0;
   return contact_radius * contact_radius / (pi * sphere_radius) *
          (std::sqrt(q * q - 1) + (q * q - 2) * std::acos(1 / q));
 }

@@ -12,9 +12,7 @@ double FlatPunch::load(double indentation) const {
 }
 
 double FlatPunch::pressure(double indentation, double r) const {
-  if (std::abs(r) >= radius) {
-    return 0;
-  }
+  if (std::abs(r) >= radius) return 0;
   return effective_modulus * indentation / (pi * std::sqrt(radius * radius - r * r));
 }
 

@@ -28,9 +28,7 @@ double WestergaardWave::area_fraction(double mean_pressure) const {
 double WestergaardWave::pressure(double mean_pressure, double x) const {
   const double full = full_contact_pressure();
   const double psi = pi * x / wavelength;
-  if (mean_pressure >= full) {
-    return mean_pressure + full * std::cos(2 * psi);
-  }
+  if (mean_pressure >= full) return mean_pressure + full * std::cos(2 * psi);
   // Johnson eq. 13.9, with sin^2(pi a / L) = P / p*.
   const double sine = std::sin(psi);
   const double inside = mean_pressure / full - sine * sine;

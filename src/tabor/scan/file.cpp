@@ -81,9 +81,7 @@ const Format* writer_for(const fs::path& file) {
   const std::string extension = lower(file.extension().string());
   for (const Format& row : format::table()) {
     const auto& known = row.extensions;
-    if (row.write && std::find(known.begin(), known.end(), extension) != known.end()) {
-      return &row;
-    }
+    if (row.write && std::find(known.begin(), known.end(), extension) != known.end()) return &row;
   }
   return nullptr;
 }
@@ -181,8 +179,9 @@ topography::Topography ScanFile::read(const ReadOptions& options) const {
   topography.history = document.history;
   for (std::string& doubt : found) topography.doubts.push_back({.text = std::move(doubt)});
   for (const topography::Doubt& doubt : document.lasting) topography.doubts.push_back(doubt);
-  for (topography::Doubt& doubt : topography::doubts(topography))
+  for (topography::Doubt& doubt : topography::doubts(topography)) {
     topography.doubts.push_back(std::move(doubt));
+  }
   contents.finished({}, 1);
   return topography;
 }

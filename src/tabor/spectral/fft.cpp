@@ -12,9 +12,7 @@ namespace tabor::spectral {
 
 Index good_fft_size(Index n) {
   for (Index size = std::max<Index>(n, 1);; ++size) {
-    if (largest_prime_factor(size) <= 7) {
-      return size;
-    }
+    if (largest_prime_factor(size) <= 7) return size;
   }
 }
 
@@ -113,9 +111,7 @@ void Convolution<Real>::apply(const Real* in, const Multiplier<Real>& multiplier
                     for (Index ky = 1; ky <= n / 2; ++ky) {
                       const Real factor = factors[static_cast<std::size_t>(ky)];
                       column[ky] *= factor;
-                      if (n - ky != ky) {
-                        column[n - ky] *= factor;
-                      }
+                      if (n - ky != ky) column[n - ky] *= factor;
                     }
                     s.columns.inverse(column);
                   });
@@ -143,13 +139,9 @@ void transform_even(const RowTransform<double>& transform, double* values, Index
   const Index n = transform.n();
   Buffer<double, double> sequence(n);
   Buffer<std::complex<double>, double> spectrum(n / 2 + 1);
-  for (Index k = 0; k < n; ++k) {
-    sequence.data()[k] = values[std::min(k, n - k) * stride];
-  }
+  for (Index k = 0; k < n; ++k) sequence.data()[k] = values[std::min(k, n - k) * stride];
   transform.forward(sequence.data(), spectrum.data());
-  for (Index k = 0; k <= n / 2; ++k) {
-    values[k * stride] = spectrum.data()[k].real();
-  }
+  for (Index k = 0; k <= n / 2; ++k) values[k * stride] = spectrum.data()[k].real();
 }
 
 }  // namespace
@@ -159,15 +151,11 @@ Field even_spectrum(Index ny, Index nx, const std::function<double(Index y, Inde
   const RowTransform<double> along_y(ny);
   Field spectrum(nx / 2 + 1, ny / 2 + 1);
   parallel_for(spectrum.rows(), 1, [&](Index x, Index) {
-    for (Index y = 0; y <= ny / 2; ++y) {
-      spectrum(x, y) = value(y, x);
-    }
+    for (Index y = 0; y <= ny / 2; ++y) spectrum(x, y) = value(y, x);
     transform_even(along_y, &spectrum(x, 0), 1);
   });
   parallel_for(spectrum.cols(), 8, [&](Index begin, Index end) {
-    for (Index y = begin; y < end; ++y) {
-      transform_even(along_x, &spectrum(0, y), spectrum.cols());
-    }
+    for (Index y = begin; y < end; ++y) transform_even(along_x, &spectrum(0, y), spectrum.cols());
   });
   return spectrum;
 }

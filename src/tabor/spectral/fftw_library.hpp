@@ -57,9 +57,7 @@ class Buffer {
  public:
   explicit Buffer(Index n)
       : data_(static_cast<T*>(Fftw<Real>::allocate(sizeof(T) * static_cast<std::size_t>(n)))) {
-    if (data_ == nullptr) {
-      throw std::bad_alloc();
-    }
+    if (data_ == nullptr) throw std::bad_alloc();
     ask_for_large_pages(data_, static_cast<std::size_t>(n));
   }
   ~Buffer() { Fftw<Real>::release(data_); }
@@ -84,15 +82,9 @@ class Plan {
   template <typename Make>
   explicit Plan(const Make& make) {
     const std::lock_guard lock(planner_mutex);
-    if (wisdom_is_loaded) {
-      plan_ = make(FFTW_MEASURE | FFTW_WISDOM_ONLY | FFTW_DESTROY_INPUT);
-    }
-    if (plan_ == nullptr) {
-      plan_ = make(FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
-    }
-    if (plan_ == nullptr) {
-      throw Error("FFTW made no plan");
-    }
+    if (wisdom_is_loaded) plan_ = make(FFTW_MEASURE | FFTW_WISDOM_ONLY | FFTW_DESTROY_INPUT);
+    if (plan_ == nullptr) plan_ = make(FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
+    if (plan_ == nullptr) throw Error("FFTW made no plan");
   }
   ~Plan() {
     const std::lock_guard lock(planner_mutex);

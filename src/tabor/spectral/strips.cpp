@@ -78,9 +78,7 @@ void StripTransform<Real>::for_columns(std::span<Strip* const> strips, ColumnRan
         p.columns.forward(values);
       }
       work(range.begin + x, columns);
-      for (Index map = 0; back && map < n_maps; ++map) {
-        p.columns.inverse(column(map, x));
-      }
+      for (Index map = 0; back && map < n_maps; ++map) p.columns.inverse(column(map, x));
     }
     for (Index map = 0; back && map < n_maps; ++map) {
       Strip& strip = *strips[static_cast<std::size_t>(map)];

@@ -26,9 +26,7 @@ Key key_of(const Row& row) {
 template <typename Value>
 std::size_t position(std::vector<Value>& seen, const Value& value) {
   const auto found = std::find(seen.begin(), seen.end(), value);
-  if (found != seen.end()) {
-    return static_cast<std::size_t>(found - seen.begin());
-  }
+  if (found != seen.end()) return static_cast<std::size_t>(found - seen.begin());
   seen.push_back(value);
   return seen.size() - 1;
 }
@@ -51,9 +49,7 @@ std::vector<Key> ordered_keys(const std::vector<Row>& rows) {
   ranked.erase(std::unique(ranked.begin(), ranked.end()), ranked.end());
   std::vector<Key> keys;
   keys.reserve(ranked.size());
-  for (const auto& [rank, key] : ranked) {
-    keys.push_back(key);
-  }
+  for (const auto& [rank, key] : ranked) keys.push_back(key);
   return keys;
 }
 
@@ -106,15 +102,11 @@ Mean mean_of(const std::vector<double>& values) {
   Mean result;
   result.n = values.size();
   const double n = static_cast<double>(values.size());
-  if (values.empty()) {
-    return result;
-  }
+  if (values.empty()) return result;
   result.mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
   if (values.size() >= 2) {
     double squares = 0;
-    for (const double value : values) {
-      squares += (value - result.mean) * (value - result.mean);
-    }
+    for (const double value : values) squares += (value - result.mean) * (value - result.mean);
     result.standard_deviation = std::sqrt(squares / (n - 1));
     result.standard_error = result.standard_deviation / std::sqrt(n);
   }

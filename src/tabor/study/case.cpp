@@ -41,9 +41,7 @@ Task surface_task(const Study& study, const Scan& scan, const std::string& scan_
   body += text_line("unit", scan.read.unit.value_or(""));
   body += text_line("pixel_x_m", scan.read.pixel_x.value_or(0));
   body += text_line("pixel_y_m", scan.read.pixel_y.value_or(0));
-  for (const std::string& step : study.treatment) {
-    body += text_line("step", step);
-  }
+  for (const std::string& step : study.treatment) body += text_line("step", step);
   return task_of("surface", "h5", body);
 }
 
@@ -81,8 +79,9 @@ Task fluid_task(const Study& study, const Task& contact, const Task& film,
                      text_line("lubricant_density_kg_per_m2", study.lubricant_density(condition)) +
                      text_line("sliding_speed_m_per_s", study.sliding_speeds.at(condition.speed)) +
                      text_line("viscosity_Pa_s", oil.viscosity);
-  if (oil.pressure_viscosity)
+  if (oil.pressure_viscosity) {
     body += text_line("pressure_viscosity_per_Pa", *oil.pressure_viscosity);
+  }
   if (oil.eyring_stress) body += text_line("eyring_stress_Pa", *oil.eyring_stress);
   return task_of("fluid", "h5", body);
 }

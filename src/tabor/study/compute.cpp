@@ -25,9 +25,7 @@ Row empty_row(const Study& study, const Scan& scan, const Task& task, std::size_
   row.group = scan.group;
   row.mean_pressure = study.settings.mean_pressures[pressure];
   row.lubricant_density = study.lubricant_density(condition);
-  if (study.flows()) {
-    row.fluid.emplace().sliding_speed = study.sliding_speeds[condition.speed];
-  }
+  if (study.flows()) row.fluid.emplace().sliding_speed = study.sliding_speeds[condition.speed];
   return row;
 }
 

@@ -152,9 +152,7 @@ class Engine {
   void work_with(int n_workers) {
     work_share_.set_workers(n_workers);
     std::vector<std::jthread> workers;
-    for (int i = 1; i < n_workers; ++i) {
-      workers.emplace_back([this] { work(); });
-    }
+    for (int i = 1; i < n_workers; ++i) workers.emplace_back([this] { work(); });
     work();
   }
 

@@ -32,9 +32,7 @@ double value_of(const io::CsvTable& table, std::size_t row, const UnitColumn& co
                     fmt::format("{}:{}: {}", table.name, table.lines[row], column.name));
   }
   for (const auto& [suffix, factor] : column.suffixes) {
-    if (table.find(column.name + suffix)) {
-      return factor * table.number(row, column.name + suffix);
-    }
+    if (table.find(column.name + suffix)) return factor * table.number(row, column.name + suffix);
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
@@ -43,9 +41,7 @@ void check(const io::CsvTable& table) {
   std::vector<std::string> known{"friction", "error", "group"};
   for (const UnitColumn* column : {&kPressure, &kDensity}) {
     known.push_back(column->name);
-    for (const auto& [suffix, factor] : column->suffixes) {
-      known.push_back(column->name + suffix);
-    }
+    for (const auto& [suffix, factor] : column->suffixes) known.push_back(column->name + suffix);
   }
   for (const std::string& column : table.columns) {
     if (std::find(known.begin(), known.end(), column) == known.end()) {

@@ -17,9 +17,7 @@ class MadeOnce {
   template <typename Make>
   std::shared_ptr<const Value> get(const Make& make) {
     const std::lock_guard lock(mutex_);
-    if (error_) {
-      throw InputError(*error_);
-    }
+    if (error_) throw InputError(*error_);
     if (!value_) {
       try {
         value_ = std::make_shared<const Value>(make());

@@ -43,9 +43,7 @@ Store::Store(const fs::path& directory, Use use)
 void Store::remove(const Task& task) const {
   std::error_code error;
   fs::remove(path(task), error);
-  if (error) {
-    throw OutputError(path(task).string() + ": cannot be removed: " + error.message());
-  }
+  if (error) throw OutputError(path(task).string() + ": cannot be removed: " + error.message());
 }
 
 void Store::discard(const std::vector<std::string>& kinds) {
@@ -61,15 +59,11 @@ void Store::discard(const std::vector<std::string>& kinds) {
 
 std::optional<io::FileLock> Store::lock(const std::string& name,
                                         const std::function<void()>& keep_waiting) const {
-  if (use_ == Use::alone) {
-    return std::nullopt;
-  }
+  if (use_ == Use::alone) return std::nullopt;
   const fs::path file = folder_ / (name + ".lock");
   for (;;) {
     std::optional<io::FileLock> lock = io::FileLock::take(file, io::FileLock::Kind::alone);
-    if (lock) {
-      return lock;
-    }
+    if (lock) return lock;
     keep_waiting();
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }

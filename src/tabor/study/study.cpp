@@ -115,9 +115,7 @@ void read_lubricant(const io::Config& config, analysis::FilmSettings& lubricant)
   }
   if (config.has("lubricant.seed")) {
     const std::int64_t seed = config.integer("lubricant.seed");
-    if (seed < 0) {
-      refuse(config, "lubricant.seed", fmt::format("{}", seed), "zero or more");
-    }
+    if (seed < 0) refuse(config, "lubricant.seed", fmt::format("{}", seed), "zero or more");
     lubricant.seed = static_cast<std::uint64_t>(seed);
   }
 }
@@ -177,9 +175,7 @@ Study read_study(const fs::path& file) {
   study.title = config.has("title") ? config.text("title") : file.stem().string();
   analysis::CaseSettings& settings = study.settings;
   settings.friction.shear_strength = positive(config, "shear_strength", dimension::pressure);
-  if (config.has("area")) {
-    settings.friction.area = at_key(config, "area", friction::parse_area);
-  }
+  if (config.has("area")) settings.friction.area = at_key(config, "area", friction::parse_area);
   read_material(config, settings.contact);
   read_contact(config, settings.contact);
   read_lubricant(config, settings.film);

@@ -29,9 +29,7 @@ std::vector<double> read_axis(const io::Config& config, std::string_view key, Di
       refuse(config, key, fmt::format("{}", value),
              zero_allowed ? "values of zero or more" : "values above zero");
     }
-    if (!seen.insert(value).second) {
-      refuse(config, key, "the same value twice", "each value once");
-    }
+    if (!seen.insert(value).second) refuse(config, key, "the same value twice", "each value once");
   }
   return values;
 }

@@ -14,12 +14,8 @@ namespace fs = std::filesystem;
 
 void read_file_options(const io::Config& config, const std::string& prefix,
                        scan::ReadOptions& options) {
-  if (config.has(prefix + "channel")) {
-    options.channel = config.text(prefix + "channel");
-  }
-  if (config.has(prefix + "unit")) {
-    options.unit = config.text(prefix + "unit");
-  }
+  if (config.has(prefix + "channel")) options.channel = config.text(prefix + "channel");
+  if (config.has(prefix + "unit")) options.unit = config.text(prefix + "unit");
   if (config.has(prefix + "pixel")) {
     options.pixel_x = options.pixel_y = positive(config, prefix + "pixel", dimension::length);
   }
@@ -29,9 +25,7 @@ void read_file_options(const io::Config& config, const std::string& prefix,
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
-    if (std::string_view("*?[]\\").find(c) != std::string_view::npos) {
-      result += '\\';
-    }
+    if (std::string_view("*?[]\\").find(c) != std::string_view::npos) result += '\\';
     result += c;
   }
   return result;
@@ -63,9 +57,7 @@ std::vector<std::string> names_beside(const fs::path& file) {
 std::vector<fs::path> find_files(const io::Config& config, const fs::path& folder,
                                  const std::string& name) {
   const fs::path exact = folder / name;
-  if (fs::exists(exact)) {
-    return {exact};
-  }
+  if (fs::exists(exact)) return {exact};
   std::vector<fs::path> files = matches(folder, name);
   if (files.empty()) {
     throw InputError(config.place("file") + ": no file '" + name + "' in " + folder.string() +
@@ -99,9 +91,7 @@ void read_scans(const io::Config& config, const fs::path& folder, Study& study) 
       }
     }
   }
-  if (study.scans.empty()) {
-    throw InputError(config.name() + ": no [[scan]] with a file");
-  }
+  if (study.scans.empty()) throw InputError(config.name() + ": no [[scan]] with a file");
 }
 
 }  // namespace tabor::study

@@ -10,9 +10,7 @@ namespace {
 std::string toml_text(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      result += '\\';
-    }
+    if (c == '"' || c == '\\') result += '\\';
     const bool control = static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
     result += control ? fmt::format("\\u{:04X}", static_cast<unsigned>(c)) : std::string(1, c);
   }
@@ -26,9 +24,7 @@ std::string quantity(double value, std::string_view unit) {
 std::string quantities(const std::vector<double>& values, std::string_view unit) {
   std::vector<std::string> texts;
   texts.reserve(values.size());
-  for (const double value : values) {
-    texts.push_back(quantity(value, unit));
-  }
+  for (const double value : values) texts.push_back(quantity(value, unit));
   return fmt::format("[{}]", fmt::join(texts, ", "));
 }
 
@@ -83,15 +79,9 @@ std::string lubricant_table(const analysis::FilmSettings& lubricant,
 std::string scan_table(const Scan& scan) {
   std::string text = fmt::format("\n[[scan]]\nfile = {}\ngroup = {}\n", toml_text(scan.label),
                                  toml_text(scan.group));
-  if (scan.read.channel) {
-    text += fmt::format("channel = {}\n", toml_text(*scan.read.channel));
-  }
-  if (scan.read.pixel_x) {
-    text += fmt::format("pixel = {}\n", quantity(*scan.read.pixel_x, "m"));
-  }
-  if (scan.read.unit) {
-    text += fmt::format("unit = {}\n", toml_text(*scan.read.unit));
-  }
+  if (scan.read.channel) text += fmt::format("channel = {}\n", toml_text(*scan.read.channel));
+  if (scan.read.pixel_x) text += fmt::format("pixel = {}\n", quantity(*scan.read.pixel_x, "m"));
+  if (scan.read.unit) text += fmt::format("unit = {}\n", toml_text(*scan.read.unit));
   return text;
 }
 
@@ -100,9 +90,7 @@ std::string scan_table(const Scan& scan) {
 std::string to_toml(const Study& study) {
   const analysis::CaseSettings& settings = study.settings;
   std::vector<std::string> steps;
-  for (const std::string& step : study.treatment) {
-    steps.push_back(toml_text(step));
-  }
+  for (const std::string& step : study.treatment) steps.push_back(toml_text(step));
   std::string text =
       fmt::format("title = {}\nshear_strength = {}\narea = {}\n", toml_text(study.title),
                   quantity(settings.friction.shear_strength, "Pa"),
@@ -120,9 +108,7 @@ std::string to_toml(const Study& study) {
     text += fmt::format("sliding_speed = {}\n", quantities(study.sliding_speeds, "m/s"));
   }
   text += lubricant_table(settings.film, settings.fluid);
-  for (const Scan& scan : study.scans) {
-    text += scan_table(scan);
-  }
+  for (const Scan& scan : study.scans) text += scan_table(scan);
   if (study.experiment) {
     text += fmt::format(
         "\n[experiment]\nfile = {}\n",

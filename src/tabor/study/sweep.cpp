@@ -73,9 +73,7 @@ Outcome run(const Study& study, const std::filesystem::path& directory,
   } catch (...) {
     error = error ? error : std::current_exception();
   }
-  if (error) {
-    std::rethrow_exception(error);
-  }
+  if (error) std::rethrow_exception(error);
   return outcome;
 }
 

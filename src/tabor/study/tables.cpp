@@ -87,9 +87,7 @@ void write_surface_facts(io::Hdf5Writer& writer, const std::string& group,
 void write_links(io::Hdf5Writer& writer, const std::string& group, const Store& store,
                  const ScanTasks& tasks, std::size_t n_films) {
   const auto link = [&](const std::string& name, const Task& task, const std::string& target) {
-    if (store.has(task)) {
-      writer.external_link(group + "/" + name, "store/" + task.file, target);
-    }
+    if (store.has(task)) writer.external_link(group + "/" + name, "store/" + task.file, target);
   };
   link("surface", tasks.surface, "/surface");
   link("psd", tasks.surface, "/psd");
@@ -139,9 +137,7 @@ std::vector<Row> rows_in(const Store& store, const std::vector<ScanTasks>& tasks
   for (const ScanTasks& scan : tasks) {
     for (const std::vector<Task>& cases : scan.cases) {
       for (const Task& task : cases) {
-        if (store.has(task) && defect(store, task).empty()) {
-          rows.push_back(read_row(store, task));
-        }
+        if (store.has(task) && defect(store, task).empty()) rows.push_back(read_row(store, task));
       }
     }
   }
@@ -187,9 +183,7 @@ void write_tables(const Store& store, const Study& study, const std::vector<Scan
   io::write_datasets(writer, "/table", row_columns(study.flows()), rows, analysis::media::kTable);
   io::write_datasets(writer, "/averages", average_columns(study.flows()), means);
   write_scans(writer, store, study, tasks);
-  if (study.experiment) {
-    write_experiment(writer, *study.experiment);
-  }
+  if (study.experiment) write_experiment(writer, *study.experiment);
   writer.commit();
 }
 

@@ -51,9 +51,7 @@ analysis::Warnings read_warnings(const io::Hdf5Reader& reader, const std::string
 }
 
 void write_attributes(io::Hdf5Writer& writer, const std::string& path, const Scalars& scalars) {
-  for (const auto& [name, value] : scalars) {
-    writer.attribute(path, name, value);
-  }
+  for (const auto& [name, value] : scalars) writer.attribute(path, name, value);
 }
 
 void write_root(io::Hdf5Writer& writer, const std::string& default_group) {

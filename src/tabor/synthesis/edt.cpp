@@ -82,9 +82,7 @@ Crater draw_crater(const CounterRandom& random, std::uint64_t number, const Grid
 /// Distance from the centre over the outline's radius in that direction.
 double relative_radius(const Crater& crater, double x, double y) {
   const double r = std::hypot(x, y);
-  if (r == 0) {
-    return 0;
-  }
+  if (r == 0) return 0;
   const std::complex<double> direction(x / r, y / r);
   std::complex<double> turn = direction;
   double outline = 1;
@@ -160,9 +158,7 @@ void normalise(Field& z) {
   z -= sum(z) / static_cast<double>(z.size());
   const double square = sum_over_rows<1>(
       z.rows(), [&](Index y) { return Eigen::Array<double, 1, 1>(z.row(y).square().sum()); })[0];
-  if (square > 0) {
-    z /= std::sqrt(square / static_cast<double>(z.size()));
-  }
+  if (square > 0) z /= std::sqrt(square / static_cast<double>(z.size()));
 }
 
 Field crater_field(const Grid& grid, std::uint64_t seed) {
@@ -295,9 +291,7 @@ topography::Topography edt(const Edt& recipe) {
   check_recipe(recipe);
   const Grid grid = recipe.periodic ? recipe.grid : parent_grid(recipe.grid);
   Field z = virgin_surface(grid, recipe);
-  if (!recipe.periodic) {
-    z = Field(z.topLeftCorner(recipe.grid.ny, recipe.grid.nx));
-  }
+  if (!recipe.periodic) z = Field(z.topLeftCorner(recipe.grid.ny, recipe.grid.nx));
   scale_to(z, recipe.mean_abs_height);
   if (recipe.stage == EdtStage::after) {
     slide(z, recipe.grid, recipe);

@@ -56,9 +56,7 @@ class RingSpectrum {
       for (Index kx = 0; kx < modes.cols(); ++kx) {
         const double q =
             elliptic_wavevector(spectral::wavevector(kx, grid.nx, grid.lx), qy, stretch);
-        if (q > 0) {
-          add(count, log_q, power, q, std::norm(modes(row, kx)));
-        }
+        if (q > 0) add(count, log_q, power, q, std::norm(modes(row, kx)));
       }
     }
     for (std::size_t i = 0; i < count.size(); ++i) {
@@ -74,12 +72,8 @@ class RingSpectrum {
   /// Log power at log q, interpolated between rings, constant beyond the ends.
   double at(double log_q) const {
     const auto above = std::upper_bound(log_q_.begin(), log_q_.end(), log_q);
-    if (above == log_q_.begin()) {
-      return log_power_.front();
-    }
-    if (above == log_q_.end()) {
-      return log_power_.back();
-    }
+    if (above == log_q_.begin()) return log_power_.front();
+    if (above == log_q_.end()) return log_power_.back();
     const auto i = static_cast<std::size_t>(above - log_q_.begin());
     const double t = (log_q - log_q_[i - 1]) / (log_q_[i] - log_q_[i - 1]);
     return log_power_[i - 1] + t * (log_power_[i] - log_power_[i - 1]);
@@ -140,9 +134,7 @@ void impose_power_law(Field& height, const Grid& grid, double hurst, double q_ro
   HalfSpectrum modes(grid.ny, grid.nx / 2 + 1);
   fft.forward(height.data(), modes.data());
   const RingSpectrum rings(modes, grid, stretch);
-  if (rings.empty()) {
-    return;
-  }
+  if (rings.empty()) return;
   const double log_roll_off = std::log(q_roll_off);
   for_each_row(grid.ny, [&](Index row) {
     const double qy = spectral::wavevector(row, grid.ny, grid.ly);

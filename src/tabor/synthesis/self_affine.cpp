@@ -38,9 +38,7 @@ Corners corners_of(const SelfAffine& recipe) {
 }
 
 double power_law(double q, const Corners& corners, double hurst, double unit) {
-  if (q < corners.lowest || q > corners.highest) {
-    return 0;
-  }
+  if (q < corners.lowest || q > corners.highest) return 0;
   return std::pow(std::max(q, corners.roll_off) / unit, -2 * (1 + hurst));
 }
 

@@ -34,9 +34,7 @@ std::string_view name_of(FilterKind kind) { return kKinds[static_cast<std::size_
 FilterKind parse_kind(std::string_view name, std::string_view step) {
   std::vector<std::string> names;
   for (const auto& [known, kind] : kKinds) {
-    if (known == name) {
-      return kind;
-    }
+    if (known == name) return kind;
     names.emplace_back(known);
   }
   throw InputError(fmt::format("filter of {}", step), fmt::format("'{}'", name),
@@ -53,14 +51,10 @@ FilterKind parse_kind(std::string_view name, std::string_view step) {
 /// "8um", "(8 um)" -> metres.
 double parse_wavelength(std::string_view text, std::string_view whole, std::string_view step) {
   text = trim(text);
-  if (text.starts_with('(') && text.ends_with(')')) {
-    text = text.substr(1, text.size() - 2);
-  }
+  if (text.starts_with('(') && text.ends_with(')')) text = text.substr(1, text.size() - 2);
   if (parse_number(text)) refuse_cutoff(whole, step);  // a unit is missing
   const double wavelength = parse_si(text, dimension::length, fmt::format("--{}", step));
-  if (!(wavelength > 0) || !std::isfinite(wavelength)) {
-    refuse_cutoff(whole, step);
-  }
+  if (!(wavelength > 0) || !std::isfinite(wavelength)) refuse_cutoff(whole, step);
   return wavelength;
 }
 
@@ -71,9 +65,7 @@ void parse_cutoff(Filter& filter, std::string_view cutoff, std::string_view step
     return;
   }
   const auto cycles = parse_number(cutoff.substr(0, slash));
-  if (!cycles || !(*cycles > 0) || !std::isfinite(*cycles)) {
-    refuse_cutoff(cutoff, step);
-  }
+  if (!cycles || !(*cycles > 0) || !std::isfinite(*cycles)) refuse_cutoff(cutoff, step);
   const auto below = trim(cutoff.substr(slash + 1));
   if (below == "L") {
     filter.cycles_per_side = *cycles;
@@ -115,9 +107,7 @@ Gaussian gaussian_of(const Filter& filter, double wavelength, bool periodic) {
 std::string cutoff_text(const Filter& filter, double side) {
   const double wavelength = filter.cutoff_wavelength(side);
   std::string text = fmt::format("cutoff wavelength {}", format_si(wavelength, "m"));
-  if (filter.cycles_per_side > 0) {
-    text += fmt::format(" (L = {})", format_si(side, "m"));
-  }
+  if (filter.cycles_per_side > 0) text += fmt::format(" (L = {})", format_si(side, "m"));
   switch (filter.kind) {
     case FilterKind::hann:
       return "radial, " + text;
@@ -186,13 +176,9 @@ Topography filtered(Topography topography, const Filter& filter, bool high) {
   const double side = filter_side(before);
   Topography result = before;
   result.height = low_pass(before.height, before.grid, filter, side, before.periodic);
-  if (high) {
-    result.height = before.height - result.height;
-  }
+  if (high) result.height = before.height - result.height;
   const auto doubt = doubt_about(filter, filter.cutoff_wavelength(side), before.grid);
-  if (!doubt.empty()) {
-    result.doubts.push_back({.text = doubt, .code = "filter"});
-  }
+  if (!doubt.empty()) result.doubts.push_back({.text = doubt, .code = "filter"});
   result.history.push_back(describe(high ? "highpass" : "lowpass", filter, side, before, result));
   return result;
 }
@@ -203,9 +189,7 @@ Filter parse_filter(std::string_view text, std::string_view step) {
   Filter filter;
   const auto colon = text.find(':');
   filter.kind = parse_kind(trim(text.substr(0, colon)), step);
-  if (colon == std::string_view::npos) {
-    refuse_cutoff("", step);
-  }
+  if (colon == std::string_view::npos) refuse_cutoff("", step);
   parse_cutoff(filter, trim(text.substr(colon + 1)), step);
   return filter;
 }

@@ -47,9 +47,7 @@ struct Level {
 template <typename Body>
 void for_each_node(std::size_t n, const Body& body) {
   parallel_for(static_cast<Index>(n), kBlock, [&body](Index begin, Index end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      body(i);
-    }
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) body(i);
   });
 }
 
@@ -125,9 +123,7 @@ void cycle(std::vector<Level>& levels, std::size_t depth) {
 Level aggregate(const Level& fine, Node width) {
   const Node coarse_width = width / 2 + 1;
   Node height = 0;
-  for (const auto& [x, y] : fine.position) {
-    height = std::max(height, y / 2 + 1);
-  }
+  for (const auto& [x, y] : fine.position) height = std::max(height, y / 2 + 1);
   std::vector<Node> parent_at(
       static_cast<std::size_t>(coarse_width) * static_cast<std::size_t>(height), kNone);
   std::vector<std::size_t> parent(fine.size());
@@ -152,9 +148,7 @@ Level aggregate(const Level& fine, Node width) {
     coarse.diagonal[p] += fine.diagonal[i];
     for (std::size_t k = 0; k < 4; ++k) {
       const Node j = fine.neighbours[i][k];
-      if (j == kNone) {
-        continue;
-      }
+      if (j == kNone) continue;
       const std::size_t q = parent[static_cast<std::size_t>(j)];
       if (q == p) {
         coarse.diagonal[p] -= fine.weights[i][k];
@@ -233,9 +227,7 @@ void count_components(const Level& level, HarmonicFill& report) {
   std::vector<Node> stack;
   for (std::size_t start = 0; start < level.size(); ++start) {
     go_on_or_throw(start);
-    if (seen[start]) {
-      continue;
-    }
+    if (seen[start]) continue;
     ++report.n_holes;
     Index size = 0;
     seen[start] = true;

@@ -53,17 +53,13 @@ double crossing(const Parabola& left, const Parabola& right) {
 std::vector<Parabola> lower_envelope(const RowMap& rows, Index y, const Grid& grid) {
   std::vector<Parabola> envelope;
   for (Index x = 0; x < rows.cols(); ++x) {
-    if (rows(y, x) == kNoRow) {
-      continue;
-    }
+    if (rows(y, x) == kNoRow) continue;
     const double distance = static_cast<double>(rows(y, x) - y) * grid.dy();
     Parabola next{static_cast<double>(x) * grid.dx(), distance * distance,
                   -std::numeric_limits<double>::infinity(), x};
     while (!envelope.empty()) {
       next.from = crossing(envelope.back(), next);
-      if (next.from > envelope.back().from) {
-        break;
-      }
+      if (next.from > envelope.back().from) break;
       envelope.pop_back();
       next.from = -std::numeric_limits<double>::infinity();
     }
@@ -109,9 +105,7 @@ FillResult fill_by_laplace(const Field& height, const Grid& grid, const Observer
 }
 
 std::string describe(const FillResult& result, Fill fill, Index n_pixels) {
-  if (result.n_filled == 0) {
-    return fmt::format("fill={}: no holes", name_of(fill));
-  }
+  if (result.n_filled == 0) return fmt::format("fill={}: no holes", name_of(fill));
   std::string text =
       fmt::format("fill={}: {} pixels ({:.3g} %)", name_of(fill), result.n_filled,
                   100 * static_cast<double>(result.n_filled) / static_cast<double>(n_pixels));

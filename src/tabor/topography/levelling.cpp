@@ -48,9 +48,7 @@ struct Term {
 std::vector<Term> terms_of(int degree) {
   std::vector<Term> terms;
   for (int total = 0; total <= degree; ++total) {
-    for (int j = 0; j <= total; ++j) {
-      terms.push_back({total - j, j});
-    }
+    for (int j = 0; j <= total; ++j) terms.push_back({total - j, j});
   }
   return terms;
 }
@@ -69,9 +67,7 @@ class FormRows {
   void subtract(Index y, double* rest) const {
     const Legendre row = polynomial(along_y_[static_cast<std::size_t>(y)]);
     const double* z = &height_(y, 0);
-    for (std::size_t x = 0; x < along_x_.size(); ++x) {
-      rest[x] = z[x] - (row * along_x_[x]).sum();
-    }
+    for (std::size_t x = 0; x < along_x_.size(); ++x) rest[x] = z[x] - (row * along_x_[x]).sum();
   }
 
   const std::vector<Term>& terms() const { return terms_; }

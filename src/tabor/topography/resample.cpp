@@ -37,9 +37,7 @@ std::vector<double> natural_moments(const std::vector<double>& z) {
     factor[i] = 1 / pivot;
     moment[i] = (6 * (z[i - 1] - 2 * z[i] + z[i + 1]) - moment[i - 1]) / pivot;
   }
-  for (std::size_t i = n - 1; i-- > 1;) {
-    moment[i] -= factor[i] * moment[i + 1];
-  }
+  for (std::size_t i = n - 1; i-- > 1;) moment[i] -= factor[i] * moment[i + 1];
   return moment;
 }
 
@@ -70,9 +68,7 @@ void spline_row(const double* row, Index n_old, double* result, Index n_new, boo
 
 /// Rows resampled to n columns.
 Field along_rows(const Field& field, Index n, bool periodic) {
-  if (n == field.cols()) {
-    return field;
-  }
+  if (n == field.cols()) return field;
   Field result(field.rows(), n);
   for_each_row(field.rows(), [&](Index y) {
     const auto n_old = static_cast<double>(field.cols()), n_new = static_cast<double>(n);

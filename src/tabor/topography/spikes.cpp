@@ -45,9 +45,7 @@ void take_neighbours(const Field& height, Index y, Index x, Index window,
   for (Index v = std::max<Index>(0, y - reach); v <= std::min(height.rows() - 1, y + reach); ++v) {
     for (Index u = std::max<Index>(0, x - reach); u <= std::min(height.cols() - 1, x + reach);
          ++u) {
-      if ((v != y || u != x) && !std::isnan(height(v, u))) {
-        values.push_back(height(v, u));
-      }
+      if ((v != y || u != x) && !std::isnan(height(v, u))) values.push_back(height(v, u));
     }
   }
   if (values.size() < kFewestNeighbours) values.clear();
@@ -62,9 +60,7 @@ double median_around(const Field& height, Index y, Index x, Index window,
 
 /// Robust standard deviation of values about their median; reorders and changes them.
 double spread_about(double middle, std::vector<double>& values) {
-  for (double& value : values) {
-    value = std::abs(value - middle);
-  }
+  for (double& value : values) value = std::abs(value - middle);
   return kSigmaOfMad * median(values);
 }
 
@@ -97,9 +93,7 @@ double usual_distance(const Field& height, Index window) {
     }
   });
   std::erase_if(known, [](double distance) { return std::isnan(distance); });
-  if (known.empty()) {
-    return std::numeric_limits<double>::infinity();
-  }
+  if (known.empty()) return std::numeric_limits<double>::infinity();
   const double mean =
       std::accumulate(known.begin(), known.end(), 0.0) / static_cast<double>(known.size());
   const double middle = median(known);
@@ -172,9 +166,7 @@ class SpikeTest {
 
   /// `values` is room to work in.
   bool is_spike(Index y, Index x, std::vector<double>& values) const {
-    if (std::isnan(height_(y, x)) || most_neighbours_are_near(y, x)) {
-      return false;
-    }
+    if (std::isnan(height_(y, x)) || most_neighbours_are_near(y, x)) return false;
     const double middle = median_around(height_, y, x, window_, values);
     const double distance = std::abs(height_(y, x) - middle);  // NaN: too few neighbours
     return distance > limit_ && distance > threshold_ * spread_about(middle, values);
@@ -222,25 +214,19 @@ SpikeRule parse_spike_rule(std::string_view text) {
     throw InputError("despike", text.empty() ? "no value" : fmt::format("'{}'", text),
                      "auto, or SIGMAS[,WINDOW[,hole|median]]", "e.g. despike=8,5,median");
   };
-  if (text.empty() || parts.size() > 3) {
-    refuse();
-  }
+  if (text.empty() || parts.size() > 3) refuse();
   if (trim(parts[0]) != "auto") {
     const auto threshold = parse_number(trim(parts[0]));
     threshold ? void(rule.threshold = *threshold) : refuse();
   }
   if (parts.size() > 1) {
     const auto window = parse_number(trim(parts[1]));
-    if (!window || *window != std::round(*window) || std::abs(*window) > 1e6) {
-      refuse();
-    }
+    if (!window || *window != std::round(*window) || std::abs(*window) > 1e6) refuse();
     rule.window = static_cast<Index>(*window);
   }
   if (parts.size() > 2) {
     rule.fill_with_median = trim(parts[2]) == "median";
-    if (!rule.fill_with_median && trim(parts[2]) != "hole") {
-      refuse();
-    }
+    if (!rule.fill_with_median && trim(parts[2]) != "hole") refuse();
   }
   check(rule);
   return rule;

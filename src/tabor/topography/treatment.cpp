@@ -39,17 +39,13 @@ struct Step {
 
 Action parse_level(const std::string& argument) {
   const auto form = form_from(argument);
-  if (!form) {
-    refuse("level", argument, {"none", "mean", "poly2", "poly3", "poly4", "plane"});
-  }
+  if (!form) refuse("level", argument, {"none", "mean", "poly2", "poly3", "poly4", "plane"});
   return [form](Topography t, const Observer&) { return level(std::move(t), *form); };
 }
 
 Action parse_fill(const std::string& argument) {
   const auto fill = fill_from(argument);
-  if (!fill) {
-    refuse("fill", argument, {"nearest", "mean", "harmonic"});
-  }
+  if (!fill) refuse("fill", argument, {"nearest", "mean", "harmonic"});
   return [fill](Topography t, const Observer& observer) {
     return fill_holes(std::move(t), *fill, observer);
   };
@@ -151,9 +147,7 @@ Action parse_mirror(const std::string& argument) {
 }
 
 Action parse_flip(const std::string& argument) {
-  if (argument != "x" && argument != "y") {
-    refuse("flip", argument, {"y", "x"});
-  }
+  if (argument != "x" && argument != "y") refuse("flip", argument, {"y", "x"});
   return [axis = argument == "x" ? Axis::x : Axis::y](Topography t, const Observer&) {
     return flip(std::move(t), axis);
   };
@@ -188,9 +182,7 @@ const std::array<Step, 10>& steps() {
 /// "level=plane" -> ("level", "plane").
 std::pair<std::string, std::string> split_step(std::string_view text) {
   const auto equals = text.find('=');
-  if (equals == std::string_view::npos) {
-    return {std::string(trim(text)), ""};
-  }
+  if (equals == std::string_view::npos) return {std::string(trim(text)), ""};
   return {std::string(trim(text.substr(0, equals))), std::string(trim(text.substr(equals + 1)))};
 }
 
@@ -198,9 +190,7 @@ Action parse_step(std::string_view text) {
   const auto [name, argument] = split_step(text);
   std::vector<std::string> names;
   for (const Step& step : steps()) {
-    if (step.description.name == name) {
-      return step.parse(argument);
-    }
+    if (step.description.name == name) return step.parse(argument);
     names.push_back(step.description.name);
   }
   throw InputError("treatment", fmt::format("'{}'", text),
@@ -211,16 +201,12 @@ Action parse_step(std::string_view text) {
 
 std::vector<StepDescription> treatment_steps() {
   std::vector<StepDescription> descriptions;
-  for (const Step& step : steps()) {
-    descriptions.push_back(step.description);
-  }
+  for (const Step& step : steps()) descriptions.push_back(step.description);
   return descriptions;
 }
 
 void check(const Treatment& treatment) {
-  for (const auto& step : treatment) {
-    parse_step(step);
-  }
+  for (const auto& step : treatment) parse_step(step);
 }
 
 Topography apply(const Treatment& treatment, Topography topography, const Observer& observer) {

@@ -52,9 +52,7 @@ TEST(PointMap, ReproducesParabolasBetweenItsPoints) {
   const Field heights = point_map(problem, map_of(parabolas, 41, 5));
   const Eigen::ArrayXd x = point_x(problem);
   for (Index j = 0; j < 17; ++j) {
-    for (Index i = 0; i < 17; ++i) {
-      EXPECT_NEAR(heights(j, i), parabolas(x[i], x[j]), 1e-12);
-    }
+    for (Index i = 0; i < 17; ++i) EXPECT_NEAR(heights(j, i), parabolas(x[i], x[j]), 1e-12);
   }
 }
 

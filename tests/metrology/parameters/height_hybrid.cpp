@@ -20,9 +20,7 @@ std::vector<Parameter> height_and_hybrid(const topography::Topography& topograph
 
 double value(const topography::Topography& topography, const std::string& symbol) {
   for (const Parameter& parameter : height_and_hybrid(topography)) {
-    if (parameter.symbol == symbol) {
-      return parameter.value;
-    }
+    if (parameter.symbol == symbol) return parameter.value;
   }
   ADD_FAILURE() << "no parameter " << symbol;
   return kHole;

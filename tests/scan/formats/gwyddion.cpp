@@ -16,8 +16,9 @@ TEST_P(ThroughGwyddion, HeightsAndMaskComeBackEqual) {
   if (!gwyddion) GTEST_SKIP() << "Gwyddion is not installed";
   const Folder folder;
   topography::Topography map = test::small_map();
-  if (std::string(GetParam()) == ".gsf")
+  if (std::string(GetParam()) == ".gsf") {
     map.height = map.height.cast<float>().cast<double>().eval();
+  }
   // Gwyddion 2.62 does not know BAD, the standard's word for a hole in ascii SDF.
   if (std::string(GetParam()) == ".asdf") map.height = map.height.isNaN().select(0, map.height);
   const auto file = folder / (std::string("map") + GetParam());

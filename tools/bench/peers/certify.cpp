@@ -111,9 +111,7 @@ void carry_load(Field& pressure, const contact::Problem& problem) {
   std::copy_if(pixels.begin(), pixels.end(), std::back_inserter(chosen), is_chosen);
   contact::project_on_load(chosen, load, problem.saturation_pressure);
   auto next = chosen.begin();
-  for (double& p : pixels) {
-    p = is_chosen(p) ? *next++ : 0;
-  }
+  for (double& p : pixels) p = is_chosen(p) ? *next++ : 0;
 }
 
 double certificate(const Request& request, const Field& pressure,

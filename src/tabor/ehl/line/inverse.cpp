@@ -93,9 +93,7 @@ void LineInverse::add_elastic_rows(Index node) {
     band_.at(q, q) = is_end ? std::exp(decay_[m]) * scale : 1;
     if (node > 0) band_.at(q, q - block_) = -scale;
     if (node + 1 < n_) band_.at(q, q + block_) = -scale;
-    for (Index k = first_pressure; k <= p; ++k) {
-      band_.at(q, k) = -2 * std::sinh(decay_[m]) * scale;
-    }
+    for (Index k = first_pressure; k <= p; ++k) band_.at(q, k) = -2 * std::sinh(decay_[m]) * scale;
     if (!is_end) band_.at(h, q) = -weight_[m];
   }
   band_.at(h, h) = is_end ? 1 : -2;

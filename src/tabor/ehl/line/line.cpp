@@ -158,9 +158,7 @@ void check_line(const LineProblem& problem) {
   check_positive("load", problem.load, "N/m");
   check_positive("effective modulus", problem.effective_modulus, "Pa");
   check_positive("entrainment speed", problem.entrainment_speed, "m/s");
-  if (problem.cavitation == LineCavitation::penalty) {
-    check_positive("penalty", problem.penalty, "");
-  }
+  if (problem.cavitation == LineCavitation::penalty) check_positive("penalty", problem.penalty, "");
   if (problem.nodes < 3) {
     throw InputError("nodes of a line contact", fmt::format("{}", problem.nodes), "3 or more", "");
   }
@@ -194,9 +192,7 @@ LineResult solve_line(const LineProblem& problem, const Observer& observer) {
   result.mass_error = outcome.mass_error;
   result.load_error = outcome.load_error;
   result.contact_error = outcome.contact_error;
-  if (film.has_asperities()) {
-    result.asperity_pressure = film.touching_pressure(state);
-  }
+  if (film.has_asperities()) result.asperity_pressure = film.touching_pressure(state);
   measure_line(problem, result);
   return result;
 }

@@ -22,9 +22,7 @@ struct InfluenceTable {
   template <typename Influence>
   explicit InfluenceTable(const Influence& influence) {
     for (Index dy = -kHalf; dy <= kHalf; ++dy) {
-      for (Index dx = -kHalf; dx <= kHalf; ++dx) {
-        value(dy + kHalf, dx + kHalf) = influence(dy, dx);
-      }
+      for (Index dx = -kHalf; dx <= kHalf; ++dx) value(dy + kHalf, dx + kHalf) = influence(dy, dx);
     }
   }
   double operator()(Index dy, Index dx) const { return value(dy + kHalf, dx + kHalf); }

@@ -335,8 +335,9 @@ PointFilm::Outcome MixedFilm::solve(MixedState& state, const Observer& observer)
   convergence.tolerance = tolerance;
   lift(state);
   Linear linear = linearize(state);
-  if (asks_to_stop(observer, {.stage = "mixed point contact"}))
+  if (asks_to_stop(observer, {.stage = "mixed point contact"})) {
     convergence.status = Status::stopped;
+  }
   while (convergence.status == Status::iteration_limit &&
          convergence.iterations < problem_.max_iterations) {
     ++convergence.iterations;

@@ -125,9 +125,7 @@ PointResult solve_point(const PointProblem& problem, const PointResult* start,
     state = state_of(film, *start);
     outcome = film.solve(state, {}, observer);
   }
-  if (outcome.convergence.failed()) {
-    outcome = outcome + solve_cold(problem, film, state, observer);
-  }
+  if (outcome.convergence.failed()) outcome = outcome + solve_cold(problem, film, state, observer);
   PointResult smooth = result_of(problem, film, state, outcome);
   const bool is_found = smooth.convergence.converged();
   const bool is_open = smooth.film.minCoeff() >= problem.asperities.boundary_film;

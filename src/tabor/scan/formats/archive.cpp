@@ -62,9 +62,7 @@ const io::ZipEntry& Archive::find(std::string link) const {
   const io::ZipEntry* found = nullptr;
   for (const io::ZipEntry& entry : zip_.entries()) {
     if (with_slashes(entry.name) != folder_ + link) continue;
-    if (found != nullptr) {
-      refuse(contents_, "two entries named '" + link + "'", "one", kDamaged);
-    }
+    if (found != nullptr) refuse(contents_, "two entries named '" + link + "'", "one", kDamaged);
     found = &entry;
   }
   if (found == nullptr) {

@@ -174,9 +174,7 @@ void write_gwy(const topography::Topography& topography, const std::filesystem::
   GwyBuilder root("GwyContainer");
   root.add("/0/data", data_field(topography.grid, hole.select(mean, topography.height), "m"));
   root.add("/0/data/title", topography.channel.empty() ? "height" : topography.channel);
-  if (hole.any()) {
-    root.add("/0/mask", data_field(topography.grid, hole.cast<double>(), ""));
-  }
+  if (hole.any()) root.add("/0/mask", data_field(topography.grid, hole.cast<double>(), ""));
   GwyBuilder meta("GwyContainer");
   std::map<std::string, std::string> entries = topography.metadata;
   entries["Source"] = topography.source;

@@ -13,9 +13,7 @@ Field guarded_heights(const Contents& contents, std::array<Index, 2> shape,
                       const io::SendRows& send) {
   auto heights = io::guarded_hdf5_map(contents.file, shape, send,
                                       [&contents](double share) { contents.finished({}, share); });
-  if (!heights) {
-    refuse(contents, "heights in damaged HDF5 blocks", "a scan", kDamaged);
-  }
+  if (!heights) refuse(contents, "heights in damaged HDF5 blocks", "a scan", kDamaged);
   return std::move(*heights);
 }
 

@@ -158,9 +158,7 @@ struct Places {
 std::optional<Places> places_of(const TextNumbers& numbers, const TextHeader& header) {
   if (header.is_map) return std::nullopt;
   const std::size_t n_columns = numbers.n_columns();
-  if (!header.names_places()) {
-    return n_columns == 3 ? std::optional(Places{0, 1, 2}) : std::nullopt;
-  }
+  if (!header.names_places()) return n_columns == 3 ? std::optional(Places{0, 1, 2}) : std::nullopt;
   const std::size_t x = *header.column('x'), y = *header.column('y');
   if (const auto z = header.column('z')) return Places{x, y, *z};
   // A height by another name stands in the column that is left.

@@ -57,9 +57,7 @@ void read_assignment(const Contents& contents, std::string_view line, TextHeader
   if (key == "h") {
     header.ny = positive(contents, value.substr(0, value.find(' ')));
     const std::size_t second = value.find("w=");
-    if (second != std::string_view::npos) {
-      header.nx = positive(contents, value.substr(second + 2));
-    }
+    if (second != std::string_view::npos) header.nx = positive(contents, value.substr(second + 2));
   }
   if (key == "pixel size") header.pixel = length(contents, value);
   if (key == "data unit" && header.unit.empty()) header.unit = value;

@@ -250,9 +250,7 @@ std::string instrument_of(const io::XmlElement& root) {
   std::string name;
   for (const char* part : {"Manufacturer", "Model"}) {
     const std::string text(trim(instrument.at(part).text()));
-    if (!text.empty() && lower(text) != "not available") {
-      name += (name.empty() ? "" : " ") + text;
-    }
+    if (!text.empty() && lower(text) != "not available") name += (name.empty() ? "" : " ") + text;
   }
   return name;
 }
