@@ -143,10 +143,11 @@ int sweep(const Request& request, Context& context) {
   try {
     outcome = study::run(study, request.folder(), options_for(request, context));
   } catch (const Interrupted&) {
-    return fail(context,
-                fmt::format("interrupted; the finished cases are kept in {}; the same command continues",
-                            printable(request.folder().string())),
-                kInterrupted);
+    return fail(
+        context,
+        fmt::format("interrupted; the finished cases are kept in {}; the same command continues",
+                    printable(request.folder().string())),
+        kInterrupted);
   }
   for (const std::string& warning : outcome.warnings) context.warn(warning);
   context.warn(outcome.findings);

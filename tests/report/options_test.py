@@ -11,7 +11,7 @@ from synthetic_single import write_single
 from synthetic_study import Recipe
 from tabor_report import applicable, build, cli
 from tabor_report.errors import UsageError
-from test_ehl import impact_file, sweep_file
+from ehl_test import impact_file, sweep_file
 
 OF_STUDIES = (["--scan", "0"], ["--all-scans"], ["--pressure", "5MPa"], ["--density", "0.9g/m^2"],
               ["--error-bar", "std"], ["--error-bar", "sem"])
