@@ -1,4 +1,4 @@
-"""Which options of the report make sense for which kind of result; the others are refused."""
+"""Which options of the report make sense for which kind of result; the others are rejected."""
 
 from tabor_report.errors import UsageError
 

@@ -18,10 +18,10 @@ _FOREIGN_LINK = "a link to a file that is not in its store"
 _VALUES_ELSEWHERE = "values kept in other files"
 _TOO_LARGE = "a data set that claims more than the file holds"
 _DAMAGED = 10  # exit codes of the copy
-_REFUSALS = {11: _FOREIGN_LINK, 12: _VALUES_ELSEWHERE, 13: _TOO_LARGE}
+_REJECTIONS = {11: _FOREIGN_LINK, 12: _VALUES_ELSEWHERE, 13: _TOO_LARGE}
 
 
-class _Refusal(Exception):
+class _Rejection(Exception):
     pass
 
 
@@ -47,7 +47,7 @@ def problem(path):
         _try_and_exit(path, status.st_size)
     _, ending = os.waitpid(child, 0)
     code = os.waitstatus_to_exitcode(ending)
-    return "" if code == 0 else _REFUSALS.get(code, "a damaged file")
+    return "" if code == 0 else _REJECTIONS.get(code, "a damaged file")
 
 
 def _try_and_exit(path, size):
@@ -60,8 +60,8 @@ def _try_and_exit(path, size):
             os._exit(0)  # what is wrong is said where it is opened
         _read_all(file)
         code = 0
-    except _Refusal as refusal:
-        code = next(code for code, text in _REFUSALS.items() if text == str(refusal))
+    except _Rejection as rejection:
+        code = next(code for code, text in _REJECTIONS.items() if text == str(rejection))
     finally:
         os._exit(code)
 
@@ -103,7 +103,7 @@ def _check_link(group, name):
         target = PurePosixPath(link.filename)
         is_store = target.parent == PurePosixPath("store") and target.suffix == ".h5"
         if not is_store or not group.name.startswith("/scans/") or _is_no_file(group, link):
-            raise _Refusal(_FOREIGN_LINK)
+            raise _Rejection(_FOREIGN_LINK)
 
 
 def _is_no_file(group, link):
@@ -115,9 +115,9 @@ def _is_no_file(group, link):
 def _check_values(dataset):
     created = dataset.id.get_create_plist()
     if created.get_layout() == h5py.h5d.VIRTUAL or created.get_external_count() > 0:
-        raise _Refusal(_VALUES_ELSEWHERE)
+        raise _Rejection(_VALUES_ELSEWHERE)
     if dataset.size and dataset.nbytes > max(MIB, LARGEST_RATIO * dataset.id.get_storage_size()):
-        raise _Refusal(_TOO_LARGE)
+        raise _Rejection(_TOO_LARGE)
 
 
 def _read(dataset):

@@ -16,11 +16,11 @@ from tabor_report.errors import InputError, readable
 
 def open_file(path):
     """Opens for reading; raises InputError in one line if it is no tabor result."""
-    refusal = guard.problem(str(path))
-    if refusal == "no such file or directory":
+    rejection = guard.problem(str(path))
+    if rejection == "no such file or directory":
         raise InputError(f"{path}: no such file; give the folder or the .h5 file that tabor wrote")
-    if refusal:
-        raise InputError(f"{path}: got {refusal}; expected a result of tabor; compute it again")
+    if rejection:
+        raise InputError(f"{path}: got {rejection}; expected a result of tabor; compute it again")
     try:
         file = h5py.File(path, "r")
     except OSError as error:

@@ -49,7 +49,7 @@ def load(path, file):
         SingleState(key, node, _saturation_pressure(settings, hdf.attributes(node))) for key, node in nodes
     ]
     single = Single(path, file, facts, settings, file["surface"], states)
-    single.warnings.extend(dict.fromkeys(_doubts_about(single)))
+    single.warnings.extend(dict.fromkeys(_warnings_about(single)))
     return single
 
 
@@ -71,11 +71,11 @@ def _spacing(surface, name):
     return float(axis[1] - axis[0]) if len(axis) > 1 else 1.0
 
 
-def _doubts_about(single):
+def _warnings_about(single):
     lines = hdf.text_list(single.facts.get("warnings"))
-    for doubt in hdf.text_list(single.surface_facts.get("doubts")):
-        if not any(doubt in line for line in lines):  # said there with its code
-            yield doubt
+    for warning in hdf.text_list(single.surface_facts.get("doubts")):
+        if not any(warning in line for line in lines):  # said there with its code
+            yield warning
     for state in single.states:
         if not state.facts.get("converged", True):
             yield f"State {state.key} did not converge; do not use its numbers without a closer look."

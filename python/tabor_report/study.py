@@ -41,7 +41,7 @@ class Scan:
         return hdf.text_list(self.facts.get("treatment"))
 
     @property
-    def doubts(self):
+    def warnings(self):
         return hdf.text_list(self.facts.get("doubts"))
 
     def height(self):
@@ -132,7 +132,7 @@ def load(path, file):
         experiment=_experiment(file),
         warnings=warnings,
     )
-    study.warnings.extend(list(_doubts_about(study)))
+    study.warnings.extend(list(_warnings_about(study)))
     return study
 
 
@@ -157,7 +157,7 @@ def _experiment(file):
     return Table(hdf.columns(file["experiment"])) if "experiment" in file else Table({})
 
 
-def _doubts_about(study):
+def _warnings_about(study):
     expected, done = study.facts.get("n_cases"), study.facts.get("n_cases_done")
     if expected is not None and done is not None and done < expected:
         yield f"The study is not complete: {done} of {expected} cases are done. Averages hold what is there."
@@ -173,8 +173,8 @@ def _doubts_about(study):
         yield from hdf.text_list(study.facts["warnings"])
         return
     for scan in study.scans:
-        for doubt in dict.fromkeys(scan.doubts + _warnings_of_states(scan)):
-            yield f"{scan.file}: {doubt}"
+        for warning in dict.fromkeys(scan.warnings + _warnings_of_states(scan)):
+            yield f"{scan.file}: {warning}"
 
 
 def _warnings_of_states(scan):

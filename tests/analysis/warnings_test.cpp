@@ -108,7 +108,7 @@ TEST(WarningsOfSurface, ATiltIsToldOnceAndNotAfterLevelling) {
   topography::Topography tilted = rough();
   tilted.periodic = false;
   for (Index x = 0; x < kGrid.nx; ++x) tilted.height.col(x) += 1e-6 * static_cast<double>(x);
-  tilted.doubts = {{.text = "tilt is larger than roughness", .code = "tilt"}};
+  tilted.warnings = {{.text = "tilt is larger than roughness", .code = "tilt"}};
   EXPECT_THAT(codes_of(of_surface(tilted)), testing::ElementsAre("not-levelled"));
   for (const char* step : {"level=plane", "level=poly2", "highpass=gauss:20um"}) {
     const auto level = topography::apply({step}, tilted);
@@ -204,7 +204,7 @@ TEST(WarningsOfFriction, AnAreaAtItsBoundIsAClamp) {
   }
 }
 
-TEST(WarningsOfFlow, KeepTheDoubtsAndLookAtTheMixedFriction) {
+TEST(WarningsOfFlow, KeepTheWarningsAndLookAtTheMixedFriction) {
   EXPECT_THAT(codes_of(of_flow({"film NOT CONVERGED"})), testing::ElementsAre("fluid-film"));
   EXPECT_THAT(codes_of(of_mixed_friction({.friction_mixed = 2.1})),
               testing::ElementsAre("implausible-friction"));

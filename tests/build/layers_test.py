@@ -40,7 +40,7 @@ def run_check(files, links=""):
 
 
 class Layers(unittest.TestCase):
-    def assert_refused(self, complaint, name, text, links=""):
+    def assert_rejected(self, complaint, name, text, links=""):
         result = run_check({"src/tabor/" + name: text}, links)
         self.assertEqual(result.returncode, 1, result.stdout)
         self.assertIn(complaint, result.stdout)
@@ -53,33 +53,33 @@ class Layers(unittest.TestCase):
         self.assert_accepted("contact/a.cpp", '#include "tabor/core/types.hpp"\n#include <vector>\n')
 
     def test_higher_layers_may_not_be_included(self):
-        self.assert_refused("core may not include contact", "core/a.cpp",
+        self.assert_rejected("core may not include contact", "core/a.cpp",
                             '#include "tabor/contact/contact.hpp"\n')
 
     def test_forbidden_modules_may_not_be_included_although_they_are_lower(self):
-        self.assert_refused("contact may not include topography", "contact/a.hpp",
+        self.assert_rejected("contact may not include topography", "contact/a.hpp",
                             '#include "tabor/topography/file.hpp"\n')
 
-    def test_unknown_folders_are_refused(self):
-        self.assert_refused("not in the layer table", "extra/a.cpp", "")
+    def test_unknown_folders_are_rejected(self):
+        self.assert_rejected("not in the layer table", "extra/a.cpp", "")
 
-    def test_relative_includes_are_refused(self):
-        self.assert_refused('write "tabor/', "core/a.cpp", '#include "types.hpp"\n')
+    def test_relative_includes_are_rejected(self):
+        self.assert_rejected('write "tabor/', "core/a.cpp", '#include "types.hpp"\n')
 
     def test_a_foreign_library_belongs_in_its_file(self):
         self.assert_accepted("core/fft.cpp", "#include <fftw3.h>\n")
-        self.assert_refused("belongs in core/fft.cpp", "core/other.cpp", "#include <fftw3.h>\n")
+        self.assert_rejected("belongs in core/fft.cpp", "core/other.cpp", "#include <fftw3.h>\n")
 
-    def test_unlisted_foreign_libraries_are_refused(self):
-        self.assert_refused("not in the table", "core/a.cpp", "#include <boost/any.hpp>\n")
+    def test_unlisted_foreign_libraries_are_rejected(self):
+        self.assert_rejected("not in the table", "core/a.cpp", "#include <boost/any.hpp>\n")
 
     def test_openmp_pragmas_belong_in_one_file(self):
         self.assert_accepted("core/parallel.cpp", "#pragma omp parallel for\n")
-        self.assert_refused("pragmas belong", "core/a.cpp", "  #pragma omp parallel for\n")
+        self.assert_rejected("pragmas belong", "core/a.cpp", "  #pragma omp parallel for\n")
 
     def test_links_follow_the_same_table(self):
         self.assert_accepted("core/a.cpp", "", "contact: core\n")
-        self.assert_refused("contact may not link topography", "core/a.cpp", "",
+        self.assert_rejected("contact may not link topography", "core/a.cpp", "",
                             "contact: core topography\n")
 
     def test_an_empty_tree_is_not_a_success(self):

@@ -39,7 +39,7 @@ class Changes(unittest.TestCase):
         for line in ("double* p = &x;", "Film&& film = make();", "std::vector<double> v;", "p->x = *q;", "x = -a;"):
             self.assertEqual(after(line), set(), line)
 
-    def test_leave_words_and_refusals_alone(self):
+    def test_leave_words_and_rejections_alone(self):
         for line in ("// a + b", "x = name(\"a + b 1\");", "call();  // 1 + 1",
                      "throw InputError(\"a\", format(a + 1), \"b\");", "c = ' ';"):
             self.assertEqual(after(line), set(), line)

@@ -231,7 +231,7 @@ TEST_F(EhlKept, AnInterruptedCaseIsNoCase) {
   EXPECT_TRUE(files("start-").empty());
 }
 
-TEST_F(EhlKept, ASecondSweepOfTheSameResultIsRefusedWhileTheFirstRuns) {
+TEST_F(EhlKept, ASecondSweepOfTheSameResultIsRejectedWhileTheFirstRuns) {
   {
     const KeptCases first(cases_, {});
     EXPECT_THAT([&] { run(1); },

@@ -142,7 +142,7 @@ TEST_P(EhlKeyTable, EveryKeyIsReadInItsUnit) {
     Texts changes = beside(GetParam(), key.name);
     changes.push_back(key.name + "=" + wrong);
     std::string said;
-    bool is_refused = false;
+    bool is_rejected = false;
     for (const std::string& text : cases().at(GetParam())) {
       const Outcome outcome = run(text, GetParam(), changes);
       const auto has = [&](const std::string& part) {
@@ -153,10 +153,10 @@ TEST_P(EhlKeyTable, EveryKeyIsReadInItsUnit) {
       if (!key.unit.empty()) {
         is_it = is_it && has("whose unit does not fit") && fits(key.unit, outcome.err);
       }
-      is_refused = is_refused || is_it;
+      is_rejected = is_rejected || is_it;
       said += outcome.err + '\n';
     }
-    EXPECT_TRUE(is_refused) << key.name << ": " << said;
+    EXPECT_TRUE(is_rejected) << key.name << ": " << said;
   }
 }
 

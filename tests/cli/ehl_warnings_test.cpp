@@ -44,12 +44,13 @@ TEST(GatherWarnings, CountsACaseOnceAndShortensLongLists) {
 }
 
 TEST(GatherWarnings, LumpsCasesThatMakeNoSense) {
-  EhlAnswer refused = warning({"refused: too thick"});
-  refused.scalars["refused"] = "too thick";
-  EhlAnswer other = warning({"refused: too hot"});
+  EhlAnswer rejected = warning({"rejected: too thick"});
+  rejected.scalars["refused"] = "too thick";
+  EhlAnswer other = warning({"rejected: too hot"});
   other.scalars["refused"] = "too hot";
   EXPECT_THAT(
-      gather_warnings({warning({}), refused, other}, {.key = "a", .values = {"1", "2", "3"}}).lines,
+      gather_warnings({warning({}), rejected, other}, {.key = "a", .values = {"1", "2", "3"}})
+          .lines,
       ElementsAre("[a] 2 of 3 cases make no sense, the first: too thick (a = 2, 3)"));
 }
 

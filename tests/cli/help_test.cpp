@@ -40,7 +40,9 @@ TEST(Help, NamesNoOptionTwice) {
 
 TEST(OptionsMarkdown, ListsEveryVerbAndEscapesTableBars) {
   const std::string text = options_markdown();
-  for (const Verb& verb : verbs()) EXPECT_THAT(text, HasSubstr("## tabor " + verb.name));
+  for (const Verb& verb : verbs()) {
+    EXPECT_THAT(text, HasSubstr("## tabor " + verb.name));
+  }
   EXPECT_THAT(text, HasSubstr("`--solver fast\\|polonsky-keer`"));
 }
 

@@ -52,7 +52,7 @@ const std::map<std::string, Plausible>& plausible_options() {
 constexpr const char* kBareNumbers[] = {"0.001", "0.05", "0.9", "3",    "20",
                                         "70",    "250",  "900", "5000", "2e6"};
 
-/// Why `assign` refuses the value, "" if it takes it.
+/// Why `assign` rejects the value, "" if it takes it.
 std::string complaint(const std::function<void(const std::string&)>& assign,
                       const std::string& value) {
   try {

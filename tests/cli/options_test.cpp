@@ -44,7 +44,7 @@ TEST(Parse, ConvertsQuantitiesToSi) {
   EXPECT_THAT(densities, ElementsAre(testing::DoubleEq(0.45e-3), testing::DoubleEq(0.9e-3)));
 }
 
-TEST(Parse, RefusesAQuantityWithoutUnitAndShowsTheCorrectedForm) {
+TEST(Parse, RejectsAQuantityWithoutUnitAndShowsTheCorrectedForm) {
   OptionSet set;
   double pressure = 0;
   set.quantity("--pressure", "P", "", dimension::pressure, pressure);
@@ -73,21 +73,21 @@ TEST(Parse, NamesAMissingOption) {
   EXPECT_THAT(message_of(set, {}), HasSubstr("--pressure P is missing"));
 }
 
-TEST(Parse, RefusesASurplusWord) {
+TEST(Parse, RejectsASurplusWord) {
   OptionSet set;
   std::string scan;
   set.positional("SCAN", "", scan);
   EXPECT_THAT(message_of(set, {"a", "b"}), HasSubstr("unexpected word 'b'"));
 }
 
-TEST(Parse, RefusesAnOptionWithoutItsValue) {
+TEST(Parse, RejectsAnOptionWithoutItsValue) {
   OptionSet set;
   double pressure = 0;
   set.quantity("--pressure", "P", "", dimension::pressure, pressure);
   EXPECT_THAT(message_of(set, {"--pressure"}), HasSubstr("--pressure"));
 }
 
-TEST(Parse, RefusesAnOptionGivenTwiceThatActsOnce) {
+TEST(Parse, RejectsAnOptionGivenTwiceThatActsOnce) {
   OptionSet set;
   double pressure = 0;
   set.quantity("--pressure", "P", "", dimension::pressure, pressure);
@@ -103,7 +103,7 @@ TEST(Parse, TakesANegativeValue) {
   EXPECT_EQ(ratio, -0.5);
 }
 
-TEST(Parse, RefusesNumbersThatAreNotPlainOrNotWhole) {
+TEST(Parse, RejectsNumbersThatAreNotPlainOrNotWhole) {
   OptionSet set;
   double ratio = 0;
   std::uint64_t threads = 0;

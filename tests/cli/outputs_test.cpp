@@ -114,8 +114,8 @@ class Outputs : public testing::Test {
     return all;
   }
 
-  /// Refused in one line, and nothing in the folder is other than before.
-  void expect_refused(const Words& words, int code, const std::string& part) const {
+  /// Rejected in one line, and nothing in the folder is other than before.
+  void expect_rejected(const Words& words, int code, const std::string& part) const {
     const auto before = contents();
     const Outcome outcome = run_tabor(words);
     EXPECT_EQ(outcome.code, code) << words.front() << ' ' << outcome.err;
@@ -175,22 +175,22 @@ TEST_F(Outputs, NeverReplaceAnInputByWhateverName) {
     for (const std::string& output :
          {input, file("./" + call.input), file("here/" + call.input), file("link" + extension),
           file("link_of_link" + extension), file("hard" + extension)}) {
-      expect_refused(with_output(call, output), 5, kOver);
+      expect_rejected(with_output(call, output), 5, kOver);
     }
     for (const char* name : {"link", "link_of_link", "hard"}) fs::remove(file(name + extension));
     fs::remove(file("here"));
   }
 }
 
-TEST_F(Outputs, OfAnExtensionThatAVerbDoesNotWriteAreRefusedWithThoseItDoes) {
+TEST_F(Outputs, OfAnExtensionThatAVerbDoesNotWriteAreRejectedWithThoseItDoes) {
   for (const auto& [verb, call] : calls()) {
     for (const char* name : {"out.docx", "out", "out.h5.bak"}) {
-      expect_refused(with_output(call, file(name)), 3, fs::path(call.output).extension());
+      expect_rejected(with_output(call, file(name)), 3, fs::path(call.output).extension());
     }
   }
   for (const char* verb : {"contact", "friction", "lubricate", "ehl"}) {
     for (const char* name : {"out.csv", "out.vti"}) {
-      expect_refused(with_output(calls().find(verb)->second, file(name)), 3, ".h5 .hdf5");
+      expect_rejected(with_output(calls().find(verb)->second, file(name)), 3, ".h5 .hdf5");
     }
   }
 }
@@ -200,11 +200,11 @@ TEST_F(Outputs, NeverReplaceAScanThatACaseNames) {
     put_bytes(file("case.toml"), kBall + line);
     Words words = {"ehl", "point", file("case.toml")};
     if (line.empty()) words = words + Words{"--set", "roughness.file=second.h5,in.h5"};
-    expect_refused(words + Words{"-o", file("in.h5")}, 5, kOver);
+    expect_rejected(words + Words{"-o", file("in.h5")}, 5, kOver);
     fs::create_directory(file("out.h5.cases"));
     fs::create_symlink("../in.h5", file("out.h5.cases/start-0123456789abcdef.h5"));
-    expect_refused(words + Words{"--set", "motion.speed=0.1m/s,0.2m/s", "-o", file("out.h5")}, 5,
-                   kOver);
+    expect_rejected(words + Words{"--set", "motion.speed=0.1m/s,0.2m/s", "-o", file("out.h5")}, 5,
+                    kOver);
     fs::remove_all(file("out.h5.cases"));
   }
 }
@@ -214,7 +214,7 @@ TEST_F(Outputs, NeverReplaceACaseAmongTheKeptOnes) {
   for (const char* name : {"lock", "case-0.json", ".x.1-0.tabor-tmp"}) {
     const std::string inside = file("out.h5.cases/") + name;
     put_bytes(inside, kBall);
-    expect_refused(
+    expect_rejected(
         {"ehl", "point", inside, "--set", "motion.speed=0.1m/s,0.2m/s", "-o", file("out.h5")}, 5,
         kOver);
     fs::remove(inside);
@@ -223,20 +223,20 @@ TEST_F(Outputs, NeverReplaceACaseAmongTheKeptOnes) {
 
 TEST_F(Outputs, NeverTakeAnInputForALeftover) {
   fs::rename(file("in.h5"), file(".out.h5.1-0.tabor-tmp"));
-  expect_refused({"psd", file(".out.h5.1-0.tabor-tmp"), "-o", file("out.h5")}, 5, kOver);
+  expect_rejected({"psd", file(".out.h5.1-0.tabor-tmp"), "-o", file("out.h5")}, 5, kOver);
 }
 
 TEST_F(Outputs, OfASweepNeverReplaceItsInputs) {
   const Words sweep = {"sweep", file("study.toml"), "-o"};
-  expect_refused(sweep + Words{file("study.toml")}, 5, kOver);
+  expect_rejected(sweep + Words{file("study.toml")}, 5, kOver);
   for (const std::string input : {"in.h5", "measured.csv"}) {
     for (const std::string table : {"results.h5", "results.csv", "averages.csv", "store/x"}) {
       fs::create_directories(file("out/store"));
       fs::create_hard_link(file(input), file("out/" + table));
-      expect_refused(sweep + Words{file("out")}, 5, kOver);
+      expect_rejected(sweep + Words{file("out")}, 5, kOver);
       fs::remove(file("out/" + table));
       fs::create_symlink(file(input), file("out/" + table));
-      expect_refused(sweep + Words{file("out")}, 5, kOver);
+      expect_rejected(sweep + Words{file("out")}, 5, kOver);
       fs::remove_all(file("out"));
     }
   }
@@ -246,7 +246,7 @@ TEST_F(Outputs, OfASweepNeverReplaceItsInputs) {
 }
 
 TEST_F(Outputs, OfAReportNeverReplaceTheResult) {
-  expect_refused({"report", file("in.h5"), "-o", file("in.h5")}, 5, kOver);
+  expect_rejected({"report", file("in.h5"), "-o", file("in.h5")}, 5, kOver);
 }
 
 /// LLVM's OpenMP writes a file of this size in every copy of the process, as HDF5 is read in.
@@ -294,7 +294,7 @@ TEST_F(Outputs, InterruptedBeforeTheFirstStateAreNotMade) {
   for (const auto& [verb, call] : calls()) {
     if (verb != "contact" && verb != "friction" && verb != "lubricate" && verb != "ehl") continue;
     cli::set_interrupted(true);
-    expect_refused(with_output(call, file(call.output)), 130, "interrupted");
+    expect_rejected(with_output(call, file(call.output)), 130, "interrupted");
     cli::set_interrupted(false);
   }
 }

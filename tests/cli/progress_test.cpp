@@ -84,7 +84,9 @@ TEST(TimeLeft, OfSteadyWorkIsRightAndNeverEarly) {
   TimeLeft left;
   for (double now = 0; now < 100; now += 0.1) {
     const auto told = left.at(now, now / 100);
-    if (now < 5 || now > 8) EXPECT_EQ(told.has_value(), now > 8) << now;
+    if (now < 5 || now > 8) {
+      EXPECT_EQ(told.has_value(), now > 8) << now;
+    }
     EXPECT_NEAR(told.value_or(100 - now), 100 - now, 1e-6);
   }
 }
@@ -102,7 +104,9 @@ TEST(TimeLeft, IsNotToldFromAShareThatJumps) {
 
 TEST(TimeLeft, IsSilentWithoutAShare) {
   TimeLeft left;
-  for (double now = 0; now < 60; now += 1) EXPECT_FALSE(left.at(now, std::nan("")));
+  for (double now = 0; now < 60; now += 1) {
+    EXPECT_FALSE(left.at(now, std::nan("")));
+  }
 }
 
 TEST(Duration, OfAnEstimateHasFewDigits) {

@@ -120,7 +120,7 @@ TEST_F(ContactVerb, HalfACounterBodyIsAUsageError) {
   EXPECT_THAT(outcome.err, HasSubstr("--counter-poisson-ratio"));
 }
 
-TEST_F(ContactVerb, HolesAreRefusedWithTheOptionThatFillsThem) {
+TEST_F(ContactVerb, HolesAreRejectedWithTheOptionThatFillsThem) {
   put_bytes(folder_ / "holes.txt", "1 2 3\n4 NaN 6\n7 8 10\n");
   const Words words = {"contact",          file("holes.txt"),
                        "--pixel",          "1um",
@@ -128,9 +128,9 @@ TEST_F(ContactVerb, HolesAreRefusedWithTheOptionThatFillsThem) {
                        "--pressure",       "1MPa",
                        "--youngs-modulus", "70GPa",
                        "--poisson-ratio",  "0.33"};
-  const Outcome refused = run_tabor(words);
-  EXPECT_EQ(refused.code, 3);
-  EXPECT_THAT(refused.err, HasSubstr("--fill harmonic"));
+  const Outcome rejected = run_tabor(words);
+  EXPECT_EQ(rejected.code, 3);
+  EXPECT_THAT(rejected.err, HasSubstr("--fill harmonic"));
   EXPECT_EQ(run_tabor(words + Words{"--fill", "harmonic"}).code, 0);
 }
 

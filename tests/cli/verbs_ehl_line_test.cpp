@@ -51,21 +51,21 @@ TEST(EhlLine, KeepsItsProfile) {
   EXPECT_TRUE(reader.exists("/profile/hertz_pressure"));
 }
 
-TEST(EhlLine, RefusesWithTheReason) {
-  const auto refused = [](const std::string& change, const std::string& message) {
+TEST(EhlLine, RejectsWithTheReason) {
+  const auto rejected = [](const std::string& change, const std::string& message) {
     const Outcome outcome = run_tabor(quick({"--set", change}));
     EXPECT_EQ(outcome.code, 3) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(message)) << change;
   };
-  refused("cylinder.load_per_length=5e9 N/m", "load of a line contact");
-  refused("grid.nodes=20", "more nodes");
-  refused("grid.outlet=50um", "domain");
-  refused("lubricant.viscosity=-1 Pa s", "above zero");
-  refused("lubricant.pressure_viscosity=5e-5 1/Pa", "viscosity");
-  refused("cylinder.radius=2.5", "unit");
-  refused("film.cavitation=penatly", "penalty");
-  refused("roughness.height=10nm", "roughness.width");
-  refused("roughness.amplitude=10nm", "roughness.wavelength");
+  rejected("cylinder.load_per_length=5e9 N/m", "load of a line contact");
+  rejected("grid.nodes=20", "more nodes");
+  rejected("grid.outlet=50um", "domain");
+  rejected("lubricant.viscosity=-1 Pa s", "above zero");
+  rejected("lubricant.pressure_viscosity=5e-5 1/Pa", "viscosity");
+  rejected("cylinder.radius=2.5", "unit");
+  rejected("film.cavitation=penatly", "penalty");
+  rejected("roughness.height=10nm", "roughness.width");
+  rejected("roughness.amplitude=10nm", "roughness.wavelength");
 }
 
 TEST(EhlLine, KnowsTheViscosityOfGlycerolWater) {
@@ -149,9 +149,9 @@ TEST(EhlLine, WearsATrackToAndFro) {  // slow
   EXPECT_LT(json["thinnest_film_m"], json["min_film_m"]);
   std::vector<std::string> one_way = wear;
   one_way.insert(one_way.end(), {"--set", "grid.outlet=200um"});
-  const Outcome refused = run_tabor(one_way);
-  EXPECT_EQ(refused.code, 3);
-  EXPECT_THAT(refused.err, HasSubstr("way back"));
+  const Outcome rejected = run_tabor(one_way);
+  EXPECT_EQ(rejected.code, 3);
+  EXPECT_THAT(rejected.err, HasSubstr("way back"));
 }
 
 TEST(EhlLine, WeighsWhatIsWornAndShowsItInASweep) {
@@ -177,7 +177,7 @@ TEST(EhlLine, WeighsWhatIsWornAndShowsItInASweep) {
               testing::Not(HasSubstr("wear")));
 }
 
-TEST(EhlLine, DoubtsAStrokeInTooFewSteps) {
+TEST(EhlLine, WarningsAStrokeInTooFewSteps) {
   const auto warnings = [](const std::string& steps) {
     return io::to_text(
         json_of(quick({"--set", "wear.coefficient=2.8e-15 m^2/N", "--set", "wear.stroke=1 mm",
@@ -241,21 +241,21 @@ TEST(EhlLine, GivesNoFrictionThatNoOilHas) {
   EXPECT_THAT(io::to_text(json["warnings"]), HasSubstr("oils give way"));
 }
 
-TEST(EhlLine, RefusesAsperitiesThatMakeNoSense) {
-  const auto refused = [](std::vector<std::string> words, const std::string& change,
-                          const std::string& message) {
+TEST(EhlLine, RejectsAsperitiesThatMakeNoSense) {
+  const auto rejected = [](std::vector<std::string> words, const std::string& change,
+                           const std::string& message) {
     words.insert(words.end(), {"--set", change});
     const Outcome outcome = run_tabor(words);
     EXPECT_EQ(outcome.code, 3) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(message)) << change;
   };
-  refused(mixed(), "asperities.boundary_film=0 nm", "above zero");
-  refused(mixed(), "asperities.shear_strength=1 MPa", "one of the two");
-  refused(mixed(), "asperities.friction_coefficient=-0.1", "friction coefficient");
-  refused(mixed(), "motion.sliding_speed=1 mm/s", "one of the two");
-  refused(quick(), "asperities.friction_coefficient=0.1", "boundary_film");
-  refused(quick({"--set", "asperities.boundary_film=30 nm", "--set", "wear.track_length=16 mm"}),
-          "wear.coefficient=1e-15 m^2/N", "boundary film");
+  rejected(mixed(), "asperities.boundary_film=0 nm", "above zero");
+  rejected(mixed(), "asperities.shear_strength=1 MPa", "one of the two");
+  rejected(mixed(), "asperities.friction_coefficient=-0.1", "friction coefficient");
+  rejected(mixed(), "motion.sliding_speed=1 mm/s", "one of the two");
+  rejected(quick(), "asperities.friction_coefficient=0.1", "boundary_film");
+  rejected(quick({"--set", "asperities.boundary_film=30 nm", "--set", "wear.track_length=16 mm"}),
+           "wear.coefficient=1e-15 m^2/N", "boundary film");
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ class EhlPoint : public testing::Test {
     return words(ball_, changes, more);
   }
 
-  void refused(const std::vector<std::string>& words, const std::string& message) const {
+  void rejected(const std::vector<std::string>& words, const std::string& message) const {
     const Outcome outcome = run_tabor(words);
     EXPECT_EQ(outcome.code, 3) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(message)) << words.back();
@@ -94,9 +94,9 @@ TEST_F(EhlPoint, TouchingSolidsRubAsTheCaseSays) {  // slow
   EXPECT_NEAR(rubbing["friction_coefficient"].get<double>(),
               rubbing["friction_solid"].get<double>() + bare["friction_fluid"].get<double>(), 1e-9);
   EXPECT_GT(with("asperities.shear_strength=50MPa")["friction_solid"].get<double>(), 0);
-  refused(ball({"asperities.shear_strength=50MPa", "asperities.friction_coefficient=0.1"}),
-          "one of the two");
-  refused(ball({"asperities.friction_coefficient=-0.1"}), "zero or more");
+  rejected(ball({"asperities.shear_strength=50MPa", "asperities.friction_coefficient=0.1"}),
+           "one of the two");
+  rejected(ball({"asperities.friction_coefficient=-0.1"}), "zero or more");
 }
 
 TEST_F(EhlPoint, TheCentralFilmIsOneQuantityInAllUnits) {
@@ -151,7 +151,7 @@ TEST_F(EhlPoint, GroupsOfAnIsoviscousLiquid) {
   const io::Json json = json_of(words(groups_, {"groups.L=0", "lubricant.viscosity_law=constant"}));
   EXPECT_EQ(json["L"], 0);
   EXPECT_NEAR(json["M"].get<double>(), 20, 1e-9);
-  refused(words(groups_, {"groups.L=5", "lubricant.viscosity_law=constant"}), "groups.L");
+  rejected(words(groups_, {"groups.L=5", "lubricant.viscosity_law=constant"}), "groups.L");
 }
 
 TEST_F(EhlPoint, FilmGrowsAcrossAnEllipsoid) {
@@ -160,7 +160,7 @@ TEST_F(EhlPoint, FilmGrowsAcrossAnEllipsoid) {
       json_of(words(groups_, {"ball.radius_x=10mm", "ball.radius_y=20mm", "grid.half_width=2"}));
   EXPECT_EQ(wide["converged"], true);
   EXPECT_GT(wide["Hc"], round["Hc"]);
-  refused(words(groups_, {"ball.radius_x=10mm"}), "ball.radius_y");
+  rejected(words(groups_, {"ball.radius_x=10mm"}), "ball.radius_y");
 }
 
 TEST_F(EhlPoint, SweepsTheStribeckCurve) {
@@ -222,7 +222,9 @@ TEST_F(EhlPoint, KeepsMapsAndCurves) {
   EXPECT_EQ(reader.shape("/contact/film"), (std::vector<Index>{41, 41}));
   const std::vector<double> x = reader.numbers("/contact/x");
   const std::vector<double> place = reader.numbers("/along/place");
-  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], place[i], 1e-12);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_NEAR(x[i], place[i], 1e-12);
+  }
   EXPECT_NEAR(reader.field("/contact/roughness").maxCoeff(), 20e-9, 1e-9);
   EXPECT_TRUE(reader.exists("/along/smooth_film"));
   EXPECT_TRUE(reader.exists("/across/hertz_pressure"));
@@ -307,18 +309,18 @@ TEST_F(EhlPoint, MovesItsRoughnessWithItsBody) {
   EXPECT_THAT(run_tabor(words(groups_, bump)).err, HasSubstr("motion.duration lets it move"));
 }
 
-TEST_F(EhlPoint, RefusesPassagesThatCannotBe) {
-  refused(words(groups_, {"motion.duration=1ms", "motion.sliding_speed=0m/s"}), "a [roughness]");
-  refused(words(groups_, {"motion.duration=1ms", "roughness.bump.height=50nm",
-                          "roughness.bump.wavelength=100um"}),
-          "a rough surface at rest");
-  refused(words(groups_, {"motion.duration=1s", "motion.sliding_speed=0m/s", "grid.time_step=1us",
-                          "roughness.bump.height=50nm", "roughness.bump.wavelength=100um"}),
-          "100000 or less");
-  refused(words(groups_,
-                {"motion.duration=1ms", "motion.sliding_speed=0m/s", "solids.plastic_pressure=4GPa",
-                 "roughness.bump.height=50nm", "roughness.bump.wavelength=100um"}),
-          "beside motion.duration");
+TEST_F(EhlPoint, RejectsPassagesThatCannotBe) {
+  rejected(words(groups_, {"motion.duration=1ms", "motion.sliding_speed=0m/s"}), "a [roughness]");
+  rejected(words(groups_, {"motion.duration=1ms", "roughness.bump.height=50nm",
+                           "roughness.bump.wavelength=100um"}),
+           "a rough surface at rest");
+  rejected(words(groups_, {"motion.duration=1s", "motion.sliding_speed=0m/s", "grid.time_step=1us",
+                           "roughness.bump.height=50nm", "roughness.bump.wavelength=100um"}),
+           "100000 or less");
+  rejected(words(groups_, {"motion.duration=1ms", "motion.sliding_speed=0m/s",
+                           "solids.plastic_pressure=4GPa", "roughness.bump.height=50nm",
+                           "roughness.bump.wavelength=100um"}),
+           "beside motion.duration");
 }
 
 TEST_F(EhlPoint, WarnsOfWhatItsEquationsDoNotSee) {
@@ -332,32 +334,32 @@ TEST_F(EhlPoint, WarnsOfWhatItsEquationsDoNotSee) {
   EXPECT_THAT(moving.err, HasSubstr("stand still"));
 }
 
-TEST_F(EhlPoint, RefusesWithTheReason) {
-  refused(ball({"ball.load=0 N"}), "above zero");
-  refused(ball({"ball.load=16.6"}), "unit");
-  refused(ball({"ball.load=1 MN"}), "load of a point contact");
-  refused(ball({"ball.radius_x=1mm"}), "ball.radius");
-  refused(ball({"groups.M=20"}), "beside [groups]");
-  refused(words(groups_, {"groups.M=-1"}), "groups.M");
-  refused(ball({"motion.sliding_speed=1m/s"}), "beside motion.speed");
-  refused(ball({"lubricant.viscosity=-1 Pa s"}), "above zero");
-  refused(ball({"lubricant.viscosity_law=barus", "lubricant.pressure_viscosity=5e-5 1/Pa"}),
-          "viscosity");
-  refused(ball({"lubricant.limiting_stress=1MPa"}), "eyring_stress");
-  refused(ball({"solids.plastic_presure=4GPa"}), "solids.plastic_pressure");
-  refused(ball({"grid.nodes=5"}), "17 to");
-  refused(ball({"grid.inlet=0.5"}), "half axes");
-  refused(ball({"grid.domain=0"}), "factor");
-  refused(ball({"roughness.kind=laped-like"}), "did you mean 'lapped-like'");
-  refused(ball({"roughness.kind=ground", "roughness.orientation=across"}), "transverse");
-  refused(ball({"roughness.kind=ground", "roughness.pixel=1nm"}), "roughness.pixel");
-  refused(ball({"roughness.rms=1um"}), "without roughness.kind");
-  refused(ball({"roughness.bump.height=1um"}), "roughness.bump.wavelength");
-  refused(ball({"roughness.bump.height=1um", "roughness.bump.wavelength=1um"}), "more nodes");
-  refused(ball({"roughness.bump.height=1um", "roughness.bump.wavelength=200um",
-                "roughness.bump.place=3um"}),
-          "two");
-  refused(ball({"roughness.file=nowhere.x3p"}), "nowhere.x3p");
+TEST_F(EhlPoint, RejectsWithTheReason) {
+  rejected(ball({"ball.load=0 N"}), "above zero");
+  rejected(ball({"ball.load=16.6"}), "unit");
+  rejected(ball({"ball.load=1 MN"}), "load of a point contact");
+  rejected(ball({"ball.radius_x=1mm"}), "ball.radius");
+  rejected(ball({"groups.M=20"}), "beside [groups]");
+  rejected(words(groups_, {"groups.M=-1"}), "groups.M");
+  rejected(ball({"motion.sliding_speed=1m/s"}), "beside motion.speed");
+  rejected(ball({"lubricant.viscosity=-1 Pa s"}), "above zero");
+  rejected(ball({"lubricant.viscosity_law=barus", "lubricant.pressure_viscosity=5e-5 1/Pa"}),
+           "viscosity");
+  rejected(ball({"lubricant.limiting_stress=1MPa"}), "eyring_stress");
+  rejected(ball({"solids.plastic_presure=4GPa"}), "solids.plastic_pressure");
+  rejected(ball({"grid.nodes=5"}), "17 to");
+  rejected(ball({"grid.inlet=0.5"}), "half axes");
+  rejected(ball({"grid.domain=0"}), "factor");
+  rejected(ball({"roughness.kind=laped-like"}), "did you mean 'lapped-like'");
+  rejected(ball({"roughness.kind=ground", "roughness.orientation=across"}), "transverse");
+  rejected(ball({"roughness.kind=ground", "roughness.pixel=1nm"}), "roughness.pixel");
+  rejected(ball({"roughness.rms=1um"}), "without roughness.kind");
+  rejected(ball({"roughness.bump.height=1um"}), "roughness.bump.wavelength");
+  rejected(ball({"roughness.bump.height=1um", "roughness.bump.wavelength=1um"}), "more nodes");
+  rejected(ball({"roughness.bump.height=1um", "roughness.bump.wavelength=200um",
+                 "roughness.bump.place=3um"}),
+           "two");
+  rejected(ball({"roughness.file=nowhere.x3p"}), "nowhere.x3p");
 }
 
 }  // namespace

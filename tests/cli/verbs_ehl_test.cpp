@@ -67,7 +67,7 @@ TEST(SweepAxis, TakesTwoDotsInAPathForAFolder) {
   }
 }
 
-TEST(SweepAxis, RefusesWhatIsNoRange) {
+TEST(SweepAxis, RejectsWhatIsNoRange) {
   for (const char* text :
        {"ball.speed", "=1", "ball.speed=1m/s..2kg", "a=1..2:often", "a=0..2:log", "a=1..2:1",
         "a=1...2", "a=1 m/s...10 m/s", "a=1..2:100000", "a=1m/s..2 hollow/s", "a=1,,2", "a=1,"}) {
@@ -160,7 +160,7 @@ TEST(EhlImpact, GoesOnWithASweepBehindACaseThatMakesNoSense) {
   EXPECT_THAT(run_tabor(words).err, HasSubstr("1 of 2 cases make no sense, the first: "));
 }
 
-TEST(EhlImpact, RefusesASweepOfWhichNoCaseMakesSense) {
+TEST(EhlImpact, RejectsASweepOfWhichNoCaseMakesSense) {
   const Outcome outcome = run_tabor(quick({"--set", "ball.speed=1..10"}));
   EXPECT_EQ(outcome.code, 3);
   EXPECT_THAT(outcome.err, HasSubstr("without a unit"));
@@ -191,24 +191,24 @@ TEST(EhlImpact, SaysThatABallSticks) {
   EXPECT_THAT(outcome.out, HasSubstr("sticks"));
 }
 
-TEST(EhlVerb, RefusesWithTheReason) {
-  const auto refused = [](const std::vector<std::string>& words, int code,
-                          const std::string& message) {
+TEST(EhlVerb, RejectsWithTheReason) {
+  const auto rejected = [](const std::vector<std::string>& words, int code,
+                           const std::string& message) {
     const Outcome outcome = run_tabor(words);
     EXPECT_EQ(outcome.code, code) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(message));
   };
-  refused({"ehl", "impakt", kBall}, 2, "did you mean 'impact'");
-  refused(quick({"--set", "ball.spede=1m/s"}), 3, "ball.speed");
-  refused(quick({"--set", "ball.spede=1m/s"}), 3, "ball.toml: unknown key");
-  refused(quick({"--set", "ball.speed=0.2"}), 3, "unit");
-  refused(quick({"--set", "ball.speed=1m/s,2m/s", "--set", "ball.speed=3m/s,4m/s"}), 2,
-          "varied twice");
-  refused(quick({"--set", "lubricant.layer=1um"}), 3, "thicker layer");
-  refused(quick({"--set", "lubricant.viscosity_law=baruss"}), 3, "barus");
-  refused(quick({"--set", "lubricant.viscosity=-1 Pa s"}), 3, "above zero");
-  refused(quick({"--study", "gird"}), 2, "did you mean 'grid'");
-  refused({"ehl", "impact", "nowhere.toml"}, 3, "nowhere.toml");
+  rejected({"ehl", "impakt", kBall}, 2, "did you mean 'impact'");
+  rejected(quick({"--set", "ball.spede=1m/s"}), 3, "ball.speed");
+  rejected(quick({"--set", "ball.spede=1m/s"}), 3, "ball.toml: unknown key");
+  rejected(quick({"--set", "ball.speed=0.2"}), 3, "unit");
+  rejected(quick({"--set", "ball.speed=1m/s,2m/s", "--set", "ball.speed=3m/s,4m/s"}), 2,
+           "varied twice");
+  rejected(quick({"--set", "lubricant.layer=1um"}), 3, "thicker layer");
+  rejected(quick({"--set", "lubricant.viscosity_law=baruss"}), 3, "barus");
+  rejected(quick({"--set", "lubricant.viscosity=-1 Pa s"}), 3, "above zero");
+  rejected(quick({"--study", "gird"}), 2, "did you mean 'grid'");
+  rejected({"ehl", "impact", "nowhere.toml"}, 3, "nowhere.toml");
 }
 
 TEST(EhlSqueeze, HasItsKeys) {

@@ -105,7 +105,7 @@ TEST_F(Params, NameTheNearestSet) {
   EXPECT_THAT(outcome.err, HasSubstr("'height'"));
 }
 
-TEST_F(Params, RefuseOneMaterialRatio) {
+TEST_F(Params, RejectOneMaterialRatio) {
   EXPECT_EQ(run_tabor({"params", file("a.sdf"), "--material-ratios", "10"}).code, 2);
   EXPECT_EQ(run_tabor({"params", file("a.sdf"), "--material-ratios", "80,10"}).code, 3);
 }

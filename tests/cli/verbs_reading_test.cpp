@@ -28,20 +28,22 @@ class ReadingOptions : public testing::Test {
   Folder folder_;
 };
 
-/// `params` with these words refuses in one line that holds these words.
-void expect_refusal(std::vector<std::string> words, const std::vector<std::string>& expected) {
+/// `params` with these words rejects in one line that holds these words.
+void expect_rejection(std::vector<std::string> words, const std::vector<std::string>& expected) {
   words.insert(words.begin(), "params");
   const Outcome outcome = run_tabor(words);
   EXPECT_EQ(outcome.code, 3);
   EXPECT_EQ(count_lines(outcome.err), 1u) << outcome.err;
-  for (const std::string& word : expected) EXPECT_THAT(outcome.err, HasSubstr(word));
+  for (const std::string& word : expected) {
+    EXPECT_THAT(outcome.err, HasSubstr(word));
+  }
 }
 
 TEST_F(ReadingOptions, AMissingPixelUnitOrScaleIsAskedForByItsFlag) {
-  expect_refusal({numbers()}, {"--pixel 0.67um --unit um"});
-  expect_refusal({numbers(), "--pixel", "1um"}, {"--unit um"});
-  expect_refusal({grey(), "--pixel", "1um"}, {"--z-scale 1nm"});
-  expect_refusal({layers()}, {"--channel 0", "'layer 1' [um]"});
+  expect_rejection({numbers()}, {"--pixel 0.67um --unit um"});
+  expect_rejection({numbers(), "--pixel", "1um"}, {"--unit um"});
+  expect_rejection({grey(), "--pixel", "1um"}, {"--z-scale 1nm"});
+  expect_rejection({layers()}, {"--channel 0", "'layer 1' [um]"});
 }
 
 TEST_F(ReadingOptions, WhatIsAskedForMakesTheFileReadable) {
@@ -54,9 +56,9 @@ TEST_F(ReadingOptions, WhatIsAskedForMakesTheFileReadable) {
 }
 
 TEST_F(ReadingOptions, ContradictingTheFileNeedsTheOverride) {
-  expect_refusal({layers(), "--channel", "0", "--pixel", "3um"},
-                 {"--pixel 3um", "--override-unit"});
-  expect_refusal({layers(), "--channel", "0", "--unit", "nm"}, {"--unit nm", "--override-unit"});
+  expect_rejection({layers(), "--channel", "0", "--pixel", "3um"},
+                   {"--pixel 3um", "--override-unit"});
+  expect_rejection({layers(), "--channel", "0", "--unit", "nm"}, {"--unit nm", "--override-unit"});
   const io::Json forced = json_of(
       {"info", layers(), "--channel", "0", "--pixel", "3um", "--unit", "nm", "--override-unit"});
   EXPECT_NEAR(forced.at("height_max_m").get<double>(), 5e-9, 1e-15);
@@ -65,33 +67,33 @@ TEST_F(ReadingOptions, ContradictingTheFileNeedsTheOverride) {
               AllOf(HasSubstr("pixel along x overridden"), HasSubstr("height unit overridden")));
 }
 
-TEST_F(ReadingOptions, AHeightScaleForAFileThatHasOneIsRefusedOrOverrides) {
-  expect_refusal({layers(), "--channel", "0", "--z-scale", "1nm"},
-                 {"--z-scale", "--override-unit"});
+TEST_F(ReadingOptions, AHeightScaleForAFileThatHasOneIsRejectedOrOverrides) {
+  expect_rejection({layers(), "--channel", "0", "--z-scale", "1nm"},
+                   {"--z-scale", "--override-unit"});
   const io::Json forced =
       json_of({"info", layers(), "--channel", "0", "--z-scale", "1nm", "--override-unit"});
   EXPECT_NEAR(forced.at("height_max_m").get<double>(), 5e-9, 1e-15);
   EXPECT_THAT(io::to_text(forced.at("doubts")), HasSubstr("overridden"));
 }
 
-TEST_F(ReadingOptions, NonsenseIsRefusedNamingTheFlag) {
-  expect_refusal({layers(), "--channel", "7"}, {"no channel '7'", "0 'layer 0' [um]"});
-  expect_refusal({numbers(), "--pixel", "1um", "--unit", "kg"}, {"--unit kg", "um or nm"});
-  expect_refusal({numbers(), "--pixel", "0um", "--unit", "um"}, {"--pixel", "positive"});
-  expect_refusal({numbers(), "--pixel=-1um", "--unit", "um"}, {"--pixel", "positive"});
-  expect_refusal({grey(), "--pixel", "1um", "--z-scale", "0nm"}, {"--z-scale", "zero"});
+TEST_F(ReadingOptions, NonsenseIsRejectedNamingTheFlag) {
+  expect_rejection({layers(), "--channel", "7"}, {"no channel '7'", "0 'layer 0' [um]"});
+  expect_rejection({numbers(), "--pixel", "1um", "--unit", "kg"}, {"--unit kg", "um or nm"});
+  expect_rejection({numbers(), "--pixel", "0um", "--unit", "um"}, {"--pixel", "positive"});
+  expect_rejection({numbers(), "--pixel=-1um", "--unit", "um"}, {"--pixel", "positive"});
+  expect_rejection({grey(), "--pixel", "1um", "--z-scale", "0nm"}, {"--z-scale", "zero"});
   const Outcome without_unit = run_tabor({"params", numbers(), "--pixel", "3", "--unit", "um"});
   EXPECT_EQ(without_unit.code, 2);  // a word of the command line is wrong, not the file
   EXPECT_THAT(without_unit.err, HasSubstr("--pixel"));
 }
 
-TEST_F(ReadingOptions, ADirectoryAPipeOrAnEmptyFileIsRefusedAtOnce) {
-  expect_refusal({folder_.path().string()}, {"folder, device or pipe"});
-  expect_refusal({put("empty.x3p", "")}, {"an empty file"});
+TEST_F(ReadingOptions, ADirectoryAPipeOrAnEmptyFileIsRejectedAtOnce) {
+  expect_rejection({folder_.path().string()}, {"folder, device or pipe"});
+  expect_rejection({put("empty.x3p", "")}, {"an empty file"});
   const std::string pipe = (folder_ / "pipe").string();
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  expect_refusal({pipe}, {"folder, device or pipe"});
-  expect_refusal({"/dev/zero"}, {"folder, device or pipe"});
+  expect_rejection({pipe}, {"folder, device or pipe"});
+  expect_rejection({"/dev/zero"}, {"folder, device or pipe"});
 }
 
 TEST(Formats, NameTheirTierAndWhetherGwyddionIsInstalled) {
@@ -103,7 +105,9 @@ TEST(Formats, NameTheirTierAndWhetherGwyddionIsInstalled) {
     tiers[row.at("name").get<std::string>()] = row.at("tier").get<std::string>();
   }
   EXPECT_EQ(tiers.at("x3p"), "read and write");
-  for (const char* name : {"plux", "vk", "bcr", "datx", "tiff"}) EXPECT_EQ(tiers.at(name), "read");
+  for (const char* name : {"plux", "vk", "bcr", "datx", "tiff"}) {
+    EXPECT_EQ(tiers.at(name), "read");
+  }
   EXPECT_EQ(tiers.at("vti"), "write");
   EXPECT_EQ(tiers.at("gwyddion"), "through gwyddion");
   EXPECT_THAT(run_tabor({"formats"}).out,

@@ -38,7 +38,9 @@ std::vector<std::string> keys_of(const io::Json& object) {
 
 void expect_keys(const io::Json& object, const std::vector<std::string>& wanted) {
   const std::vector<std::string> keys = keys_of(object);
-  for (const std::string& key : wanted) EXPECT_THAT(keys, Contains(key));
+  for (const std::string& key : wanted) {
+    EXPECT_THAT(keys, Contains(key));
+  }
 }
 
 TEST_F(ScanVerbs, InfoHasTheAgreedKeys) {
@@ -130,7 +132,7 @@ TEST_F(ScanVerbs, InfoOfAFileThatLacksAUnitSaysWhatToGive) {
   EXPECT_TRUE(info.at("pixel_x_m").is_null());
   EXPECT_EQ(info.at("channels").size(), 1u);
   EXPECT_THAT(info.at("doubts").at(0).get<std::string>(), HasSubstr("--pixel 0.67um --unit um"));
-  // Everything that needs heights still refuses.
+  // Everything that needs heights still rejects.
   EXPECT_EQ(run_tabor({"params", file("plain.txt")}).code, 3);
 }
 
@@ -151,7 +153,7 @@ TEST_F(ScanVerbs, GenerateIsReproducibleBySeed) {
   EXPECT_NE(made("a.sdf", "5"), made("c.sdf", "6"));
 }
 
-TEST_F(ScanVerbs, GenerateRefusesOptionsOfAnotherKind) {
+TEST_F(ScanVerbs, GenerateRejectsOptionsOfAnotherKind) {
   const Outcome outcome = run_tabor({"generate", "edt", "-o", file("x.sdf"), "--radius", "1mm"});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("--radius does not belong"));
@@ -187,7 +189,7 @@ TEST_F(ScanVerbs, TheMeasurementIsNeverWrittenOver) {
   EXPECT_EQ(bytes_of(folder_ / "scan.sdf"), before);
 }
 
-TEST_F(ScanVerbs, AnUnknownOutputIsRefusedBeforeTheScanIsRead) {
+TEST_F(ScanVerbs, AnUnknownOutputIsRejectedBeforeTheScanIsRead) {
   const Outcome outcome = run_tabor({"convert", file("absent.x3p"), file("out.xyzzy")});
   EXPECT_EQ(outcome.code, 3);
   EXPECT_THAT(outcome.err, HasSubstr("extension '.xyzzy'"));
@@ -226,7 +228,7 @@ TEST_F(ScanVerbs, ChannelsWithoutAUnitSayWhatMakesThemHeights) {
               HasSubstr("[?], a height with --unit or --z-scale only"));
 }
 
-TEST_F(ScanVerbs, PsdRefusesAFitOverNoRange) {
+TEST_F(ScanVerbs, PsdRejectsAFitOverNoRange) {
   const Outcome outcome = run_tabor({"psd", scan(), "--fit-min", "5/um", "--fit-max", "1/um"});
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.err, HasSubstr("the smaller one first"));
@@ -238,7 +240,7 @@ TEST_F(ScanVerbs, AnOptionWithoutItsValueSaysWhatIsMissing) {
   EXPECT_THAT(outcome.err, testing::Not(HasSubstr("  ")));
 }
 
-TEST_F(ScanVerbs, HolesAreRefusedByPsdWithTheOptionThatFillsThem) {
+TEST_F(ScanVerbs, HolesAreRejectedByPsdWithTheOptionThatFillsThem) {
   put_bytes(folder_ / "holes.txt", "1 2 3\n4 NaN 6\n7 8 10\n");
   const std::vector<std::string> words = {"psd", file("holes.txt"), "--pixel", "1um", "--unit",
                                           "nm",  "--window",        "none"};
@@ -262,7 +264,7 @@ TEST(Cite, WithoutAFileGivesEveryEntryOnce) {
   EXPECT_TRUE(entries.contains("polonsky1999"));
 }
 
-TEST(Cite, RefusesAFileThatIsNoResult) {
+TEST(Cite, RejectsAFileThatIsNoResult) {
   const Folder folder;
   put_bytes(folder / "x.h5", "not a result");
   EXPECT_EQ(run_tabor({"cite", (folder / "x.h5").string()}).code, 3);

@@ -82,7 +82,7 @@ TEST_F(SignalVerbs, PsdOfAProfileHasOneDirection) {
   EXPECT_THAT(outcome.out, testing::Not(HasSubstr("along y")));
 }
 
-TEST_F(SignalVerbs, PsdDoubtsExponentsOfNoSelfAffineSurface) {
+TEST_F(SignalVerbs, PsdWarningsExponentsOfNoSelfAffineSurface) {
   ASSERT_EQ(
       run_tabor({"convert", file("a.sdf"), file("smooth.sdf"), "--lowpass", "gauss:20um"}).code, 0);
   const Outcome outcome =
@@ -195,7 +195,7 @@ TEST_F(SignalVerbs, CombineAddsFacesAndSubtractsAtAGivenShift) {
   EXPECT_TRUE(difference.at("registration").is_null());
 }
 
-TEST_F(SignalVerbs, CombineRefusesWhatDoesNotMatch) {
+TEST_F(SignalVerbs, CombineRejectsWhatDoesNotMatch) {
   const Outcome other = run_tabor({"combine", file("a.sdf"), file("b.sdf")});
   EXPECT_EQ(other.code, 3);
   EXPECT_THAT(other.err, HasSubstr("--no-register"));

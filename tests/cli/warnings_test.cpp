@@ -139,7 +139,9 @@ TEST_P(WarningsOfNumbers, AreTheSameFromTheVerbAndFromAStudy) {
   ASSERT_TRUE(many.contains("warnings")) << many;
   const io::Json& state = one.at("states").at(0);
   const auto codes = state.at("warning_codes").get<Words>();
-  for (const std::string& code : GetParam().expected) EXPECT_THAT(codes, Contains(code));
+  for (const std::string& code : GetParam().expected) {
+    EXPECT_THAT(codes, Contains(code));
+  }
   EXPECT_EQ(codes.empty(), GetParam().expected.empty());
   EXPECT_EQ(codes_of(one.at("warnings")), std::set<std::string>(codes.begin(), codes.end()));
   EXPECT_EQ(codes_of(many.at("warnings")), codes_of(one.at("warnings")));

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/rough_recipe.hpp"
 #include "support/sample_surfaces.hpp"
 #include "support/validation.hpp"
@@ -141,25 +141,25 @@ TEST(Registration, OfAScanWithItselfIsNothing) {
   EXPECT_NEAR(found.overlap, 1, 1e-12);
 }
 
-TEST(Registration, RefusesOtherPlaces) {
+TEST(Registration, RejectsOtherPlaces) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const auto a = self_affine_surface(192, 0.8, 4e-6, seed);
     const auto b = self_affine_surface(192, 0.8, 4e-6, seed + 100);
-    EXPECT_THAT(tabor::test::refusal([&] { register_scans(a, b); }), HasSubstr("--no-register"))
+    EXPECT_THAT(tabor::test::rejection([&] { register_scans(a, b); }), HasSubstr("--no-register"))
         << seed;
   }
 }
 
-TEST(Registration, RefusesPiecesThatDoNotOverlap) {
+TEST(Registration, RejectsPiecesThatDoNotOverlap) {
   const auto large = self_affine_surface(512, 0.8, 4e-6, 2);
   const auto a = topography::crop(large, {0, 0, 200, 200});
   const auto b = topography::crop(large, {300, 300, 200, 200});
-  EXPECT_THAT(tabor::test::refusal([&] { register_scans(a, b); }), HasSubstr("registration"));
+  EXPECT_THAT(tabor::test::rejection([&] { register_scans(a, b); }), HasSubstr("registration"));
 }
 
-TEST(Registration, RefusesScansOfAFewPixels) {
+TEST(Registration, RejectsScansOfAFewPixels) {
   const auto small = noise({10, 10, 1e-5, 1e-5});
-  EXPECT_THAT(tabor::test::refusal([&] { register_scans(small, small); }),
+  EXPECT_THAT(tabor::test::rejection([&] { register_scans(small, small); }),
               HasSubstr("16 common pixels"));
 }
 
@@ -247,9 +247,9 @@ TEST(WearVolume, CountsKnownBlocks) {
   EXPECT_NEAR(volumes.piled_up.value / (100 * 2e-12 * 0.5e-6), 1, 0.01);
 }
 
-TEST(WearVolume, RefusesAThresholdThatIsNone) {
+TEST(WearVolume, RejectsAThresholdThatIsNone) {
   const auto rough = noise({32, 32, 1e-3, 1e-3});
-  EXPECT_THAT(tabor::test::refusal([&] { wear_volumes(rough.height, rough.grid, 0); }),
+  EXPECT_THAT(tabor::test::rejection([&] { wear_volumes(rough.height, rough.grid, 0); }),
               HasSubstr("threshold"));
 }
 
@@ -290,7 +290,7 @@ TEST(Combine, CutsToTheOverlapOfAGivenShift) {
   EXPECT_EQ(result.map.grid.ny, 92);
   EXPECT_NEAR(result.map.height(0, 0), rough.height(4, 0) - rough.height(0, 10), 1e-15);
   options.shift_x = 1e-3;
-  EXPECT_THAT(tabor::test::refusal([&] { combine(rough, rough, options); }),
+  EXPECT_THAT(tabor::test::rejection([&] { combine(rough, rough, options); }),
               HasSubstr("scans that overlap"));
 }
 

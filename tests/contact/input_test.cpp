@@ -6,7 +6,7 @@
 #include <string>
 
 #include "contact/surfaces.hpp"
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/stopping.hpp"
 #include "tabor/core/error.hpp"
 
@@ -15,38 +15,38 @@ namespace {
 
 using testing::HasSubstr;
 
-TEST(SolveContact, RefusesALoadThatTheCapCannotCarry) {
+TEST(SolveContact, RejectsALoadThatTheCapCannotCarry) {
   const Field height = wave(16, 0.01, true);
-  EXPECT_THAT(refusal([&] { solve_unit(height, 0.2, 0.1); }),
+  EXPECT_THAT(rejection([&] { solve_unit(height, 0.2, 0.1); }),
               HasSubstr("no pressure field below the cap"));
-  EXPECT_THAT(refusal([&] { solve_unit(height, 0.2, 0.2); }),
+  EXPECT_THAT(rejection([&] { solve_unit(height, 0.2, 0.2); }),
               HasSubstr("no pressure field below the cap"));
 }
 
-TEST(SolveContact, RefusesHolesAndInfiniteHeights) {
+TEST(SolveContact, RejectsHolesAndInfiniteHeights) {
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     Field height = wave(16, 0.01, true);
     height(3, 4) = bad;
-    EXPECT_THAT(refusal([&] { solve_unit(height, 0.01); }), HasSubstr("--fill harmonic"));
+    EXPECT_THAT(rejection([&] { solve_unit(height, 0.01); }), HasSubstr("--fill harmonic"));
   }
 }
 
-TEST(SolveContact, RefusesPressuresAndTolerancesThatMakeNoSense) {
+TEST(SolveContact, RejectsPressuresAndTolerancesThatMakeNoSense) {
   const Field height = wave(16, 0.01, true);
   for (const double bad : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    EXPECT_THAT(refusal([&] { solve_unit(height, bad); }), HasSubstr("mean pressure")) << bad;
+    EXPECT_THAT(rejection([&] { solve_unit(height, bad); }), HasSubstr("mean pressure")) << bad;
   }
-  EXPECT_THAT(refusal([&] { solve_unit(height, 0.01, std::nan("")); }), HasSubstr("saturation"));
-  EXPECT_THAT(refusal([&] { solve_unit(height, 0.01, contact::kNoSaturation, 0); }),
+  EXPECT_THAT(rejection([&] { solve_unit(height, 0.01, std::nan("")); }), HasSubstr("saturation"));
+  EXPECT_THAT(rejection([&] { solve_unit(height, 0.01, contact::kNoSaturation, 0); }),
               HasSubstr("tolerance"));
 }
 
-TEST(SolveContact, RefusesAHeightOfAnotherShapeThanTheOperator) {
+TEST(SolveContact, RejectsAHeightOfAnotherShapeThanTheOperator) {
   const auto elasticity = elastic::make_periodic(square(16), 1.0);
   contact::Problem problem;
   problem.height = Field::Zero(16, 17);
   problem.mean_pressure = 1;
-  EXPECT_THAT(refusal([&] { contact::solve(*elasticity, problem); }), HasSubstr("17 x 16"));
+  EXPECT_THAT(rejection([&] { contact::solve(*elasticity, problem); }), HasSubstr("17 x 16"));
 }
 
 TEST(SolveContact, ReturnsANonConvergedStateWhenStopped) {

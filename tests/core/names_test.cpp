@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 
 namespace tabor {
 namespace {
@@ -21,8 +21,8 @@ TEST(Names, UnknownOnesAreNotFound) {
   EXPECT_EQ(kSeasons.find(""), std::nullopt);
 }
 
-TEST(Names, ARefusalNamesAllAndTheNearest) {
-  const std::string text = test::refusal([] { kSeasons.parse("sumer", "season"); });
+TEST(Names, ARejectionNamesAllAndTheNearest) {
+  const std::string text = test::rejection([] { kSeasons.parse("sumer", "season"); });
   EXPECT_NE(text.find("season"), std::string::npos) << text;
   EXPECT_NE(text.find("spring, summer, autumn"), std::string::npos) << text;
   EXPECT_NE(text.find("did you mean 'summer'"), std::string::npos) << text;

@@ -53,7 +53,9 @@ TEST(CounterRandom, BelowReachesEveryValueAndNoMore) {
   for (std::uint64_t k = 0; k < 7000; ++k) {
     counts.at(random.below(k, 7)) += 1;  // at() throws beyond the end
   }
-  for (const int count : counts) EXPECT_NEAR(count, 1000, 200);
+  for (const int count : counts) {
+    EXPECT_NEAR(count, 1000, 200);
+  }
 }
 
 TEST(CounterRandom, SeedsAndStreamsDiffer) {

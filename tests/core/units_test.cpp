@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "tabor/core/error.hpp"
 
 namespace tabor {
 namespace {
 
-using test::refusal;
+using test::rejection;
 using testing::HasSubstr;
 
 TEST(ParseQuantity, TurnsUnitsIntoSi) {
@@ -37,29 +37,29 @@ TEST(ParseQuantity, KnowsTheMicroSignInAllItsEncodings) {
 }
 
 TEST(ParseQuantity, NamesTheCorrectedFormWhenTheUnitIsMissing) {
-  EXPECT_THAT(refusal([] { parse_si("7", dimension::pressure, "--pressure"); }),
+  EXPECT_THAT(rejection([] { parse_si("7", dimension::pressure, "--pressure"); }),
               HasSubstr("--pressure 7MPa"));
 }
 
-TEST(ParseQuantity, RefusesUnitsOfAnotherDimension) {
-  EXPECT_THAT(refusal([] { parse_si("7 um", dimension::pressure, "--pressure"); }),
+TEST(ParseQuantity, RejectsUnitsOfAnotherDimension) {
+  EXPECT_THAT(rejection([] { parse_si("7 um", dimension::pressure, "--pressure"); }),
               HasSubstr("MPa"));
 }
 
 TEST(ParseQuantity, NamesTheUnknownUnit) {
-  EXPECT_THAT(refusal([] { parse_si("7 Mpa", dimension::pressure, "--pressure"); }),
+  EXPECT_THAT(rejection([] { parse_si("7 Mpa", dimension::pressure, "--pressure"); }),
               HasSubstr("'Mpa'"));
 }
 
-TEST(ParseQuantity, RefusesPowersThatMeanNothing) {
+TEST(ParseQuantity, RejectsPowersThatMeanNothing) {
   EXPECT_DOUBLE_EQ(parse_si("1 m^9/m8", dimension::length, "--pixel"), 1);
-  EXPECT_THAT(refusal([] { parse_si("1 m^10/m^9", dimension::length, "--pixel"); }),
+  EXPECT_THAT(rejection([] { parse_si("1 m^10/m^9", dimension::length, "--pixel"); }),
               HasSubstr("'m^10'"));
   EXPECT_FALSE(unit_factor("l1350808505", dimension::length).has_value());
   EXPECT_FALSE(unit_factor("l-2147483648", dimension::length).has_value());
 }
 
-TEST(ParseQuantity, RefusesWhatIsNoFiniteNumber) {
+TEST(ParseQuantity, RejectsWhatIsNoFiniteNumber) {
   for (const char* text : {"", "MPa", "nan MPa", "inf MPa", "1e999 MPa", "--7 MPa"}) {
     EXPECT_THROW(parse_si(text, dimension::pressure, "--pressure"), InputError) << text;
   }

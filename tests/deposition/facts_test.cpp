@@ -136,8 +136,12 @@ TEST(Deposition, NeverRisesAboveARim) {
     const Field level = height + film.thickness;
     for_each_pair(height, [&](Index y, Index x, Index v, Index u) {
       const double slack = 2 * film.height_quantum;
-      if (film.thickness(y, x) > 0) EXPECT_LE(level(y, x), level(v, u) + slack);
-      if (film.thickness(v, u) > 0) EXPECT_LE(level(v, u), level(y, x) + slack);
+      if (film.thickness(y, x) > 0) {
+        EXPECT_LE(level(y, x), level(v, u) + slack);
+      }
+      if (film.thickness(v, u) > 0) {
+        EXPECT_LE(level(v, u), level(y, x) + slack);
+      }
     });
   }
 }
@@ -263,7 +267,7 @@ TEST(Deposition, IsDryWithoutADose) {
   EXPECT_EQ(film.n_pools, 0);
 }
 
-TEST(Deposition, RefusesInputThatMakesNoSense) {
+TEST(Deposition, RejectsInputThatMakesNoSense) {
   Field height = rough(8, 8, 11);
   const auto attempt = [&](const Dose& dose) { film_of(height, dose); };
   EXPECT_THROW(attempt(dose_of({})), InputError);

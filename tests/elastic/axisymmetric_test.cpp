@@ -133,7 +133,9 @@ TEST(AxisymmetricHalfSpace, LinearShapeIsExactUnderACone) {
   const Eigen::VectorXd u_fine =
       displaced(AxisymmetricHalfSpace(fine, kModulus, PressureShape::linear),
                 1e6 * (1 - fine / 1e-4).matrix());
-  for (Index i = 0; i < u.size(); ++i) EXPECT_NEAR(u[i] / u_fine[8 * i], 1, 1e-7) << i;
+  for (Index i = 0; i < u.size(); ++i) {
+    EXPECT_NEAR(u[i] / u_fine[8 * i], 1, 1e-7) << i;
+  }
 }
 
 TEST(AxisymmetricHalfSpace, UniformShapeIsExactUnderADisc) {
@@ -230,7 +232,7 @@ TEST(RadialGrid, EdgesStandHalfWayBetweenNodes) {
   EXPECT_EQ((ring_edges(radii) - expected).abs().maxCoeff(), 0);
 }
 
-TEST(AxisymmetricHalfSpace, RefusesWhatMakesNoSense) {
+TEST(AxisymmetricHalfSpace, RejectsWhatMakesNoSense) {
   const Eigen::ArrayXd good = uniform_radii(5, 1);
   EXPECT_THROW(AxisymmetricHalfSpace(good, 0), InputError);
   EXPECT_THROW(AxisymmetricHalfSpace(good, std::nan("")), InputError);

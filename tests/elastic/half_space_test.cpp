@@ -130,7 +130,7 @@ TEST_P(BothHalfSpaces, AgreeInSinglePrecision) {
   EXPECT_LE((single.cast<double>() - expected).abs().maxCoeff(), 2e-6 * expected.abs().maxCoeff());
 }
 
-TEST_P(BothHalfSpaces, RefuseModuliThatMakeNoSense) {
+TEST_P(BothHalfSpaces, RejectModuliThatMakeNoSense) {
   const Grid grid{8, 8, 1e-5, 1e-5};
   EXPECT_THROW(make(grid, 0), InputError);
   EXPECT_THROW(make(grid, -1e9), InputError);

@@ -212,7 +212,7 @@ TEST(LineHalfSpace, ServesTheContactSolversAsAMapOfOneRow) {
   EXPECT_FALSE(elasticity->drops_mean());
 }
 
-TEST(LineHalfSpace, RefusesWhatMakesNoSense) {
+TEST(LineHalfSpace, RejectsWhatMakesNoSense) {
   EXPECT_THROW(LineHalfSpace(2, 1e-6, kModulus), InputError);
   EXPECT_THROW(LineHalfSpace(10, 0, kModulus), InputError);
   EXPECT_THROW(LineHalfSpace(10, 1e-6, -1), InputError);

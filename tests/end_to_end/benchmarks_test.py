@@ -119,7 +119,7 @@ class Peers(Benchmark):
 
 
 class Certify(Benchmark):
-    """Pressures go in and out as they are, whatever their size, and what is no field is refused in one line."""
+    """Pressures go in and out as they are, whatever their size, and what is no field is rejected in one line."""
 
     def npy(self, name, values, rows, columns, form="<f8"):
         header = f"{{'descr': '{form}', 'fortran_order': False, 'shape': ({rows}, {columns}), }}".ljust(117) + "\n"
@@ -150,7 +150,7 @@ class Certify(Benchmark):
         written = (self.folder / "p.npy").read_bytes()
         self.assertEqual(written, self.npy("expected.npy", [2e9] * 16, 4, 4).read_bytes())
 
-    def test_refuses_what_is_no_field(self):
+    def test_rejects_what_is_no_field(self):
         bad = {"nan.npy": ([float("nan")] * 16, 4, 4), "short.npy": ([1e9] * 15, 4, 4), "shape.npy": ([1e9] * 8, 2, 4),
                "type.npy": ([1e9] * 16, 4, 4, "<i8")}
         for name, array in bad.items():

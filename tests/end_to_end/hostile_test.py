@@ -94,7 +94,7 @@ class Folder(Hostile):
         (hostile / "unknown.dat").write_bytes(b"\1\2\3")
         done = subprocess.run([TABOR, "info", "unknown.dat"], cwd=hostile, capture_output=True, text=True, check=False,
                               timeout=120, env={**os.environ, "PATH": ".::relative"})
-        self.assert_refused(done, 3, "unknown.dat")
+        self.assert_rejected(done, 3, "unknown.dat")
         self.assertFalse(mark.exists())
 
     def test_works_in_the_source_tree_and_installed(self):
@@ -123,16 +123,16 @@ class Interpreter(Hostile):
 
     def test_that_crashes_is_a_result_that_cannot_be_drawn(self):
         done = self.tabor("report", "result.h5", env=self.with_python("kill -SEGV $$"))
-        self.assert_refused(done, 3, "result.h5", "signal 11")
+        self.assert_rejected(done, 3, "result.h5", "signal 11")
 
     def test_that_fails_shows_its_last_line_alone(self):
         script = "echo 'Traceback (most recent call last):' >&2; echo 'ValueError: a\033[2J' >&2; exit 1"
         done = self.tabor("report", "result.h5", env=self.with_python(script))
-        self.assert_refused(done, 1, "ValueError: a\\x1b[2J")
+        self.assert_rejected(done, 1, "ValueError: a\\x1b[2J")
 
     def test_that_is_not_found_is_named(self):
         done = self.tabor("report", "result.h5", env={**os.environ, "TABOR_PYTHON": "no-such-python"})
-        self.assert_refused(done, 3, "no-such-python")
+        self.assert_rejected(done, 3, "no-such-python")
 
     def test_is_ended_by_an_interrupt(self):
         mark = self.folder / "begun"
@@ -153,9 +153,9 @@ class Hdf5(Hostile):
             change(file)
         return path.name
 
-    def refuse(self, name, part="", verbs=("info", "report")):
+    def reject(self, name, part="", verbs=("info", "report")):
         for words in ([verb, name] for verb in verbs):
-            self.assert_refused(self.tabor(*words, preexec_fn=limit_memory), 3, name, part)
+            self.assert_rejected(self.tabor(*words, preexec_fn=limit_memory), 3, name, part)
 
     def replace(self, file, **parts):
         attributes = dict(file["surface/height"].attrs)
@@ -167,7 +167,7 @@ class Hdf5(Hostile):
         def raw(file):
             self.replace(file, shape=(16, 16), dtype="u1", external=[("/etc/passwd", 0, 256)])
 
-        self.refuse(self.scan(raw), "other files")
+        self.reject(self.scan(raw), "other files")
 
     def test_in_a_pipe(self):
         os.mkfifo(self.folder / "pipe")
@@ -175,7 +175,7 @@ class Hdf5(Hostile):
         def raw(file):
             self.replace(file, shape=(16, 16), dtype="u1", external=[("pipe", 0, 256)])
 
-        self.refuse(self.scan(raw), "other files")
+        self.reject(self.scan(raw), "other files")
 
     def test_in_data_sets_of_other_files(self):
         self.generate("other.h5", "edt", 16)
@@ -187,7 +187,7 @@ class Hdf5(Hostile):
                 layout[:] = h5py.VirtualSource(source, "surface/height", (16, 16))
                 file.create_virtual_dataset("surface/height", layout)
 
-            self.refuse(self.scan(virtual), "other files")
+            self.reject(self.scan(virtual), "other files")
 
     def test_behind_links(self):
         self.generate("other.h5", "edt", 16)
@@ -204,8 +204,8 @@ class Hdf5(Hostile):
                 file["away"] = h5py.ExternalLink(target, "/surface")
                 file["surface/height"] = h5py.SoftLink("/away/height")
 
-            self.refuse(self.scan(link))
-            self.refuse(self.scan(soft), verbs=["info"])
+            self.reject(self.scan(link))
+            self.reject(self.scan(soft), verbs=["info"])
 
     def test_a_link_inside_the_file_is_followed(self):
         def soft(file):
@@ -214,7 +214,7 @@ class Hdf5(Hostile):
 
         self.assertEqual(self.tabor("info", self.scan(soft)).returncode, 0)
 
-    def test_a_result_that_lacks_something_is_refused_in_one_line(self):
+    def test_a_result_that_lacks_something_is_rejected_in_one_line(self):
         for place in ("surface/height", "surface/x", "surface", "states/0000/gap"):
             path = self.contact()
             with h5py.File(path, "a") as file:
@@ -224,7 +224,7 @@ class Hdf5(Hostile):
             if done.returncode == 0:  # a map less is drawn without it
                 self.assertIn("states/", place)
                 continue
-            self.assert_refused(done, 3, path.name)
+            self.assert_rejected(done, 3, path.name)
 
     def test_sources_of_methods_are_not_looked_for_elsewhere(self):
         with h5py.File(self.folder / "result.h5", "w") as file:
@@ -235,7 +235,7 @@ class Hdf5(Hostile):
 
 
 class NoFiles(Hostile):
-    """Pipes, devices, sockets and folders where a file is expected: refused at once, nowhere waited for."""
+    """Pipes, devices, sockets and folders where a file is expected: rejected at once, nowhere waited for."""
 
     def setUp(self):
         super().setUp()
@@ -250,8 +250,8 @@ class NoFiles(Hostile):
         os.chdir(before)
         self.names = ["pipe.h5", "zero.h5", "folder.h5", "socket.h5"]
 
-    def refuse(self, *words, **options):
-        self.assert_refused(self.tabor(*words, timeout=20, preexec_fn=limit_memory, **options), 3)
+    def reject(self, *words, **options):
+        self.assert_rejected(self.tabor(*words, timeout=20, preexec_fn=limit_memory, **options), 3)
 
     def test_as_scans_and_results(self):
         for name in self.names:
@@ -261,24 +261,24 @@ class NoFiles(Hostile):
                 if words[0] == "params":
                     self.assertEqual(self.tabor(*words, timeout=20).returncode, 3, words)
                     continue
-                self.refuse(*words)
+                self.reject(*words)
 
     @unittest.skipIf(h5py is None, "needs python3-h5py")
     def test_as_results_to_draw(self):
         for name in self.names[:2]:
-            self.refuse("report", name)
+            self.reject("report", name)
 
     def test_in_studies(self):
         for name in self.names:
             (self.folder / "study.toml").write_text(STUDY.format(files=json.dumps([name])))
-            self.refuse("sweep", "study.toml", "-o", "out", "--quiet")
+            self.reject("sweep", "study.toml", "-o", "out", "--quiet")
         (self.folder / "study.toml").write_text(STUDY.format(files='["*.h5"]'))
-        self.refuse("sweep", "study.toml", "-o", "out", "--quiet")
+        self.reject("sweep", "study.toml", "-o", "out", "--quiet")
         self.generate("scan.gsf", "edt", 16)
         for name in self.names:
             (self.folder / "study.toml").write_text(
                 STUDY.format(files='["scan.gsf"]') + f'[experiment]\nfile = "{name}"\n')
-            self.refuse("sweep", "study.toml", "-o", "out", "--quiet")
+            self.reject("sweep", "study.toml", "-o", "out", "--quiet")
 
 
 class Names(Hostile):

@@ -53,7 +53,7 @@ class ProgramTest(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         return self.folder / name
 
-    def assert_refused(self, done, code, *parts):
+    def assert_rejected(self, done, code, *parts):
         """The exit code and one clear line that holds `parts`."""
         self.assertEqual(done.returncode, code, done.stderr)
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)

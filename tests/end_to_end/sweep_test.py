@@ -79,14 +79,14 @@ class Interrupted(SweepTest):
 
 
 class TwoSweeps(SweepTest):
-    def test_on_one_store_are_refused_while_one_works(self):
+    def test_on_one_store_are_rejected_while_one_works(self):
         first = self.start("sweep", "study.toml", "-o", "out")
         while not list(self.folder.glob("out/store/contact-*.h5")):
             self.assertIsNone(first.poll())
             time.sleep(0.002)
         first.send_signal(signal.SIGSTOP)
         try:
-            self.assert_refused(self.tabor("sweep", "study.toml", "-o", "out"), 3, "out")
+            self.assert_rejected(self.tabor("sweep", "study.toml", "-o", "out"), 3, "out")
         finally:
             first.send_signal(signal.SIGCONT)
             first.communicate(timeout=60)
@@ -112,22 +112,22 @@ class Jobs(SweepTest):
 
 
 class BadStudies(SweepTest):
-    def refused(self, old, new, *parts):
+    def rejected(self, old, new, *parts):
         self.assertIn(old, STUDY)
         (self.folder / "study.toml").write_text(STUDY.replace(old, new))
-        self.assert_refused(self.tabor("sweep", "study.toml", "-o", "out"), 3, "study.toml", *parts)
+        self.assert_rejected(self.tabor("sweep", "study.toml", "-o", "out"), 3, "study.toml", *parts)
 
-    def test_are_refused_with_line_and_key(self):
-        self.refused("youngs_modulus", "youngs_modulos", "youngs_modulus")
-        self.refused('"70 GPa"', "70", "unit")
-        self.refused('"8 MPa"', '"240 MPa"', "240 MPa")
-        self.refused('"a.h5"', '"absent.h5"', "absent.h5")
-        self.refused('"level=plane"', '"levle=plane"', "level")
-        self.refused("[material]", "[material", "study.toml")
+    def test_are_rejected_with_line_and_key(self):
+        self.rejected("youngs_modulus", "youngs_modulos", "youngs_modulus")
+        self.rejected('"70 GPa"', "70", "unit")
+        self.rejected('"8 MPa"', '"240 MPa"', "240 MPa")
+        self.rejected('"a.h5"', '"absent.h5"', "absent.h5")
+        self.rejected('"level=plane"', '"levle=plane"', "level")
+        self.rejected("[material]", "[material", "study.toml")
 
     def test_output_that_cannot_be_written_is_code_5(self):
         (self.folder / "out").write_text("a file where the folder should be")
-        self.assert_refused(self.tabor("sweep", "study.toml", "-o", "out"), 5, "out")
+        self.assert_rejected(self.tabor("sweep", "study.toml", "-o", "out"), 5, "out")
 
     def test_a_scan_that_cannot_be_read_fails_its_cases_only(self):
         (self.folder / "b.h5").write_bytes(b"\x89HDF\r\n\x1a\n but no more")
@@ -168,14 +168,14 @@ class Report(SweepTest):
         self.assertTrue(any(name.endswith("report.html") for name in files), files)
         self.assertTrue((self.folder / "reference/report.html").exists())
 
-    def test_of_nothing_is_refused(self):
+    def test_of_nothing_is_rejected(self):
         done = self.tabor("report", "absent")
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         self.assertIn("absent", done.stderr)
 
     def test_with_a_wrong_word_is_a_usage_error(self):
-        self.assert_refused(self.tabor("report", "reference", "--presure", "7MPa"), 2, "--pressure")
+        self.assert_rejected(self.tabor("report", "reference", "--presure", "7MPa"), 2, "--pressure")
 
 
 class HelpExamples(ProgramTest):

@@ -62,7 +62,7 @@ TEST(BowdenTabor, ElasticAreaHasNoFloor) {
   EXPECT_DOUBLE_EQ(estimate(contact, kShearStrength).friction_dry, 0.007);
 }
 
-TEST(BowdenTabor, RefusesValuesOutOfRange) {
+TEST(BowdenTabor, RejectsValuesOutOfRange) {
   const double nan = std::nan("");
   EXPECT_THROW(estimate(saturated(7e6), 0), InputError);
   EXPECT_THROW(estimate(saturated(7e6), nan), InputError);

@@ -231,11 +231,11 @@ TEST(FluidFilm, StopsAtAnyQuestion) {
   });
 }
 
-TEST(FluidFilm, IsNotDoubtedForBeingStopped) {
+TEST(FluidFilm, IsNotWarnedOfForBeingStopped) {
   const Case at = pressed(bumps(32), 20e6, 0.6e-6, 1.0);
   FluidFilmState state = at.solve();
   state.convergence.status = Status::stopped;
-  EXPECT_TRUE(doubts(state, at.problem).empty());
+  EXPECT_TRUE(warnings(state, at.problem).empty());
 }
 
 TEST(FluidFilm, FlatSurfacesSqueezeTheOilOut) {
@@ -256,7 +256,7 @@ TEST(FluidFilm, AnEyringOilShearsLess) {
   EXPECT_LT(eyring.fluid_pressure, newtonian.fluid_pressure);
 }
 
-TEST(FluidFilm, RefusesWhatMakesNoSense) {
+TEST(FluidFilm, RejectsWhatMakesNoSense) {
   Case at = pressed(bumps(16), 20e6, 0.6e-6, -1.0);
   EXPECT_THROW(at.solve(), InputError);
   at.problem.sliding_speed = 1;

@@ -89,7 +89,7 @@ struct Patch {
     state.film.convergence.status = Status::converged;
     state.convergence.status = Status::converged;
   }
-  std::vector<std::string> doubts() const { return friction::doubts(state, problem); }
+  std::vector<std::string> warnings() const { return friction::warnings(state, problem); }
 };
 
 TEST(FluidSummary, SharesTheLoadAndCountsThePixels) {
@@ -117,29 +117,29 @@ TEST(FluidSummary, OfSurfacesApartHasNoContact) {
   EXPECT_EQ(found.lubricated_share, 0);
 }
 
-TEST(FluidDoubts, AreNoneOfAGoodState) { EXPECT_THAT(Patch().doubts(), IsEmpty()); }
+TEST(FluidWarnings, AreNoneOfAGoodState) { EXPECT_THAT(Patch().warnings(), IsEmpty()); }
 
-TEST(FluidDoubts, SayWhetherTheOilStillMoves) {
+TEST(FluidWarnings, SayWhetherTheOilStillMoves) {
   for (const Status status : {Status::converged, Status::stalled, Status::iteration_limit}) {
     Patch patch;
     patch.state.convergence.status = Status::iteration_limit;
     patch.state.film.convergence.status = status;
-    EXPECT_THAT(patch.doubts(), Contains(HasSubstr("film NOT CONVERGED")));
+    EXPECT_THAT(patch.warnings(), Contains(HasSubstr("film NOT CONVERGED")));
     const auto moves = Contains(HasSubstr("oil still on the move"));
     if (status == Status::converged) {
-      EXPECT_THAT(patch.doubts(), Not(moves));
+      EXPECT_THAT(patch.warnings(), Not(moves));
     } else {
-      EXPECT_THAT(patch.doubts(), moves);
+      EXPECT_THAT(patch.warnings(), moves);
     }
   }
 }
 
-TEST(FluidDoubts, NameAnOilThatTheSolidsWouldNotBear) {
+TEST(FluidWarnings, NameAnOilThatTheSolidsWouldNotBear) {
   Patch patch;
   patch.problem.contact.saturation_pressure = 8e6;  // the film reaches 9 MPa
-  EXPECT_THAT(patch.doubts(), Contains(HasSubstr("reaches 9 MPa, more than the solids bear")));
+  EXPECT_THAT(patch.warnings(), Contains(HasSubstr("reaches 9 MPa, more than the solids bear")));
   patch.problem.contact.saturation_pressure = 9e6;
-  EXPECT_THAT(patch.doubts(), IsEmpty());
+  EXPECT_THAT(patch.warnings(), IsEmpty());
 }
 
 TEST(FlowingOil, TakesTheLawsThatItsNumbersCallFor) {

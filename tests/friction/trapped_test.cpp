@@ -146,7 +146,7 @@ TEST(TrappedLiquid, WithoutLiquidThereIsNothingToReport) {
   EXPECT_EQ(liquid.trapped_fraction + liquid.escaping_fraction + liquid.under_contact_fraction, 0);
 }
 
-TEST(TrappedLiquid, RefusesOtherShapesAndNan) {
+TEST(TrappedLiquid, RejectsOtherShapesAndNan) {
   Map map({"11", "1#"});
   map.film(0, 0) = std::nan("");
   EXPECT_THROW(map.solve(false), InputError);

@@ -49,7 +49,7 @@ TEST(SpillOver, IsZeroWithoutLiquidOrWithRoomForAll) {
   EXPECT_EQ(spill_over_fraction(row({1e-7, 1e-6}), row({1e-7, 1e-6})), 0);
 }
 
-TEST(WetContact, RefusesOtherShapesAndNan) {
+TEST(WetContact, RejectsOtherShapesAndNan) {
   const double nan = std::nan("");
   EXPECT_THROW(lubricated_share(mask({true}), row({0, 0})), InputError);
   EXPECT_THROW(lubricated_share(mask({true, true}), row({0, nan})), InputError);

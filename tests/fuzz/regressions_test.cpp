@@ -18,7 +18,9 @@ namespace fs = std::filesystem;
 TEST(Fuzz, EveryTargetHasASeed) {
   std::set<std::string> seeded;
   for (const Seed& seed : seeds()) seeded.insert(seed.target);
-  for (const Target& one : targets()) EXPECT_TRUE(seeded.contains(one.name)) << one.name;
+  for (const Target& one : targets()) {
+    EXPECT_TRUE(seeded.contains(one.name)) << one.name;
+  }
 }
 
 TEST(Fuzz, SeedsRun) {
@@ -27,7 +29,7 @@ TEST(Fuzz, SeedsRun) {
   }
 }
 
-/// Else the fuzzer would see nothing but libpng's refusals.
+/// Else the fuzzer would see nothing but libpng's rejections.
 TEST(Fuzz, ARepairedPngIsRead) {
   const test::Folder folder;
   for (const int interlace : {0, 1}) {

@@ -27,14 +27,14 @@ namespace {
 
 using scan::ReadOptions;
 
-/// A refusal says which file or option is meant.
+/// A rejection says which file or option is meant.
 void check_message(const std::string& message, const std::string& place) {
   if (message.find(place) == std::string::npos) {
     throw std::logic_error("a message without its place: " + message);
   }
 }
 
-/// Runs the action; true if it was not refused.
+/// Runs the action; true if it was not rejected.
 bool accepted(const std::function<void()>& action, const std::string& place = "") {
   try {
     action();
@@ -165,7 +165,7 @@ std::size_t library_bytes(const std::string& format) {
 }
 
 std::vector<Target> make_targets() {
-  ::setenv("PATH", "/nonexistent", 1);  // no converter: what no reader knows is refused at once
+  ::setenv("PATH", "/nonexistent", 1);  // no converter: what no reader knows is rejected at once
   std::vector<Target> all;
   for (const auto& format : scan::format::table()) {
     if (format.open == nullptr || format.via_gwyddion) continue;

@@ -39,7 +39,9 @@ TEST(RemoveLeftovers, TakesThoseOfDeadProgramsOfThisFileOnly) {
                                          "out.h5.4194305-0.tabor-tmp"};
   for (const std::string& name : kept) test::put_bytes(folder / name, "not of out.h5");
   remove_leftovers(folder / "out.h5");
-  for (const std::string& name : kept) EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  for (const std::string& name : kept) {
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  }
   EXPECT_TRUE(std::filesystem::exists(living.path()));
   EXPECT_EQ(folder.n_files(), kept.size() + 1);
 }
@@ -81,7 +83,7 @@ TEST(WriteFile, NamesTheFileInAFolderThatDoesNotExist) {
   }
 }
 
-TEST(WriteFile, RefusesAFolderAsItsName) {
+TEST(WriteFile, RejectsAFolderAsItsName) {
   const Folder folder;
   EXPECT_THROW(write_file(folder.path(), "x"), OutputError);
 }
@@ -115,7 +117,7 @@ TEST(WriteFile, KeepsThePermissionsOfWhatItReplaces) {
   EXPECT_EQ(std::filesystem::status(folder / "a").permissions(), mode);
 }
 
-TEST(WriteFile, RefusesWhatIsNoFileAndLeavesIt) {
+TEST(WriteFile, RejectsWhatIsNoFileAndLeavesIt) {
   const Folder folder;
   const auto pipe = folder / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
@@ -125,28 +127,30 @@ TEST(WriteFile, RefusesWhatIsNoFileAndLeavesIt) {
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
 }
 
-TEST(WriteFile, RefusesLinksInACircle) {
+TEST(WriteFile, RejectsLinksInACircle) {
   const Folder folder;
   std::filesystem::create_symlink("b", folder / "a");
   std::filesystem::create_symlink("a", folder / "b");
   EXPECT_THROW(write_file(folder / "a", "x"), OutputError);
 }
 
-TEST(WriteFile, RefusesAnUnwritableFolder) {
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write anywhere";
+TEST(WriteFile, RejectsAnUnwritableFolder) {
+  if (::geteuid() == 0) {
+    GTEST_SKIP() << "root may write anywhere";
+  }
   const Folder folder;
   std::filesystem::permissions(folder.path(), std::filesystem::perms::owner_read);
   EXPECT_THROW(write_file(folder / "a", "x"), OutputError);
 }
 
-TEST(MakeFolder, RefusesANameThatIsAFile) {
+TEST(MakeFolder, RejectsANameThatIsAFile) {
   const Folder folder;
   write_file(folder / "a", "x");
   EXPECT_THROW(make_folder(folder / "a"), OutputError);
   EXPECT_THROW(make_folder(folder / "a/b"), OutputError);
 }
 
-TEST(ReadText, RefusesWhatIsAbsentAFolderOrTooLarge) {
+TEST(ReadText, RejectsWhatIsAbsentAFolderOrTooLarge) {
   const Folder folder;
   write_file(folder / "a", "0123456789");
   EXPECT_EQ(read_text(folder / "a", 10), "0123456789");

@@ -4,14 +4,14 @@
 
 #include <cmath>
 
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 
 namespace tabor::io {
 namespace {
 
-using test::refusal;
+using test::rejection;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -54,14 +54,14 @@ TEST(ParseCsv, ReadsBackWhatLooksLikeAFormula) {
 
 TEST(ParseCsv, NamesFileLineAndColumnOfAMistake) {
   const std::string text = "mean_pressure_Pa,friction\n2e6,0.3\n5e6,abc\n";
-  EXPECT_THAT(refusal([&] { parse_csv(text, "m.csv").number(1, "friction"); }),
+  EXPECT_THAT(rejection([&] { parse_csv(text, "m.csv").number(1, "friction"); }),
               HasSubstr("m.csv:3: column friction: got 'abc'; expected a number"));
-  EXPECT_THAT(refusal([&] { parse_csv(text, "m.csv").number(0, "frictoin"); }),
+  EXPECT_THAT(rejection([&] { parse_csv(text, "m.csv").number(0, "frictoin"); }),
               HasSubstr("did you mean 'friction'?"));
-  EXPECT_THAT(refusal([] { parse_csv("a,b\n1\n", "m.csv"); }), HasSubstr("m.csv:2: got 1 cells"));
-  EXPECT_THAT(refusal([] { parse_csv("a\n\"1\n", "m.csv"); }), HasSubstr("m.csv:2"));
-  EXPECT_THAT(refusal([] { parse_csv("a\n\"1\"2\n", "m.csv"); }), HasSubstr("after a closing"));
-  EXPECT_THAT(refusal([] { parse_csv("# only\n", "m.csv"); }), HasSubstr("header row"));
+  EXPECT_THAT(rejection([] { parse_csv("a,b\n1\n", "m.csv"); }), HasSubstr("m.csv:2: got 1 cells"));
+  EXPECT_THAT(rejection([] { parse_csv("a\n\"1\n", "m.csv"); }), HasSubstr("m.csv:2"));
+  EXPECT_THAT(rejection([] { parse_csv("a\n\"1\"2\n", "m.csv"); }), HasSubstr("after a closing"));
+  EXPECT_THAT(rejection([] { parse_csv("# only\n", "m.csv"); }), HasSubstr("header row"));
 }
 
 TEST(CsvNumber, ReadsBackToTheSameBits) {

@@ -27,7 +27,7 @@ TEST(Digest, OfAFileIsTheDigestOfItsBytes) {
   EXPECT_EQ(sha256_of_file(folder / "large"), sha256(std::string_view(large)));
 }
 
-TEST(Digest, RefusesWhatIsNotAFile) {
+TEST(Digest, RejectsWhatIsNotAFile) {
   const test::Folder folder;
   EXPECT_THROW(sha256_of_file(folder / "absent"), InputError);
   EXPECT_THROW(sha256_of_file(folder.path()), InputError);

@@ -44,10 +44,10 @@ TEST_F(FileLocks, AreOnTheFileThatIsThere) {
   EXPECT_FALSE(can_take(Kind::alone));
 }
 
-TEST_F(FileLocks, AreRefusedInTheWordsOfWhoAsks) {
+TEST_F(FileLocks, AreRejectedInTheWordsOfWhoAsks) {
   const auto file = folder_ / "new" / "lock";
-  const FileLock first = FileLock::take_or_refuse(file, Kind::alone, "in use");
-  EXPECT_THROW(FileLock::take_or_refuse(file, Kind::alone, "in use"), InputError);
+  const FileLock first = FileLock::take_or_reject(file, Kind::alone, "in use");
+  EXPECT_THROW(FileLock::take_or_reject(file, Kind::alone, "in use"), InputError);
 }
 
 TEST_F(FileLocks, NeedAFolderThatCanBeWritten) {

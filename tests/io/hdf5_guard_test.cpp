@@ -34,7 +34,7 @@ class Hdf5Guard : public ::testing::Test {
   ~Hdf5Guard() override { isolate_hdf5_reading(false); }
 };
 
-TEST_F(Hdf5Guard, ResultsAndRefusalsSurvive) {
+TEST_F(Hdf5Guard, ResultsAndRejectionsSurvive) {
   EXPECT_TRUE(survives([] {}));
   EXPECT_TRUE(survives([] { throw InputError("no scan"); }));
 }
@@ -119,7 +119,7 @@ TEST_F(Hdf5Guard, ACopyEndsWithItsProcess) {
   ::close(ends[0]);
 }
 
-TEST_F(Hdf5Guard, ACopyThatWaitsForEverIsARefusal) {
+TEST_F(Hdf5Guard, ACopyThatWaitsForEverIsARejection) {
   const pid_t original = ::getpid();
   const auto wait_in_copy = [original] {
     if (::getpid() != original) ::pause();
@@ -137,7 +137,9 @@ TEST_F(Hdf5Guard, SoIsAMapWhoseCopyWaitsForEver) {
 }
 
 TEST_F(Hdf5Guard, WithoutACopyNothingIsRead) {
-  if (test::kSanitized) GTEST_SKIP() << "the sanitizer opens files itself";
+  if (test::kSanitized) {
+    GTEST_SKIP() << "the sanitizer opens files itself";
+  }
   bool is_read = false;
   const auto read = [&] { is_read = true; };
   const test::Folder folder;

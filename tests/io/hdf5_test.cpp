@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "support/folder.hpp"
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "tabor/core/error.hpp"
 
 namespace tabor::io {
@@ -121,7 +121,7 @@ TEST(Hdf5, OtherExternalLinksAreNotFollowed) {
     writer.commit();
     const Hdf5Reader reader(folder / "main.h5");
     EXPECT_FALSE(reader.exists("/surface/height")) << target;
-    EXPECT_THAT(test::refusal([&] { reader.field("/surface/height"); }),
+    EXPECT_THAT(test::rejection([&] { reader.field("/surface/height"); }),
                 HasSubstr("a link into another file"))
         << target;
   }
@@ -182,7 +182,7 @@ TEST(Hdf5, EveryTruncationIsAnInputError) {
   }
 }
 
-TEST(Hdf5, RefusesWhatIsAbsentOrOfAnotherKind) {
+TEST(Hdf5, RejectsWhatIsAbsentOrOfAnotherKind) {
   const Folder folder;
   write_sample(folder / "a.h5");
   const Hdf5Reader reader(folder / "a.h5");
@@ -199,7 +199,7 @@ TEST(Hdf5, RefusesWhatIsAbsentOrOfAnotherKind) {
   EXPECT_THROW(reader.children("/absent"), InputError);
 }
 
-TEST(Hdf5, RefusesASizeThatTheBytesCannotHold) {
+TEST(Hdf5, RejectsASizeThatTheBytesCannotHold) {
   const Folder folder;
   Hdf5Writer writer(folder / "a.h5");
   writer.write("/map", Field(Field::Random(4, 4)));

@@ -89,7 +89,7 @@ TEST(ReadJson, SurvivesDeepNesting) {
   EXPECT_NO_THROW(read_json(folder / "closed.json"));
 }
 
-TEST(ReadJson, RefusesANumberBeyondTheRangeOfDoubles) {
+TEST(ReadJson, RejectsANumberBeyondTheRangeOfDoubles) {
   const test::Folder folder;
   test::put_bytes(folder / "large.json", R"({"x": 1e400})");
   EXPECT_THROW(read_json(folder / "large.json"), InputError);

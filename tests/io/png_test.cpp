@@ -73,13 +73,13 @@ TEST(Png, TheGreyValueNamedTransparentIsAHole) {
   EXPECT_TRUE(std::isnan(image.counts(0, 1)));
 }
 
-TEST(Png, RefusesColour) {
+TEST(Png, RejectsColour) {
   const Folder folder;
   write_png({1, 1, 3, {1, 2, 3}}, folder / "a.png");
   EXPECT_THROW(read_png(folder / "a.png"), InputError);
 }
 
-TEST(Png, RefusesEveryTruncation) {
+TEST(Png, RejectsEveryTruncation) {
   const Folder folder;
   std::vector<std::uint8_t> values(32 * 32);
   for (std::size_t i = 0; i < values.size(); ++i) {

@@ -11,7 +11,7 @@
 #include <map>
 
 #include "support/folder.hpp"
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/csv.hpp"
 #include "tabor/io/digest.hpp"
@@ -60,11 +60,11 @@ TEST_F(RegularFiles, NothingElseIsOpenedWhoeverReads) {
       {"hdf5", [](const fs::path& file) { Hdf5Reader{file}; }}};
   for (const auto& [name, read] : readers) {
     for (const std::string what : {"pipe", "folder", "endless", "link", "socket"}) {
-      EXPECT_THAT(test::refusal([&, reader = &read] { (*reader)(folder_ / what); }),
+      EXPECT_THAT(test::rejection([&, reader = &read] { (*reader)(folder_ / what); }),
                   HasSubstr("a folder, device or pipe"))
           << name << " " << what;
     }
-    EXPECT_THAT(test::refusal([&, reader = &read] { (*reader)(folder_ / "absent"); }),
+    EXPECT_THAT(test::rejection([&, reader = &read] { (*reader)(folder_ / "absent"); }),
                 HasSubstr("no such file"))
         << name;
   }

@@ -57,7 +57,7 @@ TEST(Config, WalksThroughArraysOfTables) {
   EXPECT_TRUE(config().tables("absent").empty());
 }
 
-TEST(Config, RefusesANumberWithoutItsUnitAndShowsTheCorrectedForm) {
+TEST(Config, RejectsANumberWithoutItsUnitAndShowsTheCorrectedForm) {
   const auto bare = [] { config().quantity("material.bare", dimension::pressure); };
   EXPECT_THAT(message_of(bare), HasSubstr("study.toml:5: material.bare"));
   EXPECT_THAT(message_of(bare), HasSubstr("MPa\""));
@@ -130,7 +130,7 @@ std::string repeated(const std::string& part, int n) {
   return text;
 }
 
-TEST(Config, DeepNestingIsRefused) {
+TEST(Config, DeepNestingIsRejected) {
   constexpr int kDepth = 200000;
   for (const std::string& text :
        {"[" + repeated("a.", kDepth) + "a]\n", repeated("a.", kDepth) + "a = 1\n",
@@ -141,7 +141,7 @@ TEST(Config, DeepNestingIsRefused) {
   }
 }
 
-TEST(Config, LongLinesAreRefusedNamingTheLine) {
+TEST(Config, LongLinesAreRejectedNamingTheLine) {
   try {
     Config::parse("a = 1\n# " + repeated(".", 20000) + "\n", "study.toml");
     FAIL() << "accepted";

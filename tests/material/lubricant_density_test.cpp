@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "material/differences.hpp"
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/validation.hpp"
 #include "support/worst.hpp"
 
@@ -72,8 +72,10 @@ TEST(RelativeDensity, IsPositiveInsideItsComputableRangeOnly) {
 }
 
 TEST(RelativeDensity, LawsAreKnownByName) {
-  for (const DensityLaw law : kLaws) EXPECT_EQ(parse_density_law(name(law)), law);
-  const std::string message = test::refusal([] { parse_density_law("dowson"); });
+  for (const DensityLaw law : kLaws) {
+    EXPECT_EQ(parse_density_law(name(law)), law);
+  }
+  const std::string message = test::rejection([] { parse_density_law("dowson"); });
   EXPECT_NE(message.find("dowson-higginson"), std::string::npos) << message;
 }
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "material/differences.hpp"
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/validation.hpp"
 #include "support/worst.hpp"
 #include "tabor/core/error.hpp"
@@ -166,12 +166,14 @@ TEST(Shear, SeriesForSlowFilmsMeetsTheClosedForm) {
 }
 
 TEST(Shear, LawsAreKnownByName) {
-  for (const Shear& law : kLaws) EXPECT_EQ(parse_shear_law(name(law_of(law))), law_of(law));
-  const std::string message = test::refusal([] { parse_shear_law("eyring"); });
+  for (const Shear& law : kLaws) {
+    EXPECT_EQ(parse_shear_law(name(law_of(law))), law_of(law));
+  }
+  const std::string message = test::rejection([] { parse_shear_law("eyring"); });
   EXPECT_NE(message.find("ree-eyring"), std::string::npos) << message;
 }
 
-TEST(Shear, RefusesWhatMakesNoSense) {
+TEST(Shear, RejectsWhatMakesNoSense) {
   for (const double bad : {0.0, -1e6, std::nan("")}) {
     EXPECT_THROW(ree_eyring_shear(bad), InputError) << bad;
     EXPECT_THROW(limiting_shear(bad, 0.05), InputError) << bad;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/validation.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/material/lubricant_mixture.hpp"
@@ -32,21 +32,21 @@ TEST(Lubricant, HandsOverItsLawsForEveryNode) {
   }
 }
 
-TEST(Lubricant, RefusesPressuresAtWhichALawHasNoNumber) {
+TEST(Lubricant, RejectsPressuresAtWhichALawHasNoNumber) {
   EXPECT_NO_THROW(check_pressure(kOil, 3e9));
   EXPECT_THROW(check_pressure(kOil, -2e8), InputError);
   EXPECT_THROW(check_pressure(kOil, std::nan("")), InputError);
   const Lubricant barus{.viscosity = barus_viscosity(0.43, 2e-8), .density = {}, .shear = {}};
-  const std::string message = test::refusal([&] { check_pressure(barus, 20e9); });
+  const std::string message = test::rejection([&] { check_pressure(barus, 20e9); });
   EXPECT_NE(message.find("barus"), std::string::npos) << message;
   EXPECT_NE(message.find("15 GPa"), std::string::npos) << message;
 }
 
-TEST(Lubricant, DoubtsPressuresBeyondWhatItsLawsAreTrustedFor) {
-  EXPECT_TRUE(doubts(kOil, 0.3e9).empty());
-  EXPECT_EQ(doubts(kOil, 0.5e9).size(), 1U);
-  EXPECT_EQ(doubts(kOil, 2e9).size(), 2U);
-  EXPECT_TRUE(doubts(Lubricant{}, 1e12).empty());
+TEST(Lubricant, WarningsPressuresBeyondWhatItsLawsAreTrustedFor) {
+  EXPECT_TRUE(warnings(kOil, 0.3e9).empty());
+  EXPECT_EQ(warnings(kOil, 0.5e9).size(), 1U);
+  EXPECT_EQ(warnings(kOil, 2e9).size(), 2U);
+  EXPECT_TRUE(warnings(Lubricant{}, 1e12).empty());
 }
 
 TEST(Lubricant, ComputableRangeIsThatOfAllItsLaws) {
@@ -96,7 +96,7 @@ TEST(GlycerolWater, ThickensWithGlycerolAndThinsWithTemperature) {
   }
 }
 
-TEST(GlycerolWater, RefusesWhatTheFormulaWasNotFittedTo) {
+TEST(GlycerolWater, RejectsWhatTheFormulaWasNotFittedTo) {
   EXPECT_THROW(glycerol_water_viscosity(95, 297.15), InputError);
   EXPECT_THROW(glycerol_water_viscosity(1.01, 297.15), InputError);
   EXPECT_THROW(glycerol_water_viscosity(-0.1, 297.15), InputError);

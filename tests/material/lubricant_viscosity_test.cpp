@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "material/differences.hpp"
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/validation.hpp"
 #include "support/worst.hpp"
 #include "tabor/core/error.hpp"
@@ -148,11 +148,11 @@ TEST(Viscosity, LawsAreKnownByName) {
     EXPECT_EQ(parse_viscosity_law(name(law)), law);
     EXPECT_EQ(law_of(make_viscosity(law, 0.1, 2e-8)), law);
   }
-  const std::string message = test::refusal([] { parse_viscosity_law("roeland"); });
+  const std::string message = test::rejection([] { parse_viscosity_law("roeland"); });
   EXPECT_NE(message.find("did you mean 'roelands'"), std::string::npos) << message;
 }
 
-TEST(Viscosity, RefusesWhatMakesNoSense) {
+TEST(Viscosity, RejectsWhatMakesNoSense) {
   const double nan = std::nan("");
   for (const double bad : {0.0, -0.1, nan}) {
     EXPECT_THROW(constant_viscosity(bad), InputError) << bad;
@@ -167,8 +167,8 @@ TEST(Viscosity, RefusesWhatMakesNoSense) {
                InputError);
 }
 
-TEST(Viscosity, RefusesOilsThinnerThanTheRoelandsPole) {
-  const std::string message = test::refusal([] { roelands_viscosity(6e-5, 2e-8); });
+TEST(Viscosity, RejectsOilsThinnerThanTheRoelandsPole) {
+  const std::string message = test::rejection([] { roelands_viscosity(6e-5, 2e-8); });
   EXPECT_NE(message.find("6.31e-05"), std::string::npos) << message;
   EXPECT_NO_THROW(barus_viscosity(6e-5, 2e-8));
 }

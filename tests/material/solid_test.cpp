@@ -42,25 +42,25 @@ TEST(EffectiveModulus, AcceptsAnIncompressibleSolid) {
   EXPECT_DOUBLE_EQ(effective_modulus({1e6, 0.5}), 1e6 / 0.75);
 }
 
-TEST(EffectiveModulus, RefusesAModulusThatIsNotPositive) {
+TEST(EffectiveModulus, RejectsAModulusThatIsNotPositive) {
   for (const double modulus : {0.0, -1e9, kNaN}) {
     EXPECT_THROW(effective_modulus({modulus, 0.3}), InputError) << modulus;
     EXPECT_THROW(effective_modulus({70e9, 0.3}, {modulus, 0.3}), InputError) << modulus;
   }
 }
 
-TEST(EffectiveModulus, RefusesAPoissonsRatioOutOfItsRange) {
+TEST(EffectiveModulus, RejectsAPoissonsRatioOutOfItsRange) {
   for (const double ratio : {-1.0, 0.51, kNaN}) {
     EXPECT_THROW(effective_modulus({70e9, ratio}), InputError) << ratio;
   }
 }
 
-TEST(EffectiveModulus, RefusesTwoRigidBodies) {
+TEST(EffectiveModulus, RejectsTwoRigidBodies) {
   EXPECT_THROW(effective_modulus({kRigid, 0.3}), InputError);
   EXPECT_THROW(effective_modulus({kRigid, 0.3}, {kRigid, 0.3}), InputError);
 }
 
-TEST(EffectiveModulus, NamesTheQuantityAndTheValueItRefuses) {
+TEST(EffectiveModulus, NamesTheQuantityAndTheValueItRejects) {
   try {
     effective_modulus({70e9, 0.7});
     FAIL() << "0.7 was accepted";

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/sample_surfaces.hpp"
 #include "support/scans.hpp"
 #include "support/validation.hpp"
@@ -176,12 +176,12 @@ TEST(Autocorrelation, DoesNotDependOnUnitsOrOffset) {
   EXPECT_NEAR(after.mean_square() / before.mean_square(), 1e-24, 1e-33);
 }
 
-TEST(Autocorrelation, RefusesAScanOfHoles) {
+TEST(Autocorrelation, RejectsAScanOfHoles) {
   const Field nothing = Field::Constant(8, 8, kHole);
   const Grid grid{8, 8, 1, 1};
-  EXPECT_THAT(tabor::test::refusal([&] { autocorrelation(nothing, grid); }),
+  EXPECT_THAT(tabor::test::rejection([&] { autocorrelation(nothing, grid); }),
               testing::HasSubstr("no valid height"));
-  EXPECT_THAT(tabor::test::refusal([&] { height_differences(nothing, grid); }),
+  EXPECT_THAT(tabor::test::rejection([&] { height_differences(nothing, grid); }),
               testing::HasSubstr("no valid height"));
 }
 

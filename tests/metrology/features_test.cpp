@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/sample_surfaces.hpp"
 #include "support/validation.hpp"
 #include "tabor/core/error.hpp"
@@ -229,13 +229,13 @@ TEST(FeatureParameters, OfFlatOrTinyMapsSayWhyThereIsNothing) {
   EXPECT_THAT(feature(row, "Spd").note, HasSubstr("no point has eight valid neighbours"));
 }
 
-TEST(FeatureParameters, RefuseWhatMakesNoSense) {
-  using tabor::test::refusal;
+TEST(FeatureParameters, RejectWhatMakesNoSense) {
+  using tabor::test::rejection;
   const auto holes = surface({4, 4, 1, 1}, [](double, double) { return kHole; });
-  EXPECT_THAT(refusal([&] { feature_parameters(holes); }), HasSubstr("holes only"));
+  EXPECT_THAT(rejection([&] { feature_parameters(holes); }), HasSubstr("holes only"));
   const auto topography = egg_box(11, false);
   for (const double pruning : {-0.1, 1.5, kHole}) {
-    EXPECT_THAT(refusal([&] { feature_parameters(topography, {.pruning = pruning}); }),
+    EXPECT_THAT(rejection([&] { feature_parameters(topography, {.pruning = pruning}); }),
                 HasSubstr("between 0 and 1"));
   }
 }

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <map>
 
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/sample_surfaces.hpp"
 #include "support/scans.hpp"
 #include "support/synthetic.hpp"
@@ -21,7 +21,7 @@ using namespace tabor::test;
 namespace {
 
 using tabor::test::expect_within;
-using tabor::test::refusal;
+using tabor::test::rejection;
 using testing::HasSubstr;
 
 /// The parameters along x by symbol without its _x.
@@ -271,7 +271,9 @@ TEST(ProfileElements, DoNotReachAcrossHoles) {
   z[105] = kHole;
   const auto elements = profile_elements(z, {});
   EXPECT_EQ(elements.size(), 4U + 4U);
-  for (const auto& element : elements) EXPECT_NEAR(element.spacing, 20, 0.1);
+  for (const auto& element : elements) {
+    EXPECT_NEAR(element.spacing, 20, 0.1);
+  }
 }
 
 TEST(ProfileParameters, NarrowSpikesAreElementsOnlyIn2021) {
@@ -461,12 +463,12 @@ TEST(ProfileParameters, HaveTheSameBitsForAnyNumberOfThreads) {
   });
 }
 
-TEST(ProfileParameters, RefuseWhatMakesNoSense) {
+TEST(ProfileParameters, RejectWhatMakesNoSense) {
   const auto map = noise({64, 64, 64e-6, 64e-6});
   const auto message = [&](const auto& change) {
     ProfileOptions options;
     change(options);
-    return refusal([&] { profile_parameters(map, options); });
+    return rejection([&] { profile_parameters(map, options); });
   };
   EXPECT_THAT(message([](ProfileOptions& o) { o.cutoff = 1.5e-6; }), HasSubstr("two pixels"));
   EXPECT_THAT(message([](ProfileOptions& o) { o.cutoff = kHole; }), HasSubstr("two pixels"));

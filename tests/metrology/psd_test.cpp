@@ -244,12 +244,12 @@ TEST(PowerSpectra, OfAColumnAreThoseOfTheSameRow) {
   EXPECT_EQ(spectra.window_gain, power_spectra(row).window_gain);
 }
 
-TEST(PowerSpectra, RefuseASingleHeight) {
+TEST(PowerSpectra, RejectASingleHeight) {
   const auto point = surface({1, 1, 1e-6, 1e-6}, [](double, double) { return 1e-6; });
   EXPECT_THROW(power_spectra(point), InputError);
 }
 
-TEST(PowerSpectra, RefuseHoles) {
+TEST(PowerSpectra, RejectHoles) {
   auto holed = noise(kGrid);
   holed.height(0, 0) = kHole;
   try {

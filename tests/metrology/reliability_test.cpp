@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/sample_surfaces.hpp"
 #include "tabor/metrology/psd.hpp"
 #include "tabor/synthesis/synthesis.hpp"
@@ -53,11 +53,12 @@ TEST(TipLimitedWavelength, LeavesHolesOut) {
   EXPECT_EQ(tip_limited_wavelength(rough.height, kGrid, 10e-6), 0);
 }
 
-TEST(TipLimitedWavelength, RefusesATipWithoutARadius) {
+TEST(TipLimitedWavelength, RejectsATipWithoutARadius) {
   const auto rough = noise(kGrid);
   for (const double radius : {0.0, -1e-6, kHole}) {
-    EXPECT_THAT(tabor::test::refusal([&] { tip_limited_wavelength(rough.height, kGrid, radius); }),
-                HasSubstr("--tip-radius"));
+    EXPECT_THAT(
+        tabor::test::rejection([&] { tip_limited_wavelength(rough.height, kGrid, radius); }),
+        HasSubstr("--tip-radius"));
   }
 }
 

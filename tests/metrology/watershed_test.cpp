@@ -148,7 +148,9 @@ void expect_like_naive(const topography::Topography& topography, double least_di
   for (const Motif& motif : fast.motifs) {
     const auto pass = naive.pass_of(motif.extremum);
     ASSERT_EQ(motif.saddle == kNoPixel, pass.to < 0);
-    if (motif.saddle != kNoPixel) ASSERT_EQ(at(topography, motif.saddle), pass.height);
+    if (motif.saddle != kNoPixel) {
+      ASSERT_EQ(at(topography, motif.saddle), pass.height);
+    }
   }
 }
 

@@ -140,8 +140,12 @@ TEST(RayleighStep, CarriesMostAtItsKnownShape) {
     return RayleighStep{0.02, place * 0.02, 2e-6 * ratio, 2e-6, 1.0, 0.1}.load() / scale;
   };
   EXPECT_NEAR(load(1.866, 0.7182), 0.2063, 5e-5);
-  for (const double ratio : {1.84, 1.89}) EXPECT_GT(load(1.866, 0.7182), load(ratio, 0.7182));
-  for (const double place : {0.70, 0.735}) EXPECT_GT(load(1.866, 0.7182), load(1.866, place));
+  for (const double ratio : {1.84, 1.89}) {
+    EXPECT_GT(load(1.866, 0.7182), load(ratio, 0.7182));
+  }
+  for (const double place : {0.70, 0.735}) {
+    EXPECT_GT(load(1.866, 0.7182), load(1.866, place));
+  }
 }
 
 TEST(RayleighStep, FlowsTheSameBeforeAndBehindTheStep) {

@@ -66,7 +66,9 @@ TEST(HertzEllipse, ItsPressureFlattensTheBodies) {
                              scale * ellipsoid_integral(a, b, 1, 3) * 2 * at.radius_y - 1,
                              scale * ellipsoid_integral(a, b, 1, 1) / at.approach - 1,
                              2 * std::numbers::pi / 3 * a * b * at.max_pressure / kLoad - 1};
-    for (const double error : errors) EXPECT_LE(std::abs(error), 1e-9);
+    for (const double error : errors) {
+      EXPECT_LE(std::abs(error), 1e-9);
+    }
   }
 }
 

@@ -61,16 +61,16 @@ class Damaged(StudyCase):
         self.assertEqual(scans[0]["rows"], [("surface", "not treated yet")])
         self.assertIn(("pixels", "128 × 96"), scans[1]["rows"])
 
-    def test_warnings_of_the_table_are_said_once_and_in_place_of_doubts(self):
+    def test_warnings_of_the_table_are_said_once_and_in_place_of_warnings(self):
         lines = ["5 spikes (0.1 %) (16 of 32 cases: before_1.x3p) [spikes]", "spill-over 27 % [spill-over]"]
 
         def warn(folder):
             with h5py.File(folder / "results.h5", "a") as file:
                 file.attrs["warnings"] = lines
 
-        source = self.study(Recipe(doubts={0: "5 spikes (0.1 %)"}), warn)
+        source = self.study(Recipe(warnings={0: "5 spikes (0.1 %)"}), warn)
         self.assertEqual(source.warnings, lines)
-        self.assertIn("before_1.x3p: 5 spikes (0.1 %)", self.study(Recipe(doubts={0: "5 spikes (0.1 %)"})).warnings)
+        self.assertIn("before_1.x3p: 5 spikes (0.1 %)", self.study(Recipe(warnings={0: "5 spikes (0.1 %)"})).warnings)
 
     def test_a_failed_case_is_named_with_its_message(self):
         def fail(folder):

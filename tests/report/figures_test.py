@@ -120,7 +120,7 @@ class FlowingOil(StudyCase):
             series.mean, friction_series.lubricated(self.study(plain), "side A", 0.9).mean
         )
 
-    def test_a_film_that_did_not_converge_is_ringed_and_named_and_no_doubt_about_the_contact(self):
+    def test_a_film_that_did_not_converge_is_ringed_and_named_and_no_warning_about_the_contact(self):
         recipe = Recipe(pressures=(2e6,), densities=(0.9,), speeds=(0.01, 1.0), unsteady=((1, 0),), shape=(24, 32))
         drawn = self.figure(recipe)
         self.assertIn("did not converge", drawn.caption)

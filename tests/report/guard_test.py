@@ -1,4 +1,4 @@
-"""Results of others: damaged, hostile, or of another kind. Refused in one line, never followed, waited for or crashed over."""
+"""Results of others: damaged, hostile, or of another kind. Rejected in one line, never followed, waited for or crashed over."""
 
 import hashlib
 import os
@@ -28,7 +28,7 @@ class Guard(StudyCase):
         self.addCleanup(folder.cleanup)
         return folder.name
 
-    def refuse(self, change, part):
+    def reject(self, change, part):
         path = self.file(change)
         with self.assertRaises(errors.InputError) as caught:
             hdf.open_file(path)
@@ -45,7 +45,7 @@ class Guard(StudyCase):
         with hdf.open_file(self.file(fill)) as file:
             self.assertEqual(file["soft"].shape, (300, 400))
 
-    def test_values_in_other_files_are_refused(self):
+    def test_values_in_other_files_are_rejected(self):
         def raw(file):
             file.create_dataset("map", (4, 4), "u1", external=[("/etc/passwd", 0, 16)])
 
@@ -54,17 +54,17 @@ class Guard(StudyCase):
             layout[:] = h5py.VirtualSource("other.h5", "map", (4, 4))
             file.create_virtual_dataset("map", layout)
 
-        self.refuse(raw, "values kept in other files")
-        self.refuse(virtual, "values kept in other files")
+        self.reject(raw, "values kept in other files")
+        self.reject(virtual, "values kept in other files")
 
-    def test_links_that_lead_out_are_refused(self):
+    def test_links_that_lead_out_are_rejected(self):
         for place, target in [
             ("surface", "other.h5"),
             ("scans/0000/surface", "/tmp/other.h5"),
             ("scans/0000/surface", "store/../other.h5"),
             ("table", "store/a.h5"),
         ]:
-            self.refuse(lambda file: file.__setitem__(place, h5py.ExternalLink(target, "/")), "not in its store")
+            self.reject(lambda file: file.__setitem__(place, h5py.ExternalLink(target, "/")), "not in its store")
 
     def test_a_pipe_in_the_store_is_not_waited_for(self):
         def link(file):
@@ -73,7 +73,7 @@ class Guard(StudyCase):
             os.mkfifo(folder / "a.h5")
             file["scans/0000/surface"] = h5py.ExternalLink("store/a.h5", "/surface")
 
-        self.refuse(link, "not in its store")
+        self.reject(link, "not in its store")
 
     def test_pipes_and_devices_are_not_opened(self):
         pipe = Path(self.temporary_folder()) / "pipe"
@@ -81,8 +81,8 @@ class Guard(StudyCase):
         for path in (pipe, "/dev/zero", pipe.parent):
             self.assertIn("folder, device or pipe", guard.problem(str(path)))
 
-    def test_a_claim_of_more_than_the_file_holds_is_refused(self):
-        self.refuse(lambda file: file.create_dataset("map", (100000, 100000), "f8"), "claims more")
+    def test_a_claim_of_more_than_the_file_holds_is_rejected(self):
+        self.reject(lambda file: file.create_dataset("map", (100000, 100000), "f8"), "claims more")
 
     def test_a_reader_that_crashes_or_never_returns_is_a_damaged_file(self):
         path = str(self.file(lambda file: None))
@@ -99,7 +99,7 @@ class Guard(StudyCase):
             with mock.patch.multiple(guard, _read_all=lambda file: ending(), _limit=one_second):
                 self.assertEqual(guard.problem(path), "a damaged file")
 
-    def test_no_process_is_a_refusal(self):
+    def test_no_process_is_a_rejection(self):
         path = str(self.file(lambda file: None))
         guard.problem.cache_clear()
         with mock.patch("os.fork", side_effect=OSError(11, "Resource temporarily unavailable")):

@@ -1,4 +1,4 @@
-"""Options of the report that a kind of result has no use for are refused; the others are taken."""
+"""Options of the report that a kind of result has no use for are rejected; the others are taken."""
 
 import contextlib
 import io
@@ -45,7 +45,7 @@ class Options(unittest.TestCase):
         self.addCleanup(source.file.close)
         applicable.check(source, parsed(path, words))
 
-    def test_of_studies_are_refused_for_every_other_result(self):
+    def test_of_studies_are_rejected_for_every_other_result(self):
         for path in self.others():
             for words in OF_STUDIES:
                 with self.assertRaises(UsageError, msg=f"{path} {words}") as caught:
@@ -63,11 +63,11 @@ class Options(unittest.TestCase):
         for words in OF_STUDIES:
             self.check(study, words)
 
-    def test_that_contradict_each_other_are_refused(self):
+    def test_that_contradict_each_other_are_rejected(self):
         with self.assertRaises(UsageError):
             self.check(self.study(), ["--scan", "0", "--all-scans"])
 
-    def test_a_density_is_refused_where_no_scan_is_lubricated(self):
+    def test_a_density_is_rejected_where_no_scan_is_lubricated(self):
         with self.assertRaises(UsageError):
             self.check(self.study(Recipe(densities=(0.0,))), ["--density", "0.9g/m^2"])
 

@@ -52,7 +52,7 @@ class Units(unittest.TestCase):
         ):
             self.assertEqual((words(key), show(key, value)), (name, text))
 
-    def test_a_pressure_without_its_unit_is_refused_with_the_corrected_form(self):
+    def test_a_pressure_without_its_unit_is_rejected_with_the_corrected_form(self):
         self.assertEqual(units.parse_pressure("7 MPa"), 7e6)
         for wrong in ("7", "7 bar", "MPa", "7e MPa"):
             with self.assertRaises(errors.InputError):

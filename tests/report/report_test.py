@@ -23,7 +23,7 @@ ODD = Recipe(
     pressures=(2e6, 8e6),
     not_converged=((2, 0),),
     missing_cases=((1, 1),),
-    doubts={0: "heights are quantised at 10 nm"},
+    warnings={0: "heights are quantised at 10 nm"},
 )
 
 
@@ -133,7 +133,7 @@ class StudyReport(unittest.TestCase):
         self.assertEqual(len(re.findall(r'<tr class="loose">', self.page)), 2)
         self.assertIn("2 of 10 rows did not converge", self.text)
 
-    def test_an_incomplete_study_and_doubts_are_warned_about(self):
+    def test_an_incomplete_study_and_warnings_are_warned_about(self):
         self.assertIn("10 of 12 cases are done", self.text)
         self.assertIn("heights are quantised at 10 nm", self.text)
 

@@ -34,7 +34,7 @@ class Recipe:
     experiment: bool = True
     not_converged: tuple = ()  # (scan index, pressure index)
     missing_cases: tuple = ()  # the same: neither computed nor stored
-    doubts: dict = field(default_factory=dict)  # {scan index: text}
+    warnings: dict = field(default_factory=dict)  # {scan index: text}
     title: str = "EDT aluminium on steel, before sliding"
     speeds: tuple = ()  # [m/s]: the oil flows
     unsteady: tuple = ()  # (scan index, speed index) whose film did not converge
@@ -70,7 +70,7 @@ def _write_scan(folder, recipe, index, group):
         "file": f"before_{index + 1}.x3p",
         "group": group,
         "height": height,
-        "doubts": recipe.doubts.get(index),
+        "doubts": recipe.warnings.get(index),
         "sha256": _sha256(f"scan {index}"),
         "contacts": {},
         "films": {},

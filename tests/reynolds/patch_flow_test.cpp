@@ -238,7 +238,7 @@ TEST(PatchFilm, HasTheSameBitsForAnyThreadCount) {
   EXPECT_TRUE((one.pressure == three.pressure).all() && (one.fill == three.fill).all());
 }
 
-TEST(PatchFilm, RefusesWhatMakesNoSense) {
+TEST(PatchFilm, RejectsWhatMakesNoSense) {
   const Field oil = Field::Constant(1, 4, 1e-6);
   const PatchProblem good = row_patch(Field::Constant(1, 4, 1e-6));
   EXPECT_NO_THROW(steady_film(good, oil));

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "reynolds_films.hpp"
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/validation.hpp"
 #include "support/worst.hpp"
 #include "tabor/reference/bearings.hpp"
@@ -185,15 +185,15 @@ TEST(FaceFlow, TakesAFrontOfBarussViscosityExactly) {
   EXPECT_NEAR(face_flow(node(high), node(low), 0).flow / exact, 1, 1e-12);
 }
 
-TEST(ReynoldsLine, RefusesWhatIsNoFilm) {
+TEST(ReynoldsLine, RejectsWhatIsNoFilm) {
   FilmProblem problem = cylinder(10);
   problem.film[3] = 0;
-  EXPECT_THAT(test::refusal([&] { solve_film(problem); }), testing::HasSubstr("more than zero"));
+  EXPECT_THAT(test::rejection([&] { solve_film(problem); }), testing::HasSubstr("more than zero"));
   problem.film.conservativeResize(5);
-  EXPECT_THAT(test::refusal([&] { solve_film(problem); }), testing::HasSubstr("12 values"));
-  EXPECT_THAT(test::refusal([] { line_grid(1, 0, 10); }), testing::HasSubstr("before the end"));
-  EXPECT_THAT(test::refusal([] { disc_grid(0, 10); }), testing::HasSubstr("more than zero"));
-  EXPECT_THAT(test::refusal([] { disc_grid(1, 1); }), testing::HasSubstr("2 or more"));
+  EXPECT_THAT(test::rejection([&] { solve_film(problem); }), testing::HasSubstr("12 values"));
+  EXPECT_THAT(test::rejection([] { line_grid(1, 0, 10); }), testing::HasSubstr("before the end"));
+  EXPECT_THAT(test::rejection([] { disc_grid(0, 10); }), testing::HasSubstr("more than zero"));
+  EXPECT_THAT(test::rejection([] { disc_grid(1, 1); }), testing::HasSubstr("2 or more"));
 }
 
 }  // namespace

@@ -128,7 +128,9 @@ double imbalance_while_opening(Cavitation cavitation) {
     lowest = std::min(lowest, solution.fill.minCoeff());
     problem.old_mass = solution.mass;
   }
-  if (cavitation == Cavitation::mass_conserving) EXPECT_LT(lowest, 0.99);
+  if (cavitation == Cavitation::mass_conserving) {
+    EXPECT_LT(lowest, 0.99);
+  }
   return worst;
 }
 

@@ -35,7 +35,9 @@ TEST(ReynoldsDisc, FindsTheSqueezedBallToSecondOrder) {
     const FilmSolution solution = ball(n, 10);
     ASSERT_TRUE(solution.convergence.converged());
     const double error = solution.load / exact - 1;
-    if (before != 0) EXPECT_NEAR(observed_order(before, error), 2, 0.1);
+    if (before != 0) {
+      EXPECT_NEAR(observed_order(before, error), 2, 0.1);
+    }
     before = error;
   }
   expect_within("EHL", "squeezed ball in a layer, n = 800", "load, relative",

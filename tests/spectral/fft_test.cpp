@@ -129,7 +129,7 @@ TEST(Convolution, HasTheSameBitsForAnyThreadCount) {
   set_thread_count(0);
 }
 
-TEST(Wisdom, MeasuredPlansTransformAlikeAndAbsentFilesAreRefused) {
+TEST(Wisdom, MeasuredPlansTransformAlikeAndAbsentFilesAreRejected) {
   const test::Folder folder;
   EXPECT_THROW(load_wisdom(folder / "absent"), InputError);
   EXPECT_THROW(measure_wisdom(8, 8, folder / "no" / "folder"), OutputError);

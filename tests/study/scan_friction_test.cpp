@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "tabor/analysis/states.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/io/columns.hpp"
@@ -151,16 +151,16 @@ TEST(FrictionOf, PassesOnWhatTheReceiverThrows) {
   EXPECT_THROW(friction_of(rough(), settings(), full_disk), OutputError);
 }
 
-TEST(FrictionOf, RefusesSettingsThatMakeNoSense) {
-  const auto refused = [](const analysis::CaseSettings& asked) {
-    return test::refusal([&] { friction_of(rough(), asked, [](const FrictionState&) {}); });
+TEST(FrictionOf, RejectsSettingsThatMakeNoSense) {
+  const auto rejected = [](const analysis::CaseSettings& asked) {
+    return test::rejection([&] { friction_of(rough(), asked, [](const FrictionState&) {}); });
   };
   analysis::CaseSettings too_high = settings();
   too_high.mean_pressures.back() = 240e6;
-  EXPECT_THAT(refused(too_high), HasSubstr("saturation pressure"));
+  EXPECT_THAT(rejected(too_high), HasSubstr("saturation pressure"));
   analysis::CaseSettings negative = settings();
   negative.film.lubricant_densities = {-1};
-  EXPECT_THAT(refused(negative), HasSubstr("density"));
+  EXPECT_THAT(rejected(negative), HasSubstr("density"));
 }
 
 }  // namespace

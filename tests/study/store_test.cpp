@@ -65,7 +65,7 @@ TEST(Store, RemovesWhatAKilledSweepLeftHalfWritten) {
   EXPECT_TRUE(std::filesystem::exists(folder / "out/store/contact-1.h5"));
 }
 
-TEST(Store, RefusesAFileAsItsFolder) {
+TEST(Store, RejectsAFileAsItsFolder) {
   const Folder folder;
   test::put_bytes(folder / "out", "x");
   EXPECT_THROW(Store(folder / "out", Store::Use::alone), OutputError);

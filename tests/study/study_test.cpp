@@ -115,7 +115,7 @@ std::string complaint_of_flow(const std::string& part, const std::string& by) {
   return message_of([&] { example.read(); });
 }
 
-TEST(ReadStudy, RefusesAFlowThatMakesNoSense) {
+TEST(ReadStudy, RejectsAFlowThatMakesNoSense) {
   EXPECT_THAT(complaint_of_flow("reynolds", "renolds"), HasSubstr("did you mean 'reynolds'?"));
   EXPECT_THAT(complaint_of_flow("\"1 m/s\"", "\"-1 m/s\""),
               testing::AllOf(HasSubstr("sweep.sliding_speed"), HasSubstr("zero or more")));
@@ -132,7 +132,7 @@ TEST(ReadStudy, RefusesAFlowThatMakesNoSense) {
               testing::AllOf(HasSubstr("contact.boundary"), HasSubstr("repeats")));
 }
 
-TEST(ReadStudy, RefusesKeysOfAFlowWithoutOne) {
+TEST(ReadStudy, RejectsKeysOfAFlowWithoutOne) {
   for (const char* idle : {"none", ""}) {
     const std::string instead = *idle == '\0' ? "" : "fluid = \"none\"\n";
     EXPECT_THAT(complaint_of_flow("fluid = \"reynolds\"\n", instead),
@@ -147,7 +147,7 @@ TEST(ReadStudy, NamesLineAndNearestMatchOfAnUnknownKey) {
   EXPECT_THAT(complaint("group =", "grup ="), HasSubstr("did you mean 'scan[].group'?"));
 }
 
-TEST(ReadStudy, RefusesValuesWithoutOrWithWrongUnits) {
+TEST(ReadStudy, RejectsValuesWithoutOrWithWrongUnits) {
   EXPECT_THAT(complaint("\"70 MPa\"", "70e6"), HasSubstr("shear_strength"));
   EXPECT_THAT(complaint("\"70 GPa\"", "\"70 GPa s\""), HasSubstr("material.youngs_modulus"));
   EXPECT_THAT(complaint("[\"5 MPa\", \"15 MPa\"]", "[\"5 MPa\", 15]"),
@@ -155,7 +155,7 @@ TEST(ReadStudy, RefusesValuesWithoutOrWithWrongUnits) {
   EXPECT_THAT(complaint("\"0.45 g/m^2\"", "\"0.45 g/m^3\""), HasSubstr("lubricant_density"));
 }
 
-TEST(ReadStudy, RefusesValuesThatMakeNoSense) {
+TEST(ReadStudy, RejectsValuesThatMakeNoSense) {
   EXPECT_THAT(complaint("\"5 MPa\"", "\"-5 MPa\""), HasSubstr("above zero"));
   EXPECT_THAT(complaint("\"15 MPa\"", "\"300 MPa\""),
               HasSubstr("less than the saturation pressure 240 MPa"));
@@ -184,7 +184,7 @@ TEST(ReadStudy, NamesTheNearestFileOfAScanThatIsNotThere) {
   EXPECT_THAT(complaint("scan_*.h5", "other_*.x3p"), HasSubstr("no file 'other_*.x3p'"));
 }
 
-TEST(ReadStudy, RefusesAScanListedTwice) {
+TEST(ReadStudy, RejectsAScanListedTwice) {
   EXPECT_THAT(complaint("\"scan_*.h5\"", "[\"scan_1.h5\", \"scan_*.h5\"]"), HasSubstr("twice"));
 }
 

@@ -54,7 +54,7 @@ TEST(Shards, AtTheSameTimeGiveTheSameBytesAndShareTheirFilms) {
   EXPECT_EQ(example.csv(), example.csv("whole"));
 }
 
-TEST(TwoSweeps, OnOneStoreAreRefusedInOneLine) {
+TEST(TwoSweeps, OnOneStoreAreRejectedInOneLine) {
   const ExampleStudy example;
   std::string message;
   SweepOptions options;

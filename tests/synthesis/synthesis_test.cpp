@@ -50,7 +50,9 @@ TEST(SelfAffine, HasTheSamePointsAtTwiceTheResolution) {
   coarse.short_cutoff_wavelength = fine.short_cutoff_wavelength = 8e-6;
   const Field a = self_affine(coarse).height, b = self_affine(fine).height;
   for (Index y = 0; y < 64; ++y) {
-    for (Index x = 0; x < 64; ++x) ASSERT_NEAR(a(y, x), b(2 * y, 2 * x), 1e-18);
+    for (Index x = 0; x < 64; ++x) {
+      ASSERT_NEAR(a(y, x), b(2 * y, 2 * x), 1e-18);
+    }
   }
 }
 
@@ -101,7 +103,7 @@ TEST(SelfAffine, IsPeriodicAndRecordsItsRecipe) {
   EXPECT_THAT(surface.source, testing::HasSubstr("seed 1"));
 }
 
-TEST(SelfAffine, RefusesRecipesThatMakeNoSense) {
+TEST(SelfAffine, RejectsRecipesThatMakeNoSense) {
   auto recipe = recipe_of();
   recipe.rms_slope = 0.1;
   EXPECT_THROW(self_affine(recipe), InputError);  // two amplitudes
@@ -220,7 +222,7 @@ TEST(EdtSurface, HasAnySize) {
   }
 }
 
-TEST(EdtSurface, RefusesRecipesThatMakeNoSense) {
+TEST(EdtSurface, RejectsRecipesThatMakeNoSense) {
   auto recipe = edt_recipe();
   recipe.mean_abs_height = 0;
   EXPECT_THROW(edt(recipe), InputError);

@@ -77,9 +77,9 @@ TEST(HannFilter, TakesTheLengthOfAProfileForItsSide) {
                            [](double x, double) { return std::cos(2 * pi * 9 * x / 1e-3); });
   const auto filtered = low_pass(row, parse_filter("hann:12/L"));
   EXPECT_LT(largest_difference(filtered.height, hann(9.0 / 12) * row.height), 1e-13);
-  EXPECT_TRUE(filtered.doubts.empty());
+  EXPECT_TRUE(filtered.warnings.empty());
   EXPECT_THAT(filtered.history.back(), testing::Not(HasSubstr("nan")));
-  EXPECT_THAT(texts(low_pass(row, parse_filter("gauss:2mm")).doubts),
+  EXPECT_THAT(texts(low_pass(row, parse_filter("gauss:2mm")).warnings),
               testing::ElementsAre(HasSubstr("longer than the scan")));
 }
 
@@ -203,19 +203,19 @@ TEST(GaussianFilter, MirrorsBeyondTheSizeOfASmallScan) {
             1e-20);
 }
 
-TEST(Filters, DoubtACutoffThatDoesNothingOrEverything) {
+TEST(Filters, WarningACutoffThatDoesNothingOrEverything) {
   const auto rough = noise(kGrid);
-  EXPECT_TRUE(low_pass(rough, parse_filter("gauss:8um")).doubts.empty());
-  EXPECT_TRUE(low_pass(rough, parse_filter("hann:512/L")).doubts.empty());
-  EXPECT_THAT(texts(low_pass(rough, parse_filter("gauss:1.5um")).doubts),
+  EXPECT_TRUE(low_pass(rough, parse_filter("gauss:8um")).warnings.empty());
+  EXPECT_TRUE(low_pass(rough, parse_filter("hann:512/L")).warnings.empty());
+  EXPECT_THAT(texts(low_pass(rough, parse_filter("gauss:1.5um")).warnings),
               testing::ElementsAre(HasSubstr("below two pixels")));
-  EXPECT_THAT(texts(high_pass(rough, parse_filter("gauss:90um")).doubts),
+  EXPECT_THAT(texts(high_pass(rough, parse_filter("gauss:90um")).warnings),
               testing::ElementsAre(HasSubstr("longer than the scan")));
-  EXPECT_THAT(texts(low_pass(rough, parse_filter("hann:0.5/L")).doubts),
+  EXPECT_THAT(texts(low_pass(rough, parse_filter("hann:0.5/L")).warnings),
               testing::ElementsAre(HasSubstr("longer than the scan")));
 }
 
-TEST(Filters, RefuseACutoffFarBeyondTheScan) {
+TEST(Filters, RejectACutoffFarBeyondTheScan) {
   const auto rough = noise(kGrid);
   for (const std::string text : {"gauss:8m", "hann:8km", "gauss-reflect:1/1000km"}) {
     EXPECT_THROW(low_pass(rough, parse_filter(text)), InputError) << text;
@@ -281,7 +281,7 @@ TEST(ParseFilter, WritesWhatItReads) {
   }
 }
 
-TEST(ParseFilter, RefusesWhatItCannotRead) {
+TEST(ParseFilter, RejectsWhatItCannotRead) {
   for (const std::string text :
        {"", "hann", "hann:", "hann:512", "hann:0/L", "hann:-3/L", "hann:x/L", "hann:512/M",
         "gauss:8", "gauss:-8um", "gauss:8kg", "gauss:0um", "hann:1/0um", "hann:inf/L", "hann:(8um",

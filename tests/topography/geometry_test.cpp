@@ -31,7 +31,7 @@ TEST(Crop, EndsPeriodicityUnlessItKeepsEverything) {
   EXPECT_FALSE(crop(rough, {0, 0, 11, 8}).periodic);
 }
 
-TEST(Crop, RefusesWindowsOutsideTheScan) {
+TEST(Crop, RejectsWindowsOutsideTheScan) {
   const auto rough = noise(kGrid);
   const Index huge = std::numeric_limits<Index>::max();
   for (const PixelWindow& window : {PixelWindow{0, 0, 13, 8},
@@ -56,7 +56,7 @@ TEST(Trim, CutsAMarginOffAllSides) {
   EXPECT_TRUE(same_bits(apply({"trim=4um"}, rough).height, cut.height));  // rows are 2 um high
 }
 
-TEST(Trim, RefusesToLeaveNothing) {
+TEST(Trim, RejectsToLeaveNothing) {
   const auto rough = noise({20, 14, 20e-6, 28e-6});
   EXPECT_THROW(trim_margins(rough, 10, 0), InputError);
   EXPECT_THROW(trim_margins(rough, 0, 7), InputError);
@@ -144,7 +144,7 @@ TEST(Resample, CommutesWithTransposition) {
             1e-19);
 }
 
-TEST(Resample, RefusesImpossibleSizesAndSplinesOverHoles) {
+TEST(Resample, RejectsImpossibleSizesAndSplinesOverHoles) {
   auto rough = noise(kGrid);
   EXPECT_THROW(resample(rough, 0, 4), InputError);
   EXPECT_THROW(resample(rough, 4, -1), InputError);

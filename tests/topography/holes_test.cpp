@@ -167,25 +167,25 @@ TEST(Fill, SaysHowMuchWasFilled) {
               testing::StartsWith("fill=harmonic: 110 pixels (1.1 %) in 1 holes, largest 110"));
 }
 
-TEST(Fill, InventedHeightsStayADoubtWhateverFollows) {
+TEST(Fill, InventedHeightsStayAWarningWhateverFollows) {
   for (const Fill fill : {Fill::harmonic, Fill::nearest, Fill::mean}) {
     for (const double share : {0.3, 0.8}) {
       auto holed = noise(kGrid);
       punch_holes(holed, share);
       const auto treated =
           apply({"fill=" + std::string(name_of(fill)), "level=plane", "mirror"}, holed);
-      const auto doubts = texts(treated.doubts);
-      EXPECT_THAT(doubts, testing::Contains(testing::HasSubstr("were holes")));
-      EXPECT_THAT(doubts, testing::Contains(testing::HasSubstr("most of the area is invented"))
-                              .Times(share > 0.5 ? 1 : 0));
+      const auto warnings = texts(treated.warnings);
+      EXPECT_THAT(warnings, testing::Contains(testing::HasSubstr("were holes")));
+      EXPECT_THAT(warnings, testing::Contains(testing::HasSubstr("most of the area is invented"))
+                                .Times(share > 0.5 ? 1 : 0));
     }
   }
   auto nearly_whole = noise(kGrid);
   nearly_whole.height(3, 3) = kHole;
-  EXPECT_TRUE(fill_holes(nearly_whole, Fill::harmonic).doubts.empty());
+  EXPECT_TRUE(fill_holes(nearly_whole, Fill::harmonic).warnings.empty());
 }
 
-TEST(Fill, RefusesASurfaceOfHolesOnly) {
+TEST(Fill, RejectsASurfaceOfHolesOnly) {
   auto holed = noise(kGrid);
   holed.height = kHole;
   for (const Fill fill : {Fill::harmonic, Fill::nearest, Fill::mean}) {

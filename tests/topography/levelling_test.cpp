@@ -195,7 +195,7 @@ TEST(FitForm, HasTheCoefficientsOfLegendresPolynomials) {
   }
 }
 
-TEST(Level, RefusesPointsThatDoNotDetermineTheForm) {
+TEST(Level, RejectsPointsThatDoNotDetermineTheForm) {
   auto rough = noise(kGrid);
   const Field column = rough.height.col(3);
   rough.height = kHole;

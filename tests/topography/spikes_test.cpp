@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/rough_recipe.hpp"
 #include "support/sample_surfaces.hpp"
 #include "support/scans.hpp"
@@ -131,7 +131,7 @@ TEST(Spikes, BecomeHolesOrMedians) {
   const auto holed = apply({"despike=auto"}, rough);
   EXPECT_EQ(found(holes(holed)), planted);
   EXPECT_THAT(holed.history.back(), HasSubstr("5 of 65536 heights"));
-  EXPECT_THAT(texts(holed.doubts),
+  EXPECT_THAT(texts(holed.warnings),
               testing::ElementsAre(HasSubstr("5 spikes"), HasSubstr("5 of 65536 pixels")));
   const auto mended = apply({"despike=8,5,median"}, rough);
   EXPECT_EQ(count_holes(mended), 0);
@@ -215,12 +215,12 @@ TEST(ParseSpikeRule, ReadsEveryForm) {
   EXPECT_FALSE(parse_spike_rule("8,7,hole").fill_with_median);
 }
 
-TEST(ParseSpikeRule, RefusesWhatItCannotRead) {
+TEST(ParseSpikeRule, RejectsWhatItCannotRead) {
   for (const std::string text : {"", "x", "0", "-3", "nan", "inf", "6,4", "6,1", "6,101", "6,5.5",
                                  "6,5,mean", "6,5,hole,1", "6,1e300"}) {
     EXPECT_THROW(parse_spike_rule(text), InputError) << text;
   }
-  EXPECT_THAT(tabor::test::refusal([] { parse_spike_rule("6,4"); }), HasSubstr("odd number"));
+  EXPECT_THAT(tabor::test::rejection([] { parse_spike_rule("6,4"); }), HasSubstr("odd number"));
 }
 
 }  // namespace

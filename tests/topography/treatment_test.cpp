@@ -86,7 +86,7 @@ TEST(CheckTreatment, NamesTheNearestStepOrValue) {
   EXPECT_THAT(message_of({"lowpass=han:512/L"}), HasSubstr("did you mean 'hann'"));
 }
 
-TEST(CheckTreatment, RefusesWhatMakesNoSense) {
+TEST(CheckTreatment, RejectsWhatMakesNoSense) {
   for (const std::string step : {"",
                                  "=",
                                  "level",

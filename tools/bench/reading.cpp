@@ -18,7 +18,7 @@
 #include "tabor/io/hdf5.hpp"
 #include "tabor/io/zip.hpp"
 #include "tabor/scan/file.hpp"
-#include "tabor/topography/doubts.hpp"
+#include "tabor/topography/warnings.hpp"
 
 namespace {
 
@@ -120,22 +120,22 @@ void measure(const Kind& kind, const fs::path& folder, Index side) {
   }
   double read = 0;
   double least = INFINITY;
-  double doubts = INFINITY;
+  double warnings = INFINITY;
   for (int i = 0; i < kRepeats; ++i) {
     const tabor::Stopwatch reading;
     const auto map = tabor::scan::read(file, options);
-    const double with_doubts = reading.seconds();
-    const tabor::Stopwatch doubting;
-    tabor::topography::doubts(map);
+    const double with_warnings = reading.seconds();
+    const tabor::Stopwatch watch;
+    tabor::topography::warnings(map);
     // Both of the same repeat: the difference of two best ones could be anything.
-    const double its_doubts = doubting.seconds();
-    read = i == 0 ? with_doubts - its_doubts : std::max(read, with_doubts - its_doubts);
-    doubts = std::min(doubts, its_doubts);
+    const double its_warnings = watch.seconds();
+    read = i == 0 ? with_warnings - its_warnings : std::max(read, with_warnings - its_warnings);
+    warnings = std::min(warnings, its_warnings);
     const tabor::Stopwatch plain;
     if (kind.least(file, side) != map.height(side - 1, side - 1)) fmt::print("differs\n");
     least = std::min(least, plain.seconds());
   }
-  fmt::print("{} {:.3g} {:.3g} {:.3g}\n", kind.extension, read, doubts, least);
+  fmt::print("{} {:.3g} {:.3g} {:.3g}\n", kind.extension, read, warnings, least);
   std::fflush(stdout);
 }
 

@@ -41,9 +41,9 @@ def _pressure(facts):
 
 
 def _caption(view, facts, scan_name):
-    doubt = "" if facts.get("converged", True) else "This state did not converge. "
+    warning = "" if facts.get("converged", True) else "This state did not converge. "
     return (
         f"Real contact (black) of {scan_name} under the mean pressure "
-        f"{_pressure(facts)}. {doubt}{map_axes.ink_note(view)}"
+        f"{_pressure(facts)}. {warning}{map_axes.ink_note(view)}"
         "The share in the title is counted over all pixels. As Figure 5 of Costagliola et al."
     )

@@ -29,9 +29,9 @@ def draw(source):
         curve.draw(top, bottom, share, look["color"], look["marker"])
     _label_stribeck(top, bottom, share, "sliding" if key == SPEEDS[0] else "entrainment")
     style.legend_on_top(figure, style.entries(top))
-    doubt = "" if all(curve.sure.all() for curve in curves) else " Red crosses: not converged."
+    warning = "" if all(curve.sure.all() for curve in curves) else " Red crosses: not converged."
     if any(np.isnan(curve.values["friction_coefficient"]).any() for curve in curves):
-        doubt += " Gaps: no friction is known there; the warnings say why."
+        warning += " Gaps: no friction is known there; the warnings say why."
     data = {f"{key} (m/s)": curves[0].speed}
     for curve in curves:
         data.update(curve.data())
@@ -39,7 +39,7 @@ def draw(source):
         "stribeck",
         "Stribeck curve",
         "Friction of film and solids; below, the central film and, on the right, how much of the dry contact's "
-        "area touches and how much of it is plastic." + doubt,
+        "area touches and how much of it is plastic." + warning,
         figure,
         {"": table_text(data)},
     )

@@ -69,7 +69,7 @@ FluidRecord fluid_state(elastic::ElasticOperator& elasticity, const Field& heigh
   record.summary = friction::summarise(record.state, problem, elasticity.grid());
   record.sliding_speed = problem.sliding_speed;
   record.references = references_of(settings);
-  record.warnings = of_flow(friction::doubts(record.state, problem));
+  record.warnings = of_flow(friction::warnings(record.state, problem));
   return record;
 }
 

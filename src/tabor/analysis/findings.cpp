@@ -36,7 +36,7 @@ std::string without_numbers(const std::string& text) {
   return rest;
 }
 
-/// A surface, or a film that flows, may have several doubts under one code.
+/// A surface, or a film that flows, may have several warnings under one code.
 std::string kind_of(const Warning& warning) {
   const About what = about(warning.code);
   return what == About::surface || what == About::flow

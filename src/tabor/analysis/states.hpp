@@ -12,7 +12,7 @@
 
 // The way from a treated surface to its friction: contact, film, film that flows, friction. Verbs,
 // studies and programs call the same functions and get the same records. All throw InputError for
-// what makes no sense and Interrupted where the observer asks to stop; not converging is returned.
+// what is invalid and Interrupted where the observer asks to stop; not converging is returned.
 namespace tabor::analysis {
 
 /// The elastic half-space of the settings on a grid, for any number of contacts.

@@ -19,7 +19,7 @@ namespace tabor::analysis {
 /// A surface that does not tile and is used as it was read: by how much a plane would change it.
 std::optional<Warning> not_levelled(const topography::Topography& surface);
 
-/// Doubts about a treated surface, whatever is computed with it.
+/// Warnings about a treated surface, whatever is computed with it.
 Warnings of_surface(const topography::Topography& surface);
 
 /// Of one solved contact on the treated surface.
@@ -33,8 +33,8 @@ Warnings of_film(const deposition::Film& film);
 Warnings of_friction(const friction::Contact& contact, const friction::Estimate& estimate,
                      double spill_over_fraction);
 
-/// Of a film that flows, with these doubts about its state.
-Warnings of_flow(const std::vector<std::string>& doubts);
+/// Of a film that flows, with these warnings about its state.
+Warnings of_flow(const std::vector<std::string>& warnings);
 
 /// Of the friction of solids and oil together.
 Warnings of_mixed_friction(const friction::MixedEstimate& mixed);

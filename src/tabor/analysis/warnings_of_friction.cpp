@@ -82,9 +82,9 @@ Warnings of_friction(const friction::Contact& contact, const friction::Estimate&
   return list;
 }
 
-Warnings of_flow(const std::vector<std::string>& doubts) {
+Warnings of_flow(const std::vector<std::string>& warnings) {
   Warnings list;
-  for (const std::string& doubt : doubts) list.push_back({"fluid-film", doubt});
+  for (const std::string& warning : warnings) list.push_back({"fluid-film", warning});
   return list;
 }
 

@@ -41,9 +41,9 @@ std::optional<Warning> not_levelled(const topography::Topography& surface) {
 Warnings of_surface(const topography::Topography& surface) {
   Warnings list;
   const auto level = not_levelled(surface);
-  for (const topography::Doubt& doubt : surface.doubts) {
-    if (level && doubt.code == "tilt") continue;  // the same in other words
-    list.push_back({doubt.code, doubt.text});
+  for (const topography::Warning& warning : surface.warnings) {
+    if (level && warning.code == "tilt") continue;  // the same in other words
+    list.push_back({warning.code, warning.text});
   }
   if (level) list.push_back(*level);
   return list;

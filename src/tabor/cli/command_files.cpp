@@ -62,7 +62,7 @@ std::set<CommandFiles::Identity> CommandFiles::identity_of(const fs::path& file)
   return {{status.st_dev, status.st_ino}};
 }
 
-void CommandFiles::refuse_if_replaced(const fs::path& input, const Output& output) {
+void CommandFiles::reject_if_replaced(const fs::path& input, const Output& output) {
   const fs::path place = resolved(input);
   const std::set<Identity> identity = identity_of(input);
   const bool is_same = !identity.empty() && output.there.contains(*identity.begin());
@@ -75,12 +75,12 @@ void CommandFiles::refuse_if_replaced(const fs::path& input, const Output& outpu
 }
 
 void CommandFiles::reads(const fs::path& file) {
-  for (const Output& output : outputs_) refuse_if_replaced(file, output);
+  for (const Output& output : outputs_) reject_if_replaced(file, output);
   inputs_.push_back(file);
 }
 
 void CommandFiles::add(Output output) {
-  for (const fs::path& input : inputs_) refuse_if_replaced(input, output);
+  for (const fs::path& input : inputs_) reject_if_replaced(input, output);
   outputs_.push_back(std::move(output));
 }
 

@@ -41,7 +41,7 @@ class CommandFiles {
   };
 
   static std::set<Identity> identity_of(const std::filesystem::path& file);
-  static void refuse_if_replaced(const std::filesystem::path& input, const Output& output);
+  static void reject_if_replaced(const std::filesystem::path& input, const Output& output);
   void add(Output output);
 
   std::vector<std::filesystem::path> inputs_;
@@ -55,7 +55,7 @@ using NamedFiles = std::vector<std::pair<std::string, Option>>;
 /// The same options; parse() enters the files that they name.
 OptionSet noting_files(const OptionSet& set, NamedFiles& named);
 
-/// Enters them all and refuses, before anything is computed: an output that would replace an input
+/// Enters them all and rejects, before anything is computed: an output that would replace an input
 /// or cannot be written (OutputError), one of an extension the verb cannot write (InputError, with
 /// those it can). Removes what a killed program left half-written under an output's name.
 void check_files(const NamedFiles& named, CommandFiles& files);

@@ -26,20 +26,20 @@ io::Config case_at(const io::Config& config, const std::vector<SweepAxis>& axes,
   return changed;
 }
 
-EhlAnswer solve_or_refuse(const EhlSolver& solve, const io::Config& config, Context& context) {
+EhlAnswer solve_or_reject(const EhlSolver& solve, const io::Config& config, Context& context) {
   try {
     return solve(config, context);
   } catch (const InputError& error) {
     return {.scalars = {{"refused", error.what()}, {"converged", false}},
             .text = "",
-            .warnings = {std::string("refused: ") + error.what()}};
+            .warnings = {std::string("rejected: ") + error.what()}};
   }
 }
 
 /// What of an answer stays until the end: maps of many cases would fill the memory.
 KeptCase solve_to_keep(const EhlSolver& solve, const io::Config& config, Context& context) {
   const std::vector<std::string> before = std::exchange(context.warnings, {});
-  KeptCase solved{.answer = solve_or_refuse(solve, config, context), .notices = {}};
+  KeptCase solved{.answer = solve_or_reject(solve, config, context), .notices = {}};
   solved.answer.text.clear();
   solved.answer.write = {};
   solved.notices = std::exchange(context.warnings, before);
@@ -76,11 +76,11 @@ void say_what_was_found(const KeptCases& kept, std::size_t n_cases, Context& con
 }
 
 /// A sweep of rows without a number says nothing but why.
-void refuse_if_none_makes_sense(const std::vector<EhlAnswer>& answers) {
-  const auto is_refused = [](const EhlAnswer& answer) {
+void reject_if_none_makes_sense(const std::vector<EhlAnswer>& answers) {
+  const auto is_rejected = [](const EhlAnswer& answer) {
     return answer.scalars.contains("refused");
   };
-  if (!std::all_of(answers.begin(), answers.end(), is_refused)) return;
+  if (!std::all_of(answers.begin(), answers.end(), is_rejected)) return;
   throw InputError(answers.front().scalars.at("refused").get<std::string>());
 }
 
@@ -119,7 +119,7 @@ KeptCases kept_cases(const EhlSeries& series, const EhlCases& cases, Context& co
 
 EhlAnswer solve_one_of_many(const EhlSolver& solve, const io::Config& config, Context& context) {
   EhlAnswer answer = with_notices(solve_to_keep(solve, config, context));
-  refuse_if_none_makes_sense({answer});
+  reject_if_none_makes_sense({answer});
   return answer;
 }
 
@@ -143,7 +143,7 @@ std::vector<EhlAnswer> solve_cases(const EhlSeries& series, const EhlCases& case
     }
     answers[i] = with_notices(std::move(*solved));
   }
-  refuse_if_none_makes_sense(answers);
+  reject_if_none_makes_sense(answers);
   return answers;
 }
 

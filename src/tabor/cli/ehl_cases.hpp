@@ -26,7 +26,7 @@ KeptCases kept_cases(const EhlSeries& series, const EhlCases& cases, Context& co
 EhlAnswer solve_one_of_many(const EhlSolver& solve, const io::Config& config, Context& context);
 
 /// Solves the cases that are not kept, keeps each as soon as it is there, and says on stderr how
-/// many were. `kept`: null where the sweep has no output. A case that makes no sense is an answer
+/// many were. `kept`: null where the sweep has no output. An invalid case is an answer
 /// like another. Throws InputError for a key that no case has and where no case makes sense,
 /// Interrupted.
 std::vector<EhlAnswer> solve_cases(const EhlSeries& series, const EhlCases& cases, KeptCases* kept,

@@ -203,7 +203,7 @@ EhlAnswer solve(const io::Config& config, Context& context) {
   answer.scalars = scalars_of(problem, result, dry);
   answer.text = text_of(problem, result, dry);
   answer.converged = result.convergence.converged();
-  answer.warnings = result.doubts;
+  answer.warnings = result.warnings;
   if (!result.reason.empty()) answer.warnings.push_back(result.reason);
   answer.write = [problem, dry, result = std::move(result)](io::Hdf5Writer& writer) {
     write_history(writer, "/history", kHistory, result.history);

@@ -29,7 +29,7 @@ std::string line(std::string_view name, std::string_view value) {
   return fmt::format("{} = {}:{}\n", name, value.size(), value);
 }
 
-/// Empty for what is no file: reading it is refused where it is used.
+/// Empty for what is no file: reading it is rejected where it is used.
 std::string digest_of(const fs::path& file, const Observer& observer = {}) {
   std::error_code ignored;
   if (!fs::is_regular_file(file, ignored)) return "";
@@ -106,7 +106,7 @@ void note_digests(const EhlProgram& program, const io::Config& config, Context& 
 
 KeptCases::KeptCases(fs::path folder, std::vector<std::string> texts)
     : folder_(std::move(folder)),
-      lock_(io::FileLock::take_or_refuse(
+      lock_(io::FileLock::take_or_reject(
           folder_ / kLockName, io::FileLock::Kind::alone,
           folder_.string() +
               ": another sweep keeps its cases there; wait for it to end or give another -o")),

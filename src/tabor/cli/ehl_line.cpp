@@ -246,7 +246,7 @@ EhlAnswer solve(const io::Config& config, Context& context) {
   answer.scalars.update(asperity_scalars(problem, result));
   answer.text = text_of(problem, result);
   answer.converged = result.convergence.converged();
-  answer.warnings = result.doubts;
+  answer.warnings = result.warnings;
   answer.warnings.insert(answer.warnings.end(), voids.begin(), voids.end());
   if (!result.convergence.converged()) {
     answer.warnings.push_back(
@@ -260,7 +260,7 @@ EhlAnswer solve(const io::Config& config, Context& context) {
     if (!voids.empty()) void_friction(*wear);
     answer.scalars["wear"] = wear_json(config, *wear);
     answer.text += wear_text(*wear);
-    answer.warnings.insert(answer.warnings.end(), wear->doubts.begin(), wear->doubts.end());
+    answer.warnings.insert(answer.warnings.end(), wear->warnings.begin(), wear->warnings.end());
     if (answer.converged) answer.scalars["status"] = name_of(wear->convergence.status);
     answer.converged = answer.converged && wear->convergence.converged();
     answer.scalars["converged"] = answer.converged;

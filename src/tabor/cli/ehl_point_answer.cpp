@@ -196,16 +196,16 @@ std::optional<PointResult> smooth_film(PointProblem problem, const Observer& obs
 }
 
 /// What the equations do not see.
-std::vector<std::string> doubts_of(const PointProblem& problem, bool is_still) {
-  std::vector<std::string> doubts;
+std::vector<std::string> warnings_of(const PointProblem& problem, bool is_still) {
+  std::vector<std::string> warnings;
   const double at_rest = 2 * problem.entrainment_speed;
   if (problem.roughness.size() > 0 && is_still &&
       std::abs(std::abs(problem.sliding_speed) - at_rest) > 1e-6 * at_rest) {
-    doubts.emplace_back(
+    warnings.emplace_back(
         "the roughness is taken to stand still, but its surface moves: only a "
         "sliding speed of twice the entrainment speed is steady; motion.duration lets it move");
   }
-  return doubts;
+  return warnings;
 }
 
 }  // namespace
@@ -229,8 +229,8 @@ EhlAnswer point_answer(const io::Config& config, const PointProblem& problem,
   }
   answer.text = text_of(problem, result, measures);
   answer.converged = result.convergence.converged();
-  answer.warnings = result.doubts;
-  for (const auto& more : {voids, doubts_of(problem, !has_passage(config))}) {
+  answer.warnings = result.warnings;
+  for (const auto& more : {voids, warnings_of(problem, !has_passage(config))}) {
     answer.warnings.insert(answer.warnings.end(), more.begin(), more.end());
   }
   if (!result.convergence.converged()) {

@@ -6,7 +6,7 @@
 /// What `tabor ehl point` says of a film (docs/ehl_point.md).
 namespace tabor::cli {
 
-/// Numbers, text, doubts and maps.
+/// Numbers, text, warnings and maps.
 EhlAnswer point_answer(const io::Config& config, const ehl::PointProblem& problem,
                        const ehl::PointResult& result, const Context& context);
 

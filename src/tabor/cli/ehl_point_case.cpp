@@ -29,7 +29,7 @@ constexpr Usual kUsualOil[] = {{"lubricant.viscosity", "0.0837 Pa s"},
                                {"lubricant.density_law", "dowson-higginson"}};
 constexpr double kIsoviscousSpeed = 1e-11;  // U, for L = 0, where any speed has the same film
 
-[[noreturn]] void refuse_beside(const io::Config& config, const char* key, const char* other,
+[[noreturn]] void reject_beside(const io::Config& config, const char* key, const char* other,
                                 const char* remedy) {
   throw InputError(config.place(key), std::string("beside ") + other, "one of the two", remedy);
 }
@@ -57,7 +57,7 @@ io::Config with_usual_materials(io::Config config) {
 void read_radii(const io::Config& config, ehl::PointProblem& problem) {
   if (config.has("ball.radius")) {
     if (config.has("ball.radius_x") || config.has("ball.radius_y")) {
-      refuse_beside(config, "ball.radius", "radius_x or radius_y",
+      reject_beside(config, "ball.radius", "radius_x or radius_y",
                     "radius is of a ball, radius_x and radius_y of an ellipsoid");
     }
     problem.radius_x = positive_quantity(config, "ball.radius", dimension::length);
@@ -84,7 +84,7 @@ void read_motion(const io::Config& config, ehl::PointProblem& problem) {
   if (config.has("motion.speed")) {
     for (const char* other : {"motion.entrainment_speed", "motion.sliding_speed"}) {
       if (config.has(other)) {
-        refuse_beside(config, other, "motion.speed",
+        reject_beside(config, other, "motion.speed",
                       "speed is the ball's over a flat at rest: entrainment is half of it");
       }
     }
@@ -114,7 +114,7 @@ double group(const io::Config& config, const char* key, bool may_vanish) {
 void read_groups(const io::Config& config, ehl::PointProblem& problem) {
   for (const char* other : {"ball.load", "motion.speed", "motion.entrainment_speed"}) {
     if (config.has(other)) {
-      refuse_beside(config, other, "[groups]", "M and L say what load and speed are");
+      reject_beside(config, other, "[groups]", "M and L say what load and speed are");
     }
   }
   const double moes_load = group(config, "groups.M", false);

@@ -73,7 +73,7 @@ PointPassage solve_passage(const io::Config& config, Context& context) {
     throw InputError(config.place("motion.duration"), "a smooth surface", "a [roughness]",
                      "smooth bodies have a steady film");
   }
-  roughness(travel);  // a map that is too short is refused before anything is solved
+  roughness(travel);  // a map that is too short is rejected before anything is solved
   problem.roughness = [&](double time) { return roughness(speed * time); };
   PointPassage passage{.at_end = problem.contact,
                        .speed = speed,

@@ -56,7 +56,7 @@ Place read_place(const io::Config& config, const char* key) {
   return {values[0], values[1]};
 }
 
-void refuse_without(const io::Config& config, const char* owner,
+void reject_without(const io::Config& config, const char* owner,
                     const std::vector<const char*>& keys) {
   if (config.has(owner)) return;
   for (const char* key : keys) {
@@ -180,7 +180,7 @@ Topography read_scan(const io::Config& config, Context& context) {
   if (config.has("roughness.treatment")) treatment = config.texts("roughness.treatment");
   Topography scan =
       topography::apply(treatment, read_input(file, options, context), context.observer());
-  warn_of_doubts(scan, file.string(), context);
+  pass_on_warnings(scan, file.string(), context);
   topography::require_no_holes(scan, config.place("roughness.file"),
                                "treatment = [\"fill=harmonic\", \"level=plane\"]");
   return scan;
@@ -218,8 +218,8 @@ EhlKeys point_roughness_keys() {
 
 PointRoughness read_point_roughness(const io::Config& config, const ehl::PointProblem& problem,
                                     double travel, Context& context) {
-  refuse_without(config, "roughness.file", {"roughness.channel", "roughness.treatment"});
-  refuse_without(
+  reject_without(config, "roughness.file", {"roughness.channel", "roughness.treatment"});
+  reject_without(
       config, "roughness.kind",
       {"roughness.rms", "roughness.pixel", "roughness.seed", "roughness.groove_spacing"});
   std::vector<PointRoughness> parts;
@@ -238,7 +238,7 @@ PointRoughness read_point_roughness(const io::Config& config, const ehl::PointPr
     parts.push_back(bump_heights(config, problem));
   }
   if (parts.empty()) {
-    refuse_without(config, "roughness.file", {"roughness.orientation", "roughness.place"});
+    reject_without(config, "roughness.file", {"roughness.orientation", "roughness.place"});
     return {};
   }
   return [parts](double moved) {

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kUsualCount = 5;
 constexpr double kMostValues = 10000;
 
-[[noreturn]] void refuse(const std::string& text, const std::string& why) {
+[[noreturn]] void reject(const std::string& text, const std::string& why) {
   throw UsageError(
       fmt::format("--set {}: {}; write KEY=VALUE, a list KEY=V1,V2 or a range like "
                   "ball.speed=0.05m/s..1m/s:log:5",
@@ -43,7 +43,7 @@ std::vector<std::string> listed(const std::string& text, const std::string& valu
   std::vector<std::string> values;
   for (const std::string& part : split(value, ',')) {
     values.emplace_back(trim(part));
-    if (values.back().empty()) refuse(text, "a value of the list is missing");
+    if (values.back().empty()) reject(text, "a value of the list is missing");
   }
   return values;
 }
@@ -59,7 +59,7 @@ Range parse_range(const std::string& text, const std::string& value) {
   Range range;
   const std::size_t dots = parts.front().find("..");
   if (parts.front().find("...") != std::string::npos) {
-    refuse(text, "three dots; two stand between the ends, and 0.5 begins with its zero");
+    reject(text, "three dots; two stand between the ends, and 0.5 begins with its zero");
   }
   range.begin = parts.front().substr(0, dots);
   range.end = parts.front().substr(dots + 2);
@@ -70,7 +70,7 @@ Range parse_range(const std::string& text, const std::string& value) {
     } else if (count && *count >= 2 && *count <= kMostValues && *count == std::floor(*count)) {
       range.count = static_cast<std::size_t>(*count);
     } else {
-      refuse(text, fmt::format("'{}' is neither log, lin nor a number of values, 2 to {}", parts[i],
+      reject(text, fmt::format("'{}' is neither log, lin nor a number of values, 2 to {}", parts[i],
                                kMostValues));
     }
   }
@@ -91,9 +91,9 @@ std::string unit_of(const std::string& value) {
 std::vector<std::string> values_of(const std::string& text, const Range& range) {
   const Quantity begin = parse_quantity(range.begin);
   const Quantity end = parse_quantity(range.end);
-  if (!(begin.dimension == end.dimension)) refuse(text, "its ends have different units");
+  if (!(begin.dimension == end.dimension)) reject(text, "its ends have different units");
   if (range.is_logarithmic && !(begin.value > 0 && end.value > 0)) {
-    refuse(text, "a logarithmic range needs ends above zero");
+    reject(text, "a logarithmic range needs ends above zero");
   }
   // In the unit of the first end, so that a case reads as its user writes.
   const std::string unit = unit_of(range.begin);
@@ -162,7 +162,7 @@ std::string SweepAxis::unit() const {
 SweepAxis parse_axis(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string::npos || equals == 0 || equals + 1 == text.size()) {
-    refuse(text, "no key or no value");
+    reject(text, "no key or no value");
   }
   SweepAxis axis;
   axis.key = std::string(trim(text.substr(0, equals)));
@@ -176,7 +176,7 @@ SweepAxis parse_axis(const std::string& text) {
   try {
     axis.values = values_of(text, parse_range(text, value));
   } catch (const InputError& error) {
-    refuse(text, error.what());
+    reject(text, error.what());
   }
   return axis;
 }

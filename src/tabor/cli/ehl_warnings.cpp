@@ -20,7 +20,7 @@ struct Kind {
   std::string key;
   std::string text;  // of the first case
   bool has_one_text = true;
-  bool is_refusal = false;
+  bool is_rejection = false;
   std::vector<std::size_t> cases;
 };
 
@@ -48,20 +48,21 @@ bool is_unit(std::string_view word) {
   }
 }
 
-Kind& kind_of(const std::string& text, bool is_refusal, std::vector<Kind>& kinds) {
-  const std::string key = is_refusal ? "refused" : without_numbers(text);
+Kind& kind_of(const std::string& text, bool is_rejection, std::vector<Kind>& kinds) {
+  const std::string key = is_rejection ? "refused" : without_numbers(text);
   const auto known =
       std::find_if(kinds.begin(), kinds.end(), [&](const Kind& kind) { return kind.key == key; });
   if (known != kinds.end()) return *known;
-  kinds.push_back({.key = key, .text = text, .is_refusal = is_refusal, .cases = {}});
+  kinds.push_back({.key = key, .text = text, .is_rejection = is_rejection, .cases = {}});
   return kinds.back();
 }
 
 void add_case(const EhlAnswer& answer, std::size_t i, std::vector<Kind>& kinds) {
-  const bool is_refusal = answer.scalars.contains("refused");
+  const bool is_rejection = answer.scalars.contains("refused");
   for (const std::string& warning : answer.warnings) {
-    const std::string text = is_refusal ? answer.scalars.at("refused").get<std::string>() : warning;
-    Kind& kind = kind_of(text, is_refusal, kinds);
+    const std::string text =
+        is_rejection ? answer.scalars.at("refused").get<std::string>() : warning;
+    Kind& kind = kind_of(text, is_rejection, kinds);
     kind.has_one_text = kind.has_one_text && kind.text == text;
     if (kind.cases.empty() || kind.cases.back() != i) kind.cases.push_back(i);
   }
@@ -79,7 +80,7 @@ std::string names_of(const Kind& kind, const EhlCaseNames& names) {
 
 std::string line_of(const Kind& kind, const EhlCaseNames& names) {
   const std::size_t n = names.values.size();
-  if (kind.is_refusal) {
+  if (kind.is_rejection) {
     return fmt::format("{} of {} cases make no sense, the first: {} ({})", kind.cases.size(), n,
                        kind.text, names_of(kind, names));
   }

@@ -10,7 +10,7 @@ enum ExitCode : int {
   kDone = 0,
   kInternal = 1,       ///< a bug of ours
   kUsage = 2,          ///< the command line is wrong
-  kInput = 3,          ///< input cannot be read or makes no sense
+  kInput = 3,          ///< input cannot be read or is invalid
   kNotConverged = 4,   ///< finished, but a result is not converged
   kOutput = 5,         ///< a result cannot be written
   kInterrupted = 130,  ///< Ctrl-C; what was finished is kept

@@ -20,7 +20,7 @@ namespace {
 using topography::Topography;
 
 /// The numbers given on the command line. A recipe takes those it knows; whatever is left at the
-/// end does not belong to the kind asked for and is refused.
+/// end does not belong to the kind asked for and is rejected.
 class Given {
  public:
   void set(const std::string& flag, double value) { values_[flag] = value; }
@@ -37,7 +37,7 @@ class Given {
     throw UsageError(fmt::format("generate {}: {} is missing", kind, flag));
   }
 
-  void refuse_rest(const std::string& kind) const {
+  void reject_rest(const std::string& kind) const {
     if (values_.empty()) return;
     throw UsageError(
         fmt::format("generate {}: {} does not belong to this kind", kind, values_.begin()->first));
@@ -155,7 +155,7 @@ Topography make(Request& request, std::uint64_t seed) {
                                  fmt::join(kinds, ", "), suggestion(request.kind, kinds)));
   }
   Topography surface = maker->second(request, seed);
-  request.given.refuse_rest(request.kind);
+  request.given.reject_rest(request.kind);
   return surface;
 }
 

@@ -10,7 +10,7 @@
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/metrology/parameters.hpp"
-#include "tabor/topography/doubts.hpp"
+#include "tabor/topography/warnings.hpp"
 
 namespace tabor::cli {
 
@@ -99,7 +99,7 @@ io::Json json_of(const Context& context, const Scan& scan, const FileInfo& file,
        {"height_rms_m", io::number(heights.rms)},
        {"height_quantum_m", io::number(heights.quantum)},
        {"metadata", surface.metadata},
-       {"doubts", topography::texts(surface.doubts)}});
+       {"doubts", topography::texts(surface.warnings)}});
   return object;
 }
 
@@ -120,13 +120,13 @@ std::string text_of(const Scan& scan, const FileInfo& file, const Heights& heigh
   facts.fact("heights", si(heights.min, "m") + " to " + si(heights.max, "m"));
   facts.fact("rms height", si(heights.rms, "m") + " about the mean");
   if (!std::isnan(heights.quantum)) facts.fact("height step", si(heights.quantum, "m"));
-  for (const topography::Doubt& doubt : surface.doubts) facts.fact("doubt", doubt.text);
+  for (const topography::Warning& warning : surface.warnings) facts.fact("warning", warning.text);
   return facts.text();
 }
 
 /// A sound file that needs a word from the user: what is in it, and what to say.
 int show_incomplete(const ScanRequest& request, const scan::ScanFile& scan_file,
-                    const std::string& doubt, Context& context) {
+                    const std::string& warning, Context& context) {
   const FileInfo file = scan_file.info();
   io::Json object = json_head(context);
   const auto may_stop = [observer = context.observer()] {
@@ -142,10 +142,10 @@ int show_incomplete(const ScanRequest& request, const scan::ScanFile& scan_file,
         "missing_fraction", "height_min_m", "height_max_m", "height_rms_m", "height_quantum_m"}) {
     object[key] = nullptr;
   }
-  object["doubts"] = {doubt};
+  object["doubts"] = {warning};
   Facts facts;
   describe(file, request.file, file.instrument, facts);
-  facts.fact("needs", doubt);
+  facts.fact("needs", warning);
   return finish(context, object, facts.text());
 }
 
@@ -155,7 +155,7 @@ int show(const ScanRequest& request, Context& context) {
   try {
     const Scan scan = load_scan(scan_file, request, context);
     const Heights heights = heights_of(scan.surface);
-    // Doubts have a key and lines of their own here.
+    // Warnings have a key and lines of their own here.
     context.warnings.clear();
     return finish(context, json_of(context, scan, file, heights), text_of(scan, file, heights));
   } catch (const IncompleteError& error) {
@@ -166,17 +166,18 @@ int show(const ScanRequest& request, Context& context) {
 }  // namespace
 
 Verb info_verb() {
-  return {.name = "info",
-          .arguments = "SCAN [options]",
-          .summary = "what a scan file holds: format, channels, size, unit, holes, heights, doubts",
-          .details = "",
-          .examples = {"tabor info surfaces/edt_before.x3p",
-                       "tabor info surfaces/edt_before.x3p --json"},
-          .declare = [](OptionSet& set) -> Action {
-            const auto request = std::make_shared<ScanRequest>();
-            declare_scan(set, *request, false);
-            return [request](Context& context) { return show(*request, context); };
-          }};
+  return {
+      .name = "info",
+      .arguments = "SCAN [options]",
+      .summary = "what a scan file holds: format, channels, size, unit, holes, heights, warnings",
+      .details = "",
+      .examples = {"tabor info surfaces/edt_before.x3p",
+                   "tabor info surfaces/edt_before.x3p --json"},
+      .declare = [](OptionSet& set) -> Action {
+        const auto request = std::make_shared<ScanRequest>();
+        declare_scan(set, *request, false);
+        return [request](Context& context) { return show(*request, context); };
+      }};
 }
 
 }  // namespace tabor::cli

@@ -23,7 +23,7 @@ Declared declare(CLI::App& app, const OptionSet& set) {
         option.short_flag.empty() ? option.flag : option.short_flag + "," + option.flag;
     CLI::Option* added = option.is_switch() ? app.add_flag(names) : app.add_option(names);
     // Values of a repeated option are all taken here and told apart in assign_in_order(), where
-    // an option that makes no sense twice can be refused by name.
+    // an option that cannot be given twice can be rejected by name.
     added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
         ->allow_extra_args(option.is_positional() && option.repeatable);
     if (option.is_positional() && option.repeatable) added->expected(0, -1);
@@ -41,7 +41,7 @@ std::vector<std::string> flags_of(const OptionSet& set) {
   return flags;
 }
 
-void refuse_unknown_words(const CLI::App& app, const OptionSet& set, const std::string& verb) {
+void reject_unknown_words(const CLI::App& app, const OptionSet& set, const std::string& verb) {
   const std::vector<std::string> unknown = app.remaining();
   if (unknown.empty()) return;
   const auto dashed = std::find_if(unknown.begin(), unknown.end(),
@@ -102,7 +102,7 @@ void parse(const OptionSet& set, const std::string& verb, const std::vector<std:
   } catch (const CLI::ParseError& error) {
     throw UsageError(fmt::format("{}; see 'tabor {} --help'", error.what(), verb));
   }
-  refuse_unknown_words(app, set, verb);
+  reject_unknown_words(app, set, verb);
   require_all(declared, set, verb);
   assign_in_order(app, declared);
 }

@@ -67,8 +67,8 @@ int show(const Request& request, Context& context) {
   const PsdCurves curves = compute(request, scan, context);
   warn_if_not_levelled(scan, context);
   if (curves.spectra) {
-    const std::string doubt = doubt_about_exponents(*curves.spectra);
-    if (!doubt.empty()) context.warn(doubt);
+    const std::string warning = warning_about_exponents(*curves.spectra);
+    if (!warning.empty()) context.warn(warning);
   }
   io::Json object = json_head(context, scan);
   add_curves(object, curves);

@@ -206,7 +206,7 @@ std::string text_of(const Scan& scan, const PsdCurves& curves) {
   return facts.text() + (curves.spectra || curves.hdf ? '\n' + table.text() : "");
 }
 
-std::string doubt_about_exponents(const PowerSpectra& spectra) {
+std::string warning_about_exponents(const PowerSpectra& spectra) {
   std::string strange;
   const auto look_at = [&strange](const std::string& name, const metrology::HurstFit& fit) {
     if (!(fit.hurst - fit.standard_error > 1) && !(fit.hurst + fit.standard_error < 0)) return;

@@ -86,7 +86,7 @@ std::string complaint_of(const std::string& output) {
   return last.starts_with(name) ? last.substr(name.size()) : last;
 }
 
-[[noreturn]] void refuse(const Request& request, const io::Completed& done) {
+[[noreturn]] void reject(const Request& request, const io::Completed& done) {
   const std::string complaint = complaint_of(done.output);
   if (done.exit_code == kUsage) throw UsageError(complaint);
   if (done.exit_code == kInput) throw InputError(complaint);
@@ -109,7 +109,7 @@ int report(const Request& request, Context& context) {
   if (done.timed_out) {
     throw InputError("tabor report: drawing took more than an hour and was ended");
   }
-  if (done.exit_code != 0) refuse(request, done);
+  if (done.exit_code != 0) reject(request, done);
   io::Json object = json_head(context);
   object["files"] = io::Json::array();
   for (const std::string& line : split(done.output, '\n')) {

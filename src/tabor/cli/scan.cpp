@@ -103,8 +103,10 @@ void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment) {
   if (with_treatment) declare_treatment(set, request.treatment);
 }
 
-void warn_of_doubts(const Topography& surface, const std::string& name, Context& context) {
-  for (const topography::Doubt& doubt : surface.doubts) context.warn(name + ": " + doubt.text);
+void pass_on_warnings(const Topography& surface, const std::string& name, Context& context) {
+  for (const topography::Warning& warning : surface.warnings) {
+    context.warn(name + ": " + warning.text);
+  }
 }
 
 Scan read_scan(const ScanRequest& request, Context& context) {
@@ -117,7 +119,7 @@ Scan load_scan(const ScanRequest& request, Context& context) {
 
 Scan load_scan(const scan::ScanFile& file, const ScanRequest& request, Context& context) {
   Scan scan = read_scan(file, request, context);
-  warn_of_doubts(scan.surface, request.file, context);
+  pass_on_warnings(scan.surface, request.file, context);
   return scan;
 }
 

@@ -29,15 +29,15 @@ struct Scan {
 /// own, applied in the order given.
 void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment = true);
 
-/// Every doubt about the surface becomes a warning that names it.
-void warn_of_doubts(const topography::Topography& surface, const std::string& name,
-                    Context& context);
+/// Every warning about the surface becomes a warning that names it.
+void pass_on_warnings(const topography::Topography& surface, const std::string& name,
+                      Context& context);
 
-/// Reads and treats. Doubts about the surface are left to the warnings of the numbers that follow
+/// Reads and treats. Warnings about the surface are left to the warnings of the numbers that follow
 /// from it (analysis/warnings.hpp).
 Scan read_scan(const ScanRequest& request, Context& context);
 
-/// The same where there are no such numbers: doubts become warnings at once.
+/// The same where there are no such numbers: warnings become warnings at once.
 Scan load_scan(const ScanRequest& request, Context& context);
 /// The same for a file that is open already.
 Scan load_scan(const scan::ScanFile& file, const ScanRequest& request, Context& context);
@@ -50,7 +50,7 @@ topography::Topography read_input(const std::filesystem::path& file,
 /// plane would change it.
 void warn_if_not_levelled(const Scan& scan, Context& context);
 
-/// Refuses holes with the option that fills them.
+/// Rejects holes with the option that fills them.
 void require_no_holes(const Scan& scan);
 
 /// "512 x 256 pixels of 2 µm x 3 µm".

@@ -172,7 +172,7 @@ class Refinement {
   NormalEquations<5> equations_;
 };
 
-[[noreturn]] void refuse(const std::string& got, const std::string& expected) {
+[[noreturn]] void reject(const std::string& got, const std::string& expected) {
   throw InputError("registration of two scans", got, expected,
                    "are they of the same place, equally oriented, levelled? else give the shift "
                    "yourself (--shift) or take the scans as they lie (--no-register)");
@@ -200,7 +200,7 @@ Coarse search(const topography::Topography& a, const topography::Topography& b,
       {ga.dx(), ga.dy(), gb.dx(), gb.dy(), std::max({ga.lx, ga.ly, gb.lx, gb.ly}) / kCoarsePixels});
   const double side = std::min({ga.lx, ga.ly, gb.lx, gb.ly});
   if (side < 16 * coarse.pitch) {
-    refuse(fmt::format("a smaller side of {} and pixels of {}", format_si(side, "m"),
+    reject(fmt::format("a smaller side of {} and pixels of {}", format_si(side, "m"),
                        format_si(coarse.pitch, "m")),
            "at least 16 common pixels along each side");
   }
@@ -209,10 +209,10 @@ Coarse search(const topography::Topography& a, const topography::Topography& b,
                      short_waves(coarsen(b, coarse.pitch), coarse.pitch, side / 8),
                      options.smallest_overlap, static_cast<Index>(side / 8 / coarse.pitch));
   if (coarse.match.n_shifts == 0) {
-    refuse("no shift with enough common points", "overlapping scans with few holes");
+    reject("no shift with enough common points", "overlapping scans with few holes");
   }
   if (!(coarse.match.distinction >= options.smallest_distinction)) {
-    refuse(fmt::format("no shift that stands out (best correlation {:.2f}, {:.1f} times its "
+    reject(fmt::format("no shift that stands out (best correlation {:.2f}, {:.1f} times its "
                        "scatter at other shifts)",
                        coarse.match.correlation, coarse.match.distinction),
            fmt::format("one that stands out {} times", options.smallest_distinction));
@@ -292,7 +292,7 @@ Registration register_scans(const topography::Topography& a, const topography::T
   }
   const double moved_by = std::hypot(result.shift_x - start_x, result.shift_y - start_y);
   if (!(moved_by <= 3 * coarse.pitch) || !(result.correlation >= options.smallest_correlation)) {
-    refuse(fmt::format("a correlation of {:.2f} at the best shift ({}, {})", result.correlation,
+    reject(fmt::format("a correlation of {:.2f} at the best shift ({}, {})", result.correlation,
                        format_si(result.shift_x, "m"), format_si(result.shift_y, "m")),
            fmt::format("at least {}", options.smallest_correlation));
   }

@@ -39,7 +39,7 @@ struct State {
   int compact_steps = 0;
 };
 
-/// Solves the contact problem. Throws InputError for input that makes no sense (P >= p_sat, NaN,
+/// Solves the contact problem. Throws InputError for invalid input (P >= p_sat, NaN,
 /// wrong shape). Not reaching the tolerance is returned, and so is being stopped: with the load
 /// carried and within the bounds as ever, and the certificate of where the solution stood.
 State solve(elastic::ElasticOperator& elasticity, const Problem& problem,

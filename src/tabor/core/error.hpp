@@ -11,7 +11,7 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Input that cannot be read or makes no sense (exit code 3 of the command line).
+/// Input that cannot be read or is invalid (exit code 3 of the command line).
 class InputError : public Error {
  public:
   /// "<what>: got <got>; expected <expected>; <remedy>", empty parts left out.

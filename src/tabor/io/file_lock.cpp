@@ -49,11 +49,11 @@ std::optional<FileLock> FileLock::take(const std::filesystem::path& file, Kind k
   }
 }
 
-FileLock FileLock::take_or_refuse(const std::filesystem::path& file, Kind kind,
-                                  const std::string& refusal) {
+FileLock FileLock::take_or_reject(const std::filesystem::path& file, Kind kind,
+                                  const std::string& rejection) {
   make_folder(file.parent_path());
   std::optional<FileLock> lock = take(file, kind);
-  if (!lock) throw InputError(refusal);
+  if (!lock) throw InputError(rejection);
   return std::move(*lock);
 }
 

@@ -19,10 +19,10 @@ class FileLock {
   /// OutputError.
   static std::optional<FileLock> take(const std::filesystem::path& file, Kind kind);
 
-  /// The same in a folder that is made if there is none. Throws InputError, which says `refusal`,
+  /// The same in a folder that is made if there is none. Throws InputError, which says `rejection`,
   /// if others' locks exclude this one.
-  static FileLock take_or_refuse(const std::filesystem::path& file, Kind kind,
-                                 const std::string& refusal);
+  static FileLock take_or_reject(const std::filesystem::path& file, Kind kind,
+                                 const std::string& rejection);
 
   FileLock(FileLock&& other) noexcept;
   FileLock(const FileLock&) = delete;

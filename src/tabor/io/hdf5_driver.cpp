@@ -139,7 +139,7 @@ Handle file_access() {
   follow_store_links_only();
   Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
   // Files get their name only when they are complete, so nobody needs a lock on them; and network
-  // file systems without locks would refuse to open them.
+  // file systems without locks would fail to open them.
   H5Pset_file_locking(access, false, true);
   H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
   return access;

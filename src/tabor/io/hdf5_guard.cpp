@@ -97,7 +97,7 @@ herr_t end_without_memory(hid_t stack, void*) {
     action();
   } catch (const std::bad_alloc&) {
     ::_exit(1);
-  } catch (...) {  // refusing the file is not crashing over it
+  } catch (...) {  // rejecting the file is not crashing over it
   }
   ::_exit(0);
 }
@@ -113,7 +113,7 @@ class Copy {
     // another copy be made meanwhile, or it would keep this one's pipe open.
     const hdf5::Session session;
     int ends[2] = {-1, -1};
-    if (::pipe2(ends, O_CLOEXEC) != 0) refuse(file, errno);
+    if (::pipe2(ends, O_CLOEXEC) != 0) reject(file, errno);
     number_ = ::fork();
     if (number_ == 0) run_in_copy(limits, [&] { action(ends[1]); });
     const int error = errno;
@@ -121,7 +121,7 @@ class Copy {
     pipe_ = ends[0];
     if (number_ > 0) return;
     ::close(pipe_);
-    refuse(file, error);
+    reject(file, error);
   }
   ~Copy() {
     if (number_ > 0) {
@@ -156,7 +156,7 @@ class Copy {
   }
 
  private:
-  [[noreturn]] static void refuse(const std::filesystem::path& file, int error) {
+  [[noreturn]] static void reject(const std::filesystem::path& file, int error) {
     throw Error(
         fmt::format("{}: HDF5 files are read in a process of their own, and there can be "
                     "none: {}; end other programs or allow more (ulimit -u, ulimit -n)",

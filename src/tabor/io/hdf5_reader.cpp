@@ -106,17 +106,17 @@ struct Hdf5Reader::File {
 
   Handle open_dataset(const std::string& path) const {
     if (!exists(path)) {
-      refuse_foreign_link(path);
+      reject_foreign_link(path);
       fail(path, "is missing");
     }
     Handle dataset(H5Dopen2(id, path.c_str(), H5P_DEFAULT), &H5Dclose);
     if (!dataset.valid()) fail(path, "is not a readable dataset");
-    refuse_values_elsewhere(dataset, path);
+    reject_values_elsewhere(dataset, path);
     return dataset;
   }
 
   /// Says so where a link on the way leads to a file that is not followed.
-  void refuse_foreign_link(const std::string& path) const {
+  void reject_foreign_link(const std::string& path) const {
     for (std::size_t end = path.find('/', 1);; end = path.find('/', end + 1)) {
       const std::string part = path.substr(0, end);
       H5L_info_t link{};
@@ -130,7 +130,7 @@ struct Hdf5Reader::File {
 
   /// Values may lie in any file that whoever made this one has named: also in one that is no
   /// HDF5, or in a pipe. Before anything is asked of the dataset, since the library looks there.
-  void refuse_values_elsewhere(hid_t dataset, const std::string& path) const {
+  void reject_values_elsewhere(hid_t dataset, const std::string& path) const {
     const Handle created(H5Dget_create_plist(dataset), &H5Pclose);
     if (!created.valid() || H5Pget_layout(created) == H5D_VIRTUAL ||
         H5Pget_external_count(created) != 0) {
@@ -145,7 +145,7 @@ struct Hdf5Reader::File {
     return opened;
   }
 
-  /// Refuses sizes that the file's own bytes cannot hold, before memory is asked for.
+  /// Rejects sizes that the file's own bytes cannot hold, before memory is asked for.
   void check_size(hid_t dataset, const Described& what, const std::string& path,
                   std::uint64_t bytes_per_value) const {
     // Deflate shrinks at most 1032 : 1 (zlib technical note), no other common filter does better.
@@ -167,7 +167,7 @@ struct Hdf5Reader::File {
     }
   }
 
-  /// Refuses what is no dataset of numbers of this rank or does not fit into memory.
+  /// Rejects what is no dataset of numbers of this rank or does not fit into memory.
   Described checked_numbers(hid_t dataset, const std::string& path, std::size_t rank,
                             std::uint64_t bytes_per_value) const {
     Described what =

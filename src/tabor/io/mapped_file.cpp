@@ -33,7 +33,7 @@ struct MappedFile::Opened {
            !same(now.st_mtim, file.status().st_mtim);
   }
 
-  [[noreturn]] void refuse_changed() const {
+  [[noreturn]] void reject_changed() const {
     throw InputError(name.string(), "a file that changed while it was read",
                      "one that stays as it is", "read it again when it is complete");
   }
@@ -72,7 +72,7 @@ void MappedFile::release(std::string_view part) const {
 }
 
 void MappedFile::check() const {
-  if (opened_->pages.were_lost() || opened_->has_changed()) opened_->refuse_changed();
+  if (opened_->pages.were_lost() || opened_->has_changed()) opened_->reject_changed();
 }
 
 void MappedFile::check_name() const {
@@ -80,7 +80,7 @@ void MappedFile::check_name() const {
   const struct stat& opened = opened_->file.status();
   if (::stat(opened_->name.c_str(), &named) != 0 || named.st_dev != opened.st_dev ||
       named.st_ino != opened.st_ino) {
-    opened_->refuse_changed();
+    opened_->reject_changed();
   }
   check();
 }

@@ -75,7 +75,7 @@ void write_to(std::FILE* stream, const Picture& picture, std::string name) {
   png_write_end(writer.png, writer.info);
 }
 
-/// Refuses sizes that the file's own bytes cannot hold: deflate unpacks to at most 1032 times its
+/// Rejects sizes that the file's own bytes cannot hold: deflate unpacks to at most 1032 times its
 /// size (zlib technical note).
 void check_size(const Reader& reader, const std::filesystem::path& file) {
   constexpr double kLargestRatio = 1032;

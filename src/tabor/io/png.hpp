@@ -20,7 +20,7 @@ struct Picture {
 void write_png(const Picture& picture, const std::filesystem::path& file);
 
 /// Grey values of a PNG with 1 to 16 bits per sample, as counts (no scaling). A colour picture is
-/// refused: colours are no heights. Throws InputError.
+/// rejected: colours are no heights. Throws InputError.
 struct GreyImage {
   Field counts;  ///< (ny, nx), NaN where the picture is transparent
   int bits = 8;  ///< per sample, as in the file

@@ -9,7 +9,7 @@
 namespace tabor::io {
 
 /// A regular file that is open for reading. How every file of a user is opened: folders, devices
-/// and pipes (also behind links) are refused at once, never waited for or read without end.
+/// and pipes (also behind links) are rejected at once, never waited for or read without end.
 class RegularFile {
  public:
   /// Throws InputError: no such file, no permission, not a regular file.

@@ -67,7 +67,7 @@ class Tiff {
     throw InputError(name_, "a damaged TIFF" + (message_.empty() ? "" : " (" + message_ + ")"), "",
                      "export or copy it again");
   }
-  [[noreturn]] void refuse(const std::string& got, const std::string& expected) const {
+  [[noreturn]] void reject(const std::string& got, const std::string& expected) const {
     throw InputError(name_, got, expected, "save it as 16-bit grey without tiles");
   }
 
@@ -121,7 +121,7 @@ Convert converter(const Tiff& tiff, const TiffDescription& image) {
   if (!image.is_float && image.bits == 32) {
     return is_signed ? convert<std::int32_t> : convert<std::uint32_t>;
   }
-  tiff.refuse(fmt::format("{} bits per sample", image.bits), "8, 16 or 32, or floats");
+  tiff.reject(fmt::format("{} bits per sample", image.bits), "8, 16 or 32, or floats");
 }
 
 /// The sample that stands for a missing one, or NaN.
@@ -152,9 +152,9 @@ TiffDescription describe_tiff(const std::filesystem::path& file) {
 Field read_tiff(const std::filesystem::path& file, const std::function<void(double)>& progress) {
   const Tiff tiff(file);
   const TiffDescription image = describe(tiff);
-  if (!image.is_grey) tiff.refuse("a colour image", "grey values, one per pixel");
-  if (image.is_tiled) tiff.refuse("an image in tiles", "rows");
-  if (!image.starts_top_left) tiff.refuse("a turned image", "rows from the top left");
+  if (!image.is_grey) tiff.reject("a colour image", "grey values, one per pixel");
+  if (image.is_tiled) tiff.reject("an image in tiles", "rows");
+  if (!image.starts_top_left) tiff.reject("a turned image", "rows from the top left");
   const Convert convert_row = converter(tiff, image);
   const double missing = missing_sample(tiff, image);
   const auto row_bytes = static_cast<std::size_t>(image.nx * image.bits / 8);

@@ -27,8 +27,8 @@ class Config {
   bool flag(std::string_view key) const;
   std::vector<std::string> texts(std::string_view key) const;  ///< an array of strings, or one
 
-  /// A value with its unit ("70 GPa"), in SI. A number without a unit is refused with the corrected
-  /// form, unless `expected` is dimensionless.
+  /// A value with its unit ("70 GPa"), in SI. A number without a unit is rejected with the
+  /// corrected form, unless `expected` is dimensionless.
   double quantity(std::string_view key, Dimension expected) const;
   std::vector<double> quantities(std::string_view key, Dimension expected) const;
 

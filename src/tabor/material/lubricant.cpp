@@ -49,7 +49,7 @@ void check_pressure(const Lubricant& lubricant, double pressure) {
   check("pressure for the density law", computable_range(lubricant.density), pressure, "");
 }
 
-std::vector<std::string> doubts(const Lubricant& lubricant, double highest_pressure) {
+std::vector<std::string> warnings(const Lubricant& lubricant, double highest_pressure) {
   std::vector<std::string> lines;
   const auto add = [&](std::string_view law, const PressureRange& range) {
     if (highest_pressure > range.highest) {

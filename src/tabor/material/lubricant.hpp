@@ -38,6 +38,6 @@ PressureRange computable_range(const Lubricant& lubricant);
 void check_pressure(const Lubricant& lubricant, double pressure);
 
 /// One line for each law that is believed only up to a pressure below `highest_pressure` [Pa].
-std::vector<std::string> doubts(const Lubricant& lubricant, double highest_pressure);
+std::vector<std::string> warnings(const Lubricant& lubricant, double highest_pressure);
 
 }  // namespace tabor::material

@@ -172,7 +172,7 @@ std::vector<Parameter> feature_parameters(const topography::Topography& topograp
                                           const FeatureOptions& options, const Observer& observer) {
   if (!(options.pruning >= 0 && options.pruning <= 1)) {
     throw InputError("pruning", fmt::format("{:g}", options.pruning),
-                     "a share of Sz between 0 and 1", "the usual one is 0.05 (5 %)");
+                     "a share of Sz between 0 and 1", "the default is 0.05 (5 %)");
   }
   if (topography.height.isNaN().all()) {
     throw InputError("feature parameters", "a surface of holes only", "some valid heights", "");

@@ -36,7 +36,7 @@ struct ParameterOptions {
 /// points. ISO means them for a levelled surface; level first (`--level plane`). The height set
 /// begins with N, the number of valid points. What cannot be computed (one row, one pixel, flat,
 /// holes everywhere between) has the value NaN and a note. Throws InputError if all are holes or
-/// an option makes no sense; Interrupted when the observer stops it.
+/// an option is invalid; Interrupted when the observer stops it.
 std::vector<Parameter> parameters(const topography::Topography& topography,
                                   const ParameterOptions& options = {},
                                   const Observer& observer = {});

@@ -53,7 +53,7 @@ struct ProfileSetting {
 /// do not fit; a fifth of the profile where no class fits. ls: 2.5, 2.5, 2.5, 8, 25 um, or lc/30
 /// where no class fits; none where ls is below two pixels. What the options fix stays. "The
 /// profile" is the shorter side of the map, so that both axes have one lc, unless it is less than a
-/// quarter of the other. Throws InputError for options that make no sense.
+/// quarter of the other. Throws InputError for invalid options.
 ProfileSetting choose_setting(const topography::Topography& topography, ProfileAxis axis,
                               const ProfileOptions& options = {});
 
@@ -64,7 +64,7 @@ ProfileSetting choose_setting(const topography::Topography& topography, ProfileA
 /// their number in the note. The sections lie in the middle of the profile. Heights count from the
 /// mean line z = 0 that the filters leave, not centred again. Holes have no weight: in a filter the
 /// weights, in a section the means are renormalised; a section, or a profile, with less than half
-/// of its points is left out. Throws InputError for options that make no sense; Interrupted when
+/// of its points is left out. Throws InputError for invalid options; Interrupted when
 /// the observer stops it.
 std::vector<Parameter> profile_parameters(const topography::Topography& topography,
                                           ProfileAxis axis, const ProfileOptions& options = {},

@@ -14,7 +14,7 @@
 namespace tabor::metrology {
 namespace {
 
-constexpr int kUsualSections = 5;    ///< ISO 21920-3
+constexpr int kDefaultSections = 5;  ///< ISO 21920-3
 constexpr double kTolerance = 0.01;  ///< by which the last section may be short
 
 /// Setting classes Sc1 to Sc5 of ISO 21920-3 and the largest Rz for which each is recommended. [m]
@@ -29,26 +29,26 @@ constexpr std::array<SettingClass, 5> kClasses{{{0.16e-6, 0.08e-3, 2.5e-6},
 constexpr double kShortestRatio = 30;  ///< lc/ls of the smallest class, ISO 3274
 
 void check(const ProfileOptions& options, double spacing) {
-  const auto refuse = [](const char* what, const std::string& got, const std::string& expected) {
+  const auto reject = [](const char* what, const std::string& got, const std::string& expected) {
     throw InputError(fmt::format("profile {}", what), got, expected, "");
   };
   if (options.cutoff && !(*options.cutoff >= 2 * spacing && std::isfinite(*options.cutoff))) {
-    refuse("cut-off lc", format_si(*options.cutoff, "m"),
+    reject("cut-off lc", format_si(*options.cutoff, "m"),
            fmt::format("at least two pixels ({} along this axis)", format_si(2 * spacing, "m")));
   }
   if (options.short_cutoff &&
       !(*options.short_cutoff >= 0 && std::isfinite(*options.short_cutoff))) {
-    refuse("short cut-off ls", format_si(*options.short_cutoff, "m"), "a length, or 0 for none");
+    reject("short cut-off ls", format_si(*options.short_cutoff, "m"), "a length, or 0 for none");
   }
   if (options.cutoff && options.short_cutoff && !(*options.short_cutoff < *options.cutoff)) {
-    refuse("short cut-off ls", format_si(*options.short_cutoff, "m"),
+    reject("short cut-off ls", format_si(*options.short_cutoff, "m"),
            fmt::format("less than lc = {}", format_si(*options.cutoff, "m")));
   }
   if (options.sections && *options.sections < 0) {
-    refuse("sections", fmt::format("{}", *options.sections), "a number, or 0 for as many as fit");
+    reject("sections", fmt::format("{}", *options.sections), "a number, or 0 for as many as fit");
   }
   if (options.form_degree < -1 || options.form_degree > 4) {
-    refuse("form", fmt::format("degree {}", options.form_degree), "a degree from -1 (none) to 4");
+    reject("form", fmt::format("degree {}", options.form_degree), "a degree from -1 (none) to 4");
   }
 }
 
@@ -60,9 +60,9 @@ double estimate_rz(const topography::Topography& topography, ProfileAxis axis,
     const Eigen::ArrayXd profile =
         without_form(profile_of(z, axis, i), options.filtered ? -1 : options.form_degree);
     Eigen::Array2d sum = Eigen::Array2d::Zero();
-    for (Index k = 0; k < kUsualSections; ++k) {
-      const Index begin = k * profile.size() / kUsualSections;
-      const auto part = profile.segment(begin, (k + 1) * profile.size() / kUsualSections - begin);
+    for (Index k = 0; k < kDefaultSections; ++k) {
+      const Index begin = k * profile.size() / kDefaultSections;
+      const auto part = profile.segment(begin, (k + 1) * profile.size() / kDefaultSections - begin);
       if (part.size() > 0 && !part.isNaN().all()) {
         sum += Eigen::Array2d(
             part.maxCoeff<Eigen::PropagateNumbers>() - part.minCoeff<Eigen::PropagateNumbers>(), 1);
@@ -97,7 +97,7 @@ void choose_cutoff(ProfileSetting& setting, double rz, double profile_length, do
   std::size_t wanted = 0;
   while (rz > kClasses[wanted].largest_rz) ++wanted;
   const auto fits = [&](std::size_t k) {
-    return kUsualSections * kClasses[k].cutoff <= profile_length * (1 + kTolerance);
+    return kDefaultSections * kClasses[k].cutoff <= profile_length * (1 + kTolerance);
   };
   std::size_t taken = wanted;
   while (taken > 0 && !fits(taken)) --taken;
@@ -108,23 +108,23 @@ void choose_cutoff(ProfileSetting& setting, double rz, double profile_length, do
   };
   if (is_too_short(taken)) {
     while (taken + 1 < kClasses.size() && is_too_short(taken) && fits(taken + 1)) ++taken;
-    setting.cutoff = is_too_short(taken) ? std::max(profile_length / kUsualSections, 2 * spacing)
+    setting.cutoff = is_too_short(taken) ? std::max(profile_length / kDefaultSections, 2 * spacing)
                                          : kClasses[taken].cutoff;
     setting.reason += fmt::format(
         " is below ten pixels or does not fit: {} taken; not comparable with other cut-offs",
         length(setting.cutoff));
     return;
   }
-  setting.cutoff = fits(taken) ? kClasses[taken].cutoff : profile_length / kUsualSections;
+  setting.cutoff = fits(taken) ? kClasses[taken].cutoff : profile_length / kDefaultSections;
   if (setting.cutoff != kClasses[wanted].cutoff) {
     setting.reason += fmt::format(
         " does not fit {} times into {}: {} taken, {}; not comparable with other cut-offs",
-        kUsualSections, length(profile_length), length(setting.cutoff),
+        kDefaultSections, length(profile_length), length(setting.cutoff),
         fits(taken) ? "the largest standard cut-off that fits" : "a fifth of the profile");
   }
 }
 
-double usual_short_cutoff(double cutoff) {
+double default_short_cutoff(double cutoff) {
   if (cutoff < kClasses[0].cutoff) return cutoff / kShortestRatio;
   double found = 0;
   for (const SettingClass& known : kClasses) {
@@ -134,13 +134,13 @@ double usual_short_cutoff(double cutoff) {
 }
 
 void choose_short_cutoff(ProfileSetting& setting, double spacing) {
-  const double usual = usual_short_cutoff(setting.cutoff);
-  setting.short_cutoff = usual >= 2 * spacing ? usual : 0;
-  setting.reason += usual >= 2 * spacing ? fmt::format("; ls = {}", length(usual))
-                                         : fmt::format(
-                                               "; no S-filter, the usual ls = {} is below "
-                                               "two pixels",
-                                               length(usual));
+  const double by_default = default_short_cutoff(setting.cutoff);
+  setting.short_cutoff = by_default >= 2 * spacing ? by_default : 0;
+  setting.reason += by_default >= 2 * spacing ? fmt::format("; ls = {}", length(by_default))
+                                           : fmt::format(
+                                                 "; no S-filter, the default ls = {} is below "
+                                                 "two pixels",
+                                                 length(by_default));
 }
 
 void choose_sections(ProfileSetting& setting, const ProfileOptions& options, double available) {
@@ -150,7 +150,7 @@ void choose_sections(ProfileSetting& setting, const ProfileOptions& options, dou
   }
   const int fitting =
       static_cast<int>(std::min(1e6, std::floor(available / setting.cutoff + kTolerance)));
-  const int wanted = options.sections.value_or(kUsualSections);
+  const int wanted = options.sections.value_or(kDefaultSections);
   setting.sections = std::max(1, wanted == 0 ? fitting : std::min(wanted, fitting));
   if (fitting < 1) {
     setting.reason += fmt::format("; the profile of {} is shorter than lc", length(available));

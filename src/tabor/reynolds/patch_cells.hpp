@@ -55,7 +55,7 @@ struct PatchCells {
   Neighbours around(Index cell) const;
 };
 
-/// Throws InputError for wrong shapes, NaN, viscosities or speeds that make no sense.
+/// Throws InputError for wrong shapes, NaN, invalid viscosities or speeds.
 PatchCells patch_cells(const PatchProblem& problem);
 
 /// The connected rooms of the gap.

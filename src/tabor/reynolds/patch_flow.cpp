@@ -118,7 +118,7 @@ void add_work(const PatchFilm& before, PatchFilm& film) {
 }
 
 /// A step is easier if it is shorter; the oil stays where it was.
-void refuse(const PatchFilm& next, PatchFilm& film) {
+void reject(const PatchFilm& next, PatchFilm& film) {
   film.convergence.iterations = next.convergence.iterations;
   film.convergence.operator_applications = next.convergence.operator_applications;
   film.convergence.status = Status::stalled;
@@ -133,7 +133,7 @@ void slide(const PatchProblem& problem, const PatchCells& cells, const Rooms& ro
     add_work(film, next);
     if (next.convergence.status == Status::stalled) {
       length /= 4;
-      refuse(next, film);
+      reject(next, film);
       continue;
     }
     const double change = std::abs(next.mean_pressure - film.mean_pressure);

@@ -14,7 +14,7 @@
 #include "tabor/io/subprocess.hpp"
 #include "tabor/scan/formats/format.hpp"
 #include "tabor/scan/formats/resolve.hpp"
-#include "tabor/topography/doubts.hpp"
+#include "tabor/topography/warnings.hpp"
 
 namespace tabor::scan {
 namespace {
@@ -36,13 +36,13 @@ Document open(const Contents& contents) {
     if (row.identify == nullptr || row.identify(head) == format::Match::no) continue;
     try {
       return row.open(contents);
-    } catch (const format::Unrecognised& refusal) {
-      if (refusal.got() != last_found) found += (found.empty() ? "" : "; ") + refusal.got();
-      if (refusal.remedy() != last_remedy) {
-        remedy += (remedy.empty() ? "" : "; or ") + refusal.remedy();
+    } catch (const format::Unrecognised& rejection) {
+      if (rejection.got() != last_found) found += (found.empty() ? "" : "; ") + rejection.got();
+      if (rejection.remedy() != last_remedy) {
+        remedy += (remedy.empty() ? "" : "; or ") + rejection.remedy();
       }
-      last_found = refusal.got();
-      last_remedy = refusal.remedy();
+      last_found = rejection.got();
+      last_remedy = rejection.remedy();
     }
   }
   throw InputError(contents.file.string(), found, "a scan file", remedy);
@@ -50,7 +50,7 @@ Document open(const Contents& contents) {
 
 /// Heights in metres. What is not finite after scaling is a hole; so is what no surface can have,
 /// such as a mark of missing points that the format does not know.
-Field heights_of(const Layer& layer, double factor, std::vector<std::string>& doubts) {
+Field heights_of(const Layer& layer, double factor, std::vector<std::string>& warnings) {
   constexpr double kTallest = 1e6;  // [m]; squares of more leave the range of numbers at last
   Field height = layer.load();
   std::atomic<Index> n_absurd{0};
@@ -66,14 +66,14 @@ Field heights_of(const Layer& layer, double factor, std::vector<std::string>& do
     n_absurd += absurd;
   });
   if (n_absurd > 0) {
-    doubts.push_back(fmt::format("{} heights beyond 1000 km taken as missing", n_absurd.load()));
+    warnings.push_back(fmt::format("{} heights beyond 1000 km taken as missing", n_absurd.load()));
   }
   return height;
 }
 
 void require_heights(const Contents& contents, const topography::Topography& topography) {
   if (topography::count_holes(topography) == topography.grid.size()) {
-    format::refuse(contents, "no valid height at any pixel", "a scan with heights");
+    format::reject(contents, "no valid height at any pixel", "a scan with heights");
   }
 }
 
@@ -157,15 +157,15 @@ topography::Topography ScanFile::read(const ReadOptions& options) const {
   const Document& document = opened_->document;
   const Layer& layer = format::choose_layer(contents, document, options);
   topography::Topography topography;
-  std::vector<std::string> found = document.doubts;
+  std::vector<std::string> found = document.warnings;
   topography.grid = format::resolve_grid(contents, layer, options, found);
   const double factor = format::resolve_height_factor(contents, layer, options, found);
   topography.height = heights_of(layer, factor, found);
   go_on_or_throw();
   // Some formats are read by other libraries and programs, which open the file by its name.
   opened_->mapped.check_name();
-  if (layer.late_doubts) {
-    const std::vector<std::string>& late = *layer.late_doubts;
+  if (layer.late_warnings) {
+    const std::vector<std::string>& late = *layer.late_warnings;
     found.insert(found.end(), late.begin(), late.end());
   }
   require_heights(contents, topography);
@@ -177,10 +177,12 @@ topography::Topography ScanFile::read(const ReadOptions& options) const {
   topography.channel = layer.name;
   topography.metadata = document.metadata;
   topography.history = document.history;
-  for (std::string& doubt : found) topography.doubts.push_back({.text = std::move(doubt)});
-  for (const topography::Doubt& doubt : document.lasting) topography.doubts.push_back(doubt);
-  for (topography::Doubt& doubt : topography::doubts(topography)) {
-    topography.doubts.push_back(std::move(doubt));
+  for (std::string& warning : found) topography.warnings.push_back({.text = std::move(warning)});
+  for (const topography::Warning& warning : document.lasting) {
+    topography.warnings.push_back(warning);
+  }
+  for (topography::Warning& warning : topography::warnings(topography)) {
+    topography.warnings.push_back(std::move(warning));
   }
   contents.finished({}, 1);
   return topography;

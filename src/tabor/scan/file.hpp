@@ -22,7 +22,7 @@ struct Channel {
 };
 
 /// What the user says about a file that the file does not say itself. A value the file fixes wins
-/// and contradicting it is refused, unless override_unit is set.
+/// and contradicting it is rejected, unless override_unit is set.
 struct ReadOptions {
   std::optional<std::string> channel;  ///< name or index
   std::optional<double> pixel_x;       ///< [m]

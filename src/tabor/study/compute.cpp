@@ -35,7 +35,7 @@ void require_one_size(const StoredContact& contact, const Field& film) {
                    "remove the folder store and run the sweep again");
 }
 
-[[noreturn]] void refuse_replaced(const Scan& scan) {
+[[noreturn]] void reject_replaced(const Scan& scan) {
   throw Error(scan.file.string() +
               ": replaced or changed while the sweep ran; nothing of it was kept, start the sweep "
               "again");
@@ -53,10 +53,10 @@ topography::Topography read_unchanged(const Scan& scan, const std::string& sha25
                                       const Observer& observer) {
   try {
     const scan::ScanFile file(scan.file, observer);
-    if (file.sha256() != sha256) refuse_replaced(scan);
+    if (file.sha256() != sha256) reject_replaced(scan);
     return file.read(scan.read);
   } catch (const InputError&) {  // of this scan, or of what took its place
-    if (!holds(scan, sha256)) refuse_replaced(scan);
+    if (!holds(scan, sha256)) reject_replaced(scan);
     throw;
   }
 }

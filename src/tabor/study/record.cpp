@@ -61,7 +61,7 @@ SurfaceFacts facts_of_surface(const io::Hdf5Reader& reader) {
           .rms_height = reader.number("/psd", "rms_height_m"),
           .rms_slope = reader.number("/psd", "rms_slope"),
           .treatment = reader.attribute_texts("/surface", "treatment"),
-          .doubts = reader.attribute_texts("/surface", "doubts")};
+          .warnings = reader.attribute_texts("/surface", "doubts")};
 }
 
 /// All but the maps, which are of one shape.

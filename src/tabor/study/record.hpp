@@ -46,7 +46,7 @@ struct SurfaceFacts {
   double rms_height = 0;
   double rms_slope = 0;
   std::vector<std::string> treatment;
-  std::vector<std::string> doubts;
+  std::vector<std::string> warnings;
 };
 SurfaceFacts read_surface_facts(const Store& store, const Task& task);
 

@@ -26,7 +26,7 @@ enum class ContactMaps { dropped, kept };
 /// Hands on every pressure with every density, the densities of the first pressure first, one at a
 /// time and not always by the same thread. Each density is rained once and each pressure solved
 /// once. Records do not depend on the number of jobs or threads; a shard and retry mean nothing
-/// here. Throws InputError for settings and surfaces that make no sense, Interrupted where the
+/// here. Throws InputError for invalid settings and surfaces, Interrupted where the
 /// observer stops it (what was handed on before is whole), and whatever `receive` throws.
 void friction_of(const topography::Topography& surface, const analysis::CaseSettings& settings,
                  const std::function<void(const FrictionState&)>& receive,

@@ -26,7 +26,7 @@ bool is_of_kind(const fs::path& file, const std::vector<std::string>& kinds) {
 Store::Store(const fs::path& folder, Use use, const std::string& busy)
     : folder_(folder),
       use_(use),
-      lock_(io::FileLock::take_or_refuse(
+      lock_(io::FileLock::take_or_reject(
           folder_ / kLockName,
           use == Use::alone ? io::FileLock::Kind::alone : io::FileLock::Kind::shared, busy)) {
   if (use == Use::alone) io::remove_all_leftovers(folder_);

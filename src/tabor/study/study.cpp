@@ -55,7 +55,7 @@ template <typename Names>
 auto named(const io::Config& config, std::string_view key, const Names& names) {
   const std::string word = config.text(key);
   if (const auto value = names.find(word)) return *value;
-  refuse(config, key, "'" + word + "'",
+  reject(config, key, "'" + word + "'",
          fmt::format("{}", fmt::join(names.all(), " or ")) + suggestion(word, names.all()));
 }
 
@@ -66,7 +66,7 @@ double read_modulus(const io::Config& config, const std::string& key) {
 double read_poissons_ratio(const io::Config& config, const std::string& key) {
   const double ratio = config.number(key);
   if (!(ratio > -1 && ratio <= 0.5)) {
-    refuse(config, key, fmt::format("{}", ratio), "a ratio above -1 and at most 0.5");
+    reject(config, key, fmt::format("{}", ratio), "a ratio above -1 and at most 0.5");
   }
   return ratio;
 }
@@ -115,7 +115,7 @@ void read_lubricant(const io::Config& config, analysis::FilmSettings& lubricant)
   }
   if (config.has("lubricant.seed")) {
     const std::int64_t seed = config.integer("lubricant.seed");
-    if (seed < 0) refuse(config, "lubricant.seed", fmt::format("{}", seed), "zero or more");
+    if (seed < 0) reject(config, "lubricant.seed", fmt::format("{}", seed), "zero or more");
     lubricant.seed = static_cast<std::uint64_t>(seed);
   }
 }

@@ -10,11 +10,11 @@ bool is_asked(const io::Config& config) {
          });
 }
 
-void refuse_idle_keys(const io::Config& config) {
+void reject_idle_keys(const io::Config& config) {
   for (const char* key : {"sweep.sliding_speed", "lubricant.viscosity",
                           "lubricant.pressure_viscosity", "lubricant.eyring_stress"}) {
     if (config.has(key)) {
-      refuse(config, key, "a key of a film that flows", "lubricant.fluid = \"reynolds\" with it");
+      reject(config, key, "a key of a film that flows", "lubricant.fluid = \"reynolds\" with it");
     }
   }
 }
@@ -23,7 +23,7 @@ void refuse_idle_keys(const io::Config& config) {
 
 void read_flowing_oil(const io::Config& config, Study& study) {
   if (!is_asked(config)) {
-    refuse_idle_keys(config);
+    reject_idle_keys(config);
     return;
   }
   analysis::FluidSettings& oil = study.settings.fluid;
@@ -40,7 +40,7 @@ void read_flowing_oil(const io::Config& config, Study& study) {
          [&](const std::string&) { return friction::lubricant_of(oil.oil()); });
   study.sliding_speeds = read_axis(config, "sweep.sliding_speed", dimension::speed, true);
   if (!study.settings.contact.is_periodic()) {
-    refuse(config, "contact.boundary", "'free'",
+    reject(config, "contact.boundary", "'free'",
            "'periodic': a film that flows is solved on a patch that repeats");
   }
 }

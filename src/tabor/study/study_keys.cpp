@@ -7,7 +7,7 @@
 
 namespace tabor::study {
 
-void refuse(const io::Config& config, std::string_view key, const std::string& got,
+void reject(const io::Config& config, std::string_view key, const std::string& got,
             const std::string& expected) {
   throw InputError(config.place(key), got, expected, "");
 }
@@ -15,7 +15,7 @@ void refuse(const io::Config& config, std::string_view key, const std::string& g
 double positive(const io::Config& config, std::string_view key, Dimension expected) {
   const double value = config.quantity(key, expected);
   if (!(value > 0) || !std::isfinite(value)) {
-    refuse(config, key, fmt::format("{}", value), "a value above zero");
+    reject(config, key, fmt::format("{}", value), "a value above zero");
   }
   return value;
 }
@@ -26,10 +26,10 @@ std::vector<double> read_axis(const io::Config& config, std::string_view key, Di
   std::set<double> seen;
   for (const double value : values) {
     if (!std::isfinite(value) || value < 0 || (value == 0 && !zero_allowed)) {
-      refuse(config, key, fmt::format("{}", value),
+      reject(config, key, fmt::format("{}", value),
              zero_allowed ? "values of zero or more" : "values above zero");
     }
-    if (!seen.insert(value).second) refuse(config, key, "the same value twice", "each value once");
+    if (!seen.insert(value).second) reject(config, key, "the same value twice", "each value once");
   }
   return values;
 }

@@ -11,7 +11,7 @@
 // What the parts that read a study file share.
 namespace tabor::study {
 
-[[noreturn]] void refuse(const io::Config& config, std::string_view key, const std::string& got,
+[[noreturn]] void reject(const io::Config& config, std::string_view key, const std::string& got,
                          const std::string& expected);
 
 /// Finite and above zero, in SI.

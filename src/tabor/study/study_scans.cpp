@@ -84,7 +84,7 @@ void read_scans(const io::Config& config, const fs::path& folder, Study& study) 
     for (const std::string& name : entry.texts("file")) {
       for (const fs::path& file : find_files(entry, folder, name)) {
         if (!seen.insert(fs::weakly_canonical(file)).second) {
-          refuse(entry, "file", "'" + name + "' twice", "each scan once, it would count twice");
+          reject(entry, "file", "'" + name + "' twice", "each scan once, it would count twice");
         }
         study.scans.push_back({file, label_of(file, folder),
                                entry.has("group") ? entry.text("group") : "all", options});

@@ -80,7 +80,7 @@ void write_surface_facts(io::Hdf5Writer& writer, const std::string& group,
   writer.attribute(group, "rms_height_m", facts.rms_height);
   writer.attribute(group, "rms_slope", facts.rms_slope);
   writer.attribute(group, "treatment", facts.treatment);
-  writer.attribute(group, "doubts", facts.doubts);
+  writer.attribute(group, "doubts", facts.warnings);
 }
 
 /// Links into the store, only to what is there.

@@ -42,7 +42,7 @@ FilterKind parse_kind(std::string_view name, std::string_view step) {
                    fmt::format("e.g. {}=hann:512/L{}", step, suggestion(name, names)));
 }
 
-[[noreturn]] void refuse_cutoff(std::string_view cutoff, std::string_view step) {
+[[noreturn]] void reject_cutoff(std::string_view cutoff, std::string_view step) {
   throw InputError(fmt::format("cutoff of {}", step), fmt::format("'{}'", cutoff),
                    "a positive wavelength (8um), its inverse (1/8um) or cycles per side (512/L)",
                    fmt::format("e.g. {}=hann:512/L or {}=gauss:8um", step, step));
@@ -52,9 +52,9 @@ FilterKind parse_kind(std::string_view name, std::string_view step) {
 double parse_wavelength(std::string_view text, std::string_view whole, std::string_view step) {
   text = trim(text);
   if (text.starts_with('(') && text.ends_with(')')) text = text.substr(1, text.size() - 2);
-  if (parse_number(text)) refuse_cutoff(whole, step);  // a unit is missing
+  if (parse_number(text)) reject_cutoff(whole, step);  // a unit is missing
   const double wavelength = parse_si(text, dimension::length, fmt::format("--{}", step));
-  if (!(wavelength > 0) || !std::isfinite(wavelength)) refuse_cutoff(whole, step);
+  if (!(wavelength > 0) || !std::isfinite(wavelength)) reject_cutoff(whole, step);
   return wavelength;
 }
 
@@ -65,7 +65,7 @@ void parse_cutoff(Filter& filter, std::string_view cutoff, std::string_view step
     return;
   }
   const auto cycles = parse_number(cutoff.substr(0, slash));
-  if (!cycles || !(*cycles > 0) || !std::isfinite(*cycles)) refuse_cutoff(cutoff, step);
+  if (!cycles || !(*cycles > 0) || !std::isfinite(*cycles)) reject_cutoff(cutoff, step);
   const auto below = trim(cutoff.substr(slash + 1));
   if (below == "L") {
     filter.cycles_per_side = *cycles;
@@ -157,7 +157,7 @@ void check_cutoff(const Filter& filter, double wavelength, const Grid& grid) {
 }
 
 /// What to think of a cutoff that does nearly nothing, or nearly everything; "" if neither.
-std::string doubt_about(const Filter& filter, double wavelength, const Grid& grid) {
+std::string warning_about(const Filter& filter, double wavelength, const Grid& grid) {
   if (wavelength > (is_profile(grid) ? scan_side(grid) : std::min(grid.lx, grid.ly))) {
     return fmt::format(
         "the cutoff of {} is longer than the scan ({} x {}): hardly more than a mean passes",
@@ -177,8 +177,8 @@ Topography filtered(Topography topography, const Filter& filter, bool high) {
   Topography result = before;
   result.height = low_pass(before.height, before.grid, filter, side, before.periodic);
   if (high) result.height = before.height - result.height;
-  const auto doubt = doubt_about(filter, filter.cutoff_wavelength(side), before.grid);
-  if (!doubt.empty()) result.doubts.push_back({.text = doubt, .code = "filter"});
+  const auto warning = warning_about(filter, filter.cutoff_wavelength(side), before.grid);
+  if (!warning.empty()) result.warnings.push_back({.text = warning, .code = "filter"});
   result.history.push_back(describe(high ? "highpass" : "lowpass", filter, side, before, result));
   return result;
 }
@@ -189,7 +189,7 @@ Filter parse_filter(std::string_view text, std::string_view step) {
   Filter filter;
   const auto colon = text.find(':');
   filter.kind = parse_kind(trim(text.substr(0, colon)), step);
-  if (colon == std::string_view::npos) refuse_cutoff("", step);
+  if (colon == std::string_view::npos) reject_cutoff("", step);
   parse_cutoff(filter, trim(text.substr(colon + 1)), step);
   return filter;
 }

@@ -50,7 +50,7 @@ Field low_pass(const Field& height, const Grid& grid, const Filter& filter, doub
                bool periodic);
 
 /// Low-pass (S-filter) and its complement z - low-pass (L-filter), with a line in the history, and
-/// a doubt where the cutoff is longer than the scan or too short to change anything. The L of
+/// a warning where the cutoff is longer than the scan or too short to change anything. The L of
 /// "512/L" is filter_side(topography).
 Topography low_pass(Topography topography, const Filter& filter);
 Topography high_pass(Topography topography, const Filter& filter);

@@ -117,13 +117,13 @@ std::string describe(const FillResult& result, Fill fill, Index n_pixels) {
   return text;
 }
 
-/// Heights that nobody measured stay a doubt about everything that is computed with them.
-void doubt_invented(Index n_filled, Fill fill, Topography& topography) {
+/// Heights that nobody measured stay a warning about everything that is computed with them.
+void warn_of_invented(Index n_filled, Fill fill, Topography& topography) {
   constexpr double kTell = 0.01;  // below it a contact hardly ever stands on one
   constexpr double kMost = 0.5;
   const double share = static_cast<double>(n_filled) / static_cast<double>(topography.grid.size());
   if (share < kTell) return;
-  topography.doubts.push_back(
+  topography.warnings.push_back(
       {.text = fmt::format(
            "{}{:.3g} % of the pixels were holes and have heights of fill={}, which nobody measured",
            share > kMost ? "most of the area is invented: " : "", 100 * share, name_of(fill)),
@@ -160,7 +160,7 @@ FillResult fill_holes(const Field& height, const Grid& grid, Fill fill, const Ob
 Topography fill_holes(Topography topography, Fill fill, const Observer& observer) {
   auto result = fill_holes(topography.height, topography.grid, fill, observer);
   topography.history.push_back(describe(result, fill, topography.grid.size()));
-  doubt_invented(result.n_filled, fill, topography);
+  warn_of_invented(result.n_filled, fill, topography);
   topography.height = std::move(result.height);
   return topography;
 }

@@ -176,7 +176,7 @@ NormalEquations normal_equations(const Field& height, const FormFit& removed) {
   return total;
 }
 
-/// Refuses a fit that the valid points leave undetermined: too few, or all on one curve.
+/// Rejects a fit that the valid points leave undetermined: too few, or all on one curve.
 void check_determined(const NormalEquations& equations, int degree) {
   constexpr double smallest_ratio = 1e-12;
   const Eigen::VectorXd values = symmetric_eigenvalues(equations.matrix);

@@ -78,9 +78,9 @@ std::vector<Index> sample_pixels(Index size) {
   return pixels;
 }
 
-/// Usual distance from the surroundings' median over the whole scan. Where more than half of the
+/// Typical distance from the surroundings' median over the whole scan. Where more than half of the
 /// heights equal theirs (coarsely digitised scans), the mean distance stands in.
-double usual_distance(const Field& height, Index window) {
+double typical_distance(const Field& height, Index window) {
   const std::vector<Index> pixels = sample_pixels(height.size());
   std::vector<double> known(pixels.size());
   parallel_for(std::ssize(pixels), 1024, [&](Index begin, Index end) {
@@ -107,7 +107,7 @@ class SpikeTest {
       : height_(height),
         threshold_(rule.threshold),
         window_(window_side(height, rule)),
-        limit_(threshold_ * usual_distance(height, window_)) {}
+        limit_(threshold_ * typical_distance(height, window_)) {}
 
   /// Calls action(x) for the spikes of row y.
   template <typename Action>
@@ -210,23 +210,23 @@ void check(const SpikeRule& rule) {
 SpikeRule parse_spike_rule(std::string_view text) {
   SpikeRule rule;
   const auto parts = split(std::string(text), ',');
-  const auto refuse = [&] {
+  const auto reject = [&] {
     throw InputError("despike", text.empty() ? "no value" : fmt::format("'{}'", text),
                      "auto, or SIGMAS[,WINDOW[,hole|median]]", "e.g. despike=8,5,median");
   };
-  if (text.empty() || parts.size() > 3) refuse();
+  if (text.empty() || parts.size() > 3) reject();
   if (trim(parts[0]) != "auto") {
     const auto threshold = parse_number(trim(parts[0]));
-    threshold ? void(rule.threshold = *threshold) : refuse();
+    threshold ? void(rule.threshold = *threshold) : reject();
   }
   if (parts.size() > 1) {
     const auto window = parse_number(trim(parts[1]));
-    if (!window || *window != std::round(*window) || std::abs(*window) > 1e6) refuse();
+    if (!window || *window != std::round(*window) || std::abs(*window) > 1e6) reject();
     rule.window = static_cast<Index>(*window);
   }
   if (parts.size() > 2) {
     rule.fill_with_median = trim(parts[2]) == "median";
-    if (!rule.fill_with_median && trim(parts[2]) != "hole") refuse();
+    if (!rule.fill_with_median && trim(parts[2]) != "hole") reject();
   }
   check(rule);
   return rule;
@@ -270,7 +270,7 @@ Topography remove_spikes(Topography topography, const SpikeRule& rule) {
   }
   topography.height = std::move(after);
   if (n_spikes > 0) {
-    topography.doubts.push_back(
+    topography.warnings.push_back(
         {.text = fmt::format("despike took {} spike{} out of {} heights", n_spikes,
                              n_spikes == 1 ? "" : "s", spikes.size()),
          .code = "despiked"});

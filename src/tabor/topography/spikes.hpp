@@ -8,7 +8,7 @@ namespace tabor::topography {
 
 /// What counts as a spike and what becomes of it. A height is a spike when it lies further from
 /// the median of the window around it than `threshold` times BOTH the spread in that window and
-/// the usual distance from such a median all over the scan (of up to 131072 pixels). Spreads are
+/// the typical distance from such a median all over the scan (of up to 131072 pixels). Spreads are
 /// robust: 1.4826 times the median absolute deviation, the standard deviation of a Gaussian. Steps
 /// and steep flanks have a wide spread of their own and stay; so do spikes that fill more than half
 /// of a window.
@@ -28,7 +28,7 @@ Mask find_spikes(const Field& height, const SpikeRule& rule = {});
 /// How many there are, without memory per pixel: fit for a first look at a large scan.
 Index count_spikes(const Field& height, const SpikeRule& rule = {});
 
-/// Without spikes; their number is in the history and, if any, among the doubts.
+/// Without spikes; their number is in the history and, if any, among the warnings.
 Topography remove_spikes(Topography topography, const SpikeRule& rule = {});
 
 }  // namespace tabor::topography

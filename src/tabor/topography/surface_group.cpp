@@ -20,9 +20,9 @@ void write_surface_group(io::Hdf5Writer& writer, const Topography& surface,
   writer.attribute("/surface", "instrument", surface.instrument);
   writer.attribute("/surface", "channel", surface.channel);
   writer.attribute("/surface", "treatment", surface.history);
-  writer.attribute("/surface", "doubts", texts(surface.doubts));
+  writer.attribute("/surface", "doubts", texts(surface.warnings));
   std::vector<std::string> codes;
-  for (const Doubt& doubt : surface.doubts) codes.push_back(doubt.code);
+  for (const Warning& warning : surface.warnings) codes.push_back(warning.code);
   writer.attribute("/surface", "doubt_codes", codes);
   writer.attribute("/surface", "periodic", surface.periodic ? 1 : 0);
   writer.attribute("/surface", "pixel_x_m", surface.grid.dx());

@@ -6,10 +6,10 @@
 
 namespace tabor::topography {
 
-std::vector<std::string> texts(const std::vector<Doubt>& doubts) {
+std::vector<std::string> texts(const std::vector<Warning>& warnings) {
   std::vector<std::string> list;
-  list.reserve(doubts.size());
-  for (const Doubt& doubt : doubts) list.push_back(doubt.text);
+  list.reserve(warnings.size());
+  for (const Warning& warning : warnings) list.push_back(warning.text);
   return list;
 }
 

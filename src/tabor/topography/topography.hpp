@@ -9,8 +9,8 @@
 namespace tabor::topography {
 
 /// What a careful user should know, in one sentence, and how long it holds.
-struct Doubt {
-  /// How long a doubt holds.
+struct Warning {
+  /// How long a warning holds.
   enum class About {
     record,   ///< the file or a step of its treatment: for good
     heights,  ///< the heights as they are: asked anew after a treatment
@@ -22,7 +22,7 @@ struct Doubt {
 };
 
 /// The sentences alone.
-std::vector<std::string> texts(const std::vector<Doubt>& doubts);
+std::vector<std::string> texts(const std::vector<Warning>& warnings);
 
 /// A measured or generated height map. A value: treatments return new ones.
 struct Topography {
@@ -36,7 +36,7 @@ struct Topography {
   std::string channel;     ///< title of the channel that was read
   std::map<std::string, std::string> metadata;
   std::vector<std::string> history;  ///< treatment steps so far, canonical text with numbers
-  std::vector<Doubt> doubts;         ///< about the file, the treatment and the heights
+  std::vector<Warning> warnings;     ///< about the file, the treatment and the heights
 };
 
 /// One row or one column: its width counts for nothing.

@@ -12,12 +12,12 @@
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/core/watch.hpp"
-#include "tabor/topography/doubts.hpp"
 #include "tabor/topography/filters.hpp"
 #include "tabor/topography/geometry.hpp"
 #include "tabor/topography/holes.hpp"
 #include "tabor/topography/levelling.hpp"
 #include "tabor/topography/spikes.hpp"
+#include "tabor/topography/warnings.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -30,7 +30,7 @@ struct Step {
   Action (*parse)(const std::string& argument);
 };
 
-[[noreturn]] void refuse(const std::string& step, const std::string& argument,
+[[noreturn]] void reject(const std::string& step, const std::string& argument,
                          const std::vector<std::string>& known) {
   throw InputError(step, argument.empty() ? "no value" : fmt::format("'{}'", argument),
                    fmt::format("{}", fmt::join(known, "|")),
@@ -39,13 +39,13 @@ struct Step {
 
 Action parse_level(const std::string& argument) {
   const auto form = form_from(argument);
-  if (!form) refuse("level", argument, {"none", "mean", "poly2", "poly3", "poly4", "plane"});
+  if (!form) reject("level", argument, {"none", "mean", "poly2", "poly3", "poly4", "plane"});
   return [form](Topography t, const Observer&) { return level(std::move(t), *form); };
 }
 
 Action parse_fill(const std::string& argument) {
   const auto fill = fill_from(argument);
-  if (!fill) refuse("fill", argument, {"nearest", "mean", "harmonic"});
+  if (!fill) reject("fill", argument, {"nearest", "mean", "harmonic"});
   return [fill](Topography t, const Observer& observer) {
     return fill_holes(std::move(t), *fill, observer);
   };
@@ -147,7 +147,7 @@ Action parse_mirror(const std::string& argument) {
 }
 
 Action parse_flip(const std::string& argument) {
-  if (argument != "x" && argument != "y") refuse("flip", argument, {"y", "x"});
+  if (argument != "x" && argument != "y") reject("flip", argument, {"y", "x"});
   return [axis = argument == "x" ? Axis::x : Axis::y](Topography t, const Observer&) {
     return flip(std::move(t), axis);
   };
@@ -220,7 +220,7 @@ Topography apply(const Treatment& treatment, Topography topography, const Observ
     const bool looked_for_spikes =
         std::any_of(treatment.begin(), treatment.end(),
                     [](const std::string& step) { return split_step(step).first == "despike"; });
-    renew_doubts(topography, looked_for_spikes);
+    renew_warnings(topography, looked_for_spikes);
   }
   watch.tell(1);
   return topography;

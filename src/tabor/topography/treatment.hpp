@@ -27,7 +27,7 @@ std::vector<StepDescription> treatment_steps();
 /// Checks names and arguments without a surface. Throws InputError naming the nearest match.
 void check(const Treatment& treatment);
 
-/// Applies the steps in order; each leaves a line in `history` with its numbers. Doubts about the
+/// Applies the steps in order; each leaves a line in `history` with its numbers. Warnings about the
 /// heights are asked anew of the result.
 Topography apply(const Treatment& treatment, Topography topography, const Observer& observer = {});
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "ehl/impact/larsson.hpp"
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/stopping.hpp"
 #include "support/validation.hpp"
 #include "support/worst.hpp"
@@ -17,7 +17,7 @@ namespace {
 
 using test::expect_within;
 using test::from_groups;
-using test::refusal;
+using test::rejection;
 using testing::HasSubstr;
 
 ImpactProblem usual() { return from_groups(0.005, 8.70e-12, 7.475e13, 3500); }
@@ -123,24 +123,24 @@ TEST(SolveImpact, KeepsProfilesAtTheAskedTimes) {
   EXPECT_GE(result.profiles[1].pressure.minCoeff(), 0);
 }
 
-TEST(SolveImpact, RefusesWhatMakesNoSense) {
-  const auto refused = [](auto change) {
+TEST(SolveImpact, RejectsWhatMakesNoSense) {
+  const auto rejected = [](auto change) {
     ImpactProblem problem = usual();
     change(problem);
-    return refusal([&] { solve_impact(problem); });
+    return rejection([&] { solve_impact(problem); });
   };
-  EXPECT_THAT(refused([](auto& p) { p.mass = 0; }), HasSubstr("mass of the ball"));
-  EXPECT_THAT(refused([](auto& p) { p.speed = -1; }), HasSubstr("above zero"));
-  EXPECT_THAT(refused([](auto& p) { p.layer = 1e-6; }), HasSubstr("thicker layer"));
-  EXPECT_THAT(refused([](auto& p) { p.domain_radius = 1e-4; }), HasSubstr("larger domain"));
-  EXPECT_THAT(refused([](auto& p) { p.nodes = 3; }), HasSubstr("10 or more"));
+  EXPECT_THAT(rejected([](auto& p) { p.mass = 0; }), HasSubstr("mass of the ball"));
+  EXPECT_THAT(rejected([](auto& p) { p.speed = -1; }), HasSubstr("above zero"));
+  EXPECT_THAT(rejected([](auto& p) { p.layer = 1e-6; }), HasSubstr("thicker layer"));
+  EXPECT_THAT(rejected([](auto& p) { p.domain_radius = 1e-4; }), HasSubstr("larger domain"));
+  EXPECT_THAT(rejected([](auto& p) { p.nodes = 3; }), HasSubstr("10 or more"));
   EXPECT_THAT(
-      refused([](auto& p) { p.lubricant.viscosity = material::barus_viscosity(0.1, 3e-7); }),
+      rejected([](auto& p) { p.lubricant.viscosity = material::barus_viscosity(0.1, 3e-7); }),
       HasSubstr("barus"));
 }
 
-TEST(SolveImpact, DoubtsAReboundThatItsDomainDecides) {  // slow
-  EXPECT_THAT(solve_impact(test::safa_gohar()).doubts,
+TEST(SolveImpact, WarningsAReboundThatItsDomainDecides) {  // slow
+  EXPECT_THAT(solve_impact(test::safa_gohar()).warnings,
               testing::Contains(HasSubstr("domain study")));
 }
 
@@ -185,7 +185,7 @@ TEST(BallStepper, LosesAsMuchLiquidAsFlowsOut) {
   EXPECT_NEAR(next->speed, start.speed + step * next->force / (2 * ball.mass), 1e-9);
 }
 
-TEST(BallStepper, RefusesAStepInWhichTheFilmWouldClose) {
+TEST(BallStepper, RejectsAStepInWhichTheFilmWouldClose) {
   const BallFilm ball = small_film();
   BallState start;
   start.separation = 5e-6;

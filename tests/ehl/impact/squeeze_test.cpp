@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/stopping.hpp"
 #include "support/validation.hpp"
 
@@ -136,12 +136,12 @@ TEST(SolveSqueeze, HardlyDependsOnTheTimeStep) {
   EXPECT_NEAR(a.min_film / b.min_film, 1, 2e-3);
 }
 
-TEST(SolveSqueeze, RefusesWhatMakesNoSense) {
+TEST(SolveSqueeze, RejectsWhatMakesNoSense) {
   SqueezeProblem problem = roller(5);
   problem.spring = 0;
-  EXPECT_THAT(test::refusal([&] { solve_squeeze(problem); }), testing::HasSubstr("spring"));
+  EXPECT_THAT(test::rejection([&] { solve_squeeze(problem); }), testing::HasSubstr("spring"));
   problem = roller(-1);
-  EXPECT_THAT(test::refusal([&] { solve_squeeze(problem); }), testing::HasSubstr("sliding"));
+  EXPECT_THAT(test::rejection([&] { solve_squeeze(problem); }), testing::HasSubstr("sliding"));
 }
 
 }  // namespace

@@ -164,16 +164,16 @@ TEST(LineAsperities, OfASmoothContactKeepTheBoundaryFilm) {
   EXPECT_NEAR(mixed.max_pressure / hertz_of(problem).max_pressure, 1, 0.01);
 }
 
-TEST(LineAsperities, AreRefusedWhereTheyMakeNoSense) {
-  const auto refused = [](void (*change)(Asperities&)) {
+TEST(LineAsperities, AreRejectedWhereTheyMakeNoSense) {
+  const auto rejected = [](void (*change)(Asperities&)) {
     LineProblem problem = rough_contact(kMixed);
     change(problem.asperities);
     EXPECT_THROW(solve_line(problem), InputError);
   };
-  refused([](Asperities& asperities) { asperities.boundary_film = -1e-9; });
-  refused([](Asperities& asperities) { asperities.boundary_film = std::nan(""); });
-  refused([](Asperities& asperities) { asperities.friction_coefficient = -0.1; });
-  refused([](Asperities& asperities) { asperities.shear_strength = -1; });
+  rejected([](Asperities& asperities) { asperities.boundary_film = -1e-9; });
+  rejected([](Asperities& asperities) { asperities.boundary_film = std::nan(""); });
+  rejected([](Asperities& asperities) { asperities.friction_coefficient = -0.1; });
+  rejected([](Asperities& asperities) { asperities.shear_strength = -1; });
 }
 
 }  // namespace

@@ -313,12 +313,12 @@ TEST(SolveLine, DoesNotDependOnUnits) {
   EXPECT_NEAR(ten.max_pressure / one.max_pressure, 1, 1e-6);
 }
 
-TEST(SolveLine, DoubtsAGridThatDoesNotSeeTheInlet) {
+TEST(SolveLine, WarningsAGridThatDoesNotSeeTheInlet) {
   LineProblem problem = table_6();
-  EXPECT_TRUE(solve_line(problem).doubts.empty());
+  EXPECT_TRUE(solve_line(problem).warnings.empty());
   problem.entrainment_speed = 1e-4;
   problem.nodes = 150;
-  EXPECT_THAT(solve_line(problem).doubts, testing::Contains(HasSubstr("as many nodes")));
+  EXPECT_THAT(solve_line(problem).warnings, testing::Contains(HasSubstr("as many nodes")));
 }
 
 TEST(SolveLine, DoesNotTakeAFilmWithoutAnInletForOne) {
@@ -332,7 +332,7 @@ TEST(SolveLine, DoesNotTakeAFilmWithoutAnInletForOne) {
     if (!result.convergence.converged()) continue;
     ++found;
     EXPECT_NEAR(result.central_film / fine, 1, 0.25) << nodes;
-    EXPECT_THAT(result.doubts, testing::Contains(HasSubstr("as many nodes"))) << nodes;
+    EXPECT_THAT(result.warnings, testing::Contains(HasSubstr("as many nodes"))) << nodes;
   }
   EXPECT_GE(found, 3);
 }
@@ -387,7 +387,7 @@ struct BadLine {
 
 class BadLines : public testing::TestWithParam<BadLine> {};
 
-TEST_P(BadLines, AreRefusedWithTheReason) {
+TEST_P(BadLines, AreRejectedWithTheReason) {
   LineProblem problem = table_6();
   GetParam().change(problem);
   try {

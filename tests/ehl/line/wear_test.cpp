@@ -81,7 +81,9 @@ TEST(SolveWear, LeavesTheSteadyFilmWithoutWear) {
   const WearResult result = solve_wear(problem);
   ASSERT_TRUE(result.convergence.converged());
   const double steady = solve_line(problem.contact).min_film;
-  for (const WearInstant& at : result.history) EXPECT_NEAR(at.min_film / steady, 1, 1e-6);
+  for (const WearInstant& at : result.history) {
+    EXPECT_NEAR(at.min_film / steady, 1, 1e-6);
+  }
   EXPECT_EQ(result.worn_area, 0);
 }
 
@@ -165,7 +167,7 @@ TEST(SolveWear, LosesFilmWhereItTurns) {
   }
 }
 
-TEST(SolveWear, RefusesWhatMakesNoSense) {
+TEST(SolveWear, RejectsWhatMakesNoSense) {
   WearProblem problem = worn_track();
   problem.track_length = 1e-4;
   EXPECT_THROW(solve_wear(problem), InputError);

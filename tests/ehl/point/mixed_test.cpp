@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ehl/point/redlich.hpp"
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/stopping.hpp"
 #include "support/validation.hpp"
 #include "tabor/ehl/point/dry.hpp"
@@ -20,7 +20,7 @@ namespace tabor::ehl {
 namespace {
 
 using test::expect_within;
-using test::refusal;
+using test::rejection;
 using testing::HasSubstr;
 
 constexpr double kMicro = 1e-6;
@@ -289,10 +289,10 @@ TEST(MeasurePoint, FrictionHasTheSignOfTheSliding) {
   EXPECT_EQ(measure_point(problem, result).friction_coefficient, 0);
 }
 
-TEST(SolvePointMixed, RefusesNegativeFrictionOfAsperities) {
+TEST(SolvePointMixed, RejectsNegativeFrictionOfAsperities) {
   PointProblem problem = small_case(0.1);
   problem.asperities.friction_coefficient = -0.1;
-  EXPECT_THAT(refusal([&] { solve_point(problem); }), HasSubstr("friction coefficient"));
+  EXPECT_THAT(rejection([&] { solve_point(problem); }), HasSubstr("friction coefficient"));
 }
 
 TEST(SolvePointMixed, SaysWhatDidNotConverge) {
@@ -315,10 +315,10 @@ TEST(SolvePointMixed, StopsAtAnyQuestion) {
       [&](const Observer& observer) { return solve_point_dry(problem, observer).convergence; });
 }
 
-TEST(SolvePointMixed, RefusesABoundaryFilmOfNothing) {
+TEST(SolvePointMixed, RejectsABoundaryFilmOfNothing) {
   PointProblem problem = small_case(0.1);
   problem.asperities.boundary_film = 0;
-  EXPECT_THAT(refusal([&] { solve_point(problem); }), HasSubstr("boundary film"));
+  EXPECT_THAT(rejection([&] { solve_point(problem); }), HasSubstr("boundary film"));
 }
 
 }  // namespace

@@ -186,7 +186,7 @@ struct BadInput {
 
 class CheckPoint : public testing::TestWithParam<BadInput> {};
 
-TEST_P(CheckPoint, RefusesWithTheReason) {
+TEST_P(CheckPoint, RejectsWithTheReason) {
   PointProblem problem = moes_case(20, 10, 65);
   GetParam().change(problem);
   try {

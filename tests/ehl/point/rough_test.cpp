@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "ehl/point/redlich.hpp"
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/validation.hpp"
 #include "tabor/core/random.hpp"
 #include "tabor/ehl/point/dry.hpp"
@@ -18,7 +18,7 @@ namespace {
 using test::expect_within;
 using test::redlich_case;
 using test::redlich_dry;
-using test::refusal;
+using test::rejection;
 using testing::HasSubstr;
 
 constexpr double kMicro = 1e-6;
@@ -52,7 +52,9 @@ TEST(PointMap, ReproducesParabolasBetweenItsPoints) {
   const Field heights = point_map(problem, map_of(parabolas, 41, 5));
   const Eigen::ArrayXd x = point_x(problem);
   for (Index j = 0; j < 17; ++j) {
-    for (Index i = 0; i < 17; ++i) EXPECT_NEAR(heights(j, i), parabolas(x[i], x[j]), 1e-12);
+    for (Index i = 0; i < 17; ++i) {
+      EXPECT_NEAR(heights(j, i), parabolas(x[i], x[j]), 1e-12);
+    }
   }
 }
 
@@ -93,19 +95,19 @@ TEST(PointMap, FinerThanTheNodesIsAveraged) {
   EXPECT_LT(point_map(problem, map).abs().maxCoeff(), 2e-3);
 }
 
-TEST(PointMap, RefusesMapsThatDoNotReachBeyondTheContact) {
+TEST(PointMap, RejectsMapsThatDoNotReachBeyondTheContact) {
   const PointProblem problem = unit_contact(17);
-  EXPECT_THAT(refusal([&] { point_map(problem, map_of(parabolas, 41, 1.2)); }),
+  EXPECT_THAT(rejection([&] { point_map(problem, map_of(parabolas, 41, 1.2)); }),
               HasSubstr("1.25 times the half axis"));
   PointMap map = map_of(parabolas, 41, 1.3);
   map.centre_y = 0.1;
-  EXPECT_THAT(refusal([&] { point_map(problem, map); }), HasSubstr("across the flow"));
+  EXPECT_THAT(rejection([&] { point_map(problem, map); }), HasSubstr("across the flow"));
 }
 
-TEST(PointMap, RefusesHoles) {
+TEST(PointMap, RejectsHoles) {
   PointMap map = map_of(parabolas, 41, 2);
   map.height(3, 4) = NAN;
-  EXPECT_THAT(refusal([&] { point_map(unit_contact(17), map); }), HasSubstr("holes"));
+  EXPECT_THAT(rejection([&] { point_map(unit_contact(17), map); }), HasSubstr("holes"));
 }
 
 TEST(PointBump, IsHighestInItsCentreAndHasARing) {
@@ -119,8 +121,8 @@ TEST(PointBump, IsHighestInItsCentreAndHasARing) {
   EXPECT_NEAR(heights(72, 64), heights(64, 72), 1e-15);
 }
 
-TEST(PointBump, RefusesAGridTooCoarseForIt) {
-  EXPECT_THAT(refusal([] { point_bump(redlich_dry(65), 0.5e-6, 10e-6); }),
+TEST(PointBump, RejectsAGridTooCoarseForIt) {
+  EXPECT_THAT(rejection([] { point_bump(redlich_dry(65), 0.5e-6, 10e-6); }),
               HasSubstr("give more nodes"));
 }
 
@@ -186,17 +188,17 @@ TEST(SolvePointDry, BumpReachesPressuresThatTheCapTakesAsDepth) {
   EXPECT_LT(plastic.plastic_depth.maxCoeff(), 0.5 * kMicro);
 }
 
-TEST(SolvePointDry, DoubtsAContactThatReachesTheBorder) {
+TEST(SolvePointDry, WarningsAContactThatReachesTheBorder) {
   PointProblem problem = redlich_dry(65);
   problem.inlet = problem.outlet = problem.half_width = 1;
   problem.plastic_pressure = 2.2e9;  // widens the contact
-  EXPECT_THAT(solve_point_dry(problem).doubts, testing::Contains(HasSubstr("border")));
+  EXPECT_THAT(solve_point_dry(problem).warnings, testing::Contains(HasSubstr("border")));
 }
 
-TEST(SolvePointDry, RefusesInputThatMakesNoSense) {
+TEST(SolvePointDry, RejectsInputThatMakesNoSense) {
   PointProblem problem = redlich_dry(65);
   problem.load = -1;
-  EXPECT_THAT(refusal([&] { solve_point_dry(problem); }), HasSubstr("load"));
+  EXPECT_THAT(rejection([&] { solve_point_dry(problem); }), HasSubstr("load"));
 }
 
 /// A film and a pressure that are the same everywhere.

@@ -72,7 +72,7 @@ TEST(SolvePointTransient, AFilmThatWouldCloseEndsTheHistory) {
   EXPECT_GT(result.history.back().min_film, 0);
 }
 
-TEST(SolvePointTransient, RefusesWhatMakesNoSense) {
+TEST(SolvePointTransient, RejectsWhatMakesNoSense) {
   TransientPointProblem problem = transient(Field::Zero(kNodes, kNodes), 3);
   problem.time_step = 0;
   EXPECT_THROW(solve_point_transient(problem), InputError);

@@ -148,7 +148,7 @@ TEST(AllParameters, OfAFlatSurfaceHaveAReasonForEveryMissingValue) {
   }
 }
 
-TEST(AllParameters, RefuseASurfaceOfHolesOnly) {
+TEST(AllParameters, RejectASurfaceOfHolesOnly) {
   auto holed = noise({4, 4, 1, 1});
   holed.height = kHole;
   for (const ParameterSet set : kParameterSets) {
@@ -161,7 +161,9 @@ TEST(AllParameters, StopWhenTheObserverSaysSo) {
 }
 
 TEST(ParameterSets, AreFoundByName) {
-  for (const ParameterSet set : kParameterSets) EXPECT_EQ(parameter_set_from(name_of(set)), set);
+  for (const ParameterSet set : kParameterSets) {
+    EXPECT_EQ(parameter_set_from(name_of(set)), set);
+  }
   EXPECT_EQ(parameter_set_from("hight"), std::nullopt);
 }
 

@@ -176,7 +176,7 @@ TEST(MaterialRatio, OfTwoPointsStillHasALine) {
   EXPECT_NEAR(value(two, kFunction, "Sk"), 2e-6, 1e-18);
 }
 
-TEST(MaterialRatio, RefusesRatiosInTheWrongOrder) {
+TEST(MaterialRatio, RejectsRatiosInTheWrongOrder) {
   EXPECT_THROW(parameters(ramp(), {.sets = {}, .peak_ratio = 80, .valley_ratio = 10}), InputError);
   EXPECT_THROW(parameters(ramp(), {.sets = {}, .peak_ratio = 0}), InputError);
   EXPECT_THROW(parameters(ramp(), {.sets = {}, .valley_ratio = kHole}), InputError);

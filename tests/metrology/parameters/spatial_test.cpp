@@ -91,7 +91,7 @@ TEST(Spatial, OfATiltNeverDecayAndSaySo) {
   EXPECT_NE(parameter(tilt, kSpatial, "Str").note, "");
 }
 
-TEST(Spatial, RefuseAThresholdThatNothingCrosses) {
+TEST(Spatial, RejectAThresholdThatNothingCrosses) {
   const auto grooves = wave({40, 30, 4e-4, 3e-4}, 8, 0);
   for (const double threshold : {0.0, 1.0, -0.2, kHole}) {
     EXPECT_THROW(parameters(grooves, {.sets = {kSpatial}, .acf_threshold = threshold}), InputError);

@@ -362,7 +362,7 @@ const std::vector<Claim>& claims() {
 
 std::string unclaimed_reason(const Row& row) {
   if (row.file.starts_with("(upstream ")) return "the file is not among the scans";
-  if (row.text == "nan") return "the file has no lateral scale: it is refused without --pixel";
+  if (row.text == "nan") return "the file has no lateral scale: it is rejected without --pixel";
   return "";
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "claims.hpp"
-#include "support/refusal.hpp"
+#include "support/rejection.hpp"
 #include "support/scans.hpp"
 #include "support/synthetic.hpp"
 #include "support/validation.hpp"
@@ -81,7 +81,9 @@ class MeasuredScan : public testing::TestWithParam<const char*> {};
 TEST_P(MeasuredScan, HasTheExpectedNumbers) {
   const std::string file = GetParam();
   TABOR_NEEDS_SHARED_SCAN(file);
-  if (needs_gwyddion(file) && !io::find_program("gwyddion")) GTEST_SKIP() << "no Gwyddion";
+  if (needs_gwyddion(file) && !io::find_program("gwyddion")) {
+    GTEST_SKIP() << "no Gwyddion";
+  }
   Subject subject(as_listed(file));
   expect_rows(file, subject);
 }
@@ -139,9 +141,9 @@ TEST(ExpectedNumbers, LeaveNoRowOut) {
 
 TEST(ExpectedNumbers, WithoutALateralScaleDoNotExist) {
   TABOR_NEEDS_SHARED_SCAN("afm_512_nm_matrix.txt");
-  const std::string refused =
-      tabor::test::refusal([] { read(tabor::test::shared_scan("afm_512_nm_matrix.txt")); });
-  EXPECT_THAT(refused, HasSubstr("--pixel"));
+  const std::string rejected =
+      tabor::test::rejection([] { read(tabor::test::shared_scan("afm_512_nm_matrix.txt")); });
+  EXPECT_THAT(rejected, HasSubstr("--pixel"));
 }
 
 // What the list says beside numbers that it knows to be wrong.

@@ -28,7 +28,7 @@ Field one_to_six() {
 
 TEST(Plux, LayersAreChannels) {
   const Folder folder;
-  EXPECT_NE(test::refusal(folder, test::two_layer_plux()).find("--channel 0"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, test::two_layer_plux()).find("--channel 0"), std::string::npos);
   ReadOptions options;
   options.channel = "1";
   const topography::Topography map = test::read_bytes(folder, test::two_layer_plux(), options);
@@ -39,7 +39,7 @@ TEST(Plux, LayersAreChannels) {
 TEST(Plux, AnArchiveWithAnotherIndexIsNotPlux) {
   const Folder folder;
   const std::string bytes = io::zip({{"index.xml", "<html/>"}});
-  EXPECT_NE(test::refusal(folder, bytes).find("index.xml without an image size"),
+  EXPECT_NE(test::rejection(folder, bytes).find("index.xml without an image size"),
             std::string::npos);
 }
 
@@ -77,10 +77,10 @@ TEST(Datx, FollowsItsTableToHeightsAndScales) {
   EXPECT_DOUBLE_EQ(map.grid.dy(), 4e-6);
 }
 
-TEST(Datx, HeightsInFringesAreRefused) {
+TEST(Datx, HeightsInFringesAreRejected) {
   const Folder folder;
   test::write_datx(folder / "a.datx", "Fringes");
-  EXPECT_NE(test::refusal(folder / "a.datx").find("[Fringes]"), std::string::npos);
+  EXPECT_NE(test::rejection(folder / "a.datx").find("[Fringes]"), std::string::npos);
 }
 
 TEST(Datx, TruncatedOrWithFlippedBitsNeverBreaksTheProgram) {
@@ -88,21 +88,21 @@ TEST(Datx, TruncatedOrWithFlippedBitsNeverBreaksTheProgram) {
   test::write_datx(folder / "a.datx");
   const std::string bytes = test::bytes_of(folder / "a.datx");
   for (std::size_t size = 0; size < bytes.size(); size += 499) {
-    EXPECT_NE(test::refusal(folder, bytes.substr(0, size)), "") << size;
+    EXPECT_NE(test::rejection(folder, bytes.substr(0, size)), "") << size;
   }
   for (std::size_t bit = 0; bit < 8 * bytes.size(); bit += 1009) {
     std::string flipped = bytes;
     flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
-    EXPECT_NO_FATAL_FAILURE(test::refusal(folder, flipped)) << bit;
+    EXPECT_NO_FATAL_FAILURE(test::rejection(folder, flipped)) << bit;
   }
 }
 
 TEST(Tiff, CountsNeedPixelAndScale) {
   const Folder folder;
-  EXPECT_NE(test::refusal(folder, test::tiff()).find("--pixel"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, test::tiff()).find("--pixel"), std::string::npos);
   ReadOptions options;
   options.pixel_x = 1e-6;
-  EXPECT_NE(test::refusal(folder, test::tiff(), options).find("--z-scale"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, test::tiff(), options).find("--z-scale"), std::string::npos);
 }
 
 TEST(Tiff, EveryGreySampleTypeGivesItsCounts) {
@@ -134,12 +134,12 @@ TEST(Tiff, SamplesNamedAsMissingAreHoles) {
   }
 }
 
-TEST(Tiff, ColoursAreRefused) {
+TEST(Tiff, ColoursAreRejected) {
   const Folder folder;
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", "/nonexistent", 1);  // Gwyddion would make grey values of the colours
   EXPECT_NE(
-      test::refusal(folder, test::tiff(16, 1, 2), counts_of(1e-9)).find("no plain grey picture"),
+      test::rejection(folder, test::tiff(16, 1, 2), counts_of(1e-9)).find("no plain grey picture"),
       std::string::npos);
   ::setenv("PATH", path.c_str(), 1);
 }
@@ -148,12 +148,12 @@ TEST(Tiff, TruncatedOrWithFlippedBitsNeverBreaksTheProgram) {
   const Folder folder;
   const std::string bytes = test::tiff();
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    EXPECT_NO_FATAL_FAILURE(test::refusal(folder, bytes.substr(0, size), counts_of(1e-9)));
+    EXPECT_NO_FATAL_FAILURE(test::rejection(folder, bytes.substr(0, size), counts_of(1e-9)));
   }
   for (std::size_t bit = 0; bit < 8 * bytes.size(); bit += 3) {
     std::string flipped = bytes;
     flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
-    EXPECT_NO_FATAL_FAILURE(test::refusal(folder, flipped, counts_of(1e-9))) << bit;
+    EXPECT_NO_FATAL_FAILURE(test::rejection(folder, flipped, counts_of(1e-9))) << bit;
   }
 }
 
@@ -162,7 +162,9 @@ class AgainstGwyddion : public ::testing::TestWithParam<std::pair<const char*, s
 
 TEST_P(AgainstGwyddion, HeightsAreTheSame) {
   const auto gwyddion = io::find_program("gwyddion");
-  if (!gwyddion) GTEST_SKIP() << "Gwyddion is not installed";
+  if (!gwyddion) {
+    GTEST_SKIP() << "Gwyddion is not installed";
+  }
   const Folder folder;
   const auto& [name, bytes] = GetParam();
   test::put_bytes(folder / name, bytes);

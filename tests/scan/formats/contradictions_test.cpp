@@ -38,34 +38,34 @@ constexpr const char* kIncrement = "<Increment>1e-6</Increment>";
 
 TEST(X3pContradictions, APixelThatIsNotStatedIsAskedFor) {
   const Folder folder;
-  EXPECT_THAT(test::refusal(folder, x3p_with(kIncrement, "")), HasSubstr("--pixel"));
-  EXPECT_THAT(test::refusal(folder, x3p_with(kIncrement, "<Increment/>")), HasSubstr("--pixel"));
+  EXPECT_THAT(test::rejection(folder, x3p_with(kIncrement, "")), HasSubstr("--pixel"));
+  EXPECT_THAT(test::rejection(folder, x3p_with(kIncrement, "<Increment/>")), HasSubstr("--pixel"));
   ReadOptions options;
   options.pixel_x = 1e-6;
   EXPECT_DOUBLE_EQ(test::read_bytes(folder, x3p_with(kIncrement, ""), options).grid.dx(), 1e-6);
 }
 
-TEST(X3pContradictions, HeightsThatAreAllTheSameByTheirScaleAreRefused) {
+TEST(X3pContradictions, HeightsThatAreAllTheSameByTheirScaleAreRejected) {
   const Folder folder;
   const std::string z = "<CZ><AxisType>A</AxisType><DataType>D</DataType>";
-  EXPECT_THAT(test::refusal(folder, x3p_with(z, z + "<Increment>0</Increment>")),
+  EXPECT_THAT(test::rejection(folder, x3p_with(z, z + "<Increment>0</Increment>")),
               HasSubstr("Increment of 0"));
 }
 
-TEST(X3pContradictions, WholeNumbersOfMetresAreDoubted) {
+TEST(X3pContradictions, WholeNumbersOfMetresAreWarnedOf) {
   const Folder folder;
   const std::string xml = replaced(test::x3p_xml({}), "<CZ><AxisType>A</AxisType><DataType>D",
                                    "<CZ><AxisType>A</AxisType><DataType>I");
   test::ByteFile heights;
   for (const std::int16_t z : std::initializer_list<std::int16_t>{1, 2, 3, 4}) heights.append(z);
   const std::string bytes = io::zip({{"main.xml", xml}, {"data.bin", heights.bytes()}});
-  EXPECT_THAT(topography::texts(test::read_bytes(folder, bytes).doubts),
+  EXPECT_THAT(topography::texts(test::read_bytes(folder, bytes).warnings),
               Contains(HasSubstr("heights in metres")));
 }
 
-TEST(X3pContradictions, AnUnknownKindOfAxisIsRefused) {
+TEST(X3pContradictions, AnUnknownKindOfAxisIsRejected) {
   const Folder folder;
-  EXPECT_THAT(test::refusal(folder, x3p_with("<AxisType>I", "<AxisType>B")),
+  EXPECT_THAT(test::rejection(folder, x3p_with("<AxisType>I", "<AxisType>B")),
               HasSubstr("AxisType 'B'"));
 }
 
@@ -88,7 +88,7 @@ TEST(X3pContradictions, AnEmptyLinkLeavesTheListOfHeights) {
   EXPECT_EQ(test::read_bytes(folder, both).height(1, 1), 8);
 }
 
-TEST(X3pContradictions, AChangedMaskIsDoubted) {
+TEST(X3pContradictions, AChangedMaskIsWarnedOf) {
   const Folder folder;
   const std::string link = "<PointDataLink>data.bin</PointDataLink>";
   test::ByteFile heights;
@@ -101,13 +101,13 @@ TEST(X3pContradictions, AChangedMaskIsDoubted) {
   const topography::Topography map = test::read_bytes(
       folder, io::zip({{"main.xml", xml}, {"data.bin", heights.bytes()}, {"valid.bin", "\x07"}}));
   EXPECT_EQ(topography::count_holes(map), 1);
-  EXPECT_THAT(topography::texts(map.doubts), Contains(HasSubstr("valid points do not match")));
+  EXPECT_THAT(topography::texts(map.warnings), Contains(HasSubstr("valid points do not match")));
 }
 
-TEST(ArchiveContradictions, TwoScansInOneArchiveAreRefused) {
+TEST(ArchiveContradictions, TwoScansInOneArchiveAreRejected) {
   const Folder folder;
   const std::string xml = test::x3p_xml({});
-  EXPECT_THAT(test::refusal(folder, io::zip({{"a/main.xml", xml}, {"b/main.xml", xml}})),
+  EXPECT_THAT(test::rejection(folder, io::zip({{"a/main.xml", xml}, {"b/main.xml", xml}})),
               HasSubstr("'a/main.xml' and 'b/main.xml'"));
 }
 
@@ -115,19 +115,19 @@ TEST(ArchiveContradictions, BackSlashesSeparateFoldersToo) {
   const Folder folder;
   test::ByteFile heights;
   for (const double z : {1.0, 2.0, 3.0, 4.0}) heights.append(z);
-  EXPECT_EQ(test::refusal(folder, io::zip({{"scan\\main.xml", test::x3p_xml({})},
-                                           {"scan\\data.bin", heights.bytes()}})),
+  EXPECT_EQ(test::rejection(folder, io::zip({{"scan\\main.xml", test::x3p_xml({})},
+                                             {"scan\\data.bin", heights.bytes()}})),
             "");
 }
 
 /// tabor's own HDF5 file with something changed by another program.
-std::string refusal_of_h5(const Folder& folder,
-                          const std::function<void(io::Hdf5Writer& writer)>& write) {
+std::string rejection_of_h5(const Folder& folder,
+                            const std::function<void(io::Hdf5Writer& writer)>& write) {
   io::Hdf5Writer writer(folder / "map.h5");
   writer.write("/surface/height", test::small_map().height);
   write(writer);
   writer.commit();
-  return test::refusal(folder / "map.h5");
+  return test::rejection(folder / "map.h5");
 }
 
 /// Pixel centres of the map along one side, a pixel of 1 m.
@@ -144,13 +144,13 @@ void write_centres(io::Hdf5Writer& writer) {
 
 TEST(Hdf5Contradictions, UnitsOfOthersAreHeeded) {
   const Folder folder;
-  EXPECT_EQ(refusal_of_h5(folder,
-                          [](io::Hdf5Writer& writer) {
-                            write_centres(writer);
-                            writer.describe("/surface/height", "um", "height");
-                            writer.describe("/surface/x", "nm", "x");
-                            writer.describe("/surface/y", "mm", "y");
-                          }),
+  EXPECT_EQ(rejection_of_h5(folder,
+                            [](io::Hdf5Writer& writer) {
+                              write_centres(writer);
+                              writer.describe("/surface/height", "um", "height");
+                              writer.describe("/surface/x", "nm", "x");
+                              writer.describe("/surface/y", "mm", "y");
+                            }),
             "");
   const topography::Topography map = read(folder / "map.h5");
   EXPECT_NEAR(map.grid.dx(), 1e-9, 1e-18);
@@ -161,7 +161,7 @@ TEST(Hdf5Contradictions, UnitsOfOthersAreHeeded) {
 TEST(Hdf5Contradictions, PlacesMustBeEvenAndAsManyAsTheMapHas) {
   const Folder folder;
   const auto with_x = [&](std::vector<double> x) {
-    return refusal_of_h5(folder, [&](io::Hdf5Writer& writer) {
+    return rejection_of_h5(folder, [&](io::Hdf5Writer& writer) {
       writer.write("/surface/x", x);
       writer.write("/surface/y", centres(4));
     });
@@ -172,31 +172,31 @@ TEST(Hdf5Contradictions, PlacesMustBeEvenAndAsManyAsTheMapHas) {
   EXPECT_THAT(with_x({}), HasSubstr("0 places in /surface/x"));
 }
 
-TEST(Hdf5Contradictions, TwoPixelSizesAreRefused) {
+TEST(Hdf5Contradictions, TwoPixelSizesAreRejected) {
   const Folder folder;
-  EXPECT_THAT(refusal_of_h5(folder,
-                            [](io::Hdf5Writer& writer) {
-                              write_centres(writer);
-                              writer.attribute("/surface", "pixel_x_m", 2.0);
-                            }),
+  EXPECT_THAT(rejection_of_h5(folder,
+                              [](io::Hdf5Writer& writer) {
+                                write_centres(writer);
+                                writer.attribute("/surface", "pixel_x_m", 2.0);
+                              }),
               HasSubstr("pixel_x_m = 2 m, but other steps"));
 }
 
-TEST(Hdf5Contradictions, AMaskOfAnotherShapeIsRefused) {
+TEST(Hdf5Contradictions, AMaskOfAnotherShapeIsRejected) {
   const Folder folder;
-  EXPECT_THAT(refusal_of_h5(folder,
-                            [](io::Hdf5Writer& writer) {
-                              write_centres(writer);
-                              writer.write("/surface/mask", io::ByteMap(io::ByteMap::Ones(5, 4)));
-                            }),
+  EXPECT_THAT(rejection_of_h5(folder,
+                              [](io::Hdf5Writer& writer) {
+                                write_centres(writer);
+                                writer.write("/surface/mask", io::ByteMap(io::ByteMap::Ones(5, 4)));
+                              }),
               HasSubstr("/surface/mask of shape 5 x 4; expected 4 x 5"));
 }
 
-TEST(Hdf5Contradictions, ANewerFormatIsRefused) {
+TEST(Hdf5Contradictions, ANewerFormatIsRejected) {
   const Folder folder;
   EXPECT_THAT(
-      refusal_of_h5(folder,
-                    [](io::Hdf5Writer& writer) { writer.attribute("/", "format_version", 2); }),
+      rejection_of_h5(folder,
+                      [](io::Hdf5Writer& writer) { writer.attribute("/", "format_version", 2); }),
       HasSubstr("format_version 2"));
 }
 
@@ -220,10 +220,10 @@ std::string gwy(const std::vector<std::pair<std::string, format::GwyBuilder>>& o
   return "GWYP" + root.bytes();
 }
 
-TEST(GwyContradictions, AMaskOfAnotherShapeIsRefused) {
+TEST(GwyContradictions, AMaskOfAnotherShapeIsRejected) {
   const Folder folder;
   const auto with_mask = [&](std::int32_t nx, std::int32_t ny) {
-    return test::refusal(
+    return test::rejection(
         folder, gwy({{"/0/data", gwy_field(3, 2, 3e-6)}, {"/0/mask", gwy_field(nx, ny, 3e-6)}}));
   };
   EXPECT_THAT(with_mask(2, 3), HasSubstr("expected 3 x 2 numbers"));
@@ -240,10 +240,10 @@ TEST(GwyContradictions, OnlyWholeNumbersAreChannels) {
   EXPECT_EQ(info.channels[0].index, 7);
 }
 
-TEST(GwyContradictions, AWidthThatIsNoLengthIsRefused) {
+TEST(GwyContradictions, AWidthThatIsNoLengthIsRejected) {
   const Folder folder;
   for (const double width : {-3e-6, 0.0, test::kNaN}) {
-    EXPECT_THAT(test::refusal(folder, gwy({{"/0/data", gwy_field(3, 2, width)}})),
+    EXPECT_THAT(test::rejection(folder, gwy({{"/0/data", gwy_field(3, 2, width)}})),
                 HasSubstr("got a pixel of"));
   }
 }
@@ -260,17 +260,17 @@ TEST(GwyContradictions, TheInstrumentComesBackOnce) {
   EXPECT_EQ(read(folder / "b.gwy").instrument, "profiler");
 }
 
-TEST(Surplus, BytesBehindTheMapAreDoubted) {
+TEST(Surplus, BytesBehindTheMapAreWarnedOf) {
   const Folder folder;
   const topography::Topography map = test::small_map();
   for (const char* name : {"a.gsf", "a.npy"}) {
     write(map, folder / name);
     const std::string bytes = test::bytes_of(folder / name);
     const ReadOptions options = name[2] == 'n' ? test::micrometres() : ReadOptions{};
-    EXPECT_THAT(topography::texts(test::read_bytes(folder, bytes, options).doubts),
+    EXPECT_THAT(topography::texts(test::read_bytes(folder, bytes, options).warnings),
                 testing::Not(Contains(HasSubstr("bytes follow"))))
         << name;
-    EXPECT_THAT(topography::texts(test::read_bytes(folder, bytes + "12345", options).doubts),
+    EXPECT_THAT(topography::texts(test::read_bytes(folder, bytes + "12345", options).warnings),
                 Contains(HasSubstr("5 bytes follow the map")))
         << name;
   }
@@ -290,15 +290,15 @@ TEST(NpyContradictions, EveryPythonsSpellingIsUnderstood) {
        {"{'descr': '<f8', 'fortran_order': False, 'shape': (2L, 3L), }",
         "{\"descr\": \"<f8\", \"fortran_order\": False, \"shape\": (2, 3)}",
         "{'descr' : '<f8' , 'fortran_order' :False, 'shape' : (2, 3)}"}) {
-    EXPECT_EQ(test::refusal(folder, npy(dictionary), test::micrometres()), "") << dictionary;
+    EXPECT_EQ(test::rejection(folder, npy(dictionary), test::micrometres()), "") << dictionary;
   }
-  EXPECT_THAT(test::refusal(folder, npy("{'descr': '<f8', 'fortran_order': 1, 'shape': (2, 3)}"),
-                            test::micrometres()),
+  EXPECT_THAT(test::rejection(folder, npy("{'descr': '<f8', 'fortran_order': 1, 'shape': (2, 3)}"),
+                              test::micrometres()),
               HasSubstr("fortran_order 1"));
-  EXPECT_THAT(test::refusal(folder,
-                            npy("{'descr': [('z', '<f8')], 'fortran_order': False, "
-                                "'shape': (2, 3)}"),
-                            test::micrometres()),
+  EXPECT_THAT(test::rejection(folder,
+                              npy("{'descr': [('z', '<f8')], 'fortran_order': False, "
+                                  "'shape': (2, 3)}"),
+                              test::micrometres()),
               HasSubstr("type [('z', '<f8')]"));
 }
 
@@ -310,18 +310,18 @@ TEST(Absurd, HeightsThatNoSurfaceHasAreMissingAndSaid) {
   write(map, folder / "a.gwy");
   const topography::Topography again = read(folder / "a.gwy");
   EXPECT_EQ(topography::count_holes(again), topography::count_holes(map) + 2);
-  EXPECT_THAT(topography::texts(again.doubts), Contains(HasSubstr("2 heights beyond 1000 km")));
+  EXPECT_THAT(topography::texts(again.warnings), Contains(HasSubstr("2 heights beyond 1000 km")));
 }
 
-TEST(Absurd, PixelsThatNothingCanScanAreRefused) {
+TEST(Absurd, PixelsThatNothingCanScanAreRejected) {
   const Folder folder;
   for (const char* increment : {"1e-320", "1e-16", "1e7", "1e300"}) {
     const std::string bytes =
         x3p_with(kIncrement, "<Increment>" + std::string(increment) + "</Increment>");
-    EXPECT_THAT(test::refusal(folder, bytes), HasSubstr("from 1e-15 to 1e6 m")) << increment;
+    EXPECT_THAT(test::rejection(folder, bytes), HasSubstr("from 1e-15 to 1e6 m")) << increment;
     ReadOptions options;
     options.pixel_x = *parse_number(increment);
-    EXPECT_THAT(test::refusal(folder, x3p_with(kIncrement, ""), options), HasSubstr("--pixel"))
+    EXPECT_THAT(test::rejection(folder, x3p_with(kIncrement, ""), options), HasSubstr("--pixel"))
         << increment;
   }
 }
@@ -349,9 +349,9 @@ TEST(InstrumentContradictions, MetroProsSignTurnsHeightsOver) {
 TEST(InstrumentContradictions, MetroProsSizesMustAgree) {
   const Folder folder;
   // A part of the intensities would be read as heights.
-  EXPECT_THAT(test::refusal(folder, with_big(test::metropro(), 62, 4)),
+  EXPECT_THAT(test::rejection(folder, with_big(test::metropro(), 62, 4)),
               HasSubstr("4 bytes of intensity"));
-  EXPECT_THAT(test::refusal(folder, with_big(test::metropro(), 70, 1)),
+  EXPECT_THAT(test::rejection(folder, with_big(test::metropro(), 70, 1)),
               testing::AnyOf(HasSubstr("24 of phase"), testing::Eq("")));
 }
 
@@ -361,56 +361,57 @@ TEST(InstrumentContradictions, OpdSkipsTheBytesOfUnnamedBlocksAndTakesNumbersByT
   EXPECT_NEAR(map.grid.dx(), 2e-6, 1e-12);
   // Kind of "Mult", the fifth entry.
   const std::string wrong_kind = with(test::opd(), 2 + 4 * 24 + 16, std::int16_t{5});
-  EXPECT_THAT(test::refusal(folder, wrong_kind), HasSubstr("'Mult' of kind 5"));
+  EXPECT_THAT(test::rejection(folder, wrong_kind), HasSubstr("'Mult' of kind 5"));
 }
 
-TEST(InstrumentContradictions, SizesThatLeaveHeightsOverAreDoubtedOrRefused) {
+TEST(InstrumentContradictions, SizesThatLeaveHeightsOverAreWarnedOfOrRejected) {
   const Folder folder;
-  const auto doubts = [&](const std::string& bytes) {
-    return topography::texts(test::read_bytes(folder, bytes).doubts);
+  const auto warnings = [&](const std::string& bytes) {
+    return topography::texts(test::read_bytes(folder, bytes).warnings);
   };
-  EXPECT_THAT(doubts(with(test::tmd(), 37, std::uint32_t{2})), Contains(HasSubstr("bytes follow")));
-  EXPECT_THAT(doubts(test::nms()), testing::Not(Contains(HasSubstr("bytes follow"))));
-  EXPECT_THAT(doubts(test::nms() + "x"), Contains(HasSubstr("1 bytes follow")));
-  EXPECT_THAT(test::refusal(folder, with(test::plain_sur(), 108, std::int32_t{2})),
+  EXPECT_THAT(warnings(with(test::tmd(), 37, std::uint32_t{2})),
+              Contains(HasSubstr("bytes follow")));
+  EXPECT_THAT(warnings(test::nms()), testing::Not(Contains(HasSubstr("bytes follow"))));
+  EXPECT_THAT(warnings(test::nms() + "x"), Contains(HasSubstr("1 bytes follow")));
+  EXPECT_THAT(test::rejection(folder, with(test::plain_sur(), 108, std::int32_t{2})),
               HasSubstr("6 points; expected 2 x 2"));
 }
 
-TEST(InstrumentContradictions, HeightsStatedUpsideDownAreDoubted) {
+TEST(InstrumentContradictions, HeightsStatedUpsideDownAreWarnedOf) {
   const Folder folder;
   EXPECT_THAT(topography::texts(
-                  test::read_bytes(folder, with(test::plain_sur(), 290, std::int16_t{1})).doubts),
+                  test::read_bytes(folder, with(test::plain_sur(), 290, std::int16_t{1})).warnings),
               Contains(HasSubstr("inverted")));
   EXPECT_THAT(
-      topography::texts(test::read_bytes(folder, with(test::plain_sur(), 128, -0.5F)).doubts),
+      topography::texts(test::read_bytes(folder, with(test::plain_sur(), 128, -0.5F)).warnings),
       Contains(HasSubstr("negative")));
-  EXPECT_THAT(test::refusal(folder, with(test::nms(), 24, -6.0)), HasSubstr("from 1 to -6 um"));
+  EXPECT_THAT(test::rejection(folder, with(test::nms(), 24, -6.0)), HasSubstr("from 1 to -6 um"));
 }
 
-TEST(InstrumentContradictions, HeadersThatReachIntoTheDataAreRefused) {
+TEST(InstrumentContradictions, HeadersThatReachIntoTheDataAreRejected) {
   const Folder folder;
   const auto changed = [](std::string bytes, const std::string& from, const std::string& to) {
     return replaced(std::move(bytes), from, to);
   };
-  EXPECT_THAT(test::refusal(folder, changed(test::al3d(), "700", std::string("1\0\0", 3))),
+  EXPECT_THAT(test::rejection(folder, changed(test::al3d(), "700", std::string("1\0\0", 3))),
               HasSubstr("depth image at byte 1;"));
-  EXPECT_THAT(test::refusal(folder, changed(test::bcr(), "2048", "2046")),
+  EXPECT_THAT(test::rejection(folder, changed(test::bcr(), "2048", "2046")),
               HasSubstr("2046 characters"));
-  EXPECT_THAT(test::refusal(folder, changed(test::bcr(), "bcrstm", "bcrxyz")),
+  EXPECT_THAT(test::rejection(folder, changed(test::bcr(), "bcrstm", "bcrxyz")),
               HasSubstr("fileformat 'bcrxyz'"));
 }
 
-TEST(InstrumentContradictions, WhatIsMissingButNotNeededIsNoReasonToRefuse) {
+TEST(InstrumentContradictions, WhatIsMissingButNotNeededIsNoReasonToReject) {
   const Folder folder;
   const std::string al3d =
       replaced(test::al3d(), "3.000000028e+15", std::string("nan\0          ", 15));
-  EXPECT_EQ(test::refusal(folder, al3d), "");
+  EXPECT_EQ(test::rejection(folder, al3d), "");
   std::string npl =
       "aNPL-V1.0\nNumPoints = 2\nNumProfiles = 1\nXscale = 1e-6\nYscale = 1e-6\n"
       "Zscale = 1e-9\nCompression = 0\n*\n1 2\n*\n*";
-  EXPECT_EQ(test::refusal(folder, npl), "");
+  EXPECT_EQ(test::rejection(folder, npl), "");
   const std::string no_length = replaced(test::bcr(), "xlength", "x_____h");
-  EXPECT_THAT(test::refusal(folder, no_length), HasSubstr("--pixel"));
+  EXPECT_THAT(test::rejection(folder, no_length), HasSubstr("--pixel"));
 }
 
 /// Names that no text format can hold as they are.
@@ -424,7 +425,7 @@ TEST(WrittenText, IsOneLineOfValidCharacters) {
   for (const char* extension : {".x3p", ".gsf", ".txt", ".sdf", ".asdf", ".gwy", ".h5"}) {
     const auto file = folder / ("a" + std::string(extension));
     write(map, file);
-    EXPECT_EQ(test::refusal(file), "") << extension;
+    EXPECT_EQ(test::rejection(file), "") << extension;
   }
   EXPECT_EQ(read(folder / "a.gsf").channel, "two lines   caf? \xc3\xa9");
   EXPECT_EQ(read(folder / "a.x3p").metadata.at("Date"), "1970-01-01T00:00:00");
@@ -444,7 +445,7 @@ TEST(EncryptedArchive, SaysWhatToDo) {
       bytes[at + offset] = static_cast<char>(bytes[at + offset] | 1);
     }
   }
-  EXPECT_THAT(test::refusal(folder, bytes), HasSubstr("encrypted"));
+  EXPECT_THAT(test::rejection(folder, bytes), HasSubstr("encrypted"));
 }
 
 }  // namespace

@@ -13,7 +13,9 @@ class ThroughGwyddion : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ThroughGwyddion, HeightsAndMaskComeBackEqual) {
   const auto gwyddion = io::find_program("gwyddion");
-  if (!gwyddion) GTEST_SKIP() << "Gwyddion is not installed";
+  if (!gwyddion) {
+    GTEST_SKIP() << "Gwyddion is not installed";
+  }
   const Folder folder;
   topography::Topography map = test::small_map();
   if (std::string(GetParam()) == ".gsf") {
@@ -38,11 +40,13 @@ INSTANTIATE_TEST_SUITE_P(Formats, ThroughGwyddion,
                          [](const auto& suite) { return std::string(suite.param).substr(1); });
 
 TEST(Gwyddion, LeavesNoTemporaryFolderBehind) {
-  if (!io::find_program("gwyddion")) GTEST_SKIP() << "Gwyddion is not installed";
+  if (!io::find_program("gwyddion")) {
+    GTEST_SKIP() << "Gwyddion is not installed";
+  }
   const Folder folder;
   std::filesystem::create_directory(folder / "tmp");
   ::setenv("TMPDIR", (folder / "tmp").c_str(), 1);
-  EXPECT_NE(test::refusal(folder, std::string("\x01\x02\x03", 3)).find("nor Gwyddion"),
+  EXPECT_NE(test::rejection(folder, std::string("\x01\x02\x03", 3)).find("nor Gwyddion"),
             std::string::npos);
   ::unsetenv("TMPDIR");
   EXPECT_TRUE(std::filesystem::is_empty(folder / "tmp"));
@@ -50,10 +54,12 @@ TEST(Gwyddion, LeavesNoTemporaryFolderBehind) {
 
 TEST(Gwyddion, ChannelsOfAnAtomicForceMicroscopeAreListed) {
   TABOR_NEEDS_SHARED_SCAN("afm_10um_bruker.di");
-  if (!io::find_program("gwyddion")) GTEST_SKIP() << "Gwyddion is not installed";
+  if (!io::find_program("gwyddion")) {
+    GTEST_SKIP() << "Gwyddion is not installed";
+  }
   const FileInfo info = inspect(test::shared_scan("afm_10um_bruker.di"));
   EXPECT_EQ(info.channels.size(), 3u);
-  EXPECT_NE(test::refusal(test::shared_scan("afm_10um_bruker.di")).find("--channel 0"),
+  EXPECT_NE(test::rejection(test::shared_scan("afm_10um_bruker.di")).find("--channel 0"),
             std::string::npos);
 }
 
@@ -121,7 +127,7 @@ TEST(Gwyddion, MayNotTakeAllMemory) {
   put_program(programs / "gwyddion",
               "ulimit -v > '" + (programs / "limit").string() + "'\nexit 1\n");
   const Path path(programs.path().string());
-  EXPECT_NE(test::refusal(folder, std::string("\x01\x02\x03", 3)).find("nor Gwyddion"),
+  EXPECT_NE(test::rejection(folder, std::string("\x01\x02\x03", 3)).find("nor Gwyddion"),
             std::string::npos);
   EXPECT_LT(std::stod(test::bytes_of(programs / "limit")), 4 << 20);  // KiB
 }
@@ -133,11 +139,11 @@ TEST(Gwyddion, FillsNoDisk) {
               "wc -c < \"$out\" > '" +
                   (programs / "size").string() + "'\n");
   const Path path(programs.path().string() + ":/usr/bin:/bin");
-  EXPECT_FALSE(test::refusal(folder, std::string("\x01\x02\x03", 3)).empty());
+  EXPECT_FALSE(test::rejection(folder, std::string("\x01\x02\x03", 3)).empty());
   EXPECT_LT(std::stod(test::bytes_of(programs / "size")), 1e8);
 }
 
-TEST(RunProgram, RefusesAProgramThatIsNotThere) {
+TEST(RunProgram, RejectsAProgramThatIsNotThere) {
   EXPECT_THROW(io::run_program("/nonexistent", {}, {}, std::chrono::seconds(1)), InputError);
 }
 

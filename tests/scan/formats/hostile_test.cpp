@@ -1,4 +1,4 @@
-// Files made to mislead, archives aside: each is refused (or read) in one clear line, soon, and in
+// Files made to mislead, archives aside: each is rejected (or read) in one clear line, soon, and in
 // little memory.
 #include <sys/stat.h>
 
@@ -17,7 +17,7 @@ namespace {
 using test::Folder;
 using test::x3p_xml;
 
-/// No converter: what no reader of tabor's own takes is refused at once. Every test checks its own
+/// No converter: what no reader of tabor's own takes is rejected at once. Every test checks its own
 /// time: two seconds are far more than any of these files needs.
 class Hostile : public ::testing::Test {
  protected:
@@ -25,8 +25,8 @@ class Hostile : public ::testing::Test {
   ~Hostile() override { ::setenv("PATH", path_.c_str(), 1); }
   void TearDown() override { EXPECT_LT(std::chrono::steady_clock::now() - start_, kLimit); }
 
-  std::string refusal(const std::string& bytes, const ReadOptions& options = {}) const {
-    const std::string message = test::refusal(folder_, bytes, options);
+  std::string rejection(const std::string& bytes, const ReadOptions& options = {}) const {
+    const std::string message = test::rejection(folder_, bytes, options);
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     EXPECT_LT(message.size(), 600u) << message;
     return message;
@@ -47,33 +47,33 @@ std::string x3p(const std::string& nx, const std::string& increment,
        {"data.bin", std::string(16, '\0')}});
 }
 
-TEST_F(Hostile, TheHonestFileIsRead) { EXPECT_EQ(refusal(x3p("2", "1e-6")), ""); }
+TEST_F(Hostile, TheHonestFileIsRead) { EXPECT_EQ(rejection(x3p("2", "1e-6")), ""); }
 
-TEST_F(Hostile, AbsurdCountsAreRefused) {
+TEST_F(Hostile, AbsurdCountsAreRejected) {
   for (const char* nx : {"0", "-2", "2.5", "1e300", "99999999999999999999", "nan", "two", ""}) {
-    EXPECT_NE(refusal(x3p(nx, "1e-6")), "") << nx;
+    EXPECT_NE(rejection(x3p(nx, "1e-6")), "") << nx;
   }
 }
 
-TEST_F(Hostile, PixelsThatAreNoLengthAreRefused) {
+TEST_F(Hostile, PixelsThatAreNoLengthAreRejected) {
   for (const char* pixel : {"0", "-1e-6", "nan", "inf", "1e-6 m"}) {
-    EXPECT_NE(refusal(x3p("2", pixel)), "") << pixel;
+    EXPECT_NE(rejection(x3p("2", pixel)), "") << pixel;
   }
 }
 
-TEST_F(Hostile, LayersThatAreAllHolesAreRefused) {
+TEST_F(Hostile, LayersThatAreAllHolesAreRejected) {
   std::string holes = test::bcrf(false);
   const std::string last = holes.substr(holes.size() - 4);
   holes.resize(holes.size() - 24);
   for (int i = 0; i < 6; ++i) holes += last;
-  EXPECT_NE(refusal(holes).find("no valid height"), std::string::npos);
+  EXPECT_NE(rejection(holes).find("no valid height"), std::string::npos);
 }
 
-TEST_F(Hostile, ScalesThatAreNoNumbersAreRefused) {
+TEST_F(Hostile, ScalesThatAreNoNumbersAreRejected) {
   for (const char* scale : {"bit2nm = nan", "bit2nm = 0  ", "bit2nm = inf", "bit2nm = two"}) {
     std::string bytes = test::bcr();
     bytes.replace(bytes.find("bit2nm = 0.5"), 12, scale);
-    EXPECT_NE(refusal(bytes), "") << scale;
+    EXPECT_NE(rejection(bytes), "") << scale;
   }
 }
 
@@ -93,7 +93,7 @@ TEST_F(Hostile, TextIsReadInEveryEncodingAndWithEveryLineEnd) {
   }
 }
 
-TEST_F(Hostile, LinesWithoutEndAreReadOrRefusedInLittleMemory) {
+TEST_F(Hostile, LinesWithoutEndAreReadOrRejectedInLittleMemory) {
   constexpr std::size_t kSize = std::size_t{32} << 20;
   std::string numbers;
   while (numbers.size() < kSize) numbers += "1 ";
@@ -102,22 +102,22 @@ TEST_F(Hostile, LinesWithoutEndAreReadOrRefusedInLittleMemory) {
   EXPECT_EQ(test::read_bytes(folder_, numbers, options).grid.nx, std::ssize(numbers) / 2);
   // Eight bytes for each of the numbers, which take two, twice; and what `info` needs.
   EXPECT_LT(peak_memory_bytes() - before, 12 * kSize);
-  EXPECT_NE(refusal(std::string(kSize, '7') + "x", options), "");
-  EXPECT_NE(refusal(std::string(kSize, 'x'), options), "");
-  EXPECT_NE(refusal("# " + std::string(kSize, 'x'), options), "");
+  EXPECT_NE(rejection(std::string(kSize, '7') + "x", options), "");
+  EXPECT_NE(rejection(std::string(kSize, 'x'), options), "");
+  EXPECT_NE(rejection("# " + std::string(kSize, 'x'), options), "");
 }
 
-TEST_F(Hostile, PipesAndDevicesAreRefusedWithoutWaiting) {
+TEST_F(Hostile, PipesAndDevicesAreRejectedWithoutWaiting) {
   ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
   for (const std::filesystem::path& file :
        {folder_ / "pipe", folder_.path(), std::filesystem::path("/dev/zero")}) {
-    EXPECT_NE(test::refusal(file).find("folder, device or pipe"), std::string::npos) << file;
+    EXPECT_NE(test::rejection(file).find("folder, device or pipe"), std::string::npos) << file;
   }
 }
 
 /// Another program copies, exports or deletes while tabor reads: pages of the file that are gone
 /// would end the program by a signal.
-TEST_F(Hostile, FilesThatChangeWhileTheyAreOpenAreRefused) {
+TEST_F(Hostile, FilesThatChangeWhileTheyAreOpenAreRejected) {
   topography::Topography map = test::small_map();
   map.height = 1e-6 * Field::Random(200, 100);
   map.grid = {100, 200, 1e-4, 2e-4};

@@ -43,7 +43,7 @@ TEST_P(Instrument, GivesHeightsHolesAndPixelsOfItsLayout) {
   EXPECT_NEAR(map.grid.dy(), dy, 1e-12);
 }
 
-TEST_P(Instrument, TruncatedAnywhereIsRefused) {
+TEST_P(Instrument, TruncatedAnywhereIsRejected) {
   const Folder folder;
   const std::string bytes = GetParam().bytes();
   // What follows the heights may be missing: Sensofar's file ends with its range, NanoFocus's with
@@ -53,7 +53,7 @@ TEST_P(Instrument, TruncatedAnywhereIsRefused) {
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", "/nonexistent", 1);
   for (std::size_t size = 0; size + tail < bytes.size(); ++size) {
-    EXPECT_NE(test::refusal(folder, bytes.substr(0, size)), "") << size;
+    EXPECT_NE(test::rejection(folder, bytes.substr(0, size)), "") << size;
   }
   ::setenv("PATH", path.c_str(), 1);
 }
@@ -66,7 +66,7 @@ TEST_P(Instrument, WithAFlippedBitNeverBreaksTheProgram) {
   for (std::size_t bit = 0; bit < 8 * bytes.size(); bit += 7) {
     std::string flipped = bytes;
     flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
-    EXPECT_NO_FATAL_FAILURE(test::refusal(folder, flipped)) << bit;
+    EXPECT_NO_FATAL_FAILURE(test::rejection(folder, flipped)) << bit;
   }
   ::setenv("PATH", path.c_str(), 1);
 }
@@ -92,23 +92,23 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"nms", test::nms, without_hole(1e-6)}),
     [](const auto& suite) { return suite.param.format + std::to_string(suite.index); });
 
-TEST(DigitalSurf, LayersWithoutHeightsAreRefused) {
+TEST(DigitalSurf, LayersWithoutHeightsAreRejected) {
   const Folder folder;
-  EXPECT_NE(test::refusal(folder, test::sur("DIGITAL SURF", 16, 10)).find("type 10"),
+  EXPECT_NE(test::rejection(folder, test::sur("DIGITAL SURF", 16, 10)).find("type 10"),
             std::string::npos);
   std::string percent = test::plain_sur();
   percent.replace(212, 2, "% ");
-  EXPECT_NE(test::refusal(folder, percent).find("[%]"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, percent).find("[%]"), std::string::npos);
 }
 
-TEST(DigitalSurf, LyingStreamSizesAreRefused) {
+TEST(DigitalSurf, LyingStreamSizesAreRejected) {
   const Folder folder;
   std::string bytes = test::compressed_sur();
   const std::uint32_t huge = 0xFFFFFFFF;
   std::memcpy(bytes.data() + 518 + 4, &huge, sizeof huge);
-  EXPECT_NE(test::refusal(folder, bytes), "");
+  EXPECT_NE(test::rejection(folder, bytes), "");
   std::memcpy(bytes.data() + 518, &huge, sizeof huge);
-  EXPECT_NE(test::refusal(folder, bytes), "");
+  EXPECT_NE(test::rejection(folder, bytes), "");
 }
 
 }  // namespace

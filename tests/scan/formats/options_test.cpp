@@ -23,52 +23,52 @@ TEST(UserOptions, RepeatingWhatTheFileSaysIsFine) {
   EXPECT_EQ(test::read_bytes(folder, gsf("h"), options).height(0, 0), 1);
 }
 
-TEST(UserOptions, ContradictingTheFileIsRefusedUnlessOverridden) {
+TEST(UserOptions, ContradictingTheFileIsRejectedUnlessOverridden) {
   const Folder folder;
   ReadOptions options;
   options.pixel_x = 3e-6;
   options.unit = "um";
-  EXPECT_NE(test::refusal(folder, gsf("h"), options).find("--override-unit"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, gsf("h"), options).find("--override-unit"), std::string::npos);
   options.pixel_x.reset();
-  EXPECT_NE(test::refusal(folder, gsf("h"), options).find("--override-unit"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, gsf("h"), options).find("--override-unit"), std::string::npos);
   options.pixel_x = 3e-6;
   options.override_unit = true;
   const topography::Topography map = test::read_bytes(folder, gsf("h"), options);
   EXPECT_DOUBLE_EQ(map.height(0, 0), 1e-6);
   EXPECT_DOUBLE_EQ(map.grid.dx(), 3e-6);
-  EXPECT_GE(map.doubts.size(), 3u);  // two pixel sides and the unit
+  EXPECT_GE(map.warnings.size(), 3u);  // two pixel sides and the unit
 }
 
-TEST(UserOptions, ChannelsThatAreNoLengthAreRefused) {
+TEST(UserOptions, ChannelsThatAreNoLengthAreRejected) {
   const Folder folder;
-  EXPECT_NE(test::refusal(folder, gsf("phase", "deg")).find("'phase' [deg]"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, gsf("phase", "deg")).find("'phase' [deg]"), std::string::npos);
   ReadOptions options;
   options.channel = "phase";
-  EXPECT_NE(test::refusal(folder, gsf("phase", "deg"), options).find("in 'deg'"),
+  EXPECT_NE(test::rejection(folder, gsf("phase", "deg"), options).find("in 'deg'"),
             std::string::npos);
   options.unit = "nm";
   options.override_unit = true;
   EXPECT_DOUBLE_EQ(test::read_bytes(folder, gsf("phase", "deg"), options).height(0, 0), 1e-9);
 }
 
-TEST(UserOptions, UnknownChannelIsRefusedWithTheList) {
+TEST(UserOptions, UnknownChannelIsRejectedWithTheList) {
   const Folder folder;
   ReadOptions options;
   options.channel = "top";
-  EXPECT_NE(test::refusal(folder, gsf("height"), options).find("0 'height' [m]"),
+  EXPECT_NE(test::rejection(folder, gsf("height"), options).find("0 'height' [m]"),
             std::string::npos);
   options.channel = "0";
   EXPECT_EQ(test::read_bytes(folder, gsf("height"), options).channel, "height");
 }
 
-TEST(UserOptions, NonsenseIsRefused) {
+TEST(UserOptions, NonsenseIsRejected) {
   const Folder folder;
   ReadOptions options = test::micrometres();
   options.pixel_x = -1e-6;
-  EXPECT_NE(test::refusal(folder, "1 2\n3 4\n", options), "");
+  EXPECT_NE(test::rejection(folder, "1 2\n3 4\n", options), "");
   options = test::micrometres();
   options.unit = "kg";
-  EXPECT_NE(test::refusal(folder, "1 2\n3 4\n", options).find("kg"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, "1 2\n3 4\n", options).find("kg"), std::string::npos);
 }
 
 TEST(Inspect, ListsChannelsWithoutChoosingOne) {

@@ -61,14 +61,14 @@ TEST(H5, RemembersThatHeightsWereInvented) {
   const Folder folder;
   topography::Topography map = topography::fill_holes(
       test::small_map(), topography::Fill::nearest);  // 2 of its few pixels are holes
-  const auto is_invented = [](const topography::Doubt& doubt) {
-    return doubt.code == "filled-holes";
+  const auto is_invented = [](const topography::Warning& warning) {
+    return warning.code == "filled-holes";
   };
-  ASSERT_EQ(std::count_if(map.doubts.begin(), map.doubts.end(), is_invented), 1);
+  ASSERT_EQ(std::count_if(map.warnings.begin(), map.warnings.end(), is_invented), 1);
   for (int copy = 0; copy < 2; ++copy) {
     write(map, folder / "map.h5");
     map = read(folder / "map.h5");
-    EXPECT_EQ(std::count_if(map.doubts.begin(), map.doubts.end(), is_invented), 1);
+    EXPECT_EQ(std::count_if(map.warnings.begin(), map.warnings.end(), is_invented), 1);
   }
 }
 
@@ -84,10 +84,10 @@ TEST(Npy, KeepsHeightsButNeedsPixelAndUnit) {
   const Folder folder;
   const topography::Topography map = test::small_map();
   write(map, folder / "map.npy");
-  EXPECT_NE(test::refusal(folder / "map.npy").find("--pixel"), std::string::npos);
+  EXPECT_NE(test::rejection(folder / "map.npy").find("--pixel"), std::string::npos);
   ReadOptions options;
   options.pixel_x = 1e-6;
-  EXPECT_NE(test::refusal(folder / "map.npy", options).find("--unit"), std::string::npos);
+  EXPECT_NE(test::rejection(folder / "map.npy", options).find("--unit"), std::string::npos);
   options.unit = "m";
   EXPECT_TRUE(test::same_bits(read(folder / "map.npy", options).height, map.height));
 }
@@ -137,7 +137,7 @@ TEST(Vti, HoldsTheBottomRowFirst) {
   EXPECT_EQ(first, map.height(3, 0));
 }
 
-TEST(WriteMap, RefusesAnUnknownExtensionByNamingTheKnown) {
+TEST(WriteMap, RejectsAnUnknownExtensionByNamingTheKnown) {
   const Folder folder;
   try {
     write(test::small_map(), folder / "map.doc");
@@ -147,7 +147,7 @@ TEST(WriteMap, RefusesAnUnknownExtensionByNamingTheKnown) {
   }
 }
 
-TEST(WriteMap, RefusesMoreThan65535PixelsInSdf) {
+TEST(WriteMap, RejectsMoreThan65535PixelsInSdf) {
   const Folder folder;
   topography::Topography line = test::small_map();
   line.grid = {.nx = 65536, .ny = 1, .lx = 1, .ly = 1e-5};

@@ -49,8 +49,8 @@ inline ::testing::AssertionResult same_bits(const Field& a, const Field& b) {
 }
 
 /// What the InputError of reading this file says; "" if it was read.
-inline std::string refusal(const std::filesystem::path& file,
-                           const scan::ReadOptions& options = {}) {
+inline std::string rejection(const std::filesystem::path& file,
+                             const scan::ReadOptions& options = {}) {
   try {
     scan::read(file, options);
   } catch (const InputError& error) {
@@ -59,10 +59,10 @@ inline std::string refusal(const std::filesystem::path& file,
   return "";
 }
 
-inline std::string refusal(const Folder& folder, const std::string& bytes,
-                           const scan::ReadOptions& options = {}) {
+inline std::string rejection(const Folder& folder, const std::string& bytes,
+                             const scan::ReadOptions& options = {}) {
   put_bytes(folder / "scan.bin", bytes);
-  return refusal(folder / "scan.bin", options);
+  return rejection(folder / "scan.bin", options);
 }
 
 inline topography::Topography read_bytes(const Folder& folder, const std::string& bytes,

@@ -28,13 +28,13 @@ bool needs_gwyddion(const std::string& file) {
          file.ends_with(".tiff");
 }
 
-TEST(SharedScans, AreAllReadOrRefusedForAReason) {
+TEST(SharedScans, AreAllReadOrRejectedForAReason) {
   TABOR_NEEDS_SHARED_SCAN("expected.csv");
   const bool has_gwyddion = io::find_program("gwyddion").has_value();
   for (const auto& entry : std::filesystem::directory_iterator(test::shared_scan(""))) {
     const std::string name = entry.path().filename().string();
     if (name == "expected.csv" || (needs_gwyddion(name) && !has_gwyddion)) continue;
-    const std::string reason = test::refusal(entry.path(), options_for(name));
+    const std::string reason = test::rejection(entry.path(), options_for(name));
     if (name == "tiny_iso5436_sample2.x3p") {
       EXPECT_NE(reason.find("point cloud"), std::string::npos) << reason;
     } else if (name == "tiny_iso5436_sample3.x3p") {
@@ -48,11 +48,11 @@ TEST(SharedScans, AreAllReadOrRefusedForAReason) {
 TEST(SharedScans, WithoutUnitOrPixelNameTheFlag) {
   TABOR_NEEDS_SHARED_SCAN("tiny_xyz.txt");
   for (const char* file : {"tiny_xyz.txt", "tiny_matrix_nounit.txt", "nanovea_xyz1.txt"}) {
-    EXPECT_NE(test::refusal(test::shared_scan(file)).find("--unit"), std::string::npos) << file;
+    EXPECT_NE(test::rejection(test::shared_scan(file)).find("--unit"), std::string::npos) << file;
   }
-  EXPECT_NE(test::refusal(test::shared_scan("afm_512_nm_matrix.txt")).find("--pixel"),
+  EXPECT_NE(test::rejection(test::shared_scan("afm_512_nm_matrix.txt")).find("--pixel"),
             std::string::npos);
-  EXPECT_EQ(test::refusal(test::shared_scan("afm_512_nm_matrix.txt")).find("--unit"),
+  EXPECT_EQ(test::rejection(test::shared_scan("afm_512_nm_matrix.txt")).find("--unit"),
             std::string::npos);
 }
 

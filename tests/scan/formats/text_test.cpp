@@ -16,13 +16,13 @@ Field matrix(Index ny, Index nx, std::initializer_list<double> values) {
   return field;
 }
 
-TEST(TextMatrix, WithoutUnitOrPixelIsRefusedNamingTheFlags) {
+TEST(TextMatrix, WithoutUnitOrPixelIsRejectedNamingTheFlags) {
   const Folder folder;
-  EXPECT_NE(test::refusal(folder, "1 2\n3 4\n").find("--pixel 0.67um --unit um"),
+  EXPECT_NE(test::rejection(folder, "1 2\n3 4\n").find("--pixel 0.67um --unit um"),
             std::string::npos);
   ReadOptions options;
   options.pixel_x = 1e-6;
-  EXPECT_NE(test::refusal(folder, "1 2\n3 4\n", options).find("--unit"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, "1 2\n3 4\n", options).find("--unit"), std::string::npos);
 }
 
 TEST(TextMatrix, TakesEveryUsualSeparatorAndLineEnd) {
@@ -49,11 +49,11 @@ TEST(TextMatrix, ReadsEveryWordForAHole) {
             1);
 }
 
-TEST(TextMatrix, WithLinesOfDifferentLengthIsRefusedNamingTheLine) {
+TEST(TextMatrix, WithLinesOfDifferentLengthIsRejectedNamingTheLine) {
   const Folder folder;
-  EXPECT_NE(test::refusal(folder, "1 2 3\n4 5 6\n7 8\n", test::micrometres()).find("line 3"),
+  EXPECT_NE(test::rejection(folder, "1 2 3\n4 5 6\n7 8\n", test::micrometres()).find("line 3"),
             std::string::npos);
-  EXPECT_NE(test::refusal(folder, "1 2 3\n4 x 6\n", test::micrometres()).find("'x' on line 2"),
+  EXPECT_NE(test::rejection(folder, "1 2 3\n4 x 6\n", test::micrometres()).find("'x' on line 2"),
             std::string::npos);
 }
 
@@ -86,7 +86,7 @@ TEST(WykoText, HeightFactorTurnsPhaseIntoMetres) {
   const topography::Topography map = test::read_bytes(folder, header + "1 2 3\n4 5 6\n");
   EXPECT_NEAR(map.grid.dx(), 2e-7, 1e-20);
   EXPECT_DOUBLE_EQ(map.height(1, 2), 6e-7);
-  EXPECT_NE(test::refusal(folder, header + "1 2 3\n4 5\n").find("3 x 2"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, header + "1 2 3\n4 5\n").find("3 x 2"), std::string::npos);
 }
 
 TEST(NanoscopeText, WithoutLineStructureIsASquare) {
@@ -98,7 +98,7 @@ TEST(NanoscopeText, WithoutLineStructureIsASquare) {
     const topography::Topography map = test::read_bytes(folder, header + numbers, options);
     EXPECT_TRUE(test::same_bits(map.height, 1e-9 * matrix(2, 2, {1, 2, 3, 4})));
   }
-  EXPECT_NE(test::refusal(folder, header + "1 2 3", options).find("square"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, header + "1 2 3", options).find("square"), std::string::npos);
 }
 
 TEST(TextXyz, IsAMapInEitherScanOrder) {
@@ -138,7 +138,7 @@ TEST(TextXyz, NodesWithoutAPointAreHoles) {
 TEST(TextXyz, ScatteredPointsAreNoMap) {
   const Folder folder;
   const char* scattered = "x_um y_um z_um\n0 0 1\n1.3 0 2\n2 0.4 3\n0.1 1 4\n2.7 1 6\n";
-  EXPECT_NE(test::refusal(folder, scattered).find("regular grid"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, scattered).find("regular grid"), std::string::npos);
 }
 
 TEST(TextProfile, OfTwoColumnsIsOneRow) {
@@ -164,11 +164,11 @@ TEST(TextCommas, AreDecimalInFilesLongerThanTheSample) {
   }
 }
 
-TEST(TextCommas, ThatMayBeEitherAreRefused) {
+TEST(TextCommas, ThatMayBeEitherAreRejected) {
   const Folder folder;
   for (const char* text : {"1.234,5;2.345,6\n3;4\n", "1,234.5\t2,345.6\n1,1\t2,2\n",
                            "1,5;,5\n1;2\n", "1,5\n2,5\n3,5\n"}) {
-    EXPECT_NE(test::refusal(folder, text, test::micrometres()).find("write decimal points"),
+    EXPECT_NE(test::rejection(folder, text, test::micrometres()).find("write decimal points"),
               std::string::npos)
         << text;
   }
@@ -198,12 +198,12 @@ TEST(TextNumbers, OfOtherProgramsAreUnderstood) {
   EXPECT_TRUE(test::same_bits(map.height, expected));
 }
 
-TEST(TextMatrix, WithAnEmptyCellBetweenTabsIsRefused) {
+TEST(TextMatrix, WithAnEmptyCellBetweenTabsIsRejected) {
   const Folder folder;
-  EXPECT_NE(test::refusal(folder, "1\t2\t3\n1\t\t3\n", test::micrometres())
+  EXPECT_NE(test::rejection(folder, "1\t2\t3\n1\t\t3\n", test::micrometres())
                 .find("two tabs in a row on line 2"),
             std::string::npos);
-  EXPECT_EQ(test::refusal(folder, "1\t2\t\n1\t2\t\n", test::micrometres()), "");
+  EXPECT_EQ(test::rejection(folder, "1\t2\t\n1\t2\t\n", test::micrometres()), "");
 }
 
 TEST(TextXyz, ColumnsStandWhereTheHeaderSays) {
@@ -236,7 +236,7 @@ TEST(TextXyz, HeightsAreTheColumnThatIsNamedSo) {
   const topography::Topography numbered =
       test::read_bytes(folder, "No;x [um];y [um];z [um]\n1;0;0;1\n2;1;0;2\n3;0;1;3\n4;1;1;5\n");
   EXPECT_TRUE(test::same_bits(numbered.height, expected));
-  EXPECT_NE(test::refusal(folder, "X Y Peak Power" + four, test::micrometres()).find("named z"),
+  EXPECT_NE(test::rejection(folder, "X Y Peak Power" + four, test::micrometres()).find("named z"),
             std::string::npos);
 }
 
@@ -246,9 +246,9 @@ TEST(TextMatrix, TakesNoUnitFromRemarksOnItsHeight) {
   options.pixel_x = 1e-6;
   for (const char* header : {"# Width (um): 4\n# Height (um): 3", "# Height[um] = 10",
                              "# height (px): 6", "# Height(512)", "# Height (512 lines)"}) {
-    EXPECT_NE(
-        test::refusal(folder, header + std::string("\n1 2 3 4\n5 6 7 9\n"), options).find("--unit"),
-        std::string::npos)
+    EXPECT_NE(test::rejection(folder, header + std::string("\n1 2 3 4\n5 6 7 9\n"), options)
+                  .find("--unit"),
+              std::string::npos)
         << header;
   }
 }
@@ -307,7 +307,7 @@ TEST(TextXyz, TablesOfPointsAreNeverTakenForAMap) {
     scattered += std::to_string(std::sin(i)) + " " + std::to_string(std::cos(3 * i)) + " 1\n";
   }
   for (const std::string& text : {scattered, repeated}) {
-    EXPECT_NE(test::refusal(folder, text, test::micrometres()).find("regular grid"),
+    EXPECT_NE(test::rejection(folder, text, test::micrometres()).find("regular grid"),
               std::string::npos);
   }
 }
@@ -318,7 +318,7 @@ TEST(TextXyz, KeepsTheRatioOfItsStepsUnderAGivenPixel) {
   ReadOptions options = test::micrometres();
   EXPECT_NEAR(test::read_bytes(folder, text, options).grid.dy(), 2e-6, 1e-15);
   options.pixel_y = 1e-6;
-  EXPECT_NE(test::refusal(folder, text, options).find("as the coordinates have them"),
+  EXPECT_NE(test::rejection(folder, text, options).find("as the coordinates have them"),
             std::string::npos);
   options.override_unit = true;
   EXPECT_NEAR(test::read_bytes(folder, text, options).grid.dy(), 1e-6, 1e-15);
@@ -328,10 +328,10 @@ TEST(TextFile, SaysWhichLineIsNoNumber) {
   const Folder folder;
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", "/nonexistent", 1);
-  EXPECT_NE(test::refusal(folder, "# remark\nLaser scan of 1970\n1 2\n").find("on line 2"),
+  EXPECT_NE(test::rejection(folder, "# remark\nLaser scan of 1970\n1 2\n").find("on line 2"),
             std::string::npos);
   const std::string binary("Laser scan of 1970\n\0\1\2", 22);
-  EXPECT_EQ(test::refusal(folder, binary).find("line 1"), std::string::npos);
+  EXPECT_EQ(test::rejection(folder, binary).find("line 1"), std::string::npos);
   ::setenv("PATH", path.c_str(), 1);
 }
 
@@ -340,9 +340,9 @@ TEST(GwyddionText, UnderstandsLatin1AndTakesNoAmperesForHeights) {
   const topography::Topography map = test::read_bytes(
       folder, "# Kanal: a\n# Breite: 4 um\n# H\xf6he: 8 um\n# Wert: nm\n1 2\n3 4\n");
   EXPECT_NEAR(map.grid.ly, 8e-6, 1e-15);
-  EXPECT_NE(test::refusal(folder,
-                          "# Channel: Current\n# Width: 4 um\n# Height: 4 um\n# Value units: "
-                          "A\n1 2\n3 4\n")
+  EXPECT_NE(test::rejection(folder,
+                            "# Channel: Current\n# Width: 4 um\n# Height: 4 um\n# Value units: "
+                            "A\n1 2\n3 4\n")
                 .find("[A]"),
             std::string::npos);
 }
@@ -371,20 +371,21 @@ TEST(Sdf, ProfilesNeedNoSecondSpacing) {
   EXPECT_NEAR(map.grid.dy(), 2.5e-7, 1e-18);
 }
 
-TEST(Sdf, ATrailerOfTextIsNoDoubt) {
+TEST(Sdf, ATrailerOfTextIsNoWarning) {
   const Folder folder;
-  const auto doubts_behind = [&](const std::string& trailer) {
+  const auto warnings_behind = [&](const std::string& trailer) {
     test::ByteFile file(81);
     file.text(0, "bISO-1.0").number<std::uint16_t>(42, 2).number<std::uint16_t>(44, 2);
     file.number(46, 1e-6).number(54, 1e-6).number(62, 1e-9).number<std::uint8_t>(79, 5);
     for (const int z : {1, 7, 4, 2}) file.append(static_cast<std::int16_t>(z));
-    const auto doubts = topography::texts(test::read_bytes(folder, file.bytes() + trailer).doubts);
-    return std::count_if(doubts.begin(), doubts.end(), [](const std::string& doubt) {
-      return doubt.find("follow the map") != std::string::npos;
+    const auto warnings =
+        topography::texts(test::read_bytes(folder, file.bytes() + trailer).warnings);
+    return std::count_if(warnings.begin(), warnings.end(), [](const std::string& warning) {
+      return warning.find("follow the map") != std::string::npos;
     });
   };
-  EXPECT_EQ(doubts_behind("Operator = AB\r\n"), 0);
-  EXPECT_EQ(doubts_behind(std::string("\x01\x02", 2)), 1);
+  EXPECT_EQ(warnings_behind("Operator = AB\r\n"), 0);
+  EXPECT_EQ(warnings_behind(std::string("\x01\x02", 2)), 1);
 }
 
 TEST(Sdf, LeastIntegerIsAHole) {

@@ -84,28 +84,29 @@ TEST(X3p, LayersAreChannels) {
   Parts parts;
   parts.size = "<SizeX>2</SizeX><SizeY>1</SizeY><SizeZ>2</SizeZ>";
   const std::string bytes = archive(parts, binary({1.0, 2.0, 3.0, 4.0}));
-  EXPECT_NE(test::refusal(folder, bytes).find("--channel"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, bytes).find("--channel"), std::string::npos);
   ReadOptions options;
   options.channel = "layer 1";
   EXPECT_EQ(test::read_bytes(folder, bytes, options).height(0, 0), 3);
 }
 
-TEST(X3p, PointCloudsAndIrregularAxesAreRefusedWithTheReason) {
+TEST(X3p, PointCloudsAndIrregularAxesAreRejectedWithTheReason) {
   const Folder folder;
   Parts cloud;
   cloud.feature = "PCL";
-  EXPECT_NE(test::refusal(folder, archive(cloud, "")).find("point cloud"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, archive(cloud, "")).find("point cloud"), std::string::npos);
   Parts irregular;
   irregular.y_type = "A";
-  EXPECT_NE(test::refusal(folder, archive(irregular, "")).find("evenly spaced"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, archive(irregular, "")).find("evenly spaced"),
+            std::string::npos);
 }
 
-TEST(X3p, SizesThatContradictTheDataAreRefusedBeforeAllocating) {
+TEST(X3p, SizesThatContradictTheDataAreRejectedBeforeAllocating) {
   const Folder folder;
   const std::string data = binary({1.0, 2.0, 3.0, 4.0});
   Parts larger;
   larger.size = "<SizeX>3</SizeX><SizeY>2</SizeY>";
-  EXPECT_NE(test::refusal(folder, archive(larger, data)).find("48 bytes as main.xml says"),
+  EXPECT_NE(test::rejection(folder, archive(larger, data)).find("48 bytes as main.xml says"),
             std::string::npos);
   for (const char* size :
        {"<SizeX>1000000000</SizeX><SizeY>1000000000</SizeY>", "<SizeX>0</SizeX><SizeY>2</SizeY>",
@@ -113,12 +114,12 @@ TEST(X3p, SizesThatContradictTheDataAreRefusedBeforeAllocating) {
         "<SizeX>1e300</SizeX><SizeY>1e300</SizeY>"}) {
     Parts absurd;
     absurd.size = size;
-    EXPECT_NE(test::refusal(folder, archive(absurd, data)), "") << size;
+    EXPECT_NE(test::rejection(folder, archive(absurd, data)), "") << size;
   }
 }
 
 /// Each layer becomes a channel: a million of them would be listed for minutes.
-TEST(X3p, MoreLayersThanAnyInstrumentWritesAreRefused) {
+TEST(X3p, MoreLayersThanAnyInstrumentWritesAreRejected) {
   const Folder folder;
   const std::string zeros(std::size_t{1001} * 4 * sizeof(double), '\0');
   Parts most;
@@ -127,35 +128,36 @@ TEST(X3p, MoreLayersThanAnyInstrumentWritesAreRefused) {
   EXPECT_EQ(inspect(folder / "scan.bin").channels.size(), 1000u);
   Parts more;
   more.size = "<SizeX>2</SizeX><SizeY>2</SizeY><SizeZ>1001</SizeZ>";
-  EXPECT_NE(test::refusal(folder, archive(more, zeros)).find("1001 layers; expected at most 1000"),
-            std::string::npos);
+  EXPECT_NE(
+      test::rejection(folder, archive(more, zeros)).find("1001 layers; expected at most 1000"),
+      std::string::npos);
 }
 
-TEST(X3p, ZipWithoutMainXmlIsRefusedByName) {
+TEST(X3p, ZipWithoutMainXmlIsRejectedByName) {
   const Folder folder;
-  const std::string message = test::refusal(folder, io::zip({{"readme.txt", "hello"}}));
+  const std::string message = test::rejection(folder, io::zip({{"readme.txt", "hello"}}));
   EXPECT_NE(message.find("without main.xml"), std::string::npos) << message;
 }
 
-TEST(X3p, ZipBombIsRefusedWithoutUnpackingIt) {
+TEST(X3p, ZipBombIsRejectedWithoutUnpackingIt) {
   const Folder folder;
   const std::string bomb = io::zip({{"main.xml", std::string(std::size_t{65} << 20, '\0')}});
   EXPECT_LT(bomb.size(), 1u << 17);
-  EXPECT_NE(test::refusal(folder, bomb).find("at most"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, bomb).find("at most"), std::string::npos);
   const std::string zeros(std::size_t{1} << 20, '\0');
-  EXPECT_NE(test::refusal(folder, io::zip({{"main.xml", xml({})}, {"bindata/data.bin", zeros}}))
+  EXPECT_NE(test::rejection(folder, io::zip({{"main.xml", xml({})}, {"bindata/data.bin", zeros}}))
                 .find("32 bytes as main.xml says"),
             std::string::npos);
 }
 
-TEST(X3p, BrokenXmlIsRefused) {
+TEST(X3p, BrokenXmlIsRejected) {
   const Folder folder;
-  EXPECT_NE(test::refusal(folder, io::zip({{"main.xml", "<a><b></a>"}})).find("XML"),
+  EXPECT_NE(test::rejection(folder, io::zip({{"main.xml", "<a><b></a>"}})).find("XML"),
             std::string::npos);
-  EXPECT_NE(test::refusal(folder, io::zip({{"main.xml", "<a/>"}})), "");
+  EXPECT_NE(test::rejection(folder, io::zip({{"main.xml", "<a/>"}})), "");
 }
 
-TEST(X3p, ChangedDataAreDoubted) {
+TEST(X3p, ChangedDataAreWarnedOf) {
   const Folder folder;
   Parts parts;
   parts.data =
@@ -163,8 +165,8 @@ TEST(X3p, ChangedDataAreDoubted) {
       "<MD5ChecksumPointData>00000000000000000000000000000000</MD5ChecksumPointData></DataLink>";
   const topography::Topography map =
       test::read_bytes(folder, archive(parts, binary({1.0, 2.0, 3.0, 4.0})));
-  ASSERT_FALSE(map.doubts.empty());
-  EXPECT_NE(map.doubts.front().text.find("MD5"), std::string::npos);
+  ASSERT_FALSE(map.warnings.empty());
+  EXPECT_NE(map.warnings.front().text.find("MD5"), std::string::npos);
 }
 
 TEST(X3p, ProfilesNeedNoSecondIncrement) {
@@ -179,15 +181,15 @@ TEST(X3p, ProfilesNeedNoSecondIncrement) {
   }
 }
 
-TEST(X3p, ANegativeIncrementOfHeightsIsDoubted) {
+TEST(X3p, ANegativeIncrementOfHeightsIsWarnedOf) {
   const Folder folder;
   Parts parts;
   parts.z_scale = "<Increment>-1e-6</Increment>";
   const topography::Topography map =
       test::read_bytes(folder, archive(parts, binary({1.0, 2.0, 3.0, 5.0})));
   EXPECT_DOUBLE_EQ(map.height(1, 1), -5e-6);
-  ASSERT_FALSE(map.doubts.empty());
-  EXPECT_NE(map.doubts.front().text.find("negative"), std::string::npos);
+  ASSERT_FALSE(map.warnings.empty());
+  EXPECT_NE(map.warnings.front().text.find("negative"), std::string::npos);
 }
 
 TEST(X3p, ARotationOfItsAxesIsSaid) {
@@ -197,7 +199,7 @@ TEST(X3p, ARotationOfItsAxesIsSaid) {
     Parts parts;
     parts.rotation = "<Rotation><r11>" + r11 + "</r11><r12>0.0</r12></Rotation>";
     const topography::Topography map = test::read_bytes(folder, archive(parts, data));
-    return !map.doubts.empty() && map.doubts.front().text.find("Rotation") != std::string::npos;
+    return !map.warnings.empty() && map.warnings.front().text.find("Rotation") != std::string::npos;
   };
   EXPECT_TRUE(is_said("-1"));
   EXPECT_FALSE(is_said("1.0"));

@@ -16,7 +16,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers go in and out as they are");
 const std::string kMagic("\x93NUMPY\x01\0", 8);
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
+[[noreturn]] void reject(const std::filesystem::path& file, const std::string& what) {
   throw std::runtime_error(fmt::format("{}: {}", file.string(), what));
 }
 
@@ -26,7 +26,7 @@ std::string header_of(std::istream& stream, const std::filesystem::path& file) {
   std::array<unsigned char, 2> length{};
   stream.read(magic.data(), static_cast<std::streamsize>(magic.size()));
   stream.read(reinterpret_cast<char*>(length.data()), 2);
-  if (!stream || magic != kMagic) refuse(file, "no NPY file of version 1");
+  if (!stream || magic != kMagic) reject(file, "no NPY file of version 1");
   std::string header(length[0] + 256U * length[1], '\0');
   stream.read(header.data(), static_cast<std::streamsize>(header.size()));
   return header;
@@ -41,13 +41,13 @@ Field read_npy(const std::filesystem::path& file) {
       R"(\{'descr': '<f8', 'fortran_order': False, 'shape': \((\d+), (\d+)\), \}\s*)");
   std::smatch shape;
   if (!std::regex_match(header, shape, form)) {
-    refuse(file, "got " + header.substr(0, header.find('\n')) + ", expected rows of <f8");
+    reject(file, "got " + header.substr(0, header.find('\n')) + ", expected rows of <f8");
   }
   Field field(std::stol(shape[1]), std::stol(shape[2]));
   stream.read(reinterpret_cast<char*>(field.data()),
               static_cast<std::streamsize>(field.size() * sizeof(double)));
-  if (!stream) refuse(file, "ends too early");
-  if (!field.allFinite()) refuse(file, "holds numbers that are not finite");
+  if (!stream) reject(file, "ends too early");
+  if (!field.allFinite()) reject(file, "holds numbers that are not finite");
   return field;
 }
 
@@ -64,7 +64,7 @@ void write_npy(const Field& field, const std::filesystem::path& file) {
          << static_cast<char>(header.size() / 256) << header;
   stream.write(reinterpret_cast<const char*>(field.data()),
                static_cast<std::streamsize>(field.size() * sizeof(double)));
-  if (!stream.flush()) refuse(file, "cannot be written");
+  if (!stream.flush()) reject(file, "cannot be written");
 }
 
 }  // namespace tabor::bench

@@ -77,7 +77,7 @@ def section(record: dict) -> str:
     """The section of docs/benchmarks.md."""
     rows = best_rows(record)
     versions = ", ".join(f"{name} {version}" for name, version in record["versions"].items())
-    refused = "".join(f"- {tool}: {reason}.\n" for tool, reason in record["refused"].items())
+    rejected = "".join(f"- {tool}: {reason}.\n" for tool, reason in record["refused"].items())
     return f"""Other open programs on the same contacts, each driven to the same proven error. Made by `{record['command']}` on {record['date']};
 do not edit. It may have run in parts (`--tools`, `--surface`, `--cases`): a row's date is in `benchmarks_peers.json`, and tabor's
 rows may be younger than its peers'. {record['machine']}, shared with other work; one thread for every program.
@@ -102,7 +102,7 @@ Versions: {versions}.
 
 What a program cannot do, or what it can and tabor cannot:
 
-{refused}- ContactMechanics: finds the saturated load only when it is started from the bearing area, as here.
+{rejected}- ContactMechanics: finds the saturated load only when it is started from the bearing area, as here.
 - Tamaas, slippy: adhesion. Tamaas, ASPHER, slippy: friction within the contact. Tamaas: viscoelastic and plastic
   volumes. None of these is in tabor.
 

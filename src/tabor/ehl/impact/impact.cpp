@@ -89,7 +89,7 @@ class Impact {
     if (stopped) result_.convergence.status = Status::stopped;
     if (result_.history.empty()) record_touch();
     measure(problem_, result_);
-    add_doubts();
+    add_warnings();
     return std::move(result_);
   }
 
@@ -288,16 +288,16 @@ class Impact {
     result_.profiles.push_back(std::move(profile));
   }
 
-  void add_doubts() {
+  void add_warnings() {
     // The spike at the end is narrower than any grid: what counts is the centre under load.
     double pressure = 0;
     for (const ImpactInstant& at : result_.history) {
       if (at.force >= result_.max_force / 2) pressure = std::max(pressure, at.central_pressure);
     }
-    result_.doubts = material::doubts(problem_.lubricant, pressure);
+    result_.warnings = material::warnings(problem_.lubricant, pressure);
     const double radii = result_.domain_radius / dry_.max_radius;
     if (result_.end != ImpactEnd::rebound || radii >= kWideDomain) return;
-    result_.doubts.push_back(fmt::format(
+    result_.warnings.push_back(fmt::format(
         "the film ends at {:.2g} radii of the dry contact: rebound and force depend on the domain "
         "(a domain study tells how much)",
         radii));

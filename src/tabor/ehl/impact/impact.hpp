@@ -89,10 +89,10 @@ struct ImpactResult {
   int n_steps = 0;
   int n_cut_steps = 0;
   StepCount count;
-  std::vector<std::string> doubts;  ///< laws used beyond where they are believed, ...
+  std::vector<std::string> warnings;  ///< laws used beyond where they are believed, ...
 };
 
-/// Throws InputError for input that makes no sense: values that are not positive, a layer or a
+/// Throws InputError for invalid input: values that are not positive, a layer or a
 /// domain too small for the contact that the ball would make when dry, a viscosity law that ends
 /// below the pressure of that contact. Not converging is returned, and so is being stopped.
 ImpactResult solve_impact(const ImpactProblem& problem, const Observer& observer = {});

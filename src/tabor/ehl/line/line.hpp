@@ -61,7 +61,7 @@ struct LineResult {
   double mass_error = 0;            ///< largest imbalance of a node over the flow in the contact
   double contact_error = 0;         ///< largest P (h - h_b) over pressure and film of the contact
   Convergence convergence;          ///< of Newton's method; certificate: mass_error
-  std::vector<std::string> doubts;
+  std::vector<std::string> warnings;
 };
 
 /// Hertz' dry contact and the groups of the lubricated one.
@@ -92,7 +92,7 @@ void check_line(const LineProblem& problem);
 /// Newton's method on pressures and h0 together, the load being one of the equations, from the
 /// pressure of Hertz. With asperities P >= 0, h >= h_b and P (h - h_b) = 0 are
 /// solved along with it, p + P deflects and carries the load, and P does not enter Reynolds'
-/// equation. Throws InputError for input that makes no sense: values that are not positive, a
+/// equation. Throws InputError for invalid input: values that are not positive, a
 /// domain that does not contain the contact, a grid too coarse for it, a viscosity law that ends
 /// below the pressure of Hertz. Not converging is returned, and so is being stopped.
 LineResult solve_line(const LineProblem& problem, const Observer& observer = {});

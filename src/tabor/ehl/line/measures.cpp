@@ -22,18 +22,19 @@ double inlet_nodes(const LineProblem& problem, double film, double spacing) {
   return std::min(elastic, std::sqrt(2 * problem.radius * film)) / spacing;
 }
 
-std::vector<std::string> doubts_of(const LineProblem& problem, const LineResult& result) {
-  std::vector<std::string> doubts = material::doubts(problem.lubricant, result.pressure.maxCoeff());
+std::vector<std::string> warnings_of(const LineProblem& problem, const LineResult& result) {
+  std::vector<std::string> warnings =
+      material::warnings(problem.lubricant, result.pressure.maxCoeff());
   const double film =
       std::max(film_groups_of(problem).moes_min_film(), problem.asperities.boundary_film);
   const double nodes = inlet_nodes(problem, film, result.x[1] - result.x[0]);
   if (nodes < 2) {
-    doubts.push_back(fmt::format(
+    warnings.push_back(fmt::format(
         "the grid has {:.2g} nodes where the film is built up: its thickness is uncertain; give "
         "about {:.2g} times as many nodes",
         nodes, 3 / nodes));
   }
-  return doubts;
+  return warnings;
 }
 
 bool touches(const LineResult& result, Index i) {
@@ -97,7 +98,7 @@ void measure_line(const LineProblem& problem, LineResult& result) {
   result.friction_coefficient = result.friction_force / problem.load;
   result.friction_fluid = liquid / problem.load;
   result.friction_solid = solid / problem.load;
-  result.doubts = doubts_of(problem, result);
+  result.warnings = warnings_of(problem, result);
 }
 
 }  // namespace tabor::ehl

@@ -70,7 +70,7 @@ WearProblem completed(WearProblem problem) {
 /// A step that moves the track further than this share of the contact, or of a wave, blurs it.
 constexpr double kLargestMove = 0.25;
 
-std::vector<std::string> doubts_of(const WearProblem& problem, double time_step) {
+std::vector<std::string> warnings_of(const WearProblem& problem, double time_step) {
   const double move = problem.contact.sliding_speed * time_step;
   double length = hertz_of(problem.contact).half_width;
   if (problem.wave_amplitude > 0 && problem.n_waves > 0) {
@@ -188,7 +188,7 @@ class Wearing {
     result_.depth = track_.depth();
     result_.worn_area = spacing_ * track_.depth().sum();
     result_.time_step = motion_.time_step();
-    result_.doubts = doubts_of(problem_, motion_.time_step());
+    result_.warnings = warnings_of(problem_, motion_.time_step());
     return std::move(result_);
   }
 

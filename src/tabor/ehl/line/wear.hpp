@@ -46,13 +46,13 @@ struct WearResult {
   double time_step = 0;              ///< [s] of the film
   double worn_area = 0;              ///< [m^2], volume per width
   Convergence convergence;           ///< of all steps; certificate: of the last one
-  std::vector<std::string> doubts;
+  std::vector<std::string> warnings;
 };
 
 /// Follows the film by implicit Euler steps. The nodes of the track move with it from node to node
 /// of the film, so that no interpolation smooths the wear; with a stroke, a step moves the track to
 /// the node next to where it is. A domain without a given outlet is made symmetric for a stroke.
-/// Throws InputError for input that makes no sense, as solve_line(); a step that does not converge
+/// Throws InputError for invalid input, as solve_line(); a step that does not converge
 /// ends it, and so does being stopped.
 WearResult solve_wear(const WearProblem& given, const Observer& observer = {});
 

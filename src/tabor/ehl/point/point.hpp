@@ -58,7 +58,7 @@ struct PointResult {
   /// inverse.
   Convergence convergence;
   int n_linear_iterations = 0;  ///< of GMRES
-  std::vector<std::string> doubts;
+  std::vector<std::string> warnings;
 };
 
 /// Dry contact and the groups of the lubricated one.
@@ -78,7 +78,7 @@ void check_point(const PointProblem& problem);
 /// Newton's method on pressures and h00 together; with roughness or a cap on the pressure, or where
 /// the film would be thinner than the boundary film, on plastic depths and contact as well (see
 /// solve_point_mixed()). `start`: a result of the same problem at a nearby
-/// speed or load (continuation), or null. Throws InputError for input that makes no sense; not
+/// speed or load (continuation), or null. Throws InputError for invalid input; not
 /// converging is returned, and so is being stopped, after which nothing else is tried.
 PointResult solve_point(const PointProblem& problem, const PointResult* start = nullptr,
                         const Observer& observer = {});

@@ -82,23 +82,24 @@ Index centre_column(const PointProblem& problem) {
   return static_cast<Index>(std::lround(place * static_cast<double>(problem.nodes_x - 1)));
 }
 
-std::vector<std::string> doubts_of(const PointProblem& problem, const PointResult& result) {
-  std::vector<std::string> doubts = material::doubts(problem.lubricant, result.pressure.maxCoeff());
+std::vector<std::string> warnings_of(const PointProblem& problem, const PointResult& result) {
+  std::vector<std::string> warnings =
+      material::warnings(problem.lubricant, result.pressure.maxCoeff());
   const Index nx = result.grid.nx;
   const double half_axis = hertz_of(problem).half_axis_x;
   const double length =
       std::sqrt(2 * problem.radius_x * result.film(result.grid.ny / 2, centre_column(problem)));
   const double inlet = (problem.inlet - 1) * half_axis / length;
   if (inlet < kInletLengths) {
-    doubts.push_back(
+    warnings.push_back(
         fmt::format("the inlet is {:.2g} lengths sqrt(2 R h) long: a longer one may change the "
                     "film by some per cent",
                     inlet));
   }
   if (result.pressure.col(nx - 2).maxCoeff() > 0) {
-    doubts.emplace_back("the film reaches the end of the domain: give a longer outlet");
+    warnings.emplace_back("the film reaches the end of the domain: give a longer outlet");
   }
-  return doubts;
+  return warnings;
 }
 
 }  // namespace
@@ -148,8 +149,8 @@ PointResult result_of(const PointProblem& problem, const PointFilm& film, const 
                      .mass_error = outcome.mass_error,
                      .convergence = outcome.convergence,
                      .n_linear_iterations = outcome.n_linear_iterations,
-                     .doubts = {}};
-  result.doubts = doubts_of(problem, result);
+                     .warnings = {}};
+  result.warnings = warnings_of(problem, result);
   return result;
 }
 

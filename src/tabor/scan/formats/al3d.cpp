@@ -35,7 +35,7 @@ double number(const Contents& contents, const Tags& tags, const std::string& key
   const auto tag = tags.find(key);
   const auto value = tag == tags.end() ? std::nullopt : parse_number(tag->second);
   if (!value || !std::isfinite(*value)) {
-    refuse(contents, "no number " + key, "a depth image", kDamaged);
+    reject(contents, "no number " + key, "a depth image", kDamaged);
   }
   return *value;
 }
@@ -57,7 +57,7 @@ Document open_al3d(const Contents& contents) {
   if (!(offset >= static_cast<double>(cursor.position()) &&
         offset < static_cast<double>(contents.bytes.size())) ||
       offset != std::floor(offset)) {
-    refuse(contents, fmt::format("a depth image at byte {}", offset),
+    reject(contents, fmt::format("a depth image at byte {}", offset),
            fmt::format("one behind the header of {} bytes", cursor.position()), kDamaged);
   }
   cursor.seek(static_cast<std::size_t>(offset));

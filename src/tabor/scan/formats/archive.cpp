@@ -37,7 +37,7 @@ Archive::Archive(const Contents& contents, const std::string& main, const std::s
     const std::string path = with_slashes(entry.name);
     if (!names(path, main)) continue;
     if (!found.empty() && found != path) {
-      refuse(contents, fmt::format("an archive with '{}' and '{}'", found, path), "one scan",
+      reject(contents, fmt::format("an archive with '{}' and '{}'", found, path), "one scan",
              "unpack it and read its files one by one");
     }
     found = path;
@@ -62,11 +62,11 @@ const io::ZipEntry& Archive::find(std::string link) const {
   const io::ZipEntry* found = nullptr;
   for (const io::ZipEntry& entry : zip_.entries()) {
     if (with_slashes(entry.name) != folder_ + link) continue;
-    if (found != nullptr) refuse(contents_, "two entries named '" + link + "'", "one", kDamaged);
+    if (found != nullptr) reject(contents_, "two entries named '" + link + "'", "one", kDamaged);
     found = &entry;
   }
   if (found == nullptr) {
-    refuse(contents_, "no entry '" + link + "'", "the data " + main_ + " links to", kDamaged);
+    reject(contents_, "no entry '" + link + "'", "the data " + main_ + " links to", kDamaged);
   }
   return *found;
 }
@@ -74,7 +74,7 @@ const io::ZipEntry& Archive::find(std::string link) const {
 const io::ZipEntry& Archive::entry(const std::string& link, std::size_t size) const {
   const io::ZipEntry& entry = find(link);
   if (entry.size != size) {
-    refuse(contents_, fmt::format("{} of {} bytes", link, entry.size),
+    reject(contents_, fmt::format("{} of {} bytes", link, entry.size),
            fmt::format("{} bytes as {} says", size, main_), kDamaged);
   }
   return entry;

@@ -60,7 +60,7 @@ double number(const Contents& contents, const Keys& keys, const std::string& key
   const auto item = keys.find(key);
   const auto value = item == keys.end() ? fallback : parse_number(item->second);
   if (!value || !std::isfinite(*value)) {
-    refuse(contents, fmt::format("no number '{}'", key), "a BCR header", kDamaged);
+    reject(contents, fmt::format("no number '{}'", key), "a BCR header", kDamaged);
   }
   return *value;
 }
@@ -69,7 +69,7 @@ std::optional<double> pixel(const Contents& contents, const Keys& keys, char axi
   if (!keys.contains(std::string(1, axis) + "length")) return std::nullopt;
   const std::string unit = text_of(keys, std::string(1, axis) + "unit", "nm");
   const auto factor = unit_factor(unit, dimension::length);
-  if (!factor) refuse(contents, "lengths in '" + unit + "'", "a length", kDamaged);
+  if (!factor) reject(contents, "lengths in '" + unit + "'", "a length", kDamaged);
   return checked_pixel(contents,
                        number(contents, keys, std::string(1, axis) + "length") * *factor / n);
 }
@@ -87,7 +87,7 @@ Document open_bcr(const Contents& contents) {
   const std::string kind = lower(text_of(keys, "fileformat", ""));
   const bool is_float = kind == "bcrf" || kind == "bcrf_unicode";
   if (!is_float && kind != "bcrstm" && kind != "bcrstm_unicode") {
-    refuse(contents, "fileformat '" + kind + "'", "bcrstm or bcrf");
+    reject(contents, "fileformat '" + kind + "'", "bcrstm or bcrf");
   }
   const bool is_little = number(contents, keys, "intelmode", 1) != 0;
   Raster raster{.sample = is_float ? Sample::f32 : Sample::i16,
@@ -96,7 +96,7 @@ Document open_bcr(const Contents& contents) {
   const std::size_t width = is_wide(contents.bytes) ? 2 : 1;
   if (characters != kHeaderCharacters &&
       characters != static_cast<double>(width * kHeaderCharacters)) {
-    refuse(contents, fmt::format("a header of {} characters", characters), "2048", kDamaged);
+    reject(contents, fmt::format("a header of {} characters", characters), "2048", kDamaged);
   }
   Cursor cursor(contents);
   cursor.seek(width * kHeaderCharacters);
@@ -113,7 +113,7 @@ Document open_bcr(const Contents& contents) {
   document.metadata = keys;
   Layer layer{.name = "height", .unit = text_of(keys, "zunit", "nm")};
   layer.scale = is_float ? number(contents, keys, "bit2nm", 1) : number(contents, keys, "bit2nm");
-  if (layer.scale == 0) refuse(contents, "a bit2nm of 0", "a height per count", kDamaged);
+  if (layer.scale == 0) reject(contents, "a bit2nm of 0", "a height per count", kDamaged);
   layer.nx = raster.nx;
   layer.ny = raster.ny;
   layer.pixel_x = pixel(contents, keys, 'x', nx);
@@ -121,8 +121,8 @@ Document open_bcr(const Contents& contents) {
   layer.load = [contents, data = cursor.take(byte_size(raster)), raster, is_void] {
     return decode(contents, data, raster, holes_where(is_void));
   };
-  doubt_surplus(cursor, document);
-  doubt_negative_scale(layer.scale, document);
+  warn_of_surplus(cursor, document);
+  warn_of_negative_scale(layer.scale, document);
   document.layers.push_back(std::move(layer));
   return document;
 }

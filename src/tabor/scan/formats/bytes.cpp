@@ -62,7 +62,7 @@ void Cursor::seek(std::size_t position) {
 
 std::string_view Cursor::take(std::size_t n) {
   if (n > left()) {
-    refuse(*contents_, fmt::format("only {} bytes", bytes_.size()),
+    reject(*contents_, fmt::format("only {} bytes", bytes_.size()),
            fmt::format("{} bytes after byte {}", n, position_), kDamaged);
   }
   const std::string_view taken = bytes_.substr(position_, n);
@@ -78,7 +78,7 @@ std::string Cursor::take_text(std::size_t width) {
 std::string Cursor::take_terminated() {
   const std::size_t end = bytes_.find('\0', position_);
   if (end == std::string_view::npos) {
-    refuse(*contents_, fmt::format("no end of the text at byte {}", position_), "", kDamaged);
+    reject(*contents_, fmt::format("no end of the text at byte {}", position_), "", kDamaged);
   }
   std::string text(take(end - position_));
   skip(1);
@@ -153,14 +153,14 @@ void RowDecoder::accept(std::string_view bytes) {
   rest_ = bytes.substr(bytes.size() / size * size);
 }
 
-void doubt_surplus(const Cursor& behind_map, Document& document) {
+void warn_of_surplus(const Cursor& behind_map, Document& document) {
   if (behind_map.left() == 0) return;
-  document.doubts.push_back(fmt::format(
+  document.warnings.push_back(fmt::format(
       "{} bytes follow the map: its size or type may be stated wrongly", behind_map.left()));
 }
 
-void doubt_negative_scale(double scale, Document& document) {
-  if (scale < 0) document.doubts.push_back("the height scale is negative: is up really up?");
+void warn_of_negative_scale(double scale, Document& document) {
+  if (scale < 0) document.warnings.push_back("the height scale is negative: is up really up?");
 }
 
 namespace {

@@ -29,7 +29,7 @@ T in_order(T value, std::endian order) {
   return value;
 }
 
-/// A cursor over the bytes of a file that refuses to leave them.
+/// A cursor over the bytes of a file that never leaves them.
 class Cursor {
  public:
   explicit Cursor(const Contents& contents, std::endian order = std::endian::little)
@@ -119,11 +119,12 @@ void put(std::string& bytes, T value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 
-/// Says in the document's doubts that bytes are left behind the map: its size may be wrong.
-void doubt_surplus(const Cursor& behind_map, Document& document);
+/// Says in the document's warnings that bytes are left behind the map: its size may be wrong.
+void warn_of_surplus(const Cursor& behind_map, Document& document);
 
-/// Says in the document's doubts that a negative height scale turns what was measured upside down.
-void doubt_negative_scale(double scale, Document& document);
+/// Says in the document's warnings that a negative height scale turns what was measured upside
+/// down.
+void warn_of_negative_scale(double scale, Document& document);
 
 /// Text that any format can hold, in at most `most_bytes`: one line, valid UTF-8, no character cut.
 std::string writable_text(std::string_view text, std::size_t most_bytes = std::string_view::npos);

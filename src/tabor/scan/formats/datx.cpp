@@ -31,7 +31,7 @@ std::string surface_path(const Contents& contents, const std::vector<io::Hdf5Rec
   for (const char* link : {"Measurement", "Surface", "Path"}) {
     place = destination(table, place, link);
     if (place.empty()) {
-      refuse(contents, fmt::format("no {} in its table of contents", link), "a Zygo height map",
+      reject(contents, fmt::format("no {} in its table of contents", link), "a Zygo height map",
              kDamaged);
     }
   }

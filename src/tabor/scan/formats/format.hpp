@@ -49,7 +49,7 @@ struct Layer {
   std::optional<double> pixel_ratio = {};  ///< y over x, where the file says no more
   std::string pixel_hint = {};  ///< what the file says about the missing pixel, for the message
   std::function<Field()> load = {};  ///< stored values (ny, nx), row 0 on top, NaN = hole
-  std::shared_ptr<std::vector<std::string>> late_doubts = {};  ///< what load() found, or null
+  std::shared_ptr<std::vector<std::string>> late_warnings = {};  ///< what load() found, or null
 };
 
 /// What a file holds, before any heights are loaded.
@@ -57,9 +57,9 @@ struct Document {
   std::string format = {};  ///< name of the format table, or what a converter says it is
   std::string instrument = {};
   std::map<std::string, std::string> metadata = {};
-  std::vector<std::string> doubts = {};  ///< what the reader had to assume
-  std::vector<topography::Doubt> lasting =
-      {};                                 ///< doubts recorded in the file that nothing dispels
+  std::vector<std::string> warnings = {};  ///< what the reader had to assume
+  std::vector<topography::Warning> lasting =
+      {};                                 ///< warnings recorded in the file that nothing dispels
   std::vector<std::string> history = {};  ///< treatment recorded in the file
   bool periodic = false;
   std::vector<Layer> layers = {};
@@ -104,7 +104,7 @@ class Unrecognised : public InputError {
 };
 
 /// Throws InputError "<file>: got ...; expected ...; <remedy>".
-[[noreturn]] void refuse(const Contents& contents, const std::string& got,
+[[noreturn]] void reject(const Contents& contents, const std::string& got,
                          const std::string& expected, const std::string& remedy = "");
 
 /// The same for a sound file that lacks what only the user can say: throws IncompleteError.
@@ -114,7 +114,7 @@ class Unrecognised : public InputError {
 /// The one remedy for files that end too early or contradict themselves.
 inline constexpr const char* kDamaged = "the file is damaged or truncated: export or copy it again";
 
-/// Refuses sizes below one pixel and sizes that need more samples than `available`: a header must
+/// Rejects sizes below one pixel and sizes that need more samples than `available`: a header must
 /// not make a reader allocate more than its file can hold.
 void check_size(const Contents& contents, double nx, double ny, std::size_t available);
 
@@ -122,7 +122,7 @@ void check_size(const Contents& contents, double nx, double ny, std::size_t avai
 /// leave the range of numbers.
 bool is_pixel(double length);
 
-/// "pixel" as such a length, or a refusal.
+/// "pixel" as such a length, or a rejection.
 double checked_pixel(const Contents& contents, double pixel);
 
 inline constexpr double kHole = std::numeric_limits<double>::quiet_NaN();

@@ -24,7 +24,7 @@ Header parse_header(const Contents& contents, std::string_view text) {
     if (trim(line).empty()) continue;
     const std::size_t equals = line.find('=');
     if (equals == std::string::npos) {
-      refuse(contents, "header line '" + line.substr(0, 40) + "'", "Key = value", kDamaged);
+      reject(contents, "header line '" + line.substr(0, 40) + "'", "Key = value", kDamaged);
     }
     header[std::string(trim(line.substr(0, equals)))] =
         trim(std::string_view(line).substr(equals + 1));
@@ -39,7 +39,7 @@ std::string value_of(const Header& header, const std::string& key) {
 
 double count(const Contents& contents, const Header& header, const std::string& key) {
   const auto value = parse_number(value_of(header, key));
-  if (!value) refuse(contents, "no number " + key, "the size of the map", kDamaged);
+  if (!value) reject(contents, "no number " + key, "the size of the map", kDamaged);
   return *value;
 }
 
@@ -60,7 +60,7 @@ Match identify_gsf(std::string_view head) {
 
 Document open_gsf(const Contents& contents) {
   const std::size_t end = contents.bytes.find('\0');
-  if (end == std::string_view::npos) refuse(contents, "no end of its header", "", kDamaged);
+  if (end == std::string_view::npos) reject(contents, "no end of its header", "", kDamaged);
   const Header header =
       parse_header(contents, contents.bytes.substr(kMagic.size(), end - kMagic.size()));
   Cursor cursor(contents);
@@ -79,7 +79,7 @@ Document open_gsf(const Contents& contents) {
     return decode(contents, data, raster);
   };
   Document document{.format = "gsf"};
-  doubt_surplus(cursor, document);
+  warn_of_surplus(cursor, document);
   document.metadata = header;
   document.layers.push_back(std::move(layer));
   return document;

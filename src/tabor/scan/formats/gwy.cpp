@@ -29,7 +29,7 @@ std::string_view data_of(const Contents& contents, const GwyObject& field, Index
   if (data == field.items.end() || data->second.type != 'D' ||
       data->second.array.size() != expected || field.number("xres", 0) != static_cast<double>(nx) ||
       field.number("yres", 0) != static_cast<double>(ny)) {
-    refuse(contents, "a data field without its data", fmt::format("{} x {} numbers", nx, ny),
+    reject(contents, "a data field without its data", fmt::format("{} x {} numbers", nx, ny),
            kDamaged);
   }
   return data->second.array;
@@ -126,7 +126,7 @@ Document open_gwy(const Contents& contents) {
     add_metadata(document, root, id);
   }
   if (document.layers.empty()) {
-    refuse(contents, "no image channel", "a height map (/0/data)",
+    reject(contents, "no image channel", "a height map (/0/data)",
            "profiles, volumes and point clouds cannot be read");
   }
   return document;

@@ -74,7 +74,7 @@ GwyValue take_value(const Contents& contents, Cursor& cursor, int depth) {
       skip_array(contents, cursor, value.type, depth);
       break;
     default:
-      refuse(contents,
+      reject(contents,
              fmt::format("component type {:#x} at byte {}", static_cast<unsigned char>(value.type),
                          cursor.position()),
              "a type of Gwyddion's file format", kDamaged);
@@ -83,7 +83,7 @@ GwyValue take_value(const Contents& contents, Cursor& cursor, int depth) {
 }
 
 GwyObject take_object(const Contents& contents, Cursor& cursor, int depth) {
-  if (depth > kMaxDepth) refuse(contents, "objects nested too deep", "a scan", kDamaged);
+  if (depth > kMaxDepth) reject(contents, "objects nested too deep", "a scan", kDamaged);
   GwyObject object;
   object.type = cursor.take_terminated();
   const std::size_t size = cursor.take<std::uint32_t>();

@@ -43,7 +43,7 @@ std::string convert(const Contents& contents, const std::filesystem::path& progr
       },
       limits_for(contents.bytes.size()), folder.path());
   if (run.timed_out) {
-    refuse(contents, fmt::format("no answer from Gwyddion in {} s", kTimeLimit.count()),
+    reject(contents, fmt::format("no answer from Gwyddion in {} s", kTimeLimit.count()),
            "a converted file", "convert it with Gwyddion yourself and read the .gwy file");
   }
   std::ifstream stream(output, std::ios::binary);

@@ -39,19 +39,19 @@ double pitch(const Contents& contents, const io::Hdf5Reader& reader, const std::
              Index n) {
   const std::vector<double> centres = reader.numbers(path);
   if (std::ssize(centres) != n) {
-    refuse(contents, fmt::format("{} places in {}", centres.size(), path),
+    reject(contents, fmt::format("{} places in {}", centres.size(), path),
            fmt::format("{}, as the map has", n), kDamaged);
   }
   const std::string unit = unit_of(reader, path);
   const auto factor = unit_factor(unit, dimension::length);
-  if (!factor) refuse(contents, fmt::format("{} in '{}'", path, unit), "a unit of length");
+  if (!factor) reject(contents, fmt::format("{} in '{}'", path, unit), "a unit of length");
   const double step =
       n > 1 ? (centres.back() - centres.front()) / static_cast<double>(n - 1) : 2 * centres.front();
   for (std::size_t i = 0; i < centres.size(); ++i) {
     constexpr double most_off = 0.01;  // pixels; coordinates may have been kept as float32
     const double even = centres.front() + static_cast<double>(i) * step;
     if (!(std::abs(centres[i] - even) <= most_off * std::abs(step))) {
-      refuse(contents, "uneven places in " + path, "evenly spaced rows and columns",
+      reject(contents, "uneven places in " + path, "evenly spaced rows and columns",
              "resample it first");
     }
   }
@@ -66,7 +66,7 @@ double pixel(const Contents& contents, const io::Hdf5Reader& reader, const std::
   constexpr double same = 1e-3;
   if (reader.exists(path) && n > 1 &&
       std::abs(pitch(contents, reader, path, n) - stated) > same * stated) {
-    refuse(contents, fmt::format("{} = {} m, but other steps in {}", attribute, stated, path),
+    reject(contents, fmt::format("{} = {} m, but other steps in {}", attribute, stated, path),
            "one pixel size", kDamaged);
   }
   return stated;
@@ -77,7 +77,7 @@ void require_known_version(const Contents& contents, const io::Hdf5Reader& reade
   if (!reader.has_attribute("/", "format_version")) return;
   const std::int64_t version = reader.integer("/", "format_version");
   if (version > newest) {
-    refuse(contents, fmt::format("format_version {}", version), fmt::format("at most {}", newest),
+    reject(contents, fmt::format("format_version {}", version), fmt::format("at most {}", newest),
            "read it with the tabor that wrote it");
   }
 }
@@ -87,7 +87,7 @@ void require_mask_of_map(const Contents& contents, const io::Hdf5Reader& reader,
   if (!reader.exists(kMask)) return;
   const std::vector<Index> mask = reader.shape(kMask);
   if (mask != std::vector<Index>(shape.begin(), shape.end())) {
-    refuse(contents, fmt::format("{} of shape {}", kMask, fmt::join(mask, " x ")),
+    reject(contents, fmt::format("{} of shape {}", kMask, fmt::join(mask, " x ")),
            fmt::format("{} as the map", fmt::join(shape, " x ")), kDamaged);
   }
 }
@@ -114,17 +114,17 @@ std::string now_utc() {
   return text;
 }
 
-/// Doubts are found anew in the heights; the old ones may have been treated away since. But heights
-/// that were invented cannot be told from others any more.
-void add_doubts(const io::Hdf5Reader& reader, Document& document) {
-  const std::vector<std::string> doubts = texts_or_none(reader, "doubts");
+/// Warnings are found anew in the heights; the old ones may have been treated away since. But
+/// heights that were invented cannot be told from others any more.
+void add_warnings(const io::Hdf5Reader& reader, Document& document) {
+  const std::vector<std::string> warnings = texts_or_none(reader, "doubts");
   std::vector<std::string> codes = texts_or_none(reader, "doubt_codes");
-  codes.resize(doubts.size());
-  for (std::size_t i = 0; i < doubts.size(); ++i) {
+  codes.resize(warnings.size());
+  for (std::size_t i = 0; i < warnings.size(); ++i) {
     if (codes[i] == "filled-holes") {
-      document.lasting.push_back({.text = doubts[i], .code = codes[i]});
+      document.lasting.push_back({.text = warnings[i], .code = codes[i]});
     } else {
-      document.metadata["earlier doubts"] += doubts[i] + "; ";
+      document.metadata["earlier warnings"] += warnings[i] + "; ";
     }
   }
 }
@@ -148,7 +148,7 @@ Document describe(const Contents& contents) {
     document.metadata["methods"] =
         fmt::format("{}", fmt::join(reader.attribute_texts("/", "methods"), " "));
   }
-  add_doubts(reader, document);
+  add_warnings(reader, document);
   document.layers.push_back({.name = "height",
                              .unit = unit_of(reader, kHeight),
                              .nx = shape[1],

@@ -5,7 +5,7 @@ namespace tabor::scan::format {
 
 void require_survival(const Contents& contents, const std::function<void()>& describe) {
   if (!io::hdf5_survives(contents.file, describe)) {
-    refuse(contents, "an HDF5 file whose tables are damaged", "a scan", kDamaged);
+    reject(contents, "an HDF5 file whose tables are damaged", "a scan", kDamaged);
   }
 }
 
@@ -13,7 +13,7 @@ Field guarded_heights(const Contents& contents, std::array<Index, 2> shape,
                       const io::SendRows& send) {
   auto heights = io::guarded_hdf5_map(contents.file, shape, send,
                                       [&contents](double share) { contents.finished({}, share); });
-  if (!heights) refuse(contents, "heights in damaged HDF5 blocks", "a scan", kDamaged);
+  if (!heights) reject(contents, "heights in damaged HDF5 blocks", "a scan", kDamaged);
   return std::move(*heights);
 }
 

@@ -23,7 +23,7 @@ double resolution(const Contents& contents, int code) {
     case 2:
       return 131072;
     default:
-      refuse(contents, fmt::format("phase resolution code {}", code), "0, 1 or 2", kDamaged);
+      reject(contents, fmt::format("phase resolution code {}", code), "0, 1 or 2", kDamaged);
   }
 }
 
@@ -52,7 +52,7 @@ Document open_metropro(const Contents& contents) {
       intensity_size == 2 * n_intensities && phase_size == nx * ny * sizeof(std::int32_t);
   const double file_size = static_cast<double>(header_size) + intensity_size + phase_size;
   if (!sizes_agree && file_size != static_cast<double>(contents.bytes.size())) {
-    refuse(contents,
+    reject(contents,
            fmt::format("{} bytes of intensity and {} of phase", intensity_size, phase_size),
            fmt::format("{} and {}, as their sizes say", 2 * n_intensities,
                        nx * ny * sizeof(std::int32_t)),
@@ -71,11 +71,11 @@ Document open_metropro(const Contents& contents) {
   const double sign = cursor.take<std::int16_t>() != 0 ? -1 : 1;  // heights stored downwards
   const double metres_per_count = sign * scale * wavelength * obliquity / counts;
   if (header_size < kLeastHeader || !std::isfinite(metres_per_count) || metres_per_count == 0) {
-    refuse(contents, "a header without a height scale", "a MetroPro phase map", kDamaged);
+    reject(contents, "a header without a height scale", "a MetroPro phase map", kDamaged);
   }
   constexpr double kShortest = 1e-7, kLongest = 1e-4;  // light, generously
   if (!(wavelength >= kShortest && wavelength <= kLongest)) {
-    refuse(contents, fmt::format("a wavelength of {} m", wavelength), "that of light", kDamaged);
+    reject(contents, fmt::format("a wavelength of {} m", wavelength), "that of light", kDamaged);
   }
   cursor.seek(static_cast<std::size_t>(header_size) + intensity_size);
   check_size(contents, nx, ny, cursor.left() / sizeof(std::int32_t));
@@ -89,8 +89,8 @@ Document open_metropro(const Contents& contents) {
   // A file without lateral calibration says 0.
   const bool calibrated = pixel > 0 && std::isfinite(pixel);
   Document document{.format = "metropro", .instrument = "Zygo"};
-  doubt_surplus(cursor, document);
-  doubt_negative_scale(sign * metres_per_count, document);
+  warn_of_surplus(cursor, document);
+  warn_of_negative_scale(sign * metres_per_count, document);
   document.layers.push_back({.name = "phase",
                              .unit = "m",
                              .scale = metres_per_count,

@@ -31,7 +31,7 @@ Document open_nms(const Contents& contents) {
   const double dx = cursor.take<double>() * 1e-9;
   const double dy = cursor.take<double>() * 1e-9;
   if (!std::isfinite(low) || !std::isfinite(high) || low > high) {
-    refuse(contents, fmt::format("heights from {} to {} um", low, high), "a range", kDamaged);
+    reject(contents, fmt::format("heights from {} to {} um", low, high), "a range", kDamaged);
   }
   cursor.seek(kHeightsAt);
   check_size(contents, nx, ny, cursor.left() / sizeof(std::uint16_t));
@@ -46,7 +46,7 @@ Document open_nms(const Contents& contents) {
   Document document{.format = "nms", .instrument = "NanoFocus"};
   const std::size_t picture = static_cast<std::size_t>(raster.nx * raster.ny);  // grey, a byte each
   if (cursor.left() >= picture) cursor.skip(picture);
-  doubt_surplus(cursor, document);
+  warn_of_surplus(cursor, document);
   document.layers.push_back({.name = "height",
                              .unit = "um",
                              .nx = raster.nx,

@@ -20,7 +20,7 @@ std::string_view value_of(const Contents& contents, std::string_view header, std
   const std::string_view rest =
       at == std::string_view::npos ? "" : trim(header.substr(at + quoted.size()));
   if (!rest.starts_with(':')) {
-    refuse(contents, fmt::format("no '{}' in the header", key), "an NPY header", kDamaged);
+    reject(contents, fmt::format("no '{}' in the header", key), "an NPY header", kDamaged);
   }
   return trim(rest.substr(1));
 }
@@ -28,7 +28,7 @@ std::string_view value_of(const Contents& contents, std::string_view header, std
 bool is_transposed(const Contents& contents, std::string_view text) {
   if (text.starts_with("True")) return true;
   if (text.starts_with("False")) return false;
-  refuse(contents, fmt::format("fortran_order {}", text.substr(0, text.find(','))), "True or False",
+  reject(contents, fmt::format("fortran_order {}", text.substr(0, text.find(','))), "True or False",
          kDamaged);
 }
 
@@ -51,7 +51,7 @@ Type type_of(const Contents& contents, std::string_view text) {
       }
     }
   }
-  refuse(contents,
+  reject(contents,
          fmt::format("an array of type {}", text.substr(0, text.find(", 'fortran_order'"))),
          "integers or real numbers", "save it as float64");
 }
@@ -69,7 +69,7 @@ std::vector<double> shape_of(const Contents& contents, std::string_view text) {
     }
   }
   if (shape.size() != 2) {
-    refuse(contents, fmt::format("an array of {} dimensions", shape.size()),
+    reject(contents, fmt::format("an array of {} dimensions", shape.size()),
            "two dimensions (rows, columns)", "save one two-dimensional map");
   }
   return shape;
@@ -110,7 +110,7 @@ Document open_npy(const Contents& contents) {
     return stored;
   };
   Document document{.format = "npy"};
-  doubt_surplus(cursor, document);
+  warn_of_surplus(cursor, document);
   document.layers.push_back(std::move(layer));
   return document;
 }

@@ -41,7 +41,7 @@ Blocks take_blocks(const Contents& contents) {
     const auto kind = cursor.take<std::int16_t>();
     const auto length = cursor.take<std::int32_t>();
     cursor.skip(2);  // flags
-    if (length < 0) refuse(contents, "a block of negative length", "a directory", kDamaged);
+    if (length < 0) reject(contents, "a block of negative length", "a directory", kDamaged);
     if (i == 0) {
       n_entries = static_cast<std::size_t>(length) / kEntrySize;
     } else {
@@ -58,7 +58,7 @@ Blocks take_blocks(const Contents& contents) {
 
 double scalar(const Contents& contents, const Blocks& blocks, const std::string& name) {
   const auto block = blocks.find(name);
-  if (block == blocks.end()) refuse(contents, "no '" + name + "'", "a Wyko height map", kDamaged);
+  if (block == blocks.end()) reject(contents, "no '" + name + "'", "a Wyko height map", kDamaged);
   const Contents inside = contents.part(block->second.bytes);
   Cursor cursor(inside);
   switch (static_cast<Kind>(block->second.kind)) {
@@ -71,7 +71,7 @@ double scalar(const Contents& contents, const Blocks& blocks, const std::string&
     case Kind::f64:
       return cursor.take<double>();
   }
-  refuse(contents, fmt::format("'{}' of kind {}", name, block->second.kind),
+  reject(contents, fmt::format("'{}' of kind {}", name, block->second.kind),
          "a number (6, 7, 8 or 12)", kDamaged);
 }
 
@@ -89,7 +89,7 @@ Layer layer_of(const Contents& block, Document& document) {
   const double ny = cursor.take<std::uint16_t>();
   const int size = cursor.take<std::uint16_t>();
   if (size != 1 && size != 2 && size != 4) {
-    refuse(block, fmt::format("samples of {} bytes", size), "1, 2 or 4", kDamaged);
+    reject(block, fmt::format("samples of {} bytes", size), "1, 2 or 4", kDamaged);
   }
   const Sample sample = size == 1 ? Sample::u8 : size == 2 ? Sample::i16 : Sample::f32;
   check_size(block, nx, ny, cursor.left() / size_of(sample));
@@ -99,7 +99,7 @@ Layer layer_of(const Contents& block, Document& document) {
   layer.load = [block, data = cursor.take(byte_size(columns)), columns] {
     return heights(block, data, columns);
   };
-  doubt_surplus(cursor, document);
+  warn_of_surplus(cursor, document);
   return layer;
 }
 
@@ -116,7 +116,7 @@ Document open_opd(const Contents& contents) {
   const double wavelength = scalar(contents, blocks, "Wavelength");
   const double multiplier = blocks.contains("Mult") ? scalar(contents, blocks, "Mult") : 1;
   if (!(wavelength > 0) || !(multiplier > 0)) {
-    refuse(contents, fmt::format("wavelength {} nm, Mult {}", wavelength, multiplier),
+    reject(contents, fmt::format("wavelength {} nm, Mult {}", wavelength, multiplier),
            "positive numbers", kDamaged);
   }
   Document document{.format = "opd", .instrument = "Wyko / Veeco"};
@@ -131,7 +131,7 @@ Document open_opd(const Contents& contents) {
     document.layers.push_back(std::move(layer));
   }
   if (document.layers.empty()) {
-    refuse(contents, "no height block (RAW_DATA)", "a Wyko height map", kDamaged);
+    reject(contents, "no height block (RAW_DATA)", "a Wyko height map", kDamaged);
   }
   if (document.layers.size() == 1) document.layers.front().name = "height";
   return document;

@@ -42,7 +42,7 @@ Document open_plu(const Contents& contents) {
   const double dy = cursor.take<float>() * 1e-6;
   cursor.seek(489);
   if (const int n_layers = cursor.take<std::uint8_t>(); n_layers > 1) {
-    document.doubts.push_back(fmt::format("only the first of {} layers is read", n_layers));
+    document.warnings.push_back(fmt::format("only the first of {} layers is read", n_layers));
   }
   cursor.seek(kHeaderSize);
   const double ny = cursor.take<std::uint32_t>();

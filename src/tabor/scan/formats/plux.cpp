@@ -18,7 +18,7 @@ constexpr int kMostLayers = 16;
 
 double number(const Contents& contents, const io::XmlElement& general, const char* name) {
   const auto value = parse_number(general.at(name).text());
-  if (!value) refuse(contents, fmt::format("no number {}", name), "a PLUX index", kDamaged);
+  if (!value) reject(contents, fmt::format("no number {}", name), "a PLUX index", kDamaged);
   return *value;
 }
 
@@ -61,7 +61,7 @@ Document open_plux(const Contents& contents) {
   for (int i = 0;; ++i) {
     const std::string file = root.at(fmt::format("LAYER_{}/FILENAME_Z", i)).text();
     if (file.empty()) break;
-    if (i == kMostLayers) refuse(contents, "more than 16 layers", "a PLUX index", kDamaged);
+    if (i == kMostLayers) reject(contents, "more than 16 layers", "a PLUX index", kDamaged);
     const io::ZipEntry& entry = archive->entry(file, byte_size(raster));
     Layer layer{.name = fmt::format("layer {}", i), .unit = "um", .nx = raster.nx, .ny = raster.ny};
     layer.pixel_x = checked_pixel(contents, number(contents, general, "FOV_X") * 1e-6);
@@ -70,7 +70,7 @@ Document open_plux(const Contents& contents) {
     document.layers.push_back(std::move(layer));
   }
   if (document.layers.empty()) {
-    refuse(contents, "no layer with heights (LAYER_0/FILENAME_Z)", "a height map", kDamaged);
+    reject(contents, "no layer with heights (LAYER_0/FILENAME_Z)", "a height map", kDamaged);
   }
   return document;
 }

@@ -40,13 +40,13 @@ const Layer& named_layer(const Contents& contents, const Document& document,
     if (number && index_of(document, layer) == *number) return layer;
     if (lower(layer.name) != lower(channel)) continue;
     if (found != nullptr) {
-      refuse(contents, "several channels named '" + channel + "': " + list(document), "one channel",
+      reject(contents, "several channels named '" + channel + "': " + list(document), "one channel",
              "give its number: --channel " + std::to_string(index_of(document, *found)));
     }
     found = &layer;
   }
   if (found == nullptr) {
-    refuse(contents, "no channel '" + channel + "'", "one of " + list(document),
+    reject(contents, "no channel '" + channel + "'", "one of " + list(document),
            "give its number or name with --channel");
   }
   return *found;
@@ -59,7 +59,7 @@ std::string flag(const char* name, double metres) {
 /// The pixel along one axis.
 double resolve_pixel(const Contents& contents, const Layer& layer, char axis,
                      const std::optional<double>& given, bool override_it,
-                     std::vector<std::string>& doubts) {
+                     std::vector<std::string>& warnings) {
   const std::optional<double>& own = axis == 'x' ? layer.pixel_x : layer.pixel_y;
   if (!own && !given) {
     ask(contents, layer.pixel_hint.empty() ? "no pixel size in the file" : layer.pixel_hint,
@@ -69,24 +69,24 @@ double resolve_pixel(const Contents& contents, const Layer& layer, char axis,
   }
   if (!given) return checked_pixel(contents, *own);
   if (!is_pixel(*given)) {
-    refuse(contents, fmt::format("--pixel {} m", *given), "a positive length, from 1e-15 to 1e6 m");
+    reject(contents, fmt::format("--pixel {} m", *given), "a positive length, from 1e-15 to 1e6 m");
   }
   constexpr double kSame = 1e-6;  // what a user types has fewer digits than the file
   if (!own) return *given;
   if (std::abs(*given - *own) <= kSame * *own) return *own;
   if (!override_it) {
-    refuse(contents, flag("--pixel", *given),
+    reject(contents, flag("--pixel", *given),
            fmt::format("{:g} um along {}, which the file fixes", *own * 1e6, axis),
            "drop --pixel, or add --override-unit if the file is wrong");
   }
-  doubts.push_back(fmt::format("pixel along {} overridden: {:g} um instead of the file's {:g} um",
-                               axis, *given * 1e6, *own * 1e6));
+  warnings.push_back(fmt::format("pixel along {} overridden: {:g} um instead of the file's {:g} um",
+                                 axis, *given * 1e6, *own * 1e6));
   return *given;
 }
 
 double factor_of_unit(const Contents& contents, const std::string& unit) {
   const auto factor = unit_factor(unit, dimension::length);
-  if (!factor) refuse(contents, "--unit " + unit, "a length such as um or nm");
+  if (!factor) reject(contents, "--unit " + unit, "a length such as um or nm");
   return *factor;
 }
 
@@ -97,7 +97,7 @@ double scale_of_counts(const Contents& contents, const ReadOptions& options) {
         "add it, for example --z-scale 1nm");
   }
   if (!(std::abs(*options.z_scale) > 0) || !std::isfinite(*options.z_scale)) {
-    refuse(contents, fmt::format("--z-scale {}", *options.z_scale), "a length other than zero");
+    reject(contents, fmt::format("--z-scale {}", *options.z_scale), "a length other than zero");
   }
   return *options.z_scale;
 }
@@ -136,9 +136,9 @@ const Layer& choose_layer(const Contents& contents, const Document& document,
 }
 
 Grid resolve_grid(const Contents& contents, const Layer& layer, const ReadOptions& options,
-                  std::vector<std::string>& doubts) {
+                  std::vector<std::string>& warnings) {
   const double dx =
-      resolve_pixel(contents, layer, 'x', options.pixel_x, options.override_unit, doubts);
+      resolve_pixel(contents, layer, 'x', options.pixel_x, options.override_unit, warnings);
   const bool has_ratio = layer.pixel_ratio && options.pixel_x && !layer.pixel_y;
   const double ratio = has_ratio ? *layer.pixel_ratio : 1;
   const auto given_y = options.pixel_y   ? options.pixel_y
@@ -147,11 +147,11 @@ Grid resolve_grid(const Contents& contents, const Layer& layer, const ReadOption
   constexpr double same_ratio = 1e-3;
   if (has_ratio && std::abs(*given_y / *options.pixel_x - ratio) > same_ratio * ratio &&
       !options.override_unit) {
-    refuse(contents, fmt::format("pixels {:g} times as high as wide", *given_y / *options.pixel_x),
+    reject(contents, fmt::format("pixels {:g} times as high as wide", *given_y / *options.pixel_x),
            fmt::format("{:g} times, as the coordinates have them", ratio),
            "give the pixel along x only, or add --override-unit");
   }
-  const double dy = resolve_pixel(contents, layer, 'y', given_y, options.override_unit, doubts);
+  const double dy = resolve_pixel(contents, layer, 'y', given_y, options.override_unit, warnings);
   return {.nx = layer.nx,
           .ny = layer.ny,
           .lx = dx * static_cast<double>(layer.nx),
@@ -159,15 +159,15 @@ Grid resolve_grid(const Contents& contents, const Layer& layer, const ReadOption
 }
 
 double resolve_height_factor(const Contents& contents, const Layer& layer,
-                             const ReadOptions& options, std::vector<std::string>& doubts) {
+                             const ReadOptions& options, std::vector<std::string>& warnings) {
   const bool is_fixed = !layer.is_count && !layer.unit.empty();
   if (options.z_scale && is_fixed && !options.override_unit) {
-    refuse(contents, flag("--z-scale", *options.z_scale), "heights whose scale the file fixes",
+    reject(contents, flag("--z-scale", *options.z_scale), "heights whose scale the file fixes",
            "drop --z-scale, or add --override-unit if the file is wrong");
   }
   if (options.z_scale) {
     if (is_fixed) {
-      doubts.push_back("height scale overridden: " + flag("--z-scale", *options.z_scale));
+      warnings.push_back("height scale overridden: " + flag("--z-scale", *options.z_scale));
     }
     return scale_of_counts(contents, options);
   }
@@ -179,18 +179,18 @@ double resolve_height_factor(const Contents& contents, const Layer& layer,
     const double given = factor_of_unit(contents, *options.unit);
     if (layer.unit.empty()) return layer.scale * given;
     if (!options.override_unit) {
-      refuse(contents, "--unit " + *options.unit, "'" + layer.unit + "', which the file fixes",
+      reject(contents, "--unit " + *options.unit, "'" + layer.unit + "', which the file fixes",
              "drop --unit, or add --override-unit if the file is wrong");
     }
-    doubts.push_back("height unit overridden: " + *options.unit + " instead of the file's '" +
-                     layer.unit + "'");
+    warnings.push_back("height unit overridden: " + *options.unit + " instead of the file's '" +
+                       layer.unit + "'");
     return layer.scale * given;
   }
   if (own) return layer.scale * *own;
   if (layer.unit.empty()) {
     ask(contents, "heights without a unit", "a unit", "add it, for example --unit um");
   }
-  refuse(contents, "channel '" + layer.name + "' in '" + layer.unit + "'", "heights",
+  reject(contents, "channel '" + layer.name + "' in '" + layer.unit + "'", "heights",
          "choose another --channel, or give --unit with --override-unit if the file is wrong");
 }
 

@@ -12,13 +12,13 @@ std::vector<Channel> channels_of(const Document& document);
 const Layer& choose_layer(const Contents& contents, const Document& document,
                           const ReadOptions& options);
 
-/// The grid of a layer from its own pixel size or the user's. Contradictions are refused unless
-/// overridden; then they are noted in `doubts`.
+/// The grid of a layer from its own pixel size or the user's. Contradictions are rejected unless
+/// overridden; then they are noted in `warnings`.
 Grid resolve_grid(const Contents& contents, const Layer& layer, const ReadOptions& options,
-                  std::vector<std::string>& doubts);
+                  std::vector<std::string>& warnings);
 
 /// Metres per stored value, by the same rules.
 double resolve_height_factor(const Contents& contents, const Layer& layer,
-                             const ReadOptions& options, std::vector<std::string>& doubts);
+                             const ReadOptions& options, std::vector<std::string>& warnings);
 
 }  // namespace tabor::scan::format

@@ -33,7 +33,7 @@ Sample sample_of(const Contents& contents, int data_type) {
   static constexpr Sample kinds[]{Sample::u8, Sample::u16, Sample::u32, Sample::f32,
                                   Sample::i8, Sample::i16, Sample::i32, Sample::f64};
   if (data_type < 0 || data_type > 7) {
-    refuse(contents, fmt::format("data type {}", data_type), "0 to 7", kDamaged);
+    reject(contents, fmt::format("data type {}", data_type), "0 to 7", kDamaged);
   }
   return kinds[data_type];
 }
@@ -54,10 +54,10 @@ double missing_value(Sample sample) {
 
 Layer layer_of(const Contents& contents, const Header& header) {
   if (header.compression != 0) {
-    refuse(contents, "compressed data", "none, as ISO 25178-71 defines no compression");
+    reject(contents, "compressed data", "none, as ISO 25178-71 defines no compression");
   }
   if (!std::isfinite(header.z_scale) || header.z_scale == 0) {
-    refuse(contents, fmt::format("a Zscale of {}", header.z_scale), "a length", kDamaged);
+    reject(contents, fmt::format("a Zscale of {}", header.z_scale), "a length", kDamaged);
   }
   // Profiles of NPL's softgauges have no second spacing.
   const bool is_profile = header.ny == 1 && header.y_scale == 0;
@@ -122,13 +122,13 @@ std::map<std::string, std::string> take_keys(const Contents& contents, std::stri
     if (equals == std::string_view::npos) continue;
     keys[lower(trim(line.substr(0, equals)))] = trim(line.substr(equals + 1));
   }
-  refuse(contents, "no '*' after its header", "an SDF header", kDamaged);
+  reject(contents, "no '*' after its header", "an SDF header", kDamaged);
 }
 
 Header header_of(const Contents& contents, std::map<std::string, std::string> keys) {
   const auto number = [&](const char* key) {
     const auto value = parse_number(keys[key]);
-    if (!value) refuse(contents, fmt::format("no number '{}'", key), "an SDF header", kDamaged);
+    if (!value) reject(contents, fmt::format("no number '{}'", key), "an SDF header", kDamaged);
     return *value;
   };
   Header header{.maker = keys["manufacid"], .created = keys["createdate"]};
@@ -159,8 +159,8 @@ Document open_sdf(const Contents& contents) {
                   holes_where([missing](double z) { return z == missing; }));
   };
   Document document = document_of("sdf", header, std::move(layer));
-  if (!is_trailer(contents.bytes.substr(cursor.position()))) doubt_surplus(cursor, document);
-  doubt_negative_scale(header.z_scale, document);
+  if (!is_trailer(contents.bytes.substr(cursor.position()))) warn_of_surplus(cursor, document);
+  warn_of_negative_scale(header.z_scale, document);
   return document;
 }
 
@@ -173,11 +173,11 @@ Document open_sdf_ascii(const Contents& contents) {
   std::size_t n_lines = 0;
   const Header header = header_of(contents, take_keys(contents, text, n_lines));
   const std::size_t end = text.find('*');
-  if (end == std::string_view::npos) refuse(contents, "no '*' after its data", "", kDamaged);
+  if (end == std::string_view::npos) reject(contents, "no '*' after its data", "", kDamaged);
   TextNumbers numbers = parse_numbers(contents, text.substr(0, end), {.first_line = n_lines + 1});
   check_size(contents, header.nx, header.ny, numbers.values.size());
   if (static_cast<double>(numbers.values.size()) != header.nx * header.ny) {
-    refuse(contents, fmt::format("{} heights", numbers.values.size()),
+    reject(contents, fmt::format("{} heights", numbers.values.size()),
            fmt::format("{} x {} as its header says", header.nx, header.ny), kDamaged);
   }
   Layer layer = layer_of(contents, header);

@@ -72,7 +72,7 @@ Header take_header(const Contents& contents) {
 std::optional<double> lateral(const Contents& contents, double pixel, const std::string& unit) {
   if (unit.empty()) return std::nullopt;
   const auto factor = unit_factor(unit, dimension::length);
-  if (!factor) refuse(contents, "pixels in '" + unit + "'", "a length", kDamaged);
+  if (!factor) reject(contents, "pixels in '" + unit + "'", "a length", kDamaged);
   return checked_pixel(contents, pixel * *factor);
 }
 
@@ -80,18 +80,18 @@ void require_surface(const Contents& contents, const Header& header) {
   // Gwyddion writes type 1 (profile) for surfaces.
   const bool is_surface = header.type == kSurface || (header.type == kProfile && header.ny >= 1);
   if (!is_surface) {
-    refuse(contents, fmt::format("a Digital Surf object of type {}", header.type),
+    reject(contents, fmt::format("a Digital Surf object of type {}", header.type),
            "a surface (type 2)", "export the height layer alone");
   }
   if (header.n_points != 0 && header.n_points != header.nx * header.ny) {
-    refuse(contents, fmt::format("{} points", header.n_points),
+    reject(contents, fmt::format("{} points", header.n_points),
            fmt::format("{} x {}", header.nx, header.ny), kDamaged);
   }
   if (header.bits != 16 && header.bits != 32) {
-    refuse(contents, fmt::format("{} bits per point", header.bits), "16 or 32", kDamaged);
+    reject(contents, fmt::format("{} bits per point", header.bits), "16 or 32", kDamaged);
   }
   if (!std::isfinite(header.dz) || header.dz == 0 || !std::isfinite(header.z_offset)) {
-    refuse(contents, fmt::format("a height step of {}", header.dz), "a length", kDamaged);
+    reject(contents, fmt::format("a height step of {}", header.dz), "a length", kDamaged);
   }
 }
 
@@ -99,7 +99,7 @@ void require_surface(const Contents& contents, const Header& header) {
 /// other.
 std::string unpack(const Contents& contents, Cursor& cursor, std::size_t expected) {
   const auto n_streams = cursor.take<std::uint32_t>();
-  if (n_streams == 0) refuse(contents, "no compressed heights", "at least one stream", kDamaged);
+  if (n_streams == 0) reject(contents, "no compressed heights", "at least one stream", kDamaged);
   const std::size_t kEntry = 2 * sizeof(std::uint32_t);
   check_size(contents, 1, n_streams, cursor.left() / kEntry);
   std::vector<std::pair<std::size_t, std::size_t>> sizes;
@@ -114,7 +114,7 @@ std::string unpack(const Contents& contents, Cursor& cursor, std::size_t expecte
     data += io::inflate(stream, raw, contents.file.string());
   }
   if (data.size() != expected) {
-    refuse(contents, fmt::format("{} bytes of unpacked heights", data.size()),
+    reject(contents, fmt::format("{} bytes of unpacked heights", data.size()),
            fmt::format("{}", expected), kDamaged);
   }
   return data;
@@ -161,14 +161,15 @@ Document open_sur(const Contents& contents) {
   Document document{.format = "sur"};
   if (!is_compressed) {
     cursor.take(byte_size(raster));
-    if (header.objects <= 1) doubt_surplus(cursor, document);
+    if (header.objects <= 1) warn_of_surplus(cursor, document);
   }
-  doubt_negative_scale(header.dz, document);
+  warn_of_negative_scale(header.dz, document);
   if (header.is_inverted) {
-    document.doubts.push_back("the file says that its heights were inverted: is up really up?");
+    document.warnings.push_back("the file says that its heights were inverted: is up really up?");
   }
   if (header.objects > 1) {
-    document.doubts.push_back(fmt::format("only the first of {} objects is read", header.objects));
+    document.warnings.push_back(
+        fmt::format("only the first of {} objects is read", header.objects));
   }
   const auto dx = lateral(contents, header.dx, header.dx_unit);
   const bool is_profile = raster.ny == 1 && header.dy_unit.empty();

@@ -68,7 +68,7 @@ std::optional<GridLine> line_of_smallest_step(const TextColumn& column, double l
 
 /// The same for coordinates that rounding or the stage moved: gaps between sorted coordinates are
 /// either within a node or from node to node, and each of these is some whole spacings.
-std::optional<GridLine> line_of_usual_gap(const TextColumn& column, double low, double high) {
+std::optional<GridLine> line_of_median_gap(const TextColumn& column, double low, double high) {
   constexpr double clear_jump = 4;  // from the largest gap within a node to the next one
   std::vector<double> places;
   for (std::size_t i = 0; i < column.size(); ++i) places.push_back(column[i]);
@@ -87,12 +87,12 @@ std::optional<GridLine> line_of_usual_gap(const TextColumn& column, double low, 
     above += gaps[--first];
   }
   const double smallest = gaps[first];
-  const double usual = gaps[first + (gaps.size() - first) / 2];
+  const double median_gap = gaps[first + (gaps.size() - first) / 2];
   // Places over the numbers of their nodes, as a straight line.
   double node = 0, sum_node = 0, sum_place = 0, sum_square = 0, sum_product = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double gap = i > 0 ? places[i] - places[i - 1] : 0;
-    if (gap >= smallest) node += std::round(gap / usual);
+    if (gap >= smallest) node += std::round(gap / median_gap);
     const double place = places[i] - low;
     sum_node += node;
     sum_place += place;
@@ -120,7 +120,7 @@ std::optional<GridLine> find_grid_line(const TextColumn& column) {
   if (high == low) return GridLine{low, 1, 1};
   if (!std::isfinite(high - low)) return std::nullopt;
   const auto line = line_of_smallest_step(column, low, high);
-  return line ? line : line_of_usual_gap(column, low, high);
+  return line ? line : line_of_median_gap(column, low, high);
 }
 
 /// Metres per unit of a coordinate column; nullopt if the file does not say.
@@ -150,7 +150,7 @@ Layer layer_of(const TextHeader& header, Field heights) {
   return layer;
 }
 
-/// Where x, y and z stand in the table; as usual where the header does not say.
+/// Where x, y and z stand in the table; in their common order where the header does not say.
 struct Places {
   std::size_t x, y, z;
 };
@@ -241,7 +241,7 @@ Shape shape_of(const Contents& contents, const TextNumbers& numbers, const TextH
   if (header.nx && header.ny) {
     check_size(contents, *header.nx, *header.ny, n);
     if (*header.nx * *header.ny != static_cast<double>(n)) {
-      refuse(contents, fmt::format("{} numbers", n),
+      reject(contents, fmt::format("{} numbers", n),
              fmt::format("{} x {} as its header says", *header.nx, *header.ny), kDamaged);
     }
     return {static_cast<Index>(*header.ny), static_cast<Index>(*header.nx)};
@@ -249,13 +249,13 @@ Shape shape_of(const Contents& contents, const TextNumbers& numbers, const TextH
   if (header.one_per_line && (numbers.n_rows() == 1 || numbers.n_columns() == 1)) {
     const auto side = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(n))));
     if (side * side != n) {
-      refuse(contents, fmt::format("{} numbers without line structure", n), "a square map",
+      reject(contents, fmt::format("{} numbers without line structure", n), "a square map",
              kDamaged);
     }
     return {static_cast<Index>(side), static_cast<Index>(side)};
   }
   if (const TextRows* odd = numbers.odd_rows()) {
-    refuse(contents, fmt::format("{} numbers on line {}", odd->n_columns, odd->first_line),
+    reject(contents, fmt::format("{} numbers on line {}", odd->n_columns, odd->first_line),
            fmt::format("{} as on line {}", numbers.n_columns(), numbers.rows.front().first_line),
            kDamaged);
   }
@@ -308,18 +308,18 @@ Document open_text(const Contents& contents) {
                                       {.first_line = header.n_lines + 1,
                                        .one_per_line = header.one_per_line,
                                        .two_columns = header.columns.size() == 2});
-  if (numbers.values.empty()) refuse(contents, "no numbers", "a matrix or x y z", kDamaged);
+  if (numbers.values.empty()) reject(contents, "no numbers", "a matrix or x y z", kDamaged);
   Document document{.format = "matrix"};
   const bool rectangular = numbers.odd_rows() == nullptr;
   header.fit_columns(numbers.n_columns());
   if (header.names_places() && !header.column('z') && numbers.n_columns() > 3) {
-    refuse(contents, fmt::format("{} columns, none of them named z", numbers.n_columns()),
+    reject(contents, fmt::format("{} columns, none of them named z", numbers.n_columns()),
            "one of heights", "name the columns in a line such as '# x [um] y [um] other z [um]'");
   }
   if (auto xyz = rectangular ? as_xyz(numbers, header) : std::nullopt) {
     document.format = "xyz";
     if (xyz->nx == 1 || xyz->ny == 1) {
-      document.doubts.push_back("a single row of points: square pixels are assumed");
+      document.warnings.push_back("a single row of points: square pixels are assumed");
     }
     document.layers.push_back(std::move(*xyz));
   } else if (auto profile = rectangular ? as_profile(numbers, header) : std::nullopt) {
@@ -327,13 +327,13 @@ Document open_text(const Contents& contents) {
     document.layers.push_back(std::move(*profile));
   } else {
     if (rectangular && is_list_of_points(numbers, header)) {
-      refuse(contents, "points that do not fill a regular grid, each node once",
+      reject(contents, "points that do not fill a regular grid, each node once",
              "evenly spaced x and y",
              "put the points on a regular grid first, for example with Gwyddion, or name the width "
              "of a map of so few columns: '# Width: 3 um'");
     }
     if (header.one_per_line && numbers.n_rows() != numbers.n_columns()) {
-      document.doubts.push_back("a square map is assumed: the file does not tell its rows");
+      document.warnings.push_back("a square map is assumed: the file does not tell its rows");
     }
     document.layers.push_back(as_matrix(contents, std::move(numbers), header));
   }

@@ -21,7 +21,7 @@ double length(const Contents& contents, std::string_view text) {
   const auto value = parse_number(digits);
   const auto factor = unit_factor(text.substr(end), dimension::length);
   if (!value || !factor || !(*value > 0)) {
-    refuse(contents, fmt::format("'{}' in its header", text), "a length with its unit", kDamaged);
+    reject(contents, fmt::format("'{}' in its header", text), "a length with its unit", kDamaged);
   }
   return *value * *factor;
 }
@@ -29,7 +29,7 @@ double length(const Contents& contents, std::string_view text) {
 double positive(const Contents& contents, std::string_view text) {
   const auto value = parse_number(text);
   if (!value || !(*value > 0)) {
-    refuse(contents, fmt::format("'{}' in its header", trim(text)), "a positive number", kDamaged);
+    reject(contents, fmt::format("'{}' in its header", trim(text)), "a positive number", kDamaged);
   }
   return *value;
 }

@@ -344,14 +344,14 @@ bool starts_with_number(std::string_view line) {
 
 namespace {
 
-[[noreturn]] void refuse_line(const Contents& contents, const Block& block,
+[[noreturn]] void reject_line(const Contents& contents, const Block& block,
                               std::size_t first_line) {
   const std::size_t line = first_line + block.n_lines;
   if (block.wrong == kTwoTabs) {
-    refuse(contents, fmt::format("two tabs in a row on line {}", line), "one between numbers",
+    reject(contents, fmt::format("two tabs in a row on line {}", line), "one between numbers",
            "write NaN where a height is missing");
   }
-  refuse(contents, fmt::format("'{}' on line {}", block.wrong.substr(0, 40), line), "a number",
+  reject(contents, fmt::format("'{}' on line {}", block.wrong.substr(0, 40), line), "a number",
          "remove or comment what is not data");
 }
 
@@ -361,7 +361,7 @@ TextNumbers parse_numbers(const Contents& contents, std::string_view text, const
   constexpr std::size_t kBlocksPerWave = 32;
   const Commas commas = commas_of(text, hints);
   if (!commas.doubtful.empty()) {
-    refuse(contents, fmt::format("'{}'", commas.doubtful.substr(0, 40)),
+    reject(contents, fmt::format("'{}'", commas.doubtful.substr(0, 40)),
            "commas that separate numbers or commas before decimals, not what may be either",
            "write decimal points, or ';' between columns");
   }
@@ -382,7 +382,7 @@ TextNumbers parse_numbers(const Contents& contents, std::string_view text, const
     const double share = 1 - static_cast<double>(text.size()) / n_bytes;
     if (blocks.size() > 1 || !text.empty()) make_room(numbers, blocks, share);
     for (Block& block : blocks) {
-      if (!block.wrong.empty()) refuse_line(contents, block, first_line);
+      if (!block.wrong.empty()) reject_line(contents, block, first_line);
       append(numbers, block, first_line);
       first_line += block.n_lines;
     }

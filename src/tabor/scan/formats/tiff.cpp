@@ -38,10 +38,10 @@ Document open_tiff(const Contents& contents) {
              most / static_cast<std::size_t>(std::max(1, image.bits / 8)));
   Document document{.format = "tiff"};
   if (image.n_images > 1) {
-    document.doubts.push_back(fmt::format("only the first of {} images is read", image.n_images));
+    document.warnings.push_back(fmt::format("only the first of {} images is read", image.n_images));
   }
   if (image.bits < 16) {
-    document.doubts.push_back(fmt::format("only {} bits per pixel: coarse heights", image.bits));
+    document.warnings.push_back(fmt::format("only {} bits per pixel: coarse heights", image.bits));
   }
   document.layers.push_back(
       {.name = "grey values", .is_count = true, .nx = image.nx, .ny = image.ny, .load = [contents] {

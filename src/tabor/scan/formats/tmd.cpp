@@ -31,7 +31,7 @@ Document open_tmd(const Contents& contents) {
   const auto load = [contents, data = cursor.take(byte_size(raster)), raster] {
     return decode(contents, data, raster);
   };
-  doubt_surplus(cursor, document);
+  warn_of_surplus(cursor, document);
   document.layers.push_back({.name = "height",
                              .unit = "mm",
                              .nx = raster.nx,

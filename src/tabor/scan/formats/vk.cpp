@@ -44,7 +44,7 @@ Scales scales_of(const Contents& contents) {
     return kPicometre * number_at(contents, conditions + index * sizeof(std::uint32_t));
   };
   const double z = picometres(44);
-  if (!(z > 0)) refuse(contents, "a height step of 0", "a height per count", kDamaged);
+  if (!(z > 0)) reject(contents, "a height step of 0", "a height per count", kDamaged);
   return {checked_pixel(contents, picometres(42)), checked_pixel(contents, picometres(43)), z};
 }
 
@@ -57,7 +57,7 @@ Sample sample_of(const Contents& contents, std::uint32_t bits) {
     case 32:
       return Sample::u32;
     default:
-      refuse(contents, fmt::format("{} bits per sample", bits), "8, 16 or 32", kDamaged);
+      reject(contents, fmt::format("{} bits per sample", bits), "8, 16 or 32", kDamaged);
   }
 }
 
@@ -68,13 +68,13 @@ Layer layer_at(const Contents& contents, std::size_t position, const Scales& sca
   const double ny = cursor.take<std::uint32_t>();
   Raster raster{.sample = sample_of(contents, cursor.take<std::uint32_t>())};
   if (cursor.take<std::uint32_t>() != 0) {
-    refuse(contents, "compressed samples", "plain ones", "save it uncompressed");
+    reject(contents, "compressed samples", "plain ones", "save it uncompressed");
   }
   const double n_bytes = cursor.take<std::uint32_t>();
   cursor.skip(2 * sizeof(std::uint32_t) + kPaletteSize);  // range, colours
   check_size(contents, nx, ny, cursor.left() / size_of(raster.sample));
   if (n_bytes != 0 && n_bytes != nx * ny * static_cast<double>(size_of(raster.sample))) {
-    refuse(contents, fmt::format("{} bytes of samples", n_bytes),
+    reject(contents, fmt::format("{} bytes of samples", n_bytes),
            fmt::format("those of {} x {} pixels", nx, ny), kDamaged);
   }
   raster.nx = static_cast<Index>(nx);
@@ -128,7 +128,7 @@ std::string unwrapped(const Contents& contents) {
       at = contents.bytes.find(kZipMagic, at + 1);
     }
   }
-  refuse(contents, "no Vk4File in its archive", "a VK6 or VK7 file", kDamaged);
+  reject(contents, "no Vk4File in its archive", "a VK6 or VK7 file", kDamaged);
 }
 
 }  // namespace
@@ -141,7 +141,7 @@ Match identify_vk(std::string_view head) {
 Document open_vk(const Contents& contents) {
   if (is_stream(contents.bytes)) return open_stream(contents);
   const auto stream = std::make_shared<const std::string>(unwrapped(contents));
-  if (!is_stream(*stream)) refuse(contents, "a Vk4File of another kind", "VK4", kDamaged);
+  if (!is_stream(*stream)) reject(contents, "a Vk4File of another kind", "VK4", kDamaged);
   Document document = open_stream(contents.part(*stream));
   for (Layer& layer : document.layers) {
     layer.load = [load = layer.load, stream] { return load(); };  // the bytes live as long

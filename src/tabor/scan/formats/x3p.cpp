@@ -40,7 +40,7 @@ std::optional<double> number(const Contents& contents, const io::XmlElement& ele
   if (element.text().empty()) return std::nullopt;
   const auto value = parse_number(element.text());
   if (!value || !std::isfinite(*value)) {
-    refuse(contents, "'" + element.text() + "' in <" + element.name() + ">", "a finite number",
+    reject(contents, "'" + element.text() + "' in <" + element.name() + ">", "a finite number",
            kDamaged);
   }
   return *value;
@@ -51,12 +51,12 @@ Sample sample_of(const Contents& contents, const std::string& type) {
   if (type == "L") return Sample::i32;
   if (type == "F") return Sample::f32;
   if (type == "D" || type.empty()) return Sample::f64;
-  refuse(contents, "data type '" + type + "'", "I, L, F or D", kDamaged);
+  reject(contents, "data type '" + type + "'", "I, L, F or D", kDamaged);
 }
 
 Axis axis(const Contents& contents, const io::XmlElement& root, const std::string& name) {
   const io::XmlElement element = root.at("Record1/Axes/" + name);
-  if (!element) refuse(contents, "no axis " + name + " in main.xml", "Record1/Axes", kDamaged);
+  if (!element) reject(contents, "no axis " + name + " in main.xml", "Record1/Axes", kDamaged);
   return {.type = element.at("AxisType").text(),
           .sample = sample_of(contents, element.at("DataType").text()),
           .increment = number(contents, element.at("Increment")),
@@ -67,7 +67,7 @@ void require_matrix(const Contents& contents, const io::XmlElement& root) {
   const std::string feature = root.at("Record1/FeatureType").text();
   if (feature == "PCL" || root.at("Record3/ListDimension")) {
     const std::string what = feature == "PCL" ? "a point cloud" : "a list of points";
-    refuse(contents, what + " (FeatureType " + feature + ")", "a matrix of heights",
+    reject(contents, what + " (FeatureType " + feature + ")", "a matrix of heights",
            "put the points on a regular grid first, for example with Gwyddion");
   }
 }
@@ -79,15 +79,15 @@ Matrix describe(const Contents& contents, const io::XmlElement& root) {
                 .z = axis(contents, root, "CZ")};
   for (const Axis* lateral : {&matrix.x, &matrix.y}) {
     if (lateral->type == "A") {
-      refuse(contents, "a lateral axis with its own list of coordinates (AxisType A)",
+      reject(contents, "a lateral axis with its own list of coordinates (AxisType A)",
              "evenly spaced rows and columns (AxisType I)", "resample it first");
     }
     if (lateral->type != "I" && !lateral->type.empty()) {
-      refuse(contents, "AxisType '" + lateral->type + "'", "I or A", kDamaged);
+      reject(contents, "AxisType '" + lateral->type + "'", "I or A", kDamaged);
     }
   }
   if (matrix.z.increment == 0) {
-    refuse(contents, "heights with an Increment of 0", "another number", kDamaged);
+    reject(contents, "heights with an Increment of 0", "another number", kDamaged);
   }
   const io::XmlElement dimension = root.at("Record3/MatrixDimension");
   const double nx = number(contents, dimension.at("SizeX")).value_or(0);
@@ -99,7 +99,7 @@ Matrix describe(const Contents& contents, const io::XmlElement& root) {
   check_size(contents, nx * ny, n_layers, most);
   constexpr double kMostLayers = 1000;  // far more than instruments write; each takes memory
   if (n_layers > kMostLayers) {
-    refuse(contents, fmt::format("{} layers", n_layers), fmt::format("at most {}", kMostLayers));
+    reject(contents, fmt::format("{} layers", n_layers), fmt::format("at most {}", kMostLayers));
   }
   matrix.nx = static_cast<Index>(nx);
   matrix.ny = static_cast<Index>(ny);
@@ -112,14 +112,14 @@ std::vector<double> listed(const Contents& contents, const io::XmlElement& list,
                            const Matrix& matrix) {
   const std::vector<io::XmlElement> items = list.children("Datum");
   if (items.size() != matrix.size()) {
-    refuse(contents, fmt::format("{} heights in main.xml", items.size()),
+    reject(contents, fmt::format("{} heights in main.xml", items.size()),
            fmt::format("{}", matrix.size()), kDamaged);
   }
   std::vector<double> values;
   for (const io::XmlElement& item : items) {
     const std::string text = split(item.text(), ';').back();
     const auto value = parse_number(text);
-    if (!value && !text.empty()) refuse(contents, "'" + text + "'", "a height", kDamaged);
+    if (!value && !text.empty()) reject(contents, "'" + text + "'", "a height", kDamaged);
     values.push_back(value.value_or(kHole));
   }
   return values;
@@ -164,7 +164,7 @@ void apply_valid_points(Field& field, const std::string& bits, Index first_point
 
 /// Unpacks layer k, which follows the layers before it in the same entry.
 Field unpack(const Archive& archive, const Links& links, const Matrix& matrix, Index k,
-             std::vector<std::string>& doubts) {
+             std::vector<std::string>& warnings) {
   Field field(matrix.ny, matrix.nx);
   RowDecoder decoder(raster_of(matrix), field);
   io::RunningDigest digest(io::DigestKind::md5);
@@ -176,13 +176,13 @@ Field unpack(const Archive& archive, const Links& links, const Matrix& matrix, I
     decoder.accept(piece.substr(n_skipped));
   });
   if (!links.digest.empty() && digest.hexadecimal() != links.digest) {
-    doubts.push_back("the data do not match their MD5 checksum: changed after export");
+    warnings.push_back("the data do not match their MD5 checksum: changed after export");
   }
   if (links.valid != nullptr) {
     const std::string bits = archive.read(*links.valid);
     if (!links.valid_digest.empty() &&
         io::md5(std::as_bytes(std::span(bits))) != links.valid_digest) {
-      doubts.push_back("the valid points do not match their MD5 checksum: changed after export");
+      warnings.push_back("the valid points do not match their MD5 checksum: changed after export");
     }
     apply_valid_points(field, bits, k * matrix.nx * matrix.ny);
   }
@@ -203,7 +203,7 @@ bool is_rotated(const Contents& contents, const io::XmlElement& root) {
 }
 
 /// Stored values of layer k.
-using Load = std::function<Field(Index k, std::vector<std::string>& doubts)>;
+using Load = std::function<Field(Index k, std::vector<std::string>& warnings)>;
 
 /// Without an Increment the standard takes 1 m, which no scan has: a pixel is asked for.
 std::optional<double> pixel(const Contents& contents, const Axis& axis) {
@@ -219,10 +219,10 @@ const Axis& y_axis(const Matrix& matrix) {
 void add_layers(Document& document, const Contents& contents, const Matrix& matrix,
                 const Load& load) {
   if (!matrix.z.increment && is_integer(matrix.z.sample)) {
-    document.doubts.push_back(
+    document.warnings.push_back(
         "whole numbers without an Increment are heights in metres (ISO 25178-72)");
   }
-  doubt_negative_scale(matrix.z.increment.value_or(1), document);
+  warn_of_negative_scale(matrix.z.increment.value_or(1), document);
   for (Index k = 0; k < matrix.n_layers; ++k) {
     Layer layer{.name = matrix.n_layers > 1 ? fmt::format("layer {}", k) : "height",
                 .unit = "m",
@@ -230,9 +230,9 @@ void add_layers(Document& document, const Contents& contents, const Matrix& matr
                 .ny = matrix.ny,
                 .pixel_x = pixel(contents, matrix.x),
                 .pixel_y = pixel(contents, y_axis(matrix))};
-    layer.late_doubts = std::make_shared<std::vector<std::string>>();
-    layer.load = [load, k, z = matrix.z, doubts = layer.late_doubts] {
-      Field field = load(k, *doubts);
+    layer.late_warnings = std::make_shared<std::vector<std::string>>();
+    layer.load = [load, k, z = matrix.z, warnings = layer.late_warnings] {
+      Field field = load(k, *warnings);
       for_each_row(field.rows(), [&](Index y) {
         for (Index x = 0; x < field.cols(); ++x) {
           field(y, x) = field(y, x) * z.increment.value_or(1) + z.offset;
@@ -275,15 +275,15 @@ Document open_x3p(const Contents& contents) {
   add_metadata(document, root);
   const Matrix matrix = describe(contents, root);
   if (is_rotated(contents, root)) {
-    document.doubts.push_back(
+    document.warnings.push_back(
         "the Rotation of its axes is not applied: rows and heights as stored");
   }
   const io::XmlElement link = root.at("Record3/DataLink");
   const io::XmlElement list = root.at("Record3/DataList");
   if (!link.at("PointDataLink").text().empty()) {
     const Links links = links_of(*archive, link, matrix);
-    add_layers(document, contents, matrix, [archive, links, matrix](Index k, auto& doubts) {
-      return unpack(*archive, links, matrix, k, doubts);
+    add_layers(document, contents, matrix, [archive, links, matrix](Index k, auto& warnings) {
+      return unpack(*archive, links, matrix, k, warnings);
     });
   } else if (list) {
     const auto values = std::make_shared<const std::vector<double>>(listed(contents, list, matrix));
@@ -292,7 +292,7 @@ Document open_x3p(const Contents& contents) {
                                      matrix.nx);
     });
   } else {
-    refuse(contents, "no data in main.xml", "DataLink or DataList", kDamaged);
+    reject(contents, "no data in main.xml", "DataLink or DataList", kDamaged);
   }
   return document;
 }

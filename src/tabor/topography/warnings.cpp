@@ -1,4 +1,4 @@
-#include "tabor/topography/doubts.hpp"
+#include "tabor/topography/warnings.hpp"
 
 #include <fmt/format.h>
 
@@ -125,18 +125,18 @@ double mean_square(const Levelled& levelled) {
   return total(levelled, [mean](double z) { return (z - mean) * (z - mean); })[1] / first[0];
 }
 
-void doubt_pixels(const Grid& grid, std::vector<Doubt>& list) {
+void warn_of_pixels(const Grid& grid, std::vector<Warning>& list) {
   constexpr double kSquare = 1e-3;
   if (std::abs(grid.dx() / grid.dy() - 1) > kSquare) {
     list.push_back({.text = fmt::format("pixels are not square: {} x {}", format_si(grid.dx(), "m"),
                                         format_si(grid.dy(), "m")),
-                    .about = Doubt::About::heights,
+                    .about = Warning::About::heights,
                     .code = "pixels-not-square"});
   }
 }
 
 /// Of one copy of the scan: it is what can be cropped.
-void doubt_sizes(const Topography& topography, std::vector<Doubt>& list) {
+void warn_of_sizes(const Topography& topography, std::vector<Warning>& list) {
   const Grid& grid = topography.grid;
   const auto tiles = static_cast<Index>(topography.tiles);
   constexpr Index kFastPrime = 13;  // FFTW has fast kernels up to it
@@ -149,23 +149,23 @@ void doubt_sizes(const Topography& topography, std::vector<Doubt>& list) {
     list.push_back({.text = fmt::format("{} pixels along {} have the prime factor {}: transforms "
                                         "are slow; crop to {}",
                                         n, axis, prime, fast),
-                    .about = Doubt::About::heights,
+                    .about = Warning::About::heights,
                     .code = "slow-size"});
   }
 }
 
-void doubt_holes(const Topography& topography, std::vector<Doubt>& list) {
+void warn_of_holes(const Topography& topography, std::vector<Warning>& list) {
   const Index n_holes = count_holes(topography);
   if (n_holes == 0) return;
   list.push_back(
       {.text = fmt::format(
            "{} of {} pixels are missing ({:.2g} %)", n_holes, topography.grid.size(),
            100 * static_cast<double>(n_holes) / static_cast<double>(topography.grid.size())),
-       .about = Doubt::About::heights,
+       .about = Warning::About::heights,
        .code = "missing-pixels"});
 }
 
-void doubt_quantum(double quantum, double rms, std::vector<Doubt>& list) {
+void warn_of_quantum(double quantum, double rms, std::vector<Warning>& list) {
   constexpr double kCoarse = 0.02;
   constexpr double kPlane = 1e-6;  // heights on a plane but for rounding
   if (quantum > kCoarse * rms && rms > kPlane * quantum) {
@@ -175,7 +175,7 @@ void doubt_quantum(double quantum, double rms, std::vector<Doubt>& list) {
   }
 }
 
-void doubt_spikes(const Field& height, std::vector<Doubt>& list) {
+void warn_of_spikes(const Field& height, std::vector<Warning>& list) {
   const Index spikes = count_spikes(height);
   if (spikes == 0) return;
   list.push_back({.text = fmt::format(
@@ -183,12 +183,12 @@ void doubt_spikes(const Field& height, std::vector<Doubt>& list) {
                       "takes them out",
                       spikes, spikes == 1 ? "" : "s",
                       100 * static_cast<double>(spikes) / static_cast<double>(height.size())),
-                  .about = Doubt::About::spikes,
+                  .about = Warning::About::spikes,
                   .code = "spikes"});
 }
 
 /// Heights above their least-squares plane; as they are if they do not determine one. The plane of
-/// large maps is fitted to some of their rows and columns: it decides about doubts only.
+/// large maps is fitted to some of their rows and columns: it decides about warnings only.
 Levelled above_plane(const Field& height) {
   constexpr Index kSide = 1024;
   const Index kx = 1 + height.cols() / kSide;
@@ -220,23 +220,23 @@ Rms rms_of(const Field& height) {
           .levelled = std::sqrt(mean_square(above_plane(height)))};
 }
 
-/// Doubts that a treatment can dispel or raise.
-std::vector<Doubt> about_heights(const Topography& topography, const Rms& rms) {
-  std::vector<Doubt> list;
+/// Warnings that a treatment can dispel or raise.
+std::vector<Warning> about_heights(const Topography& topography, const Rms& rms) {
+  std::vector<Warning> list;
   if (is_profile(topography.grid)) {
     list.push_back({.text = "a profile of one row: areal results do not apply",
-                    .about = Doubt::About::heights,
+                    .about = Warning::About::heights,
                     .code = "profile"});
   } else {
-    doubt_pixels(topography.grid, list);
-    doubt_sizes(topography, list);
+    warn_of_pixels(topography.grid, list);
+    warn_of_sizes(topography, list);
   }
-  doubt_holes(topography, list);
+  warn_of_holes(topography, list);
   if (rms.as_is > 2 * rms.levelled && rms.levelled > 0) {
     list.push_back(
         {.text = fmt::format("tilt is larger than roughness: Sq {} becomes {} without its plane",
                              format_si(rms.as_is, "m"), format_si(rms.levelled, "m")),
-         .about = Doubt::About::heights,
+         .about = Warning::About::heights,
          .code = "tilt"});
   }
   return list;
@@ -258,21 +258,21 @@ double height_quantum(const Field& height) {
   return 0;
 }
 
-std::vector<Doubt> doubts(const Topography& topography) {
+std::vector<Warning> warnings(const Topography& topography) {
   const Rms rms = rms_of(topography.height);
-  std::vector<Doubt> list = about_heights(topography, rms);
-  doubt_quantum(height_quantum(topography.height), rms.levelled, list);
-  doubt_spikes(topography.height, list);
+  std::vector<Warning> list = about_heights(topography, rms);
+  warn_of_quantum(height_quantum(topography.height), rms.levelled, list);
+  warn_of_spikes(topography.height, list);
   return list;
 }
 
-void renew_doubts(Topography& topography, bool looked_for_spikes) {
-  std::erase_if(topography.doubts, [&](const Doubt& doubt) {
-    return doubt.about == Doubt::About::heights ||
-           (looked_for_spikes && doubt.about == Doubt::About::spikes);
+void renew_warnings(Topography& topography, bool looked_for_spikes) {
+  std::erase_if(topography.warnings, [&](const Warning& warning) {
+    return warning.about == Warning::About::heights ||
+           (looked_for_spikes && warning.about == Warning::About::spikes);
   });
-  for (Doubt& doubt : about_heights(topography, rms_of(topography.height))) {
-    topography.doubts.push_back(std::move(doubt));
+  for (Warning& warning : about_heights(topography, rms_of(topography.height))) {
+    topography.warnings.push_back(std::move(warning));
   }
 }
 

@@ -7,8 +7,8 @@
 
 namespace tabor::test {
 
-/// The message with which the action was refused (InputError); "accepted" if it was not.
-inline std::string refusal(const std::function<void()>& action) {
+/// The message with which the action was rejected (InputError); "accepted" if it was not.
+inline std::string rejection(const std::function<void()>& action) {
   try {
     action();
   } catch (const InputError& error) {

@@ -1,4 +1,4 @@
-#include "tabor/topography/doubts.hpp"
+#include "tabor/topography/warnings.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -36,7 +36,9 @@ topography::Topography map_of(Field height) {
 
 std::string all(const topography::Topography& map) {
   std::string text;
-  for (const std::string& doubt : topography::texts(topography::doubts(map))) text += doubt + "\n";
+  for (const std::string& warning : topography::texts(topography::warnings(map))) {
+    text += warning + "\n";
+  }
   return text;
 }
 
@@ -59,7 +61,7 @@ TEST(HeightQuantum, IsZeroForContinuousAndForConstantHeights) {
   EXPECT_EQ(topography::height_quantum(Field::Constant(5, 5, test::kNaN)), 0);
 }
 
-TEST(Doubts, CountTheSpikesThatDespikeTakes) {
+TEST(Warnings, CountTheSpikesThatDespikeTakes) {
   Field height = 1e-9 * noise(64, 60);
   height(10, 10) = 1e-6;
   height(30, 40) = -1e-6;
@@ -68,9 +70,9 @@ TEST(Doubts, CountTheSpikesThatDespikeTakes) {
             "out\n");
 }
 
-TEST(Doubts, AnOrdinaryMapRaisesNone) { EXPECT_EQ(all(map_of(1e-6 * noise(64, 60))), ""); }
+TEST(Warnings, AnOrdinaryMapRaisesNone) { EXPECT_EQ(all(map_of(1e-6 * noise(64, 60))), ""); }
 
-TEST(Doubts, NameTiltHolesPixelsStepsAndSlowSizes) {
+TEST(Warnings, NameTiltHolesPixelsStepsAndSlowSizes) {
   Field tilted = 1e-8 * noise(64, 64);
   for (Index x = 0; x < 64; ++x) tilted.col(x) += 1e-7 * static_cast<double>(x);
   EXPECT_NE(all(map_of(tilted)).find("tilt"), std::string::npos);
@@ -87,43 +89,44 @@ TEST(Doubts, NameTiltHolesPixelsStepsAndSlowSizes) {
   EXPECT_NE(all(map_of(noise(64, 37))).find("prime factor 37"), std::string::npos);
 }
 
-/// A map with its doubts as a reader would leave them, then treated.
-std::vector<std::string> doubts_after(const topography::Treatment& treatment, const Field& height) {
+/// A map with its warnings as a reader would leave them, then treated.
+std::vector<std::string> warnings_after(const topography::Treatment& treatment,
+                                        const Field& height) {
   topography::Topography map = map_of(height);
-  map.doubts = topography::doubts(map);
-  map.doubts.push_back({.text = "the unit is a guess"});
-  return topography::texts(topography::apply(treatment, std::move(map)).doubts);
+  map.warnings = topography::warnings(map);
+  map.warnings.push_back({.text = "the unit is a guess"});
+  return topography::texts(topography::apply(treatment, std::move(map)).warnings);
 }
 
-TEST(Doubts, ATreatmentDispelsThoseAboutTheHeightsItMends) {
+TEST(Warnings, ATreatmentDispelsThoseAboutTheHeightsItMends) {
   Field height = 1e-8 * noise(64, 37);
   for (Index x = 0; x < 37; ++x) height.col(x) += 1e-7 * static_cast<double>(x);
   height(20, 20) = test::kNaN;
-  EXPECT_THAT(doubts_after({}, height),
+  EXPECT_THAT(warnings_after({}, height),
               ElementsAre(HasSubstr("prime factor 37"), HasSubstr("1 of 2368 pixels are missing"),
                           HasSubstr("tilt"), "the unit is a guess"));
-  EXPECT_THAT(doubts_after({"level=plane"}, height),
+  EXPECT_THAT(warnings_after({"level=plane"}, height),
               ElementsAre("the unit is a guess", HasSubstr("prime factor 37"),
                           HasSubstr("1 of 2368 pixels are missing")));
-  EXPECT_THAT(doubts_after({"crop=0,0,32,64", "level=plane", "fill=harmonic"}, height),
+  EXPECT_THAT(warnings_after({"crop=0,0,32,64", "level=plane", "fill=harmonic"}, height),
               ElementsAre("the unit is a guess"));
 }
 
-TEST(Doubts, ATreatmentRaisesNewOnes) {
-  EXPECT_THAT(doubts_after({"crop=0,0,60,37"}, 1e-8 * noise(64, 60)),
+TEST(Warnings, ATreatmentRaisesNewOnes) {
+  EXPECT_THAT(warnings_after({"crop=0,0,60,37"}, 1e-8 * noise(64, 60)),
               ElementsAre("the unit is a guess", HasSubstr("prime factor 37")));
 }
 
-TEST(Doubts, SpikesAreDoubtedUntilAStepLooksForThem) {
+TEST(Warnings, SpikesAreWarnedOfUntilAStepLooksForThem) {
   Field height = 1e-9 * noise(64, 64);
   height(10, 10) = 1e-6;
-  EXPECT_THAT(doubts_after({"lowpass=gauss:20um"}, height), Contains(HasSubstr("1 spike")));
-  EXPECT_THAT(doubts_after({"despike=8,7,median", "lowpass=gauss:20um"}, height),
+  EXPECT_THAT(warnings_after({"lowpass=gauss:20um"}, height), Contains(HasSubstr("1 spike")));
+  EXPECT_THAT(warnings_after({"despike=8,7,median", "lowpass=gauss:20um"}, height),
               ElementsAre("the unit is a guess", HasSubstr("despike took 1 spike")));
 }
 
-TEST(Doubts, StepsOfTheHeightStayWhereAFilterHidesThem) {
-  EXPECT_THAT(doubts_after({"lowpass=gauss:8um"}, 1e-9 * (4 * noise(64, 64)).round()),
+TEST(Warnings, StepsOfTheHeightStayWhereAFilterHidesThem) {
+  EXPECT_THAT(warnings_after({"lowpass=gauss:8um"}, 1e-9 * (4 * noise(64, 64)).round()),
               Contains(HasSubstr("heights come in steps of 1 nm")));
 }
 
