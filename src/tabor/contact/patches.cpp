@@ -1,48 +1,21 @@
 #include "tabor/contact/patches.hpp"
 
-#include <algorithm>
 #include <cstdint>
-#include <numeric>
+#include <vector>
 
 #include "tabor/core/parallel.hpp"
+#include "tabor/numerics/disjoint_sets.hpp"
 
 namespace tabor::contact {
-namespace {
-
-/// Union-find over pixels; the root of a patch is its first pixel.
-class Components {
- public:
-  explicit Components(Index n) : parent_(static_cast<std::size_t>(n)) {
-    std::iota(parent_.begin(), parent_.end(), std::uint32_t{0});
-  }
-
-  std::uint32_t root(std::uint32_t pixel) {
-    while (parent_[pixel] != pixel) {
-      parent_[pixel] = parent_[parent_[pixel]];  // path halving
-      pixel = parent_[pixel];
-    }
-    return pixel;
-  }
-
-  void join(Index a, Index b) {
-    const std::uint32_t root_a = root(static_cast<std::uint32_t>(a));
-    const std::uint32_t root_b = root(static_cast<std::uint32_t>(b));
-    parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
-}  // namespace
 
 Patches find_patches(const Mask& contact, bool periodic) {
   const Index ny = contact.rows();
   const Index nx = contact.cols();
-  Components components(contact.size());
+  numerics::DisjointSets<std::uint32_t> components(static_cast<std::size_t>(contact.size()));
   const auto join = [&](Index y, Index x, Index other_y, Index other_x) {
     if (contact(y, x) && contact(other_y, other_x)) {
-      components.join(y * nx + x, other_y * nx + other_x);
+      components.join(static_cast<std::uint32_t>(y * nx + x),
+                      static_cast<std::uint32_t>(other_y * nx + other_x));
     }
   };
   for (Index y = 0; y < ny; ++y) {

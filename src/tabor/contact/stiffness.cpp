@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tabor/contact/preconditioner.hpp"
+#include "tabor/numerics/conjugate_gradients.hpp"
 
 namespace tabor::contact {
 namespace {
@@ -21,13 +22,7 @@ PixelList free_pixels(const State& state, double saturation_pressure) {
   return pixels;
 }
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * b[k];
-  return sum;
-}
-
-/// S and M restricted to a set of pixels, as maps of vectors.
+/// S and M restricted to a set of pixels, as a system of conjugate gradients.
 class Restricted {
  public:
   Restricted(elastic::ElasticOperator& elasticity, const PixelList& set)
@@ -37,22 +32,31 @@ class Restricted {
         pressure_(Field::Zero(elasticity.grid().ny, elasticity.grid().nx)),
         residual_(FieldF::Zero(elasticity.grid().ny, elasticity.grid().nx)) {}
 
-  std::vector<double> displacement(const std::vector<double>& pressure) {
+  void apply(const std::vector<double>& pressure, std::vector<double>& displacement) {
     for (std::size_t k = 0; k < set_.size(); ++k) pressure_(set_[k]) = pressure[k];
     elasticity_.apply(pressure_, displacement_);
-    std::vector<double> values(set_.size());
-    for (std::size_t k = 0; k < set_.size(); ++k) values[k] = displacement_(set_[k]);
-    return values;
+    for (std::size_t k = 0; k < set_.size(); ++k) displacement[k] = displacement_(set_[k]);
   }
 
-  std::vector<double> preconditioned(const std::vector<double>& residual) {
+  const std::vector<float>& precondition(const std::vector<double>& residual) {
     for (std::size_t k = 0; k < set_.size(); ++k) {
       residual_(set_[k]) = static_cast<float>(residual[k]);
     }
-    std::vector<float> values;
     std::vector<float> row_sums;
-    preconditioner_.apply(set_, residual_, values, row_sums);
-    return {values.begin(), values.end()};
+    preconditioner_.apply(set_, residual_, preconditioned_, row_sums);
+    return preconditioned_;
+  }
+
+  template <typename Number>
+  static double dot(const std::vector<double>& a, const std::vector<Number>& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * static_cast<double>(b[k]);
+    return sum;
+  }
+
+  template <typename Body>
+  static void for_each(std::size_t n, const Body& body) {
+    for (std::size_t k = 0; k < n; ++k) body(k);
   }
 
  private:
@@ -62,6 +66,7 @@ class Restricted {
   Field pressure_;
   Field displacement_;
   FieldF residual_;
+  std::vector<float> preconditioned_;
 };
 
 }  // namespace
@@ -80,32 +85,18 @@ Stiffness contact_stiffness(elastic::ElasticOperator& elasticity, const State& s
   Restricted restricted(elasticity, set);
   std::vector<double> solution(set.size(), 0.0);
   std::vector<double> residual(set.size(), 1.0);  // of S x = 1
-  std::vector<double> search = restricted.preconditioned(residual);
-  double product = dot(residual, search);
   const auto norm = static_cast<double>(set.size());
   Convergence& convergence = stiffness.convergence;
-  convergence.certificate = 1;
-  convergence.status = Status::iteration_limit;
-  while (convergence.certificate > tolerance && convergence.iterations < kMostIterations) {
-    const std::vector<double> response = restricted.displacement(search);
-    const double length = product / dot(search, response);
-    for (std::size_t k = 0; k < set.size(); ++k) {
-      solution[k] += length * search[k];
-      residual[k] -= length * response[k];
-    }
-    const std::vector<double> direction = restricted.preconditioned(residual);
-    const double next_product = dot(residual, direction);
-    for (std::size_t k = 0; k < set.size(); ++k) {
-      search[k] = direction[k] + next_product / product * search[k];
-    }
-    product = next_product;
-    convergence.iterations += 1;
-    convergence.certificate = std::sqrt(dot(residual, residual) / norm);
-  }
+  convergence.iterations =
+      numerics::conjugate_gradients(restricted, residual, solution, [&](int n_iterations) {
+        convergence.certificate = std::sqrt(Restricted::dot(residual, residual) / norm);
+        return convergence.certificate <= tolerance || n_iterations == kMostIterations;
+      });
   convergence.operator_applications = convergence.iterations;
-  if (convergence.certificate <= tolerance) convergence.status = Status::converged;
-  stiffness.value =
-      dot(solution, std::vector<double>(set.size(), 1.0)) / static_cast<double>(n_pixels);
+  convergence.status =
+      convergence.certificate <= tolerance ? Status::converged : Status::iteration_limit;
+  const std::vector<double> ones(set.size(), 1.0);
+  stiffness.value = Restricted::dot(solution, ones) / static_cast<double>(n_pixels);
   return stiffness;
 }
 

@@ -69,7 +69,7 @@ using FilmSink = std::function<void(Film&& film)>;
 
 /// Films for every dose, in the order of dose.mean_films; one run passes through all of them.
 /// `height` [m], asperities up, shape (grid.ny, grid.nx), no NaN. Throws InputError for input that
-/// makes no sense, Interrupted when the observer asks to stop.
+/// is invalid, Interrupted when the observer asks to stop.
 /// Memory beside `height` and the films: about 30 bytes per pixel.
 std::vector<Film> deposit(const Field& height, const Grid& grid, const Dose& dose,
                           const Observer& observer = {});

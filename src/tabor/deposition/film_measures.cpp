@@ -1,8 +1,7 @@
 #include "tabor/deposition/film_measures.hpp"
 
-#include <numeric>
-
 #include "tabor/core/watch.hpp"
+#include "tabor/numerics/disjoint_sets.hpp"
 
 namespace tabor::deposition {
 namespace {
@@ -14,35 +13,8 @@ struct Run {
   std::size_t label = 0;
 };
 
-/// Labels of runs, united where runs touch; counts how many stay apart.
-class Labels {
- public:
-  std::size_t add() {
-    up_.push_back(up_.size());
-    ++count_;
-    return up_.back();
-  }
-  void unite(std::size_t a, std::size_t b) {
-    a = root(a);
-    b = root(b);
-    if (a != b) {
-      up_[b] = a;
-      --count_;
-    }
-  }
-  Index count() const { return count_; }
-
- private:
-  std::size_t root(std::size_t a) {
-    while (up_[a] != a) {
-      up_[a] = up_[up_[a]];
-      a = up_[a];
-    }
-    return a;
-  }
-  std::vector<std::size_t> up_;
-  Index count_ = 0;
-};
+/// Labels of runs, joined where runs touch.
+using Labels = numerics::DisjointSets<std::size_t>;
 
 std::vector<Run> runs_of(const Field& thickness, Index row, Labels& labels) {
   std::vector<Run> runs;
@@ -54,20 +26,20 @@ std::vector<Run> runs_of(const Field& thickness, Index row, Labels& labels) {
   return runs;
 }
 
-void unite_touching(const std::vector<Run>& above, const std::vector<Run>& below, Labels& labels) {
+void join_touching(const std::vector<Run>& above, const std::vector<Run>& below, Labels& labels) {
   auto upper = above.begin();
   auto lower = below.begin();
   while (upper != above.end() && lower != below.end()) {
     if (upper->begin < lower->end && lower->begin < upper->end) {
-      labels.unite(upper->label, lower->label);
+      labels.join(upper->label, lower->label);
     }
     (upper->end < lower->end ? upper : lower)++;
   }
 }
 
-void unite_ends(const std::vector<Run>& row, Index n_columns, Labels& labels) {
+void join_ends(const std::vector<Run>& row, Index n_columns, Labels& labels) {
   if (!row.empty() && row.front().begin == 0 && row.back().end == n_columns) {
-    labels.unite(row.front().label, row.back().label);
+    labels.join(row.front().label, row.back().label);
   }
 }
 
@@ -80,13 +52,13 @@ Index count_wet_regions(const Field& thickness, bool periodic) {
   for (Index row = 0; row < thickness.rows(); ++row) {
     go_on_or_throw();
     std::vector<Run> current = runs_of(thickness, row, labels);
-    unite_touching(previous, current, labels);
-    if (periodic) unite_ends(current, thickness.cols(), labels);
+    join_touching(previous, current, labels);
+    if (periodic) join_ends(current, thickness.cols(), labels);
     if (row == 0) first = current;
     previous = std::move(current);
   }
-  if (periodic) unite_touching(previous, first, labels);
-  return labels.count();
+  if (periodic) join_touching(previous, first, labels);
+  return static_cast<Index>(labels.n_sets());
 }
 
 void measure(Film& film, Edge edge) {

@@ -1,28 +1,11 @@
 #include "tabor/deposition/router.hpp"
 
 #include <algorithm>
-#include <numeric>
+
+#include "tabor/numerics/disjoint_sets.hpp"
 
 namespace tabor::deposition {
 namespace {
-
-/// Disjoint sets of 0..n-1.
-class Sets {
- public:
-  explicit Sets(std::size_t n) : up_(n) { std::iota(up_.begin(), up_.end(), 0); }
-  std::int32_t root(std::int32_t i) {
-    while (up_[static_cast<std::size_t>(i)] != i) {
-      auto& up = up_[static_cast<std::size_t>(i)];
-      up = up_[static_cast<std::size_t>(up)];
-      i = up;
-    }
-    return i;
-  }
-  void unite(std::int32_t i, std::int32_t j) { up_[static_cast<std::size_t>(root(i))] = root(j); }
-
- private:
-  std::vector<std::int32_t> up_;
-};
 
 std::int32_t place_of(Pixel p, std::span<const Pixel> sorted) {
   return static_cast<std::int32_t>(std::lower_bound(sorted.begin(), sorted.end(), p) -
@@ -153,15 +136,15 @@ Router::Saddle Router::find_regions(PoolId above) {
   const auto pixels = pools_.bottom(above);
   const Height height = pools_.height(pixels.front());
   Saddle saddle{pools_[above].open_children, {}, {}, std::vector<Choice>(pixels.size())};
-  Sets regions(pixels.size());
+  numerics::DisjointSets<std::int32_t> regions(pixels.size());
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const auto here = static_cast<std::int32_t>(i);
     for_each_neighbour(pools_.terrain(), pixels[i], [&](Pixel q) {
       const Candidate next = candidate(q);
       if (next.height == height && next.wet_by == kNoPool) {
-        regions.unite(here, place_of(q, pixels));
+        regions.join(here, place_of(q, pixels));
       } else if (next.height == height) {
-        regions.unite(here, saddle.region_of_full.try_emplace(next.wet_by, here).first->second);
+        regions.join(here, saddle.region_of_full.try_emplace(next.wet_by, here).first->second);
       }
     });
   }

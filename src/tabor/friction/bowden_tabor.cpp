@@ -13,7 +13,7 @@
 namespace tabor::friction {
 namespace {
 
-/// A share may exceed its bounds by rounding alone; NaN is refused too.
+/// A share may exceed its bounds by rounding alone; NaN is rejected too.
 void check_share(double value, const std::string& what) {
   if (!(value >= 0 && value <= 1 + 1e-12)) {
     throw InputError(what, fmt::format("{}", value), "a share between 0 and 1", "");

@@ -41,7 +41,7 @@ struct FluidFilmState {
 /// the gap they leave (reynolds/patch_flow.hpp). Where oil alone carries the load the surfaces
 /// part. `dry` is the contact's state at P without oil: it begins the search, and is the answer
 /// where the oil carries less than the tolerance. The operator must be periodic. Throws InputError
-/// for input that makes no sense; not converging is returned, and so is being stopped: with
+/// for invalid input; not converging is returned, and so is being stopped: with
 /// what was reached, in which the film has no fields before its first step.
 FluidFilmState solve_fluid_film(elastic::ElasticOperator& elasticity,
                                 const FluidFilmProblem& problem, const contact::State& dry,

@@ -63,7 +63,7 @@ MixedEstimate estimate(const FluidSummary& fluid, double mean_pressure, double s
   return mixed;
 }
 
-std::vector<std::string> doubts(const FluidFilmState& state, const FluidFilmProblem& problem) {
+std::vector<std::string> warnings(const FluidFilmState& state, const FluidFilmProblem& problem) {
   std::vector<std::string> found;
   if (state.convergence.failed()) {
     found.push_back(fmt::format(
@@ -72,8 +72,8 @@ std::vector<std::string> doubts(const FluidFilmState& state, const FluidFilmProb
         state.film.convergence.converged() ? "" : ", oil still on the move"));
   }
   const double highest = state.film.pressure.maxCoeff();
-  for (std::string& doubt : material::doubts(problem.lubricant, highest)) {
-    found.push_back(std::move(doubt));
+  for (std::string& warning : material::warnings(problem.lubricant, highest)) {
+    found.push_back(std::move(warning));
   }
   if (highest > problem.contact.saturation_pressure) {
     found.push_back("the oil's pressure reaches " + format_si(highest, "Pa") +

@@ -58,6 +58,6 @@ MixedEstimate estimate(const FluidSummary& fluid, double mean_pressure, double s
 
 /// One line for each reason to doubt the state: not converged, laws beyond where they are believed,
 /// an oil whose pressure the solids would not bear.
-std::vector<std::string> doubts(const FluidFilmState& state, const FluidFilmProblem& problem);
+std::vector<std::string> warnings(const FluidFilmState& state, const FluidFilmProblem& problem);
 
 }  // namespace tabor::friction

@@ -9,6 +9,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/watch.hpp"
+#include "tabor/numerics/conjugate_gradients.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -247,47 +248,30 @@ void count_components(const Level& level, HarmonicFill& report) {
   }
 }
 
-/// Preconditioned conjugate gradients for A x = b over the nodes of levels[0].
-class Solver {
+/// The equations of all levels as a system of conjugate gradients, preconditioned by one cycle.
+class Network {
  public:
-  Solver(std::vector<Level> levels, std::vector<double> right)
-      : levels_(std::move(levels)),
-        residual_(std::move(right)),
-        solution_(residual_.size(), 0),
-        direction_(residual_.size(), 0),
-        image_(residual_.size(), 0) {}
+  explicit Network(std::vector<Level> levels) : levels_(std::move(levels)) {}
 
-  /// Stops when the largest residual per link is below `target` [m].
-  Convergence solve(double target, const Observer& observer) {
-    Convergence convergence;
-    convergence.tolerance = kTolerance;
-    double product = 0;
-    while (true) {
-      convergence.certificate = kTolerance * (target > 0 ? largest_residual() / target : 0);
-      if (convergence.certificate <= kTolerance) convergence.status = Status::converged;
-      if (asks_to_stop(observer, {"fill holes", 0.0, &convergence})) throw Interrupted();
-      if (convergence.converged() || convergence.iterations == kMaxIterations) return convergence;
-      product = iterate(product, convergence.iterations == 0);
-      ++convergence.iterations;
-      ++convergence.operator_applications;
-    }
-  }
+  /// Of the finest level.
+  double diagonal(std::size_t i) const { return levels_[0].diagonal[i]; }
 
-  const std::vector<double>& solution() const { return solution_; }
-
- private:
-  double largest_residual() const {
-    return parallel_max(static_cast<Index>(residual_.size()), [this](Index begin, Index end) {
-      double largest = 0;
-      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-        largest = std::max(largest, std::abs(residual_[i]) / levels_[0].diagonal[i]);
-      }
-      return largest;
+  void apply(const std::vector<double>& x, std::vector<double>& image) const {
+    const Level& fine = levels_[0];
+    for_each(fine.size(), [&](std::size_t i) {
+      image[i] = static_cast<double>(fine.diagonal[i]) * x[i] - linked_sum(fine, x, i);
     });
   }
 
-  template <typename Other>
-  double dot(const std::vector<double>& a, const std::vector<Other>& b) const {
+  const std::vector<float>& precondition(const std::vector<double>& residual) {
+    Level& fine = levels_[0];
+    for_each(fine.size(), [&](std::size_t i) { fine.right[i] = static_cast<float>(residual[i]); });
+    cycle(levels_, 0);
+    return fine.value;
+  }
+
+  template <typename Number>
+  static double dot(const std::vector<double>& a, const std::vector<Number>& b) {
     return deterministic_sum(static_cast<Index>(a.size()), [&](Index begin, Index end) {
       double sum = 0;
       for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
@@ -297,32 +281,43 @@ class Solver {
     });
   }
 
-  /// One step; takes and returns <residual, preconditioned residual>.
-  double iterate(double previous_product, bool first) {
-    Level& fine = levels_[0];
-    for_each_node(fine.size(),
-                  [&](std::size_t i) { fine.right[i] = static_cast<float>(residual_[i]); });
-    cycle(levels_, 0);
-    const double product = dot(residual_, fine.value);
-    const double beta = first ? 0 : product / previous_product;
-    for_each_node(fine.size(), [&](std::size_t i) {
-      direction_[i] = static_cast<double>(fine.value[i]) + beta * direction_[i];
-    });
-    for_each_node(fine.size(), [&](std::size_t i) {
-      image_[i] =
-          static_cast<double>(fine.diagonal[i]) * direction_[i] - linked_sum(fine, direction_, i);
-    });
-    const double alpha = product / dot(direction_, image_);
-    for_each_node(fine.size(), [&](std::size_t i) {
-      solution_[i] += alpha * direction_[i];
-      residual_[i] -= alpha * image_[i];
-    });
-    return product;
+  template <typename Body>
+  static void for_each(std::size_t n, const Body& body) {
+    for_each_node(n, body);
   }
 
+ private:
   std::vector<Level> levels_;
-  std::vector<double> residual_, solution_, direction_, image_;
 };
+
+double largest_per_link(const std::vector<double>& residual, const Network& network) {
+  return parallel_max(static_cast<Index>(residual.size()), [&](Index begin, Index end) {
+    double largest = 0;
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      largest = std::max(largest, std::abs(residual[i]) / network.diagonal(i));
+    }
+    return largest;
+  });
+}
+
+/// Stops when the largest residual per link is below `target` [m].
+Convergence solve(Network& network, std::vector<double> residual, double target,
+                  const Observer& observer, std::vector<double>& solution) {
+  Convergence convergence;
+  convergence.tolerance = kTolerance;
+  const auto is_done = [&](int n_iterations) {
+    convergence.iterations = n_iterations;
+    convergence.operator_applications = n_iterations;
+    convergence.certificate =
+        kTolerance * (target > 0 ? largest_per_link(residual, network) / target : 0);
+    if (convergence.certificate <= kTolerance) convergence.status = Status::converged;
+    if (asks_to_stop(observer, {"fill holes", 0.0, &convergence})) throw Interrupted();
+    return convergence.converged() || n_iterations == kMaxIterations;
+  };
+  solution.assign(residual.size(), 0);
+  numerics::conjugate_gradients(network, residual, solution, is_done);
+  return convergence;
+}
 
 }  // namespace
 
@@ -337,10 +332,12 @@ HarmonicFill fill_harmonic(Field& height, const Grid& grid, const Observer& obse
   HarmonicFill report;
   report.n_filled = static_cast<Index>(finest.size());
   count_components(finest, report);
-  Solver solver(build_levels(std::move(finest), grid.nx), std::move(right));
-  report.convergence = solver.solve(kTolerance * (highest - lowest), observer);
+  Network network(build_levels(std::move(finest), grid.nx));
+  std::vector<double> solution;
+  report.convergence =
+      solve(network, std::move(right), kTolerance * (highest - lowest), observer, solution);
   for_each_node(position.size(), [&](std::size_t i) {
-    height(position[i][1], position[i][0]) = datum + solver.solution()[i];
+    height(position[i][1], position[i][0]) = datum + solution[i];
   });
   return report;
 }
