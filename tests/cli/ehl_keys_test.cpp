@@ -1,4 +1,4 @@
-#include "tabor/cli/ehl_keys.hpp"
+#include "tabor/ehl/program.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -11,9 +11,9 @@
 
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
-#include "tabor/cli/ehl.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/ehl/program.hpp"
 
 namespace tabor::cli {
 namespace {
@@ -107,8 +107,8 @@ Texts beside(const std::string& program, const std::string& key) {
 
 class EhlKeyTable : public testing::TestWithParam<std::string> {
  protected:
-  const EhlProgram& program() const {
-    for (const EhlProgram& program : ehl_programs()) {
+  const ehl::Program& program() const {
+    for (const ehl::Program& program : ehl::programs()) {
       if (program.name == GetParam()) return program;
     }
     throw InputError(GetParam());
@@ -137,7 +137,7 @@ bool fits(const std::string& unit, const std::string& message) {
 }
 
 TEST_P(EhlKeyTable, EveryKeyIsReadInItsUnit) {
-  for (const EhlKey& key : program().keys) {
+  for (const ehl::CaseKey& key : program().keys) {
     const std::string wrong = key.unit == "K" ? "1 kg" : "1 K";
     Texts changes = beside(GetParam(), key.name);
     changes.push_back(key.name + "=" + wrong);
@@ -191,7 +191,7 @@ void expect_same(const io::Json& a, const io::Json& b, const std::string& where)
 TEST_P(EhlKeyTable, GivingADefaultChangesNothing) {
   int n_tried = 0;
   const std::string& text = cases().at(GetParam()).front();
-  for (const EhlKey& key : program().keys) {
+  for (const ehl::CaseKey& key : program().keys) {
     if (!is_value(key.usual) || key.name.starts_with("grid.nodes")) continue;
     Texts changes = beside(GetParam(), key.name);
     const Outcome without = run(text, GetParam(), changes);
@@ -213,11 +213,11 @@ TEST_P(EhlKeyTable, GivingADefaultChangesNothing) {
 TEST_P(EhlKeyTable, HelpListsEveryKey) {
   const Outcome outcome = run_tabor({"ehl", GetParam(), "--help"});
   EXPECT_EQ(outcome.code, 0);
-  for (const EhlKey& key : program().keys) {
+  for (const ehl::CaseKey& key : program().keys) {
     EXPECT_THAT(outcome.out, HasSubstr("\n  " + key.name + " "));
     EXPECT_FALSE(key.meaning.empty()) << key.name;
   }
-  for (const EhlProgram& other : ehl_programs()) {
+  for (const ehl::Program& other : ehl::programs()) {
     const std::string title = "Keys of a case of 'tabor ehl " + other.name;
     EXPECT_EQ(outcome.out.find(title) != std::string::npos, other.name == GetParam());
   }

@@ -6,11 +6,11 @@
 #include <sstream>
 
 #include "run_tabor.hpp"
-#include "tabor/cli/ehl.hpp"
 #include "tabor/cli/verb.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/likely_unit.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/ehl/program.hpp"
 #include "tabor/io/toml.hpp"
 
 namespace tabor::test {
@@ -217,8 +217,8 @@ TEST(MissingUnit, OfEveryKeyIsMendedByWhatTheMessageProposes) {
 TEST(MissingUnit, IsKnownOfEveryKeyOfACase) {
   // Lengths of a surface or a grid, for which the usual unit of lengths does.
   const std::regex no_table("(roughness|grid|film|groups)\\..*|wear\\.wave_amplitude");
-  for (const cli::EhlProgram& program : cli::ehl_programs()) {
-    for (const cli::EhlKey& key : program.keys) {
+  for (const ehl::Program& program : ehl::programs()) {
+    for (const ehl::CaseKey& key : program.keys) {
       EXPECT_TRUE(key.unit.empty() || plausible_keys().count(key.name) == 1 ||
                   std::regex_match(key.name, no_table))
           << "what is an ordinary value of " << key.name << "? See core/likely_unit.cpp";

@@ -3,7 +3,7 @@
 
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
-#include "tabor/cli/ehl_sweep.hpp"
+#include "tabor/cli/axis_option.hpp"
 #include "tabor/cli/interrupt.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/io/hdf5.hpp"
@@ -11,6 +11,7 @@
 namespace tabor::cli {
 namespace {
 
+using study::SweepAxis;
 using test::json_of;
 using test::Outcome;
 using test::run_tabor;
@@ -76,7 +77,7 @@ TEST(SweepAxis, RejectsWhatIsNoRange) {
 }
 
 TEST(SweepAxis, CombinesAllValuesTheLastFastest) {
-  const auto all = combinations({parse_axis("a=1..2:2"), parse_axis("b=1..3:3")});
+  const auto all = study::combinations({parse_axis("a=1..2:2"), parse_axis("b=1..3:3")});
   ASSERT_EQ(all.size(), 6u);
   EXPECT_EQ(all[1], (std::vector<std::size_t>{0, 1}));
   EXPECT_EQ(all[3], (std::vector<std::size_t>{1, 0}));

@@ -97,18 +97,6 @@ void CommandFiles::fills(const fs::path& folder) {
   add(std::move(output));
 }
 
-void CommandFiles::holds(const fs::path& file, const std::string& sha256) {
-  const auto [known, is_new] = digests_.try_emplace(resolved(file), sha256);
-  if (is_new || known->second == sha256) return;
-  throw Error(fmt::format("{}: replaced or changed since this command first read it; run it again",
-                          file.string()));
-}
-
-std::string CommandFiles::sha256_of(const fs::path& file) const {
-  const auto known = digests_.find(resolved(file));
-  return known == digests_.end() ? "" : known->second;
-}
-
 OptionSet noting_files(const OptionSet& set, NamedFiles& named) {
   OptionSet noting;
   for (Option option : set.options()) {

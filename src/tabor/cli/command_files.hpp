@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -25,12 +24,6 @@ class CommandFiles {
   /// The same for a folder whose files the command makes, replaces and removes.
   void fills(const std::filesystem::path& folder);
 
-  /// States the digest of the bytes that were read of a file. Throws Error if it is not that of the
-  /// last time: the file was replaced meanwhile, and no result would say what it was made of.
-  void holds(const std::filesystem::path& file, const std::string& sha256);
-  /// The digest stated; "" if none was.
-  std::string sha256_of(const std::filesystem::path& file) const;
-
  private:
   using Identity = std::pair<std::uint64_t, std::uint64_t>;  ///< device and number on it
   struct Output {
@@ -46,7 +39,6 @@ class CommandFiles {
 
   std::vector<std::filesystem::path> inputs_;
   std::vector<Output> outputs_;
-  std::map<std::filesystem::path, std::string> digests_;
 };
 
 /// The files that the words of a command line name.

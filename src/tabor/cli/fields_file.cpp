@@ -18,23 +18,6 @@ std::string now_utc() {
   return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
 }
 
-bool is_text(const io::Json& value) { return value.is_string(); }
-
-void write_attribute(io::Hdf5Writer& writer, const std::string& path, const std::string& key,
-                     const io::Json& value) {
-  if (value.is_boolean()) {
-    writer.attribute(path, key, value.get<bool>() ? 1 : 0);
-  } else if (value.is_number_integer()) {
-    writer.attribute(path, key, value.get<std::int64_t>());
-  } else if (value.is_number()) {
-    writer.attribute(path, key, value.get<double>());
-  } else if (value.is_string()) {
-    writer.attribute(path, key, value.get<std::string>());
-  } else if (value.is_array() && std::all_of(value.begin(), value.end(), is_text)) {
-    writer.attribute(path, key, value.get<std::vector<std::string>>());
-  }
-}
-
 }  // namespace
 
 void write_result_head(io::Hdf5Writer& writer, const Context& context,
@@ -50,10 +33,6 @@ void write_result_head(io::Hdf5Writer& writer, const Context& context,
 
 void write_warnings(io::Hdf5Writer& writer, const Context& context) {
   writer.attribute("/", "warnings", context.warnings);
-}
-
-void write_scalars(io::Hdf5Writer& writer, const std::string& group, const io::Json& scalars) {
-  for (const auto& [key, value] : scalars.items()) write_attribute(writer, group, key, value);
 }
 
 std::string toml_of(const io::Json& settings) {

@@ -48,9 +48,6 @@ void write_result_head(io::Hdf5Writer& writer, const Context& context,
 /// The attribute every result file ends with: what --json says under the same key.
 void write_warnings(io::Hdf5Writer& writer, const Context& context);
 
-/// Numbers, texts and switches of a flat object as attributes of a group; the rest is left out.
-void write_scalars(io::Hdf5Writer& writer, const std::string& group, const io::Json& scalars);
-
 /// A flat JSON object as TOML lines; nulls are left out.
 std::string toml_of(const io::Json& settings);
 

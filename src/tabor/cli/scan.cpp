@@ -123,13 +123,6 @@ Scan load_scan(const scan::ScanFile& file, const ScanRequest& request, Context& 
   return scan;
 }
 
-Topography read_input(const std::filesystem::path& file, const scan::ReadOptions& options,
-                      Context& context) {
-  const scan::ScanFile scan(file, context.observer());
-  context.files.holds(file, scan.sha256());
-  return scan.read(options);
-}
-
 void warn_if_not_levelled(const Scan& scan, Context& context) {
   if (const auto warning = analysis::not_levelled(scan.surface)) context.warn(warning->text);
 }

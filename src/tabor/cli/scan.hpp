@@ -42,10 +42,6 @@ Scan load_scan(const ScanRequest& request, Context& context);
 /// The same for a file that is open already.
 Scan load_scan(const scan::ScanFile& file, const ScanRequest& request, Context& context);
 
-/// A scan that a case names, untreated; the digest of its bytes is stated to context.files.
-topography::Topography read_input(const std::filesystem::path& file,
-                                  const scan::ReadOptions& options, Context& context);
-
 /// Warns when a scan that does not close on itself is used as it was read, and says by how much a
 /// plane would change it.
 void warn_if_not_levelled(const Scan& scan, Context& context);

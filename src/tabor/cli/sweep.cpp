@@ -10,6 +10,7 @@
 
 #include "tabor/cli/failure.hpp"
 #include "tabor/cli/result.hpp"
+#include "tabor/cli/run_options.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
@@ -26,9 +27,7 @@ namespace fs = std::filesystem;
 struct Request {
   std::string study;
   std::optional<std::string> directory;
-  std::uint64_t jobs = 0;
-  std::optional<study::Shard> shard;
-  bool retry = false;
+  RunRequest run;
 
   fs::path folder() const {
     return directory ? fs::path(*directory) : fs::path(study).stem().concat("_results");
@@ -42,12 +41,8 @@ study::Study read_study(const Request& request, const Context& context) {
 }
 
 study::SweepOptions options_for(const Request& request, const Context& context) {
-  study::SweepOptions options;
-  options.jobs = static_cast<int>(std::min<std::uint64_t>(request.jobs, 1024));
-  options.shard = request.shard;
-  options.retry = request.retry;
+  study::SweepOptions options{run_options(request.run, context), {}};
   options.command = context.command_line;
-  options.observer = context.observer();
   return options;
 }
 
@@ -164,15 +159,7 @@ void declare_options(OptionSet& set, Request& request) {
   set.input("STUDY.toml", "the study: scans, treatment, material, pressures, densities",
             request.study);
   set.output("DIR", "folder of the results [STUDY_results]", {}, request.directory);
-  set.count("--jobs",
-            "cases computed at the same time, each with its own memory [as many as there are "
-            "threads and room for]",
-            request.jobs);
-  set.add({.flag = "--shard",
-           .placeholder = "I/N",
-           .help = "compute only part I of N; all parts may share one folder",
-           .assign = [&](const std::string& text) { request.shard = study::parse_shard(text); }});
-  set.toggle("--retry", "compute failed and not converged cases again", request.retry);
+  declare_run_options(set, request.run);
 }
 
 }  // namespace

@@ -109,18 +109,4 @@ std::string text_of(const Cell& cell, const ColumnHead& head) {
   return number_text(number_in(cell), head);
 }
 
-std::string percent(double fraction, int digits) {
-  return std::isnan(fraction) ? "-" : fmt::format("{:.{}g} %", 100 * fraction, digits);
-}
-
-std::string si(double value, const std::string& unit) {
-  return std::isnan(value) ? "-" : format_si(value, unit);
-}
-
-std::string plain(double value, int digits) {
-  return std::isnan(value) ? "-" : fmt::format("{:.{}g}", value, digits);
-}
-
-std::string yes_no(bool value) { return value ? "yes" : "NO"; }
-
 }  // namespace tabor::cli

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "tabor/core/column.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/core/units.hpp"
 
 namespace tabor::cli {
 
@@ -57,10 +59,5 @@ Table table_of(const Columns<Record>& columns, const std::vector<Record>& record
   }
   return table;
 }
-
-std::string percent(double fraction, int digits = 3);   ///< 0.02134 -> "2.13 %", NaN -> "-"
-std::string si(double value, const std::string& unit);  ///< "7 MPa", NaN -> "-"
-std::string plain(double value, int digits = 4);        ///< "0.2917", NaN -> "-"
-std::string yes_no(bool value);
 
 }  // namespace tabor::cli

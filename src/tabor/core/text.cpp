@@ -84,4 +84,6 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& ca
   return match ? "; did you mean '" + *match + "'?" : "";
 }
 
+std::string yes_no(bool value) { return value ? "yes" : "NO"; }
+
 }  // namespace tabor

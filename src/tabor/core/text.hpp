@@ -24,4 +24,7 @@ std::optional<std::string> nearest_match(std::string_view word,
 /// "; did you mean 'plane'?" or "" when nothing is near.
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
+/// "yes" or "NO", for tables, where what should catch the eye is the latter.
+std::string yes_no(bool value);
+
 }  // namespace tabor

@@ -207,6 +207,18 @@ std::string format_si(double value, std::string_view si_unit, int significant_di
                      significant_digits, *std::next(prefixes.begin(), step + plain), si_unit);
 }
 
+std::string si(double value, const std::string& unit) {
+  return std::isnan(value) ? "-" : format_si(value, unit);
+}
+
+std::string plain(double value, int digits) {
+  return std::isnan(value) ? "-" : fmt::format("{:.{}g}", value, digits);
+}
+
+std::string percent(double fraction, int digits) {
+  return std::isnan(fraction) ? "-" : fmt::format("{:.{}g} %", 100 * fraction, digits);
+}
+
 double in_g_per_m2(double lubricant_density) {
   return parse_number(fmt::format("{:.15g}", 1e3 * lubricant_density)).value();
 }

@@ -57,6 +57,11 @@ std::optional<double> unit_factor(std::string_view unit, Dimension expected);
 /// Engineering form for people: format_si(6.7e-7, "m") = "670 nm", format_si(7e6, "Pa") = "7 MPa".
 std::string format_si(double value, std::string_view si_unit, int significant_digits = 4);
 
+/// The same where a number may be unknown: NaN -> "-".
+std::string si(double value, const std::string& unit);  ///< 7e6, "Pa" -> "7 MPa"
+std::string plain(double value, int digits = 4);        ///< without a unit, 0.29168 -> "0.2917"
+std::string percent(double fraction, int digits = 3);   ///< 0.02134 -> "2.13 %"
+
 /// Areal density [kg/m^2] as it is dosed, in g/m^2: 0.45 for 0.45e-3, free of the rounding of the
 /// factor 1000.
 double in_g_per_m2(double lubricant_density);

@@ -1,5 +1,6 @@
 #include "tabor/io/columns.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -40,6 +41,23 @@ std::string text_of(const Cell& cell) {
   return csv_number(number_in(cell));
 }
 
+bool is_text_value(const Json& value) { return value.is_string(); }
+
+void write_attribute(Hdf5Writer& writer, const std::string& path, const std::string& key,
+                     const Json& value) {
+  if (value.is_boolean()) {
+    writer.attribute(path, key, value.get<bool>() ? 1 : 0);
+  } else if (value.is_number_integer()) {
+    writer.attribute(path, key, value.get<std::int64_t>());
+  } else if (value.is_number()) {
+    writer.attribute(path, key, value.get<double>());
+  } else if (value.is_string()) {
+    writer.attribute(path, key, value.get<std::string>());
+  } else if (value.is_array() && std::all_of(value.begin(), value.end(), is_text_value)) {
+    writer.attribute(path, key, value.get<std::vector<std::string>>());
+  }
+}
+
 }  // namespace
 
 Json json_of(const NamedCells& cells) {
@@ -64,6 +82,10 @@ void write_attributes(Hdf5Writer& writer, const std::string& path, const NamedCe
       writer.attribute(path, head.key, number_in(cell));
     }
   }
+}
+
+void write_members(Hdf5Writer& writer, const std::string& path, const Json& object) {
+  for (const auto& [key, value] : object.items()) write_attribute(writer, path, key, value);
 }
 
 void write_dataset(Hdf5Writer& writer, const std::string& path, const std::vector<Cell>& cells,

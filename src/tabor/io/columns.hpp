@@ -16,6 +16,9 @@ Json json_of(const NamedCells& cells);
 /// One attribute per cell.
 void write_attributes(Hdf5Writer& writer, const std::string& path, const NamedCells& cells);
 
+/// The same of a JSON object: numbers, texts, lists of texts and switches; the rest is left out.
+void write_members(Hdf5Writer& writer, const std::string& path, const Json& object);
+
 /// One column of many records as a dataset: whole numbers and switches as integers, other numbers,
 /// or texts, as `kind` is.
 void write_dataset(Hdf5Writer& writer, const std::string& path, const std::vector<Cell>& cells,

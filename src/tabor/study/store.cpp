@@ -14,6 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kLockName = "lock";
+constexpr const char* kShardLock = ".lock";  // extension of what lock() makes
 
 bool is_of_kind(const fs::path& file, const std::vector<std::string>& kinds) {
   const std::string name = file.filename().string();
@@ -51,16 +52,19 @@ void Store::discard(const std::vector<std::string>& kinds) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(folder_, ignored)) files.push_back(entry.path());
   for (const fs::path& file : files) {
-    if (is_of_kind(file, kinds) || io::is_temporary_name(file)) fs::remove(file, ignored);
+    const bool is_lock = file.extension() == kShardLock;
+    if (is_lock || is_of_kind(file, kinds) || io::is_temporary_name(file)) {
+      fs::remove(file, ignored);
+    }
   }
-  fs::remove(folder_ / kLockName, ignored);
+  fs::remove(folder_ / kLockName, ignored);  // last: it keeps others away
   fs::remove(folder_, ignored);
 }
 
 std::optional<io::FileLock> Store::lock(const std::string& name,
                                         const std::function<void()>& keep_waiting) const {
   if (use_ == Use::alone) return std::nullopt;
-  const fs::path file = folder_ / (name + ".lock");
+  const fs::path file = folder_ / (name + kShardLock);
   for (;;) {
     std::optional<io::FileLock> lock = io::FileLock::take(file, io::FileLock::Kind::alone);
     if (lock) return lock;

@@ -36,8 +36,8 @@ class Store {
   bool has(const Task& task) const { return std::filesystem::exists(path(task)); }
   void remove(const Task& task) const;
 
-  /// For results that outlive their run elsewhere: removes every file of these kinds of tasks, and
-  /// then the folder if nothing else is in it. Nothing may be stored afterwards.
+  /// For results that outlive their run elsewhere: removes every file of these kinds of tasks and
+  /// every lock, and then the folder if nothing else is in it. Nothing may be stored afterwards.
   void discard(const std::vector<std::string>& kinds);
 
   /// Waits until no other shard works on `name`; `keep_waiting` is asked ten times a second and

@@ -1,0 +1,35 @@
+#include "tabor/cli/run_options.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace tabor::cli {
+
+namespace {
+
+constexpr std::uint64_t kMostJobs = 1024;
+
+}  // namespace
+
+void declare_run_options(OptionSet& set, RunRequest& request) {
+  set.count("--jobs",
+            "cases computed at the same time, each with its own memory [as many as there are "
+            "threads and room for]",
+            request.jobs);
+  set.add({.flag = "--shard",
+           .placeholder = "I/N",
+           .help = "compute only part I of N; all parts may share one folder",
+           .assign = [&](const std::string& text) { request.shard = study::parse_shard(text); }});
+  set.toggle("--retry", "compute failed and not converged cases again", request.retry);
+}
+
+study::RunOptions run_options(const RunRequest& request, const Context& context) {
+  study::RunOptions options;
+  options.jobs = static_cast<int>(std::min(request.jobs, kMostJobs));
+  options.shard = request.shard;
+  options.retry = request.retry;
+  options.observer = context.observer();
+  return options;
+}
+
+}  // namespace tabor::cli

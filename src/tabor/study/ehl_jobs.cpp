@@ -1,0 +1,207 @@
+#include "tabor/study/ehl_jobs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+#include <utility>
+
+#include "tabor/core/error.hpp"
+#include "tabor/io/digest.hpp"
+#include "tabor/io/hdf5_guard.hpp"
+#include "tabor/study/checkpoint.hpp"
+
+namespace tabor::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+ehl::CaseResult solve_or_reject(const ehl::CaseSolver& solve, const EhlCase& one,
+                                const ehl::CaseSetting& setting) {
+  try {
+    ehl::CaseResult result = solve(one.config, setting);
+    // Maps of many cases would fill the memory.
+    result.facts.clear();
+    result.write = {};
+    return result;
+  } catch (const InputError& error) {
+    return {.scalars = {{"refused", error.what()}, {"converged", false}},
+            .warnings = {std::string("rejected: ") + error.what()}};
+  }
+}
+
+Quality quality_of(const ehl::CaseResult& result) {
+  if (is_rejected(result)) return Quality::failed;
+  return result.converged ? Quality::converged : Quality::not_converged;
+}
+
+/// What the jobs of one chain share: the solver, and behind which case it stands.
+struct Chain {
+  ehl::CaseChain solver;
+  std::optional<std::size_t> behind = {};
+
+  bool keeps_starts() const { return solver.write_start != nullptr; }
+};
+
+Chain chain_of(const ehl::Program& program) {
+  return {.solver =
+              program.make_chain ? program.make_chain() : ehl::CaseChain{.solve = program.solve}};
+}
+
+/// What all jobs of a series share.
+struct SeriesOfJobs {
+  const EhlSeries& series;
+  const Store* store;
+  EhlResults& results;
+  std::vector<std::string>& damaged;
+
+  fs::path start_of(std::size_t i) const { return store->folder() / series.cases[i].start_file; }
+};
+using Shared = std::shared_ptr<SeriesOfJobs>;
+
+/// Whether the start that a case has left is there, to the last byte; only then is it opened at
+/// all. A damaged one is named and removed.
+bool has_start(SeriesOfJobs& shared, std::size_t i) {
+  const fs::path file = shared.start_of(i);
+  if (!fs::exists(file)) return false;  // the next case has been solved from there
+  const io::Json kept = read_checkpoint(*shared.store, shared.series.cases[i].task);
+  if (kept.value("start_sha256", std::string()) == io::sha256_of_file(file)) return true;
+  shared.damaged.push_back(file.string() + ": damaged");
+  fs::remove(file);
+  return false;
+}
+
+/// Puts the solver behind the case before this one.
+void stand_before(SeriesOfJobs& shared, Chain& chain, std::size_t i) {
+  if (shared.series.cases[i].starts_anew || !chain.keeps_starts()) return;
+  if (chain.behind == i - 1) return;
+  const fs::path file = shared.start_of(i - 1);
+  try {
+    const auto read = [&] { chain.solver.read_start(io::Hdf5Reader(file)); };
+    io::require_hdf5_survives(file, read);
+    read();
+  } catch (const InputError& error) {  // of a file of this store, which is no fault of the case
+    throw Error(error.what());
+  }
+}
+
+/// The start before the case, so that the case is never there without it; the start of the case
+/// before only goes when this one is there.
+void keep(const SeriesOfJobs& shared, const Chain& chain, std::size_t i,
+          const ehl::CaseResult& result) {
+  io::Json json = {
+      {"scalars", result.scalars}, {"converged", result.converged}, {"warnings", result.warnings}};
+  if (chain.keeps_starts()) {
+    io::Hdf5Writer writer(shared.start_of(i));
+    chain.solver.write_start(writer);
+    writer.commit();
+    json["start_sha256"] = io::sha256_of_file(shared.start_of(i));
+  }
+  const EhlCase& one = shared.series.cases[i];
+  write_checkpoint(*shared.store, one.task, json);
+  std::error_code ignored;
+  if (!one.starts_anew) fs::remove(shared.start_of(i - 1), ignored);
+}
+
+void compute(SeriesOfJobs& shared, Chain& chain, std::size_t i, const Monitor& monitor) {
+  const EhlCase& one = shared.series.cases[i];
+  if (shared.store) stand_before(shared, chain, i);
+  ehl::CaseResult result =
+      solve_or_reject(chain.solver.solve, one, shared.series.setting(monitor.own));
+  chain.behind = i;
+  if (shared.store) keep(shared, chain, i, result);
+  shared.results[one.place] = std::move(result);
+}
+
+std::string defect_of(const Store& store, const Task& task) {
+  try {
+    read_ehl_case(store, task);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+Job job_of(const Shared& shared, const std::shared_ptr<Chain>& chain, std::size_t i) {
+  const EhlSeries& series = shared->series;
+  const EhlCase& one = series.cases[i];
+  Job job;
+  job.task = shared->store ? one.task : Task{};
+  job.kind = "case";
+  job.stage = fmt::format("{} {}", series.program.name, one.name);
+  job.part = one.chain;
+  job.restarts = true;
+  if (!one.starts_anew) job.needs = {i - 1};
+  job.compute = [shared, chain, i](const Monitor& monitor) {
+    compute(*shared, *chain, i, monitor);
+  };
+  if (series.program.memory) {
+    job.memory = [shared, i](const Monitor&) {
+      return shared->series.program.memory(shared->series.cases[i].config);
+    };
+  }
+  if (!shared->store) return job;
+  job.defect = [shared, task = one.task] { return defect_of(*shared->store, task); };
+  job.quality = [shared, task = one.task] {
+    return quality_of(read_ehl_case(*shared->store, task));
+  };
+  if (chain->keeps_starts()) job.can_serve = [shared, i] { return has_start(*shared, i); };
+  return job;
+}
+
+}  // namespace
+
+EhlStore::EhlStore(const fs::path& folder, Store::Use use)
+    : store_(folder, use,
+             folder.string() +
+                 ": another sweep keeps its cases there; wait for it to end, give another -o, or "
+                 "split one sweep with --shard i/n") {}
+
+EhlStore::~EhlStore() {
+  if (store_.is_shared()) return;
+  store_.discard(is_finished_ ? std::vector<std::string>{"case", "start"}
+                              : std::vector<std::string>{});
+}
+
+std::size_t EhlStore::n_unused(const EhlSeries& series) const {
+  std::set<std::string> used;
+  for (const EhlCase& one : series.cases) used.insert(one.task.file);
+  std::size_t n = 0;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder(), ignored)) {
+    const fs::path name = entry.path().filename();
+    const bool is_case = name.extension() == ".json" && name.string().starts_with("case-");
+    n += is_case && !used.contains(name.string()) ? 1 : 0;
+  }
+  return n;
+}
+
+bool is_rejected(const ehl::CaseResult& result) { return result.scalars.contains("refused"); }
+
+ehl::CaseResult read_ehl_case(const Store& store, const Task& task) {
+  const io::Json json = read_checkpoint(store, task);
+  try {
+    ehl::CaseResult result{.scalars = json.at("scalars"),
+                           .converged = json.at("converged").get<bool>(),
+                           .warnings = json.at("warnings").get<std::vector<std::string>>()};
+    if (result.scalars.is_object()) return result;
+  } catch (const io::Json::exception&) {  // as below
+  }
+  throw InputError(store.path(task).string() + ": not a whole case");
+}
+
+std::vector<Job> ehl_jobs(const EhlSeries& series, const Store* store, EhlResults& results,
+                          std::vector<std::string>& damaged) {
+  results.resize(series.cases.size());
+  const Shared shared(new SeriesOfJobs{series, store, results, damaged});
+  std::vector<Job> jobs;
+  std::shared_ptr<Chain> chain;
+  for (std::size_t i = 0; i < series.cases.size(); ++i) {
+    if (series.cases[i].starts_anew) chain = std::make_shared<Chain>(chain_of(series.program));
+    jobs.push_back(job_of(shared, chain, i));
+  }
+  return jobs;
+}
+
+}  // namespace tabor::study
