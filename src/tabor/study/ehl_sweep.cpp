@@ -10,6 +10,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
+#include "tabor/study/plan.hpp"
 
 namespace tabor::study {
 namespace {
