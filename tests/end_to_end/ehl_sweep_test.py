@@ -73,5 +73,53 @@ class Stopped(EhlSweepTest):
         self.assert_goes_on(IMPACT, (1, 2, 4))
 
 
+class SharedOut(EhlSweepTest):
+    def assert_same(self, name, said, words):
+        """The file and the object of a run are those of one that does all by itself."""
+        _, expected, _ = self.results("whole.h5", [*words, "--jobs", "1"])
+        self.assertEqual(said, expected)
+        whole, out = self.numbers("whole.h5"), self.numbers(name)
+        self.assertEqual(set(out), set(whole))
+        for path, values in whole.items():
+            np.testing.assert_array_equal(out[path], values, path)
+
+    def test_to_jobs_a_stribeck_curve_has_the_same_bits(self):
+        self.copy("12_stribeck")
+        _, said, _ = self.results("two.h5", [*STRIBECK, "--jobs", "2"])
+        self.assert_same("two.h5", said, STRIBECK)
+
+    def test_to_shards_so_does_it_even_if_one_is_killed(self):
+        self.copy("12_stribeck")
+        ended, _, err = self.stop_after(1, signal.SIGKILL, [*STRIBECK, "--shard", "2/2"])
+        self.assertEqual(ended, -9, err)
+        for shard, n_computed in (("2/2", None), ("1/2", 4)):
+            said = self.json(*STRIBECK, "-o", "out.h5", "--shard", shard)
+            self.assertEqual((said["shard"], said["n_cases"], said["converged"]), (shard, N_CASES, True))
+            self.assertEqual(said["n_computed"], n_computed or said["n_computed"])
+            self.assertFalse((self.folder / "out.h5").exists())
+        self.assertEqual(said["n_done"], N_CASES)
+        _, said, err = self.results("out.h5", STRIBECK)
+        self.assertIn(f"{N_CASES} of {N_CASES} cases were done", err)
+        self.assert_same("out.h5", said, STRIBECK)
+        self.assertEqual(self.files(), ["ball.toml", "out.h5", "whole.h5"])
+
+    def test_and_retried_it_computes_what_made_no_sense_and_what_follows(self):
+        self.copy("12_stribeck")
+        words = ["ehl", "point", "ball.toml", "--set", "motion.speed=5m/s,-1m/s,10m/s", "--set", "grid.nodes=33"]
+        self.assertEqual(self.tabor(*words, "-o", "out.h5", "--shard", "1/1").returncode, 4)
+        said = json.loads(self.tabor(*words, "-o", "out.h5", "--shard", "1/1", "--json").stdout)
+        self.assertEqual(said["n_computed"], 0)
+        said = json.loads(self.tabor(*words, "-o", "out.h5", "--shard", "1/1", "--json", "--retry").stdout)
+        self.assertEqual(said["n_computed"], 3)  # -1 m/s needs the film before it, whose own start is gone
+        _, said, _ = self.results("out.h5", words)
+        self.assert_same("out.h5", said, words)
+
+    def test_only_where_there_is_a_folder_for_it(self):
+        self.copy("12_stribeck")
+        for words in (["--shard", "1/2"], ["--retry"], ["-o", "out.h5", "--shard", "1/2"]):
+            swept = ["--set", "grid.nodes=33,65"] if "-o" not in words else []
+            self.assert_rejected(self.tabor("ehl", "point", "ball.toml", *swept, *words), 2, "-o OUT.h5")
+
+
 if __name__ == "__main__":
     unittest.main()

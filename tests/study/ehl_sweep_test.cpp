@@ -219,6 +219,16 @@ TEST_F(EhlSweep, RetryComputesWhatDidNotConvergeAndAllBehindItAgain) {
   EXPECT_EQ(n_solved_, 0);
 }
 
+TEST_F(EhlSweep, RetryInAShardBeginsTheChainAgainWhoseStartIsGone) {
+  const std::vector<io::Json> whole = expected();
+  run(with_shard(1, 1));
+  RunOptions options = with_shard(1, 1);
+  options.retry = true;
+  EXPECT_EQ(scalars(options), whole);
+  EXPECT_FALSE(outcome_.ended_by);
+  EXPECT_EQ(n_solved_, 5);
+}
+
 TEST_F(EhlSweep, WarningsAndConvergenceAreKept) {
   run();
   const EhlResults results = run();

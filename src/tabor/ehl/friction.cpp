@@ -12,9 +12,6 @@ namespace tabor::ehl {
 
 namespace {
 
-/// Shear stress over pressure beyond which oils give way (Johnson & Tevaarwerk 1977).
-constexpr double kYieldRatio = 0.1;
-
 /// A warning where a Newtonian film is sheared at `stress` [Pa] under `pressure` [Pa].
 std::optional<std::string> sheared_too_hard(const material::Shear& shear, double stress,
                                             double pressure) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <mutex>
 #include <set>
 #include <utility>
 
@@ -55,6 +56,7 @@ struct SeriesOfJobs {
   const Store* store;
   EhlResults& results;
   std::vector<std::string>& damaged;
+  std::mutex mutex = {};  // of `damaged`
 
   fs::path start_of(std::size_t i) const { return store->folder() / series.cases[i].start_file; }
 };
@@ -67,6 +69,7 @@ bool has_start(SeriesOfJobs& shared, std::size_t i) {
   if (!fs::exists(file)) return false;  // the next case has been solved from there
   const io::Json kept = read_checkpoint(*shared.store, shared.series.cases[i].task);
   if (kept.value("start_sha256", std::string()) == io::sha256_of_file(file)) return true;
+  const std::lock_guard lock(shared.mutex);
   shared.damaged.push_back(file.string() + ": damaged");
   fs::remove(file);
   return false;
@@ -77,6 +80,11 @@ void stand_before(SeriesOfJobs& shared, Chain& chain, std::size_t i) {
   if (shared.series.cases[i].starts_anew || !chain.keeps_starts()) return;
   if (chain.behind == i - 1) return;
   const fs::path file = shared.start_of(i - 1);
+  if (!fs::exists(file)) {
+    throw Error(
+        file.string() +
+        ": gone while this command ran; only one process may work on a shard: run it again");
+  }
   try {
     const auto read = [&] { chain.solver.read_start(io::Hdf5Reader(file)); };
     io::require_hdf5_survives(file, read);

@@ -243,6 +243,7 @@ class Engine {
       report_.warnings.push_back("damaged, computed again: " + problem);
       return false;
     }
+    if (job.can_serve && !job.can_serve()) return false;
     return !plan_[place].retried || !job.quality || job.quality() == Quality::converged;
   }
 

@@ -219,7 +219,7 @@ CaseResult solve(const io::Config& config, const CaseSetting& setting) {
   return answer;
 }
 
-/// Of the dense matrix of all rings, its factors and the profiles of all steps.
+/// By how much the peak of `tabor ehl impact` grows: matrices of all rings.
 std::size_t memory_of(const io::Config& config) {
   const auto n = static_cast<std::size_t>(integer_or(config, "grid.nodes", ImpactProblem{}.nodes));
   return 6 * sizeof(double) * n * n;

@@ -274,10 +274,10 @@ CaseResult solve(const io::Config& config, const CaseSetting& setting) {
   return answer;
 }
 
-/// Of the dense matrix of all nodes and its factors.
+/// By how much the peak of `tabor ehl line` grows.
 std::size_t memory_of(const io::Config& config) {
   const auto n = static_cast<std::size_t>(integer_or(config, "grid.nodes", LineProblem{}.nodes));
-  return 4 * sizeof(double) * n * n;
+  return sizeof(double) * n * n;
 }
 
 CaseKeys line_keys() {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tabor/ehl/point/finish.hpp"
 #include "tabor/ehl/point/point.hpp"
 #include "tabor/ehl/program.hpp"
 
@@ -14,19 +15,6 @@ namespace tabor::ehl {
 /// Bodies, load, motion, liquid and grid; smooth. [groups] with Moes' M and L takes the place of
 /// load and speed: a ball on a flat, steel and mineral oil unless the case says otherwise.
 PointProblem read_point(const io::Config& config);
-
-/// A finish that is generated: Gaussian heights, a self-affine spectrum that is flat beyond the
-/// roll-off.
-struct Finish {
-  std::string name;
-  double rms_height;           ///< [m]
-  double roll_off_wavelength;  ///< [m]
-};
-
-/// The finishes beside "ground". Their heights are those that Redlich, Bartel & Deters (2003) print
-/// for their surfaces; with the roll-off the dry contact of their ball touches and flows on about
-/// the shares they print, 45 and 37 % lapped, 80 and 6 % polished (docs/ehl_point.md).
-const std::vector<Finish>& finishes();
 
 /// What a result says about the rough surface of its case.
 struct RoughnessNotes {

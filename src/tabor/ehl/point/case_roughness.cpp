@@ -17,7 +17,6 @@ namespace {
 constexpr double kCoarse = 2;         // pixels between nodes
 constexpr double kMostPixels = 4096;  // of a generated surface, along either side
 
-constexpr double kHurst = 0.8;
 constexpr double kPixel = 784.3e-9;  // [m], of the surfaces of Redlich, Bartel & Deters
 constexpr const char* kGround = "ground";
 constexpr double kGroundRms = 0.15e-6;  // [m]
@@ -90,7 +89,7 @@ GeneratedSurface read_finish_on(const io::Config& config, const Grid& grid) {
     const Finish& finish = read_finish(config);
     return {.grid = grid,
             .rms_height = length("roughness.rms", finish.rms_height),
-            .hurst = kHurst,
+            .hurst = finish.hurst,
             .roll_off_wavelength = finish.roll_off_wavelength};
   }
   const double spacing = length("roughness.groove_spacing", kGrooveSpacing);

@@ -1,0 +1,301 @@
+#include "tabor/cli/film_sweep.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <optional>
+#include <ostream>
+
+#include "tabor/cli/failure.hpp"
+#include "tabor/cli/fields_file.hpp"
+#include "tabor/cli/result.hpp"
+#include "tabor/cli/table.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/printable.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/study/ehl_warnings.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+using Results = std::vector<ehl::CaseResult>;
+using CaseColumns = std::vector<ehl::CaseColumn>;
+using study::SweepAxis;
+
+/// Says once what the cases warn of; returns the marks of each.
+std::vector<std::string> warn_of_many(const Results& results, const study::EhlCaseNames& names,
+                                      Context& context) {
+  study::EhlWarnings warnings = gather_warnings(results, names);
+  for (const std::string& line : warnings.lines) context.warn(line);
+  return std::move(warnings.marks);
+}
+
+std::string number_text(double value, const ehl::CaseColumn& column) {
+  return column.unit.empty() ? plain(value) : si(value, column.unit);
+}
+
+/// Numbers of many cases under the headings of their columns, what each warns of behind them.
+class CaseTable {
+ public:
+  /// `first`: headings of what tells the cases apart; `last`: of what stands behind the numbers.
+  CaseTable(std::vector<std::string> first, const CaseColumns& columns,
+            const std::vector<std::string>& last, const std::vector<std::string>& marks)
+      : columns_(columns), marks_(marks), table_(headings(std::move(first), last)) {}
+
+  void add(std::vector<std::string> cells, const ehl::CaseResult& result,
+           const std::vector<std::string>& last) {
+    for (const ehl::CaseColumn& column : columns_) {
+      cells.push_back(number_text(study::number_of(result.scalars, column.key), column));
+    }
+    cells.insert(cells.end(), last.begin(), last.end());
+    if (has_marks()) cells.push_back(marks_[n_rows_]);
+    ++n_rows_;
+    table_.row(cells);
+  }
+
+  /// Two more rows, and two objects of JSON.
+  void add_limits(const std::vector<numerics::GridLimit>& limits, io::Json& object) {
+    std::vector<std::string> limit_row = {"limit"};
+    std::vector<std::string> order_row = {"order"};
+    object["limits"] = object["orders"] = io::Json::object();
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      limit_row.push_back(number_text(limits[i].value, columns_[i]));
+      order_row.push_back(plain(limits[i].order, 2));
+      object["limits"][columns_[i].key] = io::number(limits[i].value);
+      object["orders"][columns_[i].key] = io::number(limits[i].order);
+    }
+    table_.row(limit_row);
+    table_.row(order_row);
+  }
+
+  std::string text() const { return table_.text(); }
+
+ private:
+  bool has_marks() const {
+    return std::any_of(marks_.begin(), marks_.end(),
+                       [](const std::string& mark) { return !mark.empty(); });
+  }
+  std::vector<std::string> headings(std::vector<std::string> first,
+                                    const std::vector<std::string>& last) const {
+    for (const ehl::CaseColumn& column : columns_) first.push_back(column.heading);
+    first.insert(first.end(), last.begin(), last.end());
+    if (has_marks()) first.emplace_back("warnings");
+    return first;
+  }
+
+  const CaseColumns& columns_;
+  const std::vector<std::string>& marks_;
+  Table table_;
+  std::size_t n_rows_ = 0;
+};
+
+bool all_converged(const Results& results) {
+  return std::all_of(results.begin(), results.end(),
+                     [](const ehl::CaseResult& result) { return result.converged; });
+}
+
+/// The swept values of a case, `set`, and what came of them.
+io::Json result_of(io::Json set, const ehl::CaseResult& result) {
+  io::Json object = {{"set", std::move(set)}};
+  object.update(result.scalars);
+  object["warnings"] = result.warnings;
+  return object;
+}
+
+int finish_many(const FilmSweep& sweep, const CaseTable& table, const io::Json& object,
+                const Results& results, Context& context) {
+  const bool converged = all_converged(results);
+  io::Json whole = json_head(context);
+  whole["case"] = sweep.file;
+  whole.update(object);
+  whole["converged"] = converged;
+  return finish(context, whole, table.text(), converged ? kDone : kNotConverged);
+}
+
+/// The axes, in their order: the last one is the fastest.
+void write_axes(io::Hdf5Writer& writer, const std::vector<SweepAxis>& axes) {
+  writer.group("/sweep/axes");
+  std::vector<std::string> keys;
+  std::vector<std::int64_t> shape;
+  for (const SweepAxis& axis : axes) {
+    const std::string path = "/sweep/axes/" + axis.key;
+    keys.push_back(axis.key);
+    shape.push_back(static_cast<std::int64_t>(axis.values.size()));
+    writer.write(path, axis.numbers());
+    writer.describe(path, axis.unit(), axis.key);
+    if (axis.has_words()) writer.attribute(path, "words", axis.values);
+  }
+  writer.attribute("/sweep", "axes", keys);
+  writer.write("/sweep/shape", shape);
+}
+
+/// An array per column.
+void write_columns(io::Hdf5Writer& writer, const CaseColumns& columns, const Results& results) {
+  std::vector<double> values(results.size());
+  const auto write = [&](const std::string& name, const std::string& unit,
+                         const std::string& heading) {
+    writer.write("/sweep/" + name, values);
+    writer.describe("/sweep/" + name, unit, heading);
+  };
+  for (const ehl::CaseColumn& column : columns) {
+    for (std::size_t i = 0; i < results.size(); ++i) {
+      values[i] = study::number_of(results[i].scalars, column.key);
+    }
+    write(column.key, column.unit, column.heading);
+  }
+  for (std::size_t i = 0; i < results.size(); ++i) values[i] = results[i].converged ? 1 : 0;
+  write("converged", "", "converged");
+}
+
+void write_sweep(const FilmSweep& sweep, const Results& results,
+                 const std::vector<std::string>& marks, const Context& context) {
+  io::Hdf5Writer writer(*sweep.output);
+  write_result_head(writer, context, sweep.config.to_text(), sweep.program.methods);
+  writer.attribute("/", "kind", "ehl " + sweep.program.name + " sweep");
+  write_axes(writer, sweep.axes);
+  write_columns(writer, study::columns_of(sweep.program, results), results);
+  std::vector<std::string> warnings;
+  warnings.reserve(results.size());
+  for (const ehl::CaseResult& result : results) {
+    warnings.push_back(fmt::format("{}", fmt::join(result.warnings, "\n")));
+  }
+  writer.write("/sweep/warnings", warnings);
+  writer.write("/sweep/warning_marks", marks);
+  write_warnings(writer, context);
+  writer.commit();
+}
+
+/// The table, or the JSON object.
+int show_results(const FilmSweep& sweep, const Results& results,
+                 const std::vector<std::string>& marks, Context& context) {
+  std::vector<std::string> keys;
+  for (const SweepAxis& axis : sweep.axes) keys.push_back(axis.key);
+  const CaseColumns columns = study::columns_of(sweep.program, results);
+  CaseTable table(keys, columns, {"converged"}, marks);
+  io::Json shown = io::Json::array();
+  const std::vector<study::Places> all = combinations(sweep.axes);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    io::Json set = io::Json::object();
+    std::vector<std::string> cells;
+    for (std::size_t a = 0; a < keys.size(); ++a) {
+      cells.push_back(sweep.axes[a].values[all[i][a]]);
+      set[keys[a]] = cells.back();
+    }
+    table.add(cells, results[i], {yes_no(results[i].converged)});
+    shown.push_back(result_of(std::move(set), results[i]));
+  }
+  io::Json object = {{"results", shown}};
+  if (const ehl::CaseStudy* study = study_of(sweep.program, sweep.axes)) {
+    table.add_limits(study::limits_of(columns, *study, sweep.axes.front().numbers(), results),
+                     object);
+  }
+  return finish_many(sweep, table, object, results, context);
+}
+
+void say(const std::string& text, Context& context) {
+  if (context.progress) context.progress->clear();
+  context.err << "tabor: " << printable(text) << '\n';
+}
+
+/// What the folder held.
+void say_what_was_found(const study::EhlFound& found, const std::string& folder, Context& context) {
+  for (const std::string& complaint : found.damaged) {
+    say(complaint.starts_with("damaged") ? complaint : complaint + "; computed again", context);
+  }
+  if (context.quiet) return;
+  if (found.n_kept > 0) {
+    say(fmt::format("{} of {} cases were done, kept in {}", found.n_kept, found.n_cases, folder),
+        context);
+  }
+  if (found.n_unused > 0) {
+    say(fmt::format("{} cases in {} are not used: of another case file, sweep or version",
+                    found.n_unused, folder),
+        context);
+  }
+}
+
+/// What a shard has to say: the whole is shown by the run that has no shard.
+int show_shard(const FilmSweep& sweep, const study::EhlOutcome& outcome, Context& context) {
+  const std::size_t n_cases = outcome.results.size();
+  const study::Shard shard = *sweep.run.shard;
+  const bool converged =
+      std::all_of(outcome.results.begin(), outcome.results.end(),
+                  [](const auto& result) { return !result || result->converged; });
+  io::Json object = json_head(context);
+  object.update({{"case", sweep.file},
+                 {"shard", fmt::format("{}/{}", shard.index, shard.count)},
+                 {"kept", sweep.folder().string()},
+                 {"n_cases", n_cases},
+                 {"n_done", outcome.n_kept},
+                 {"n_computed", outcome.n_computed},
+                 {"converged", converged}});
+  Facts facts;
+  facts.fact("cases", fmt::format("{} of {} done, {} computed now", outcome.n_kept, n_cases,
+                                  outcome.n_computed));
+  facts.fact("kept in", sweep.folder().string());
+  facts.fact("then", "the same command without --shard writes " + *sweep.output);
+  return finish(context, object, facts.text(), converged ? kDone : kNotConverged);
+}
+
+/// Says how to go on, if there is anything to go on from.
+int end_early(const FilmSweep& sweep, const study::EhlOutcome& outcome, Context& context) {
+  try {
+    std::rethrow_exception(outcome.ended_by);
+  } catch (const Interrupted&) {
+    if (outcome.n_kept == 0) throw;
+    return fail(
+        context,
+        fmt::format("interrupted; {} of {} cases are kept in {}; the same command continues",
+                    outcome.n_kept, outcome.results.size(), sweep.folder().string()),
+        kInterrupted);
+  }
+}
+
+}  // namespace
+
+int show_sweep(const FilmSweep& sweep, study::EhlSeries& series, Context& context) {
+  const study::RunOptions options = run_options(sweep.run, context);
+  std::optional<study::EhlStore> store;
+  if (sweep.output) {
+    give_tasks(series, context.observer());
+    store.emplace(sweep.folder(),
+                  options.shard ? study::Store::Use::shared : study::Store::Use::alone);
+  }
+  const study::EhlOutcome outcome =
+      run_ehl(series, store ? &*store : nullptr, options, [&](const study::EhlFound& found) {
+        say_what_was_found(found, sweep.folder().string(), context);
+      });
+  if (outcome.ended_by) return end_early(sweep, outcome, context);
+  if (options.shard) return show_shard(sweep, outcome, context);
+  const Results results = outcome.all();
+  const std::vector<std::string> marks =
+      warn_of_many(results, names_of(sweep.axes, combinations(sweep.axes)), context);
+  if (store) {
+    write_sweep(sweep, results, marks, context);
+    store->finish();
+  }
+  return show_results(sweep, results, marks, context);
+}
+
+int show_study(const FilmSweep& sweep, const std::string& name, Context& context) {
+  const ehl::CaseStudy& study = study::find_study(sweep.program, name);
+  const auto [values, texts, results] =
+      run_ehl_study(sweep.program, sweep.config, study, context.seed_or_default(),
+                    run_options(sweep.run, context));
+  const std::vector<std::string> marks =
+      warn_of_many(results, {.key = study.key, .values = texts}, context);
+  const CaseColumns columns = study::columns_of(sweep.program, results);
+  CaseTable table({study.key}, columns, {}, marks);
+  io::Json shown = io::Json::array();
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    table.add({study.unit.empty() ? texts[i] : si(values[i], study.unit)}, results[i], {});
+    shown.push_back(result_of({{study.key, texts[i]}}, results[i]));
+  }
+  io::Json object = {{"study", study.name}, {"results", shown}};
+  if (study.has_limit) table.add_limits(study::limits_of(columns, study, values, results), object);
+  return finish_many(sweep, table, object, results, context);
+}
+
+}  // namespace tabor::cli
