@@ -137,10 +137,10 @@ void choose_short_cutoff(ProfileSetting& setting, double spacing) {
   const double by_default = default_short_cutoff(setting.cutoff);
   setting.short_cutoff = by_default >= 2 * spacing ? by_default : 0;
   setting.reason += by_default >= 2 * spacing ? fmt::format("; ls = {}", length(by_default))
-                                           : fmt::format(
-                                                 "; no S-filter, the default ls = {} is below "
-                                                 "two pixels",
-                                                 length(by_default));
+                                              : fmt::format(
+                                                    "; no S-filter, the default ls = {} is below "
+                                                    "two pixels",
+                                                    length(by_default));
 }
 
 void choose_sections(ProfileSetting& setting, const ProfileOptions& options, double available) {

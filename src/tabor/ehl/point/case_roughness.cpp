@@ -241,8 +241,9 @@ PointRoughness read_point_roughness(const io::Config& config, const PointProblem
   std::vector<Heights> parts;
   const bool is_turned = read_is_turned(config);
   const auto add_map = [&](const char* key, const Surface& surface, double behind) {
-    for (const std::string& warning : surface.warnings)
+    for (const std::string& warning : surface.warnings) {
       add_warning(warning, roughness.notes.warnings);
+    }
     parts.push_back(map_heights(config, key, problem, surface, is_turned, behind));
     add_warning(coarse_nodes(problem, surface.grid), roughness.notes.warnings);
   };
