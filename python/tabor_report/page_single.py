@@ -51,7 +51,7 @@ def _scan(single):
         "group": "",
         "sha256": sha256[0] if sha256 else "",
         "rows": [(name, text) for name, text in rows if text],
-        "doubts": hdf.text_list(facts.get("doubts")),
+        "warnings": hdf.text_list(facts.get("doubts")),
     }
 
 

@@ -52,7 +52,7 @@ def _scan(scan):
         "group": scan.group,
         "sha256": facts.get("input_sha256", ""),
         "rows": _surface_rows(scan) if scan.is_treated else [("surface", "not treated yet")],
-        "doubts": scan.warnings,
+        "warnings": scan.surface_warnings,
     }
 
 

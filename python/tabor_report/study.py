@@ -41,7 +41,7 @@ class Scan:
         return hdf.text_list(self.facts.get("treatment"))
 
     @property
-    def warnings(self):
+    def surface_warnings(self):
         return hdf.text_list(self.facts.get("doubts"))
 
     def height(self):
@@ -173,7 +173,7 @@ def _warnings_about(study):
         yield from hdf.text_list(study.facts["warnings"])
         return
     for scan in study.scans:
-        for warning in dict.fromkeys(scan.warnings + _warnings_of_states(scan)):
+        for warning in dict.fromkeys(scan.surface_warnings + _warnings_of_states(scan)):
             yield f"{scan.file}: {warning}"
 
 

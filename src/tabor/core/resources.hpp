@@ -14,6 +14,7 @@ std::size_t available_memory_bytes();
 /// Seconds since construction (wall clock).
 class Stopwatch {
  public:
+  /// [s]
   double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }

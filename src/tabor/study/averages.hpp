@@ -19,6 +19,7 @@ struct Mean {
   double standard_error = analysis::kNoValue;      ///< standard deviation / sqrt(n)
 };
 
+/// Of any values; NaN where there are too few: of fewer than two there is no deviation.
 Mean mean_of(const std::vector<double>& values);
 
 /// Means of what only a film that flows has.

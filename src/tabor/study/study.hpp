@@ -36,7 +36,9 @@ struct Study {
   std::vector<Scan> scans;
   std::optional<Experiment> experiment;
 
+  /// Whether the friction of the flowing oil is computed, at each of sliding_speeds.
   bool flows() const { return settings.fluid.flows(); }
+  /// Scans times pressures times conditions.
   std::size_t n_cases() const {
     return scans.size() * settings.mean_pressures.size() * conditions().size();
   }

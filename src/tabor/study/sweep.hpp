@@ -11,6 +11,7 @@
 
 namespace tabor::study {
 
+/// How a study is run.
 struct SweepOptions : RunOptions {
   std::string command;  ///< command line, kept in results.h5
 };
