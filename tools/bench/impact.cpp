@@ -9,6 +9,7 @@
 
 #include "tabor/core/resources.hpp"
 #include "tabor/ehl/impact/impact.hpp"
+#include "tabor/ehl/plain.hpp"
 
 namespace {
 
@@ -26,7 +27,7 @@ constexpr Row kRows[] = {
     {16, 0.00125, 8.70e-12, 7.475e13, 3500}};
 
 /// The R, E' and eta0 that all of the table follows from.
-ehl::ImpactProblem problem_of(const Row& row, Index nodes, bool refactor_always) {
+ehl::ImpactProblem problem_of(const Row& row, Index nodes) {
   constexpr double kRadius = 0.01;
   constexpr double kModulus = 230e9;
   constexpr double kViscosity = 0.1;
@@ -39,17 +40,18 @@ ehl::ImpactProblem problem_of(const Row& row, Index nodes, bool refactor_always)
   problem.lubricant.viscosity = material::roelands_viscosity(kViscosity, row.material / kModulus);
   problem.lubricant.density = material::relative_density(material::DensityLaw::dowson_higginson);
   problem.nodes = nodes;
-  problem.refactor_always = refactor_always;
   return problem;
 }
 
-void measure(const Row& row, Index nodes, bool refactor_always) {
+void measure(const Row& row, Index nodes, bool plain) {
   const Stopwatch watch;
-  const ehl::ImpactResult result = ehl::solve_impact(problem_of(row, nodes, refactor_always));
+  const ehl::ImpactProblem problem = problem_of(row, nodes);
+  const ehl::ImpactResult result =
+      plain ? ehl::solve_impact_plainly(problem) : ehl::solve_impact(problem);
   fmt::print("{:>3} {:<6} {:>5} {:>5} {:>6} {:>6} {:>8} {:>7.2f} {:>7.4f}\n", row.number,
-             refactor_always ? "plain" : "kept", nodes, result.n_steps,
-             result.count.newton_iterations, result.count.n_factorizations, result.count.n_products,
-             watch.seconds(), result.restitution);
+             plain ? "plain" : "kept", nodes, result.n_steps, result.count.newton_iterations,
+             result.count.n_factorizations, result.count.n_products, watch.seconds(),
+             result.restitution);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/resources.hpp"
 #include "tabor/ehl/line/wear.hpp"
+#include "tabor/ehl/plain.hpp"
 
 namespace {
 
@@ -41,10 +42,9 @@ void compare(Index nodes) {
   const int first = nodes <= kLargestPlain ? 0 : 1;
   for (int repeat = 0; repeat < kRepeats; ++repeat) {
     for (int way = first; way < 2; ++way) {
-      ehl::LineProblem problem = table_6(nodes);
-      problem.dense_jacobian = way == 0;
+      const ehl::LineProblem problem = table_6(nodes);
       const Stopwatch watch;
-      results[way] = ehl::solve_line(problem);
+      results[way] = way == 0 ? ehl::solve_line_plainly(problem) : ehl::solve_line(problem);
       seconds[way] = std::min(seconds[way], watch.seconds());
     }
   }

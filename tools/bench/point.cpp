@@ -10,16 +10,19 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/random.hpp"
 #include "tabor/core/resources.hpp"
+#include "tabor/ehl/plain.hpp"
 #include "tabor/ehl/point/point.hpp"
 
 namespace {
 
 using namespace tabor;
+using namespace std::string_view_literals;
 
 constexpr Index kLargestPlain = 129;
 
@@ -66,7 +69,8 @@ ehl::PointProblem rough_case(Index nodes) {
 void solve(const char* surface, const char* way, int threads, const ehl::PointProblem& problem) {
   set_thread_count(threads);
   const Stopwatch watch;
-  const ehl::PointResult result = ehl::solve_point(problem);
+  const ehl::PointResult result =
+      way == "plain"sv ? ehl::solve_point_plainly(problem) : ehl::solve_point(problem);
   const double seconds = watch.seconds();
   fmt::print("{:>6} {:<7} {:<6} {:>7} {:>9.3f} {:>10} {:>6} {:>9} {:>9.2f}{}\n", problem.nodes_x,
              surface, way, threads, result.film.minCoeff() * 1e9, result.convergence.iterations,
@@ -83,12 +87,8 @@ int main(int argc, char** argv) {
   fmt::print("{:>6} {:<7} {:<6} {:>7} {:>9} {:>10} {:>6} {:>9} {:>9}\n", "nodes", "surface", "way",
              "threads", "film nm", "iterations", "GMRES", "products", "seconds");
   for (const Index nodes : sizes) {
-    ehl::PointProblem problem = smooth_case(nodes);
-    if (nodes <= kLargestPlain) {
-      problem.sparse_factors = true;
-      solve("smooth", "plain", 1, problem);
-      problem.sparse_factors = false;
-    }
+    const ehl::PointProblem problem = smooth_case(nodes);
+    if (nodes <= kLargestPlain) solve("smooth", "plain", 1, problem);
     for (const int threads : {1, 2}) solve("smooth", "tabor", threads, problem);
     if (nodes < 200) continue;  // shorter waves than the grid shows
     for (const int threads : {1, 2}) solve("rough", "tabor", threads, rough_case(nodes));

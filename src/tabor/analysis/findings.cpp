@@ -141,6 +141,7 @@ std::string line_of(const Finding& finding) {
     if (finding.texts_differ) where += finding.is_worst ? ", the worst shown" : ", the first shown";
     where += everywhere ? ")" : ": " + names_of(finding.cases) + ")";
   }
+  if (finding.code.empty()) return finding.text;
   return fmt::format("{}{} [{}]", finding.text, where, finding.code);
 }
 

@@ -33,6 +33,7 @@ struct Finding {
 /// friction, each in the order in which they are met.
 std::vector<Finding> findings_of(const std::vector<Case>& cases);
 
+/// The text alone where there is no code; else
 /// "TEXT (2 of 8 cases, the worst shown: 2 MPa, 7 MPa) [code]"
 std::string line_of(const Finding& finding);
 

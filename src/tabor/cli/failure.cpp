@@ -76,7 +76,7 @@ int fail(Context& context, const std::string& line, int code) {
     io::Json object = json_head(context);
     object["error"] = error_json(text);
     object["error"]["exit_code"] = code;
-    object["warnings"] = context.warnings;
+    object["warnings"] = json_warnings(context);
     context.out << io::to_text(object) << std::endl;
   }
   return code;

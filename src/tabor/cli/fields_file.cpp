@@ -32,7 +32,11 @@ void write_result_head(io::Hdf5Writer& writer, const Context& context,
 }
 
 void write_warnings(io::Hdf5Writer& writer, const Context& context) {
-  writer.attribute("/", "warnings", context.warnings);
+  std::vector<std::string> lines;
+  for (const analysis::Finding& warning : context.warnings) {
+    lines.push_back(analysis::line_of(warning));
+  }
+  writer.attribute("/", "warnings", lines);
 }
 
 std::string toml_of(const io::Json& settings) {

@@ -59,13 +59,14 @@ class CaseTable {
   void add_limits(const std::vector<numerics::GridLimit>& limits, io::Json& object) {
     std::vector<std::string> limit_row = {"limit"};
     std::vector<std::string> order_row = {"order"};
-    object["limits"] = object["orders"] = io::Json::object();
+    io::Json limit_of = io::Json::object(), order_of = io::Json::object();
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       limit_row.push_back(number_text(limits[i].value, columns_[i]));
       order_row.push_back(plain(limits[i].order, 2));
-      object["limits"][columns_[i].key] = io::number(limits[i].value);
-      object["orders"][columns_[i].key] = io::number(limits[i].order);
+      limit_of[columns_[i].key] = io::number(limits[i].value);
+      order_of[columns_[i].key] = io::number(limits[i].order);
     }
+    object.update({{"limits", limit_of}, {"orders", order_of}});
     table_.row(limit_row);
     table_.row(order_row);
   }

@@ -112,7 +112,7 @@ Measured measure(const Request& request, const std::string& file, Context& conte
 /// Warnings about one scan of several say which.
 void name_warnings(Context& context, std::size_t first, const std::string& file) {
   for (std::size_t i = first; i < context.warnings.size(); ++i) {
-    std::string& warning = context.warnings[i];
+    std::string& warning = context.warnings[i].text;
     if (!warning.starts_with(file)) warning.insert(0, file + ": ");
   }
 }

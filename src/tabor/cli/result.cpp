@@ -11,15 +11,12 @@ namespace tabor::cli {
 namespace {
 
 /// What belongs to numbers says to which; the rest are plain texts.
-io::Json json_of(const Context& context, const std::string& line) {
-  for (const analysis::Finding& finding : context.findings) {
-    if (analysis::line_of(finding) != line) continue;
-    return {{"code", finding.code},
-            {"text", finding.text},
-            {"cases", finding.cases},
-            {"n_cases", finding.n_cases}};
-  }
-  return line;
+io::Json json_of(const analysis::Finding& finding) {
+  if (finding.code.empty()) return finding.text;
+  return {{"code", finding.code},
+          {"text", finding.text},
+          {"cases", finding.cases},
+          {"n_cases", finding.n_cases}};
 }
 
 }  // namespace
@@ -36,19 +33,22 @@ io::Json json_head(const Context& context, const Scan& scan) {
   return object;
 }
 
+io::Json json_warnings(const Context& context) {
+  io::Json list = io::Json::array();
+  for (const analysis::Finding& warning : context.warnings) list.push_back(json_of(warning));
+  return list;
+}
+
 int finish(Context& context, io::Json object, const std::string& text, int code) {
   if (context.progress) context.progress->clear();
   if (context.json) {
-    object["warnings"] = io::Json::array();
-    for (const std::string& line : context.warnings) {
-      object["warnings"].push_back(json_of(context, line));
-    }
+    object["warnings"] = json_warnings(context);
     context.out << printable_json(io::to_text(object)) << '\n';
     return code;
   }
   context.out << printable_lines(text) << std::flush;
-  for (const std::string& warning : context.warnings) {
-    context.err << "warning: " << printable(warning) << '\n';
+  for (const analysis::Finding& warning : context.warnings) {
+    context.err << "warning: " << printable(analysis::line_of(warning)) << '\n';
   }
   return code;
 }

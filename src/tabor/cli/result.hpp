@@ -15,6 +15,9 @@ namespace tabor::cli {
 io::Json json_head(const Context& context);
 io::Json json_head(const Context& context, const Scan& scan);
 
+/// Those of the context: a text each, or an object with code, text and cases.
+io::Json json_warnings(const Context& context);
+
 /// Prints the object (with the warnings) or the text (warnings on stderr); returns `code`.
 int finish(Context& context, io::Json object, const std::string& text, int code = kDone);
 

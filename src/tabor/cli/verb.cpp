@@ -8,13 +8,17 @@
 namespace tabor::cli {
 
 void Context::warn(const std::string& text) {
-  if (std::find(warnings.begin(), warnings.end(), text) == warnings.end()) warnings.push_back(text);
+  analysis::Finding of_no_number;
+  of_no_number.text = text;
+  warn(std::vector{of_no_number});
 }
 
 void Context::warn(const std::vector<analysis::Finding>& found) {
   for (const analysis::Finding& finding : found) {
-    warn(analysis::line_of(finding));
-    findings.push_back(finding);
+    const auto says_the_same = [&, line = line_of(finding)](const analysis::Finding& said) {
+      return line_of(said) == line;
+    };
+    if (std::none_of(warnings.begin(), warnings.end(), says_the_same)) warnings.push_back(finding);
   }
 }
 

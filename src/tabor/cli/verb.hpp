@@ -22,8 +22,7 @@ struct Context {
   bool quiet = false;
   std::uint64_t threads = 0;  ///< 0 = all cores
   std::optional<std::uint64_t> seed = {};
-  std::vector<std::string> warnings = {};
-  std::vector<analysis::Finding> findings = {};  ///< those of the warnings that belong to numbers
+  std::vector<analysis::Finding> warnings = {};  ///< those without a code belong to no number
   CommandFiles files = {};                       ///< that it reads and writes
   ProgressPrinter* progress = nullptr;
 

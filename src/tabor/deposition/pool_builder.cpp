@@ -93,7 +93,9 @@ PoolId PoolBuilder::grown(PoolId id) {
 
 PoolId PoolBuilder::new_pool(Height base) {
   const auto id = static_cast<PoolId>(to_.pools_.size());
-  to_.pools_.push_back({.owner = id, .level = base});
+  Pool& added = to_.pools_.emplace_back();
+  added.owner = id;
+  added.level = base;
   return id;
 }
 
@@ -238,13 +240,13 @@ void PoolBuilder::fill_arcs(const std::vector<Pixel>& ascending) {
     if (at.open_children == 0 || at.level != site.height) continue;
     if (at.area == 0) {
       at.area = 1;
-      at.remainder = p;
+      at.lowest = p;
     } else if (ties_ == Ties::connected) {
       several[site.home].push_back(p);
     }
   }
   for (const auto& [id, more] : several) {
-    std::int32_t& lowest = pool(id).remainder;
+    std::int32_t& lowest = pool(id).lowest;
     const Pixel first = std::exchange(lowest, ~static_cast<std::int32_t>(to_.saddles_.size()));
     to_.saddles_.push_back(static_cast<Pixel>(more.size()) + 1);
     to_.saddles_.push_back(first);

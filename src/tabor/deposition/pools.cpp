@@ -66,7 +66,7 @@ void Pools::take_in(PoolId id) {
     pool.stop = arcs_[next];
     if (!pool.full()) return;
     Pool& parent = pools_[static_cast<std::size_t>(pool.parent)];
-    pool.next = std::max(parent.remainder, kSeveral);
+    pool.saddle = std::max(parent.lowest, kSeveral);
     parent.area += pool.area;
     pool.remember_overflow({});
     if (--parent.open_children > 0) return;
@@ -77,7 +77,7 @@ void Pools::take_in(PoolId id) {
 }
 
 std::span<const Pixel> Pools::bottom(PoolId id) const {
-  const std::int32_t& lowest = (*this)[id].remainder;
+  const std::int32_t& lowest = (*this)[id].lowest;
   if (lowest >= 0) return {&lowest, 1};
   const std::int32_t place = ~lowest;
   const Pixel* const listed = &saddles_[static_cast<std::size_t>(place)];

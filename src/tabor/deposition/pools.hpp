@@ -26,27 +26,39 @@ struct Way {
 };
 
 /// One component of the sublevel sets {height <= h}. It holds liquid while it is active: from the
-/// moment its children are full until it is full itself.
+/// moment its children are full until it is full itself. What only some of these states need shares
+/// its place, so that a droplet that meets a pool reads half a cache line.
 struct alignas(32) Pool {
-  PoolId parent = kNoPool;     ///< what it becomes part of at its rim; kNoPool for the last one
-  PoolId owner = kNoPool;      ///< itself, or a step towards the active pool it now belongs to
-  Height level = kDry;         ///< of the liquid; kDry before the pool is active
-  Height stop = kNoRim;        ///< where it next takes in pixels, or its rim
-  std::int32_t area = 0;       ///< pixels under or at the level (before: of its full children)
-  std::int32_t remainder = 0;  ///< liquid above the level, less than one quantum over the area
-                               ///< (before: its lowest pixel, or the complement of their place)
-  std::int32_t next = 0;       ///< place among the arcs of the first pixel not taken in yet
+  PoolId parent = kNoPool;  ///< what it becomes part of at its rim; kNoPool for the last one
+  PoolId owner = kNoPool;   ///< itself, or a step towards the active pool it now belongs to
+  Height level = kDry;      ///< of the liquid; kDry before the pool is active
+  Height stop = kNoRim;     ///< where it next takes in pixels, or its rim
+  union {
+    std::int32_t area = 0;  ///< until it is full: pixels under or at the level (before it is
+                            ///< active: of its full children)
+    PoolId overflow_end;    ///< when it is full: where the overflow ran last
+  };
+  union {
+    std::int32_t remainder = 0;  ///< while active: liquid above the level, less than one quantum
+                                 ///< over the area
+    std::int32_t lowest;    ///< before: its lowest pixel, or the complement of the place of several
+    Height overflow_bound;  ///< when it is full
+  };
+  union {
+    std::int32_t next = 0;  ///< until it is full: the first pixel not taken in yet, among the arcs
+    Pixel saddle;           ///< when it is full: the only pixel over which it touches its
+                            ///< neighbours; kSeveral if more than one
+  };
   std::int32_t open_children = 0;
 
   bool active() const { return open_children == 0; }
   bool full() const { return level == stop; }
 
-  /// Where the overflow of a full pool ran last. Kept where the liquid was counted, which a full
-  /// pool needs no longer, so that a droplet that meets it reads one cache line only.
-  Way overflow() const { return {area, remainder}; }
+  /// Of a full pool.
+  Way overflow() const { return {overflow_end, overflow_bound}; }
   void remember_overflow(const Way& way) {
-    area = way.end;
-    remainder = way.bound;
+    overflow_end = way.end;
+    overflow_bound = way.bound;
   }
 };
 
@@ -93,9 +105,7 @@ class Pools {
     pools_[static_cast<std::size_t>(full)].remember_overflow(way);
   }
 
-  /// The only pixel over which the `full` pool touches its neighbours; kSeveral if more than
-  /// one.
-  Pixel saddle(PoolId full) const { return (*this)[full].next; }
+  Pixel saddle(PoolId full) const { return (*this)[full].saddle; }
   /// The lowest pixels of a pool that is not active.
   std::span<const Pixel> bottom(PoolId id) const;
 

@@ -81,8 +81,7 @@ Router::Target Router::take_branch(Target fork) {
     const Slopes::Branch& on = branches.front();
     const PoolId above = pools_.owner(on.home);
     trail_.clear();
-    return pools_[above].level >= on.height ? above
-                                            : drain_of_saddle(on.home, kNoPool, on.leads_to);
+    return pools_[above].level >= on.height ? above : drain_of_saddle(on.home, kNoPool, on.pixel);
   }
   Height lowest = kNoRim;
   Height doubt = kNoRim;

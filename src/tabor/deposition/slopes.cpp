@@ -85,9 +85,7 @@ class SlopeFinder {
     for (std::size_t number = 0; number < to_.forks_.size(); ++number) {
       const auto branches = to_.branches(~static_cast<Slopes::Target>(number));
       for (Slopes::Branch& branch : branches) {
-        if (branches.size() > 1) {
-          branch.leads_to = known(branch.leads_to);  // so far it named the pixel
-        }
+        if (branches.size() > 1) branch.leads_to = known(branch.pixel);
       }
     }
     move_to_large_pages(to_.forks_);
@@ -172,14 +170,17 @@ class SlopeFinder {
     return bottom.size() == 1 || height(b) > height(bottom.front());
   }
 
-  Slopes::Branch branch(Pixel q) const { return {height(q), home(q), q}; }
+  Slopes::Branch branch(Pixel q) const {
+    return {.height = height(q), .home = home(q), .pixel = q};
+  }
 
   Slopes::Target add_fork() {
     Slopes::Fork& fork = to_.forks_.emplace_back();
     if (lower_.size() == 2) {
       fork.two = {branch(lower_[0]), branch(lower_[1])};
     } else {
-      fork.list(to_.branches_.size(), lower_.size());
+      fork.listed = {.first = static_cast<std::int32_t>(to_.branches_.size()),
+                     .n = static_cast<std::int32_t>(lower_.size())};
       for (const Pixel q : lower_) to_.branches_.push_back(branch(q));
     }
     return ~static_cast<Slopes::Target>(to_.forks_.size() - 1);
@@ -224,9 +225,7 @@ void Slopes::settle(Pools& pools, const std::vector<PoolId>& renamed) {
   for (std::size_t number = 0; number < forks_.size(); ++number) {
     const auto all = branches(~static_cast<Target>(number));
     for (Branch& branch : all) {
-      if (all.size() > 1) {  // a single one names a pixel
-        settle(branch.leads_to);
-      }
+      if (all.size() > 1) settle(branch.leads_to);
     }
   }
 }

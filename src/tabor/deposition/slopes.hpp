@@ -27,22 +27,30 @@ class Slopes {
   struct Branch {
     Height height = 0;
     PoolId home = kNoPool;  ///< the smallest pool that can cover it
-    Target leads_to = 0;    ///< while it is dry
+    union {
+      Target leads_to = 0;  ///< while it is dry
+      Pixel pixel;          ///< of the only branch of a fork; of all, until the ways are known
+    };
   };
 
   /// A fork has two branches or more, ascending in pixel number; or one, if it is a pixel without
   /// lower neighbours on a saddle of several equal pixels: that pixel, with the pool above as home.
   /// Two branches, the common number, lie in the fork: half a cache line.
   struct alignas(32) Fork {
+    /// Where the branches stand among branches_, unless they are two.
+    struct Listed {
+      std::int32_t first = 0;
+      PoolId none = kNoPool;  ///< where the home of the first of two branches is
+      std::int32_t n = 0;
+    };
     Way way;  ///< of the last droplet
-    std::array<Branch, 2> two;
+    union {
+      std::array<Branch, 2> two;
+      Listed listed;
+    };
 
-    bool has_two() const { return two[0].home != kNoPool; }
-    std::size_t first_listed() const { return static_cast<std::size_t>(two[0].height); }
-    std::size_t n_listed() const { return static_cast<std::size_t>(two[0].leads_to); }
-    void list(std::size_t first, std::size_t n) {
-      two[0] = {static_cast<Height>(first), kNoPool, static_cast<Target>(n)};
-    }
+    Fork() : two{} {}
+    bool has_two() const { return listed.none != kNoPool; }
   };
 
   static bool is_pool(Target target) { return target >= 0; }
@@ -54,7 +62,8 @@ class Slopes {
   std::span<Branch> branches(Target fork) {
     Fork& at = forks_[place_of(fork)];
     return at.has_two() ? std::span<Branch>(at.two)
-                        : std::span(branches_).subspan(at.first_listed(), at.n_listed());
+                        : std::span(branches_).subspan(static_cast<std::size_t>(at.listed.first),
+                                                       static_cast<std::size_t>(at.listed.n));
   }
 
   /// The last droplet's way from a fork, or from a full pool.

@@ -13,6 +13,7 @@
 #include "tabor/ehl/film.hpp"
 #include "tabor/ehl/impact/approach.hpp"
 #include "tabor/ehl/impact/measures.hpp"
+#include "tabor/ehl/plain.hpp"
 #include "tabor/elastic/axisymmetric.hpp"
 #include "tabor/reference/hertz.hpp"
 #include "tabor/reference/impact.hpp"
@@ -73,8 +74,11 @@ void check(const ImpactProblem& problem) {
 /// Time marching of one impact.
 class Impact {
  public:
-  Impact(const ImpactProblem& problem, const Observer& observer)
-      : problem_(problem), observer_(observer), dry_(dry_impact(problem)) {
+  Impact(const ImpactProblem& problem, const Observer& observer, bool keeps_factors)
+      : problem_(problem),
+        observer_(observer),
+        keeps_factors_(keeps_factors),
+        dry_(dry_impact(problem)) {
     nominal_step_ = problem.time_step > 0 ? problem.time_step : dry_.contact_time / 400;
     result_.time_step = nominal_step_;
     result_.convergence = exact(kBallTolerance);
@@ -154,7 +158,7 @@ class Impact {
   }
 
   void march(BallState now) {
-    BallStepper stepper(film_, problem_.refactor_always);
+    BallStepper stepper(film_, !keeps_factors_);
     std::optional<BallState> before;
     double step = kFirstStep * nominal_step_;
     record(now);
@@ -305,6 +309,7 @@ class Impact {
 
   const ImpactProblem& problem_;
   const Observer& observer_;
+  bool keeps_factors_;
   reference::DryImpact dry_;
   double nominal_step_ = 0;
   BallFilm film_;
@@ -313,13 +318,21 @@ class Impact {
   double highest_force_ = 0;
 };
 
+ImpactResult solve(const ImpactProblem& problem, const Observer& observer, bool keeps_factors) {
+  check(problem);
+  Impact impact(problem, observer, keeps_factors);
+  const bool stopped = !finishes(observer, "impact", [&](Watch&) { impact.solve(); });
+  return impact.finished(stopped);
+}
+
 }  // namespace
 
 ImpactResult solve_impact(const ImpactProblem& problem, const Observer& observer) {
-  check(problem);
-  Impact impact(problem, observer);
-  const bool stopped = !finishes(observer, "impact", [&](Watch&) { impact.solve(); });
-  return impact.finished(stopped);
+  return solve(problem, observer, true);
+}
+
+ImpactResult solve_impact_plainly(const ImpactProblem& problem) {
+  return solve(problem, {}, false);
 }
 
 }  // namespace tabor::ehl

@@ -31,7 +31,6 @@ struct ImpactProblem {
   double time_step = 0;
   std::vector<double> profile_times = {};  ///< [s], in ascending order
   bool keeps_all_profiles = false;         ///< at every instant instead
-  bool refactor_always = false;            ///< one factorization per Newton iteration (benchmarks)
 };
 
 /// One instant of an impact.

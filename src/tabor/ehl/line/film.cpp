@@ -42,12 +42,13 @@ void add_face(LineLinear& linear, Index left, const reynolds::FaceFlow& face, do
 
 }  // namespace
 
-LineFilm::LineFilm(const LineProblem& problem)
+LineFilm::LineFilm(const LineProblem& problem, bool full_matrix)
     : shape(line_nodes(problem).square() / (2 * problem.radius)),
       lubricant(problem.lubricant),
       load(problem.load),
       speed(problem.entrainment_speed),
       problem_(problem),
+      full_matrix_(full_matrix),
       n_(problem.nodes),
       x_(line_nodes(problem)),
       spacing_(spacing_of(x_)),
@@ -138,7 +139,7 @@ Eigen::VectorXd LineFilm::newton_step(LineLinear linear, const LineState& state,
   for (Index i = 0; i < n_; ++i) {
     if (state.cavity[static_cast<std::size_t>(i)]) right[i] = 0;
   }
-  if (problem_.dense_jacobian) return linear.system.dense().partialPivLu().solve(right);
+  if (full_matrix_) return linear.system.dense().partialPivLu().solve(right);
   const LineInverse inverse(linear.system);
   if (!inverse.ok()) return {};
   const auto multiply = [&](const Eigen::VectorXd& step) { return linear.system.product(step); };

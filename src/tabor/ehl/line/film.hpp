@@ -49,7 +49,8 @@ bool sees_inlet(const LineProblem& problem, const Eigen::ArrayXd& x, const Eigen
 /// The equations of a line contact at its nodes and their solution by Newton's method.
 class LineFilm {
  public:
-  explicit LineFilm(const LineProblem& problem);
+  /// `full_matrix`: factorized in each iteration, instead of products with it.
+  explicit LineFilm(const LineProblem& problem, bool full_matrix = false);
 
   Index n() const { return n_; }
   const Eigen::ArrayXd& x() const { return x_; }
@@ -98,6 +99,7 @@ class LineFilm {
   bool refill(const LineLinear& linear, LineState& state, Index reach) const;
 
   LineProblem problem_;
+  bool full_matrix_;
   Index n_;
   Eigen::ArrayXd x_;
   double spacing_;

@@ -9,6 +9,7 @@
 #include "tabor/core/checks.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/ehl/line/film.hpp"
+#include "tabor/ehl/plain.hpp"
 
 namespace tabor::ehl {
 namespace {
@@ -177,9 +178,9 @@ void check_line(const LineProblem& problem) {
   check_domain(problem);
 }
 
-LineResult solve_line(const LineProblem& problem, const Observer& observer) {
-  check_line(problem);
-  LineFilm film(problem);
+namespace {
+
+LineResult solve(const LineProblem& problem, LineFilm film, const Observer& observer) {
   LineState state;
   LineFilm::Outcome outcome = solve_cold(problem, film, problem.roughness, state, observer);
   require_inlet(problem, film, state, outcome);
@@ -195,6 +196,18 @@ LineResult solve_line(const LineProblem& problem, const Observer& observer) {
   if (film.has_asperities()) result.asperity_pressure = film.touching_pressure(state);
   measure_line(problem, result);
   return result;
+}
+
+}  // namespace
+
+LineResult solve_line(const LineProblem& problem, const Observer& observer) {
+  check_line(problem);
+  return solve(problem, LineFilm(problem), observer);
+}
+
+LineResult solve_line_plainly(const LineProblem& problem) {
+  check_line(problem);
+  return solve(problem, LineFilm(problem, true), {});
 }
 
 }  // namespace tabor::ehl

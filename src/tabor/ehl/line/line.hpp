@@ -36,7 +36,6 @@ struct LineProblem {
   /// No boundary film: nothing touches. Liquid goes on through it, as in a real contact it goes
   /// round the summits, which a profile cannot show.
   Asperities asperities;
-  bool dense_jacobian = false;  ///< factorize a full matrix in each iteration (benchmarks)
 };
 
 /// A film. Arrays hold one value per node.

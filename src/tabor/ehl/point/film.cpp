@@ -20,12 +20,13 @@ constexpr double kMayGrow = 1.5;  // the norm of the residual, in a step that is
 
 }  // namespace
 
-PointFilm::PointFilm(const PointProblem& problem)
+PointFilm::PointFilm(const PointProblem& problem, bool coarsens)
     : lubricant(problem.lubricant),
       load(problem.load),
       speed(problem.entrainment_speed),
       tolerance(problem.tolerance),
       problem_(problem),
+      coarsens_(coarsens),
       grid_(point_grid(problem)),
       x_(point_x(problem)),
       y_(point_y(problem)) {
@@ -40,8 +41,7 @@ PointFilm::PointFilm(const PointProblem& problem)
   units_.pressure = 1.5 * load / (std::numbers::pi * pressed_width_x_ * pressed_width_y_);
   units_.film = std::max(hertz.half_axis_x * hertz.half_axis_x / problem.radius_x, film_scale_);
   units_.load = load;
-  levels_ = point_levels(grid_, problem.effective_modulus, units_.pressure / units_.film,
-                         !problem.sparse_factors);
+  levels_ = point_levels(grid_, problem.effective_modulus, units_.pressure / units_.film, coarsens);
 }
 
 PointState PointFilm::hertz_start(double min_film) const {

@@ -26,13 +26,16 @@ struct PointState {
 /// breaks: p = 0, and no cell of the cavity gains liquid.
 class PointFilm {
  public:
-  explicit PointFilm(const PointProblem& problem);
+  /// Without `coarsens`, Newton's equations are solved with sparse factors of their local part
+  /// instead of a V-cycle.
+  explicit PointFilm(const PointProblem& problem, bool coarsens = true);
 
   const Grid& grid() const { return grid_; }
   const Eigen::ArrayXd& x() const { return x_; }
   const Eigen::ArrayXd& y() const { return y_; }
   const PointUnits& units() const { return units_; }
   double film_scale() const { return film_scale_; }  ///< [m] what errors of mass compare with
+  bool coarsens() const { return coarsens_; }
   const std::vector<PointLevel>& levels() const { return levels_; }  ///< the finest is its own grid
 
   Field shape;  ///< gap of the undeformed bodies [m]: x^2/(2 Rx) + y^2/(2 Ry) - s
@@ -76,6 +79,7 @@ class PointFilm {
                               const PointStorage& storage, Outcome& outcome) const;
 
   PointProblem problem_;
+  bool coarsens_;
   Grid grid_;
   Eigen::ArrayXd x_, y_;
   std::vector<PointLevel> levels_;

@@ -7,6 +7,7 @@
 
 #include "tabor/core/checks.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/ehl/plain.hpp"
 #include "tabor/ehl/point/mixed.hpp"
 #include "tabor/ehl/point/start.hpp"
 
@@ -110,6 +111,14 @@ void check_point(const PointProblem& problem) {
                      "the theory of small deformations ends before");
   }
   material::check_pressure(problem.lubricant, hertz.max_pressure);
+}
+
+PointResult solve_point_plainly(const PointProblem& problem) {
+  check_point(problem);
+  PointFilm film(problem, false);
+  PointState state;
+  const PointFilm::Outcome outcome = solve_cold(problem, film, state, {});
+  return result_of(problem, film, state, outcome);
 }
 
 PointResult solve_point(const PointProblem& problem, const PointResult* start,

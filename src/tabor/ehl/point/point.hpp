@@ -37,7 +37,6 @@ struct PointProblem {
   Field roughness;          ///< s [m], asperities up, at rest; empty: smooth
   double tolerance = 1e-6;  ///< on the largest relative residual: flow, load
   int max_iterations = 60;
-  bool sparse_factors = false;  ///< of the local equations in each iteration (benchmarks)
 };
 
 /// A film under pressure, part of it perhaps carried by touching solids. p_total = pressure +

@@ -69,7 +69,7 @@ PointFilm::Outcome solve_nested(const PointProblem& problem, PointFilm& film, Po
   coarse.nodes_x = (problem.nodes_x + 1) / 2;
   coarse.nodes_y = (problem.nodes_y + 1) / 2;
   if (std::min(coarse.nodes_x, coarse.nodes_y) < kCoarsest) return {};
-  PointFilm coarse_film(coarse);
+  PointFilm coarse_film(coarse, film.coarsens());
   coarse_film.lubricant = film.lubricant;
   coarse_film.tolerance = std::max(film.tolerance, kRoughly);
   const PointFilm::Outcome before = solve_cold(coarse, coarse_film, state, observer);
