@@ -20,8 +20,7 @@ tabor::analysis::CaseSettings sheet_with_oil() {
 int run(const char* file) {
   tabor::io::isolate_hdf5_reading(true);  // files of unknown origin do no harm
   tabor::io::trap_lost_pages(true);
-  const auto surface =
-      tabor::topography::apply({"level=plane", "lowpass=hann:128/L"}, tabor::scan::read(file));
+  const auto surface = tabor::topography::apply({"level=plane"}, tabor::scan::read(file));
   int code = 0;
   std::set<std::string> reasons;  // to doubt the numbers
   const auto show = [&](const tabor::study::FrictionState& state) {

@@ -12,7 +12,7 @@ class UsageError(ReportError):
 
 
 class InputError(ReportError):
-    """A file that cannot be read or makes no sense, or a Python package that is absent."""
+    """A file that cannot be read or is invalid, or a Python package that is absent."""
 
     exit_code = 3
 

@@ -175,7 +175,8 @@ TEST(WarningsOfFilm, TellTheShareOfTheOilThatRanOff) {
 std::vector<std::string> friction_codes(const friction::Contact& contact, double spill = 0,
                                         friction::Area area = friction::Area::corrected,
                                         double shear_strength = 7e7) {
-  return codes_of(of_friction(contact, friction::estimate(contact, shear_strength, area), spill));
+  return codes_of(of_friction(contact, friction::estimate(contact, shear_strength, area), spill,
+                              {.shear_strength = shear_strength, .area = area}));
 }
 
 TEST(WarningsOfFriction, HaveTheirThresholds) {

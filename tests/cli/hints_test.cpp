@@ -37,6 +37,7 @@ const std::map<std::string, Plausible>& plausible_options() {
       {"--counter-youngs-modulus", kModulus},
       {"--saturation-pressure", {dimension::pressure, 1e5, 1e11}},
       {"--shear-strength", {dimension::pressure, 1e3, 1e10}},
+      {"--boundary-shear-strength", {dimension::pressure, 1e3, 1e10}},
       {"--eyring-stress", {dimension::pressure, 1e4, 1e9}},
       {"--density", {dimension::areal_density, 1e-9, 0.1}},
       {"--oil-density", kOilDensity},

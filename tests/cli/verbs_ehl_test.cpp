@@ -158,7 +158,7 @@ TEST(EhlImpact, GoesOnWithASweepBehindACaseThatMakesNoSense) {
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_THAT(warnings[1], HasSubstr("thicker layer"));
   words.pop_back();
-  EXPECT_THAT(run_tabor(words).err, HasSubstr("1 of 2 cases make no sense, the first: "));
+  EXPECT_THAT(run_tabor(words).err, HasSubstr("1 of 2 cases are invalid, the first: "));
 }
 
 TEST(EhlImpact, RejectsASweepOfWhichNoCaseMakesSense) {

@@ -25,7 +25,8 @@ class EhlSweepTest(ProgramTest):
         return len(list(self.folder.glob("out.h5.cases/case-*.json")))
 
     def stop_after(self, n_cases, stop, words):
-        """Starts the sweep and sends `stop` when so many cases are kept; returns the ended process."""
+        """Starts the sweep and sends `stop` when so many cases are kept, one of them its own; returns the ended process."""
+        n_cases = max(n_cases, self.n_kept() + 1)  # before that it may not listen to signals yet
         process = self.start(*words, "-o", "out.h5")
         return self.stop_when(lambda: self.n_kept() >= n_cases, stop, process)
 

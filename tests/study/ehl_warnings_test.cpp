@@ -51,7 +51,7 @@ TEST(GatherWarnings, LumpsCasesThatMakeNoSense) {
   EXPECT_THAT(
       gather_warnings({warning({}), rejected, other}, {.key = "a", .values = {"1", "2", "3"}})
           .lines,
-      ElementsAre("[a] 2 of 3 cases make no sense, the first: too thick (a = 2, 3)"));
+      ElementsAre("[a] 2 of 3 cases are invalid, the first: too thick (a = 2, 3)"));
 }
 
 TEST(GatherWarnings, HasMarksBeyondTheAlphabet) {

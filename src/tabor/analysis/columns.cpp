@@ -157,6 +157,7 @@ Columns<FrictionRecord> columns_before_the_film() {
           {"escaping_fraction", "", "", &Record::escaping_fraction, stored_and_tabled},
           {"area", "", "", [](const Record& record) { return friction::name(record.area); },
            kObjectAlone},
+          {"boundary_shear_strength_Pa", "Pa", "", &Record::boundary_shear_strength, kObjectAlone},
           {"friction_area_fraction", "", "", &Record::friction_area_fraction, kObjectAlone},
           {"dry_at_bound", "", "", &Record::dry_at_bound, kObjectAlone},
           {"friction_dry", "", "friction dry", &Record::friction_dry},

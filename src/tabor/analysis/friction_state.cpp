@@ -60,20 +60,32 @@ void add_flow(const FluidRecord& fluid, const friction::MixedEstimate& mixed,
   add(of_mixed_friction(mixed), record.warnings);
 }
 
+friction::Contact touching_of(const contact::Summary& contact, double lubricated_share,
+                              const ContactSettings& settings) {
+  return {.mean_pressure = contact.mean_pressure,
+          .contact_area_fraction = contact.contact_area_fraction,
+          .contact_area_fraction_pixels = contact.contact_area_fraction_pixels,
+          .saturation_pressure = settings.pressure_cap(),
+          .lubricated_share = lubricated_share};
+}
+
 }  // namespace
+
+friction::Estimate estimate_of(const contact::Summary& contact, double lubricated_share,
+                               const ContactSettings& contact_settings,
+                               const FrictionSettings& settings) {
+  return friction::estimate(touching_of(contact, lubricated_share, contact_settings),
+                            settings.shear_strength, settings.area, settings.boundary_strength());
+}
 
 friction::Estimate dry_friction(const ContactRecord& contact, double lubricated_share,
                                 double spill_over_fraction, const ContactSettings& contact_settings,
                                 const FrictionSettings& settings, Warnings& warnings) {
-  const friction::Contact touching{
-      .mean_pressure = contact.summary.mean_pressure,
-      .contact_area_fraction = contact.summary.contact_area_fraction,
-      .contact_area_fraction_pixels = contact.summary.contact_area_fraction_pixels,
-      .saturation_pressure = contact_settings.pressure_cap(),
-      .lubricated_share = lubricated_share};
   const friction::Estimate estimate =
-      friction::estimate(touching, settings.shear_strength, settings.area);
-  add(of_friction(touching, estimate, spill_over_fraction), warnings);
+      estimate_of(contact.summary, lubricated_share, contact_settings, settings);
+  add(of_friction(touching_of(contact.summary, lubricated_share, contact_settings), estimate,
+                  spill_over_fraction, settings),
+      warnings);
   return estimate;
 }
 
@@ -88,6 +100,7 @@ FrictionRecord friction_state(const ContactRecord& contact, const Closed& closed
                    settings, record.warnings);
   add(references_of(settings), record.references);
   record.area = estimate.area;
+  record.boundary_shear_strength = settings.boundary_strength();
   record.friction_area_fraction = estimate.area_fraction;
   record.dry_at_bound = estimate.at_bound;
   record.friction_dry = estimate.friction_dry;
@@ -96,7 +109,7 @@ FrictionRecord friction_state(const ContactRecord& contact, const Closed& closed
     add_flow(
         *fluid,
         friction::estimate(fluid->summary, record.mean_pressure, contact_settings.pressure_cap(),
-                           settings.shear_strength, settings.area),
+                           settings.shear_strength, settings.area, settings.boundary_strength()),
         record);
   }
   return record;

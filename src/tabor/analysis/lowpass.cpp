@@ -14,22 +14,6 @@
 namespace tabor::analysis {
 namespace {
 
-constexpr std::size_t kFewestPoints = 3;
-
-double mean_of(const std::vector<double>& values, std::size_t begin, std::size_t end) {
-  double sum = 0;
-  for (std::size_t i = begin; i < end; ++i) sum += values[i];
-  return sum / static_cast<double>(end - begin);
-}
-
-bool is_flat(const std::vector<double>& values, std::size_t begin, std::size_t end,
-             double tolerance) {
-  const double mean = mean_of(values, begin, end);
-  return std::all_of(values.begin() + static_cast<std::ptrdiff_t>(begin),
-                     values.begin() + static_cast<std::ptrdiff_t>(end),
-                     [&](double value) { return std::abs(value - mean) <= tolerance * mean; });
-}
-
 void add_friction(const ContactSettings& settings, const FrictionSettings& friction,
                   LowpassRecord& record) {
   const friction::Estimate estimate =
@@ -95,21 +79,6 @@ void lowpass_states(const topography::Topography& surface, const ContactSettings
     };
     contact_states(*elasticity, filtered, settings, mean_pressures, receive_contact, observer);
   }
-}
-
-std::optional<Plateau> find_plateau(const std::vector<double>& cutoffs,
-                                    const std::vector<double>& areas, double tolerance) {
-  std::optional<Plateau> best;
-  double best_ratio = 1;
-  for (std::size_t begin = 0; begin < areas.size(); ++begin) {
-    for (std::size_t end = begin + kFewestPoints; end <= areas.size(); ++end) {
-      const double ratio = cutoffs[end - 1] / cutoffs[begin];
-      if (ratio <= best_ratio || !is_flat(areas, begin, end, tolerance)) continue;
-      best_ratio = ratio;
-      best = Plateau{cutoffs[begin], cutoffs[end - 1], mean_of(areas, begin, end)};
-    }
-  }
-  return best;
 }
 
 }  // namespace tabor::analysis

@@ -33,16 +33,4 @@ void lowpass_states(const topography::Topography& surface, const ContactSettings
                     const std::function<void(LowpassRecord&&, std::size_t pressure)>& receive,
                     const Observer& observer = {});
 
-/// A range of cutoffs over which the contact area hardly changes.
-struct Plateau {
-  double first = 0;          ///< cutoff, in waves per scan side
-  double last = 0;           ///< the same
-  double area_fraction = 0;  ///< mean over the range
-};
-
-/// The longest range, by the ratio of its ends, of at least three consecutive cutoffs whose areas
-/// all lie within `tolerance` (relative) of their mean; nullopt if there is none. Cutoffs rise.
-std::optional<Plateau> find_plateau(const std::vector<double>& cutoffs,
-                                    const std::vector<double>& areas, double tolerance = 0.05);
-
 }  // namespace tabor::analysis

@@ -112,6 +112,7 @@ struct FrictionRecord {
   double trapped_fraction = kNoValue;   ///< of the liquid, in closed pockets
   double escaping_fraction = kNoValue;  ///< of the liquid, with a way out through the gap
   friction::Area area = friction::Area::corrected;
+  double boundary_shear_strength = 0;        ///< of wet contact [Pa]
   double friction_area_fraction = kNoValue;  ///< that friction was computed with
   bool dry_at_bound = false;                 ///< dry friction is tau_y / p_sat
   double friction_dry = kNoValue;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tabor/core/units.hpp"
+#include "tabor/material/library.hpp"
 #include "tabor/material/solid.hpp"
 
 namespace tabor::analysis {
@@ -69,6 +70,17 @@ double ContactSettings::effective_modulus() const {
 
 friction::FlowingOil FluidSettings::oil() const {
   return {viscosity.value_or(0), pressure_viscosity, eyring_stress};
+}
+
+void take_material(std::string_view name, CaseSettings& settings) {
+  const material::NamedSolid& solid = material::find_solid(name);
+  settings.contact.material = solid.name;
+  settings.contact.youngs_modulus = solid.youngs_modulus.value;
+  settings.contact.poissons_ratio = solid.poissons_ratio.value;
+  if (solid.saturation_pressure) {
+    settings.contact.saturation_pressure = solid.saturation_pressure->value;
+  }
+  if (solid.shear_strength) settings.friction.shear_strength = solid.shear_strength->value;
 }
 
 std::optional<Objection> objection(const ContactSettings& settings,
@@ -136,11 +148,34 @@ std::optional<Objection> objection(const FluidSettings& settings, const ContactS
                                      spelling("boundary")));
 }
 
-std::optional<Objection> objection(const FrictionSettings& settings) {
-  if (settings.shear_strength > 0) return std::nullopt;
-  return Objection{.setting = "shear_strength",
-                   .got = format_si(settings.shear_strength, "Pa"),
-                   .expected = "more than zero"};
+std::optional<Objection> objection(const FrictionSettings& settings, const Spelling& spelling) {
+  if (!(settings.shear_strength > 0)) {
+    return Objection{.setting = "shear_strength",
+                     .got = format_si(settings.shear_strength, "Pa"),
+                     .expected = "more than zero",
+                     .remedy = settings.shear_strength == 0
+                                   ? fmt::format("give {}: of some materials the library does not "
+                                                 "know it",
+                                                 spelling("shear_strength"))
+                                   : ""};
+  }
+  if (settings.boundary_shear_strength && settings.boundary_shear_share) {
+    return use("boundary_shear_share",
+               fmt::format("{} and {} say the same; give one of them",
+                           spelling("boundary_shear_strength"), spelling("boundary_shear_share")));
+  }
+  const double share = settings.boundary_shear_share.value_or(0);
+  if (!(share >= 0 && share <= 1)) {
+    return Objection{.setting = "boundary_shear_share",
+                     .got = fmt::format("{}", share),
+                     .expected = "a share of the shear strength, 0 to 1"};
+  }
+  const double boundary = settings.boundary_strength();
+  if (boundary >= 0 && boundary <= settings.shear_strength) return std::nullopt;
+  return Objection{
+      .setting = "boundary_shear_strength",
+      .got = format_si(boundary, "Pa"),
+      .expected = "zero to the shear strength, " + format_si(settings.shear_strength, "Pa")};
 }
 
 }  // namespace tabor::analysis

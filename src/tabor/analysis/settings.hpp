@@ -26,6 +26,7 @@ inline constexpr auto kSolvers = names<contact::Solver>("fast", "polonsky-keer")
 
 /// How contacts of a rough body with a flat one are solved.
 struct ContactSettings {
+  std::string material = {};  ///< name in the library, "" if it is not from there
   double youngs_modulus = 0;  ///< of the rough body [Pa]
   double poissons_ratio = 0;
   std::optional<double> counter_youngs_modulus = {};  ///< [Pa], absent: rigid
@@ -74,8 +75,15 @@ struct FluidSettings {
 
 /// What turns contact into friction.
 struct FrictionSettings {
-  double shear_strength = 0;  ///< tau_y [Pa]
+  double shear_strength = 0;                           ///< tau_y [Pa]
+  std::optional<double> boundary_shear_strength = {};  ///< tau_b of wet contact [Pa]
+  std::optional<double> boundary_shear_share = {};     ///< the same over tau_y
   friction::Area area = friction::Area::corrected;
+
+  /// tau_b [Pa] of the boundary film on wet contact; 0 unless given: it slips freely.
+  double boundary_strength() const {
+    return boundary_shear_strength.value_or(boundary_shear_share.value_or(0) * shear_strength);
+  }
 };
 
 /// Friction of one surface under every pressure with every density.
@@ -86,6 +94,10 @@ struct CaseSettings {
   FluidSettings fluid = {};
   FrictionSettings friction = {};
 };
+
+/// Takes from the library what is known of a solid; what is not stays as it is. Throws InputError
+/// for an unknown name.
+void take_material(std::string_view name, CaseSettings& settings);
 
 /// What is wrong with settings before anything is computed.
 struct Objection {
@@ -107,6 +119,6 @@ std::optional<Objection> objection(const ContactSettings& settings,
 std::optional<Objection> objection(const FilmSettings& settings);
 std::optional<Objection> objection(const FluidSettings& settings, const ContactSettings& contact,
                                    const Spelling& spelling);
-std::optional<Objection> objection(const FrictionSettings& settings);
+std::optional<Objection> objection(const FrictionSettings& settings, const Spelling& spelling);
 
 }  // namespace tabor::analysis

@@ -72,7 +72,12 @@ FrictionRecord friction_state(const ContactRecord& contact, const Closed& closed
                               const ContactSettings& contact_settings,
                               const FrictionSettings& settings);
 
-/// Friction of the solids, of which liquid covers a share, and its warnings added to a list.
+/// Friction of the solids, of which liquid covers a share.
+friction::Estimate estimate_of(const contact::Summary& contact, double lubricated_share,
+                               const ContactSettings& contact_settings,
+                               const FrictionSettings& settings);
+
+/// The same with its warnings added to a list.
 friction::Estimate dry_friction(const ContactRecord& contact, double lubricated_share,
                                 double spill_over_fraction, const ContactSettings& contact_settings,
                                 const FrictionSettings& settings, Warnings& warnings);

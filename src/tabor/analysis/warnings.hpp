@@ -31,7 +31,7 @@ Warnings of_film(const deposition::Film& film);
 
 /// Of the friction of one contact with one film; `spill_over_fraction` of the liquid does not fit.
 Warnings of_friction(const friction::Contact& contact, const friction::Estimate& estimate,
-                     double spill_over_fraction);
+                     double spill_over_fraction, const FrictionSettings& settings);
 
 /// Of a film that flows, with these warnings about its state.
 Warnings of_flow(const std::vector<std::string>& warnings);

@@ -55,7 +55,7 @@ Warnings of_film(const deposition::Film& film) {
 }
 
 Warnings of_friction(const friction::Contact& contact, const friction::Estimate& estimate,
-                     double spill_over_fraction) {
+                     double spill_over_fraction, const FrictionSettings& settings) {
   Warnings list;
   if (estimate.at_bound) {
     list.push_back(
@@ -71,10 +71,10 @@ Warnings of_friction(const friction::Contact& contact, const friction::Estimate&
                                 percent(spill_over_fraction)),
                     spill_over_fraction});
   }
-  if (contact.lubricated_share > kWetShare) {
+  if (contact.lubricated_share > kWetShare && settings.boundary_strength() == 0) {
     list.push_back({"frictionless",
                     fmt::format("counts wet contact as frictionless: {} of the contact is wet, and "
-                                "a boundary film would shear",
+                                "a boundary film would shear (--boundary-shear-strength)",
                                 percent(contact.lubricated_share)),
                     contact.lubricated_share});
   }

@@ -57,6 +57,24 @@ const Columns<FluidSettings>& fluid_setting_columns() {
   return columns;
 }
 
+const char* const kMaterial = "--material";
+
+void declare_material(OptionSet& set, analysis::CaseSettings& settings) {
+  set.add({.flag = kMaterial,
+           .placeholder = "NAME",
+           .help = "take E, NU and, where known, PS and TAU from the library ('tabor materials'); "
+                   "options override them",
+           .is_base = true,
+           .assign = [&settings](const std::string& name) {
+             analysis::take_material(name, settings);
+           }});
+}
+
+void require_without_material(Option& option) {
+  option.required = true;
+  option.unless = kMaterial;
+}
+
 }  // namespace
 
 void declare_contact(OptionSet& set, analysis::CaseSettings& settings) {
@@ -64,18 +82,26 @@ void declare_contact(OptionSet& set, analysis::CaseSettings& settings) {
   set.quantities("--pressure", "P[,P2,...]", "mean pressure, load / nominal area, e.g. 2MPa,7MPa",
                  dimension::pressure, settings.mean_pressures)
       .required = true;
-  set.quantity("--youngs-modulus", "E", "Young's modulus of the rough body, e.g. 70GPa",
-               dimension::pressure, settings.contact.youngs_modulus)
-      .required = true;
-  set.number("--poisson-ratio", "NU", "Poisson's ratio of the rough body, e.g. 0.33",
-             settings.contact.poissons_ratio)
-      .required = true;
+  declare_material(set, settings);
+  require_without_material(set.quantity("--youngs-modulus", "E",
+                                        "Young's modulus of the rough body, e.g. 70GPa",
+                                        dimension::pressure, settings.contact.youngs_modulus));
+  require_without_material(set.number("--poisson-ratio", "NU",
+                                      "Poisson's ratio of the rough body, e.g. 0.33",
+                                      settings.contact.poissons_ratio));
   set.quantity("--counter-youngs-modulus", "E2", "Young's modulus of the counter body [rigid]",
                dimension::pressure, settings.contact.counter_youngs_modulus);
   set.number("--counter-poisson-ratio", "NU2", "Poisson's ratio of the counter body",
              settings.contact.counter_poissons_ratio);
-  set.quantity("--saturation-pressure", "PS", "cap on the contact pressure, e.g. 240MPa [elastic]",
-               dimension::pressure, settings.contact.saturation_pressure);
+  set.add({.flag = "--saturation-pressure",
+           .placeholder = "PS",
+           .help = "cap on the contact pressure, e.g. 240MPa; none: elastic [none]",
+           .assign = [&settings](const std::string& text) {
+             settings.contact.saturation_pressure.reset();
+             if (text == "none") return;
+             settings.contact.saturation_pressure =
+                 parse_si(text, dimension::pressure, "--saturation-pressure");
+           }});
   set.choice("--boundary", analysis::kBoundaries,
              "periodic: the scan repeats; free: loaded on the scan only [periodic]",
              settings.contact.boundary);
@@ -123,9 +149,14 @@ void declare_fluid(OptionSet& set, analysis::FluidSettings& settings) {
 
 void declare_friction(OptionSet& set, analysis::FrictionSettings& settings) {
   set.group("Friction");
-  set.quantity("--shear-strength", "TAU", "shear strength of the contact, e.g. 70MPa",
-               dimension::pressure, settings.shear_strength)
-      .required = true;
+  require_without_material(set.quantity("--shear-strength", "TAU",
+                                        "shear strength of the contact, e.g. 70MPa",
+                                        dimension::pressure, settings.shear_strength));
+  set.quantity("--boundary-shear-strength", "TAU_B",
+               "shear strength of wet contact, at most TAU, e.g. 5MPa [0]", dimension::pressure,
+               settings.boundary_shear_strength);
+  set.number("--boundary-shear-share", "X", "the same as a share of TAU, e.g. 0.1",
+             settings.boundary_shear_share);
   set.choice("--area", friction::kAreas,
              "contact area that friction uses: perimeter-corrected or counted [corrected]",
              settings.area);
@@ -160,7 +191,10 @@ void check_contact(const analysis::CaseSettings& settings) {
 }
 
 io::Json settings_json(const ContactSettings& settings) {
-  return io::json_of(contact_setting_columns(), settings);
+  io::Json object = io::Json::object();
+  if (!settings.material.empty()) object["material"] = settings.material;
+  object.update(io::json_of(contact_setting_columns(), settings));
+  return object;
 }
 
 io::Json settings_json(const FilmSettings& settings) {
@@ -175,13 +209,14 @@ void describe(const ContactSettings& settings, Facts& facts) {
   if (settings.load_path) {
     facts.fact("load path", "in the order given, plastic indentation is kept");
   }
-  facts.fact("contact",
-             fmt::format("E* {}, {}, {}, solver {}", si(settings.effective_modulus(), "Pa"),
-                         settings.saturation_pressure
-                             ? "saturation " + si(*settings.saturation_pressure, "Pa")
-                             : std::string("elastic"),
-                         analysis::kBoundaries.of(settings.boundary),
-                         analysis::kSolvers.of(settings.solver)));
+  facts.fact("contact", fmt::format("{}E* {}, {}, {}, solver {}",
+                                    settings.material.empty() ? "" : settings.material + ", ",
+                                    si(settings.effective_modulus(), "Pa"),
+                                    settings.saturation_pressure
+                                        ? "saturation " + si(*settings.saturation_pressure, "Pa")
+                                        : std::string("elastic"),
+                                    analysis::kBoundaries.of(settings.boundary),
+                                    analysis::kSolvers.of(settings.solver)));
 }
 
 void describe(const FilmSettings& settings, Facts& facts) {

@@ -16,13 +16,14 @@ struct Request {
   ScanRequest scan;
   analysis::CaseSettings settings;
   std::optional<std::string> output;
+  bool density_curve = false;
 };
 
 void check_all(const analysis::CaseSettings& settings) {
   check_contact(settings);
   check(analysis::objection(settings.film));
   check(analysis::objection(settings.fluid, settings.contact, flag_of));
-  check(analysis::objection(settings.friction));
+  check(analysis::objection(settings.friction, flag_of));
 }
 
 io::Json all_settings(const analysis::CaseSettings& settings) {
@@ -48,14 +49,18 @@ std::string text_of(const Scan& scan, const analysis::CaseSettings& settings, co
   describe(settings.contact, facts);
   describe(settings.film, facts);
   describe(settings.fluid, facts);
-  facts.fact("friction", fmt::format("shear strength {}, {} contact area",
-                                     si(settings.friction.shear_strength, "Pa"),
-                                     friction::kAreas.of(settings.friction.area)));
+  const double boundary = settings.friction.boundary_strength();
+  facts.fact("friction",
+             fmt::format("shear strength {}{}, {} contact area",
+                         si(settings.friction.shear_strength, "Pa"),
+                         boundary > 0 ? fmt::format(", of wet contact {}", si(boundary, "Pa")) : "",
+                         friction::kAreas.of(settings.friction.area)));
   return facts.text() + '\n' + rows.text();
 }
 
 int solve_all(const Request& request, const topography::Topography& surface,
-              std::vector<analysis::FrictionRecord>& records, FieldsFile* file, Context& context) {
+              std::vector<analysis::FrictionRecord>& records,
+              std::vector<analysis::DensityCurve>& curves, FieldsFile* file, Context& context) {
   const auto receive = [&](const study::FrictionState& state) {
     records.push_back(state.friction);
     if (file == nullptr) return;
@@ -67,8 +72,52 @@ int solve_all(const Request& request, const topography::Topography& surface,
   study::RunOptions options;
   options.observer = context.observer();
   const auto maps = file != nullptr ? study::ContactMaps::kept : study::ContactMaps::dropped;
-  return until_interrupted(
-      context, [&] { study::friction_of(surface, request.settings, receive, maps, options); });
+  return until_interrupted(context, [&] {
+    curves = study::friction_of(surface, request.settings, receive, maps, options).density_curves;
+  });
+}
+
+io::Json json_of(const analysis::DensityCurve& curve) {
+  const auto in_grams = [](double density) { return io::number(in_g_per_m2(density)); };
+  io::Json densities = io::Json::array();
+  for (const double density : curve.lubricant_densities) densities.push_back(in_grams(density));
+  const auto& plateau = curve.plateau;
+  return {{"mean_pressure_Pa", curve.mean_pressure},
+          {"lubricant_density_g_per_m2", densities},
+          {"lubricated_share", curve.lubricated_shares},
+          {"friction_lubricated", curve.friction_lubricated},
+          {"plateau_from_g_per_m2", plateau ? in_grams(plateau->first) : io::Json()},
+          {"plateau_to_g_per_m2", plateau ? in_grams(plateau->last) : io::Json()}};
+}
+
+/// The curve of the first pressure, and of all where there are several.
+void add_curves(const std::vector<analysis::DensityCurve>& curves, io::Json& object) {
+  if (curves.empty()) return;
+  object["density_curve"] = json_of(curves.front());
+  if (curves.size() == 1) return;
+  io::Json all = io::Json::array();
+  for (const analysis::DensityCurve& curve : curves) all.push_back(json_of(curve));
+  object["density_curves"] = all;
+}
+
+/// What each curve says, and with --density-curve the curves.
+std::string curves_text(const std::vector<analysis::DensityCurve>& curves, const Request& request) {
+  if (curves.empty()) return "";
+  Facts facts;
+  std::string tables;
+  for (const analysis::DensityCurve& curve : curves) {
+    const std::string pressure = si(curve.mean_pressure, "Pa");
+    facts.fact("density at " + pressure,
+               sentence_of(curve, request.settings.film.lubricant_densities));
+    if (!request.density_curve) continue;
+    Table table({"density at " + pressure, "wet share", "friction wet"});
+    for (std::size_t i = 0; i < curve.lubricant_densities.size(); ++i) {
+      table.row({density_text(curve.lubricant_densities[i]), percent(curve.lubricated_shares[i]),
+                 plain(curve.friction_lubricated[i], 4)});
+    }
+    tables += '\n' + table.text();
+  }
+  return '\n' + facts.text() + tables;
 }
 
 analysis::Case case_of(const analysis::FrictionRecord& record) {
@@ -89,7 +138,8 @@ int show(Request request, Context& context) {
                  analysis::references_of(request.settings));
   }
   std::vector<analysis::FrictionRecord> records;
-  int code = solve_all(request, scan.surface, records, file ? &*file : nullptr, context);
+  std::vector<analysis::DensityCurve> curves;
+  int code = solve_all(request, scan.surface, records, curves, file ? &*file : nullptr, context);
   if (code == kInterrupted && records.empty()) throw Interrupted();
   std::vector<analysis::Case> cases;
   for (const analysis::FrictionRecord& record : records) {
@@ -101,48 +151,53 @@ int show(Request request, Context& context) {
   io::Json object = json_head(context, scan);
   object.update(settings);
   object["states"] = states_json(analysis::friction_columns(), records);
+  add_curves(curves, object);
   return finish(context, object,
-                text_of(scan, request.settings, table_of(analysis::friction_columns(), records)),
+                text_of(scan, request.settings, table_of(analysis::friction_columns(), records)) +
+                    curves_text(curves, request),
                 code);
 }
 
 }  // namespace
 
 Verb friction_verb() {
-  return {.name = "friction",
-          .arguments =
-              "SCAN --pressure P --youngs-modulus E --poisson-ratio NU --density D "
-              "--shear-strength TAU [options]",
-          .summary = "dry and lubricated Bowden-Tabor friction coefficients",
-          .details =
-              "Friction is the real contact area times the shear strength over the pressure; "
-              "contact that stands in liquid carries no shear. '--density 0g/m^2' asks for "
-              "dry friction alone. With --fluid reynolds the deposited oil flows while the flat "
-              "slides: "
-              "it carries part of the load and adds viscous shear.",
-          .examples =
-              {"tabor friction surfaces/edt_before.x3p --level plane --pressure 2MPa,7MPa "
-               "--youngs-modulus 70GPa --poisson-ratio 0.33 --saturation-pressure 240MPa "
-               "--density 0.45g/m^2,0.9g/m^2 --shear-strength 70MPa",
-               "tabor friction surfaces/edt_before.x3p --level plane --pressure 7MPa "
-               "--youngs-modulus 70GPa --poisson-ratio 0.33 --saturation-pressure 240MPa "
-               "--density 0.9g/m^2 --model bottom-fill --shear-strength 70MPa --area pixels "
-               "--json",
-               "tabor friction surfaces/edt_before.x3p --level plane --crop 0,0,128,128 --mirror "
-               "--pressure 2MPa --youngs-modulus 70GPa --poisson-ratio 0.33 "
-               "--saturation-pressure 240MPa --density 0.9g/m^2 --shear-strength 70MPa "
-               "--fluid reynolds --speed 5mm/s --viscosity 0.225Pa*s"},
-          .declare = [](OptionSet& set) -> Action {
-            const auto request = std::make_shared<Request>();
-            declare_scan(set, request->scan);
-            analysis::CaseSettings& settings = request->settings;
-            declare_contact(set, settings);
-            declare_film(set, settings.film);
-            declare_fluid(set, settings.fluid);
-            declare_friction(set, settings.friction);
-            declare_output(set, request->output);
-            return [request](Context& context) { return show(*request, context); };
-          }};
+  return {
+      .name = "friction",
+      .arguments =
+          "SCAN --pressure P --youngs-modulus E --poisson-ratio NU --density D "
+          "--shear-strength TAU [options]",
+      .summary = "dry and lubricated Bowden-Tabor friction coefficients",
+      .details =
+          "Friction is the real contact area times the shear strength over the pressure; "
+          "contact that stands in liquid carries no shear, or that of --boundary-shear-strength. "
+          "'--density 0g/m^2' asks for dry friction alone. One sentence per pressure says from "
+          "which density the pockets under the contacts are full and at which the valleys reach "
+          "them. With --fluid reynolds the deposited oil flows while the flat slides: it carries "
+          "part of the load and adds viscous shear.",
+      .examples =
+          {"tabor friction surfaces/edt_before.x3p --level plane --pressure 2MPa,7MPa "
+           "--material aluminium-6016 --density 0.45g/m^2,0.9g/m^2",
+           "tabor friction surfaces/edt_before.x3p --level plane --pressure 7MPa "
+           "--youngs-modulus 70GPa --poisson-ratio 0.33 --saturation-pressure 240MPa "
+           "--density 0.9g/m^2 --model bottom-fill --shear-strength 70MPa --area pixels "
+           "--json",
+           "tabor friction surfaces/edt_before.x3p --level plane --crop 96,96,128,128 --mirror "
+           "--pressure 2MPa --youngs-modulus 70GPa --poisson-ratio 0.33 "
+           "--saturation-pressure 240MPa --density 0.9g/m^2 --shear-strength 70MPa "
+           "--fluid reynolds --speed 5mm/s --viscosity 0.225Pa*s"},
+      .declare = [](OptionSet& set) -> Action {
+        const auto request = std::make_shared<Request>();
+        declare_scan(set, request->scan);
+        analysis::CaseSettings& settings = request->settings;
+        declare_contact(set, settings);
+        declare_film(set, settings.film);
+        declare_fluid(set, settings.fluid);
+        declare_friction(set, settings.friction);
+        set.toggle("--density-curve", "print friction against the density of the oil",
+                   request->density_curve);
+        declare_output(set, request->output);
+        return [request](Context& context) { return show(*request, context); };
+      }};
 }
 
 }  // namespace tabor::cli

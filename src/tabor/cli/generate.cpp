@@ -103,6 +103,14 @@ Topography make_edt(Request& request, std::uint64_t seed) {
   recipe.hurst = request.given.take_or("--hurst", recipe.hurst);
   recipe.stage =
       request.stage == "after" ? synthesis::EdtStage::after : synthesis::EdtStage::before;
+  recipe.waviness = request.given.take_or("--waviness", recipe.waviness);
+  recipe.plateau_share = request.given.take_or("--plateau-share", recipe.plateau_share);
+  recipe.plateau_roughness = request.given.take_or("--plateau-roughness", recipe.plateau_roughness);
+  recipe.noise = request.given.take_or("--noise", recipe.noise);
+  if (recipe.stage == synthesis::EdtStage::after) {
+    recipe.sliding_pressure = request.given.take_or("--pressure", recipe.sliding_pressure);
+    recipe.sliding_density = request.given.take_or("--density", recipe.sliding_density);
+  }
   recipe.periodic = !request.not_periodic;
   recipe.seed = seed;
   return synthesis::edt(recipe);
@@ -187,22 +195,22 @@ int generate(Request request, Context& context) {
   return finish(context, object, facts.text());
 }
 
-void length(OptionSet& set, Given& given, const std::string& flag, const std::string& help) {
+void quantity(OptionSet& set, Given& given, const std::string& flag, const std::string& placeholder,
+              const Dimension& unit, const std::string& help) {
   set.add({.flag = flag,
-           .placeholder = "LENGTH",
+           .placeholder = placeholder,
            .help = help,
-           .assign = [&given, flag](const std::string& text) {
-             given.set(flag, parse_si(text, dimension::length, flag));
+           .assign = [&given, flag, unit](const std::string& text) {
+             given.set(flag, parse_si(text, unit, flag));
            }});
 }
 
+void length(OptionSet& set, Given& given, const std::string& flag, const std::string& help) {
+  quantity(set, given, flag, "LENGTH", dimension::length, help);
+}
+
 void ratio(OptionSet& set, Given& given, const std::string& flag, const std::string& help) {
-  set.add({.flag = flag,
-           .placeholder = "X",
-           .help = help,
-           .assign = [&given, flag](const std::string& text) {
-             given.set(flag, parse_si(text, dimension::none, flag));
-           }});
+  quantity(set, given, flag, "X", dimension::none, help);
 }
 
 void word(OptionSet& set, const std::string& flag, const std::string& placeholder,
@@ -226,8 +234,16 @@ void declare_rough(OptionSet& set, Request& request) {
   set.toggle("--random-amplitudes", "self-affine: Gaussian amplitudes, not random phases only",
              request.random_amplitudes);
   length(set, given, "--mean-height", "edt: mean absolute height Sa before sliding [0.9um]");
+  length(set, given, "--waviness", "edt: rms of waves of 250 um and longer [0.5um]");
+  ratio(set, given, "--plateau-share", "edt: share of the area that is plateaus [0.5]");
+  length(set, given, "--plateau-roughness", "edt: rms of the roughness on the plateaus [80nm]");
+  length(set, given, "--noise", "edt: rms of the microscope's noise [40nm]");
   set.choice("--stage", {"before", "after"}, "edt: before or after sliding [before]",
              request.stage);
+  quantity(set, given, "--pressure", "P", dimension::pressure,
+           "edt after sliding: mean pressure of it [7MPa]");
+  quantity(set, given, "--density", "D", dimension::areal_density,
+           "edt after sliding: lubricant density of it [0.45g/m^2]");
   set.toggle("--not-periodic", "edt: a cut-out instead of a tile", request.not_periodic);
   length(set, given, "--groove-spacing", "ground: roll-off wavelength across the grooves [20um]");
   length(set, given, "--groove-length", "ground: length of the grooves along x [400um]");
@@ -257,19 +273,20 @@ void declare_options(OptionSet& set, Request& request) {
 }  // namespace
 
 Verb generate_verb() {
-  return {
-      .name = "generate",
-      .arguments = "KIND -o OUT [options]",
-      .summary = "make a surface: self-affine, edt, ground, sinusoid, sphere, bump",
-      .details = "",
-      .examples = {"tabor generate edt -o edt.x3p --pixels 256 --seed 7",
-                   "tabor generate self-affine -o rough.h5 --pixels 256 --rms-slope 0.1 --hurst "
-                   "0.8 --short-cutoff 4um"},
-      .declare = [](OptionSet& set) -> Action {
-        const auto request = std::make_shared<Request>();
-        declare_options(set, *request);
-        return [request](Context& context) { return generate(*request, context); };
-      }};
+  return {.name = "generate",
+          .arguments = "KIND -o OUT [options]",
+          .summary = "make a surface: self-affine, edt, ground, sinusoid, sphere, bump",
+          .details = "",
+          .examples =
+              {"tabor generate edt -o edt.x3p --pixels 256 --seed 7",
+               "tabor generate edt -o after.x3p --stage after --pressure 10MPa --density 0.9g/m^2",
+               "tabor generate self-affine -o rough.h5 --pixels 256 --rms-slope 0.1 --hurst "
+               "0.8 --short-cutoff 4um"},
+          .declare = [](OptionSet& set) -> Action {
+            const auto request = std::make_shared<Request>();
+            declare_options(set, *request);
+            return [request](Context& context) { return generate(*request, context); };
+          }};
 }
 
 }  // namespace tabor::cli

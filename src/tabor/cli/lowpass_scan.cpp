@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tabor/analysis/lowpass.hpp"
+#include "tabor/analysis/plateau.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
@@ -13,6 +14,8 @@ namespace tabor::cli {
 
 namespace {
 
+constexpr double kFlat = 0.05;  // areas within this of their mean are the same
+
 // Cutoffs that were not reached after Ctrl-C have no area; the plateau is sought among the rest.
 io::Json plateaus_of(const analysis::CaseSettings& settings, const std::vector<double>& cutoffs,
                      const std::vector<std::vector<double>>& all_areas, Facts& facts) {
@@ -20,7 +23,8 @@ io::Json plateaus_of(const analysis::CaseSettings& settings, const std::vector<d
   for (std::size_t i = 0; i < settings.mean_pressures.size(); ++i) {
     const std::vector<double>& areas = all_areas[i];
     const auto known = static_cast<std::ptrdiff_t>(areas.size());
-    const auto plateau = analysis::find_plateau({cutoffs.begin(), cutoffs.begin() + known}, areas);
+    const auto plateau =
+        analysis::find_plateau({cutoffs.begin(), cutoffs.begin() + known}, areas, kFlat);
     const std::string label = "plateau at " + si(settings.mean_pressures[i], "Pa");
     if (!plateau) {
       facts.fact(label, "none within 5 %: the area depends on the cutoff");
@@ -28,11 +32,11 @@ io::Json plateaus_of(const analysis::CaseSettings& settings, const std::vector<d
       continue;
     }
     facts.fact(label, fmt::format("{}/L to {}/L, contact {}", plain(plateau->first),
-                                  plain(plateau->last), percent(plateau->area_fraction)));
+                                  plain(plateau->last), percent(plateau->value)));
     plateaus.push_back({{"mean_pressure_Pa", settings.mean_pressures[i]},
                         {"first_cutoff_per_length", plateau->first},
                         {"last_cutoff_per_length", plateau->last},
-                        {"contact_area_fraction", plateau->area_fraction}});
+                        {"contact_area_fraction", plateau->value}});
   }
   return plateaus;
 }

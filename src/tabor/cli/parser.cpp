@@ -55,15 +55,22 @@ void reject_unknown_words(const CLI::App& app, const OptionSet& set, const std::
                                suggestion(flag, flags_of(set)), verb));
 }
 
+bool is_given(const std::string& flag, const Declared& declared) {
+  return std::any_of(declared.begin(), declared.end(), [&](const auto& pair) {
+    return pair.second->flag == flag && pair.first->count() > 0;
+  });
+}
+
 void require_all(const Declared& declared, const OptionSet& set, const std::string& verb) {
   for (const Option& option : set.options()) {
-    if (!option.required) continue;
+    if (!option.required || is_given(option.unless, declared)) continue;
     for (const auto& [parsed, wanted] : declared) {
       if (wanted != &option || parsed->count() > 0) continue;
       const std::string form =
           option.placeholder.empty() ? option.flag : option.flag + " " + option.placeholder;
       throw UsageError(
-          fmt::format("{} is missing ({}); see 'tabor {} --help'", form, option.help, verb));
+          fmt::format("{} is missing ({}){}; see 'tabor {} --help'", form, option.help,
+                      option.unless.empty() ? "" : "; " + option.unless + " stands for it", verb));
     }
   }
 }
@@ -78,10 +85,11 @@ void assign(const Option& option, const std::string& value) {
 
 // Treatment steps act in the order given, so values are assigned in the order of the command line
 // and not, as CLI11 would, in the order of declaration.
-void assign_in_order(CLI::App& app, const Declared& declared) {
+void assign_in_order(CLI::App& app, const Declared& declared, bool is_base) {
   std::map<const CLI::Option*, std::size_t> taken;
   for (const CLI::Option* parsed : app.parse_order()) {
     const Option& option = *declared.at(parsed);
+    if (option.is_base != is_base) continue;
     const std::size_t position = taken[parsed]++;
     if (position > 0 && !option.repeatable) {
       throw UsageError(fmt::format("{} is given more than once", option.flag));
@@ -104,7 +112,7 @@ void parse(const OptionSet& set, const std::string& verb, const std::vector<std:
   }
   reject_unknown_words(app, set, verb);
   require_all(declared, set, verb);
-  assign_in_order(app, declared);
+  for (const bool is_base : {true, false}) assign_in_order(app, declared, is_base);
 }
 
 }  // namespace tabor::cli

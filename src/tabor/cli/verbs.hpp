@@ -17,6 +17,7 @@ Verb sweep_verb();
 Verb ehl_verb();
 Verb report_verb();
 Verb formats_verb();
+Verb materials_verb();
 Verb cite_verb();
 Verb options_verb();
 

@@ -101,7 +101,7 @@ struct Program {
   std::vector<std::string> downwards = {};     ///< keys whose largest value is the easiest
   /// Beginnings of keys whose values decide whether two cases may be neighbours in a chain.
   std::vector<std::string> chain_ends = {};
-  /// Memory that a case takes [bytes]. Throws InputError for one that makes no sense.
+  /// Memory that a case takes [bytes]. Throws InputError for an invalid one.
   std::function<std::size_t(const io::Config&)> memory = {};
 };
 

@@ -41,7 +41,7 @@ struct Surface {
   std::vector<std::string> warnings = {};  ///< about the scan, one line each
 };
 
-/// What makes surfaces. Both throw InputError, naming the file or the number that makes no sense.
+/// What makes surfaces. Both throw InputError, naming the file or the invalid number.
 struct SurfaceSource {
   std::function<Surface(const NamedScan&, const Observer&)> read;
   std::function<Surface(const GeneratedSurface&)> generate;

@@ -9,6 +9,7 @@
 #include "tabor/core/checks.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
+#include "tabor/core/units.hpp"
 
 namespace tabor::friction {
 namespace {
@@ -31,11 +32,16 @@ std::string_view name(Area area) { return kAreas.of(area); }
 
 Area parse_area(std::string_view text) { return kAreas.parse(text, "area"); }
 
-Estimate estimate(const Contact& contact, double shear_strength, Area area) {
+Estimate estimate(const Contact& contact, double shear_strength, Area area,
+                  double boundary_shear_strength) {
   check_positive("mean pressure", contact.mean_pressure, "Pa");
   check_positive("shear strength", shear_strength, "Pa");
   if (!(contact.saturation_pressure > 0)) {
     check_positive("saturation pressure", contact.saturation_pressure, "Pa");
+  }
+  if (!(boundary_shear_strength >= 0 && boundary_shear_strength <= shear_strength)) {
+    throw InputError("boundary shear strength", format_si(boundary_shear_strength, "Pa"),
+                     "zero to the shear strength, " + format_si(shear_strength, "Pa"), "");
   }
   check_share(contact.contact_area_fraction, "contact area fraction");
   check_share(contact.contact_area_fraction_pixels, "contact area fraction in pixels");
@@ -45,7 +51,8 @@ Estimate estimate(const Contact& contact, double shear_strength, Area area) {
       area == Area::pixels ? contact.contact_area_fraction_pixels : contact.contact_area_fraction;
   const double fraction = std::max(counted, least);
   const double dry = fraction * shear_strength / contact.mean_pressure;
-  return {fraction, area, dry, (1 - std::min(contact.lubricated_share, 1.0)) * dry,
+  const double slippery = 1 - boundary_shear_strength / shear_strength;
+  return {fraction, area, dry, (1 - std::min(contact.lubricated_share, 1.0) * slippery) * dry,
           least > 0 && fraction <= least * (1 + 1e-12)};
 }
 

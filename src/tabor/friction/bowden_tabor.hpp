@@ -33,17 +33,19 @@ struct Estimate {
   double area_fraction = 0;        ///< A_real / A0 that was used
   Area area = Area::corrected;     ///< and how it was counted
   double friction_dry = 0;         ///< mu of the whole real contact
-  double friction_lubricated = 0;  ///< mu of its dry part; wet contact carries no shear
+  double friction_lubricated = 0;  ///< mu of its dry part and of the boundary film on the rest
   bool at_bound = false;           ///< the area is P / p_sat: dry friction is tau_y / p_sat
 };
 
 /// Bowden & Tabor: the friction force is the shear strength tau_y [Pa] times the real contact area,
 ///
 ///   dry         mu = (A_real / A0) tau_y / P
-///   lubricated  mu = (A_real - A_lub) / A0 * tau_y / P
+///   lubricated  mu = ((A_real - A_lub) tau_y + A_lub tau_b) / (A0 P)
 ///
-/// (Bowden & Tabor 1950; Costagliola et al. 2021, section 4). A corrected area is never taken below
-/// P / p_sat, which bounds the continuum too. Throws InputError for values out of range.
-Estimate estimate(const Contact& contact, double shear_strength, Area area = Area::corrected);
+/// (Bowden & Tabor 1950; Costagliola et al. 2021, section 4, with tau_b = 0). tau_b [Pa]: shear
+/// strength of the boundary film on wet contact. A corrected area is never taken below P / p_sat,
+/// which bounds the continuum too. Throws InputError for values out of range.
+Estimate estimate(const Contact& contact, double shear_strength, Area area = Area::corrected,
+                  double boundary_shear_strength = 0);
 
 }  // namespace tabor::friction

@@ -47,14 +47,14 @@ FluidSummary summarise(const FluidFilmState& state, const FluidFilmProblem& prob
 }
 
 MixedEstimate estimate(const FluidSummary& fluid, double mean_pressure, double saturation_pressure,
-                       double shear_strength, Area area) {
+                       double shear_strength, Area area, double boundary_shear_strength) {
   MixedEstimate mixed;
   if (fluid.solid_share > 0) {
     // As if the solids alone were there, under what they carry; then over the whole load.
     const Estimate solids =
         estimate({mean_pressure * fluid.solid_share, fluid.contact_area_fraction,
                   fluid.contact_area_fraction_pixels, saturation_pressure, fluid.lubricated_share},
-                 shear_strength, area);
+                 shear_strength, area, boundary_shear_strength);
     mixed.area_fraction = solids.area_fraction;
     mixed.friction_solid = solids.friction_lubricated * fluid.solid_share;
   }

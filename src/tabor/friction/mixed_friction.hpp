@@ -54,7 +54,8 @@ struct MixedEstimate {
 /// Bowden & Tabor's estimate for what the solids carry, and the oil's shear: over P [Pa] each.
 /// Throws InputError as estimate().
 MixedEstimate estimate(const FluidSummary& fluid, double mean_pressure, double saturation_pressure,
-                       double shear_strength, Area area = Area::corrected);
+                       double shear_strength, Area area = Area::corrected,
+                       double boundary_shear_strength = 0);
 
 /// One line for each reason to doubt the state: not converged, laws beyond where they are believed,
 /// an oil whose pressure the solids would not bear.

@@ -33,6 +33,12 @@ void add_pressure(const Study& study, const Scan& scan, double pressure, ScanTas
   tasks.fluids.push_back(std::move(fluids));
 }
 
+/// Nothing without a boundary film: such cases are those of stores from before there was one.
+std::string boundary_line(const analysis::FrictionSettings& friction) {
+  const double strength = friction.boundary_strength();
+  return strength > 0 ? text_line("boundary_shear_strength_Pa", strength) : "";
+}
+
 }  // namespace
 
 Task surface_task(const Study& study, const Scan& scan, const std::string& scan_sha256) {
@@ -93,6 +99,7 @@ Task case_task(const Study& study, const Scan& scan, const Task& contact, const 
                      text_line("contact", contact.key) + text_line("film", film.key) +
                      text_line("lubricant_density_kg_per_m2", lubricant_density) +
                      text_line("shear_strength_Pa", study.settings.friction.shear_strength) +
+                     boundary_line(study.settings.friction) +
                      text_line("area", friction::name(study.settings.friction.area)) +
                      (fluid != nullptr ? text_line("fluid", fluid->key) : ""));
 }

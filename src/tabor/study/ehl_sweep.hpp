@@ -54,7 +54,7 @@ struct EhlStudyOutcome {
 };
 
 /// Solves the case as it is, which says what it took where the case does not, and with the values
-/// that lie at the study's factors around that. Throws InputError for what makes no sense,
+/// that lie at the study's factors around that. Throws InputError for invalid input,
 /// Interrupted.
 EhlStudyOutcome run_ehl_study(const ehl::Program& program, const io::Config& config,
                               const ehl::CaseStudy& study, std::uint64_t seed,

@@ -82,7 +82,7 @@ std::string names_of(const Kind& kind, const EhlCaseNames& names) {
 std::string line_of(const Kind& kind, const EhlCaseNames& names) {
   const std::size_t n = names.values.size();
   if (kind.is_rejection) {
-    return fmt::format("{} of {} cases make no sense, the first: {} ({})", kind.cases.size(), n,
+    return fmt::format("{} of {} cases are invalid, the first: {} ({})", kind.cases.size(), n,
                        kind.text, names_of(kind, names));
   }
   const std::string who =

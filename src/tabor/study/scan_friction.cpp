@@ -58,7 +58,6 @@ class Operators {
 /// What is known of one pressure so far. The lists have one element per density.
 struct Pressure {
   analysis::ContactRecord contact;
-  Mask touching;
   std::vector<std::optional<analysis::FluidRecord>> fluids;
   std::vector<analysis::FrictionRecord> frictions;
 };
@@ -82,15 +81,19 @@ class ScanFriction {
         drops_maps_(maps == ContactMaps::dropped && !settings.fluid.flows()),
         window_(n_waiting(surface.grid, !drops_maps_)),
         operators_(settings.contact, surface.grid),
-        pressures_(settings.mean_pressures.size()) {}
+        pressures_(settings.mean_pressures.size()),
+        touching_(settings.mean_pressures.size()) {}
 
   /// The rain first, and with each contact what waits for it: among the jobs that are ready the
   /// engine takes the first.
   std::vector<Job> jobs() {
     std::vector<Job> jobs = {film_job()};
     for (std::size_t i = 0; i < pressures_.size(); ++i) add_pressure(i, jobs);
+    if (has_curves()) jobs.push_back(curves_job());
     return jobs;
   }
+
+  ScanFrictionResult take_result() { return {std::move(curves_)}; }
 
  private:
   std::size_t n_densities() const { return settings_.film.lubricant_densities.size(); }
@@ -102,6 +105,26 @@ class ScanFriction {
     if (pressure) job.stage += " " + format_si(settings_.mean_pressures[*pressure], "Pa");
     job.memory = [this](const Monitor&) {
       return bytes_of_job(surface_.grid, settings_.fluid.flows());
+    };
+    return job;
+  }
+
+  /// Droplets must run downhill to fill pockets first, and then valleys.
+  bool has_curves() const {
+    const analysis::FilmSettings& film = settings_.film;
+    const bool runs_down =
+        film.model == deposition::Model::droplets || film.model == deposition::Model::limit;
+    const bool is_wet = std::any_of(film.lubricant_densities.begin(),
+                                    film.lubricant_densities.end(), [](double d) { return d > 0; });
+    return runs_down && is_wet && !settings_.fluid.flows();
+  }
+
+  Job curves_job() {
+    Job job = job_of("density curve");
+    job.is_serial = true;
+    job.needs = contacts_;
+    job.compute = [this](const Monitor& monitor) {
+      curves_ = analysis::density_curves(surface_, touching_, settings_, monitor.own);
     };
     return job;
   }
@@ -144,7 +167,7 @@ class ScanFriction {
           analysis::contact_state(*operators_.borrow(), surface_, settings_.contact,
                                   settings_.mean_pressures[i], load_path_, monitor.own);
       contact::State& state = pressure.contact.state;
-      pressure.touching = contact::contact_mask(state);
+      touching_[i] = {pressure.contact.summary, contact::contact_mask(state)};
       pressure.fluids.resize(n_densities());
       if (drops_maps_) state.pressure = state.displacement = Field();
     };
@@ -170,11 +193,10 @@ class ScanFriction {
       contact::State& state = pressure.contact.state;
       for (std::size_t d = 0; d < films_.size(); ++d) {
         pressure.frictions.push_back(analysis::friction_state(
-            pressure.contact, {pressure.touching, state.gap, surface_.grid}, films_[d],
+            pressure.contact, {touching_[i].mask, state.gap, surface_.grid}, films_[d],
             fluid_of(pressure, d), settings_.contact, settings_.friction));
       }
       if (drops_maps_) state.gap = Field();
-      pressure.touching = Mask();
     };
     return job;
   }
@@ -210,19 +232,23 @@ class ScanFriction {
   analysis::LoadPath load_path_;  // contacts of a load path wait for each other
   std::vector<analysis::FilmRecord> films_;
   std::vector<Pressure> pressures_;
+  std::vector<analysis::Touching> touching_;
+  std::vector<analysis::DensityCurve> curves_;
   std::vector<std::size_t> contacts_;  // places of their jobs
   std::vector<std::size_t> results_;
 };
 
 }  // namespace
 
-void friction_of(const topography::Topography& surface, const analysis::CaseSettings& settings,
-                 const std::function<void(const FrictionState&)>& receive, ContactMaps maps,
-                 const RunOptions& options) {
+ScanFrictionResult friction_of(const topography::Topography& surface,
+                               const analysis::CaseSettings& settings,
+                               const std::function<void(const FrictionState&)>& receive,
+                               ContactMaps maps, const RunOptions& options) {
   ScanFriction scan(surface, settings, receive, maps);
   const Report report = run_jobs(scan.jobs(), nullptr, options);
   report.rethrow();
   if (!report.failures.empty()) throw InputError(report.failures.front());
+  return scan.take_result();
 }
 
 }  // namespace tabor::study

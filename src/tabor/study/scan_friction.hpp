@@ -1,7 +1,9 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
+#include "tabor/analysis/density_curve.hpp"
 #include "tabor/analysis/records.hpp"
 #include "tabor/analysis/settings.hpp"
 #include "tabor/study/run_options.hpp"
@@ -23,13 +25,22 @@ struct FrictionState {
 /// rain in memory: with 9 bytes per pixel for what friction needs of it, with 25 for all maps.
 enum class ContactMaps { dropped, kept };
 
+/// What friction_of() returns beside the states it hands on.
+struct ScanFrictionResult {
+  /// Friction against density, one for each pressure; none where the oil flows, where all densities
+  /// are zero, or where it does not run downhill.
+  std::vector<analysis::DensityCurve> density_curves;
+};
+
 /// Hands on every pressure with every density, the densities of the first pressure first, one at a
 /// time and not always by the same thread. Each density is rained once and each pressure solved
 /// once. Records do not depend on the number of jobs or threads; a shard and retry mean nothing
 /// here. Throws InputError for invalid settings and surfaces, Interrupted where the
 /// observer stops it (what was handed on before is whole), and whatever `receive` throws.
-void friction_of(const topography::Topography& surface, const analysis::CaseSettings& settings,
-                 const std::function<void(const FrictionState&)>& receive,
-                 ContactMaps maps = ContactMaps::kept, const RunOptions& options = {});
+ScanFrictionResult friction_of(const topography::Topography& surface,
+                               const analysis::CaseSettings& settings,
+                               const std::function<void(const FrictionState&)>& receive,
+                               ContactMaps maps = ContactMaps::kept,
+                               const RunOptions& options = {});
 
 }  // namespace tabor::study

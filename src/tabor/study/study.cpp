@@ -17,7 +17,10 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string> kKnownKeys{"title",
                                           "shear_strength",
+                                          "boundary_shear_strength",
+                                          "boundary_shear_share",
                                           "area",
+                                          "material.name",
                                           "material.youngs_modulus",
                                           "material.poissons_ratio",
                                           "material.saturation_pressure",
@@ -71,17 +74,51 @@ double read_poissons_ratio(const io::Config& config, const std::string& key) {
   return ratio;
 }
 
-void read_material(const io::Config& config, analysis::ContactSettings& contact) {
-  contact.youngs_modulus = read_modulus(config, "material.youngs_modulus");
-  contact.poissons_ratio = read_poissons_ratio(config, "material.poissons_ratio");
+/// One of the library, if it is named, and what the file says of its own.
+void read_material(const io::Config& config, analysis::CaseSettings& settings) {
+  const bool is_named = config.has("material.name");
+  if (is_named) {
+    at_key(config, "material.name", [&](const std::string& name) {
+      analysis::take_material(name, settings);
+      return true;
+    });
+  }
+  analysis::ContactSettings& contact = settings.contact;
+  if (!is_named || config.has("material.youngs_modulus")) {
+    contact.youngs_modulus = read_modulus(config, "material.youngs_modulus");
+  }
+  if (!is_named || config.has("material.poissons_ratio")) {
+    contact.poissons_ratio = read_poissons_ratio(config, "material.poissons_ratio");
+  }
   if (config.has("material.counter_youngs_modulus") ||
       config.has("material.counter_poissons_ratio")) {
     contact.counter_youngs_modulus = read_modulus(config, "material.counter_youngs_modulus");
     contact.counter_poissons_ratio = read_poissons_ratio(config, "material.counter_poissons_ratio");
   }
   if (config.has("material.saturation_pressure")) {
-    contact.saturation_pressure =
-        positive(config, "material.saturation_pressure", dimension::pressure);
+    contact.saturation_pressure.reset();
+    if (config.text("material.saturation_pressure") != "none") {
+      contact.saturation_pressure =
+          positive(config, "material.saturation_pressure", dimension::pressure);
+    }
+  }
+}
+
+void read_friction(const io::Config& config, analysis::FrictionSettings& friction) {
+  if (friction.shear_strength == 0 || config.has("shear_strength")) {
+    friction.shear_strength = positive(config, "shear_strength", dimension::pressure);
+  }
+  if (config.has("boundary_shear_strength")) {
+    friction.boundary_shear_strength =
+        config.quantity("boundary_shear_strength", dimension::pressure);
+  }
+  if (config.has("boundary_shear_share")) {
+    friction.boundary_shear_share = config.number("boundary_shear_share");
+  }
+  if (config.has("area")) friction.area = at_key(config, "area", friction::parse_area);
+  const auto same_name = [](std::string_view setting) { return std::string(setting); };
+  if (const auto found = analysis::objection(friction, same_name)) {
+    throw InputError(config.place(found->setting), found->got, found->expected, found->remedy);
   }
 }
 
@@ -174,9 +211,8 @@ Study read_study(const fs::path& file) {
   study.file = file;
   study.title = config.has("title") ? config.text("title") : file.stem().string();
   analysis::CaseSettings& settings = study.settings;
-  settings.friction.shear_strength = positive(config, "shear_strength", dimension::pressure);
-  if (config.has("area")) settings.friction.area = at_key(config, "area", friction::parse_area);
-  read_material(config, settings.contact);
+  read_material(config, settings);
+  read_friction(config, settings.friction);
   read_contact(config, settings.contact);
   read_lubricant(config, settings.film);
   read_sweep(config, settings);

@@ -92,8 +92,9 @@ std::string to_toml(const Study& study) {
   std::vector<std::string> steps;
   for (const std::string& step : study.treatment) steps.push_back(toml_text(step));
   std::string text =
-      fmt::format("title = {}\nshear_strength = {}\narea = {}\n", toml_text(study.title),
-                  quantity(settings.friction.shear_strength, "Pa"),
+      fmt::format("title = {}\nshear_strength = {}\nboundary_shear_strength = {}\narea = {}\n",
+                  toml_text(study.title), quantity(settings.friction.shear_strength, "Pa"),
+                  quantity(settings.friction.boundary_strength(), "Pa"),
                   toml_text(friction::name(settings.friction.area)));
   text += material_table(settings.contact);
   text += fmt::format("\n[treatment]\nsteps = [{}]\n", fmt::join(steps, ", "));

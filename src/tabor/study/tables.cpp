@@ -60,6 +60,7 @@ void write_settings(io::Hdf5Writer& writer, const Study& study, const std::strin
                    fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))));
   writer.attribute("/", "title", study.title);
   writer.attribute("/", "shear_strength_Pa", study.settings.friction.shear_strength);
+  writer.attribute("/", "boundary_shear_strength_Pa", study.settings.friction.boundary_strength());
   writer.attribute("/", "youngs_modulus_Pa", contact.youngs_modulus);
   writer.attribute("/", "poissons_ratio", contact.poissons_ratio);
   writer.attribute("/", "effective_modulus_Pa", contact.effective_modulus());

@@ -31,10 +31,4 @@ struct RandomField {
 /// cannot carry a free phase.
 RandomField random_field(const RandomFieldRecipe& recipe);
 
-/// Gives a periodic field the spectrum q^-2(1+H) above the wavevector `q_roll_off` without touching
-/// the phases, which carry the look of the surface: every ring of modes is scaled to the power law
-/// that continues the field's own power at the roll-off.
-void impose_power_law(Field& height, const Grid& grid, double hurst, double q_roll_off,
-                      double stretch);
-
 }  // namespace tabor::synthesis

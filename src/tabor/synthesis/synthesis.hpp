@@ -29,13 +29,21 @@ topography::Topography self_affine(const SelfAffine& recipe);
 enum class EdtStage { before, after };
 
 /// A sheet textured by electro-discharge rolls: overlapping craters and plateaus with smaller
-/// asperities on top. `after` sliding: tops flattened, shallow grooves along x.
+/// asperities on top, on a wavy sheet, with the noise of a microscope. `after` sliding: tops
+/// flattened, the more the higher the pressure and the less the oil, shallow grooves along x.
+/// Throws InputError where waviness, plateau roughness and noise alone exceed Sa.
 struct Edt {
   Grid grid{512, 512, 512 * 0.67e-6, 512 * 0.67e-6};
   double mean_abs_height = 0.9e-6;  ///< Sa of the surface before sliding [m], exact
-  double hurst = 0.75;
+  double hurst = 0.75;              ///< of the roughness in craters and on plateaus
+  double waviness = 0.5e-6;         ///< rms [m] of waves of 250 um and longer; none on smaller maps
+  double plateau_share = 0.5;       ///< of the area that rolling makes plateaus of
+  double plateau_roughness = 0.08e-6;  ///< rms [m], with a roll-off of 20 um
+  double noise = 40e-9;                ///< rms [m] of each pixel, independent
   EdtStage stage = EdtStage::before;
-  bool periodic = true;  ///< false: a cut-out of a larger periodic surface
+  double sliding_pressure = 7e6;     ///< [Pa], mean; of a surface after sliding
+  double sliding_density = 0.45e-3;  ///< [kg/m^2], of the lubricant; the same
+  bool periodic = true;              ///< false: a cut-out of a larger periodic surface
   std::uint64_t seed = 1;
 };
 topography::Topography edt(const Edt& recipe);

@@ -11,6 +11,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/core/watch.hpp"
+#include "tabor/numerics/root.hpp"
 
 namespace tabor::ehl {
 
@@ -148,8 +149,7 @@ class Roller {
     return film - next.roller - next.force / problem_.spring;
   }
 
-  /// The film at which a growing function is zero: Illinois' variant of the false position,
-  /// bisection where the film is too thin for a finite value.
+  /// The film at which a growing function is zero, which may be -infinity where it is too thin.
   template <typename Value>
   double root(const Value& value, const SqueezeInstant& now) const {
     double reach = std::max(std::abs(now.film_speed) * step_, 1e-3 * now.film);
@@ -157,26 +157,7 @@ class Roller {
     while (value(high) < 0) high += reach *= 2;
     double low = std::max(0.0, high - 2 * reach);
     while (value(low) > 0) low = std::max(0.0, low - (reach *= 2));
-    double at_high = value(high);
-    double at_low = value(low);
-    while (high - low > kFilmAccuracy * high) {
-      const bool is_finite = std::isfinite(at_low);
-      const double middle =
-          is_finite ? (low * at_high - high * at_low) / (at_high - at_low) : (low + high) / 2;
-      if (!(middle > low && middle < high)) return middle;
-      const double at_middle = value(middle);
-      if (std::abs(at_middle) <= kFilmAccuracy * high) return middle;
-      if (at_middle < 0) {
-        low = middle;
-        at_low = at_middle;
-        at_high /= 2;
-      } else {
-        high = middle;
-        at_high = at_middle;
-        at_low /= 2;
-      }
-    }
-    return high;
+    return numerics::increasing_root(value, low, high, kFilmAccuracy);
   }
 
   const SqueezeProblem& problem_;

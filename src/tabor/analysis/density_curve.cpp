@@ -1,0 +1,119 @@
+#include "tabor/analysis/density_curve.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tabor/analysis/states.hpp"
+#include "tabor/core/units.hpp"
+#include "tabor/friction/wet_contact.hpp"
+
+namespace tabor::analysis {
+namespace {
+
+constexpr double kLeast = 1e-6;  // [kg/m^2]
+constexpr double kMost = 1e-2;   // [kg/m^2]
+constexpr int kPerDecade = 10;
+constexpr double kFlat = 0.01;  // friction within this of its mean is the same
+constexpr double kDry = 0.01;   // so small a wet share is none
+
+/// Rising densities; none on a surface without heights.
+std::vector<double> densities_for(const topography::Topography& surface, double oil_density) {
+  const double range = surface.height.maxCoeff() - surface.height.minCoeff();
+  const double most = std::min(kMost, range * oil_density);
+  std::vector<double> all;
+  for (int i = 0; most > 0; ++i) {
+    const double density = kLeast * std::pow(10, static_cast<double>(i) / kPerDecade);
+    if (density > most * (1 + 1e-9)) break;
+    all.push_back(density);
+  }
+  return all;
+}
+
+std::string grams(double density) { return fmt::format("{:.2g} g/m^2", in_g_per_m2(density)); }
+
+std::string list_of(const std::vector<double>& densities) {
+  std::vector<std::string> texts;
+  for (const double density : densities) texts.push_back(grams(density));
+  const std::string last = texts.back();
+  texts.pop_back();
+  return texts.empty() ? last : fmt::format("{} and {}", fmt::join(texts, ", "), last);
+}
+
+/// "0.45 and 0.9 g/m^2 lie on this plateau", or before or beyond it.
+void add_place(const std::vector<double>& asked, const char* where, std::string& sentence) {
+  if (asked.empty()) return;
+  sentence += fmt::format("; {} {} {}", list_of(asked), asked.size() == 1 ? "lies" : "lie", where);
+}
+
+std::string plateau_text(const DensityCurve& curve) {
+  const Plateau& plateau = *curve.plateau;
+  const double wet = 1 - plateau.value / curve.friction_dry;
+  std::string text =
+      wet < kDry ? fmt::format("hardly any contact is wet up to {}", grams(plateau.last))
+                 : fmt::format("the pockets under the contacts are full from {} (friction {:.3g})",
+                               grams(plateau.first), plateau.value);
+  if (plateau.last < curve.lubricant_densities.back()) {
+    text += wet < kDry ? ", where the oil reaches the contacts"
+                       : fmt::format(
+                             "; the next change comes at {}, where the valleys reach the "
+                             "contacts",
+                             grams(plateau.last));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<DensityCurve> density_curves(const topography::Topography& surface,
+                                         const std::vector<Touching>& contacts,
+                                         const CaseSettings& settings, const Observer& observer) {
+  FilmSettings film = settings.film;
+  film.model = deposition::Model::limit;
+  film.lubricant_densities = densities_for(surface, film.oil_density);
+  if (film.lubricant_densities.empty()) return {};
+  std::vector<DensityCurve> curves(contacts.size());
+  film_state(
+      surface, film,
+      [&](FilmRecord&& record) {
+        for (std::size_t i = 0; i < contacts.size(); ++i) {
+          DensityCurve& curve = curves[i];
+          const double share = friction::lubricated_share(contacts[i].mask, record.film.thickness);
+          const friction::Estimate estimate =
+              estimate_of(contacts[i].summary, share, settings.contact, settings.friction);
+          curve.lubricant_densities.push_back(record.lubricant_density);
+          curve.lubricated_shares.push_back(share);
+          curve.friction_lubricated.push_back(estimate.friction_lubricated);
+          curve.friction_dry = estimate.friction_dry;
+        }
+      },
+      observer);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    DensityCurve& curve = curves[i];
+    curve.mean_pressure = contacts[i].summary.mean_pressure;
+    curve.plateau = find_plateau(curve.lubricant_densities, curve.friction_lubricated, kFlat);
+    if (curve.plateau && curve.plateau->value <= 0) curve.plateau.reset();  // all is drowned
+  }
+  return curves;
+}
+
+std::string sentence_of(const DensityCurve& curve, const std::vector<double>& asked) {
+  if (!curve.plateau) return "friction changes with the density throughout";
+  std::vector<double> below, on, beyond;
+  for (const double density : asked) {
+    if (density == 0) continue;
+    std::vector<double>& part = density < curve.plateau->first  ? below
+                                : density > curve.plateau->last ? beyond
+                                                                : on;
+    if (std::find(part.begin(), part.end(), density) == part.end()) part.push_back(density);
+  }
+  std::string sentence = plateau_text(curve);
+  add_place(below, "below, where friction falls with the density", sentence);
+  add_place(on, "between, where the density hardly matters", sentence);
+  add_place(beyond, "beyond, where the oil drowns the contacts", sentence);
+  return sentence;
+}
+
+}  // namespace tabor::analysis

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tabor/analysis/plateau.hpp"
+#include "tabor/analysis/records.hpp"
+#include "tabor/analysis/settings.hpp"
+#include "tabor/topography/topography.hpp"
+
+// How friction depends on the areal density of the lubricant: flat between the dose that fills the
+// pockets under the contacts and the one whose level reaches the contacts from the valleys.
+namespace tabor::analysis {
+
+/// Friction of one contact against the density, lists of one length.
+struct DensityCurve {
+  double mean_pressure = 0;  ///< [Pa]
+  double friction_dry = 0;
+  std::vector<double> lubricant_densities;  ///< [kg/m^2], rising, ten a decade
+  std::vector<double> lubricated_shares;
+  std::vector<double> friction_lubricated;
+  std::optional<Plateau>
+      plateau;  ///< densities [kg/m^2] over which friction changes by 2 % at most
+};
+
+/// A solved contact: its numbers and where solids touch, in the shape of the surface.
+struct Touching {
+  contact::Summary summary;
+  Mask mask;
+};
+
+/// One curve for each contact with the surface. All densities, from 0.001 g/m^2 to 10 g/m^2 or to
+/// what drowns the surface, are reached in one pass of vanishing droplets (Model::limit), whatever
+/// model the settings ask for. Empty for a surface without heights. Throws InputError for invalid
+/// settings, Interrupted where the observer asks to stop.
+std::vector<DensityCurve> density_curves(const topography::Topography& surface,
+                                         const std::vector<Touching>& contacts,
+                                         const CaseSettings& settings,
+                                         const Observer& observer = {});
+
+/// In one sentence, what the curve says of the densities [kg/m^2] that were asked for: "the pockets
+/// under the contacts are full from 0.05 g/m^2 (16 % of the contact is wet); ...".
+std::string sentence_of(const DensityCurve& curve, const std::vector<double>& asked);
+
+}  // namespace tabor::analysis

@@ -1,0 +1,112 @@
+// What Costagliola et al. (2021, 2022) find on their sheets, on generated ones: lubricated friction
+// falls with the pressure, a little with the dose where a full pit drops what does not fit, and the
+// elastic dry friction of sheets after sliding rises with the pressure of the sliding.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <vector>
+
+#include "tabor/analysis/states.hpp"
+#include "tabor/study/scan_friction.hpp"
+#include "tabor/synthesis/synthesis.hpp"
+#include "tabor/topography/treatment.hpp"
+
+namespace tabor::study {
+namespace {
+
+synthesis::Edt sheet(Index n, std::uint64_t seed) {
+  synthesis::Edt recipe;
+  const double side = static_cast<double>(n) * 0.67e-6;
+  recipe.grid = {n, n, side, side};
+  recipe.seed = seed;
+  return recipe;
+}
+
+analysis::CaseSettings lubricated(deposition::Reading reading) {
+  analysis::CaseSettings settings;
+  analysis::take_material("aluminium-6016", settings);
+  settings.mean_pressures = {2e6, 15e6};
+  settings.film.lubricant_densities = {0.45e-3, 0.9e-3};
+  settings.film.reading = reading;
+  return settings;
+}
+
+/// Friction of a sheet before sliding, by density [kg/m^2], then pressure [Pa].
+using Frictions = std::map<double, std::map<double, double>>;
+
+Frictions friction_of_sheet(Index n, std::uint64_t seed, deposition::Reading reading) {
+  Frictions friction;
+  const analysis::CaseSettings settings = lubricated(reading);
+  friction_of(
+      synthesis::edt(sheet(n, seed)), settings,
+      [&](const FrictionState& state) {
+        friction[state.friction.lubricant_density][state.friction.mean_pressure] =
+            state.friction.friction_lubricated;
+      },
+      ContactMaps::dropped);
+  return friction;
+}
+
+double fall_with_pressure(const std::map<double, double>& by_pressure) {
+  return 1 - by_pressure.at(15e6) / by_pressure.at(2e6);
+}
+
+void expect_a_little_lower_at_the_higher_dose(const Frictions& friction) {
+  for (const double pressure : {2e6, 15e6}) {
+    const double ratio = friction.at(0.9e-3).at(pressure) / friction.at(0.45e-3).at(pressure);
+    EXPECT_LT(ratio, 1) << pressure;
+    EXPECT_GT(ratio, 0.97) << pressure;
+  }
+}
+
+TEST(EdtSheet, LubricatedFrictionFallsWithPressureAndALittleWithTheDose) {
+  const Frictions friction = friction_of_sheet(512, 2, deposition::Reading::literal);
+  EXPECT_GT(fall_with_pressure(friction.at(0.45e-3)), 0.1);
+  expect_a_little_lower_at_the_higher_dose(friction);
+}
+
+TEST(EdtSheet, FourLargeSheetsDoTheSame) {
+  double mean_fall = 0;
+  for (const std::uint64_t seed : {1, 2, 3, 4}) {
+    const Frictions friction = friction_of_sheet(1536, seed, deposition::Reading::literal);
+    const double fall = fall_with_pressure(friction.at(0.45e-3));
+    EXPECT_GT(fall, 0.03) << seed;
+    mean_fall += fall / 4;
+    expect_a_little_lower_at_the_higher_dose(friction);
+  }
+  EXPECT_GT(mean_fall, 0.1);
+}
+
+TEST(EdtSheet, PocketsAreFullLongBeforeTheDoseOfTheSheet) {
+  const analysis::CaseSettings settings = lubricated(deposition::Reading::conserving);
+  const auto result = friction_of(
+      synthesis::edt(sheet(512, 2)), settings, [](const FrictionState&) {}, ContactMaps::dropped);
+  ASSERT_EQ(result.density_curves.size(), settings.mean_pressures.size());
+  for (const analysis::DensityCurve& curve : result.density_curves) {
+    ASSERT_TRUE(curve.plateau);
+    EXPECT_LT(curve.plateau->first, 0.1e-3);
+    EXPECT_GT(curve.plateau->last, 0.9e-3);
+    EXPECT_LT(curve.plateau->last, 2e-3);
+  }
+}
+
+TEST(EdtSheet, ElasticDryFrictionAfterSlidingRisesWithItsPressure) {
+  for (const std::uint64_t seed : {1, 2}) {
+    double before = 0;
+    for (const double pressure : {2e6, 4e6, 7e6}) {
+      synthesis::Edt recipe = sheet(512, seed);
+      recipe.stage = synthesis::EdtStage::after;
+      recipe.sliding_pressure = pressure;
+      const auto surface = topography::apply({"lowpass=hann:4.5um"}, synthesis::edt(recipe));
+      const analysis::ContactSettings elastic{.youngs_modulus = 70e9, .poissons_ratio = 0.33};
+      const auto contact = analysis::contact_state(surface, elastic, pressure);
+      const double friction =
+          analysis::estimate_of(contact.summary, 0, elastic, {.shear_strength = 70e6}).friction_dry;
+      EXPECT_GT(friction, 1.1 * before) << seed << ' ' << pressure;
+      before = friction;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tabor::study
