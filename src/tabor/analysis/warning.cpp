@@ -29,6 +29,7 @@ const std::vector<CodeEntry>& all_codes() {
                                               {"few-droplets", About::film},
                                               {"oil-lost", About::film},
                                               {"spill-over", About::friction},
+                                              {"pixel", About::friction},
                                               {"frictionless", About::friction},
                                               {"implausible-friction", About::friction},
                                               {"fluid-film", About::flow}};

@@ -33,6 +33,9 @@ Warnings of_film(const deposition::Film& film);
 Warnings of_friction(const friction::Contact& contact, const friction::Estimate& estimate,
                      double spill_over_fraction, const FrictionSettings& settings);
 
+/// Of a wet share that pixels twice as large [m] change by more than a fifth.
+Warnings of_pixel(double coarse_pixel, double coarse_share, double pixel, double share);
+
 /// Of a film that flows, with these warnings about its state.
 Warnings of_flow(const std::vector<std::string>& warnings);
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "tabor/analysis/warnings.hpp"
 #include "tabor/core/units.hpp"
@@ -12,6 +13,8 @@ namespace {
 constexpr double kSpillOver = 0.05;
 /// Beyond, most of the contact is counted as frictionless.
 constexpr double kWetShare = 0.5;
+/// A share of itself: beyond, a wet share says more of the pixel than of the surface.
+constexpr double kPixelChange = 0.2;
 /// Clean metals in vacuum seize beyond; between technical surfaces nobody measures more.
 constexpr double kLargestFriction = 2;
 
@@ -80,6 +83,17 @@ Warnings of_friction(const friction::Contact& contact, const friction::Estimate&
   }
   warn_of_size("dry", estimate.friction_dry, list);
   return list;
+}
+
+Warnings of_pixel(double coarse_pixel, double coarse_share, double pixel, double share) {
+  const double change = std::abs(share - coarse_share) / std::max(share, coarse_share);
+  if (!(change > kPixelChange)) return {};
+  return {{"pixel",
+           fmt::format("the wet share depends on the pixel: {} with {}, {} with {}; a finer scan "
+                       "would change it again",
+                       percent(coarse_share), format_si(coarse_pixel, "m"), percent(share),
+                       format_si(pixel, "m")),
+           change}};
 }
 
 Warnings of_flow(const std::vector<std::string>& warnings) {

@@ -6,6 +6,7 @@
 #include "tabor/cli/contact_request.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/study/resolution_scan.hpp"
 #include "tabor/study/scan_friction.hpp"
 
 namespace tabor::cli {
@@ -17,6 +18,7 @@ struct Request {
   analysis::CaseSettings settings;
   std::optional<std::string> output;
   bool density_curve = false;
+  bool resolution_scan = false;
 };
 
 void check_all(const analysis::CaseSettings& settings) {
@@ -43,38 +45,38 @@ std::vector<StateField> maps_of(const study::FrictionState& state) {
   return fields;
 }
 
-std::string text_of(const Scan& scan, const analysis::CaseSettings& settings, const Table& rows) {
-  Facts facts;
-  describe(scan, facts);
-  describe(settings.contact, facts);
-  describe(settings.film, facts);
-  describe(settings.fluid, facts);
-  const double boundary = settings.friction.boundary_strength();
-  facts.fact("friction",
-             fmt::format("shear strength {}{}, {} contact area",
-                         si(settings.friction.shear_strength, "Pa"),
-                         boundary > 0 ? fmt::format(", of wet contact {}", si(boundary, "Pa")) : "",
-                         friction::kAreas.of(settings.friction.area)));
-  return facts.text() + '\n' + rows.text();
-}
+/// All that is printed, and the exit code so far.
+struct Solved {
+  std::vector<analysis::FrictionRecord> records;
+  std::vector<analysis::DensityCurve> curves;
+  std::vector<study::ResolutionRecord> resolution;
+  int code = kDone;
+};
 
-int solve_all(const Request& request, const topography::Topography& surface,
-              std::vector<analysis::FrictionRecord>& records,
-              std::vector<analysis::DensityCurve>& curves, FieldsFile* file, Context& context) {
+Solved solve_all(const Request& request, const topography::Topography& surface, FieldsFile* file,
+                 Context& context) {
+  Solved solved;
   const auto receive = [&](const study::FrictionState& state) {
-    records.push_back(state.friction);
+    solved.records.push_back(state.friction);
     if (file == nullptr) return;
     file->add_state(
-        records.size() - 1,
+        solved.records.size() - 1,
         cells_of(analysis::friction_columns(), state.friction, analysis::media::kObject),
         maps_of(state));
   };
   study::RunOptions options;
   options.observer = context.observer();
   const auto maps = file != nullptr ? study::ContactMaps::kept : study::ContactMaps::dropped;
-  return until_interrupted(context, [&] {
-    curves = study::friction_of(surface, request.settings, receive, maps, options).density_curves;
+  solved.code = until_interrupted(context, [&] {
+    solved.curves =
+        study::friction_of(surface, request.settings, receive, maps, options).density_curves;
+    if (!request.resolution_scan) return;
+    solved.resolution = study::resolution_scan(surface, request.settings, solved.records, options);
   });
+  for (const analysis::FrictionRecord& record : solved.records) {
+    if (solved.code == kDone && !record.converged) solved.code = kNotConverged;
+  }
+  return solved;
 }
 
 io::Json json_of(const analysis::DensityCurve& curve) {
@@ -120,6 +122,26 @@ std::string curves_text(const std::vector<analysis::DensityCurve>& curves, const
   return '\n' + facts.text() + tables;
 }
 
+std::string text_of(const Scan& scan, const Request& request, const Solved& solved) {
+  const analysis::CaseSettings& settings = request.settings;
+  Facts facts;
+  describe(scan, facts);
+  describe(settings.contact, facts);
+  describe(settings.film, facts);
+  describe(settings.fluid, facts);
+  const double boundary = settings.friction.boundary_strength();
+  facts.fact("friction",
+             fmt::format("shear strength {}{}, {} contact area",
+                         si(settings.friction.shear_strength, "Pa"),
+                         boundary > 0 ? fmt::format(", of wet contact {}", si(boundary, "Pa")) : "",
+                         friction::kAreas.of(settings.friction.area)));
+  std::string text = facts.text() + '\n';
+  text += table_of(analysis::friction_columns(), solved.records).text();
+  text += curves_text(solved.curves, request);
+  if (!request.resolution_scan) return text;
+  return text + '\n' + table_of(study::resolution_columns(), solved.resolution).text();
+}
+
 analysis::Case case_of(const analysis::FrictionRecord& record) {
   return {.pressure = si(record.mean_pressure, "Pa"),
           .density = density_text(record.lubricant_density),
@@ -137,25 +159,20 @@ int show(Request request, Context& context) {
     file.emplace(*request.output, context, scan, settings,
                  analysis::references_of(request.settings));
   }
-  std::vector<analysis::FrictionRecord> records;
-  std::vector<analysis::DensityCurve> curves;
-  int code = solve_all(request, scan.surface, records, curves, file ? &*file : nullptr, context);
-  if (code == kInterrupted && records.empty()) throw Interrupted();
+  const Solved solved = solve_all(request, scan.surface, file ? &*file : nullptr, context);
+  if (solved.code == kInterrupted && solved.records.empty()) throw Interrupted();
   std::vector<analysis::Case> cases;
-  for (const analysis::FrictionRecord& record : records) {
-    cases.push_back(case_of(record));
-    if (code == kDone && !record.converged) code = kNotConverged;
-  }
+  for (const analysis::FrictionRecord& record : solved.records) cases.push_back(case_of(record));
   context.warn(analysis::findings_of(cases));
   if (file) file->commit(context);
   io::Json object = json_head(context, scan);
   object.update(settings);
-  object["states"] = states_json(analysis::friction_columns(), records);
-  add_curves(curves, object);
-  return finish(context, object,
-                text_of(scan, request.settings, table_of(analysis::friction_columns(), records)) +
-                    curves_text(curves, request),
-                code);
+  object["states"] = states_json(analysis::friction_columns(), solved.records);
+  add_curves(solved.curves, object);
+  if (request.resolution_scan) {
+    object["resolution"] = states_json(study::resolution_columns(), solved.resolution);
+  }
+  return finish(context, object, text_of(scan, request, solved), solved.code);
 }
 
 }  // namespace
@@ -193,6 +210,10 @@ Verb friction_verb() {
         declare_film(set, settings.film);
         declare_fluid(set, settings.fluid);
         declare_friction(set, settings.friction);
+        set.toggle("--resolution-scan",
+                   "repeat with pixels twice and four times as large and behind low-passes: how "
+                   "far wet share and friction depend on the pixel",
+                   request->resolution_scan);
         set.toggle("--density-curve", "print friction against the density of the oil",
                    request->density_curve);
         declare_output(set, request->output);
