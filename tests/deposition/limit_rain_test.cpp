@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "tabor/core/error.hpp"
 #include "tabor/core/random.hpp"
 #include "tabor/deposition/deposition.hpp"
 #include "tabor/deposition/pools.hpp"
@@ -100,6 +101,34 @@ TEST(LimitFill, IsWhatRandomDropletsTendToAsTheyShrink) {
   };
   // The noise falls like the root of the number of droplets: 3.2 times for ten times as many.
   EXPECT_LT(distance(0.4e-9), distance(4e-9) / 2);
+}
+
+TEST(FirstWettingDose, IsThatOfTheFirstFilmThatIsThere) {
+  const Field height = textured();
+  for (const Model model : {Model::limit, Model::droplets}) {
+    for (const Edge edge : {Edge::closed, Edge::periodic, Edge::open}) {
+      const Dose dose{.mean_films = {0, 1e-8, 1e-7, 1e-6, 2e-5}, .model = model, .edge = edge};
+      std::vector<Index> pixels(static_cast<std::size_t>(height.size()));
+      std::iota(pixels.begin(), pixels.end(), Index{0});
+      const auto first = first_wetting_doses(height, kGrid, dose, pixels);
+      const std::vector<Film> films = deposit(height, kGrid, dose);
+      std::size_t n_wrong = 0;
+      for (const Index p : pixels) {
+        std::size_t expected = 0;
+        while (expected < films.size() && !(films[expected].thickness.data()[p] > 0)) ++expected;
+        n_wrong += first[static_cast<std::size_t>(p)] == expected ? 0 : 1;
+      }
+      EXPECT_EQ(n_wrong, 0U) << name(model) << ' ' << name(edge);
+    }
+  }
+}
+
+TEST(FirstWettingDose, TakesRisingDosesOfDropletsAlone) {
+  const Field height = textured();
+  EXPECT_THROW(first_wetting_doses(height, kGrid, {.mean_films = {2e-7, 1e-7}}, {0}), InputError);
+  EXPECT_THROW(
+      first_wetting_doses(height, kGrid, {.mean_films = {1e-7}, .model = Model::bottom_fill}, {0}),
+      InputError);
 }
 
 }  // namespace

@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tabor/analysis/states.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/friction/wet_contact.hpp"
+#include "tabor/deposition/deposition.hpp"
 
 namespace tabor::analysis {
 namespace {
@@ -30,6 +31,47 @@ std::vector<double> densities_for(const topography::Topography& surface, double 
     all.push_back(density);
   }
   return all;
+}
+
+constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
+
+/// For each pixel that touches somewhere, the first density that wets it; kNowhere for the others.
+std::vector<std::size_t> first_doses(const topography::Topography& surface,
+                                     const std::vector<Touching>& contacts,
+                                     const FilmSettings& film, const Observer& observer) {
+  std::vector<Index> pixels;
+  for (Index p = 0; p < surface.grid.size(); ++p) {
+    const bool touches =
+        std::any_of(contacts.begin(), contacts.end(),
+                    [p](const Touching& contact) { return contact.mask.data()[p]; });
+    if (touches) pixels.push_back(p);
+  }
+  const std::vector<std::size_t> of_pixels = deposition::first_wetting_doses(
+      surface.height, surface.grid, dose_of(film), pixels, observer);
+  std::vector<std::size_t> first(static_cast<std::size_t>(surface.grid.size()), kNowhere);
+  for (std::size_t k = 0; k < pixels.size(); ++k) {
+    first[static_cast<std::size_t>(pixels[k])] = of_pixels[k];
+  }
+  return first;
+}
+
+/// Of one contact, under each of the densities.
+std::vector<double> wet_shares(const Mask& contact, const std::vector<std::size_t>& first,
+                               std::size_t n_densities) {
+  std::vector<double> shares(n_densities, 0);
+  double n_touching = 0;
+  for (Index p = 0; p < contact.size(); ++p) {
+    if (!contact.data()[p]) continue;
+    ++n_touching;
+    const std::size_t density = first[static_cast<std::size_t>(p)];
+    if (density < n_densities) shares[density] += 1;
+  }
+  double n_wet = 0;
+  for (double& share : shares) {
+    n_wet += share;
+    share = n_touching > 0 ? n_wet / n_touching : 0;
+  }
+  return shares;
 }
 
 std::string grams(double density) { return fmt::format("{:.2g} g/m^2", in_g_per_m2(density)); }
@@ -74,25 +116,19 @@ std::vector<DensityCurve> density_curves(const topography::Topography& surface,
   film.model = deposition::Model::limit;
   film.lubricant_densities = densities_for(surface, film.oil_density);
   if (film.lubricant_densities.empty()) return {};
+  const std::vector<std::size_t> first = first_doses(surface, contacts, film, observer);
   std::vector<DensityCurve> curves(contacts.size());
-  film_state(
-      surface, film,
-      [&](FilmRecord&& record) {
-        for (std::size_t i = 0; i < contacts.size(); ++i) {
-          DensityCurve& curve = curves[i];
-          const double share = friction::lubricated_share(contacts[i].mask, record.film.thickness);
-          const friction::Estimate estimate =
-              estimate_of(contacts[i].summary, share, settings.contact, settings.friction);
-          curve.lubricant_densities.push_back(record.lubricant_density);
-          curve.lubricated_shares.push_back(share);
-          curve.friction_lubricated.push_back(estimate.friction_lubricated);
-          curve.friction_dry = estimate.friction_dry;
-        }
-      },
-      observer);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     DensityCurve& curve = curves[i];
     curve.mean_pressure = contacts[i].summary.mean_pressure;
+    curve.lubricant_densities = film.lubricant_densities;
+    curve.lubricated_shares = wet_shares(contacts[i].mask, first, film.lubricant_densities.size());
+    for (const double share : curve.lubricated_shares) {
+      const friction::Estimate estimate =
+          estimate_of(contacts[i].summary, share, settings.contact, settings.friction);
+      curve.friction_lubricated.push_back(estimate.friction_lubricated);
+      curve.friction_dry = estimate.friction_dry;
+    }
     curve.plateau = find_plateau(curve.lubricant_densities, curve.friction_lubricated, kFlat);
     if (curve.plateau && curve.plateau->value <= 0) curve.plateau.reset();  // all is drowned
   }

@@ -8,6 +8,18 @@
 namespace tabor::analysis {
 namespace {
 
+FilmRecord record_of(deposition::Film&& film, const FilmSettings& settings) {
+  FilmRecord record{.lubricant_density = settings.lubricant_densities[film.request],
+                    .film = {},
+                    .peak_memory = peak_memory_bytes(),
+                    .warnings = of_film(film),
+                    .references = references_of(settings)};
+  record.film = std::move(film);
+  return record;
+}
+
+}  // namespace
+
 deposition::Dose dose_of(const FilmSettings& settings) {
   deposition::Dose dose;
   for (const double density : settings.lubricant_densities) {
@@ -20,18 +32,6 @@ deposition::Dose dose_of(const FilmSettings& settings) {
   dose.seed = settings.seed;
   return dose;
 }
-
-FilmRecord record_of(deposition::Film&& film, const FilmSettings& settings) {
-  FilmRecord record{.lubricant_density = settings.lubricant_densities[film.request],
-                    .film = {},
-                    .peak_memory = peak_memory_bytes(),
-                    .warnings = of_film(film),
-                    .references = references_of(settings)};
-  record.film = std::move(film);
-  return record;
-}
-
-}  // namespace
 
 void film_state(const topography::Topography& surface, const FilmSettings& settings,
                 const std::function<void(FilmRecord&&)>& receive, const Observer& observer) {

@@ -44,6 +44,9 @@ void contact_states(elastic::ElasticOperator& elasticity, const topography::Topo
                     const std::function<void(ContactRecord&&)>& receive,
                     const Observer& observer = {});
 
+/// What the settings ask of a rain.
+deposition::Dose dose_of(const FilmSettings& settings);
+
 /// The films of all densities from one rain, in rising order of density; `receive` gets each when
 /// it is there, so that only one is in memory.
 void film_state(const topography::Topography& surface, const FilmSettings& settings,

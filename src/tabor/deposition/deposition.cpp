@@ -59,15 +59,23 @@ class Deposition {
       spread_uniformly();
       return;
     }
-    terrain_ = quantise(height_, dose_.edge);
     if (dose_.model == Model::bottom_fill) {
+      terrain_ = quantise(height_, dose_.edge);
       fill_from_the_bottom();
       return;
     }
+    rain([&](std::size_t i, const RainState& state, Pools& pools) { emit(i, state, pools); },
+         observer);
+  }
+
+  /// Calls `look` at each dose, with its place among the ascending ones.
+  template <typename Look>
+  void rain(const Look& look, const Observer& observer) {
+    terrain_ = quantise(height_, dose_.edge);
     const Ties ties = dose_.model == Model::droplets ? Ties::connected : Ties::ordered;
     Pools pools(terrain_, ties);
     terrain_.height = {};
-    const auto reached = [&](std::size_t i, const RainState& state) { emit(i, state, pools); };
+    const auto reached = [&](std::size_t i, const RainState& state) { look(i, state, pools); };
     if (dose_.model == Model::droplets) {
       rain_droplets(pools, droplet(), dose_.reading, dose_.seed, doses(terrain_.size()), reached,
                     observer);
@@ -199,6 +207,32 @@ void deposit(const Field& height, const Grid& grid, const Dose& dose, const Film
   const Watch watch(observer, "pools");
   check(height, grid, dose);
   Deposition(height, grid, dose, sink).run(observer);
+}
+
+std::vector<std::size_t> first_wetting_doses(const Field& height, const Grid& grid,
+                                             const Dose& dose, const std::vector<Index>& pixels,
+                                             const Observer& observer) {
+  const Watch watch(observer, "pools");
+  check(height, grid, dose);
+  const bool runs_down = dose.model == Model::droplets || dose.model == Model::limit;
+  if (!runs_down || !std::is_sorted(dose.mean_films.begin(), dose.mean_films.end())) {
+    throw InputError("doses that wet a pixel first", std::string(name(dose.model)) + ", any order",
+                     "rising doses of droplets or their limit", "");
+  }
+  std::vector<std::size_t> first(pixels.size(), dose.mean_films.size());
+  const auto look = [&](std::size_t i, const RainState&, Pools& pools) {
+    const bool is_drowned = dose.edge != Edge::open && pools.beyond() > 0;
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+      go_on_or_throw(k);
+      if (first[k] < i) continue;
+      const auto p = static_cast<Pixel>(pixels[k]);
+      const bool is_wet = pools[pools.owner(pools.home(p))].level > pools.height(p);
+      if (is_wet || is_drowned) first[k] = std::min(first[k], i);
+    }
+  };
+  const FilmSink no_films;
+  Deposition(height, grid, dose, no_films).rain(look, observer);
+  return first;
 }
 
 std::vector<Film> deposit(const Field& height, const Grid& grid, const Dose& dose,

@@ -78,6 +78,13 @@ std::vector<Film> deposit(const Field& height, const Grid& grid, const Dose& dos
 void deposit(const Field& height, const Grid& grid, const Dose& dose, const FilmSink& sink,
              const Observer& observer = {});
 
+/// For some pixels (places in the map, row by row) which dose is the first to wet them, in one run
+/// through all doses: the place in dose.mean_films, which must rise, or their number where none
+/// does. Costs no films. For droplets and their limit. Throws as deposit().
+std::vector<std::size_t> first_wetting_doses(const Field& height, const Grid& grid,
+                                             const Dose& dose, const std::vector<Index>& pixels,
+                                             const Observer& observer = {});
+
 /// Mean film [m] of an areal lubricant density [kg/m^2] and an oil density [kg/m^3].
 double mean_film(double lubricant_density, double oil_density);
 
