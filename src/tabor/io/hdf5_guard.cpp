@@ -40,16 +40,9 @@ constexpr rlim_t kSeconds = 2;
 /// A copy that neither sends nor works for so long [s] waits for what will not come.
 constexpr int kPatience = 5;
 
-#if defined(__has_feature)
-#define TABOR_SANITIZED __has_feature(address_sanitizer)
-#elif defined(__SANITIZE_ADDRESS__)
-#define TABOR_SANITIZED 1
-#else
-#define TABOR_SANITIZED 0
-#endif
-/// Allocators of sanitizers have locks that a thread of the original may hold when the copy is
-/// made. The copy waits for them for ever; the next one finds them open.
-constexpr int kAttempts = TABOR_SANITIZED ? 3 : 1;
+/// Runtime libraries, and allocators of sanitizers, have locks that a thread of the original may
+/// hold when the copy is made. The copy waits for them for ever; the next one finds them open.
+constexpr int kAttempts = 3;
 
 /// Address space of this process [bytes]; 0 if the system does not say.
 rlim_t address_space() {
