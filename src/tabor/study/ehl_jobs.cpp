@@ -41,13 +41,18 @@ Quality quality_of(const ehl::CaseResult& result) {
 struct Chain {
   ehl::CaseChain solver;
   std::optional<std::size_t> behind = {};
+  /// Of a chain with a gap, where a kept case was damaged, two jobs are ready at once: the solver
+  /// serves one at a time.
+  std::mutex mutex = {};
 
   bool keeps_starts() const { return solver.write_start != nullptr; }
 };
 
-Chain chain_of(const ehl::Program& program) {
-  return {.solver =
-              program.make_chain ? program.make_chain() : ehl::CaseChain{.solve = program.solve}};
+std::shared_ptr<Chain> chain_of(const ehl::Program& program) {
+  auto chain = std::make_shared<Chain>();
+  chain->solver =
+      program.make_chain ? program.make_chain() : ehl::CaseChain{.solve = program.solve};
+  return chain;
 }
 
 /// What all jobs of a series share.
@@ -114,6 +119,7 @@ void keep(const SeriesOfJobs& shared, const Chain& chain, std::size_t i,
 
 void compute(SeriesOfJobs& shared, Chain& chain, std::size_t i, const Monitor& monitor) {
   const EhlCase& one = shared.series.cases[i];
+  const std::lock_guard lock(chain.mutex);
   if (shared.store) stand_before(shared, chain, i);
   ehl::CaseResult result =
       solve_or_reject(chain.solver.solve, one, shared.series.setting(monitor.own));
@@ -206,7 +212,7 @@ std::vector<Job> ehl_jobs(const EhlSeries& series, const Store* store, EhlResult
   std::vector<Job> jobs;
   std::shared_ptr<Chain> chain;
   for (std::size_t i = 0; i < series.cases.size(); ++i) {
-    if (series.cases[i].starts_anew) chain = std::make_shared<Chain>(chain_of(series.program));
+    if (series.cases[i].starts_anew) chain = chain_of(series.program);
     jobs.push_back(job_of(shared, chain, i));
   }
   return jobs;
