@@ -60,18 +60,30 @@ TEST(DensityCurve, KnowsThePitAndTheValley) {
   EXPECT_NEAR(curve.plateau->last, 0.45e-3, 0.06e-3);
 }
 
+TEST(DensityCurve, HasTheSamePlateauWithABoundaryFilm) {
+  const Stage stage = plateau_with_a_pit_and_a_valley();
+  CaseSettings sheared = settings();
+  sheared.friction.boundary_shear_share = 1;
+  const auto slippery = density_curves(stage.surface, stage.contacts, settings());
+  const auto rough = density_curves(stage.surface, stage.contacts, sheared);
+  ASSERT_TRUE(rough.front().plateau);
+  EXPECT_EQ(rough.front().plateau->last, slippery.front().plateau->last);
+  EXPECT_DOUBLE_EQ(rough.front().friction_lubricated.back(), rough.front().friction_dry);
+}
+
 TEST(DensityCurve, SaysWhereTheAskedDensitiesLie) {
   DensityCurve curve;
   curve.friction_dry = 0.3;
-  curve.lubricant_densities = {1e-6, 1e-2};
-  curve.plateau = Plateau{5e-5, 1.2e-3, 0.25};
+  curve.lubricant_densities = {5e-5, 1.2e-3, 1e-2};
+  curve.friction_lubricated = {0.25, 0.25, 0};
+  curve.plateau = Plateau{5e-5, 1.2e-3, 0.8};
   const std::string sentence = sentence_of(curve, {1e-5, 4.5e-4, 9e-4, 2e-3});
   EXPECT_THAT(sentence, HasSubstr("full from 0.05 g/m^2 (friction 0.25)"));
   EXPECT_THAT(sentence, HasSubstr("the next change comes at 1.2 g/m^2"));
   EXPECT_THAT(sentence, HasSubstr("0.01 g/m^2 lies below"));
   EXPECT_THAT(sentence, HasSubstr("0.45 g/m^2 and 0.9 g/m^2 lie between"));
   EXPECT_THAT(sentence, HasSubstr("2 g/m^2 lies beyond"));
-  curve.plateau->value = 0.3;
+  curve.plateau->value = 1;
   EXPECT_THAT(sentence_of(curve, {}), HasSubstr("hardly any contact is wet up to 1.2 g/m^2"));
   curve.plateau.reset();
   EXPECT_EQ(sentence_of(curve, {9e-4}), "friction changes with the density throughout");

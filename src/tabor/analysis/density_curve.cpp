@@ -17,7 +17,7 @@ namespace {
 constexpr double kLeast = 1e-6;  // [kg/m^2]
 constexpr double kMost = 1e-2;   // [kg/m^2]
 constexpr int kPerDecade = 10;
-constexpr double kFlat = 0.01;  // friction within this of its mean is the same
+constexpr double kFlat = 0.01;  // dry shares within this of their mean are the same
 constexpr double kDry = 0.01;   // so small a wet share is none
 
 /// Rising densities; none on a surface without heights.
@@ -90,13 +90,26 @@ void add_place(const std::vector<double>& asked, const char* where, std::string&
   sentence += fmt::format("; {} {} {}", list_of(asked), asked.size() == 1 ? "lies" : "lie", where);
 }
 
+std::vector<double> dry_shares(const DensityCurve& curve) {
+  std::vector<double> shares;
+  for (const double wet : curve.lubricated_shares) shares.push_back(1 - wet);
+  return shares;
+}
+
+/// Lubricated friction at the first density of the curve that is no less.
+double friction_from(const DensityCurve& curve, double density) {
+  const std::vector<double>& all = curve.lubricant_densities;
+  const auto place = std::lower_bound(all.begin(), all.end() - 1, density) - all.begin();
+  return curve.friction_lubricated[static_cast<std::size_t>(place)];
+}
+
 std::string plateau_text(const DensityCurve& curve) {
   const Plateau& plateau = *curve.plateau;
-  const double wet = 1 - plateau.value / curve.friction_dry;
+  const double wet = 1 - plateau.value;
   std::string text =
       wet < kDry ? fmt::format("hardly any contact is wet up to {}", grams(plateau.last))
                  : fmt::format("the pockets under the contacts are full from {} (friction {:.3g})",
-                               grams(plateau.first), plateau.value);
+                               grams(plateau.first), friction_from(curve, plateau.first));
   if (plateau.last < curve.lubricant_densities.back()) {
     text += wet < kDry ? ", where the oil reaches the contacts"
                        : fmt::format(
@@ -129,7 +142,8 @@ std::vector<DensityCurve> density_curves(const topography::Topography& surface,
       curve.friction_lubricated.push_back(estimate.friction_lubricated);
       curve.friction_dry = estimate.friction_dry;
     }
-    curve.plateau = find_plateau(curve.lubricant_densities, curve.friction_lubricated, kFlat);
+    // By the dry share, as a boundary film makes friction flat where the oil still spreads.
+    curve.plateau = find_plateau(curve.lubricant_densities, dry_shares(curve), kFlat);
     if (curve.plateau && curve.plateau->value <= 0) curve.plateau.reset();  // all is drowned
   }
   return curves;

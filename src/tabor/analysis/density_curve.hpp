@@ -21,7 +21,7 @@ struct DensityCurve {
   std::vector<double> lubricated_shares;
   std::vector<double> friction_lubricated;
   std::optional<Plateau>
-      plateau;  ///< densities [kg/m^2] over which friction changes by 2 % at most
+      plateau;  ///< densities [kg/m^2] over which the dry share hardly changes, and that
 };
 
 /// A solved contact: its numbers and where solids touch, in the shape of the surface.

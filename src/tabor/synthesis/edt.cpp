@@ -136,10 +136,10 @@ struct Sliding {
 };
 
 Sliding sliding_of(const Edt& recipe) {
-  constexpr double kUsualPressure = 7e6;     // [Pa]
-  constexpr double kUsualDensity = 0.45e-3;  // [kg/m^2]
-  const double severity = recipe.sliding_pressure / kUsualPressure /
-                          std::pow((1 + recipe.sliding_density / kUsualDensity) / 2, 0.25);
+  constexpr double kReferencePressure = 7e6;     // [Pa]
+  constexpr double kReferenceDensity = 0.45e-3;  // [kg/m^2]
+  const double severity = recipe.sliding_pressure / kReferencePressure /
+                          std::pow((1 + recipe.sliding_density / kReferenceDensity) / 2, 0.25);
   return {.share = std::min(0.5, 0.2 * std::sqrt(severity)),
           .relief = std::min(1.0, 0.15 / severity)};
 }
