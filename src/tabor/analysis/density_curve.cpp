@@ -78,6 +78,7 @@ std::string grams(double density) { return fmt::format("{:.2g} g/m^2", in_g_per_
 
 std::string list_of(const std::vector<double>& densities) {
   std::vector<std::string> texts;
+  texts.reserve(densities.size());
   for (const double density : densities) texts.push_back(grams(density));
   const std::string last = texts.back();
   texts.pop_back();
@@ -92,6 +93,7 @@ void add_place(const std::vector<double>& asked, const char* where, std::string&
 
 std::vector<double> dry_shares(const DensityCurve& curve) {
   std::vector<double> shares;
+  shares.reserve(curve.lubricated_shares.size());
   for (const double wet : curve.lubricated_shares) shares.push_back(1 - wet);
   return shares;
 }
