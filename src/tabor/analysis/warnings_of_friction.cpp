@@ -20,6 +20,14 @@ constexpr double kLargestFriction = 2;
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
+/// The step that took short waves from the scan, "" if none did.
+std::string low_pass_of(const topography::Topography& surface) {
+  for (const std::string& step : surface.history) {
+    if (step.starts_with("lowpass=")) return step.substr(0, step.find(": "));
+  }
+  return "";
+}
+
 void warn_of_size(const char* which, double friction, Warnings& list) {
   if (!(friction > kLargestFriction)) return;
   list.push_back({"implausible-friction",
@@ -31,8 +39,16 @@ void warn_of_size(const char* which, double friction, Warnings& list) {
 
 }  // namespace
 
-Warnings of_film(const deposition::Film& film) {
+Warnings of_film(const topography::Topography& surface, const deposition::Film& film) {
   Warnings list;
+  const std::string filter = low_pass_of(surface);
+  if (!filter.empty() && film.mean_film > 0) {
+    list.push_back(
+        {"filtered", fmt::format("the oil was laid on a filtered scan ({}): the pockets that the "
+                                 "filter smooths away hold oil under contacts, and the wet share "
+                                 "without it is larger",
+                                 filter)});
+  }
   if (const double least = film.thickness.minCoeff(); film.flooded || least > 0) {
     list.push_back({"flood",
                     fmt::format("a mean film of {} floods the surface: its highest point is under "

@@ -158,7 +158,8 @@ void declare_friction(OptionSet& set, analysis::FrictionSettings& settings) {
   set.number("--boundary-shear-share", "X", "the same as a share of TAU, e.g. 0.1",
              settings.boundary_shear_share);
   set.choice("--area", friction::kAreas,
-             "contact area that friction uses: perimeter-corrected or counted [corrected]",
+             "contact area that friction uses: perimeter-corrected or counted [pixels with a "
+             "saturation pressure, else corrected]",
              settings.area);
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "tabor/cli/contact_request.hpp"
+#include "tabor/cli/density_curve.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/study/resolution_scan.hpp"
@@ -33,7 +34,7 @@ io::Json all_settings(const analysis::CaseSettings& settings) {
   all.update(settings_json(settings.film));
   all.update(settings_json(settings.fluid));
   all["shear_strength_Pa"] = settings.friction.shear_strength;
-  all["area"] = friction::kAreas.of(settings.friction.area);
+  all["area"] = friction::kAreas.of(settings.friction.area_of(settings.contact));
   return all;
 }
 
@@ -79,19 +80,6 @@ Solved solve_all(const Request& request, const topography::Topography& surface, 
   return solved;
 }
 
-io::Json json_of(const analysis::DensityCurve& curve) {
-  const auto in_grams = [](double density) { return io::number(in_g_per_m2(density)); };
-  io::Json densities = io::Json::array();
-  for (const double density : curve.lubricant_densities) densities.push_back(in_grams(density));
-  const auto& plateau = curve.plateau;
-  return {{"mean_pressure_Pa", curve.mean_pressure},
-          {"lubricant_density_g_per_m2", densities},
-          {"lubricated_share", curve.lubricated_shares},
-          {"friction_lubricated", curve.friction_lubricated},
-          {"plateau_from_g_per_m2", plateau ? in_grams(plateau->first) : io::Json()},
-          {"plateau_to_g_per_m2", plateau ? in_grams(plateau->last) : io::Json()}};
-}
-
 /// The curve of the first pressure, and of all where there are several.
 void add_curves(const std::vector<analysis::DensityCurve>& curves, io::Json& object) {
   if (curves.empty()) return;
@@ -108,11 +96,9 @@ std::string curves_text(const std::vector<analysis::DensityCurve>& curves, const
   Facts facts;
   std::string tables;
   for (const analysis::DensityCurve& curve : curves) {
-    const std::string pressure = si(curve.mean_pressure, "Pa");
-    facts.fact("density at " + pressure,
-               sentence_of(curve, request.settings.film.lubricant_densities));
+    describe(curve, request.settings.film.lubricant_densities, "", facts);
     if (!request.density_curve) continue;
-    Table table({"density at " + pressure, "wet share", "friction wet"});
+    Table table({"density at " + si(curve.mean_pressure, "Pa"), "wet share", "friction wet"});
     for (std::size_t i = 0; i < curve.lubricant_densities.size(); ++i) {
       table.row({density_text(curve.lubricant_densities[i]), percent(curve.lubricated_shares[i]),
                  plain(curve.friction_lubricated[i], 4)});
@@ -131,10 +117,10 @@ std::string text_of(const Scan& scan, const Request& request, const Solved& solv
   describe(settings.fluid, facts);
   const double boundary = settings.friction.boundary_strength();
   facts.fact("friction",
-             fmt::format("shear strength {}{}, {} contact area",
+             fmt::format("shear strength {}{}, contact area {}",
                          si(settings.friction.shear_strength, "Pa"),
                          boundary > 0 ? fmt::format(", of wet contact {}", si(boundary, "Pa")) : "",
-                         friction::kAreas.of(settings.friction.area)));
+                         friction::kAreas.of(settings.friction.area_of(settings.contact))));
   std::string text = facts.text() + '\n';
   text += table_of(analysis::friction_columns(), solved.records).text();
   text += curves_text(solved.curves, request);

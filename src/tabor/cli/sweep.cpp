@@ -8,6 +8,7 @@
 #include <memory>
 #include <ostream>
 
+#include "tabor/cli/density_curve.hpp"
 #include "tabor/cli/failure.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/run_options.hpp"
@@ -83,6 +84,27 @@ std::string averages_text(const study::Study& study, const std::vector<study::Av
   return table.text() + "± is the standard deviation over n scans.\n";
 }
 
+/// Of each group under its lowest and its highest pressure.
+std::string curves_text(const std::vector<study::GroupCurve>& curves) {
+  Facts facts;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const bool is_first = i == 0 || curves[i - 1].group != curves[i].group;
+    const bool is_last = i + 1 == curves.size() || curves[i + 1].group != curves[i].group;
+    if (is_first || is_last) describe(curves[i].curve, curves[i].asked, curves[i].group, facts);
+  }
+  return curves.empty() ? "" : "\nFriction against the lubricant's density:\n" + facts.text();
+}
+
+io::Json curves_json(const std::vector<study::GroupCurve>& curves) {
+  io::Json all = io::Json::array();
+  for (const study::GroupCurve& one : curves) {
+    io::Json object = {{"group", one.group}, {"n", one.n}};
+    object.update(json_of(one.curve));
+    all.push_back(std::move(object));
+  }
+  return all;
+}
+
 std::string outcome_text(const Request& request, const study::Outcome& outcome) {
   Facts facts;
   facts.fact("study", request.study);
@@ -124,7 +146,7 @@ int code_of(const study::Outcome& outcome) {
 /// Tables are replaced, and whatever the store holds.
 void note_files(const study::Study& study, const fs::path& folder, CommandFiles& files) {
   files.fills(folder / "store");
-  for (const char* table : {"results.h5", "results.csv", "averages.csv"}) {
+  for (const char* table : {"results.h5", "results.csv", "averages.csv", "density_curves.csv"}) {
     files.writes(folder / table);
   }
   for (const study::Scan& scan : study.scans) files.reads(scan.file);
@@ -149,8 +171,12 @@ int sweep(const Request& request, Context& context) {
   for (const std::string& failure : outcome.failures) context.warn("failed: " + failure);
   io::Json object = outcome_json(context, request, outcome);
   object["averages"] = averages_json(study, outcome.averages);
-  const std::string text =
-      outcome_text(request, outcome) + '\n' + averages_text(study, outcome.averages);
+  if (!outcome.density_curves.empty()) {
+    object["density_curves"] = curves_json(outcome.density_curves);
+  }
+  const std::string text = outcome_text(request, outcome) + '\n' +
+                           averages_text(study, outcome.averages) +
+                           curves_text(outcome.density_curves);
   return finish(context, object, text, code_of(outcome));
 }
 
