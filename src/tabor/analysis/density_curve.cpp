@@ -189,7 +189,11 @@ std::string sentence_of(const DensityCurve& curve, const std::vector<double>& as
   }
   std::string sentence = plateau_text(curve);
   add_place(below, "below, where friction falls with the density", sentence);
-  add_place(on, "between, where the density hardly matters", sentence);
+  const bool is_dry = 1 - curve.plateau->value < kDry;
+  add_place(on,
+            is_dry ? "below, where friction is that without oil"
+                   : "between, where the density hardly matters",
+            sentence);
   add_place(beyond, "beyond, where the oil drowns the contacts", sentence);
   return sentence;
 }

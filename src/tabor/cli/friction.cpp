@@ -7,6 +7,7 @@
 #include "tabor/cli/density_curve.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/study/density_curves.hpp"
 #include "tabor/study/resolution_scan.hpp"
 #include "tabor/study/scan_friction.hpp"
 
@@ -128,6 +129,20 @@ std::string text_of(const Scan& scan, const Request& request, const Solved& solv
   return text + '\n' + table_of(study::resolution_columns(), solved.resolution).text();
 }
 
+/// The curves and what they say, for the report.
+void write_curves(const Request& request, const Solved& solved, FieldsFile& file) {
+  if (solved.curves.empty()) return;
+  const std::vector<double>& asked = request.settings.film.lubricant_densities;
+  std::vector<study::ScanCurve> curves;
+  std::vector<std::string> answers;
+  for (const analysis::DensityCurve& curve : solved.curves) {
+    curves.push_back({request.scan.file, "", curve});
+    answers.push_back(study::answer_of({"", 1, curve, {}, {}, asked}));
+  }
+  file.add_table("/density_curves", study::curve_columns(), study::points_of(curves));
+  file.add_answers(answers);
+}
+
 analysis::Case case_of(const analysis::FrictionRecord& record) {
   return {.pressure = si(record.mean_pressure, "Pa"),
           .density = density_text(record.lubricant_density),
@@ -150,7 +165,10 @@ int show(Request request, Context& context) {
   std::vector<analysis::Case> cases;
   for (const analysis::FrictionRecord& record : solved.records) cases.push_back(case_of(record));
   context.warn(analysis::findings_of(cases));
-  if (file) file->commit(context);
+  if (file) {
+    write_curves(request, solved, *file);
+    file->commit(context);
+  }
   io::Json object = json_head(context, scan);
   object.update(settings);
   object["states"] = states_json(analysis::friction_columns(), solved.records);

@@ -86,6 +86,12 @@ std::vector<GroupCurve> average_curves(const Study& study, const std::vector<Sca
   return averages;
 }
 
+std::string answer_of(const GroupCurve& curve) {
+  const std::string at = "at " + format_si(curve.curve.mean_pressure, "Pa");
+  return (curve.group.empty() ? at : curve.group + " " + at) + ": " +
+         analysis::sentence_of(curve.curve, curve.asked);
+}
+
 std::vector<CurvePoint> points_of(const std::vector<ScanCurve>& curves) {
   std::vector<CurvePoint> points;
   for (const ScanCurve& one : curves) {

@@ -30,6 +30,9 @@ struct GroupCurve {
 };
 std::vector<GroupCurve> average_curves(const Study& study, const std::vector<ScanCurve>& curves);
 
+/// "side A at 7 MPa: the pockets under the contacts are full from ...".
+std::string answer_of(const GroupCurve& curve);
+
 /// One point of a curve, and of a mean curve: a row of the tables.
 struct CurvePoint {
   std::string scan;

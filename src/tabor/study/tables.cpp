@@ -217,6 +217,9 @@ void write_tables(const Store& store, const Study& study, const std::vector<Scan
     io::write_datasets(writer, "/density_curves", curve_columns(), points_of(tables.curves));
     io::write_datasets(writer, "/density_averages", average_curve_columns(),
                        points_of(tables.averaged));
+    std::vector<std::string> answers;
+    for (const GroupCurve& curve : tables.averaged) answers.push_back(answer_of(curve));
+    writer.attribute("/", "answers", answers);
   }
   write_scans(writer, store, study, tasks);
   if (study.experiment) write_experiment(writer, *study.experiment);
