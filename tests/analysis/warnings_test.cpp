@@ -212,7 +212,12 @@ TEST(WarningsOfFriction, AnAreaAtItsBoundIsAClamp) {
     const bool at_bound = area <= pressure / cap;
     EXPECT_EQ(friction::estimate(contact, 7e7).at_bound, at_bound) << area;
     EXPECT_THAT(friction_codes(contact), Contains("clamp").Times(at_bound ? 1 : 0)) << area;
-    EXPECT_THAT(friction_codes(contact, 0, friction::Area::pixels), testing::IsEmpty());
+    const friction::Estimate counted = friction::estimate(contact, 7e7, friction::Area::pixels);
+    EXPECT_FALSE(counted.at_bound);
+    EXPECT_EQ(counted.corrected_at_bound, at_bound);
+    EXPECT_DOUBLE_EQ(counted.friction_dry, 0.05 * 7e7 / pressure);
+    EXPECT_THAT(friction_codes(contact, 0, friction::Area::pixels),
+                Contains("clamp").Times(at_bound ? 1 : 0));
     friction::Contact elastic = contact;
     elastic.saturation_pressure = contact::kNoSaturation;
     EXPECT_THAT(friction_codes(elastic), testing::IsEmpty());

@@ -28,6 +28,21 @@ std::string low_pass_of(const topography::Topography& surface) {
   return "";
 }
 
+Warning clamp(const friction::Contact& contact, const friction::Estimate& estimate) {
+  if (estimate.at_bound) {
+    return {"clamp",
+            "clamp: dry friction is tau_y/p_sat: the area is at its bound, and says nothing of the "
+            "surface; --area pixels takes the counted area"};
+  }
+  const double excess =
+      estimate.area_fraction * contact.saturation_pressure / contact.mean_pressure - 1;
+  return {"clamp",
+          fmt::format("clamp: nearly all contact is saturated: dry friction is tau_y/p_sat for any "
+                      "surface, and {} more by the pixels at the edges of contacts that are not",
+                      percent(excess)),
+          excess};
+}
+
 void warn_of_size(const char* which, double friction, Warnings& list) {
   if (!(friction > kLargestFriction)) return;
   list.push_back({"implausible-friction",
@@ -76,12 +91,7 @@ Warnings of_film(const topography::Topography& surface, const deposition::Film& 
 Warnings of_friction(const friction::Contact& contact, const friction::Estimate& estimate,
                      double spill_over_fraction, const FrictionSettings& settings) {
   Warnings list;
-  if (estimate.at_bound) {
-    list.push_back(
-        {"clamp",
-         "clamp: dry friction is tau_y/p_sat: the area is at its bound, and says nothing "
-         "of the surface; --area pixels takes the counted area"});
-  }
+  if (estimate.corrected_at_bound) list.push_back(clamp(contact, estimate));
   if (spill_over_fraction > kSpillOver) {
     list.push_back({"spill-over",
                     fmt::format("spill-over {}: so much of the oil does not fit when the surfaces "
