@@ -196,7 +196,9 @@ Verb sweep_verb() {
           .summary = "scans x pressures x densities of a study, resumable",
           .details =
               "Finished cases are kept and skipped when the same command runs again; the "
-              "tables are rebuilt each time. With lubricant.fluid = \"reynolds\", "
+              "tables are rebuilt each time. A [[scan]] may have a pressure, density, treatment, "
+              "contact (elastic or saturated) and reading of its own. With lubricant.fluid = "
+              "\"reynolds\", "
               "lubricant.viscosity and a list sweep.sliding_speed the deposited oil flows, "
               "carries part of the load and adds viscous friction at each speed.",
           .examples = {"tabor sweep examples/06_study/study.toml -o study_results",
