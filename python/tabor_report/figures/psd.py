@@ -79,7 +79,8 @@ def _draw_panel(axes, axis, curves):
 
 def _is_drawn(q, density, curves):
     """Whether one of these runs where this one does: dashed over it, both can be seen."""
-    return any(np.array_equal(q, grid) and np.allclose(density, other, rtol=0.1, atol=0) for _, grid, other, _, _ in curves)
+    same_grid = (other for _, grid, other, _, _ in curves if np.array_equal(q, grid))
+    return any(np.allclose(density, other, rtol=0.1, atol=0) for other in same_grid)
 
 
 def _draw_slope(axes, curves):
