@@ -28,7 +28,7 @@ constexpr double kWidth = 5e-6;
 LineResult with_asperity(double height, double place = 0) {
   LineProblem problem = fine_table_6();
   problem.roughness = line_asperity(problem, height, kWidth, place);
-  const LineResult result = solve_line(problem);
+  LineResult result = solve_line(problem);
   EXPECT_TRUE(result.convergence.converged()) << height;
   return result;
 }
