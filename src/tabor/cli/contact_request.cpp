@@ -96,6 +96,7 @@ void declare_contact(OptionSet& set, analysis::CaseSettings& settings) {
   set.add({.flag = "--saturation-pressure",
            .placeholder = "PS",
            .help = "cap on the contact pressure, e.g. 240MPa; none: elastic [none]",
+           .unless = kMaterial,
            .assign = [&settings](const std::string& text) {
              settings.contact.saturation_pressure.reset();
              if (text == "none") return;

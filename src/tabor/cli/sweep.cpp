@@ -28,6 +28,7 @@ namespace fs = std::filesystem;
 struct Request {
   std::string study;
   std::optional<std::string> directory;
+  bool wants_template = false;
   RunRequest run;
 
   fs::path folder() const {
@@ -154,6 +155,7 @@ void note_files(const study::Study& study, const fs::path& folder, CommandFiles&
 }
 
 int sweep(const Request& request, Context& context) {
+  if (request.wants_template) return show_template(study::study_template(), context);
   const study::Study study = read_study(request, context);
   note_files(study, request.folder(), context.files);
   study::Outcome outcome;
@@ -183,7 +185,9 @@ int sweep(const Request& request, Context& context) {
 void declare_options(OptionSet& set, Request& request) {
   set.group("Study");
   set.input("STUDY.toml", "the study: scans, treatment, material, pressures, densities",
-            request.study);
+            request.study)
+      .unless = kTemplate;
+  declare_template(set, "a study file to start from", request.wants_template);
   set.output("DIR", "folder of the results [STUDY_results]", {}, request.directory);
   declare_run_options(set, request.run);
 }
@@ -202,7 +206,8 @@ Verb sweep_verb() {
               "lubricant.viscosity and a list sweep.sliding_speed the deposited oil flows, "
               "carries part of the load and adds viscous friction at each speed.",
           .examples = {"tabor sweep examples/06_study/study.toml -o study_results",
-                       "tabor sweep examples/06_study/study.toml -o study_results --jobs 2 --json"},
+                       "tabor sweep examples/06_study/study.toml -o study_results --jobs 2 --json",
+                       "tabor sweep --template"},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_options(set, *request);

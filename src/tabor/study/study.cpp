@@ -15,48 +15,48 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kKnownKeys{"title",
-                                          "shear_strength",
-                                          "boundary_shear_strength",
-                                          "boundary_shear_share",
-                                          "area",
-                                          "material.name",
-                                          "material.youngs_modulus",
-                                          "material.poissons_ratio",
-                                          "material.saturation_pressure",
-                                          "material.counter_youngs_modulus",
-                                          "material.counter_poissons_ratio",
-                                          "treatment.steps",
-                                          "treatment.channel",
-                                          "treatment.pixel",
-                                          "treatment.unit",
-                                          "contact.boundary",
-                                          "contact.solver",
-                                          "contact.tolerance",
-                                          "sweep.mean_pressure",
-                                          "sweep.lubricant_density",
-                                          "sweep.sliding_speed",
-                                          "lubricant.oil_density",
-                                          "lubricant.model",
-                                          "lubricant.reading",
-                                          "lubricant.edge",
-                                          "lubricant.droplet",
-                                          "lubricant.seed",
-                                          "lubricant.fluid",
-                                          "lubricant.viscosity",
-                                          "lubricant.pressure_viscosity",
-                                          "lubricant.eyring_stress",
-                                          "scan[].file",
-                                          "scan[].group",
-                                          "scan[].channel",
-                                          "scan[].pixel",
-                                          "scan[].unit",
-                                          "scan[].pressure",
-                                          "scan[].density",
-                                          "scan[].treatment",
-                                          "scan[].contact",
-                                          "scan[].reading",
-                                          "experiment.file"};
+const std::vector<std::string> kKeys{"title",
+                                     "shear_strength",
+                                     "boundary_shear_strength",
+                                     "boundary_shear_share",
+                                     "area",
+                                     "material.name",
+                                     "material.youngs_modulus",
+                                     "material.poissons_ratio",
+                                     "material.saturation_pressure",
+                                     "material.counter_youngs_modulus",
+                                     "material.counter_poissons_ratio",
+                                     "treatment.steps",
+                                     "treatment.channel",
+                                     "treatment.pixel",
+                                     "treatment.unit",
+                                     "contact.boundary",
+                                     "contact.solver",
+                                     "contact.tolerance",
+                                     "sweep.mean_pressure",
+                                     "sweep.lubricant_density",
+                                     "sweep.sliding_speed",
+                                     "lubricant.oil_density",
+                                     "lubricant.model",
+                                     "lubricant.reading",
+                                     "lubricant.edge",
+                                     "lubricant.droplet",
+                                     "lubricant.seed",
+                                     "lubricant.fluid",
+                                     "lubricant.viscosity",
+                                     "lubricant.pressure_viscosity",
+                                     "lubricant.eyring_stress",
+                                     "scan[].file",
+                                     "scan[].group",
+                                     "scan[].channel",
+                                     "scan[].pixel",
+                                     "scan[].unit",
+                                     "scan[].pressure",
+                                     "scan[].density",
+                                     "scan[].treatment",
+                                     "scan[].contact",
+                                     "scan[].reading",
+                                     "experiment.file"};
 
 double read_modulus(const io::Config& config, const std::string& key) {
   return positive(config, key, dimension::pressure);
@@ -210,9 +210,11 @@ analysis::FluidSettings Study::fluid_settings(const Condition& condition) const 
   return fluid;
 }
 
+const std::vector<std::string>& known_keys() { return kKeys; }
+
 Study read_study(const fs::path& file) {
   const io::Config config = io::Config::read(file);
-  config.reject_unknown(kKnownKeys);
+  config.reject_unknown(known_keys());
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   Study study;
   study.file = file;

@@ -68,6 +68,12 @@ struct Study {
 /// its unit or out of range, and for scans that are not there.
 Study read_study(const std::filesystem::path& file);
 
+/// A study file to start from, with every key there is; those that need not be are commented out.
+std::string study_template();
+
+/// All of them, dotted: "sweep.mean_pressure", "scan[].file".
+const std::vector<std::string>& known_keys();
+
 /// Every setting in force, defaults included, as a study file that gives the same study again.
 std::string to_toml(const Study& study);
 
