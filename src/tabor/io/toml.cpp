@@ -260,7 +260,7 @@ std::string namesake(const std::string& path, const std::vector<std::string>& kn
 
 /// "; did you mean ...?", by letters or, where that finds nothing, by name.
 std::string key_suggestion(const std::string& path, const std::vector<std::string>& known) {
-  const std::string near = suggestion(path, known);
+  std::string near = suggestion(path, known);
   if (!near.empty()) return near;
   const std::string other = namesake(path, known);
   return other.empty() ? "" : "; did you mean '" + other + "'?";

@@ -42,6 +42,7 @@ struct CurvePoint {
   double lubricated_share = 0;
   double friction_lubricated = 0;
 };
+/// The same over the scans of a group.
 struct AveragePoint {
   std::string group;
   double mean_pressure = 0;      ///< [Pa]

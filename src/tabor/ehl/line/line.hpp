@@ -95,7 +95,9 @@ struct AsperityEffect {
   double max_pressure = 0;           ///< [Pa] of p + P
   double smooth_max_pressure = 0;    ///< [Pa]
 
+  /// How many times the asperity raises local friction.
   double friction_ratio() const { return local_friction / smooth_local_friction; }
+  /// How many times it raises the largest pressure.
   double pressure_ratio() const { return max_pressure / smooth_max_pressure; }
 };
 
