@@ -234,9 +234,9 @@ void declare_rough(OptionSet& set, Request& request) {
   set.toggle("--random-amplitudes", "self-affine: Gaussian amplitudes, not random phases only",
              request.random_amplitudes);
   length(set, given, "--mean-height", "edt: mean absolute height Sa before sliding [0.9um]");
-  length(set, given, "--waviness", "edt: rms of waves of 250 um and longer [0.5um]");
+  length(set, given, "--waviness", "edt: rms of waves of 250 um and longer [0.6um]");
   ratio(set, given, "--plateau-share", "edt: share of the area that is plateaus [0.5]");
-  length(set, given, "--plateau-roughness", "edt: rms of the roughness on the plateaus [80nm]");
+  length(set, given, "--plateau-roughness", "edt: rms of the roughness on the plateaus [50nm]");
   length(set, given, "--noise", "edt: rms of the microscope's noise [40nm]");
   set.choice("--stage", {"before", "after"}, "edt: before or after sliding [before]",
              request.stage);
