@@ -262,6 +262,41 @@ TEST(ReadFriction, OfAStudyGivesItsAverages) {
   EXPECT_FALSE(friction_table(numbers, {.kept_codes = untrusted_codes()}).has_speeds());
 }
 
+TEST(ReadFriction, CountsAScanThatFailedInNoMean) {
+  const test::ExampleStudy example;
+  example.add_scan("scan_3.h5", 3, true);  // with a hole that nobody fills
+  example.run();
+  const FrictionTable table =
+      friction_table(read_friction(example.results()), {.kept_codes = untrusted_codes()});
+  ASSERT_EQ(table.entries.size(), 4u);
+  for (const auto& entry : table.entries) EXPECT_EQ(entry.n, 2u);
+  ASSERT_EQ(table.left_out.size(), 4u);
+  for (const auto& one : table.left_out) {
+    EXPECT_EQ(one.code, "failed");
+    EXPECT_THAT(one.scans, ElementsAre("scan_3.h5"));
+    EXPECT_FALSE(one.whole);
+  }
+}
+
+TEST(ReadFriction, RejectsPlacesThatAreNone) {
+  const test::Folder folder;
+  for (const double pressure : {std::nan(""), 0.0, -1e6, HUGE_VAL}) {
+    io::Hdf5Writer writer(folder / "results.h5");
+    writer.attribute("/", "format", "tabor");
+    for (const char* name : {"scan", "group", "error", "warning_codes"}) {
+      writer.write(std::string("/table/") + name, std::vector<std::string>{""});
+    }
+    for (const char* name :
+         {"lubricant_density_g_per_m2", "friction_dry", "friction_lubricated", "converged"}) {
+      writer.write(std::string("/table/") + name, std::vector<double>{1});
+    }
+    writer.write("/table/mean_pressure_Pa", std::vector<double>{pressure});
+    writer.commit();
+    EXPECT_THAT(message_of([&] { read_friction(folder.path()); }), HasSubstr("no pressure"))
+        << pressure;
+  }
+}
+
 TEST(ReadFriction, OfAStudyWhoseOilFlowsGivesMixedFrictionAtEachSpeed) {  // slow
   const test::ExampleStudy example;
   example.write(test::flowing_study());

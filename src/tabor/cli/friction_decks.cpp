@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 
@@ -29,7 +30,7 @@ struct Request {
   Program program = Program::csv;
   forming::UnitSystem units;
   study::FrictionTableChoice choice;
-  std::uint64_t first_id = 1;
+  int first_id = 1;
   std::optional<std::string> output;
 };
 
@@ -186,6 +187,16 @@ int show(const Request& request, Context& context) {
   return finish(context, object, request.output ? summary_of(request, table) : deck);
 }
 
+int id_of(const std::string& word) {
+  constexpr int kLargest = 9999999;  // of seven digits, so that more follow in eight
+  const std::optional<double> number = parse_number(word);
+  if (number && *number >= 1 && *number <= kLargest && *number == std::floor(*number)) {
+    return static_cast<int>(*number);
+  }
+  throw UsageError(
+      fmt::format("--id: got '{}'; expected a whole number from 1 to {}", word, kLargest));
+}
+
 void declare_options(OptionSet& set, Request& request) {
   set.group("Table");
   set.input("RESULTS", "folder of 'tabor sweep', or a file of 'tabor friction -o'",
@@ -213,16 +224,7 @@ void declare_options(OptionSet& set, Request& request) {
            .placeholder = "N",
            .help = "first number of what is numbered: tables and curves (lsdyna), materials "
                    "(ansys), friction cards (openradioss) [1]",
-           .assign = [&request](const std::string& word) {
-             constexpr double kLargest = 9999999;  // of seven digits, so that more follow in eight
-             const std::optional<double> number = parse_number(word);
-             if (!number || *number < 1 || *number > kLargest ||
-                 *number != static_cast<double>(static_cast<int>(*number))) {
-               throw UsageError(fmt::format("--id: got '{}'; expected a whole number from 1 to {}",
-                                            word, kLargest));
-             }
-             request.first_id = static_cast<std::uint64_t>(*number);
-           }});
+           .assign = [&request](const std::string& word) { request.first_id = id_of(word); }});
   set.group("Output");
   set.output("FILE", "write the deck to a file [the terminal]", all_extensions(), request.output);
 }

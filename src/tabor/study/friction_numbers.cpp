@@ -106,6 +106,17 @@ std::vector<FrictionNumber> numbers_of_states(const io::Hdf5Reader& file, const 
   return all;
 }
 
+/// Damaged files hold anything.
+void check_places(const std::vector<FrictionNumber>& numbers, const fs::path& path) {
+  for (const FrictionNumber& number : numbers) {
+    const forming::Condition& at = number.at;
+    const bool is_place = std::isfinite(at.mean_pressure) && at.mean_pressure > 0 &&
+                          std::isfinite(at.lubricant_density) && at.lubricant_density >= 0 &&
+                          std::isfinite(at.sliding_speed.value_or(0));
+    if (!is_place) reject(path, "friction under no pressure or at no density");
+  }
+}
+
 std::string attribute(const io::Hdf5Reader& file, const char* name) {
   return file.has_attribute("/", name) ? file.text("/", name) : "?";
 }
@@ -122,6 +133,7 @@ FrictionNumbers read_from(const io::Hdf5Reader& file, const fs::path& path) {
     read.numbers = numbers_of_states(file, path);
   }
   if (read.numbers.empty()) reject(path, "a result without friction");
+  check_places(read.numbers, path);
   read.origin = {fmt::format("source: {}, made by tabor {} on {}", path.string(),
                              attribute(file, "software_version"), attribute(file, "created")),
                  "made with: " + attribute(file, "command")};
