@@ -194,6 +194,12 @@ TEST(Decks, OfOnePressureAreCsvAlone) {
   EXPECT_NO_THROW(deck_for(Program::csv, table, units));
 }
 
+TEST(Decks, OfNoNumbersAreRejected) {
+  for (const std::string& name : kPrograms.all()) {
+    EXPECT_THROW(deck_for(*kPrograms.find(name), {}, unit_system("mm,s,t")), InputError) << name;
+  }
+}
+
 TEST(Decks, KeepTextOfOthersInTheirComments) {
   FrictionTable table = made_table(kPressures, kDensities, kSpeeds, some_law);
   table.group = "a\n*END\r\n/FRICTION/1\n" + std::string(300, 'x') + "\xe4 \xc3\xa4";
