@@ -74,6 +74,7 @@ TEST_P(Decks, OfLsdynaHoldEveryNumberFromRestOn) {
   ASSERT_EQ(tables.size(), kDensities.size());
   EXPECT_EQ(tables[0].id, 1001);
   std::vector<DeckNumber> computed;
+  std::size_t n_at_rest = 0;
   for (const test::LsdynaTable& one : tables) {
     for (std::size_t i = 0; i < one.numbers.size(); ++i) {
       const DeckNumber& number = one.numbers[i];
@@ -83,11 +84,13 @@ TEST_P(Decks, OfLsdynaHoldEveryNumberFromRestOn) {
       } else {
         // At rest friction is that of the lowest speed.
         ASSERT_LT(i + 1, one.numbers.size());
+        ++n_at_rest;
         EXPECT_EQ(number.friction, one.numbers[i + 1].friction);
         EXPECT_EQ(number.pressure, one.numbers[i + 1].pressure);
       }
     }
   }
+  EXPECT_EQ(n_at_rest, kPressures.size() * kDensities.size());
   ASSERT_EQ(computed.size(), table.entries.size());
   for (std::size_t i = 0; i < computed.size(); ++i) expect_same(computed[i], table.entries[i]);
 }
@@ -191,6 +194,12 @@ TEST(Decks, OfOnePressureAreCsvAlone) {
   EXPECT_NO_THROW(deck_for(Program::csv, table, units));
 }
 
+TEST(Decks, OfNoNumbersAreRejected) {
+  for (const std::string& name : kPrograms.all()) {
+    EXPECT_THROW(deck_for(*kPrograms.find(name), {}, unit_system("mm,s,t")), InputError) << name;
+  }
+}
+
 TEST(Decks, KeepTextOfOthersInTheirComments) {
   FrictionTable table = made_table(kPressures, kDensities, kSpeeds, some_law);
   table.group = "a\n*END\r\n/FRICTION/1\n" + std::string(300, 'x') + "\xe4 \xc3\xa4";
@@ -201,6 +210,36 @@ TEST(Decks, KeepTextOfOthersInTheirComments) {
   EXPECT_EQ(test::parse_ansys(ansys_deck(table, units)).size(), 3u);
   EXPECT_EQ(test::parse_openradioss(openradioss_deck(table, units)).size(), 3u);
   EXPECT_EQ(io::parse_csv(table_csv(table, units), "t").rows.size(), table.entries.size());
+}
+
+/// The comments as they were before they were broken into lines.
+std::string joined_comments(const std::string& deck, const std::string& mark) {
+  std::string text;
+  for (const std::string& line : split(deck, '\n')) {
+    if (!line.starts_with(mark)) continue;
+    const std::string rest = line.substr(mark.size());
+    text += rest.starts_with("   ") ? rest.substr(2) : "\n" + rest;
+  }
+  return text;
+}
+
+TEST(Decks, BreakTheirCommentsBetweenWords) {
+  const FrictionTable table = made_table(kPressures, kDensities, kSpeeds, some_law);
+  const std::string units =
+      " units: mm,s,t: pressure in MPa, sliding speed in mm/s, lubricant density in t/mm^2 (1 "
+      "g/m^2 "
+      "is 1e-12)\n";
+  EXPECT_THAT(joined_comments(abaqus_deck(table, unit_system("mm,s,t")), "**"), HasSubstr(units));
+  EXPECT_THAT(joined_comments(lsdyna_deck(table, unit_system("mm,s,t")), "$"), HasSubstr(units));
+}
+
+TEST(LsdynaDeck, OfFrictionAtRestIsFlat) {
+  const FrictionTable table = made_table(kPressures, {9e-4}, {0}, some_law);
+  const auto tables = test::parse_lsdyna(lsdyna_deck(table, unit_system("mm,s,t")));
+  ASSERT_EQ(tables.at(0).numbers.size(), 2 * kPressures.size());
+  for (const DeckNumber& number : tables[0].numbers) {
+    EXPECT_NEAR(number.friction, some_law(1e6 * number.pressure, 9e-4, 0), kRounding);
+  }
 }
 
 TEST(LsdynaDeck, RejectsNumbersThatDoNotFitTheirField) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "tabor/core/error.hpp"
 #include "tabor/core/printable.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
@@ -92,6 +93,7 @@ std::string density_text(double lubricant_density, const UnitSystem& units) {
 
 std::vector<std::string> head_of(const FrictionTable& table, const UnitSystem& units,
                                  const std::string& program) {
+  if (table.entries.empty()) throw InputError("friction table", "no number", "one at least", "");
   std::vector<std::string> lines = {
       fmt::format("friction coefficients for {}, by tabor {}", program, kVersion)};
   lines.insert(lines.end(), table.origin.begin(), table.origin.end());

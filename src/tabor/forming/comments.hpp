@@ -13,6 +13,7 @@ namespace tabor::forming {
 std::string digits(double value);
 
 /// What every deck says of itself: program and version, origin, units, ranges, what is left out.
+/// Throws InputError for a table without numbers.
 std::vector<std::string> head_of(const FrictionTable& table, const UnitSystem& units,
                                  const std::string& program);
 

@@ -14,12 +14,12 @@ std::string point(double speed, double friction) {
 }
 
 /// Friction over the speed. It begins at rest, where no speed was computed with the friction of the
-/// lowest speed; where friction does not depend on the speed it is flat.
+/// lowest speed; where there is no speed but rest it is flat.
 std::string curve(const PressureRow& row, const UnitSystem& units, int id) {
   std::string card = fmt::format("*DEFINE_CURVE\n$     lcid\n{:>10}\n", id);
   card += "$     sliding speed                  mu\n";
   const FrictionEntry& first = row.entries.front();
-  if (!first.at.sliding_speed) {
+  if (row.entries.back().at.sliding_speed.value_or(0) == 0) {
     return card + point(0, first.friction) + point(units.speed.of(1), first.friction);
   }
   if (*first.at.sliding_speed > 0) card += point(0, first.friction);
