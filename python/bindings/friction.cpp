@@ -1,0 +1,138 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include "tabor/analysis/states.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/topography/topography.hpp"
+#include "values.hpp"
+#include "watched.hpp"
+
+namespace tabor::python {
+namespace {
+
+using analysis::ContactRecord;
+using analysis::ContactSettings;
+using analysis::FilmRecord;
+using analysis::FluidRecord;
+using analysis::FluidSettings;
+using analysis::FrictionRecord;
+using analysis::FrictionSettings;
+using topography::Topography;
+
+/// What a friction is computed from.
+struct Pair {
+  const Topography& surface;
+  const ContactRecord& contact;
+  const FilmRecord& film;
+};
+
+void require_one_shape(const Pair& pair) {
+  const Field& film = pair.film.film.thickness;
+  const Field& gap = pair.contact.state.gap;
+  if (film.rows() == gap.rows() && film.cols() == gap.cols()) return;
+  const auto shape = [](const Field& map) {
+    return "(" + std::to_string(map.rows()) + ", " + std::to_string(map.cols()) + ")";
+  };
+  throw InputError("film", "shape " + shape(film), "that of the contact, " + shape(gap),
+                   "rain on the surface of the contact");
+}
+
+FrictionRecord friction_of(const Pair& pair, const FluidRecord* fluid,
+                           const ContactSettings& contact, const FrictionSettings& settings) {
+  const Mask mask = contact::contact_mask(pair.contact.state);
+  return analysis::friction_state(pair.contact, {mask, pair.contact.state.gap, pair.surface.grid},
+                                  pair.film, fluid, contact, settings);
+}
+
+/// (numbers, warnings, references)
+using FrictionRow = std::tuple<nb::dict, WarningTexts, std::vector<std::string>>;
+FrictionRow row_of(const FrictionRecord& record) {
+  return {dict_of(cells_of(analysis::friction_columns(), record)), texts_of(record.warnings),
+          record.references};
+}
+
+FrictionRow friction(const Topography& surface, const ContactRecord& contact,
+                     const FilmRecord& film, const ContactSettings& contact_settings,
+                     const FrictionSettings& settings) {
+  check(analysis::objection(settings, argument_of));
+  const Pair pair{surface, contact, film};
+  require_one_shape(pair);
+  return row_of(watched(nb::none(), [&](const Observer&) {
+    return friction_of(pair, nullptr, contact_settings, settings);
+  }));
+}
+
+/// The flowing film, and friction with it.
+std::pair<FluidRecord, FrictionRow> fluid_film(const Topography& surface,
+                                               const ContactRecord& contact, const FilmRecord& film,
+                                               const ContactSettings& contact_settings,
+                                               const FluidSettings& fluid_settings,
+                                               const FrictionSettings& settings,
+                                               const nb::object& progress) {
+  check(analysis::objection(fluid_settings, contact_settings, argument_of));
+  check(analysis::objection(settings, argument_of));
+  const Pair pair{surface, contact, film};
+  require_one_shape(pair);
+  auto [fluid, friction] = watched(progress, [&](const Observer& observer) {
+    const auto elasticity = analysis::make_operator(contact_settings, surface.grid);
+    FluidRecord flowing = analysis::fluid_state(*elasticity, surface.height, contact.state,
+                                                contact.summary.mean_pressure, film.film.thickness,
+                                                contact_settings, fluid_settings, observer);
+    FrictionRecord record = friction_of(pair, &flowing, contact_settings, settings);
+    return std::make_pair(std::move(flowing), std::move(record));
+  });
+  return {std::move(fluid), row_of(friction)};
+}
+
+void bind_settings(nb::module_& module) {
+  nb::class_<FrictionSettings>(module, "FrictionSettings")
+      .def(nb::init<>())
+      .def_rw("shear_strength", &FrictionSettings::shear_strength)
+      .def_rw("boundary_shear_strength", &FrictionSettings::boundary_shear_strength)
+      .def_rw("boundary_shear_share", &FrictionSettings::boundary_shear_share)
+      .def_prop_rw(
+          "area",
+          [](const FrictionSettings& self) { return tabor::friction::kAreas.of(self.area); },
+          [](FrictionSettings& self, const std::string& name) {
+            self.area = tabor::friction::kAreas.parse(name, "area");
+          });
+  nb::class_<FluidSettings>(module, "FluidSettings")
+      .def(
+          "__init__",
+          [](FluidSettings* self) { new (self) FluidSettings{.fluid = analysis::Fluid::reynolds}; })
+      .def_rw("sliding_speed", &FluidSettings::sliding_speed)
+      .def_rw("viscosity", &FluidSettings::viscosity)
+      .def_rw("pressure_viscosity", &FluidSettings::pressure_viscosity)
+      .def_rw("eyring_stress", &FluidSettings::eyring_stress);
+}
+
+/// Access to a map of a flowing film as a property.
+template <typename Access>
+auto map_of(Access access) {
+  return [access](nb::handle_t<FluidRecord> self) {
+    return view_of(access(nb::cast<const FluidRecord&>(self).state), self);
+  };
+}
+
+}  // namespace
+
+void bind_friction(nb::module_& module) {
+  using namespace nb::literals;
+  using State = tabor::friction::FluidFilmState;
+  bind_settings(module);
+  nb::class_<FluidRecord>(module, "FluidRecord")
+      .def_prop_ro("pressure", map_of([](const State& s) -> auto& { return s.film.pressure; }))
+      .def_prop_ro("fill", map_of([](const State& s) -> auto& { return s.film.fill; }))
+      .def_prop_ro("gap", map_of([](const State& s) -> auto& { return s.contact.gap; }))
+      .def_prop_ro("solid_pressure",
+                   map_of([](const State& s) -> auto& { return s.contact.pressure; }));
+  module.def("friction", &friction, "surface"_a, "contact"_a, "film"_a, "contact_settings"_a,
+             "settings"_a);
+  module.def("fluid_film", &fluid_film, "surface"_a, "contact"_a, "film"_a, "contact_settings"_a,
+             "fluid_settings"_a, "settings"_a, "progress"_a.none());
+}
+
+}  // namespace tabor::python

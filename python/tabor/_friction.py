@@ -1,0 +1,218 @@
+"""Oil on a surface, and friction of a contact with it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, overload
+
+from . import _tabor
+from ._contact import Contact, NotConverged
+from ._progress import Progress, watching
+from ._records import Record, warnings_of
+from ._surface import Array, Surface, map_to_xarray, plot_map
+from ._values import Value, optional_si, si, si_list
+
+
+class Film(Record):
+    """Oil as it was laid on a surface."""
+
+    _facts = (("density", "lubricant_density_g_per_m2", "g/m^2"), ("mean film", "mean_film_m", "m"),
+              ("wet", "wet_fraction", ""))
+
+    surface: Surface  #: that it lies on
+    _record: _tabor.FilmRecord
+
+    def __init__(self, record: _tabor.FilmRecord, surface: Surface) -> None:
+        super().__init__(record.values, warnings_of(record.warnings), tuple(record.references))
+        self.__dict__.update(_record=record, surface=surface)
+
+    @property
+    def thickness(self) -> Array:
+        """Thickness [m], shape (ny, nx), exactly zero where it is dry; a read-only view."""
+        return self._record.thickness
+
+    @property
+    def lubricant_density(self) -> float:
+        """Areal density as dosed [kg/m^2]."""
+        return self._record.lubricant_density
+
+    @property
+    def wet_fraction(self) -> float:
+        """Share of the pixels with oil."""
+        return float(self.values["wet_fraction"])
+
+    def to_xarray(self) -> Any:
+        """The thickness as a DataArray with coordinates x and y [m]; needs xarray."""
+        return map_to_xarray(self.surface, self.thickness, "film_thickness", "m")
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the thickness; needs matplotlib. Returns the axes."""
+        return plot_map(self.surface, self.thickness, "film thickness [m]", ax)
+
+
+@overload
+def rain(surface: Surface, density: Value, *, oil_density: Value = ..., droplet_height: Value = ...,
+         model: str = ..., reading: str = ..., edge: str = ..., seed: int = ...,
+         progress: Progress = ...) -> Film: ...
+@overload
+def rain(surface: Surface, density: Sequence[Value], *, oil_density: Value = ..., droplet_height: Value = ...,
+         model: str = ..., reading: str = ..., edge: str = ..., seed: int = ...,
+         progress: Progress = ...) -> list[Film]: ...
+def rain(surface: Surface, density: Any, *, oil_density: Value = 900.0, droplet_height: Value = 1e-7,
+         model: str = "droplets", reading: str = "conserving", edge: str = "closed", seed: int = 1,
+         progress: Progress = None) -> Any:
+    """Rains oil on a surface until areal densities are reached (docs/lubrication.md).
+
+    Parameters
+    ----------
+    surface : Surface without holes.
+    density : areal density as dosed [kg/m^2], "0.45 g/m^2"; several give a list of films of one rain.
+    oil_density : of the liquid [kg/m^3].
+    droplet_height : droplet volume over pixel area [m].
+    model : "droplets" run downhill, "limit" of vanishing droplets, "bottom-fill", "uniform".
+    reading : what a full pit does with the rest of a droplet: "conserving" or "literal".
+    edge : what the border of the scan is: "closed", "periodic" or "open".
+    seed : chooses where droplets fall; the same seed gives the same film.
+
+    Raises
+    ------
+    ValueError
+        For holes, negative densities, unknown names.
+    """
+    settings = _tabor.FilmSettings()
+    settings.lubricant_densities, single = si_list(density, "areal_density", "density")
+    settings.oil_density = si(oil_density, "density", "oil_density")
+    settings.droplet_height = si(droplet_height, "length", "droplet_height")
+    settings.model, settings.reading, settings.edge = model, reading, edge
+    if seed < 0:
+        raise ValueError(f"seed: got {seed}; expected zero or more")
+    settings.seed = seed
+    _tabor.require_no_holes(surface._topography)
+    with watching(progress) as told:
+        films = [Film(record, surface) for record in _tabor.rain(surface._topography, settings, told)]
+    return films[0] if single else films
+
+
+class Friction(Record):
+    """Bowden-Tabor friction of a contact with a film."""
+
+    _facts = (("dry", "friction_dry", ""), ("lubricated", "friction_lubricated", ""),
+              ("wet share", "lubricated_share", ""), ("pressure", "mean_pressure_Pa", "Pa"))
+
+    @property
+    def dry(self) -> float:
+        """Coefficient of friction without oil."""
+        return float(self.values["friction_dry"])
+
+    @property
+    def lubricated(self) -> float:
+        """Coefficient of friction where wet contact carries no shear, or that of its boundary film."""
+        return float(self.values["friction_lubricated"])
+
+    @property
+    def lubricated_share(self) -> float:
+        """Share of the contact that stands in oil."""
+        return float(self.values["lubricated_share"])
+
+
+def _friction_settings(contact: Contact, shear_strength: Value | None, boundary_shear_strength: Value | None,
+                       boundary_shear_share: float | None, area: str) -> _tabor.FrictionSettings:
+    settings = _tabor.FrictionSettings()
+    strength = contact.solid.shear_strength if shear_strength is None else shear_strength
+    settings.shear_strength = 0.0 if strength is None else si(strength, "pressure", "shear_strength")
+    settings.boundary_shear_strength = optional_si(boundary_shear_strength, "pressure", "boundary_shear_strength")
+    settings.boundary_shear_share = optional_si(boundary_shear_share, "none", "boundary_shear_share")
+    settings.area = area
+    return settings
+
+
+def friction(contact: Contact, film: Film, *, shear_strength: Value | None = None,
+             boundary_shear_strength: Value | None = None, boundary_shear_share: float | None = None,
+             area: str = "corrected") -> Friction:
+    """Friction is the real contact area times the shear strength over the load; contact that stands in oil
+    carries none, or that of a boundary film (Bowden & Tabor; docs/theory.md).
+
+    Parameters
+    ----------
+    shear_strength : tau_y [Pa] of dry contact [that of the solid].
+    boundary_shear_strength : of wet contact [Pa], at most tau_y [0]; or boundary_shear_share, over tau_y.
+    area : "corrected" or "pixels", how contact is counted.
+
+    Raises
+    ------
+    ValueError
+        Without a shear strength, for one out of range, for a film of another shape.
+    """
+    settings = _friction_settings(contact, shear_strength, boundary_shear_strength, boundary_shear_share, area)
+    values, warnings, references = _tabor.friction(contact.surface._topography, contact._record, film._record,
+                                                   contact._settings(), settings)
+    return Friction(values, warnings_of(warnings), tuple(references))
+
+
+@dataclass(frozen=True, init=False)
+class Lubricant:
+    """Oil that flows: its viscosity [Pa s], that grows with pressure by Roelands' law where the coefficient
+    [1/Pa] is given, and thins by shear where a Ree-Eyring stress [Pa] is given."""
+
+    viscosity: float
+    pressure_viscosity: float | None
+    eyring_stress: float | None
+
+    def __init__(self, viscosity: Value, pressure_viscosity: Value | None = None,
+                 eyring_stress: Value | None = None) -> None:
+        object.__setattr__(self, "viscosity", si(viscosity, "viscosity", "viscosity"))
+        object.__setattr__(self, "pressure_viscosity",
+                           optional_si(pressure_viscosity, "per_pressure", "pressure_viscosity"))
+        object.__setattr__(self, "eyring_stress", optional_si(eyring_stress, "pressure", "eyring_stress"))
+
+
+class FluidFilm(Friction):
+    """A film that flows between sliding surfaces and carries part of the load."""
+
+    _facts = Friction._facts + (("mixed", "friction_mixed", ""), ("oil carries", "fluid_load_share", ""))
+
+    pressure: Array  #: of the oil [Pa], shape (ny, nx)
+    fill: Array  #: share of the gap that oil fills
+    gap: Array  #: while sliding [m]
+    solid_pressure: Array  #: contact pressure while sliding [Pa]
+
+    @property
+    def friction_mixed(self) -> float:
+        """Coefficient of friction of solids and oil together."""
+        return float(self.values["friction_mixed"])
+
+    @property
+    def load_share(self) -> float:
+        """Share of the load that the oil carries."""
+        return float(self.values["fluid_load_share"])
+
+    @property
+    def converged(self) -> bool:
+        """Contact, film and load balance."""
+        return bool(self.values["converged"])
+
+
+def fluid_film(contact: Contact, film: Film, lubricant: Lubricant, speed: Value, *,
+               shear_strength: Value | None = None, boundary_shear_strength: Value | None = None,
+               boundary_shear_share: float | None = None, area: str = "corrected", check: bool = True,
+               progress: Progress = None) -> FluidFilm:
+    """Lets the oil flow while the flat slides along +x (docs/fluid_film.md).
+
+    ``speed`` is in m/s; the others are those of ``friction``. The contact must be periodic. Raises
+    ValueError as ``friction`` does, and NotConverged unless ``check`` is False.
+    """
+    settings = _friction_settings(contact, shear_strength, boundary_shear_strength, boundary_shear_share, area)
+    fluid = _tabor.FluidSettings()
+    fluid.sliding_speed = si(speed, "speed", "speed")
+    fluid.viscosity = lubricant.viscosity
+    fluid.pressure_viscosity = lubricant.pressure_viscosity
+    fluid.eyring_stress = lubricant.eyring_stress
+    with watching(progress) as told:
+        maps, (values, warnings, references) = _tabor.fluid_film(
+            contact.surface._topography, contact._record, film._record, contact._settings(), fluid, settings, told)
+    found = FluidFilm(values, warnings_of(warnings), tuple(references))
+    found.__dict__.update({name: getattr(maps, name) for name in ("pressure", "fill", "gap", "solid_pressure")})
+    if check and not found.converged:
+        raise NotConverged("fluid film: film and load do not balance; check=False returns it all the same", found)
+    return found

@@ -1,0 +1,48 @@
+"""What documents show is what the package does."""
+
+import doctest
+import importlib
+import os
+import pathlib
+
+import pytest
+
+import tabor as tb
+from conftest import ROOT
+
+
+@pytest.fixture(autouse=True)
+def in_the_root():
+    before = pathlib.Path.cwd()
+    os.chdir(ROOT)
+    yield
+    os.chdir(before)
+
+
+def test_the_session_of_the_page_prints_what_it_shows():
+    found = doctest.testfile(str(ROOT / "docs" / "python.md"), module_relative=False, encoding="utf-8",
+                             optionflags=doctest.REPORT_NDIFF)
+    assert found.attempted > 15 and found.failed == 0
+
+
+@pytest.mark.parametrize("name", ["_contact", "_friction", "_surface", "_values"])
+def test_examples_of_docstrings_hold(name):
+    assert doctest.testmod(importlib.import_module(f"tabor.{name}")).failed == 0
+
+
+def test_all_that_is_public_is_explained():
+    for name in tb.__all__:
+        thing = getattr(tb, name)
+        assert name == "Progress" or thing.__doc__, name
+        if isinstance(thing, type):
+            members = [value for key, value in vars(thing).items() if not key.startswith("_")]
+            assert all(value.__doc__ for value in members if callable(value) or isinstance(value, property)), name
+
+
+def test_the_readme_gives_a_friction_number():
+    lines = (ROOT / "README.md").read_text("utf-8").splitlines()
+    code = [line.removeprefix("    ") for line in lines if line.startswith(("    import tabor", "    sheet", "    pressed", "    oil", "    print("))]
+    assert len(code) >= 5
+    names = {}
+    exec("\n".join(code), names)
+    assert 0 < names["pressed"].area_fraction < 1
