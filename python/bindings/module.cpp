@@ -32,4 +32,5 @@ NB_MODULE(_tabor, module) {
   bind_contact(module);
   bind_film(module);
   bind_friction(module);
+  bind_study(module);
 }

@@ -62,15 +62,18 @@ Topography topography_of(const MapArgument& height, const TopographyState& state
 /// A surface of heights [m] that no file holds, on pixels of dx by dy [m].
 Topography make_surface(const MapArgument& height, double dx, double dy, bool periodic,
                         const std::string& source) {
-  Topography one;
-  one.height = field_of(height);
-  one.grid = {one.height.cols(), one.height.rows(), dx * static_cast<double>(one.height.cols()),
-              dy * static_cast<double>(one.height.rows())};
-  one.periodic = periodic;
-  one.source = source;
-  one.format = "array";
-  one.warnings = topography::warnings(one);
-  return one;
+  return watched(nb::none(), [&](const Observer&) {
+    Topography one;
+    one.height = field_of(height);
+    const auto nx = static_cast<double>(one.height.cols());
+    const auto ny = static_cast<double>(one.height.rows());
+    one.grid = {one.height.cols(), one.height.rows(), nx * dx, ny * dy};
+    one.periodic = periodic;
+    one.source = source;
+    one.format = "array";
+    one.warnings = topography::warnings(one);
+    return one;
+  });
 }
 
 Topography read(const std::filesystem::path& file, const scan::ReadOptions& options,

@@ -4,14 +4,21 @@ Values are SI numbers, texts with a unit ("7 MPa") or quantities of pint; maps a
 (ny, nx), row 0 on top, NaN where a height is missing. What is wrong with an argument is a ValueError.
 """
 
+import os as _os
+
+# Threads that wait between two loops sleep; spinning ones slow down whatever runs beside them. The
+# OpenMP library reads this when it is loaded.
+_os.environ.setdefault("OMP_WAIT_POLICY", "passive")
+
 from ._contact import Contact, Material, NotConverged, Solid, contact, materials
 from ._friction import Film, FluidFilm, Friction, Lubricant, fluid_film, friction, rain
 from ._progress import Progress
 from ._records import Warning
+from ._study import Results, Study
 from ._surface import Parameter, Parameters, Spectra, Spectrum, Surface, read
 from ._tabor import set_threads
 from ._tabor import version as __version__
 
 __all__ = ["Contact", "Film", "FluidFilm", "Friction", "Lubricant", "Material", "NotConverged", "Parameter",
-           "Parameters", "Progress", "Solid", "Spectra", "Spectrum", "Surface", "Warning", "contact",
+           "Parameters", "Progress", "Results", "Solid", "Spectra", "Spectrum", "Study", "Surface", "Warning", "contact",
            "fluid_film", "friction", "materials", "rain", "read", "set_threads"]

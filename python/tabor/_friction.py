@@ -97,7 +97,7 @@ def rain(surface: Surface, density: Any, *, oil_density: Value = 900.0, droplet_
 class Friction(Record):
     """Bowden-Tabor friction of a contact with a film."""
 
-    _facts = (("dry", "friction_dry", ""), ("lubricated", "friction_lubricated", ""),
+    _facts: tuple[tuple[str, str, str], ...] = (("dry", "friction_dry", ""), ("lubricated", "friction_lubricated", ""),
               ("wet share", "lubricated_share", ""), ("pressure", "mean_pressure_Pa", "Pa"))
 
     @property

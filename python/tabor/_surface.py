@@ -7,7 +7,7 @@ import os
 import struct
 import zlib
 from collections.abc import Iterable, Mapping
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -95,7 +95,7 @@ def _pixels(pixel: Any) -> tuple[float, float]:
 
 def _heights(z: Any) -> Array:
     if isinstance(z, np.ma.MaskedArray):
-        z = z.astype(np.float64).filled(np.nan)
+        z = np.ma.filled(z.astype(np.float64), np.nan)
     heights = np.asarray(z)
     if heights.dtype.kind not in "fiu":
         raise TypeError(f"heights: got an array of {heights.dtype}; expected real numbers")
@@ -266,6 +266,19 @@ class Surface:
         """Draws the heights; needs matplotlib. Returns the axes."""
         return plot_map(self, self.height, "height [m]", ax)
 
+    if TYPE_CHECKING:  # made below of the table of steps
+
+        def crop(self, *values: Any, progress: Progress = None) -> Surface: ...
+        def trim(self, *values: Any, progress: Progress = None) -> Surface: ...
+        def despike(self, *values: Any, progress: Progress = None) -> Surface: ...
+        def level(self, *values: Any, progress: Progress = None) -> Surface: ...
+        def fill(self, *values: Any, progress: Progress = None) -> Surface: ...
+        def lowpass(self, *values: Any, progress: Progress = None) -> Surface: ...
+        def highpass(self, *values: Any, progress: Progress = None) -> Surface: ...
+        def resample(self, *values: Any, progress: Progress = None) -> Surface: ...
+        def mirror(self, *, progress: Progress = None) -> Surface: ...
+        def flip(self, *values: Any, progress: Progress = None) -> Surface: ...
+
     def _lines(self) -> list[tuple[str, str]]:
         ny, nx = self.shape
         dx, dy = (_tabor.format_si(side, "m") for side in self.pixel)
@@ -333,7 +346,7 @@ def read(file: str | os.PathLike[str], *, channel: str | int | None = None,
 def coordinates(surface: Surface) -> tuple[Array, Array]:
     """Centres of the columns and of the rows [m], from the upper left corner."""
     (ny, nx), (dx, dy) = surface.shape, surface.pixel
-    return (np.arange(nx) + 0.5) * dx, (np.arange(ny) + 0.5) * dy
+    return (np.arange(nx, dtype=np.float64) + 0.5) * dx, (np.arange(ny, dtype=np.float64) + 0.5) * dy
 
 
 def map_to_xarray(surface: Surface, values: Array, name: str, unit: str) -> Any:

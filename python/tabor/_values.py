@@ -56,7 +56,8 @@ def si_list(values: Value | Sequence[Value], dimension: str, name: str) -> tuple
     """SI numbers of one value or of many, and whether it was one alone."""
     if isinstance(values, str) or not hasattr(values, "__len__") or _is_single(values):
         return [si(values, dimension, name)], True
-    found = [si(value, dimension, name) for value in values]
+    several: Any = values
+    found = [si(value, dimension, name) for value in several]
     if not found:
         raise ValueError(f"{name}: got an empty list; expected at least one value")
     return found, False

@@ -4,6 +4,8 @@ import doctest
 import importlib
 import os
 import pathlib
+import subprocess
+import sys
 
 import pytest
 
@@ -23,6 +25,23 @@ def test_the_session_of_the_page_prints_what_it_shows():
     found = doctest.testfile(str(ROOT / "docs" / "python.md"), module_relative=False, encoding="utf-8",
                              optionflags=doctest.REPORT_NDIFF)
     assert found.attempted > 15 and found.failed == 0
+
+
+def test_types_hold():
+    pytest.importorskip("mypy")
+    package = pathlib.Path(tb.__file__).parent
+    if not (package / "_tabor.pyi").is_file():
+        pytest.skip("the stub of the extension module is not built")
+    checked = subprocess.run([sys.executable, "-m", "mypy", "--config-file", ROOT / "pyproject.toml", "--cache-dir",
+                              os.devnull, package], capture_output=True, text=True, check=False)
+    assert checked.returncode == 0, checked.stdout
+
+
+def test_every_step_has_a_method_and_a_type():
+    source = (ROOT / "python" / "tabor" / "_surface.py").read_text("utf-8")
+    for name, _, text in tb._tabor.treatment_steps():
+        assert text[1:] in getattr(tb.Surface, name).__doc__
+        assert f"        def {name}(self, *" in source
 
 
 @pytest.mark.parametrize("name", ["_contact", "_friction", "_surface", "_values"])

@@ -1,0 +1,56 @@
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "bindings.hpp"
+#include "tabor/study/sweep.hpp"
+#include "watched.hpp"
+
+namespace tabor::python {
+namespace {
+
+using study::Outcome;
+using study::Study;
+
+Outcome run(const Study& study, const std::filesystem::path& folder, int jobs, bool retry,
+            const nb::object& progress) {
+  return watched(progress, [&](const Observer& observer) {
+    study::SweepOptions options;
+    options.jobs = jobs;
+    options.retry = retry;
+    options.observer = observer;
+    options.command = "tabor.Study.run";
+    return study::run(study, folder, options);
+  });
+}
+
+std::vector<std::string> warnings_of(const Outcome& outcome) {
+  std::vector<std::string> lines = outcome.warnings;
+  for (const analysis::Finding& finding : outcome.findings) {
+    lines.push_back(analysis::line_of(finding));
+  }
+  return lines;
+}
+
+}  // namespace
+
+void bind_study(nb::module_& module) {
+  using namespace nb::literals;
+  nb::class_<Study>(module, "Study")
+      .def_ro("title", &Study::title)
+      .def_prop_ro("n_cases", &Study::n_cases)
+      .def_prop_ro("n_scans", [](const Study& self) { return self.scans.size(); })
+      .def_prop_ro("toml", [](const Study& self) { return study::to_toml(self); });
+  nb::class_<Outcome>(module, "Outcome")
+      .def_ro("n_cases", &Outcome::n_cases)
+      .def_ro("n_done", &Outcome::n_done)
+      .def_ro("n_failed", &Outcome::n_failed)
+      .def_ro("n_not_converged", &Outcome::n_not_converged)
+      .def_ro("n_contacts", &Outcome::n_contacts)
+      .def_ro("failures", &Outcome::failures)
+      .def_prop_ro("warnings", &warnings_of);
+  module.def("read_study", &study::read_study, "file"_a);
+  module.def("run_study", &run, "study"_a, "folder"_a, "jobs"_a, "retry"_a, "progress"_a.none());
+}
+
+}  // namespace tabor::python
