@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _tabor
+from ._foreign import foreign
 from ._optional import needs
 from ._progress import Progress, watching
 from ._records import Warning, table_html, warnings_of
@@ -114,7 +115,8 @@ class Surface:
     ----------
     z : array_like, shape (ny, nx)
         Heights [m], row 0 on top, asperities up, NaN or masked where there is none. C-ordered float64
-        is copied once, anything else is converted first.
+        is copied once, anything else is converted first. Without ``pixel``: a surface of SurfaceTopography,
+        surfalize or gwyfile, or an array of xarray with coordinates x and y and units.
     pixel : value or (value, value)
         Side of a pixel [m], or those along x and y.
     unit : str, optional
@@ -142,12 +144,17 @@ class Surface:
 
     _topography: _tabor.Topography
 
-    def __init__(self, z: npt.ArrayLike, *, pixel: Value | tuple[Value, Value], unit: str = "m",
+    def __init__(self, z: Any, *, pixel: Value | tuple[Value, Value] | None = None, unit: str = "m",
                  periodic: bool = False, name: str = "array") -> None:
+        if pixel is None:
+            other = foreign(z)
+            if other is None:
+                raise TypeError('Surface: give the side of a pixel, pixel="0.67 um"')
+            z, pixel, unit, periodic = other
         dx, dy = _pixels(pixel)
         heights = _heights(z)
         if unit != "m":
-            heights = heights * _tabor.parse_si("1" + unit, "length", "unit")
+            heights = heights * _tabor.parse_si(f"1 {unit}", "length", "unit")
         self.__dict__["_topography"] = _tabor.make_surface(heights, dx, dy, periodic, name)
 
     @classmethod
