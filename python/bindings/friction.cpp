@@ -96,10 +96,14 @@ void bind_settings(nb::module_& module) {
       .def_rw("boundary_shear_share", &FrictionSettings::boundary_shear_share)
       .def_prop_rw(
           "area",
-          [](const FrictionSettings& self) { return tabor::friction::kAreas.of(self.area); },
-          [](FrictionSettings& self, const std::string& name) {
-            self.area = tabor::friction::kAreas.parse(name, "area");
-          });
+          [](const FrictionSettings& self) {
+            return self.area ? std::optional(tabor::friction::kAreas.of(*self.area)) : std::nullopt;
+          },
+          [](FrictionSettings& self, const std::optional<std::string>& name) {
+            self.area.reset();
+            if (name) self.area = tabor::friction::kAreas.parse(*name, "area");
+          },
+          nb::for_setter(nb::arg("name").none()));
   nb::class_<FluidSettings>(module, "FluidSettings")
       .def(
           "__init__",

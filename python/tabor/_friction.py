@@ -117,7 +117,7 @@ class Friction(Record):
 
 
 def _friction_settings(contact: Contact, shear_strength: Value | None, boundary_shear_strength: Value | None,
-                       boundary_shear_share: float | None, area: str) -> _tabor.FrictionSettings:
+                       boundary_shear_share: float | None, area: str | None) -> _tabor.FrictionSettings:
     settings = _tabor.FrictionSettings()
     strength = contact.solid.shear_strength if shear_strength is None else shear_strength
     settings.shear_strength = 0.0 if strength is None else si(strength, "pressure", "shear_strength")
@@ -129,7 +129,7 @@ def _friction_settings(contact: Contact, shear_strength: Value | None, boundary_
 
 def friction(contact: Contact, film: Film, *, shear_strength: Value | None = None,
              boundary_shear_strength: Value | None = None, boundary_shear_share: float | None = None,
-             area: str = "corrected") -> Friction:
+             area: str | None = None) -> Friction:
     """Friction is the real contact area times the shear strength over the load; contact that stands in oil
     carries none, or that of a boundary film (Bowden & Tabor; docs/theory.md).
 
@@ -137,7 +137,8 @@ def friction(contact: Contact, film: Film, *, shear_strength: Value | None = Non
     ----------
     shear_strength : tau_y [Pa] of dry contact [that of the solid].
     boundary_shear_strength : of wet contact [Pa], at most tau_y [0]; or boundary_shear_share, over tau_y.
-    area : "corrected" or "pixels", how contact is counted.
+    area : "corrected" or "pixels", how contact is counted [pixels where the solid has a saturation pressure,
+        else corrected].
 
     Raises
     ------
@@ -195,7 +196,7 @@ class FluidFilm(Friction):
 
 def fluid_film(contact: Contact, film: Film, lubricant: Lubricant, speed: Value, *,
                shear_strength: Value | None = None, boundary_shear_strength: Value | None = None,
-               boundary_shear_share: float | None = None, area: str = "corrected", check: bool = True,
+               boundary_shear_share: float | None = None, area: str | None = None, check: bool = True,
                progress: Progress = None) -> FluidFilm:
     """Lets the oil flow while the flat slides along +x (docs/fluid_film.md).
 

@@ -83,7 +83,7 @@ class Study:
     def __init__(self, scans: Mapping[str, _Path | Sequence[_Path]], solid: Solid, *,
                  pressure: Value | Sequence[Value], density: Value | Sequence[Value] = 0.0,
                  treatment: Sequence[str] = (), shear_strength: Value | None = None,
-                 boundary_shear_strength: Value | None = None, area: str = "corrected",
+                 boundary_shear_strength: Value | None = None, area: str | None = None,
                  oil_density: Value = 900.0, droplet_height: Value = 1e-7, model: str = "droplets",
                  reading: str = "conserving", edge: str = "closed", seed: int = 1, boundary: str = "periodic",
                  tolerance: float = 1e-6, title: str = "study") -> None:
@@ -91,7 +91,7 @@ class Study:
         wet = optional_si(boundary_shear_strength, "pressure", "boundary_shear_strength")
         counter = solid.counter_youngs_modulus
         text = _table("", {
-            "title": _text(title), "area": _text(area),
+            "title": _text(title), "area": None if area is None else _text(area),
             "shear_strength": None if strength is None else _quantity(si(strength, "pressure", "shear_strength"), "Pa"),
             "boundary_shear_strength": None if wet is None else _quantity(wet, "Pa")})
         text += _table("[material]", {

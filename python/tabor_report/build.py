@@ -8,6 +8,7 @@ from tabor_report.figures import (
     contact_area,
     contact_clusters,
     contact_map,
+    density_friction,
     dry_friction,
     ehl_curves,
     ehl_impact,
@@ -102,12 +103,14 @@ def study_figures(source, options):
         yield from _present(lubricant_map.draw(item))
         yield from _present(contact_clusters.draw(item))
     yield from _present(lubricated_friction.draw(source, options.error_bar))
+    yield from _present(density_friction.of_study(source, options.error_bar))
     yield from _present(mixed_friction.draw(source, options.error_bar))
 
 
 def single_figures(source):
-    yield topography.draw(source.height(), source.pixel, "topography", source.title)
     yield from _present(single_curves.draw(source))
+    yield from _present(density_friction.of_single(source))
+    yield topography.draw(source.height(), source.pixel, "topography", source.title)
     yield from single_maps.draw(source)
 
 

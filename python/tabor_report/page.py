@@ -19,6 +19,7 @@ def render(source, figures, command):
     return _template().render(
         title=source.title,
         subtitle=_subtitle(source),
+        answers=_answers(source),
         warnings=source.warnings,
         figures=[_figure(number, *parts) for number, parts in enumerate(figures, 1)],
         bibtex=citations.bibtex(source.facts),
@@ -29,6 +30,12 @@ def render(source, figures, command):
         version=source.facts.get("software_version", ""),
         **sections,
     )
+
+
+def _answers(source):
+    """What friction against density says; nothing for a result without it."""
+    short, every = getattr(source, "answers", ([], []))
+    return {"short": short, "all": every if len(every) > len(short) else []}
 
 
 def _template():

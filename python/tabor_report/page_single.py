@@ -26,13 +26,25 @@ _HIGHLIGHTS = {
 
 
 def _highlights(single):
-    """What a reader wants first, of the first two states."""
+    """What a reader wants first: of one or two states their numbers, of more the range."""
+    if len(single.states) > 2:
+        return _ranges(single.states)
     return [
-        (f"{name}, {state.label}", show_value(state.facts[key]))
-        for state in single.states[:2]
+        (f"{name}, {state.name}", show_value(state.facts[key]))
+        for state in single.states
         for key, (name, show_value) in _HIGHLIGHTS.items()
         if isinstance(state.facts.get(key), float)
     ]
+
+
+def _ranges(states):
+    shown = {
+        "mean_pressure_Pa": ("mean pressures", units.pressure),
+        "lubricant_density_g_per_m2": ("lubricant densities", units.density),
+        **_HIGHLIGHTS,
+    }
+    values = {key: [state.facts[key] for state in states if isinstance(state.facts.get(key), float)] for key in shown}
+    return [(name, units.span(values[key], show_value)) for key, (name, show_value) in shown.items() if values[key]]
 
 
 def _scan(single):
@@ -51,6 +63,8 @@ def _scan(single):
         "group": "",
         "sha256": sha256[0] if sha256 else "",
         "rows": [(name, text) for name, text in rows if text],
+        "steps": [],
+        "treatment": [],
         "warnings": hdf.text_list(facts.get("doubts")),
     }
 
@@ -75,7 +89,7 @@ def _results(states):
     if sure:
         answers = ["yes" if state.facts.get("converged", True) else "NO" for state in states]
         rows.append({"sure": all(sure), "cells": ["converged", *answers]})
-    header = ["", *(f"state {int(state.key)}" for state in states)]
+    header = ["", *(state.name for state in states)]
     return {
         "header": header,
         "rows": rows if states else [],

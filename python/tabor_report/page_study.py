@@ -11,9 +11,9 @@ MAX_ROWS = 400  # of the results table; results.csv holds all
 def sections(study):
     return {
         "highlights": _highlights(study),
-        "scans": [_scan(scan) for scan in study.scans],
+        "scans": [_scan(scan, _own_settings(study.scans)) for scan in study.scans],
         "treatments": _treatments(study.scans),
-        "settings": _settings(study.facts),
+        "settings": _settings(study.facts, _own_settings(study.scans)),
         "results": _results(study.table),
         "averages": _averages(study.averages),
     }
@@ -39,19 +39,28 @@ def _highlights(study):
 
 def _range(table, name, show):
     values = table.distinct(name)
-    if not values:
-        return ""
-    low, high = show(values[0]), show(values[-1])
-    return low if low == high else f"{low} to {high}"
+    return units.span(values, show) if values else ""
 
 
-def _scan(scan):
+_SETTINGS_OF_SCANS = {"contact": "contact", "area": "area used for friction", "reading": "reading of the droplet rule"}
+
+
+def _own_settings(scans):
+    """The settings in which the scans of the study differ, by the names of their attributes."""
+    return [name for name in _SETTINGS_OF_SCANS if len({scan.facts.get(name) for scan in scans}) > 1]
+
+
+def _scan(scan, own):
     facts = scan.facts
+    rows = _surface_rows(scan) if scan.is_treated else [("surface", "not treated yet")]
+    rows += [(_SETTINGS_OF_SCANS[name], facts[name]) for name in own if name in facts]
     return {
         "file": scan.file,
         "group": scan.group,
         "sha256": facts.get("input_sha256", ""),
-        "rows": _surface_rows(scan) if scan.is_treated else [("surface", "not treated yet")],
+        "rows": rows,
+        "steps": scan.steps,
+        "treatment": scan.treatment,
         "warnings": scan.surface_warnings,
     }
 
@@ -80,14 +89,21 @@ def _hurst_rows(scan):
 
 
 def _treatments(scans):
-    """[(steps, files)], scans with the same chain together."""
+    """[(steps, names)], scans with the same chain together: by their groups where no group has two chains."""
     chains = {}
     for scan in scans:
-        chains.setdefault(tuple(scan.treatment), []).append(scan.file)
-    return list(chains.items())
+        chains.setdefault(tuple(scan.steps), []).append(scan)
+    if len(scans) == 1:
+        return [(tuple(scans[0].treatment), [scans[0].file])]
+    groups = [group for members in chains.values() for group in {scan.group for scan in members}]
+    by_group = len(set(groups)) == len(groups)
+    return [
+        (steps, list(dict.fromkeys(scan.group if by_group else scan.file for scan in members)))
+        for steps, members in chains.items()
+    ]
 
 
-def _settings(facts):
+def _settings(facts, own):
     cap = facts.get("saturation_pressure_Pa")
     rows = [
         ("Young's modulus E", facts.get("youngs_modulus_Pa"), units.pressure),
@@ -95,7 +111,7 @@ def _settings(facts):
         ("effective modulus E*", facts.get("effective_modulus_Pa"), units.pressure),
         ("shear strength τ_y", facts.get("shear_strength_Pa"), units.pressure),
         ("oil density", facts.get("oil_density_kg_per_m3"), lambda value: f"{units.number(value)} kg/m³"),
-        ("area used for friction", facts.get("area"), str),
+        ("area used for friction", "as each scan says" if "area" in own else facts.get("area"), str),
         ("oil viscosity η", facts.get("viscosity_Pa_s"), lambda value: f"{units.number(value)} Pa s"),
         (
             "pressure-viscosity coefficient α",

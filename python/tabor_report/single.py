@@ -5,9 +5,10 @@ import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tabor_report import hdf
+from tabor_report import density_curves, hdf
 from tabor_report.errors import InputError, readable
 from tabor_report.states import SingleState
+from tabor_report.table import Table
 
 
 @dataclass
@@ -19,12 +20,18 @@ class Single:
     surface: object
     states: list
     warnings: list = field(default_factory=list)
+    density_curves: Table = field(default_factory=lambda: Table({}))  # empty where a file has none
 
     kind = "single"
 
     @property
     def title(self):
         return readable(Path(self.surface_facts.get("source") or self.path.name).name)
+
+    @property
+    def answers(self):
+        """(short, all): what friction against density says."""
+        return density_curves.answers(self.facts, self.density_curves)
 
     @property
     def surface_facts(self):
@@ -49,6 +56,7 @@ def load(path, file):
         SingleState(key, node, _saturation_pressure(settings, hdf.attributes(node))) for key, node in nodes
     ]
     single = Single(path, file, facts, settings, file["surface"], states)
+    single.density_curves = density_curves.load(file, "density_curves", ("friction_lubricated",), single.warnings)
     single.warnings.extend(dict.fromkeys(_warnings_about(single)))
     return single
 
@@ -78,6 +86,6 @@ def _warnings_about(single):
             yield warning
     for state in single.states:
         if not state.facts.get("converged", True):
-            yield f"State {state.key} did not converge; do not use its numbers without a closer look."
+            yield f"{state.name}: did not converge; do not use its numbers without a closer look."
         yield from hdf.text_list(state.facts.get("warnings"))
     yield from lines

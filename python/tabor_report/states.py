@@ -71,6 +71,15 @@ class SingleState:
         return ", ".join(parts) or f"state {self.key}"
 
     @property
+    def name(self):
+        """'7 MPa, 0.45 g/m²', with the speed where the oil flows: what tells it from the others of its file."""
+        speed = self.facts.get("sliding_speed_m_per_s")
+        parts = [units.pressure(self.pressure)] if self.pressure is not None else []
+        parts += [units.density(self.density)] if self.density is not None else []
+        parts += [units.si(speed, "m/s")] if speed else []
+        return ", ".join(parts) or f"state {self.key}"
+
+    @property
     def pressure_label(self):
         return f"P = {units.pressure(self.pressure)}" if self.pressure is not None else f"state {self.key}"
 

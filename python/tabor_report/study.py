@@ -3,10 +3,13 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tabor_report import hdf
+from tabor_report import density_curves, hdf
 from tabor_report.errors import InputError, readable
 from tabor_report.states import Film, Flow, StudyContact
 from tabor_report.table import Table
+
+
+_DENSITY_COLUMNS = tuple(f"friction_lubricated_{kind}" for kind in ("mean", "std", "sem")) + ("n",)
 
 
 @dataclass
@@ -39,6 +42,11 @@ class Scan:
     @property
     def treatment(self):
         return hdf.text_list(self.facts.get("treatment"))
+
+    @property
+    def steps(self):
+        """The treatment without what its steps say of this scan: 'level=plane' of 'level=plane: 9 points, ...'."""
+        return [text.split(": ", 1)[0] for text in self.treatment]
 
     @property
     def surface_warnings(self):
@@ -98,6 +106,7 @@ class Study:
     averages: Table
     scans: list
     experiment: Table
+    density_averages: Table  # empty where a study has none
     warnings: list = field(default_factory=list)
 
     kind = "study"
@@ -110,6 +119,11 @@ class Study:
     def saturation_pressure(self):
         """[Pa], None if elastic."""
         return self.facts.get("saturation_pressure_Pa")
+
+    @property
+    def answers(self):
+        """(short, all): what friction against density says."""
+        return density_curves.answers(self.facts, self.density_averages)
 
     @property
     def groups(self):
@@ -130,6 +144,7 @@ def load(path, file):
         averages=_table(path, file, "averages"),
         scans=_scans(path, file, warnings),
         experiment=_experiment(file),
+        density_averages=density_curves.load(file, "density_averages", _DENSITY_COLUMNS, warnings),
         warnings=warnings,
     )
     study.warnings.extend(list(_warnings_about(study)))

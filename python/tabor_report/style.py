@@ -60,6 +60,11 @@ def colours(n):
     return [to_hex(colour) for colour in plt.get_cmap("viridis", 2 * n)(np.linspace(0, 0.93, n))]
 
 
+def sequence(n):
+    """n colours for rising values, from dark to light."""
+    return [to_hex(colour) for colour in plt.get_cmap("viridis")(np.linspace(0, 0.86, n))]
+
+
 def curve_styles(n):
     """n pairs of a colour, which no other has, and a marker.
 

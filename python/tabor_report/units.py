@@ -69,6 +69,12 @@ def si(value, unit):
     return f"{number(value * factor)} {shown}".rstrip()
 
 
+def span(values, show):
+    """'2 MPa to 15 MPa', or '2 MPa' where all are alike."""
+    low, high = show(min(values)), show(max(values))
+    return low if low == high else f"{low} to {high}"
+
+
 def density(value):
     return f"{number(value)} g/m²"
 

@@ -71,6 +71,14 @@ def test_dry_friction_is_area_times_shear_strength_over_pressure(rough):
     assert found.lubricated == found.dry and found.lubricated_share == 0
 
 
+def test_pixels_are_counted_where_contact_saturates_and_else_corrected(rough, steel):
+    elastic = tb.Solid(youngs_modulus="210 GPa", poissons_ratio=0.3)
+    for solid, counted in ((steel, "pixels"), (elastic, "corrected")):
+        dry, film = tb.contact(rough, "50 MPa", solid), tb.rain(rough, 0)
+        found = [tb.friction(dry, film, shear_strength="300 MPa", area=area).dry for area in (None, counted)]
+        assert found[0] == found[1]
+
+
 def test_a_flooded_contact_has_the_friction_of_its_boundary_film(rough, steel):
     dry = tb.contact(rough, "50 MPa", steel)
     flooded = tb.rain(rough, "1 kg/m^2", model="uniform")

@@ -141,24 +141,38 @@ TEST(WarningsOfFilm, AFilmOverTheHighestPointFloodsWhateverItsModel) {
     deposition::Dose dose;
     dose.model = model;
     dose.mean_films = {1e-4};
-    const Warnings list = of_film(films(dose)[0]);
+    const Warnings list = of_film(rough(), films(dose)[0]);
     EXPECT_THAT(codes_of(list), Contains("flood")) << name(model);
     EXPECT_THAT(list[0].text, HasSubstr("flood"));
     dose.mean_films = {model == Model::uniform ? 0 : 1e-8};
-    EXPECT_THAT(codes_of(of_film(films(dose)[0])), Not(Contains("flood"))) << name(model);
+    EXPECT_THAT(codes_of(of_film(rough(), films(dose)[0])), Not(Contains("flood"))) << name(model);
   }
 }
 
 TEST(WarningsOfFilm, TellOfFewDropletsAndOfOilThatRanOff) {
   deposition::Dose dose;
   dose.mean_films = {1e-7};
-  EXPECT_THAT(codes_of(of_film(films(dose)[0])), Not(Contains("few-droplets")));
+  EXPECT_THAT(codes_of(of_film(rough(), films(dose)[0])), Not(Contains("few-droplets")));
   dose.droplet_height = 2e-7;
-  EXPECT_THAT(codes_of(of_film(films(dose)[0])), Contains("few-droplets"));
+  EXPECT_THAT(codes_of(of_film(rough(), films(dose)[0])), Contains("few-droplets"));
   dose.mean_films = {3e-7};
-  EXPECT_THAT(codes_of(of_film(films(dose)[0])), testing::IsEmpty());
+  EXPECT_THAT(codes_of(of_film(rough(), films(dose)[0])), testing::IsEmpty());
   dose.edge = deposition::Edge::open;
-  EXPECT_THAT(codes_of(of_film(films(dose)[0])), Contains("oil-lost"));
+  EXPECT_THAT(codes_of(of_film(rough(), films(dose)[0])), Contains("oil-lost"));
+}
+
+TEST(WarningsOfFilm, TellOfPocketsThatAFilterTookUnlessThereIsNoOil) {
+  topography::Topography surface = rough();
+  deposition::Dose dose;
+  dose.mean_films = {3e-7, 0};
+  EXPECT_THAT(codes_of(of_film(surface, films(dose)[0])), Not(Contains("filtered")));
+  surface = topography::apply({"lowpass=hann:8/L"}, surface);
+  const Warnings found = of_film(surface, films(dose)[0]);
+  ASSERT_THAT(codes_of(found), Contains("filtered"));
+  EXPECT_THAT(found[0].text, HasSubstr("lowpass=hann:8/L"));
+  EXPECT_THAT(codes_of(of_film(surface, films(dose)[1])), Not(Contains("filtered")));
+  surface = topography::apply({"highpass=hann:2/L"}, rough());
+  EXPECT_THAT(codes_of(of_film(surface, films(dose)[0])), Not(Contains("filtered")));
 }
 
 TEST(WarningsOfFilm, TellTheShareOfTheOilThatRanOff) {
@@ -166,7 +180,7 @@ TEST(WarningsOfFilm, TellTheShareOfTheOilThatRanOff) {
   film.thickness = Field::Zero(2, 2);
   film.dosed_volume = 8e-12;
   film.lost_volume = 2e-12;
-  const Warnings found = of_film(film);
+  const Warnings found = of_film(rough(), film);
   ASSERT_EQ(codes_of(found), std::vector<std::string>{"oil-lost"});
   EXPECT_THAT(found[0].text, HasSubstr("25 % of the liquid ran off"));
 }
@@ -198,7 +212,12 @@ TEST(WarningsOfFriction, AnAreaAtItsBoundIsAClamp) {
     const bool at_bound = area <= pressure / cap;
     EXPECT_EQ(friction::estimate(contact, 7e7).at_bound, at_bound) << area;
     EXPECT_THAT(friction_codes(contact), Contains("clamp").Times(at_bound ? 1 : 0)) << area;
-    EXPECT_THAT(friction_codes(contact, 0, friction::Area::pixels), testing::IsEmpty());
+    const friction::Estimate counted = friction::estimate(contact, 7e7, friction::Area::pixels);
+    EXPECT_FALSE(counted.at_bound);
+    EXPECT_EQ(counted.corrected_at_bound, at_bound);
+    EXPECT_DOUBLE_EQ(counted.friction_dry, 0.05 * 7e7 / pressure);
+    EXPECT_THAT(friction_codes(contact, 0, friction::Area::pixels),
+                Contains("clamp").Times(at_bound ? 1 : 0));
     friction::Contact elastic = contact;
     elastic.saturation_pressure = contact::kNoSaturation;
     EXPECT_THAT(friction_codes(elastic), testing::IsEmpty());

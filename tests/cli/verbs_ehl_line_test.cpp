@@ -49,6 +49,48 @@ TEST(EhlLine, KeepsItsProfile) {
   const io::Hdf5Reader reader(file);
   EXPECT_TRUE(reader.exists("/profile/pressure"));
   EXPECT_TRUE(reader.exists("/profile/hertz_pressure"));
+  EXPECT_TRUE(reader.exists("/profile/shear_stress"));
+  EXPECT_TRUE(reader.exists("/profile/local_friction"));
+}
+
+std::vector<std::string> with_asperity(const std::string& height) {
+  return quick({"--set", "grid.nodes=1200", "--set", "roughness.width=10um", "--set",
+                "roughness.height=" + height});
+}
+
+TEST(EhlLine, SaysWhatAnAsperityMakesOfLocalFrictionAndPressure) {
+  const io::Json none = json_of(with_asperity("0nm"))["single_asperity"];
+  EXPECT_EQ(none["local_friction_ratio"], 1);
+  EXPECT_EQ(none["pressure_ratio"], 1);
+  const io::Json some = json_of(with_asperity("80nm"))["single_asperity"];
+  EXPECT_GT(some["local_friction_ratio"], 1.1);
+  EXPECT_GT(some["pressure_ratio"], 1.1);
+  EXPECT_GT(some["local_friction"], none["local_friction"]);
+  EXPECT_THAT(run_tabor(with_asperity("80nm")).out, HasSubstr("on the asperity"));
+  EXPECT_FALSE(json_of(quick()).contains("single_asperity"));
+}
+
+TEST(EhlLine, GivesNoLocalFrictionRatioWithoutSliding) {
+  std::vector<std::string> words = with_asperity("80nm");
+  words.insert(words.end(), {"--set", "motion.sliding_speed=0 m/s"});
+  const io::Json effect = json_of(words)["single_asperity"];
+  EXPECT_EQ(effect["local_friction"], 0);
+  EXPECT_TRUE(effect["local_friction_ratio"].is_null());
+  EXPECT_GT(effect["pressure_ratio"], 1);
+}
+
+TEST(EhlLine, RejectsAsperitiesOfNoUse) {
+  const auto rejected = [](const std::vector<std::string>& changes, const std::string& message) {
+    std::vector<std::string> words = quick();
+    for (const std::string& change : changes) words.insert(words.end(), {"--set", change});
+    const Outcome outcome = run_tabor(words);
+    EXPECT_EQ(outcome.code, 3) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(message));
+  };
+  rejected({"roughness.height=100nm", "roughness.width=1um"}, "give more nodes");
+  rejected({"roughness.height=100nm"}, "roughness.width");
+  rejected({"roughness.height=100nm", "roughness.width=50um", "roughness.place=5mm"},
+           "place of an asperity");
 }
 
 TEST(EhlLine, RejectsWithTheReason) {

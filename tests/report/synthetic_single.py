@@ -1,12 +1,14 @@
 """Result files of one scan, as `contact -o`, `lubricate -o` and `friction -o` write them."""
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 
 from synthetic_file import add_map, add_nxdata, new_file
 from synthetic_maps import PIXEL, SATURATION, contact_maps, film_map, height_map
-from synthetic_study import Recipe
+from synthetic_study import Recipe, write_density_curves
+from synthetic_tables import density_curves
 
 
 def write_single(path, recipe=Recipe(pressures=(5e6, 10e6), densities=(0.9,)), film=True, contact=True):
@@ -29,6 +31,10 @@ def write_single(path, recipe=Recipe(pressures=(5e6, 10e6), densities=(0.9,)), f
         pairs = itertools.product(recipe.pressures if contact else (None,), recipe.densities)
         for key, (pressure, density) in enumerate(pairs):
             _write_single_state(file, key, height, pressure, density if film else None, recipe)
+        if recipe.density_curves:
+            write_density_curves(file, density_curves(replace(recipe, groups=("",))))
+            del file["density_averages"]
+            file.attrs["answers"] = [text.strip() for text in file.attrs["answers"]]
 
 
 def _write_single_state(file, key, height, pressure, density, recipe):

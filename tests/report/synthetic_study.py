@@ -13,7 +13,7 @@ import numpy as np
 
 from synthetic_file import add_map, add_nxdata, new_file
 from synthetic_maps import OIL_DENSITY, PIXEL, SATURATION, contact_maps, film_map, height_map, spectra
-from synthetic_tables import average, measured, write_columns, write_csv
+from synthetic_tables import average, average_curves, density_curves, measured, write_columns, write_csv
 
 YOUNG, POISSON, SHEAR_STRENGTH = 70e9, 0.33, 70e6
 
@@ -37,6 +37,8 @@ class Recipe:
     warnings: dict = field(default_factory=dict)  # {scan index: text}
     title: str = "EDT aluminium on steel, before sliding"
     speeds: tuple = ()  # [m/s]: the oil flows
+    density_curves: bool = False  # friction against density and what it says
+    contacts: dict = field(default_factory=dict)  # {group: "elastic"}: settings of its own
     unsteady: tuple = ()  # (scan index, speed index) whose film did not converge
 
     @property
@@ -216,10 +218,23 @@ def _write_results(path, recipe, scans, rows, averages):
             file.attrs["saturation_pressure_Pa"] = SATURATION
         write_columns(file.create_group("table"), rows)
         write_columns(file.create_group("averages"), averages)
+        if recipe.density_curves:
+            write_density_curves(file, density_curves(recipe))
         for index, scan in enumerate(scans):
-            _link_scan(file.create_group(f"scans/{index:04d}"), scan)
+            node = file.create_group(f"scans/{index:04d}")
+            _link_scan(node, scan)
+            node.attrs["contact"] = recipe.contacts.get(scan["group"], "saturated")
         if recipe.experiment:
             write_columns(file.create_group("experiment"), measured(recipe))
+
+
+def write_density_curves(file, curves):
+    averages = average_curves(curves)
+    write_columns(file.create_group("density_curves"), curves)
+    write_columns(file.create_group("density_averages"), averages)
+    keys = dict.fromkeys((row["group"], row["mean_pressure_Pa"]) for row in averages)
+    sentences = [f"{group} at {1e-6 * pressure:g} MPa: full from 0.1 g/m^2" for group, pressure in keys]
+    file.attrs["answers"] = sentences
 
 
 def _link_scan(group, scan):

@@ -24,6 +24,37 @@ def average(rows):
     return result
 
 
+DOSES = (0.001, 0.01, 0.1, 1.0, 10.0)  # [g/m^2]
+
+
+def density_curves(recipe):
+    """Rows of /density_curves, invented: flat from 0.1 to 1 g/m^2, then drowned; scans differ a little."""
+    return [
+        {
+            "scan": f"scan {index}",
+            "group": group,
+            "mean_pressure_Pa": pressure,
+            "lubricant_density_g_per_m2": dose,
+            "lubricated_share": share,
+            "friction_lubricated": (0.3 - 0.01 * index - 2e-9 * pressure) * (1 - share),
+        }
+        for index, group in enumerate(recipe.groups)
+        for pressure in recipe.pressures
+        for dose, share in zip(DOSES, (0.05, 0.1, 0.2, 0.2, 1.0))
+    ]
+
+
+def average_curves(rows):
+    """Rows of /density_averages."""
+    names = ("group", "mean_pressure_Pa", "lubricant_density_g_per_m2")
+    result = []
+    for key in dict.fromkeys(tuple(row[name] for name in names) for row in rows):
+        members = [row for row in rows if tuple(row[name] for name in names) == key]
+        line = dict(zip(names, key)) | {"n": len(members)}
+        result.append(line | _statistics(members, ("lubricated_share", "friction_lubricated")))
+    return result
+
+
 def _key(row):
     return tuple(row.get(name) for name in KEYS)
 

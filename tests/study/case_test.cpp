@@ -150,6 +150,46 @@ TEST(Tasks, ASettingChangesOnlyWhatDependsOnIt) {
   EXPECT_NE(treatment.contacts[0].key, before.contacts[0].key);
 }
 
+TEST(Tasks, SettingsOfAScanAreAsGoodAsThoseOfItsStudy) {
+  const ExampleStudy example;
+  Study own = example.read();
+  own.scans[0].own = {.mean_pressures = {{7e6}},
+                      .lubricant_densities = {{9e-4}},
+                      .treatment = topography::Treatment{"level=plane"},
+                      .deformation = Deformation::elastic,
+                      .reading = deposition::Reading::literal};
+  const ScanTasks theirs = tasks_after([](Study& study) {
+    study.settings.mean_pressures = {7e6};
+    study.settings.film.lubricant_densities = {9e-4};
+    study.treatment = {"level=plane"};
+    study.settings.contact.saturation_pressure.reset();
+    study.settings.film.reading = deposition::Reading::literal;
+  });
+  const std::vector<ScanTasks> all = tasks_of(own);
+  EXPECT_EQ(all[0].cases.at(0).at(0).key, theirs.cases.at(0).at(0).key);
+  EXPECT_EQ(all[0].cases.size(), 1u);
+  EXPECT_EQ(all[1].cases.at(0).at(0).key, tasks_of(ExampleStudy().read())[1].cases.at(0).at(0).key);
+}
+
+TEST(Tasks, WetSharesDependOnTheContactAndTheOilButOnNoDensityOrStrength) {
+  const ScanTasks before = tasks();
+  ASSERT_EQ(before.wet_shares.size(), 2u);
+  const ScanTasks same = tasks_after([](Study& study) {
+    study.settings.friction.shear_strength = 1e6;
+    study.settings.film.lubricant_densities = {1e-3};
+    study.settings.film.seed = 2;
+  });
+  EXPECT_EQ(same.wet_shares[0].key, before.wet_shares[0].key);
+  const ScanTasks heavy = tasks_after([](Study& study) { study.settings.film.oil_density = 800; });
+  EXPECT_NE(heavy.wet_shares[0].key, before.wet_shares[0].key);
+  const ScanTasks stiff =
+      tasks_after([](Study& study) { study.settings.contact.youngs_modulus = 71e9; });
+  EXPECT_NE(stiff.wet_shares[0].key, before.wet_shares[0].key);
+  const ScanTasks dry =
+      tasks_after([](Study& study) { study.settings.film.lubricant_densities = {0}; });
+  EXPECT_TRUE(dry.wet_shares.empty());
+}
+
 TEST(Tasks, APressureMoreLeavesTheOthersAlone) {
   const ScanTasks more = tasks_after([](Study& study) {
     study.settings.mean_pressures.insert(study.settings.mean_pressures.begin(), 1e6);

@@ -84,6 +84,81 @@ TEST(ReadStudy, ReadsBackWhatItWroteAsText) {
   EXPECT_EQ(example.read().settings.film.edge, deposition::Edge::open);
 }
 
+/// The example with more keys in its [[scan]].
+std::string with_scan_keys(const std::string& keys) {
+  return replaced(kStudyText, "group = \"side A\"\n", "group = \"side A\"\n" + keys);
+}
+
+TEST(ReadStudy, TakesSettingsOfAScanInPlaceOfItsOwn) {
+  const ExampleStudy example;
+  example.write(
+      with_scan_keys("pressure = \"7 MPa\"\ndensity = \"0.9 g/m^2\"\ntreatment = "
+                     "[\"level=plane\"]\ncontact = \"elastic\"\nreading = "
+                     "\"literal\"\n"));
+  const Study study = example.read();
+  EXPECT_EQ(study.n_cases(), 2u);
+  const Study alone = study.of(study.scans[1]);
+  ASSERT_EQ(alone.scans.size(), 1u);
+  EXPECT_EQ(alone.scans[0].label, "scan_2.h5");
+  EXPECT_THAT(alone.settings.mean_pressures, ElementsAre(7e6));
+  EXPECT_EQ(in_g_per_m2(alone.settings.film.lubricant_densities.at(0)), 0.9);
+  EXPECT_THAT(alone.treatment, ElementsAre("level=plane"));
+  EXPECT_FALSE(alone.settings.contact.saturation_pressure);
+  EXPECT_EQ(alone.settings.film.reading, deposition::Reading::literal);
+  EXPECT_EQ(alone.settings.friction.area_of(alone.settings.contact), friction::Area::corrected);
+  EXPECT_EQ(study.settings.friction.area_of(study.settings.contact), friction::Area::pixels);
+  example.write(to_toml(study));
+  EXPECT_EQ(to_toml(example.read()), to_toml(study));
+}
+
+TEST(ReadStudy, NeedsNoCommonPressureWhereEveryScanHasItsOwn) {
+  const ExampleStudy example;
+  const std::string none = replaced(kStudyText, "mean_pressure = [\"5 MPa\", \"15 MPa\"]\n", "");
+  example.write(replaced(none, "group =", "pressure = [\"7 MPa\", \"8 MPa\"]\ngroup ="));
+  EXPECT_EQ(example.read().n_cases(), 8u);
+  example.write(none);
+  EXPECT_THAT(message_of([&] { example.read(); }),
+              testing::AllOf(HasSubstr("sweep.mean_pressure"), HasSubstr("scan_*.h5"),
+                             HasSubstr("no pressure of its own")));
+}
+
+TEST(ReadStudy, AFileMayStandInTwoGroupsButNotTwiceInOne) {
+  const ExampleStudy example;
+  const std::string again = "[[scan]]\nfile = \"scan_1.h5\"\ngroup = \"GROUP\"\n";
+  example.write(kStudyText + replaced(again, "GROUP", "literal"));
+  EXPECT_EQ(example.read().scans.size(), 3u);
+  example.write(kStudyText + replaced(again, "GROUP", "side A"));
+  EXPECT_THAT(message_of([&] { example.read(); }), HasSubstr("twice"));
+}
+
+TEST(ReadStudy, RejectsSettingsOfAScanThatCannotBe) {
+  const auto complaint_of = [](const std::string& keys) {
+    const ExampleStudy example;
+    example.write(with_scan_keys(keys));
+    return message_of([&] { example.read(); });
+  };
+  EXPECT_THAT(complaint_of("pressure = \"7\"\n"), HasSubstr("unit"));
+  EXPECT_THAT(complaint_of("pressure = \"-7 MPa\"\n"), HasSubstr("above zero"));
+  EXPECT_THAT(complaint_of("pressure = \"300 MPa\"\n"),
+              testing::AllOf(HasSubstr("pressure"), HasSubstr("240 MPa")));
+  EXPECT_THAT(complaint_of("pressure = [\"7 MPa\", \"7 MPa\"]\n"), HasSubstr("twice"));
+  EXPECT_THAT(complaint_of("density = \"-1 g/m^2\"\n"), HasSubstr("zero or more"));
+  EXPECT_THAT(complaint_of("treatment = [\"levle=plane\"]\n"), HasSubstr("level"));
+  EXPECT_THAT(complaint_of("contact = \"elastc\"\n"), HasSubstr("did you mean 'elastic'?"));
+  EXPECT_THAT(complaint_of("reading = \"literl\"\n"), HasSubstr("literal"));
+  EXPECT_THAT(complaint_of("presure = \"7 MPa\"\n"), HasSubstr("pressure"));
+  const ExampleStudy elastic;
+  elastic.write(replaced(with_scan_keys("contact = \"saturated\"\n"),
+                         "saturation_pressure = \"240 MPa\"\n", ""));
+  EXPECT_THAT(message_of([&] { elastic.read(); }), HasSubstr("material.saturation_pressure"));
+}
+
+TEST(ReadStudy, AnElasticScanMayBePressedBeyondTheSaturationOfTheOthers) {
+  const ExampleStudy example;
+  example.write(with_scan_keys("pressure = \"300 MPa\"\ncontact = \"elastic\"\n"));
+  EXPECT_EQ(example.read().n_cases(), 4u);
+}
+
 TEST(ReadStudy, TakesOilThatFlows) {
   const ExampleStudy example;
   EXPECT_FALSE(example.read().flows());

@@ -56,7 +56,7 @@ TEST(Sweep, RowsObeyBowdenAndTabor) {
   example.run();
   const io::CsvTable table = io::parse_csv(example.csv(), "results.csv");
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
-    const double area = table.number(i, "contact_area_fraction");
+    const double area = table.number(i, "contact_area_fraction_pixels");
     const double pressure = table.number(i, "mean_pressure_Pa");
     const double dry = table.number(i, "friction_dry");
     const double share = table.number(i, "lubricated_share");
@@ -314,6 +314,93 @@ TEST(Sweep, StoredStatesAgreeWithTheTable) {
   EXPECT_NEAR(pixels, results.numbers("/table/contact_area_fraction_pixels")[2], 1e-12);
   EXPECT_NEAR((state == 2).cast<double>().mean(),
               results.numbers("/table/saturated_area_fraction")[2], 1e-12);
+}
+
+TEST(Sweep, AScanWithSettingsOfItsOwnGivesTheRowsOfAStudyThatSharesThem) {
+  const ExampleStudy example;
+  example.write(test::kStudyText + std::string(R"(contact = "elastic"
+reading = "literal"
+[[scan]]
+file = "scan_1.h5"
+group = "saturated"
+pressure = "15 MPa"
+)"));
+  run(example.read(), example.results("mixed"));
+  const io::CsvTable mixed = io::parse_csv(example.csv("mixed"), "results.csv");
+  ASSERT_EQ(mixed.rows.size(), 10u);
+  example.write(
+      test::replaced(replaced(test::kStudyText, "saturation_pressure = \"240 MPa\"\n", ""),
+                     "[sweep]", "[lubricant]\nreading = \"literal\"\n[sweep]"));
+  run(example.read(), example.results("elastic"));
+  const io::CsvTable elastic = io::parse_csv(example.csv("elastic"), "results.csv");
+  for (std::size_t i = 0; i < 8; ++i) EXPECT_EQ(mixed.rows[i], elastic.rows[i]);
+  example.write(test::kStudyText);
+  run(example.read(), example.results("saturated"));
+  const io::CsvTable saturated = io::parse_csv(example.csv("saturated"), "results.csv");
+  EXPECT_EQ(mixed.text(8, "friction_lubricated"), saturated.text(2, "friction_lubricated"));
+  EXPECT_EQ(mixed.text(8, "group"), "saturated");
+  const io::Hdf5Reader results(example.results("mixed") / "results.h5");
+  EXPECT_EQ(results.text("/scans/0000", "contact"), "elastic");
+  EXPECT_EQ(results.text("/scans/0000", "reading"), "literal");
+  EXPECT_EQ(results.text("/scans/0002", "contact"), "saturated");
+  EXPECT_EQ(results.text("/scans/0002", "area"), "pixels");
+}
+
+TEST(Sweep, OilOnAFilteredScanSaysSo) {
+  const ExampleStudy example;
+  example.write(std::string(test::kStudyText) + R"(treatment = ["lowpass=hann:4/L"]
+[[scan]]
+file = "scan_1.h5"
+group = "unfiltered"
+)");
+  const Outcome outcome = example.run();
+  const auto filtered =
+      std::find_if(outcome.findings.begin(), outcome.findings.end(),
+                   [](const analysis::Finding& one) { return one.code == "filtered"; });
+  ASSERT_NE(filtered, outcome.findings.end());
+  EXPECT_EQ(filtered->n_cases, 8u);  // not those of the third scan
+  EXPECT_THAT(filtered->text, HasSubstr("lowpass=hann:4/L"));
+}
+
+TEST(Sweep, FrictionAgainstDensityIsThatOfTheFilmsOfItsDensities) {
+  const ExampleStudy example;
+  const Outcome outcome = example.run();
+  ASSERT_EQ(outcome.density_curves.size(), 2u);  // one for each pressure
+  const GroupCurve& mean = outcome.density_curves[0];
+  EXPECT_EQ(mean.n, 2u);
+  EXPECT_EQ(mean.asked.size(), 2u);
+  const io::Hdf5Reader results(example.results() / "results.h5");
+  const auto densities = results.numbers("/density_curves/lubricant_density_g_per_m2");
+  const auto friction = results.numbers("/density_curves/friction_lubricated");
+  const auto dry = results.numbers("/table/friction_dry");
+  ASSERT_EQ(densities.size(), friction.size());
+  EXPECT_LE(friction.front(), dry.front());
+  EXPECT_TRUE(std::filesystem::exists(example.results() / "density_curves.csv"));
+  // The limit of small droplets is what the droplets of the rows come close to.
+  const std::string text =
+      test::replaced(test::kStudyText, "[\"0.45 g/m^2\", \"0.9 g/m^2\"]", "\"1 g/m^2\"");
+  example.write(test::replaced(text, "[sweep]", "[lubricant]\nmodel = \"limit\"\n[sweep]"));
+  run(example.read(), example.results("limit"));
+  const io::Hdf5Reader limit(example.results("limit") / "results.h5");
+  const auto at = std::find_if(densities.begin(), densities.end(),
+                               [](double density) { return std::abs(density - 1) < 1e-6; });
+  ASSERT_NE(at, densities.end());
+  EXPECT_NEAR(friction[static_cast<std::size_t>(at - densities.begin())],
+              limit.numbers("/table/friction_lubricated").front(), 1e-12);
+}
+
+TEST(Sweep, ADamagedCurveIsComputedAgain) {
+  const ExampleStudy example;
+  example.run();
+  const std::string before = test::bytes_of(example.results() / "density_curves.csv");
+  for (const auto& file : std::filesystem::directory_iterator(example.results() / "store")) {
+    const std::string name = file.path().filename().string();
+    if (name.starts_with("wetshares-")) test::put_bytes(file.path(), "{}");
+  }
+  const Outcome outcome = example.run();
+  EXPECT_EQ(outcome.n_contacts, 0u);
+  EXPECT_EQ(outcome.warnings.size(), 4u);
+  EXPECT_EQ(test::bytes_of(example.results() / "density_curves.csv"), before);
 }
 
 TEST(Sweep, WarnsAboutTwoScansWithTheSameBytes) {

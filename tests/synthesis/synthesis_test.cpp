@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
+#include <complex>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "support/sample_surfaces.hpp"
@@ -202,6 +205,49 @@ TEST(EdtSurface, AfterSlidingHasFlatTopsWithGroovesAlongX) {  // slow
     return along_y / along_x;
   };
   EXPECT_GT(anisotropy(after), 1.2 * anisotropy(before));
+}
+
+/// Mean square of the waves of a square map that are longer than `shortest` [m].
+double long_wave_power(const topography::Topography& map, double shortest) {
+  const double side = map.grid.lx;
+  const int highest = static_cast<int>(side / shortest);
+  const Index n = map.grid.nx;
+  const auto wave = [&](int mode) {
+    Eigen::ArrayXcd factors(n);
+    for (Index i = 0; i < n; ++i) {
+      const double phase =
+          2 * std::numbers::pi * mode * static_cast<double>(i) / static_cast<double>(n);
+      factors(i) = std::polar(1.0, -phase);
+    }
+    return factors;
+  };
+  double power = 0;
+  for (int ky = -highest; ky <= highest; ++ky) {
+    const Eigen::ArrayXcd column =
+        (map.height.cast<std::complex<double>>().colwise() * wave(ky)).colwise().sum();
+    for (int kx = -highest; kx <= highest; ++kx) {
+      const double modes = std::hypot(kx, ky);
+      if (modes == 0 || modes * shortest >= side) continue;
+      power += std::norm((column * wave(kx)).sum() / static_cast<double>(n * n));
+    }
+  }
+  return power;
+}
+
+TEST(EdtSurface, HasWavesThatDoNotGrowWithTheSheet) {
+  double share = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    Edt recipe;
+    recipe.grid = {160, 160, 2.3e-3, 2.3e-3};
+    recipe.waviness = 0.8e-6;  // most of Sa
+    recipe.seed = seed;
+    const topography::Topography sheet = edt(recipe);
+    share += long_wave_power(sheet, 1.1e-3) / long_wave_power(sheet, 250e-6) / 4;
+  }
+  // A spectrum q^-4 from 250 um to 1.1 mm and level beyond has half of its power beyond; one that
+  // goes on as q^-4 to the size of the sheet has nine tenths there.
+  EXPECT_GT(share, 0.35);
+  EXPECT_LT(share, 0.65);
 }
 
 TEST(EdtSurface, DependsOnTheSeedAndNotOnThreads) {

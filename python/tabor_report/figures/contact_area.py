@@ -109,11 +109,16 @@ def _caption(study):
     if study.saturation_pressure:
         text += (
             "Dotted: P/p_sat, the smallest area that can carry P when no contact bears more than p_sat; no "
-            "solution may lie below it. "
+            f"solution {_limited(study)}may lie below it. "
         )
     if study.table.not_converged():
         text += "Red rings: did not converge and count in no mean. "
     return text + f"Area counted: {study.facts.get('area', 'corrected')}."
+
+
+def _limited(study):
+    """Whose solutions the saturation pressure bounds, where not all."""
+    return "of a saturated contact " if any(scan.facts.get("contact") == "elastic" for scan in study.scans) else ""
 
 
 def _csv(groups):

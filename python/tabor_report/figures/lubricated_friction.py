@@ -60,7 +60,9 @@ def _draw_panel(axes, study, group, curves, error):
         color="0.35",
         marker="s",
         linestyle="--",
+        markersize=4,
         markerfacecolor="white",
+        zorder=4,  # to be seen over a curve that it coincides with
     )
     looks = _looks(study)
     for series in curves:

@@ -61,19 +61,26 @@ def _curves(study, axis):
 
 
 def _draw_panel(axes, axis, curves):
-    for (_, q, density, _, _), look in zip(curves, style.curve_styles(len(curves))):
+    for index, look in enumerate(style.curve_styles(len(curves))):
+        _, q, density, _, _ = curves[index]
         shown = density > density.max() * FLOOR
         axes.loglog(
             q[shown] * 1e-6,
             density[shown] * 1e18,
             color=look["color"],
-            linestyle=look["linestyle"],
+            linestyle=(0, (4, 4)) if _is_drawn(q, density, curves[:index]) else "-",
             linewidth=1.1,
         )
     if curves:
         _draw_slope(axes, curves)
     axes.set_xlabel(f"$q_{axis}$ (rad/µm)")
     axes.grid(which="major", color="0.92", linewidth=0.6)
+
+
+def _is_drawn(q, density, curves):
+    """Whether one of these runs where this one does: dashed over it, both can be seen."""
+    same_grid = (other for _, grid, other, _, _ in curves if np.array_equal(q, grid))
+    return any(np.allclose(density, other, rtol=0.1, atol=0) for other in same_grid)
 
 
 def _draw_slope(axes, curves):

@@ -22,11 +22,12 @@ def draw(single):
     figure, grid = style.new_figure(3.4, n_columns=len(panels), width=3.7 * len(panels))
     for axes, key in zip(grid[0], panels):
         _draw_panel(axes, key, states)
-    style.legend_on_top(figure, style.entries(grid[0][-1]))
+    if DRY in panels:
+        style.legend_on_top(figure, style.entries(grid[0][-1]))
     return Drawn(
         "against_pressure",
-        "Against pressure",
-        _caption(single, panels),
+        "Friction against pressure" if DRY in panels else "Contact area against pressure",
+        _caption(single, panels, states),
         figure,
         {"": table_text(_columns(states))},
     )
@@ -39,7 +40,7 @@ def _has(state, key):
 
 def _draw_panel(axes, key, states):
     curves = _curves(key, states)
-    for (label, members), look in zip(curves, style.curve_styles(len(curves))):
+    for (label, members), look in zip(curves, _looks(key, len(curves))):
         factor = 100 if key == AREA else 1
         members = sorted(members, key=lambda pair: pair[0].pressure)
         sure = [(state, value) for state, value in members if state.facts.get("converged", True)]
@@ -52,6 +53,15 @@ def _draw_panel(axes, key, states):
     style.limits_from_zero(axes)
 
 
+def _looks(key, n):
+    """Grey and dashed without oil, then darker for more of it; the area has but one curve."""
+    if key == AREA:
+        return style.curve_styles(n)
+    symbols = style.curve_styles(n)
+    dry = {"color": "0.35", "linestyle": "--", "marker": "s", "markersize": 4, "markerfacecolor": "white", "zorder": 4}
+    return [dry, *({**symbol, "color": colour} for symbol, colour in zip(symbols, style.sequence(n - 1)[::-1]))]
+
+
 def _points(members, factor):
     return [state.pressure * 1e-6 for state, _ in members], [factor * value for _, value in members]
 
@@ -62,7 +72,7 @@ def _curves(key, states):
     curves = [("dry", [(state, state.facts[key]) for state in once])]
     if key != DRY:
         return curves
-    densities = dict.fromkeys(state.density for state in states if _has(state, LUBRICATED))
+    densities = sorted({state.density for state in states if state.density and _has(state, LUBRICATED)})
     for density in densities:
         members = [state for state in states if state.density == density and _has(state, LUBRICATED)]
         curves.append((units.density(density), [(state, state.facts[LUBRICATED]) for state in members]))
@@ -74,8 +84,16 @@ def _columns(states):
     return {key: [state.facts.get(key, "") for state in states] for key in keys}
 
 
-def _caption(single, panels):
-    text = f"Real contact area of {single.title} against the mean pressure"
+def _caption(single, panels, states):
+    parts = [f"Real contact area of {single.title} against the mean pressure P"]
     if DRY in panels:
-        text += " (left), and Bowden–Tabor friction coefficients, dry and for each amount of lubricant (right)"
-    return text + ". Red rings: states that did not converge."
+        parts.append(
+            " (left), and friction coefficient μ = (A_real − A_lub)/A₀ · τ_y/P (right): dashed dry, full lines with "
+            "lubricant, darker for more of it. Contact that holds lubricant does not shear, or only with the strength "
+            "of its film: a curve lies below the dashed one as far as contact is wet. Amounts whose curves coincide "
+            "fill the same pockets; an amount whose curve lies far below the others drowns the contacts"
+        )
+    parts.append(".")
+    if not all(state.facts.get("converged", True) for state in states):
+        parts.append(" Red rings: states that did not converge.")
+    return "".join(parts)

@@ -131,6 +131,11 @@ const Columns<FlowingFriction>& flowing_columns() {
   return all;
 }
 
+/// Of friction that uses another area: the one that holds on a finer grid, too.
+Cell corrected_beside(const FrictionRecord& record) {
+  return record.area == friction::Area::corrected ? Cell() : Cell(record.contact_area_fraction);
+}
+
 Columns<FrictionRecord> columns_before_the_film() {
   using Record = FrictionRecord;
   constexpr ColumnStyle stored_and_tabled{.media = media::kStore | media::kTable};
@@ -147,6 +152,7 @@ Columns<FrictionRecord> columns_before_the_film() {
           {"mean_gap_m", "m", "", &Record::mean_gap},
           {"mean_film_m", "m", "", &Record::mean_film, kObjectAlone},
           {"", "", "contact", &Record::friction_area_fraction, kPercent},
+          {"", "", "corrected", corrected_beside, kPercent},
           {"lubricated_share", "", "wet share", &Record::lubricated_share, kPercent},
           {"spill_over_fraction", "", "spill-over", &Record::spill_over_fraction, kPercent},
           {"trapped_fraction",

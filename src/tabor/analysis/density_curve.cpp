@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "tabor/analysis/states.hpp"
 #include "tabor/core/units.hpp"
@@ -33,45 +32,11 @@ std::vector<double> densities_for(const topography::Topography& surface, double 
   return all;
 }
 
-constexpr std::size_t kNowhere = std::numeric_limits<std::size_t>::max();
-
-/// For each pixel that touches somewhere, the first density that wets it; kNowhere for the others.
-std::vector<std::size_t> first_doses(const topography::Topography& surface,
-                                     const std::vector<Touching>& contacts,
-                                     const FilmSettings& film, const Observer& observer) {
-  std::vector<Index> pixels;
-  for (Index p = 0; p < surface.grid.size(); ++p) {
-    const bool touches =
-        std::any_of(contacts.begin(), contacts.end(),
-                    [p](const Touching& contact) { return contact.mask.data()[p]; });
-    if (touches) pixels.push_back(p);
-  }
-  const std::vector<std::size_t> of_pixels = deposition::first_wetting_doses(
-      surface.height, surface.grid, dose_of(film), pixels, observer);
-  std::vector<std::size_t> first(static_cast<std::size_t>(surface.grid.size()), kNowhere);
-  for (std::size_t k = 0; k < pixels.size(); ++k) {
-    first[static_cast<std::size_t>(pixels[k])] = of_pixels[k];
-  }
-  return first;
-}
-
-/// Of one contact, under each of the densities.
-std::vector<double> wet_shares(const Mask& contact, const std::vector<std::size_t>& first,
-                               std::size_t n_densities) {
-  std::vector<double> shares(n_densities, 0);
-  double n_touching = 0;
-  for (Index p = 0; p < contact.size(); ++p) {
-    if (!contact.data()[p]) continue;
-    ++n_touching;
-    const std::size_t density = first[static_cast<std::size_t>(p)];
-    if (density < n_densities) shares[density] += 1;
-  }
-  double n_wet = 0;
-  for (double& share : shares) {
-    n_wet += share;
-    share = n_touching > 0 ? n_wet / n_touching : 0;
-  }
-  return shares;
+/// Where any of them touches.
+Mask touched_by(const std::vector<Touching>& contacts, const topography::Topography& surface) {
+  Mask touched = Mask::Constant(surface.height.rows(), surface.height.cols(), false);
+  for (const Touching& contact : contacts) touched = touched || contact.mask;
+  return touched;
 }
 
 std::string grams(double density) { return fmt::format("{:.2g} g/m^2", in_g_per_m2(density)); }
@@ -124,29 +89,90 @@ std::string plateau_text(const DensityCurve& curve) {
 
 }  // namespace
 
+bool has_density_curve(const CaseSettings& settings) {
+  const FilmSettings& film = settings.film;
+  const bool runs_down =
+      film.model == deposition::Model::droplets || film.model == deposition::Model::limit;
+  const bool is_wet = std::any_of(film.lubricant_densities.begin(), film.lubricant_densities.end(),
+                                  [](double density) { return density > 0; });
+  return runs_down && is_wet && !settings.fluid.flows();
+}
+
+WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
+                           const Mask& where, const Observer& observer) {
+  FilmSettings film = settings;
+  film.model = deposition::Model::limit;
+  film.lubricant_densities = densities_for(surface, film.oil_density);
+  WettingDoses doses{film.lubricant_densities, {}};
+  if (film.lubricant_densities.empty()) return doses;
+  std::vector<Index> pixels;
+  pixels.reserve(static_cast<std::size_t>(where.count()));
+  for (Index p = 0; p < where.size(); ++p) {
+    if (where.data()[p]) pixels.push_back(p);
+  }
+  const std::vector<std::size_t> of_pixels = deposition::first_wetting_doses(
+      surface.height, surface.grid, dose_of(film), pixels, observer);
+  doses.first.assign(static_cast<std::size_t>(where.size()),
+                     static_cast<std::uint8_t>(film.lubricant_densities.size()));
+  for (std::size_t k = 0; k < pixels.size(); ++k) {
+    doses.first[static_cast<std::size_t>(pixels[k])] = static_cast<std::uint8_t>(of_pixels[k]);
+  }
+  return doses;
+}
+
+std::vector<double> lubricated_shares(const WettingDoses& doses, const Mask& contact) {
+  std::vector<double> shares(doses.lubricant_densities.size(), 0);
+  double n_touching = 0;
+  for (Index p = 0; p < contact.size(); ++p) {
+    if (!contact.data()[p]) continue;
+    ++n_touching;
+    const std::size_t first = doses.first[static_cast<std::size_t>(p)];
+    if (first < shares.size()) shares[first] += 1;
+  }
+  double n_wet = 0;
+  for (double& share : shares) {
+    n_wet += share;
+    share = n_touching > 0 ? n_wet / n_touching : 0;
+  }
+  return shares;
+}
+
+DensityCurve density_curve(const std::vector<double>& lubricant_densities,
+                           const std::vector<double>& lubricated_shares,
+                           const contact::Summary& contact, const CaseSettings& settings) {
+  DensityCurve curve;
+  curve.mean_pressure = contact.mean_pressure;
+  curve.lubricant_densities = lubricant_densities;
+  curve.lubricated_shares = lubricated_shares;
+  curve.friction_lubricated.reserve(lubricated_shares.size());
+  for (const double share : lubricated_shares) {
+    const friction::Estimate estimate =
+        estimate_of(contact, share, settings.contact, settings.friction);
+    curve.friction_lubricated.push_back(estimate.friction_lubricated);
+    curve.friction_dry = estimate.friction_dry;
+  }
+  curve.plateau = plateau_of(curve);
+  return curve;
+}
+
+std::optional<Plateau> plateau_of(const DensityCurve& curve) {
+  // By the dry share, as a boundary film makes friction flat where the oil still spreads.
+  const auto plateau = find_plateau(curve.lubricant_densities, dry_shares(curve), kFlat);
+  return plateau && plateau->value > 0 ? plateau : std::nullopt;
+}
+
 std::vector<DensityCurve> density_curves(const topography::Topography& surface,
                                          const std::vector<Touching>& contacts,
                                          const CaseSettings& settings, const Observer& observer) {
-  FilmSettings film = settings.film;
-  film.model = deposition::Model::limit;
-  film.lubricant_densities = densities_for(surface, film.oil_density);
-  if (film.lubricant_densities.empty()) return {};
-  const std::vector<std::size_t> first = first_doses(surface, contacts, film, observer);
-  std::vector<DensityCurve> curves(contacts.size());
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    DensityCurve& curve = curves[i];
-    curve.mean_pressure = contacts[i].summary.mean_pressure;
-    curve.lubricant_densities = film.lubricant_densities;
-    curve.lubricated_shares = wet_shares(contacts[i].mask, first, film.lubricant_densities.size());
-    for (const double share : curve.lubricated_shares) {
-      const friction::Estimate estimate =
-          estimate_of(contacts[i].summary, share, settings.contact, settings.friction);
-      curve.friction_lubricated.push_back(estimate.friction_lubricated);
-      curve.friction_dry = estimate.friction_dry;
-    }
-    // By the dry share, as a boundary film makes friction flat where the oil still spreads.
-    curve.plateau = find_plateau(curve.lubricant_densities, dry_shares(curve), kFlat);
-    if (curve.plateau && curve.plateau->value <= 0) curve.plateau.reset();  // all is drowned
+  const WettingDoses doses =
+      wetting_doses(surface, settings.film, touched_by(contacts, surface), observer);
+  std::vector<DensityCurve> curves;
+  if (doses.lubricant_densities.empty()) return curves;
+  curves.reserve(contacts.size());
+  for (const Touching& contact : contacts) {
+    curves.push_back(density_curve(doses.lubricant_densities,
+                                   lubricated_shares(doses, contact.mask), contact.summary,
+                                   settings));
   }
   return curves;
 }
@@ -163,7 +189,11 @@ std::string sentence_of(const DensityCurve& curve, const std::vector<double>& as
   }
   std::string sentence = plateau_text(curve);
   add_place(below, "below, where friction falls with the density", sentence);
-  add_place(on, "between, where the density hardly matters", sentence);
+  const bool is_dry = 1 - curve.plateau->value < kDry;
+  add_place(on,
+            is_dry ? "below, where friction is that without oil"
+                   : "between, where the density hardly matters",
+            sentence);
   add_place(beyond, "beyond, where the oil drowns the contacts", sentence);
   return sentence;
 }

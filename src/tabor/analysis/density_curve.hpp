@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,16 +25,45 @@ struct DensityCurve {
       plateau;  ///< densities [kg/m^2] over which the dry share hardly changes, and that
 };
 
+/// Which of many doses is the first to wet each pixel of a surface.
+struct WettingDoses {
+  /// [kg/m^2], rising, ten a decade from 0.001 g/m^2 to 10 g/m^2 or to what drowns the surface;
+  /// none for a surface without heights.
+  std::vector<double> lubricant_densities;
+  std::vector<std::uint8_t>
+      first;  ///< per pixel, row by row: its place; their number where none is
+};
+
+/// Whether there is oil that runs downhill, so that it fills pockets first and then valleys, and
+/// does not flow on.
+bool has_density_curve(const CaseSettings& settings);
+
+/// Of the pixels of `where`, in the shape of the surface; the others count as wet by none. All
+/// doses are reached in one pass of vanishing droplets (Model::limit), whatever model the settings
+/// ask for. Throws as density_curves().
+WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
+                           const Mask& where, const Observer& observer = {});
+
+/// The share of a contact that each of the doses wets; 0 where nothing touches.
+std::vector<double> lubricated_shares(const WettingDoses& doses, const Mask& contact);
+
+/// The friction of one contact whose wet share is known for rising densities [kg/m^2].
+DensityCurve density_curve(const std::vector<double>& lubricant_densities,
+                           const std::vector<double>& lubricated_shares,
+                           const contact::Summary& contact, const CaseSettings& settings);
+
+/// The densities over which the dry share of its contact hardly changes, and that share; none where
+/// it changes throughout or all is drowned.
+std::optional<Plateau> plateau_of(const DensityCurve& curve);
+
 /// A solved contact: its numbers and where solids touch, in the shape of the surface.
 struct Touching {
   contact::Summary summary;
   Mask mask;
 };
 
-/// One curve for each contact with the surface. All densities, from 0.001 g/m^2 to 10 g/m^2 or to
-/// what drowns the surface, are reached in one pass of vanishing droplets (Model::limit), whatever
-/// model the settings ask for. Empty for a surface without heights. Throws InputError for invalid
-/// settings, Interrupted where the observer asks to stop.
+/// One curve for each contact with the surface. Empty for a surface without heights. Throws
+/// InputError for invalid settings, Interrupted where the observer asks to stop.
 std::vector<DensityCurve> density_curves(const topography::Topography& surface,
                                          const std::vector<Touching>& contacts,
                                          const CaseSettings& settings,

@@ -8,11 +8,12 @@
 namespace tabor::analysis {
 namespace {
 
-FilmRecord record_of(deposition::Film&& film, const FilmSettings& settings) {
+FilmRecord record_of(const topography::Topography& surface, deposition::Film&& film,
+                     const FilmSettings& settings) {
   FilmRecord record{.lubricant_density = settings.lubricant_densities[film.request],
                     .film = {},
                     .peak_memory = peak_memory_bytes(),
-                    .warnings = of_film(film),
+                    .warnings = of_film(surface, film),
                     .references = references_of(settings)};
   record.film = std::move(film);
   return record;
@@ -36,7 +37,7 @@ deposition::Dose dose_of(const FilmSettings& settings) {
 void film_state(const topography::Topography& surface, const FilmSettings& settings,
                 const std::function<void(FilmRecord&&)>& receive, const Observer& observer) {
   const deposition::FilmSink sink = [&](deposition::Film&& film) {
-    receive(record_of(std::move(film), settings));
+    receive(record_of(surface, std::move(film), settings));
   };
   deposition::deposit(surface.height, surface.grid, dose_of(settings), sink, observer);
 }

@@ -75,7 +75,8 @@ friction::Estimate estimate_of(const contact::Summary& contact, double lubricate
                                const ContactSettings& contact_settings,
                                const FrictionSettings& settings) {
   return friction::estimate(touching_of(contact, lubricated_share, contact_settings),
-                            settings.shear_strength, settings.area, settings.boundary_strength());
+                            settings.shear_strength, settings.area_of(contact_settings),
+                            settings.boundary_strength());
 }
 
 friction::Estimate dry_friction(const ContactRecord& contact, double lubricated_share,
@@ -106,11 +107,11 @@ FrictionRecord friction_state(const ContactRecord& contact, const Closed& closed
   record.friction_dry = estimate.friction_dry;
   record.friction_lubricated = estimate.friction_lubricated;
   if (fluid != nullptr) {
-    add_flow(
-        *fluid,
-        friction::estimate(fluid->summary, record.mean_pressure, contact_settings.pressure_cap(),
-                           settings.shear_strength, settings.area, settings.boundary_strength()),
-        record);
+    add_flow(*fluid,
+             friction::estimate(fluid->summary, record.mean_pressure,
+                                contact_settings.pressure_cap(), settings.shear_strength,
+                                settings.area_of(contact_settings), settings.boundary_strength()),
+             record);
   }
   return record;
 }

@@ -78,8 +78,15 @@ struct FrictionSettings {
   double shear_strength = 0;                           ///< tau_y [Pa]
   std::optional<double> boundary_shear_strength = {};  ///< tau_b of wet contact [Pa]
   std::optional<double> boundary_shear_share = {};     ///< the same over tau_y
-  friction::Area area = friction::Area::corrected;
+  std::optional<friction::Area> area = {};             ///< absent: as area_of() chooses
 
+  /// The area that friction is computed with. Unless it is given: counted pixels with a saturation
+  /// pressure, as Costagliola et al. 2021 count, since the corrected area is bounded by P / p_sat
+  /// there and mostly lies on that bound; the corrected area of elastic contact.
+  friction::Area area_of(const ContactSettings& contact) const {
+    return area.value_or(contact.saturation_pressure ? friction::Area::pixels
+                                                     : friction::Area::corrected);
+  }
   /// tau_b [Pa] of the boundary film on wet contact; 0 unless given: it slips freely.
   double boundary_strength() const {
     return boundary_shear_strength.value_or(boundary_shear_share.value_or(0) * shear_strength);

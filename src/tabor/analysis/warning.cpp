@@ -26,6 +26,7 @@ const std::vector<CodeEntry>& all_codes() {
                                               {"edge-load", About::contact},
                                               {"clamp", About::contact},
                                               {"flood", About::film},
+                                              {"filtered", About::film},
                                               {"few-droplets", About::film},
                                               {"oil-lost", About::film},
                                               {"spill-over", About::friction},

@@ -26,8 +26,8 @@ Warnings of_surface(const topography::Topography& surface);
 Warnings of_contact(const topography::Topography& surface, const ContactSettings& settings,
                     const contact::State& state, const contact::Summary& summary);
 
-/// Of one film as it was laid down.
-Warnings of_film(const deposition::Film& film);
+/// Of one film as it was laid down on a treated surface.
+Warnings of_film(const topography::Topography& surface, const deposition::Film& film);
 
 /// Of the friction of one contact with one film; `spill_over_fraction` of the liquid does not fit.
 Warnings of_friction(const friction::Contact& contact, const friction::Estimate& estimate,

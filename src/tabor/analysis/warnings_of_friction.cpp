@@ -20,6 +20,29 @@ constexpr double kLargestFriction = 2;
 
 std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
 
+/// The step that took short waves from the scan, "" if none did.
+std::string low_pass_of(const topography::Topography& surface) {
+  for (const std::string& step : surface.history) {
+    if (step.starts_with("lowpass=")) return step.substr(0, step.find(": "));
+  }
+  return "";
+}
+
+Warning clamp(const friction::Contact& contact, const friction::Estimate& estimate) {
+  if (estimate.at_bound) {
+    return {"clamp",
+            "clamp: dry friction is tau_y/p_sat: the area is at its bound, and says nothing of the "
+            "surface; --area pixels takes the counted area"};
+  }
+  const double excess =
+      estimate.area_fraction * contact.saturation_pressure / contact.mean_pressure - 1;
+  return {"clamp",
+          fmt::format("clamp: nearly all contact is saturated: dry friction is tau_y/p_sat for any "
+                      "surface, and {} more by the pixels at the edges of contacts that are not",
+                      percent(excess)),
+          excess};
+}
+
 void warn_of_size(const char* which, double friction, Warnings& list) {
   if (!(friction > kLargestFriction)) return;
   list.push_back({"implausible-friction",
@@ -31,8 +54,16 @@ void warn_of_size(const char* which, double friction, Warnings& list) {
 
 }  // namespace
 
-Warnings of_film(const deposition::Film& film) {
+Warnings of_film(const topography::Topography& surface, const deposition::Film& film) {
   Warnings list;
+  const std::string filter = low_pass_of(surface);
+  if (!filter.empty() && film.mean_film > 0) {
+    list.push_back(
+        {"filtered", fmt::format("the oil was laid on a filtered scan ({}): the pockets that the "
+                                 "filter smooths away hold oil under contacts, and the wet share "
+                                 "without it is larger",
+                                 filter)});
+  }
   if (const double least = film.thickness.minCoeff(); film.flooded || least > 0) {
     list.push_back({"flood",
                     fmt::format("a mean film of {} floods the surface: its highest point is under "
@@ -60,12 +91,7 @@ Warnings of_film(const deposition::Film& film) {
 Warnings of_friction(const friction::Contact& contact, const friction::Estimate& estimate,
                      double spill_over_fraction, const FrictionSettings& settings) {
   Warnings list;
-  if (estimate.at_bound) {
-    list.push_back(
-        {"clamp",
-         "clamp: dry friction is tau_y/p_sat: the area is at its bound, and says nothing "
-         "of the surface; --area pixels takes the counted area"});
-  }
+  if (estimate.corrected_at_bound) list.push_back(clamp(contact, estimate));
   if (spill_over_fraction > kSpillOver) {
     list.push_back({"spill-over",
                     fmt::format("spill-over {}: so much of the oil does not fit when the surfaces "

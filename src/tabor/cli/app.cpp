@@ -10,6 +10,7 @@
 #include <iostream>
 #include <ostream>
 
+#include "tabor/cli/defaults.hpp"
 #include "tabor/cli/exit_code.hpp"
 #include "tabor/cli/failure.hpp"
 #include "tabor/cli/help.hpp"
@@ -17,6 +18,7 @@
 #include "tabor/cli/verb.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
+#include "tabor/core/printable.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/core/version.hpp"
 #include "tabor/core/watch.hpp"
@@ -63,13 +65,36 @@ void check_written(std::ostream& out) {
   if (!out) throw OutputError("standard output: cannot be written (is the disk full?)");
 }
 
-int run_verb(const Verb& verb, const Words& words, Context& context, ProgressStyle style) {
+/// The words of a command with the defaults before them.
+Words with_defaults(const Verb& verb, const Words& typed, Context& context) {
+  Defaults defaults = defaults_for(verb, typed);
+  if (defaults.used.empty()) return typed;
+  Words words = defaults.words();
+  words.insert(words.end(), typed.begin(), typed.end());
+  context.defaults_file = std::move(defaults.file);
+  context.defaults = std::move(defaults.used);
+  Words line = {verb.name};
+  line.insert(line.end(), words.begin(), words.end());
+  context.command_line = quoted(line);
+  context.files.reads(context.defaults_file);
+  return words;
+}
+
+void say_defaults(const Context& context) {
+  if (context.defaults.empty() || context.json || context.quiet) return;
+  const Defaults used{context.defaults_file, context.defaults};
+  context.err << fmt::format("defaults of {}: {}\n", printable(used.file), used.text());
+}
+
+int run_verb(const Verb& verb, const Words& typed, Context& context, ProgressStyle style) {
+  const Words words = with_defaults(verb, typed, context);
   OptionSet set;
   const Action action = verb.declare(set);
   declare_common(set, context);
   NamedFiles named;
   parse(noting_files(set, named), verb.name, words);
   check_files(named, context.files);
+  say_defaults(context);
   set_thread_count(static_cast<int>(std::min<std::uint64_t>(context.threads, 4096)));
   ProgressPrinter progress(context.err, context.quiet ? ProgressStyle::none : style);
   context.progress = &progress;

@@ -17,12 +17,9 @@ using Keys = std::set<std::string>;
 
 // A study says what it used by its settings: docs/results.md lists these attributes.
 Keys keys_of_study(const io::Hdf5Reader& file) {
-  Keys keys = {"rey2017",    "polonsky1999",    "stanley1997",
-               "bowden1950", "costagliola2021", "jacobs2017"};
+  Keys keys = {"rey2017",         "polonsky1999", "stanley1997",  "bowden1950",
+               "costagliola2021", "jacobs2017",   "yastrebov2017"};
   if (file.has_attribute("/", "saturation_pressure_Pa")) keys.insert("almqvist2007");
-  if (file.has_attribute("/", "area") && file.text("/", "area") == "corrected") {
-    keys.insert("yastrebov2017");
-  }
   if (file.has_attribute("/", "fluid")) keys.insert("elrod1981");
   const std::string config = file.text("/", "config_toml");
   if (config.find("limit") != std::string::npos) keys.insert("barnes2021");

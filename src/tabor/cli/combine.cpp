@@ -170,9 +170,9 @@ int show(const Request& request, Context& context) {
   const auto options = options_of(request);
   ScanRequest second = request.scan;
   second.file = request.second;
-  const Scan a = load_scan(request.scan, context);
-  const Scan b = load_scan(second, context);
-  if (options.mode != CombineMode::composite) warn_if_not_levelled(a, context);
+  const Scan a = read_scan(request.scan, context);
+  const Scan b = read_scan(second, context);
+  context.warn(analysis::findings_of({doubts_of(a), doubts_of(b)}));
   const Combination c = comparison::combine(a.surface, b.surface, options, context.observer());
   warn_of_ambiguity(c, context);
   warn_of_holes(c, context);

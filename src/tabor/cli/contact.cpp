@@ -44,9 +44,6 @@ void check_all(const Request& request) {
   if (request.output && !request.cutoffs.empty()) {
     throw UsageError("--lowpass-scan keeps no maps; leave out -o");
   }
-  if (request.shear_strength && request.cutoffs.empty()) {
-    throw UsageError("--shear-strength belongs to --lowpass-scan here; see also 'tabor friction'");
-  }
 }
 
 int show(const Request& request, Context& context) {
@@ -118,7 +115,8 @@ void declare_lowpass_scan(OptionSet& set, Request& request) {
                "changes, e.g. 64,128,256,512",
            .assign = [&](const std::string& text) { request.cutoffs = parse_cutoffs(text); }});
   set.quantity("--shear-strength", "TAU", "add dry friction to the low-pass scan",
-               dimension::pressure, request.shear_strength);
+               dimension::pressure, request.shear_strength)
+      .only_with = "--lowpass-scan";
 }
 
 }  // namespace

@@ -96,6 +96,7 @@ void declare_contact(OptionSet& set, analysis::CaseSettings& settings) {
   set.add({.flag = "--saturation-pressure",
            .placeholder = "PS",
            .help = "cap on the contact pressure, e.g. 240MPa; none: elastic [none]",
+           .unless = kMaterial,
            .assign = [&settings](const std::string& text) {
              settings.contact.saturation_pressure.reset();
              if (text == "none") return;
@@ -158,7 +159,8 @@ void declare_friction(OptionSet& set, analysis::FrictionSettings& settings) {
   set.number("--boundary-shear-share", "X", "the same as a share of TAU, e.g. 0.1",
              settings.boundary_shear_share);
   set.choice("--area", friction::kAreas,
-             "contact area that friction uses: perimeter-corrected or counted [corrected]",
+             "contact area that friction uses: perimeter-corrected or counted [pixels with a "
+             "saturation pressure, else corrected]",
              settings.area);
 }
 

@@ -30,7 +30,10 @@ void write(const topography::Topography& surface, const std::string& file,
 }
 
 int convert(const Request& request, Context& context) {
-  const Scan scan = load_scan(request.scan, context);
+  const Scan scan = read_scan(request.scan, context);
+  analysis::Case doubts = doubts_of(scan);
+  std::erase_if(doubts.warnings, [](const auto& one) { return one.code == "not-levelled"; });
+  context.warn(analysis::findings_of({doubts}));
   write(scan.surface, request.output, context.observer());
   io::Json object = json_head(context, scan);
   object["output"] = request.output;

@@ -27,6 +27,7 @@ struct Request {
   std::vector<SweepAxis> axes;
   std::optional<std::string> study;
   std::optional<std::string> output;
+  bool wants_template = false;
   RunRequest run;
 };
 
@@ -118,6 +119,9 @@ void check_combination(const Request& request, const std::vector<SweepAxis>& swe
 }
 
 int run(const Request& request, Context& context) {
+  if (request.wants_template) {
+    return show_template(case_template(find_program(request.program)), context);
+  }
   FilmSweep sweep{find_program(request.program),
                   request.file,
                   io::Config::read(request.file),
@@ -151,7 +155,10 @@ std::string details() {
 void declare_options(OptionSet& set, Request& request) {
   set.group("Case");
   set.positional("PROGRAM", "impact, squeeze, line or point", request.program);
-  set.input("CASE.toml", "the case: bodies, lubricant, motion, grid", request.file);
+  set.input("CASE.toml", "the case: bodies, lubricant, motion, grid", request.file).unless =
+      kTemplate;
+  declare_template(set, "a case file to start from, with every key of the program",
+                   request.wants_template);
   Option& axis = set.add(
       {.flag = "--set",
        .placeholder = "KEY=VALUE",
@@ -202,7 +209,7 @@ Verb ehl_verb() {
           .examples = {"tabor ehl impact examples/09_ball_drop/safa_gohar.toml -o impact.h5",
                        kRestitutionMap, "tabor ehl line examples/11_hdpe_glycerol/hdpe.toml",
                        "tabor ehl point examples/12_stribeck/ball.toml --set grid.nodes=65,97,129",
-                       kStribeckCurve},
+                       kStribeckCurve, "tabor ehl point --template"},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_options(set, *request);

@@ -6,6 +6,7 @@
 
 #include "tabor/cli/result.hpp"
 #include "tabor/core/column.hpp"
+#include "tabor/io/columns.hpp"
 #include "tabor/io/hdf5.hpp"
 
 namespace tabor::cli {
@@ -29,6 +30,16 @@ class FieldsFile {
   /// Adds /states/NNNN: scalars as attributes, the first field as what viewers plot.
   void add_state(std::size_t number, const NamedCells& scalars,
                  const std::vector<StateField>& fields);
+  /// Adds columns of one length under `group`, of all states together.
+  template <typename Record>
+  void add_table(const std::string& group, const Columns<Record>& columns,
+                 const std::vector<Record>& records) {
+    io::write_datasets(writer_, group, columns, records);
+  }
+  /// What the numbers say, in sentences.
+  void add_answers(const std::vector<std::string>& sentences) {
+    writer_.attribute("/", "answers", sentences);
+  }
   /// With all warnings so far. A file without a state would look finished: none is made.
   void commit(const Context& context);
 

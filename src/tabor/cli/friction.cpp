@@ -4,8 +4,10 @@
 #include <optional>
 
 #include "tabor/cli/contact_request.hpp"
+#include "tabor/cli/density_curve.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/study/density_curves.hpp"
 #include "tabor/study/resolution_scan.hpp"
 #include "tabor/study/scan_friction.hpp"
 
@@ -33,7 +35,7 @@ io::Json all_settings(const analysis::CaseSettings& settings) {
   all.update(settings_json(settings.film));
   all.update(settings_json(settings.fluid));
   all["shear_strength_Pa"] = settings.friction.shear_strength;
-  all["area"] = friction::kAreas.of(settings.friction.area);
+  all["area"] = friction::kAreas.of(settings.friction.area_of(settings.contact));
   return all;
 }
 
@@ -79,19 +81,6 @@ Solved solve_all(const Request& request, const topography::Topography& surface, 
   return solved;
 }
 
-io::Json json_of(const analysis::DensityCurve& curve) {
-  const auto in_grams = [](double density) { return io::number(in_g_per_m2(density)); };
-  io::Json densities = io::Json::array();
-  for (const double density : curve.lubricant_densities) densities.push_back(in_grams(density));
-  const auto& plateau = curve.plateau;
-  return {{"mean_pressure_Pa", curve.mean_pressure},
-          {"lubricant_density_g_per_m2", densities},
-          {"lubricated_share", curve.lubricated_shares},
-          {"friction_lubricated", curve.friction_lubricated},
-          {"plateau_from_g_per_m2", plateau ? in_grams(plateau->first) : io::Json()},
-          {"plateau_to_g_per_m2", plateau ? in_grams(plateau->last) : io::Json()}};
-}
-
 /// The curve of the first pressure, and of all where there are several.
 void add_curves(const std::vector<analysis::DensityCurve>& curves, io::Json& object) {
   if (curves.empty()) return;
@@ -108,11 +97,9 @@ std::string curves_text(const std::vector<analysis::DensityCurve>& curves, const
   Facts facts;
   std::string tables;
   for (const analysis::DensityCurve& curve : curves) {
-    const std::string pressure = si(curve.mean_pressure, "Pa");
-    facts.fact("density at " + pressure,
-               sentence_of(curve, request.settings.film.lubricant_densities));
+    describe(curve, request.settings.film.lubricant_densities, "", facts);
     if (!request.density_curve) continue;
-    Table table({"density at " + pressure, "wet share", "friction wet"});
+    Table table({"density at " + si(curve.mean_pressure, "Pa"), "wet share", "friction wet"});
     for (std::size_t i = 0; i < curve.lubricant_densities.size(); ++i) {
       table.row({density_text(curve.lubricant_densities[i]), percent(curve.lubricated_shares[i]),
                  plain(curve.friction_lubricated[i], 4)});
@@ -131,15 +118,29 @@ std::string text_of(const Scan& scan, const Request& request, const Solved& solv
   describe(settings.fluid, facts);
   const double boundary = settings.friction.boundary_strength();
   facts.fact("friction",
-             fmt::format("shear strength {}{}, {} contact area",
+             fmt::format("shear strength {}{}, contact area {}",
                          si(settings.friction.shear_strength, "Pa"),
                          boundary > 0 ? fmt::format(", of wet contact {}", si(boundary, "Pa")) : "",
-                         friction::kAreas.of(settings.friction.area)));
+                         friction::kAreas.of(settings.friction.area_of(settings.contact))));
   std::string text = facts.text() + '\n';
   text += table_of(analysis::friction_columns(), solved.records).text();
   text += curves_text(solved.curves, request);
   if (!request.resolution_scan) return text;
   return text + '\n' + table_of(study::resolution_columns(), solved.resolution).text();
+}
+
+/// The curves and what they say, for the report.
+void write_curves(const Request& request, const Solved& solved, FieldsFile& file) {
+  if (solved.curves.empty()) return;
+  const std::vector<double>& asked = request.settings.film.lubricant_densities;
+  std::vector<study::ScanCurve> curves;
+  std::vector<std::string> answers;
+  for (const analysis::DensityCurve& curve : solved.curves) {
+    curves.push_back({request.scan.file, "", curve});
+    answers.push_back(study::answer_of({"", 1, curve, {}, {}, asked}));
+  }
+  file.add_table("/density_curves", study::curve_columns(), study::points_of(curves));
+  file.add_answers(answers);
 }
 
 analysis::Case case_of(const analysis::FrictionRecord& record) {
@@ -164,7 +165,10 @@ int show(Request request, Context& context) {
   std::vector<analysis::Case> cases;
   for (const analysis::FrictionRecord& record : solved.records) cases.push_back(case_of(record));
   context.warn(analysis::findings_of(cases));
-  if (file) file->commit(context);
+  if (file) {
+    write_curves(request, solved, *file);
+    file->commit(context);
+  }
   io::Json object = json_head(context, scan);
   object.update(settings);
   object["states"] = states_json(analysis::friction_columns(), solved.records);

@@ -153,10 +153,8 @@ int show(const ScanRequest& request, Context& context) {
   const scan::ScanFile scan_file(request.file, context.observer());
   const FileInfo file = scan_file.info();
   try {
-    const Scan scan = load_scan(scan_file, request, context);
+    const Scan scan = read_scan(scan_file, request, context);
     const Heights heights = heights_of(scan.surface);
-    // Warnings have a key and lines of their own here.
-    context.warnings.clear();
     return finish(context, json_of(context, scan, file, heights), text_of(scan, file, heights));
   } catch (const IncompleteError& error) {
     return show_incomplete(request, scan_file, error.what(), context);

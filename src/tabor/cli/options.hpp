@@ -26,8 +26,9 @@ struct Option {
   std::string help = {};
   std::string group = {};
   bool required = false;
-  std::string unless = {};  ///< "--material": not required where this option is given
-  bool is_base = false;     ///< assigned before all others, which override it
+  std::string unless = {};     ///< "--material": neither required nor a default where this is given
+  std::string only_with = {};  ///< "--lowpass-scan": means something only where this is given
+  bool is_base = false;        ///< assigned before all others, which override it
   bool repeatable = false;
   FileRole names = FileRole::none;
   std::vector<std::string> extensions = {};  ///< of an output: ".h5"; empty: not told from the name

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -26,6 +27,7 @@ struct Request {
   ScanRequest scan;  ///< how each of the files is read and treated
   std::vector<std::string> files;
   metrology::ParameterOptions options;
+  std::optional<std::vector<ParameterSet>> sets;
   std::string stencil = "forward";
   std::string triangles = "two";
   std::string profile_standard = "iso21920";
@@ -41,12 +43,18 @@ struct Measured {
   ScanParameters row;
   io::Json object;
   std::string facts;
+  analysis::Case doubts;
 };
 
+/// Those of a table for people; files and JSON objects have all of them.
+constexpr std::array kShown{ParameterSet::height, ParameterSet::hybrid, ParameterSet::function};
+
 std::vector<ParameterSet> sets_from(const std::string& text) {
+  if (text == "all") return {metrology::kParameterSets.begin(), metrology::kParameterSets.end()};
   std::vector<std::string> words;
-  words.reserve(metrology::kParameterSets.size());
+  words.reserve(metrology::kParameterSets.size() + 1);
   for (const ParameterSet set : metrology::kParameterSets) words.emplace_back(name_of(set));
+  words.emplace_back("all");
   std::vector<ParameterSet> sets;
   for (const std::string& word : io::parse_csv(text + "\n", "--set").columns) {
     const auto set = metrology::parameter_set_from(word);
@@ -73,8 +81,15 @@ metrology::ProfileOptions profile_options_of(const Request& request) {
   return options;
 }
 
-metrology::ParameterOptions options_of(const Request& request) {
+/// Whether the result is a table for people that nobody chose the sets of.
+bool is_short(const Request& request, const Context& context) {
+  return !request.sets && !request.csv && !request.output && !context.json;
+}
+
+metrology::ParameterOptions options_of(const Request& request, const Context& context) {
   metrology::ParameterOptions options = request.options;
+  if (request.sets) options.sets = *request.sets;
+  if (is_short(request, context)) options.sets = {kShown.begin(), kShown.end()};
   options.profile = profile_options_of(request);
   if (request.stencil == "seven-point") options.stencil = metrology::SlopeStencil::seven_point;
   if (request.triangles == "four") options.triangles = metrology::AreaTriangles::four;
@@ -96,34 +111,23 @@ std::string facts_of(const Scan& scan) {
 Measured measure(const Request& request, const std::string& file, Context& context) {
   ScanRequest one = request.scan;
   one.file = file;
-  const Scan scan = load_scan(one, context);
-  warn_if_not_levelled(scan, context);
+  const Scan scan = read_scan(one, context);
   Measured measured{.row = {.path = file, .treatment = chain_of(scan)},
                     .object = json_head(context, scan),
-                    .facts = facts_of(scan)};
+                    .facts = facts_of(scan),
+                    .doubts = doubts_of(scan)};
   measured.row.parameters =
-      metrology::parameters(scan.surface, options_of(request), context.observer());
+      metrology::parameters(scan.surface, options_of(request, context), context.observer());
   const Index holes = topography::count_holes(scan.surface);
   measured.object["valid_points"] = scan.surface.grid.size() - holes;
   measured.object["parameters"] = json_of(measured.row.parameters);
   return measured;
 }
 
-/// Warnings about one scan of several say which.
-void name_warnings(Context& context, std::size_t first, const std::string& file) {
-  for (std::size_t i = first; i < context.warnings.size(); ++i) {
-    std::string& warning = context.warnings[i].text;
-    if (!warning.starts_with(file)) warning.insert(0, file + ": ");
-  }
-}
-
 /// The same for one of many: what cannot be read is told and does not end the others.
 Measured try_measure(const Request& request, const std::string& file, Context& context) {
-  const std::size_t n_warnings = context.warnings.size();
   try {
-    Measured measured = measure(request, file, context);
-    name_warnings(context, n_warnings, file);
-    return measured;
+    return measure(request, file, context);
   } catch (const InputError& error) {
     Measured failed;
     failed.row.path = file;
@@ -133,12 +137,37 @@ Measured try_measure(const Request& request, const std::string& file, Context& c
   }
 }
 
+/// What a short table leaves out.
+std::string other_sets(const Request& request, const Context& context) {
+  if (!is_short(request, context)) return "";
+  std::vector<std::string_view> others;
+  others.reserve(metrology::kParameterSets.size());
+  for (const ParameterSet set : metrology::kParameterSets) {
+    if (std::find(kShown.begin(), kShown.end(), set) == kShown.end()) {
+      others.push_back(name_of(set));
+    }
+  }
+  return fmt::format("\nother sets: {} (--set all)\n", fmt::join(others, ", "));
+}
+
+/// One sentence for all scans that have the same doubt.
+void warn_of(const std::vector<Measured>& all, Context& context) {
+  std::vector<analysis::Case> cases;
+  cases.reserve(all.size());
+  for (const Measured& measured : all) {
+    if (measured.row.failure.empty()) cases.push_back(measured.doubts);
+  }
+  context.warn(analysis::findings_of(cases));
+}
+
 int show_one(const Request& request, Context& context) {
   const Measured measured = measure(request, request.files.front(), context);
+  warn_of({measured}, context);
   if (request.output) io::write_file(*request.output, csv_table({measured.row}));
   if (request.csv) return finish(context, measured.object, csv_table({measured.row}));
   return finish(context, measured.object,
-                measured.facts + '\n' + grouped_table(measured.row.parameters));
+                measured.facts + '\n' + grouped_table(measured.row.parameters) +
+                    other_sets(request, context));
 }
 
 io::Json json_of(const std::vector<Measured>& all, const Context& context) {
@@ -165,6 +194,7 @@ int show_many(const Request& request, Context& context) {
   std::vector<Measured> all;
   all.reserve(request.files.size());
   for (const std::string& file : request.files) all.push_back(try_measure(request, file, context));
+  warn_of(all, context);
   std::vector<ScanParameters> rows;
   rows.reserve(all.size());
   for (const Measured& measured : all) rows.push_back(measured.row);
@@ -175,8 +205,9 @@ int show_many(const Request& request, Context& context) {
     code = kInput;
     if (!context.json) context.warn("not measured: " + row.failure);
   }
-  return finish(context, json_of(all, context), request.csv ? csv_table(rows) : text_of(all, rows),
-                code);
+  const std::string text =
+      request.csv ? csv_table(rows) : text_of(all, rows) + other_sets(request, context);
+  return finish(context, json_of(all, context), text, code);
 }
 
 int show(const Request& request, Context& context) {
@@ -211,8 +242,9 @@ void declare_parameters(OptionSet& set, Request& request) {
   set.group("Parameters");
   set.add({.flag = "--set",
            .placeholder = "SET[,SET...]",
-           .help = "height, hybrid, function, volume, spatial, feature, spectral, profile [all]",
-           .assign = [&options](const std::string& text) { options.sets = sets_from(text); }});
+           .help = "height, hybrid, function, volume, spatial, feature, spectral, profile, all "
+                   "[height,hybrid,function in a table; all in --json, --csv and -o]",
+           .assign = [&request](const std::string& text) { request.sets = sets_from(text); }});
   set.choice("--stencil", {"forward", "seven-point"}, "differences of Sdq [forward]",
              request.stencil);
   set.choice("--triangles", {"two", "four"}, "triangles of each cell for Sdr [two, both ways]",

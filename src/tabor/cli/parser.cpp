@@ -75,6 +75,15 @@ void require_all(const Declared& declared, const OptionSet& set, const std::stri
   }
 }
 
+void require_companions(const Declared& declared, const std::string& verb) {
+  for (const auto& [parsed, option] : declared) {
+    if (parsed->count() == 0 || option->only_with.empty()) continue;
+    if (is_given(option->only_with, declared)) continue;
+    throw UsageError(fmt::format("{} belongs to {} here; see 'tabor {} --help'", option->flag,
+                                 option->only_with, verb));
+  }
+}
+
 void assign(const Option& option, const std::string& value) {
   try {
     option.assign(value);
@@ -112,6 +121,7 @@ void parse(const OptionSet& set, const std::string& verb, const std::vector<std:
   }
   reject_unknown_words(app, set, verb);
   require_all(declared, set, verb);
+  require_companions(declared, verb);
   for (const bool is_base : {true, false}) assign_in_order(app, declared, is_base);
 }
 

@@ -63,9 +63,9 @@ std::vector<std::string> methods_of(const PsdCurves& curves) {
 }
 
 int show(const Request& request, Context& context) {
-  const Scan scan = load_scan(request.scan, context);
+  const Scan scan = read_scan(request.scan, context);
   const PsdCurves curves = compute(request, scan, context);
-  warn_if_not_levelled(scan, context);
+  context.warn(analysis::findings_of({doubts_of(scan)}));
   if (curves.spectra) {
     const std::string warning = warning_about_exponents(*curves.spectra);
     if (!warning.empty()) context.warn(warning);

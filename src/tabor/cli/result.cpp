@@ -22,7 +22,18 @@ io::Json json_of(const analysis::Finding& finding) {
 }  // namespace
 
 io::Json json_head(const Context& context) {
-  return {{"tabor_version", kVersion}, {"command", context.command_line}};
+  io::Json head = {{"tabor_version", kVersion}, {"command", context.command_line}};
+  if (context.defaults.empty()) return head;
+  io::Json used = io::Json::object();
+  for (const auto& [flag, value] : context.defaults) {
+    if (used.contains(flag)) {  // steps of one kind
+      used[flag] = used[flag].get<std::string>() + " " + value;
+    } else {
+      used[flag] = value;
+    }
+  }
+  head["defaults"] = {{"file", context.defaults_file}, {"used", used}};
+  return head;
 }
 
 io::Json json_head(const Context& context, const Scan& scan) {
@@ -65,6 +76,16 @@ std::vector<std::string> scan_extensions() {
     extensions.insert(extensions.end(), row.extensions.begin(), row.extensions.end());
   }
   return extensions;
+}
+
+void declare_template(OptionSet& set, const std::string& what, bool& target) {
+  set.toggle(kTemplate, "print " + what + " and do nothing else", target);
+}
+
+int show_template(const std::string& text, Context& context) {
+  io::Json object = json_head(context);
+  object["template"] = text;
+  return finish(context, object, text);
 }
 
 void declare_output(OptionSet& set, std::optional<std::string>& target) {

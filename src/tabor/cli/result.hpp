@@ -24,6 +24,11 @@ int finish(Context& context, io::Json object, const std::string& text, int code 
 /// Declares `-o OUT.h5`.
 void declare_output(OptionSet& set, std::optional<std::string>& target);
 
+/// Declares `--template`, which stands for the file that it prints one for.
+inline constexpr const char* kTemplate = "--template";
+void declare_template(OptionSet& set, const std::string& what, bool& target);
+int show_template(const std::string& text, Context& context);
+
 /// Of the files that hold results, and of those that hold one surface.
 const std::vector<std::string>& hdf5_extensions();
 std::vector<std::string> scan_extensions();

@@ -84,6 +84,19 @@ class ScanDigest {
   std::future<std::string> sha256_;  // last: its end waits for the thread
 };
 
+}  // namespace
+
+void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment) {
+  set.group("Scan");
+  set.input("SCAN", "a scan file, see 'tabor formats'", request.file);
+  declare_reading(set, request.read);
+  if (with_treatment) declare_treatment(set, request.treatment);
+}
+
+Scan read_scan(const ScanRequest& request, Context& context) {
+  return read_scan(scan::ScanFile(request.file, context.observer()), request, context);
+}
+
 Scan read_scan(const scan::ScanFile& file, const ScanRequest& request, Context& context) {
   ScanDigest sha256(file);
   Topography surface =
@@ -94,37 +107,8 @@ Scan read_scan(const scan::ScanFile& file, const ScanRequest& request, Context& 
           .treatment = request.treatment};
 }
 
-}  // namespace
-
-void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment) {
-  set.group("Scan");
-  set.input("SCAN", "a scan file, see 'tabor formats'", request.file);
-  declare_reading(set, request.read);
-  if (with_treatment) declare_treatment(set, request.treatment);
-}
-
-void pass_on_warnings(const Topography& surface, const std::string& name, Context& context) {
-  for (const topography::Warning& warning : surface.warnings) {
-    context.warn(name + ": " + warning.text);
-  }
-}
-
-Scan read_scan(const ScanRequest& request, Context& context) {
-  return read_scan(scan::ScanFile(request.file, context.observer()), request, context);
-}
-
-Scan load_scan(const ScanRequest& request, Context& context) {
-  return load_scan(scan::ScanFile(request.file, context.observer()), request, context);
-}
-
-Scan load_scan(const scan::ScanFile& file, const ScanRequest& request, Context& context) {
-  Scan scan = read_scan(file, request, context);
-  pass_on_warnings(scan.surface, request.file, context);
-  return scan;
-}
-
-void warn_if_not_levelled(const Scan& scan, Context& context) {
-  if (const auto warning = analysis::not_levelled(scan.surface)) context.warn(warning->text);
+analysis::Case doubts_of(const Scan& scan) {
+  return {.surface = scan.path, .warnings = analysis::of_surface(scan.surface)};
 }
 
 void require_no_holes(const Scan& scan) {

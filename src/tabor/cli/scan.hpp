@@ -29,22 +29,14 @@ struct Scan {
 /// own, applied in the order given.
 void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment = true);
 
-/// Every warning about the surface becomes a warning that names it.
-void pass_on_warnings(const topography::Topography& surface, const std::string& name,
-                      Context& context);
-
 /// Reads and treats. Warnings about the surface are left to the warnings of the numbers that follow
 /// from it (analysis/warnings.hpp).
 Scan read_scan(const ScanRequest& request, Context& context);
-
-/// The same where there are no such numbers: warnings become warnings at once.
-Scan load_scan(const ScanRequest& request, Context& context);
 /// The same for a file that is open already.
-Scan load_scan(const scan::ScanFile& file, const ScanRequest& request, Context& context);
+Scan read_scan(const scan::ScanFile& file, const ScanRequest& request, Context& context);
 
-/// Warns when a scan that does not close on itself is used as it was read, and says by how much a
-/// plane would change it.
-void warn_if_not_levelled(const Scan& scan, Context& context);
+/// What there is to doubt about numbers of the surface itself, such as its roughness.
+analysis::Case doubts_of(const Scan& scan);
 
 /// Rejects holes with the option that fills them.
 void require_no_holes(const Scan& scan);

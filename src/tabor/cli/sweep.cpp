@@ -8,6 +8,7 @@
 #include <memory>
 #include <ostream>
 
+#include "tabor/cli/density_curve.hpp"
 #include "tabor/cli/failure.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/run_options.hpp"
@@ -27,6 +28,7 @@ namespace fs = std::filesystem;
 struct Request {
   std::string study;
   std::optional<std::string> directory;
+  bool wants_template = false;
   RunRequest run;
 
   fs::path folder() const {
@@ -83,6 +85,27 @@ std::string averages_text(const study::Study& study, const std::vector<study::Av
   return table.text() + "± is the standard deviation over n scans.\n";
 }
 
+/// Of each group under its lowest and its highest pressure.
+std::string curves_text(const std::vector<study::GroupCurve>& curves) {
+  Facts facts;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    const bool is_first = i == 0 || curves[i - 1].group != curves[i].group;
+    const bool is_last = i + 1 == curves.size() || curves[i + 1].group != curves[i].group;
+    if (is_first || is_last) describe(curves[i].curve, curves[i].asked, curves[i].group, facts);
+  }
+  return curves.empty() ? "" : "\nFriction against the lubricant's density:\n" + facts.text();
+}
+
+io::Json curves_json(const std::vector<study::GroupCurve>& curves) {
+  io::Json all = io::Json::array();
+  for (const study::GroupCurve& one : curves) {
+    io::Json object = {{"group", one.group}, {"n", one.n}};
+    object.update(json_of(one.curve));
+    all.push_back(std::move(object));
+  }
+  return all;
+}
+
 std::string outcome_text(const Request& request, const study::Outcome& outcome) {
   Facts facts;
   facts.fact("study", request.study);
@@ -124,7 +147,7 @@ int code_of(const study::Outcome& outcome) {
 /// Tables are replaced, and whatever the store holds.
 void note_files(const study::Study& study, const fs::path& folder, CommandFiles& files) {
   files.fills(folder / "store");
-  for (const char* table : {"results.h5", "results.csv", "averages.csv"}) {
+  for (const char* table : {"results.h5", "results.csv", "averages.csv", "density_curves.csv"}) {
     files.writes(folder / table);
   }
   for (const study::Scan& scan : study.scans) files.reads(scan.file);
@@ -132,6 +155,7 @@ void note_files(const study::Study& study, const fs::path& folder, CommandFiles&
 }
 
 int sweep(const Request& request, Context& context) {
+  if (request.wants_template) return show_template(study::study_template(), context);
   const study::Study study = read_study(request, context);
   note_files(study, request.folder(), context.files);
   study::Outcome outcome;
@@ -149,15 +173,21 @@ int sweep(const Request& request, Context& context) {
   for (const std::string& failure : outcome.failures) context.warn("failed: " + failure);
   io::Json object = outcome_json(context, request, outcome);
   object["averages"] = averages_json(study, outcome.averages);
-  const std::string text =
-      outcome_text(request, outcome) + '\n' + averages_text(study, outcome.averages);
+  if (!outcome.density_curves.empty()) {
+    object["density_curves"] = curves_json(outcome.density_curves);
+  }
+  const std::string text = outcome_text(request, outcome) + '\n' +
+                           averages_text(study, outcome.averages) +
+                           curves_text(outcome.density_curves);
   return finish(context, object, text, code_of(outcome));
 }
 
 void declare_options(OptionSet& set, Request& request) {
   set.group("Study");
   set.input("STUDY.toml", "the study: scans, treatment, material, pressures, densities",
-            request.study);
+            request.study)
+      .unless = kTemplate;
+  declare_template(set, "a study file to start from", request.wants_template);
   set.output("DIR", "folder of the results [STUDY_results]", {}, request.directory);
   declare_run_options(set, request.run);
 }
@@ -170,11 +200,14 @@ Verb sweep_verb() {
           .summary = "scans x pressures x densities of a study, resumable",
           .details =
               "Finished cases are kept and skipped when the same command runs again; the "
-              "tables are rebuilt each time. With lubricant.fluid = \"reynolds\", "
+              "tables are rebuilt each time. A [[scan]] may have a pressure, density, treatment, "
+              "contact (elastic or saturated) and reading of its own. With lubricant.fluid = "
+              "\"reynolds\", "
               "lubricant.viscosity and a list sweep.sliding_speed the deposited oil flows, "
               "carries part of the load and adds viscous friction at each speed.",
           .examples = {"tabor sweep examples/06_study/study.toml -o study_results",
-                       "tabor sweep examples/06_study/study.toml -o study_results --jobs 2 --json"},
+                       "tabor sweep examples/06_study/study.toml -o study_results --jobs 2 --json",
+                       "tabor sweep --template"},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_options(set, *request);

@@ -38,6 +38,9 @@ void declare_common(OptionSet& set, Context& context) {
   set.toggle("--json", "print one JSON object and nothing else", context.json);
   set.toggle("--quiet", "show no progress", context.quiet);
   set.count("--threads", "threads to use [all cores]; results never depend on it", context.threads);
+  static std::optional<std::string> nobody;  // defaults_for() looks for it before options are read
+  set.text("--defaults", "FILE|none", "file of default options [tabor.toml here, if there is one]",
+           nobody);
   set.count("--seed", "seed of everything random [1]", context.seed);
 }
 

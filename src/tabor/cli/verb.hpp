@@ -4,6 +4,7 @@
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tabor/analysis/findings.hpp"
@@ -17,7 +18,9 @@ namespace tabor::cli {
 struct Context {
   std::ostream& out;
   std::ostream& err;
-  std::string command_line = {};  ///< as typed, for result files
+  std::string command_line = {};   ///< with the defaults that were used, for result files
+  std::string defaults_file = {};  ///< "" without one
+  std::vector<std::pair<std::string, std::string>> defaults = {};  ///< used of it: flag, value
   bool json = false;
   bool quiet = false;
   std::uint64_t threads = 0;  ///< 0 = all cores

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tabor/core/convergence.hpp"
@@ -28,6 +29,9 @@ inline constexpr const char* kRequired = "required";
 
 /// Key lists one after the other.
 CaseKeys joined(CaseKeys keys, const std::vector<CaseKeys>& more);
+
+/// Values of keys as TOML writes them: {"ball.radius", "\"10 mm\""}.
+using Example = std::vector<std::pair<std::string, std::string>>;
 
 /// What a case is solved with, beside itself.
 struct CaseSetting {
@@ -92,6 +96,7 @@ struct Program {
   std::string name;
   std::string summary;
   CaseKeys keys;                        ///< of the case
+  Example example = {};                 ///< a case that computes in seconds
   std::vector<std::string> files = {};  ///< keys that name a file, from where the case lies
   std::vector<CaseColumn> columns;
   std::vector<CaseStudy> studies;
@@ -112,6 +117,10 @@ Program point_program();    ///< point contact, smooth or rough (docs/ehl_point.
 
 /// All programs in the order people meet them.
 const std::vector<Program>& programs();
+
+/// A case file to start from: the example's values, and every other key commented out, each with
+/// its unit, meaning and usual value.
+std::string case_template(const Program& program);
 
 /// Throws InputError for a key that no case of the program has, naming the nearest one or, if the
 /// case is of another program, that one.

@@ -21,9 +21,9 @@ void check_share(double value, const std::string& what) {
   }
 }
 
-/// What the corrected area is never taken below; 0 without saturation, and for counted pixels.
-double least_area_fraction(const Contact& contact, Area area) {
-  return area == Area::pixels ? 0 : contact.mean_pressure / contact.saturation_pressure;
+/// What the corrected area is never taken below; 0 without saturation.
+double least_area_fraction(const Contact& contact) {
+  return contact.mean_pressure / contact.saturation_pressure;
 }
 
 }  // namespace
@@ -46,14 +46,18 @@ Estimate estimate(const Contact& contact, double shear_strength, Area area,
   check_share(contact.contact_area_fraction, "contact area fraction");
   check_share(contact.contact_area_fraction_pixels, "contact area fraction in pixels");
   check_share(contact.lubricated_share, "lubricated share");
-  const double least = least_area_fraction(contact, area);
-  const double counted =
-      area == Area::pixels ? contact.contact_area_fraction_pixels : contact.contact_area_fraction;
-  const double fraction = std::max(counted, least);
+  const double least = least_area_fraction(contact);
+  const double corrected = std::max(contact.contact_area_fraction, least);
+  const bool corrected_at_bound = least > 0 && corrected <= least * (1 + 1e-12);
+  const double fraction = area == Area::pixels ? contact.contact_area_fraction_pixels : corrected;
   const double dry = fraction * shear_strength / contact.mean_pressure;
   const double slippery = 1 - boundary_shear_strength / shear_strength;
-  return {fraction, area, dry, (1 - std::min(contact.lubricated_share, 1.0) * slippery) * dry,
-          least > 0 && fraction <= least * (1 + 1e-12)};
+  return {.area_fraction = fraction,
+          .area = area,
+          .friction_dry = dry,
+          .friction_lubricated = (1 - std::min(contact.lubricated_share, 1.0) * slippery) * dry,
+          .at_bound = corrected_at_bound && area == Area::corrected,
+          .corrected_at_bound = corrected_at_bound};
 }
 
 }  // namespace tabor::friction

@@ -30,11 +30,12 @@ struct Contact {
 
 /// What Bowden and Tabor's rule says of one state.
 struct Estimate {
-  double area_fraction = 0;        ///< A_real / A0 that was used
-  Area area = Area::corrected;     ///< and how it was counted
-  double friction_dry = 0;         ///< mu of the whole real contact
-  double friction_lubricated = 0;  ///< mu of its dry part and of the boundary film on the rest
-  bool at_bound = false;           ///< the area is P / p_sat: dry friction is tau_y / p_sat
+  double area_fraction = 0;         ///< A_real / A0 that was used
+  Area area = Area::corrected;      ///< and how it was counted
+  double friction_dry = 0;          ///< mu of the whole real contact
+  double friction_lubricated = 0;   ///< mu of its dry part and of the boundary film on the rest
+  bool at_bound = false;            ///< the area is P / p_sat: dry friction is tau_y / p_sat
+  bool corrected_at_bound = false;  ///< the corrected area is, whichever was used
 };
 
 /// Bowden & Tabor: the friction force is the shear strength tau_y [Pa] times the real contact area,

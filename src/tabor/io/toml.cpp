@@ -176,6 +176,21 @@ std::vector<std::string> Config::texts(std::string_view key) const {
   return values;
 }
 
+std::vector<std::string> Config::words(std::string_view key) const {
+  const auto word_of = [&](const toml::node& node) {
+    if (node.is_string()) return node.as_string()->get();
+    if (!node.is_number()) wrong(place(key), node, "text in quotes or a number");
+    return node.is_integer() ? fmt::format("{}", node.as_integer()->get())
+                             : fmt::format("{}", node.as_floating_point()->get());
+  };
+  const toml::node& node = find(table_->values, key, place(key));
+  if (!node.is_array()) return {word_of(node)};
+  std::vector<std::string> all;
+  for (const auto& element : *node.as_array()) all.push_back(word_of(element));
+  if (all.empty()) throw InputError(place(key), "an empty array", "at least one value", "");
+  return all;
+}
+
 double Config::quantity(std::string_view key, Dimension expected) const {
   return to_quantity(find(table_->values, key, place(key)), expected, place(key), key);
 }
@@ -208,6 +223,9 @@ std::vector<Config> Config::tables(std::string_view key) const {
 std::vector<std::string> Config::keys() const {
   std::vector<std::pair<std::string, const toml::node*>> leaves;
   collect_leaves(table_->values, "", leaves);
+  std::stable_sort(leaves.begin(), leaves.end(), [](const auto& a, const auto& b) {
+    return a.second->source().begin < b.second->source().begin;
+  });
   std::vector<std::string> paths;
   paths.reserve(leaves.size());
   for (const auto& [path, node] : leaves) paths.push_back(path);
@@ -242,7 +260,7 @@ std::string namesake(const std::string& path, const std::vector<std::string>& kn
 
 /// "; did you mean ...?", by letters or, where that finds nothing, by name.
 std::string key_suggestion(const std::string& path, const std::vector<std::string>& known) {
-  const std::string near = suggestion(path, known);
+  std::string near = suggestion(path, known);
   if (!near.empty()) return near;
   const std::string other = namesake(path, known);
   return other.empty() ? "" : "; did you mean '" + other + "'?";

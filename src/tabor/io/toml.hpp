@@ -27,6 +27,9 @@ class Config {
   bool flag(std::string_view key) const;
   std::vector<std::string> texts(std::string_view key) const;  ///< an array of strings, or one
 
+  /// Texts as they are, numbers as TOML writes them; an array or one value.
+  std::vector<std::string> words(std::string_view key) const;
+
   /// A value with its unit ("70 GPa"), in SI. A number without a unit is rejected with the
   /// corrected form, unless `expected` is dimensionless.
   double quantity(std::string_view key, Dimension expected) const;
@@ -35,7 +38,8 @@ class Config {
   /// The tables of an array [[key]]; empty if the key is absent.
   std::vector<Config> tables(std::string_view key) const;
 
-  /// Dotted paths of all values; those inside an array of tables are written "scan[].file".
+  /// Dotted paths of all values in the order of the file; those inside an array of tables are
+  /// written "scan[].file".
   std::vector<std::string> keys() const;
 
   /// Throws for the first key that is not in `known`, naming the nearest. Keys inside an array of

@@ -81,22 +81,14 @@ Average average_over(const Key& key, const std::vector<const Row*>& rows) {
   return average;
 }
 
+}  // namespace
+
 const Columns<Mean>& mean_columns() {
   static const Columns<Mean> columns{{"_mean", "", "", &Mean::mean},
                                      {"_std", "", "", &Mean::standard_deviation},
                                      {"_sem", "", "", &Mean::standard_error}};
   return columns;
 }
-
-template <typename Record>
-void add_mean(const std::string& name, Mean Record::*mean, Columns<Record>& columns) {
-  for (Column<Record>& column : within(mean_columns(), mean)) {
-    column.key = name + column.key;
-    columns.push_back(column);
-  }
-}
-
-}  // namespace
 
 Mean mean_of(const std::vector<double>& values) {
   Mean result;

@@ -46,6 +46,16 @@ struct Average {
 /// not converge do not count: n says how many did.
 std::vector<Average> averages(const std::vector<Row>& rows);
 
+/// Columns of what mean_columns() calls "_mean", "_std" and "_sem", behind a name.
+const Columns<Mean>& mean_columns();
+template <typename Record>
+void add_mean(const std::string& name, Mean Record::*mean, Columns<Record>& columns) {
+  for (Column<Record>& column : within(mean_columns(), mean)) {
+    column.key = name + column.key;
+    columns.push_back(column);
+  }
+}
+
 /// Of averages.csv, results.h5 and JSON, with or without those of a film that flows.
 Columns<Average> average_columns(bool oil_flows);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tabor/analysis/density_curve.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/io/digest.hpp"
 
@@ -29,6 +30,9 @@ void add_pressure(const Study& study, const Scan& scan, double pressure, ScanTas
                               study.flows() ? &fluids.back() : nullptr));
   }
   tasks.contacts.push_back(contact);
+  if (analysis::has_density_curve(study.settings)) {
+    tasks.wet_shares.push_back(wet_shares_task(study, contact));
+  }
   tasks.cases.push_back(std::move(cases));
   tasks.fluids.push_back(std::move(fluids));
 }
@@ -77,6 +81,15 @@ Task film_task(const Study& study, const Task& surface) {
   return task_of("film", "h5", body);
 }
 
+Task wet_shares_task(const Study& study, const Task& contact) {
+  const analysis::FilmSettings& lubricant = study.settings.film;
+  return task_of(kWetSharesKind, "json",
+                 text_line("contact", contact.key) +
+                     text_line("oil_density_kg_per_m3", lubricant.oil_density) +
+                     text_line("reading", deposition::name(lubricant.reading)) +
+                     text_line("edge", deposition::name(lubricant.edge)));
+}
+
 Task fluid_task(const Study& study, const Task& contact, const Task& film,
                 const Condition& condition) {
   const friction::FlowingOil oil = study.settings.fluid.oil();
@@ -94,27 +107,30 @@ Task fluid_task(const Study& study, const Task& contact, const Task& film,
 
 Task case_task(const Study& study, const Scan& scan, const Task& contact, const Task& film,
                double lubricant_density, const Task* fluid) {
-  return task_of("case", "json",
-                 text_line("scan", scan.label) + text_line("group", scan.group) +
-                     text_line("contact", contact.key) + text_line("film", film.key) +
-                     text_line("lubricant_density_kg_per_m2", lubricant_density) +
-                     text_line("shear_strength_Pa", study.settings.friction.shear_strength) +
-                     boundary_line(study.settings.friction) +
-                     text_line("area", friction::name(study.settings.friction.area)) +
-                     (fluid != nullptr ? text_line("fluid", fluid->key) : ""));
+  return task_of(
+      "case", "json",
+      text_line("scan", scan.label) + text_line("group", scan.group) +
+          text_line("contact", contact.key) + text_line("film", film.key) +
+          text_line("lubricant_density_kg_per_m2", lubricant_density) +
+          text_line("shear_strength_Pa", study.settings.friction.shear_strength) +
+          boundary_line(study.settings.friction) +
+          text_line("area",
+                    friction::name(study.settings.friction.area_of(study.settings.contact))) +
+          (fluid != nullptr ? text_line("fluid", fluid->key) : ""));
 }
 
 std::vector<ScanTasks> tasks_of(const Study& study, const Observer& observer) {
   std::vector<ScanTasks> all;
   for (const Scan& scan : study.scans) {
     ScanTasks tasks;
+    const Study alone = study.of(scan);
     const std::string stage = stage_name("hash", scan);
     tasks.sha256 =
         io::sha256_of_file(scan.file, [&] { report_progress(observer, stage, std::nan("")); });
-    tasks.surface = surface_task(study, scan, tasks.sha256);
-    tasks.film = film_task(study, tasks.surface);
-    for (const double pressure : study.settings.mean_pressures) {
-      add_pressure(study, scan, pressure, tasks);
+    tasks.surface = surface_task(alone, scan, tasks.sha256);
+    tasks.film = film_task(alone, tasks.surface);
+    for (const double pressure : alone.settings.mean_pressures) {
+      add_pressure(alone, scan, pressure, tasks);
     }
     all.push_back(std::move(tasks));
   }

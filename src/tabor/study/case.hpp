@@ -8,7 +8,8 @@
 
 namespace tabor::study {
 
-// The tasks of a study, and the texts that their keys are made of.
+// The tasks of a study, and the texts that their keys are made of. Where a scan has settings of its
+// own, the study of its tasks is Study::of(scan).
 
 /// Change it when the same text gives other numbers than before.
 inline constexpr int kAlgorithms = 4;
@@ -32,12 +33,17 @@ Task fluid_task(const Study& study, const Task& contact, const Task& film,
 Task case_task(const Study& study, const Scan& scan, const Task& contact, const Task& film,
                double lubricant_density, const Task* fluid = nullptr);
 
+/// The share of one contact that each of many densities wets.
+inline constexpr const char* kWetSharesKind = "wetshares";
+Task wet_shares_task(const Study& study, const Task& contact);
+
 /// Everything a study needs of one scan.
 struct ScanTasks {
   std::string sha256;
   Task surface;
   Task film;
   std::vector<Task> contacts;             ///< one per pressure
+  std::vector<Task> wet_shares;           ///< the same; empty where there are none
   std::vector<std::vector<Task>> cases;   ///< [pressure][condition]
   std::vector<std::vector<Task>> fluids;  ///< the same; empty lists where the oil does not flow
 };

@@ -7,6 +7,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/io/digest.hpp"
+#include "tabor/study/wet_shares.hpp"
 
 namespace tabor::study {
 namespace {
@@ -116,6 +117,24 @@ void compute_fluid(const Store& store, const Study& study, const topography::Top
               {{"mean_pressure_Pa", mean_pressure},
                {"lubricant_density_g_per_m2", in_g_per_m2(study.lubricant_density(under))},
                {"sliding_speed_m_per_s", record.sliding_speed}});
+}
+
+analysis::WettingDoses all_wetting_doses(const Study& study,
+                                         const topography::Topography& topography,
+                                         const Observer& observer) {
+  const Mask everywhere = Mask::Constant(topography.grid.ny, topography.grid.nx, true);
+  return analysis::wetting_doses(topography, study.settings.film, everywhere, observer);
+}
+
+void compute_wet_shares(const Store& store, const Task& task, const Task& contact,
+                        const analysis::WettingDoses& doses) {
+  const Mask touching = read_contact_mask(store, contact);
+  if (!doses.first.empty() && doses.first.size() != static_cast<std::size_t>(touching.size())) {
+    throw InputError("the store", "a surface and a contact of two sizes", "both of one surface",
+                     "remove the folder store and run the sweep again");
+  }
+  write_wet_shares(store, task,
+                   {doses.lubricant_densities, analysis::lubricated_shares(doses, touching)});
 }
 
 void compute_row(const Store& store, const Study& study, const Scan& scan, const ScanTasks& tasks,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tabor/analysis/density_curve.hpp"
 #include "tabor/core/convergence.hpp"
 #include "tabor/study/record.hpp"
 
@@ -37,6 +38,15 @@ void compute_film(const Store& store, const Task& task, const Study& study,
 void compute_fluid(const Store& store, const Study& study, const topography::Topography& topography,
                    const contact::State& dry, const ScanTasks& tasks, std::size_t pressure,
                    std::size_t condition, const Observer& observer);
+
+/// Which density is the first to wet each pixel, whether something touches there or not.
+analysis::WettingDoses all_wetting_doses(const Study& study,
+                                         const topography::Topography& topography,
+                                         const Observer& observer);
+
+/// The wet shares of one stored contact.
+void compute_wet_shares(const Store& store, const Task& task, const Task& contact,
+                        const analysis::WettingDoses& doses);
 
 /// One row from what is in the store.
 void compute_row(const Store& store, const Study& study, const Scan& scan, const ScanTasks& tasks,

@@ -31,10 +31,11 @@ bool contact_converged(const Store& store, const Task& task) {
 /// What the jobs of one scan share: all that outlives them, and its treated surface.
 struct ScanOfJobs {
   const Store& store;
-  const Study& study;
+  const Study study;  ///< of this scan alone
   const Scan& scan;
   const ScanTasks& tasks;
   MadeOnce<topography::Topography> treated = {};
+  analysis::WettingDoses doses = {};  ///< kept by a job of its own for those that need it
 
   /// Made by the first who asks, and gone with the last job.
   std::shared_ptr<const topography::Topography> surface(const Monitor& monitor) {
@@ -72,6 +73,29 @@ Job film_job(const SharedScan& scan) {
   job.is_serial = true;
   job.compute = [scan](const Monitor& monitor) {
     compute_film(scan->store, scan->tasks.film, scan->study, *scan->surface(monitor), monitor.own);
+  };
+  return job;
+}
+
+/// Nothing of it is stored: it is done for the contacts whose wet shares are missing.
+Job doses_job(const SharedScan& scan) {
+  Job job = job_of("wetting doses", scan, {});
+  job.defect = nullptr;
+  job.stage = stage_name("wetting doses", scan->scan);
+  job.is_serial = true;
+  job.compute = [scan](const Monitor& monitor) {
+    scan->doses = all_wetting_doses(scan->study, *scan->surface(monitor), monitor.own);
+  };
+  return job;
+}
+
+Job wet_shares_job(const SharedScan& scan, std::size_t pressure) {
+  Job job = job_of(kWetSharesKind, scan, scan->tasks.wet_shares[pressure]);
+  job.is_brief = true;
+  job.memory = nullptr;
+  job.compute = [scan, pressure](const Monitor&) {
+    compute_wet_shares(scan->store, scan->tasks.wet_shares[pressure],
+                       scan->tasks.contacts[pressure], scan->doses);
   };
   return job;
 }
@@ -133,6 +157,8 @@ class JobList {
   void add(const SharedScan& scan) {
     surface_ = add(surface_job(scan), {});
     film_ = add(film_job(scan), {});
+    if (!scan->tasks.wet_shares.empty()) doses_ = add(doses_job(scan), {});
+    shown_ = {surface_};
     const std::size_t n_pressures = scan->tasks.contacts.size();
     contacts_.clear();
     for (std::size_t pressure = 0; pressure < n_pressures; ++pressure) add_contact(scan, pressure);
@@ -146,6 +172,11 @@ class JobList {
   void add_contact(const SharedScan& scan, std::size_t pressure) {
     contacts_.push_back(add(contact_job(scan, pressure), {}, part_ + pressure));
     if (scan->study.flows()) return;
+    shown_ = {surface_};
+    if (!scan->tasks.wet_shares.empty()) {
+      shown_.push_back(
+          add(wet_shares_job(scan, pressure), {contacts_[pressure], doses_}, part_ + pressure));
+    }
     for (std::size_t i = 0; i < scan->tasks.cases[pressure].size(); ++i) {
       add_row(scan, pressure, i, {contacts_[pressure], film_});
     }
@@ -164,7 +195,7 @@ class JobList {
   void add_row(const SharedScan& scan, std::size_t pressure, std::size_t condition,
                std::vector<std::size_t> needs) {
     add(row_job(scan, pressure, condition), std::move(needs), part_ + pressure);
-    jobs_.back().wants = {surface_};
+    jobs_.back().wants = shown_;
   }
 
   std::size_t add(Job job, std::vector<std::size_t> needs, std::optional<std::size_t> part = {}) {
@@ -178,6 +209,8 @@ class JobList {
   std::size_t part_ = 0;  // of the first pressure of the scan
   std::size_t surface_ = 0;
   std::size_t film_ = 0;
+  std::size_t doses_ = 0;
+  std::vector<std::size_t> shown_;  // beside the rows of a pressure
   std::vector<std::size_t> contacts_;
 };
 
@@ -187,7 +220,7 @@ std::vector<Job> friction_jobs(const Store& store, const Study& study,
                                const std::vector<ScanTasks>& tasks) {
   JobList jobs;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    jobs.add(SharedScan(new ScanOfJobs{store, study, study.scans[i], tasks[i]}));
+    jobs.add(SharedScan(new ScanOfJobs{store, study.of(study.scans[i]), study.scans[i], tasks[i]}));
   }
   return jobs.take();
 }

@@ -14,6 +14,7 @@
 #include "tabor/io/json.hpp"
 #include "tabor/io/sealed_file.hpp"
 #include "tabor/study/task_file.hpp"
+#include "tabor/study/wet_shares.hpp"
 #include "tabor/topography/surface_group.hpp"
 
 namespace tabor::study {
@@ -39,8 +40,9 @@ double value_or_nan(const io::Json& value) {
   return value.is_null() ? kNoValue : value.get<double>();
 }
 
-std::string defect_of_row(const Store& store, const Task& task) {
+std::string defect_of_json(const Store& store, const Task& task) {
   try {
+    if (task.file.starts_with(kWetSharesKind)) return read_wet_shares(store, task), "";
     return read_row(store, task).case_id == task.key ? "" : "belongs to another case";
   } catch (const InputError& error) {
     return error.what();
@@ -161,9 +163,17 @@ SurfaceFacts read_surface_facts(const Store& store, const Task& task) {
   return io::read_guarded(store.path(task), facts_of_surface);
 }
 
+analysis::ContactRecord read_contact_record(const Store& store, const Task& task) {
+  return io::read_guarded(store.path(task), contact_numbers);
+}
+
+Mask read_contact_mask(const Store& store, const Task& task) {
+  return io::read_guarded_map(store.path(task), "/contact/state") > 0;
+}
+
 StoredContact read_contact(const Store& store, const Task& task) {
   StoredContact stored = io::read_guarded(store.path(task), contact_numbers);
-  stored.contact = io::read_guarded_map(store.path(task), "/contact/state") > 0;
+  stored.contact = read_contact_mask(store, task);
   stored.gap = io::read_guarded_map(store.path(task), "/contact/gap");
   return stored;
 }
@@ -202,7 +212,7 @@ analysis::FilmRecord read_film_record(const Store& store, const Task& task, std:
 }
 
 std::string defect(const Store& store, const Task& task) {
-  if (task.file.ends_with(".json")) return defect_of_row(store, task);
+  if (task.file.ends_with(".json")) return defect_of_json(store, task);
   // Only a file that is to the last byte what was written is opened at all.
   std::string problem = io::broken_seal(store.path(task));
   if (!problem.empty()) return problem;

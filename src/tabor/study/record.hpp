@@ -59,6 +59,10 @@ struct StoredContact : analysis::ContactRecord {
 void write_contact(const Store& store, const Task& task, const Grid& grid,
                    double saturation_pressure, const analysis::ContactRecord& record);
 StoredContact read_contact(const Store& store, const Task& task);
+/// Its numbers alone.
+analysis::ContactRecord read_contact_record(const Store& store, const Task& task);
+/// Its mask alone: true where the solids touch.
+Mask read_contact_mask(const Store& store, const Task& task);
 
 /// Films arrive one after the other, in any order; commit() when all are there.
 class FilmFile {

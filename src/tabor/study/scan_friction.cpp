@@ -89,7 +89,7 @@ class ScanFriction {
   std::vector<Job> jobs() {
     std::vector<Job> jobs = {film_job()};
     for (std::size_t i = 0; i < pressures_.size(); ++i) add_pressure(i, jobs);
-    if (has_curves()) jobs.push_back(curves_job());
+    if (analysis::has_density_curve(settings_)) jobs.push_back(curves_job());
     return jobs;
   }
 
@@ -107,16 +107,6 @@ class ScanFriction {
       return bytes_of_job(surface_.grid, settings_.fluid.flows());
     };
     return job;
-  }
-
-  /// Droplets must run downhill to fill pockets first, and then valleys.
-  bool has_curves() const {
-    const analysis::FilmSettings& film = settings_.film;
-    const bool runs_down =
-        film.model == deposition::Model::droplets || film.model == deposition::Model::limit;
-    const bool is_wet = std::any_of(film.lubricant_densities.begin(),
-                                    film.lubricant_densities.end(), [](double d) { return d > 0; });
-    return runs_down && is_wet && !settings_.fluid.flows();
   }
 
   Job curves_job() {

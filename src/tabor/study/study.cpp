@@ -15,52 +15,48 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kKnownKeys{"title",
-                                          "shear_strength",
-                                          "boundary_shear_strength",
-                                          "boundary_shear_share",
-                                          "area",
-                                          "material.name",
-                                          "material.youngs_modulus",
-                                          "material.poissons_ratio",
-                                          "material.saturation_pressure",
-                                          "material.counter_youngs_modulus",
-                                          "material.counter_poissons_ratio",
-                                          "treatment.steps",
-                                          "treatment.channel",
-                                          "treatment.pixel",
-                                          "treatment.unit",
-                                          "contact.boundary",
-                                          "contact.solver",
-                                          "contact.tolerance",
-                                          "sweep.mean_pressure",
-                                          "sweep.lubricant_density",
-                                          "sweep.sliding_speed",
-                                          "lubricant.oil_density",
-                                          "lubricant.model",
-                                          "lubricant.reading",
-                                          "lubricant.edge",
-                                          "lubricant.droplet",
-                                          "lubricant.seed",
-                                          "lubricant.fluid",
-                                          "lubricant.viscosity",
-                                          "lubricant.pressure_viscosity",
-                                          "lubricant.eyring_stress",
-                                          "scan[].file",
-                                          "scan[].group",
-                                          "scan[].channel",
-                                          "scan[].pixel",
-                                          "scan[].unit",
-                                          "experiment.file"};
-
-/// A key whose values have names.
-template <typename Names>
-auto named(const io::Config& config, std::string_view key, const Names& names) {
-  const std::string word = config.text(key);
-  if (const auto value = names.find(word)) return *value;
-  reject(config, key, "'" + word + "'",
-         fmt::format("{}", fmt::join(names.all(), " or ")) + suggestion(word, names.all()));
-}
+const std::vector<std::string> kKeys{"title",
+                                     "shear_strength",
+                                     "boundary_shear_strength",
+                                     "boundary_shear_share",
+                                     "area",
+                                     "material.name",
+                                     "material.youngs_modulus",
+                                     "material.poissons_ratio",
+                                     "material.saturation_pressure",
+                                     "material.counter_youngs_modulus",
+                                     "material.counter_poissons_ratio",
+                                     "treatment.steps",
+                                     "treatment.channel",
+                                     "treatment.pixel",
+                                     "treatment.unit",
+                                     "contact.boundary",
+                                     "contact.solver",
+                                     "contact.tolerance",
+                                     "sweep.mean_pressure",
+                                     "sweep.lubricant_density",
+                                     "sweep.sliding_speed",
+                                     "lubricant.oil_density",
+                                     "lubricant.model",
+                                     "lubricant.reading",
+                                     "lubricant.edge",
+                                     "lubricant.droplet",
+                                     "lubricant.seed",
+                                     "lubricant.fluid",
+                                     "lubricant.viscosity",
+                                     "lubricant.pressure_viscosity",
+                                     "lubricant.eyring_stress",
+                                     "scan[].file",
+                                     "scan[].group",
+                                     "scan[].channel",
+                                     "scan[].pixel",
+                                     "scan[].unit",
+                                     "scan[].pressure",
+                                     "scan[].density",
+                                     "scan[].treatment",
+                                     "scan[].contact",
+                                     "scan[].reading",
+                                     "experiment.file"};
 
 double read_modulus(const io::Config& config, const std::string& key) {
   return positive(config, key, dimension::pressure);
@@ -158,7 +154,9 @@ void read_lubricant(const io::Config& config, analysis::FilmSettings& lubricant)
 }
 
 void read_sweep(const io::Config& config, analysis::CaseSettings& settings) {
-  settings.mean_pressures = read_axis(config, "sweep.mean_pressure", dimension::pressure, false);
+  if (config.has("sweep.mean_pressure")) {
+    settings.mean_pressures = read_axis(config, "sweep.mean_pressure", dimension::pressure, false);
+  }
   settings.film.lubricant_densities = {0};  // no density asked for: dry friction alone
   if (config.has("sweep.lubricant_density")) {
     settings.film.lubricant_densities =
@@ -166,21 +164,30 @@ void read_sweep(const io::Config& config, analysis::CaseSettings& settings) {
   }
 }
 
-/// Where the study file says what analysis calls by this name.
-std::string key_of(std::string_view setting) {
-  if (setting == "mean_pressure") return "sweep.mean_pressure";
-  if (setting == "tolerance" || setting == "boundary") return "contact." + std::string(setting);
-  return "material." + std::string(setting);
-}
-
-void check_contact(const io::Config& config, const analysis::CaseSettings& settings) {
-  const auto found = analysis::objection(settings.contact, settings.mean_pressures, key_of);
-  if (!found) return;
-  throw InputError(config.place(key_of(found->setting)), found->got, found->expected,
-                   found->remedy);
-}
-
 }  // namespace
+
+Study Study::of(const Scan& scan) const {
+  Study alone = *this;
+  alone.scans = {scan};
+  const OwnSettings& own = scan.own;
+  analysis::CaseSettings& under = alone.settings;
+  under.mean_pressures = own.mean_pressures.value_or(settings.mean_pressures);
+  under.film.lubricant_densities =
+      own.lubricant_densities.value_or(settings.film.lubricant_densities);
+  under.film.reading = own.reading.value_or(settings.film.reading);
+  alone.treatment = own.treatment.value_or(treatment);
+  if (own.deformation == Deformation::elastic) under.contact.saturation_pressure.reset();
+  return alone;
+}
+
+std::size_t Study::n_cases() const {
+  std::size_t n = 0;
+  for (const Scan& scan : scans) {
+    const Study alone = of(scan);
+    n += alone.settings.mean_pressures.size() * alone.conditions().size();
+  }
+  return n;
+}
 
 std::vector<Condition> Study::conditions() const {
   std::vector<Condition> all;
@@ -203,9 +210,11 @@ analysis::FluidSettings Study::fluid_settings(const Condition& condition) const 
   return fluid;
 }
 
+const std::vector<std::string>& known_keys() { return kKeys; }
+
 Study read_study(const fs::path& file) {
   const io::Config config = io::Config::read(file);
-  config.reject_unknown(kKnownKeys);
+  config.reject_unknown(known_keys());
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   Study study;
   study.file = file;
@@ -216,16 +225,8 @@ Study read_study(const fs::path& file) {
   read_contact(config, settings.contact);
   read_lubricant(config, settings.film);
   read_sweep(config, settings);
-  check_contact(config, settings);
   read_flowing_oil(config, study);
-  if (config.has("treatment.steps")) {
-    study.treatment = config.texts("treatment.steps");
-    try {
-      topography::check(study.treatment);
-    } catch (const InputError& error) {
-      throw InputError(config.place("treatment.steps") + ": " + error.what());
-    }
-  }
+  if (config.has("treatment.steps")) study.treatment = read_steps(config, "treatment.steps");
   read_scans(config, folder, study);
   if (config.has("experiment.file")) {
     study.experiment = read_experiment(folder / config.text("experiment.file"));

@@ -34,4 +34,14 @@ std::vector<double> read_axis(const io::Config& config, std::string_view key, Di
   return values;
 }
 
+topography::Treatment read_steps(const io::Config& config, std::string_view key) {
+  const topography::Treatment steps = config.texts(key);
+  try {
+    topography::check(steps);
+  } catch (const InputError& error) {
+    throw InputError(config.place(key) + ": " + error.what());
+  }
+  return steps;
+}
+
 }  // namespace tabor::study

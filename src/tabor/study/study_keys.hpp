@@ -1,10 +1,14 @@
 #pragma once
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
 #include "tabor/io/toml.hpp"
 #include "tabor/study/study.hpp"
 
@@ -30,6 +34,18 @@ auto at_key(const io::Config& config, std::string_view key, Parse parse) {
     throw InputError(config.place(key) + ": " + error.what());
   }
 }
+
+/// A key whose values have names.
+template <typename Names>
+auto named(const io::Config& config, std::string_view key, const Names& names) {
+  const std::string word = config.text(key);
+  if (const auto value = names.find(word)) return *value;
+  reject(config, key, "'" + word + "'",
+         fmt::format("{}", fmt::join(names.all(), " or ")) + suggestion(word, names.all()));
+}
+
+/// A chain of treatment steps that exist.
+topography::Treatment read_steps(const io::Config& config, std::string_view key);
 
 /// The [[scan]] tables; file names are relative to `folder`.
 void read_scans(const io::Config& config, const std::filesystem::path& folder, Study& study);

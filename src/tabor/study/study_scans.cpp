@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 #include <string_view>
+#include <utility>
 
 #include "tabor/core/text.hpp"
 #include "tabor/study/study_keys.hpp"
@@ -72,23 +73,68 @@ std::string label_of(const fs::path& file, const fs::path& folder) {
   return (relative.empty() ? file : relative).generic_string();
 }
 
+OwnSettings read_own_settings(const io::Config& entry) {
+  OwnSettings own;
+  if (entry.has("pressure")) {
+    own.mean_pressures = read_axis(entry, "pressure", dimension::pressure, false);
+  }
+  if (entry.has("density")) {
+    own.lubricant_densities = read_axis(entry, "density", dimension::areal_density, true);
+  }
+  if (entry.has("treatment")) own.treatment = read_steps(entry, "treatment");
+  if (entry.has("contact")) own.deformation = named(entry, "contact", kDeformations);
+  if (entry.has("reading")) own.reading = at_key(entry, "reading", deposition::parse_reading);
+  return own;
+}
+
+/// Where the study file says what analysis calls by this name.
+std::string key_of(std::string_view setting) {
+  if (setting == "mean_pressure") return "sweep.mean_pressure";
+  if (setting == "tolerance" || setting == "boundary") return "contact." + std::string(setting);
+  return "material." + std::string(setting);
+}
+
+/// What the scans of one table are computed under, as they all share it.
+void check_settings(const io::Config& config, const io::Config& entry, const Study& alone,
+                    const OwnSettings& own) {
+  const analysis::CaseSettings& settings = alone.settings;
+  if (settings.mean_pressures.empty()) {
+    throw InputError(config.place("sweep.mean_pressure") + " is missing, and " +
+                     entry.texts("file").front() + " has no pressure of its own");
+  }
+  if (own.deformation == Deformation::saturated && !settings.contact.saturation_pressure) {
+    reject(entry, "contact", "'saturated' without a limit", "material.saturation_pressure with it");
+  }
+  const auto found = analysis::objection(settings.contact, settings.mean_pressures, key_of);
+  if (!found) return;
+  const bool is_own = found->setting == "mean_pressure" && own.mean_pressures;
+  throw InputError(is_own ? entry.place("pressure") : config.place(key_of(found->setting)),
+                   found->got, found->expected, found->remedy);
+}
+
 }  // namespace
 
 void read_scans(const io::Config& config, const fs::path& folder, Study& study) {
   scan::ReadOptions common;
   read_file_options(config, "treatment.", common);
-  std::set<fs::path> seen;
+  std::set<std::pair<fs::path, std::string>> seen;  // with their groups
   for (const io::Config& entry : config.tables("scan")) {
     scan::ReadOptions options = common;
     read_file_options(entry, "", options);
+    const std::string group = entry.has("group") ? entry.text("group") : "all";
+    const OwnSettings own = read_own_settings(entry);
+    const std::size_t n_before = study.scans.size();
     for (const std::string& name : entry.texts("file")) {
       for (const fs::path& file : find_files(entry, folder, name)) {
-        if (!seen.insert(fs::weakly_canonical(file)).second) {
-          reject(entry, "file", "'" + name + "' twice", "each scan once, it would count twice");
+        if (!seen.emplace(fs::weakly_canonical(file), group).second) {
+          reject(entry, "file", "'" + name + "' twice",
+                 "each scan once in a group, it would count twice");
         }
-        study.scans.push_back({file, label_of(file, folder),
-                               entry.has("group") ? entry.text("group") : "all", options});
+        study.scans.push_back({file, label_of(file, folder), group, options, own});
       }
+    }
+    if (study.scans.size() > n_before) {
+      check_settings(config, entry, study.of(study.scans.back()), own);
     }
   }
   if (study.scans.empty()) throw InputError(config.name() + ": no [[scan]] with a file");

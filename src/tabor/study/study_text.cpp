@@ -76,34 +76,60 @@ std::string lubricant_table(const analysis::FilmSettings& lubricant,
   return fluid.flows() ? text + flowing_lines(fluid) : text;
 }
 
+std::string step_list(const topography::Treatment& treatment) {
+  std::vector<std::string> steps;
+  steps.reserve(treatment.size());
+  for (const std::string& step : treatment) steps.push_back(toml_text(step));
+  return fmt::format("[{}]", fmt::join(steps, ", "));
+}
+
+std::string own_lines(const OwnSettings& own) {
+  std::string text;
+  if (own.mean_pressures) {
+    text += fmt::format("pressure = {}\n", quantities(*own.mean_pressures, "Pa"));
+  }
+  if (own.lubricant_densities) {
+    text += fmt::format("density = {}\n", quantities(*own.lubricant_densities, "kg/m^2"));
+  }
+  if (own.treatment) text += fmt::format("treatment = {}\n", step_list(*own.treatment));
+  if (own.deformation) {
+    text += fmt::format("contact = {}\n", toml_text(kDeformations.of(*own.deformation)));
+  }
+  if (own.reading) text += fmt::format("reading = {}\n", toml_text(deposition::name(*own.reading)));
+  return text;
+}
+
 std::string scan_table(const Scan& scan) {
   std::string text = fmt::format("\n[[scan]]\nfile = {}\ngroup = {}\n", toml_text(scan.label),
                                  toml_text(scan.group));
   if (scan.read.channel) text += fmt::format("channel = {}\n", toml_text(*scan.read.channel));
   if (scan.read.pixel_x) text += fmt::format("pixel = {}\n", quantity(*scan.read.pixel_x, "m"));
   if (scan.read.unit) text += fmt::format("unit = {}\n", toml_text(*scan.read.unit));
-  return text;
+  return text + own_lines(scan.own);
 }
 
 }  // namespace
 
 std::string to_toml(const Study& study) {
   const analysis::CaseSettings& settings = study.settings;
-  std::vector<std::string> steps;
-  for (const std::string& step : study.treatment) steps.push_back(toml_text(step));
   std::string text =
-      fmt::format("title = {}\nshear_strength = {}\nboundary_shear_strength = {}\narea = {}\n",
+      fmt::format("title = {}\nshear_strength = {}\nboundary_shear_strength = {}\n",
                   toml_text(study.title), quantity(settings.friction.shear_strength, "Pa"),
-                  quantity(settings.friction.boundary_strength(), "Pa"),
-                  toml_text(friction::name(settings.friction.area)));
+                  quantity(settings.friction.boundary_strength(), "Pa"));
+  if (settings.friction.area) {  // otherwise each scan's contact chooses
+    text += fmt::format("area = {}\n", toml_text(friction::name(*settings.friction.area)));
+  }
   text += material_table(settings.contact);
-  text += fmt::format("\n[treatment]\nsteps = [{}]\n", fmt::join(steps, ", "));
+  text += fmt::format("\n[treatment]\nsteps = {}\n", step_list(study.treatment));
   text += fmt::format("\n[contact]\nboundary = {}\nsolver = {}\ntolerance = {}\n",
                       toml_text(analysis::kBoundaries.of(settings.contact.boundary)),
                       toml_text(analysis::kSolvers.of(settings.contact.solver)),
                       decimal(settings.contact.tolerance));
-  text += fmt::format("\n[sweep]\nmean_pressure = {}\nlubricant_density = {}\n",
-                      quantities(settings.mean_pressures, "Pa"),
+  text += "\n[sweep]\n";
+  if (!settings.mean_pressures.empty()) {  // unless every scan has its own
+    text += fmt::format("mean_pressure = {}\n", quantities(settings.mean_pressures, "Pa"));
+  }
+  text += fmt::format("lubricant_density = {}\n",
                       quantities(settings.film.lubricant_densities, "kg/m^2"));
   if (study.flows()) {
     text += fmt::format("sliding_speed = {}\n", quantities(study.sliding_speeds, "m/s"));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <utility>
 
 #include "tabor/study/engine.hpp"
 #include "tabor/study/friction_jobs.hpp"
@@ -37,13 +38,19 @@ void count_computed(const Report& report, Outcome& outcome) {
   outcome.warnings.insert(outcome.warnings.end(), report.warnings.begin(), report.warnings.end());
 }
 
+/// They may be averaged as if they were two measurements.
+bool count_twice(const Study& study, const std::vector<ScanTasks>& tasks, std::size_t i,
+                 std::size_t j) {
+  return tasks[i].sha256 == tasks[j].sha256 && study.scans[i].group == study.scans[j].group;
+}
+
 void warn_about_copies(const Study& study, const std::vector<ScanTasks>& tasks,
                        std::vector<std::string>& warnings) {
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (tasks[i].sha256 == tasks[j].sha256) {
+      if (count_twice(study, tasks, i, j)) {
         warnings.push_back(
-            fmt::format("{} and {} hold the same bytes; if both are in one average, its error is "
+            fmt::format("{} and {} hold the same bytes; where one average has both, its error is "
                         "too small",
                         study.scans[j].label, study.scans[i].label));
       }
@@ -66,10 +73,11 @@ Outcome run(const Study& study, const std::filesystem::path& directory,
   try {
     // One shard at a time: whoever comes last has seen every row.
     const auto lock = store.lock("results", [] {});
-    const std::vector<Row> rows = rows_in(store, tasks);
-    outcome.averages = averages(rows);
-    write_tables(store, study, tasks, rows, outcome.averages, options.command);
-    count_rows(rows, outcome);
+    StudyTables tables = tables_of(store, study, tasks);
+    write_tables(store, study, tasks, tables, options.command);
+    count_rows(tables.rows, outcome);
+    outcome.averages = std::move(tables.averages);
+    outcome.density_curves = std::move(tables.averaged);
   } catch (...) {
     error = error ? error : std::current_exception();
   }

@@ -6,6 +6,7 @@
 
 #include "tabor/analysis/findings.hpp"
 #include "tabor/study/averages.hpp"
+#include "tabor/study/density_curves.hpp"
 #include "tabor/study/run_options.hpp"
 #include "tabor/study/study.hpp"
 
@@ -31,6 +32,7 @@ struct Outcome {
   std::vector<std::string> warnings;        ///< about the sweep itself
   std::vector<analysis::Finding> findings;  ///< about the numbers of its rows
   std::vector<Average> averages;            ///< over the scans of each group
+  std::vector<GroupCurve> density_curves;   ///< friction against density, the same
 };
 
 /// Computes what the store in `directory` does not hold yet: each scan is treated once, each

@@ -12,6 +12,7 @@
 #include "tabor/core/units.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/columns.hpp"
+#include "tabor/study/wet_shares.hpp"
 
 namespace tabor::study {
 namespace {
@@ -68,7 +69,8 @@ void write_settings(io::Hdf5Writer& writer, const Study& study, const std::strin
     writer.attribute("/", "saturation_pressure_Pa", *contact.saturation_pressure);
   }
   writer.attribute("/", "oil_density_kg_per_m3", study.settings.film.oil_density);
-  writer.attribute("/", "area", std::string(friction::name(study.settings.friction.area)));
+  writer.attribute("/", "area",
+                   std::string(friction::name(study.settings.friction.area_of(contact))));
   if (study.flows()) write_oil(writer, study.settings.fluid.oil());
 }
 
@@ -104,6 +106,17 @@ void write_links(io::Hdf5Writer& writer, const std::string& group, const Store& 
   }
 }
 
+/// What this scan was computed under, whether its own or the study's.
+void write_scan_settings(io::Hdf5Writer& writer, const std::string& group, const Study& alone) {
+  const bool saturates = alone.settings.contact.saturation_pressure.has_value();
+  writer.attribute(
+      group, "contact",
+      std::string(kDeformations.of(saturates ? Deformation::saturated : Deformation::elastic)));
+  const friction::Area area = alone.settings.friction.area_of(alone.settings.contact);
+  writer.attribute(group, "area", std::string(friction::name(area)));
+  writer.attribute(group, "reading", std::string(deposition::name(alone.settings.film.reading)));
+}
+
 void write_scans(io::Hdf5Writer& writer, const Store& store, const Study& study,
                  const std::vector<ScanTasks>& tasks) {
   writer.group("/scans");
@@ -113,10 +126,12 @@ void write_scans(io::Hdf5Writer& writer, const Store& store, const Study& study,
     writer.attribute(group, "file", study.scans[i].label);
     writer.attribute(group, "group", study.scans[i].group);
     writer.attribute(group, "input_sha256", tasks[i].sha256);
+    const Study alone = study.of(study.scans[i]);
+    write_scan_settings(writer, group, alone);
     if (store.has(tasks[i].surface) && defect(store, tasks[i].surface).empty()) {
       write_surface_facts(writer, group, read_surface_facts(store, tasks[i].surface));
     }
-    write_links(writer, group, store, tasks[i], study.settings.film.lubricant_densities.size());
+    write_links(writer, group, store, tasks[i], alone.settings.film.lubricant_densities.size());
   }
 }
 
@@ -167,11 +182,26 @@ std::string averages_csv(const std::vector<Average>& averages, bool oil_flows) {
   return io::csv_of(average_columns(oil_flows), averages);
 }
 
+StudyTables tables_of(const Store& store, const Study& study, const std::vector<ScanTasks>& tasks) {
+  StudyTables tables{.rows = rows_in(store, tasks),
+                     .averages = {},
+                     .curves = density_curves_in(store, study, tasks),
+                     .averaged = {}};
+  tables.averages = averages(tables.rows);
+  tables.averaged = average_curves(study, tables.curves);
+  return tables;
+}
+
 void write_tables(const Store& store, const Study& study, const std::vector<ScanTasks>& tasks,
-                  const std::vector<Row>& rows, const std::vector<Average>& means,
-                  const std::string& command) {
+                  const StudyTables& tables, const std::string& command) {
+  const std::vector<Row>& rows = tables.rows;
+  const std::vector<Average>& means = tables.averages;
   io::write_file(store.directory() / "results.csv", results_csv(rows, study.flows()));
   io::write_file(store.directory() / "averages.csv", averages_csv(means, study.flows()));
+  if (!tables.curves.empty()) {
+    io::write_file(store.directory() / "density_curves.csv",
+                   io::csv_of(curve_columns(), points_of(tables.curves)));
+  }
   io::Hdf5Writer writer(store.directory() / "results.h5");
   write_settings(writer, study, command);
   writer.attribute("/", "n_cases", static_cast<std::int64_t>(study.n_cases()));
@@ -183,6 +213,14 @@ void write_tables(const Store& store, const Study& study, const std::vector<Scan
   writer.attribute("/", "warnings", lines);
   io::write_datasets(writer, "/table", row_columns(study.flows()), rows, analysis::media::kTable);
   io::write_datasets(writer, "/averages", average_columns(study.flows()), means);
+  if (!tables.curves.empty()) {
+    io::write_datasets(writer, "/density_curves", curve_columns(), points_of(tables.curves));
+    io::write_datasets(writer, "/density_averages", average_curve_columns(),
+                       points_of(tables.averaged));
+    std::vector<std::string> answers;
+    for (const GroupCurve& curve : tables.averaged) answers.push_back(answer_of(curve));
+    writer.attribute("/", "answers", answers);
+  }
   write_scans(writer, store, study, tasks);
   if (study.experiment) write_experiment(writer, *study.experiment);
   writer.commit();

@@ -33,6 +33,7 @@ constexpr double kCraterRoughness = 0.4;     // its rms over that of the craters
 constexpr double kRoughnessRollOff = 60e-6;  // [m]
 constexpr double kPlateauRollOff = 20e-6;    // [m], of the finer roughness
 constexpr double kShortestWave = 250e-6;     // [m], of the waviness
+constexpr double kLongWave = 1.1e-3;         // [m], longer waves are no higher
 constexpr double kStretch = 1.3;             // rolling lengthens roughness along x
 constexpr double kPlateauRelief = 0.02;      // what rolling leaves of the height above a plateau
 
@@ -55,11 +56,14 @@ Field roughness(const Grid& grid, double hurst, double roll_off, double stretch,
   return std::move(field.height);
 }
 
-/// Normalised waves, none shorter than kShortestWave, the long ones higher: spectrum q^-4; flat
-/// where none fits.
+/// Normalised waves, none shorter than kShortestWave, the longer ones higher: spectrum q^-4, and
+/// level beyond kLongWave, so that a larger sheet has more waves and not higher ones; flat where
+/// none fits.
 Field waves(const Grid& grid, std::uint64_t seed) {
   auto field = random_field({grid, kStretch, true, seed, kWavinessStream, [](double q) {
-                               return q <= 2 * pi / kShortestWave ? std::pow(q, -4) : 0;
+                               return q <= 2 * pi / kShortestWave
+                                          ? std::pow(std::max(q, 2 * pi / kLongWave), -4)
+                                          : 0;
                              }});
   normalise(field.height);
   return std::move(field.height);

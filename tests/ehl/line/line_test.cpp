@@ -83,11 +83,11 @@ TEST(SolveLine, AgreesWithTable6) {
   problem.nodes = 1200;
   const LineResult result = solve_line(problem);
   expect_within("EHL", "line contact, Table 6", "smallest film against 83.4 nm, nm",
-                "independent computation", std::abs(result.min_film / kNano - 83.4), 1);
+                "independent computation", std::abs(result.min_film / kNano - 83.4), 0.05);
   expect_within("EHL", "line contact, Table 6", "central film against 105.6 nm, nm",
-                "independent computation", std::abs(result.central_film / kNano - 105.6), 0.5);
+                "independent computation", std::abs(result.central_film / kNano - 105.6), 0.05);
   expect_within("EHL", "line contact, Table 6", "largest pressure against 27.43 MPa, relative",
-                "independent computation", std::abs(result.max_pressure / 27.43e6 - 1), 1e-3);
+                "independent computation", std::abs(result.max_pressure / 27.43e6 - 1), 3.6e-4);
   test::record_unreproduced(
       "EHL", "line contact, Table 6", "smallest film, nm", "Akchurin's thesis", 52,
       result.min_film / kNano,
@@ -111,7 +111,7 @@ TEST_P(ReadingsOfTable6, GiveTheFilmOfAnIndependentComputation) {
   EXPECT_TRUE(result.convergence.converged());
   expect_within("EHL", std::string("line contact, Table 6, ") + GetParam().name,
                 "smallest film, nm", "independent computation",
-                std::abs(result.min_film / kNano - GetParam().film), 0.15);
+                std::abs(result.min_film / kNano - GetParam().film), 0.1);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -185,11 +185,11 @@ TEST(SolveLine, TendsToHertzAsTheFilmVanishes) {
 TEST(SolveLine, FollowsMoesChartInEveryRegime) {
   struct Regime {
     const char* name;
-    double modulus, viscosity, speed, load, coefficient;
+    double modulus, viscosity, speed, load, coefficient, tolerance;
   };
-  for (const Regime& at : {Regime{"rigid isoviscous", 1e14, 0.1, 0.1, 1e3, 0},
-                           Regime{"elastic isoviscous", 1e9, 0.1, 0.1, 5e3, 0},
-                           Regime{"elastic piezoviscous", 1.15e11, 0.05, 0.5, 1e5, 5e-9}}) {
+  for (const Regime& at : {Regime{"rigid isoviscous", 1e14, 0.1, 0.1, 1e3, 0, 0.05},
+                           Regime{"elastic isoviscous", 1e9, 0.1, 0.1, 5e3, 0, 0.03},
+                           Regime{"elastic piezoviscous", 1.15e11, 0.05, 0.5, 1e5, 5e-9, 0.06}}) {
     LineProblem problem = table_6();
     problem.radius = 1e-2;
     problem.effective_modulus = at.modulus;
@@ -201,7 +201,8 @@ TEST(SolveLine, FollowsMoesChartInEveryRegime) {
     EXPECT_TRUE(result.convergence.converged()) << at.name;
     expect_within("EHL", fmt::format("line contact, {}", at.name), "smallest film, relative",
                   "Moes 1992, a fit",
-                  std::abs(result.min_film / film_groups_of(problem).moes_min_film() - 1), 0.12);
+                  std::abs(result.min_film / film_groups_of(problem).moes_min_film() - 1),
+                  at.tolerance);
   }
 }
 

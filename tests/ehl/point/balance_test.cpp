@@ -147,7 +147,7 @@ TEST(PointBalance, KapitzasPressureBalancesToSecondOrder) {
     const double fine = kapitza_imbalance(97, ratio);
     EXPECT_LT(fine, 0.3 * coarse);
     test::expect_within("EHL", "Kapitza, rigid point contact", "imbalance, 97 nodes, relative",
-                        "Kapitza 1955", fine, 0.2);
+                        "Kapitza 1955", fine, 0.05);
   }
 }
 

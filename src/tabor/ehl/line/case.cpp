@@ -41,6 +41,26 @@ Eigen::ArrayXd read_profile(const io::Config& config, const LineProblem& problem
   return line_profile(problem, scan.height.row(row).transpose(), scan.grid.dx());
 }
 
+/// One asperity of [roughness].
+struct SingleAsperity {
+  double height = 0;  ///< [m]
+  double width = 0;   ///< [m]
+  double place = 0;   ///< [m]
+};
+
+std::optional<SingleAsperity> read_single_asperity(const io::Config& config) {
+  if (!config.has("roughness.height")) return std::nullopt;
+  return SingleAsperity{.height = config.quantity("roughness.height", dimension::length),
+                        .width = positive_quantity(config, "roughness.width", dimension::length),
+                        .place = config.has("roughness.place")
+                                     ? config.quantity("roughness.place", dimension::length)
+                                     : 0.0};
+}
+
+Eigen::ArrayXd heights_of(const SingleAsperity& asperity, const LineProblem& problem) {
+  return line_asperity(problem, asperity.height, asperity.width, asperity.place);
+}
+
 /// [roughness]: an asperity (height, width, place), waves (amplitude, wavelength), a row of a scan
 /// (file, row), or their sum.
 Eigen::ArrayXd read_roughness(const io::Config& config, const LineProblem& problem,
@@ -50,12 +70,7 @@ Eigen::ArrayXd read_roughness(const io::Config& config, const LineProblem& probl
     if (roughness.size() == 0) roughness.setZero(heights.size());
     roughness += heights;
   };
-  if (config.has("roughness.height")) {
-    const double place =
-        config.has("roughness.place") ? config.quantity("roughness.place", dimension::length) : 0.0;
-    add(line_asperity(problem, config.quantity("roughness.height", dimension::length),
-                      positive_quantity(config, "roughness.width", dimension::length), place));
-  }
+  if (const auto asperity = read_single_asperity(config)) add(heights_of(*asperity, problem));
   if (config.has("roughness.amplitude")) {
     add(line_waves(problem, config.quantity("roughness.amplitude", dimension::length),
                    positive_quantity(config, "roughness.wavelength", dimension::length)));
@@ -209,6 +224,9 @@ void write_profile(io::Hdf5Writer& writer, const LineProblem& problem, const Lin
         Curve{"/profile/asperity_pressure", "Pa", "pressure of asperities",
               result.asperity_pressure},
         Curve{"/profile/film", "m", "film thickness", result.film},
+        Curve{"/profile/shear_stress", "Pa", "shear stress of film and solids",
+              result.shear_stress},
+        Curve{"/profile/local_friction", "", "shear stress over pressure", result.local_friction},
         Curve{"/profile/hertz_pressure", "Pa", "pressure of the dry contact", dry}}) {
     if (curve.values.size() == 0) continue;  // no asperities
     const double* const begin = curve.values.data();
@@ -228,7 +246,43 @@ std::vector<std::string> void_friction(const LineProblem& problem, LineResult& r
                           .solid = result.friction_solid,
                           .coefficient = result.friction_coefficient});
   if (!warnings.empty()) result.friction_force = result.friction_coefficient * problem.load;
+  if (std::isnan(result.max_shear_stress)) {
+    result.shear_stress.setConstant(kNone);
+    result.local_friction.setConstant(kNone);
+  }
   return warnings;
+}
+
+/// What one asperity changes, where the case has one: the film is solved without it, too.
+std::optional<AsperityEffect> effect_of(const io::Config& config, const LineProblem& problem,
+                                        const LineResult& result, const CaseSetting& setting) {
+  const auto asperity = read_single_asperity(config);
+  if (!asperity) return std::nullopt;
+  LineProblem without = problem;
+  without.roughness -= heights_of(*asperity, problem);
+  LineResult smooth = solve_line(without, setting.observer);
+  throw_if_stopped(smooth.convergence);
+  void_friction(without, smooth);
+  if (!smooth.convergence.converged()) {
+    smooth.pressure.setConstant(kNone);
+    smooth.local_friction.setConstant(kNone);
+  }
+  return asperity_effect(result, smooth, asperity->width, asperity->place);
+}
+
+io::Json effect_scalars(const AsperityEffect& effect) {
+  return {{"local_friction", io::number(effect.local_friction)},
+          {"local_friction_ratio", io::number(effect.friction_ratio())},
+          {"max_pressure_Pa", io::number(effect.max_pressure)},
+          {"pressure_ratio", io::number(effect.pressure_ratio())}};
+}
+
+Facts effect_facts(const AsperityEffect& effect) {
+  return {{"on the asperity",
+           fmt::format("local friction {}, {} times that without it", plain(effect.local_friction),
+                       plain(effect.friction_ratio(), 3))},
+          {"", fmt::format("pressure {}, {} times that without it", si(effect.max_pressure, "Pa"),
+                           plain(effect.pressure_ratio(), 3))}};
 }
 
 void void_friction(WearResult& wear) {
@@ -244,6 +298,10 @@ CaseResult solve(const io::Config& config, const CaseSetting& setting) {
   answer.scalars = scalars_of(problem, result);
   answer.scalars.update(asperity_scalars(problem, result));
   answer.facts = {facts_of(problem, result)};
+  if (const auto effect = effect_of(config, problem, result, setting)) {
+    answer.scalars["single_asperity"] = effect_scalars(*effect);
+    answer.facts.push_back(effect_facts(*effect));
+  }
   answer.converged = result.convergence.converged();
   answer.warnings = result.warnings;
   answer.warnings.insert(answer.warnings.end(), voids.begin(), voids.end());
@@ -307,6 +365,14 @@ Program line_program() {
   return {.name = "line",
           .summary = "a film between a cylinder and a flat, smooth, rough, touching or worn",
           .keys = line_keys(),
+          .example = {{"cylinder.radius", "\"2.5 mm\""},
+                      {"cylinder.load_per_length", "\"5000 N/m\""},
+                      {"motion.entrainment_speed", "\"7.9 mm/s\""},
+                      {"motion.sliding_speed", "\"15.8 mm/s\""},
+                      {"solids.youngs_modulus", "\"1.05 GPa\""},
+                      {"solids.poissons_ratio", "0.35"},
+                      {"lubricant.viscosity", "\"0.3638 Pa s\""},
+                      {"lubricant.pressure_viscosity", "\"5.9e-9 1/Pa\""}},
           .files = {"roughness.file"},
           .columns = {{"min_film_m", "smallest film", "m"},
                       {"central_film_m", "central film", "m"},
@@ -317,6 +383,10 @@ Program line_program() {
                       {"friction_solid", "of solids", "", true},
                       {"asperity_load_share", "asperities", "", true},
                       {"solid_contact_fraction", "contact", "", true},
+                      {"single_asperity.local_friction", "local friction", "", true},
+                      {"single_asperity.local_friction_ratio", "times smooth friction", "", true},
+                      {"single_asperity.max_pressure_Pa", "pressure on it", "Pa", true},
+                      {"single_asperity.pressure_ratio", "times smooth pressure", "", true},
                       {"newton_iterations", "iterations", ""},
                       {"wear.mean_depth_m", "mean wear", "m", true},
                       {"wear.max_depth_m", "deepest wear", "m", true},

@@ -44,12 +44,16 @@ struct LineResult {
   Eigen::ArrayXd pressure;           ///< p [Pa] of the liquid
   Eigen::ArrayXd film;               ///< h [m], h_b where solids touch
   Eigen::ArrayXd asperity_pressure;  ///< P [Pa]; empty if nothing can touch
-  double separation = 0;      ///< h0 [m], of the undeformed bodies; relative, see LineHalfSpace
-  double min_film = 0;        ///< [m]
-  double central_film = 0;    ///< [m] at x = 0
-  double max_pressure = 0;    ///< [Pa] of p + P
-  double rupture = 0;         ///< [m] where the pressure ends
-  double friction_force = 0;  ///< [N/m] of liquid and solids
+  /// [Pa] on the surface: of the film where it carries pressure, of solids where they touch (NaN if
+  /// asperities have no law), 0 elsewhere.
+  Eigen::ArrayXd shear_stress;
+  Eigen::ArrayXd local_friction;  ///< shear_stress over p + P; 0 where nothing carries pressure
+  double separation = 0;          ///< h0 [m], of the undeformed bodies; relative, see LineHalfSpace
+  double min_film = 0;            ///< [m]
+  double central_film = 0;        ///< [m] at x = 0
+  double max_pressure = 0;        ///< [Pa] of p + P
+  double rupture = 0;             ///< [m] where the pressure ends
+  double friction_force = 0;      ///< [N/m] of liquid and solids
   double friction_coefficient = 0;  ///< friction_force over load
   double friction_fluid = 0;        ///< its part from the film sheared where it carries pressure
   double friction_solid = 0;        ///< its part from asperities
@@ -71,7 +75,8 @@ reference::LineContactFilm film_groups_of(const LineProblem& problem);
 Eigen::ArrayXd line_nodes(const LineProblem& problem);
 
 /// Heights s [m] at the nodes of line_nodes(): one asperity, `height` cos^2(pi (x - place)/width)
-/// within half a width of its place. Throws InputError if the grid has less than 8 nodes for it.
+/// within half a width of its place. Throws InputError if the grid has less than 8 nodes for it or
+/// it does not lie between the ends of the domain.
 Eigen::ArrayXd line_asperity(const LineProblem& problem, double height, double width, double place);
 /// Waves s = amplitude sin(2 pi x / wavelength) [m], as in Akchurin's thesis. Throws likewise.
 Eigen::ArrayXd line_waves(const LineProblem& problem, double amplitude, double wavelength);
@@ -81,6 +86,24 @@ Eigen::ArrayXd line_waves(const LineProblem& problem, double amplitude, double w
 /// or has holes.
 Eigen::ArrayXd line_profile(const LineProblem& problem, const Eigen::ArrayXd& height,
                             double spacing);
+
+/// What one asperity changes between its edges, against the film of the same bodies without it.
+/// Friction is without a value where nothing carries pressure there.
+struct AsperityEffect {
+  double local_friction = 0;         ///< largest |shear stress| over pressure
+  double smooth_local_friction = 0;  ///< the same without the asperity
+  double max_pressure = 0;           ///< [Pa] of p + P
+  double smooth_max_pressure = 0;    ///< [Pa]
+
+  /// How many times the asperity raises local friction.
+  double friction_ratio() const { return local_friction / smooth_local_friction; }
+  /// How many times it raises the largest pressure.
+  double pressure_ratio() const { return max_pressure / smooth_max_pressure; }
+};
+
+/// Of an asperity `width` [m] wide at `place` [m]. Both films have the same nodes.
+AsperityEffect asperity_effect(const LineResult& rough, const LineResult& smooth, double width,
+                               double place);
 
 /// Fills what follows from x, pressure and film.
 void measure_line(const LineProblem& problem, LineResult& result);

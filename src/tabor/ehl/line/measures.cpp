@@ -41,7 +41,7 @@ bool touches(const LineResult& result, Index i) {
   return result.asperity_pressure.size() > 0 && result.asperity_pressure[i] > 0;
 }
 
-/// Friction of the film [N/m], its largest stress and where it ends.
+/// Friction of the film [N/m], its stress and where it ends.
 double measure_liquid(const LineProblem& problem, LineResult& result) {
   material::NodeLaws laws;
   const auto n = static_cast<std::size_t>(result.pressure.size());
@@ -56,10 +56,29 @@ double measure_liquid(const LineProblem& problem, LineResult& result) {
     const double stress =
         material::shear_stress(problem.lubricant.shear, laws.viscosity[i], rate, result.pressure[i])
             .value;
+    result.shear_stress[i] = stress;
     force += (result.x[1] - result.x[0]) * stress;
     result.max_shear_stress = std::max(result.max_shear_stress, std::abs(stress));
   }
   return force;
+}
+
+/// [Pa] of both, p + P.
+Eigen::ArrayXd whole_pressure(const LineResult& result) {
+  if (result.asperity_pressure.size() == 0) return result.pressure;
+  return result.pressure + result.asperity_pressure;
+}
+
+/// Stress of solids where they touch, and stress over pressure.
+void measure_local_friction(const LineProblem& problem, LineResult& result) {
+  const double sign = problem.sliding_speed == 0 ? 0 : std::copysign(1, problem.sliding_speed);
+  for (Index i = 0; i < result.x.size(); ++i) {
+    if (!touches(result, i)) continue;
+    const double stress = problem.asperities.friction(result.asperity_pressure[i], 1);
+    result.shear_stress[i] = sign == 0 ? 0 : sign * stress;
+  }
+  const Eigen::ArrayXd pressure = whole_pressure(result);
+  result.local_friction = (pressure > 0).select(result.shear_stress / pressure, 0.0);
 }
 
 /// Load and width that asperities carry; their friction [N/m].
@@ -71,6 +90,11 @@ double measure_asperities(const LineProblem& problem, LineResult& result) {
   result.contact_width = spacing * static_cast<double>((result.asperity_pressure > 0).count());
   const double force = problem.asperities.friction(carried, result.contact_width);
   return problem.sliding_speed == 0 ? 0 : std::copysign(force, problem.sliding_speed);
+}
+
+/// The largest value where `inside`; NaN if one of them is.
+double largest(const Eigen::ArrayXd& values, const Eigen::Array<bool, Eigen::Dynamic, 1>& inside) {
+  return inside.select(values, 0.0).maxCoeff<Eigen::PropagateNaN>();
 }
 
 }  // namespace
@@ -85,15 +109,24 @@ bool sees_inlet(const LineProblem& problem, const Eigen::ArrayXd& x, const Eigen
   return thinnest > 0 && inlet_nodes(problem, thickness, spacing) >= kFewestInletNodes;
 }
 
+AsperityEffect asperity_effect(const LineResult& rough, const LineResult& smooth, double width,
+                               double place) {
+  const Eigen::Array<bool, Eigen::Dynamic, 1> inside = (rough.x - place).abs() <= width / 2;
+  return {.local_friction = largest(rough.local_friction.abs(), inside),
+          .smooth_local_friction = largest(smooth.local_friction.abs(), inside),
+          .max_pressure = largest(whole_pressure(rough), inside),
+          .smooth_max_pressure = largest(whole_pressure(smooth), inside)};
+}
+
 void measure_line(const LineProblem& problem, LineResult& result) {
   const bool touches_somewhere = (result.asperity_pressure > 0).any();
   result.min_film = touches_somewhere ? result.film.minCoeff() : smallest_film(result.film);
   result.central_film = value_between_nodes(result.x, result.film, 0);
-  result.max_pressure = result.asperity_pressure.size() > 0
-                            ? (result.pressure + result.asperity_pressure).maxCoeff()
-                            : result.pressure.maxCoeff();
+  result.max_pressure = whole_pressure(result).maxCoeff();
+  result.shear_stress.setZero(result.x.size());
   const double liquid = measure_liquid(problem, result);
   const double solid = measure_asperities(problem, result);
+  measure_local_friction(problem, result);
   result.friction_force = liquid + solid;
   result.friction_coefficient = result.friction_force / problem.load;
   result.friction_fluid = liquid / problem.load;

@@ -36,6 +36,10 @@ Eigen::ArrayXd line_asperity(const LineProblem& problem, double height, double w
                              double place) {
   const Eigen::ArrayXd x = line_nodes(problem);
   check_length(problem, x, "width of an asperity", width);
+  if (!(place >= x[0] && place <= x[x.size() - 1])) {
+    throw InputError("place of an asperity", fmt::format("{:.4g} m", place),
+                     fmt::format("{:.4g} to {:.4g} m, the domain", x[0], x[x.size() - 1]), "");
+  }
   return x.unaryExpr([=](double at) {
     const double wave = std::cos(std::numbers::pi * (at - place) / width);
     return std::abs(at - place) < width / 2 ? height * wave * wave : 0.0;
