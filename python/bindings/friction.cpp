@@ -5,6 +5,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include "tabor/analysis/density_curve.hpp"
 #include "tabor/analysis/states.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/topography/topography.hpp"
@@ -16,6 +17,7 @@ namespace {
 
 using analysis::ContactRecord;
 using analysis::ContactSettings;
+using analysis::DensityCurve;
 using analysis::FilmRecord;
 using analysis::FluidRecord;
 using analysis::FluidSettings;
@@ -88,6 +90,56 @@ std::pair<FluidRecord, FrictionRow> fluid_film(const Topography& surface,
   return {std::move(fluid), row_of(friction)};
 }
 
+using Numbers = std::vector<double>;
+/// (pressure [Pa], dry friction, densities [kg/m^2], wet shares, friction, plateau)
+using CurveRow = std::tuple<double, double, Numbers, Numbers, Numbers,
+                            std::optional<std::tuple<double, double, double>>>;
+CurveRow row_of(const DensityCurve& curve) {
+  std::optional<std::tuple<double, double, double>> plateau;
+  if (curve.plateau) {
+    plateau.emplace(curve.plateau->first, curve.plateau->last, curve.plateau->value);
+  }
+  return {curve.mean_pressure,     curve.friction_dry,        curve.lubricant_densities,
+          curve.lubricated_shares, curve.friction_lubricated, plateau};
+}
+
+DensityCurve curve_of(const CurveRow& row) {
+  DensityCurve curve;
+  std::tie(curve.mean_pressure, curve.friction_dry, curve.lubricant_densities,
+           curve.lubricated_shares, curve.friction_lubricated, std::ignore) = row;
+  if (const auto& plateau = std::get<5>(row)) {
+    curve.plateau = std::make_from_tuple<analysis::Plateau>(*plateau);
+  }
+  return curve;
+}
+
+/// One for each of these contacts with the surface.
+std::vector<CurveRow> density_curves(const Topography& surface,
+                                     const std::vector<const ContactRecord*>& contacts,
+                                     const ContactSettings& contact,
+                                     const analysis::FilmSettings& film,
+                                     const FrictionSettings& friction, const nb::object& progress) {
+  check(analysis::objection(film));
+  check(analysis::objection(friction, argument_of));
+  const auto curves = watched(progress, [&](const Observer& observer) {
+    std::vector<analysis::Touching> touching;
+    touching.reserve(contacts.size());
+    for (const ContactRecord* one : contacts) {
+      touching.push_back({one->summary, contact::contact_mask(one->state)});
+    }
+    const analysis::CaseSettings settings{.contact = contact, .film = film, .friction = friction};
+    return analysis::density_curves(surface, touching, settings, observer);
+  });
+  std::vector<CurveRow> rows;
+  rows.reserve(curves.size());
+  for (const DensityCurve& curve : curves) rows.push_back(row_of(curve));
+  return rows;
+}
+
+std::string sentence(const CurveRow& curve, const Numbers& asked) {
+  return analysis::sentence_of(curve_of(curve), asked);
+}
+
 void bind_settings(nb::module_& module) {
   nb::class_<FrictionSettings>(module, "FrictionSettings")
       .def(nb::init<>())
@@ -136,6 +188,9 @@ void bind_friction(nb::module_& module) {
                    map_of([](const State& s) -> auto& { return s.contact.pressure; }));
   module.def("friction", &friction, "surface"_a, "contact"_a, "film"_a, "contact_settings"_a,
              "settings"_a);
+  module.def("density_curves", &density_curves, "surface"_a, "contacts"_a, "contact_settings"_a,
+             "film_settings"_a, "settings"_a, "progress"_a.none());
+  module.def("density_sentence", &sentence, "curve"_a, "densities"_a);
   module.def("fluid_film", &fluid_film, "surface"_a, "contact"_a, "film"_a, "contact_settings"_a,
              "fluid_settings"_a, "settings"_a, "progress"_a.none());
 }

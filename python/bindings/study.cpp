@@ -3,6 +3,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.hpp"
+#include "tabor/io/hdf5_guard.hpp"
 #include "tabor/study/sweep.hpp"
 #include "watched.hpp"
 
@@ -32,6 +33,14 @@ std::vector<std::string> warnings_of(const Outcome& outcome) {
   return lines;
 }
 
+/// Texts that a root attribute of a result file holds; none without it.
+std::vector<std::string> result_texts(const std::filesystem::path& file, const std::string& name) {
+  return io::read_guarded(file, [&](const io::Hdf5Reader& reader) {
+    return reader.has_attribute("/", name) ? reader.attribute_texts("/", name)
+                                           : std::vector<std::string>();
+  });
+}
+
 }  // namespace
 
 void bind_study(nb::module_& module) {
@@ -50,6 +59,7 @@ void bind_study(nb::module_& module) {
       .def_ro("failures", &Outcome::failures)
       .def_prop_ro("warnings", &warnings_of);
   module.def("read_study", &study::read_study, "file"_a);
+  module.def("result_texts", &result_texts, "file"_a, "name"_a);
   module.def("run_study", &run, "study"_a, "folder"_a, "jobs"_a, "retry"_a, "progress"_a.none());
 }
 

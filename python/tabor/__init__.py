@@ -11,14 +11,17 @@ import os as _os
 _os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
 from ._contact import Contact, Material, NotConverged, Solid, contact, materials
-from ._friction import Film, FluidFilm, Friction, Lubricant, fluid_film, friction, rain
+from ._friction import (DensityCurve, Film, FluidFilm, Friction, Lubricant, Plateau, density_curve, fluid_film,
+                        friction, rain)
 from ._progress import Progress
 from ._records import Warning
+from ._scans import Scans
 from ._study import Results, Study
 from ._surface import Parameter, Parameters, Spectra, Spectrum, Surface, read
 from ._tabor import set_threads
 from ._tabor import version as __version__
 
-__all__ = ["Contact", "Film", "FluidFilm", "Friction", "Lubricant", "Material", "NotConverged", "Parameter",
-           "Parameters", "Progress", "Results", "Solid", "Spectra", "Spectrum", "Study", "Surface", "Warning", "contact",
-           "fluid_film", "friction", "materials", "rain", "read", "set_threads"]
+__all__ = ["Contact", "DensityCurve", "Film", "FluidFilm", "Friction", "Lubricant", "Material", "NotConverged",
+           "Parameter", "Parameters", "Plateau", "Progress", "Results", "Scans", "Solid", "Spectra", "Spectrum", "Study",
+           "Surface", "Warning", "contact", "density_curve", "fluid_film", "friction", "materials", "rain", "read",
+           "set_threads"]

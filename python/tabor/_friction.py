@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, overload
+from typing import Any, NamedTuple, overload
+
+import numpy as np
 
 from . import _tabor
 from ._contact import Contact, NotConverged
+from ._optional import needs
 from ._progress import Progress, watching
 from ._records import Record, warnings_of
 from ._surface import Array, Surface, map_to_xarray, plot_map
@@ -149,6 +152,88 @@ def friction(contact: Contact, film: Film, *, shear_strength: Value | None = Non
     values, warnings, references = _tabor.friction(contact.surface._topography, contact._record, film._record,
                                                    contact._settings(), settings)
     return Friction(values, warnings_of(warnings), tuple(references))
+
+
+class Plateau(NamedTuple):
+    """Densities of the oil over which friction hardly changes: from the one that fills the pockets under the
+    contacts to the one whose level reaches the contacts from the valleys."""
+
+    first: float  #: [kg/m^2]
+    last: float  #: [kg/m^2]
+    dry_share: float  #: mean share of the contact that stays dry
+
+
+class DensityCurve(NamedTuple):
+    """Friction of one contact against the areal density of the oil, ten densities a decade."""
+
+    mean_pressure: float  #: [Pa]
+    friction_dry: float
+    lubricant_density: Array  #: [kg/m^2], rising
+    lubricated_share: Array  #: of the contact
+    friction_lubricated: Array
+    plateau: Plateau | None  #: None where friction changes throughout
+
+    def says(self, density: Value | Sequence[Value] = ()) -> str:
+        """The curve in one sentence, and where densities [kg/m^2] lie on it."""
+        asked = si_list(density, "areal_density", "density")[0] if np.size(density) else []
+        return _tabor.density_sentence((self.mean_pressure, self.friction_dry, self.lubricant_density.tolist(),
+                                        self.lubricated_share.tolist(), self.friction_lubricated.tolist(),
+                                        self.plateau), asked)
+
+    def plot(self, ax: Any = None, **style: Any) -> Any:
+        """Draws friction over the density; needs matplotlib. Returns the axes."""
+        ax = ax or needs("matplotlib.pyplot", "plot()").gca()
+        ax.semilogx(self.lubricant_density * 1e3, self.friction_lubricated, **style)
+        ax.set_xlabel("lubricant density [g/m^2]")
+        ax.set_ylabel("friction")
+        return ax
+
+
+@overload
+def density_curve(contact: Contact, *, shear_strength: Value | None = ..., boundary_shear_strength: Value | None = ...,
+                  boundary_shear_share: float | None = ..., area: str | None = ..., oil_density: Value = ...,
+                  reading: str = ..., edge: str = ..., progress: Progress = ...) -> DensityCurve: ...
+@overload
+def density_curve(contact: Sequence[Contact], *, shear_strength: Value | None = ...,
+                  boundary_shear_strength: Value | None = ..., boundary_shear_share: float | None = ...,
+                  area: str | None = ..., oil_density: Value = ..., reading: str = ..., edge: str = ...,
+                  progress: Progress = ...) -> list[DensityCurve]: ...
+def density_curve(contact: Any, *, shear_strength: Value | None = None, boundary_shear_strength: Value | None = None,
+                  boundary_shear_share: float | None = None, area: str | None = None, oil_density: Value = 900.0,
+                  reading: str = "conserving", edge: str = "closed", progress: Progress = None) -> Any:
+    """Friction against the density of the oil, from one pass of vanishing droplets (docs/lubrication.md).
+
+    Parameters
+    ----------
+    contact : Contact, or a list of contacts of one surface and solid, which gives a list.
+    shear_strength, boundary_shear_strength, boundary_shear_share, area : see ``friction``.
+    oil_density, reading, edge : see ``rain``.
+
+    Raises
+    ------
+    ValueError
+        As ``friction`` and ``rain`` do; for a surface without heights, and for contacts that differ in more
+        than the pressure.
+    """
+    contacts: list[Contact] = [contact] if isinstance(contact, Contact) else list(contact)
+    if not contacts:
+        raise ValueError("contact: got an empty list; expected at least one contact")
+    first = contacts[0]
+    if any(one.surface is not first.surface or one.solid != first.solid for one in contacts):
+        raise ValueError("contact: got contacts of several surfaces or solids; expected those of one")
+    film = _tabor.FilmSettings()
+    film.oil_density = si(oil_density, "density", "oil_density")
+    film.reading, film.edge = reading, edge
+    settings = _friction_settings(first, shear_strength, boundary_shear_strength, boundary_shear_share, area)
+    with watching(progress) as told:
+        rows = _tabor.density_curves(first.surface._topography, [one._record for one in contacts], first._settings(),
+                                     film, settings, told)
+    if not rows:
+        raise ValueError("surface: got one without heights; expected a rough one, on which oil runs downhill")
+    curves = [DensityCurve(pressure, dry, np.array(density), np.array(share), np.array(wet),
+                           None if plateau is None else Plateau(*plateau))
+              for pressure, dry, density, share, wet, plateau in rows]
+    return curves[0] if isinstance(contact, Contact) else curves
 
 
 @dataclass(frozen=True, init=False)

@@ -3,55 +3,18 @@
 from __future__ import annotations
 
 import csv
-import glob
-import json
 import os
 import pathlib
 import tempfile
 from collections.abc import Mapping, Sequence
-from typing import Any, Union
+from typing import Any
 
 from . import _tabor
 from ._contact import Solid
 from ._optional import needs
 from ._progress import Progress, watching
-from ._values import Value, optional_si, si, si_list
-
-_Path = Union[str, "os.PathLike[str]"]
-
-
-def _text(value: str) -> str:
-    """As a text of TOML, whose escapes are those of JSON."""
-    return json.dumps(value)
-
-
-def _quantity(value: float, unit: str) -> str:
-    return _text(f"{value!r} {unit}".strip())
-
-
-def _quantities(values: Sequence[float], unit: str) -> str:
-    return "[" + ", ".join(_quantity(value, unit) for value in values) + "]"
-
-
-def _table(name: str, lines: Mapping[str, str | None]) -> str:
-    body = "".join(f"{key} = {value}\n" for key, value in lines.items() if value is not None)
-    return f"\n{name}\n{body}" if name else body
-
-
-def _files(pattern: _Path) -> list[str]:
-    found = sorted(glob.glob(os.fspath(pattern)))
-    if not found:
-        raise ValueError(f"scans: no file '{os.fspath(pattern)}' in {os.getcwd()}")
-    return [os.path.abspath(file) for file in found]
-
-
-def _scan_tables(scans: Mapping[str, Any]) -> str:
-    tables = ""
-    for group, patterns in scans.items():
-        for pattern in [patterns] if isinstance(patterns, (str, os.PathLike)) else patterns:
-            for file in _files(pattern):
-                tables += _table("[[scan]]", {"file": _text(file), "group": _text(group)})
-    return tables
+from ._scans import Path, Scans, densities, pressures, quantity, scan_tables, table, text, texts
+from ._values import Value, optional_si, si
 
 
 class Study:
@@ -61,10 +24,11 @@ class Study:
     Parameters
     ----------
     scans : mapping
-        Groups with a file, a pattern or a list of them each; averages are taken over a group.
+        Groups with a file, a pattern, ``Scans`` with settings of their own, or a list of them each;
+        averages are taken over a group.
     solid : Solid
         That the surfaces are of.
-    pressure : mean pressures [Pa].
+    pressure : mean pressures [Pa]; needed unless all scans have their own.
     density : areal densities of the oil [kg/m^2]; without any, dry friction alone.
     treatment : steps that each scan goes through, "level=plane".
     shear_strength, boundary_shear_strength : see ``friction``.
@@ -80,8 +44,8 @@ class Study:
 
     _study: _tabor.Study
 
-    def __init__(self, scans: Mapping[str, _Path | Sequence[_Path]], solid: Solid, *,
-                 pressure: Value | Sequence[Value], density: Value | Sequence[Value] = 0.0,
+    def __init__(self, scans: Mapping[str, Path | Scans | Sequence[Path | Scans]], solid: Solid, *,
+                 pressure: Value | Sequence[Value] | None = None, density: Value | Sequence[Value] = 0.0,
                  treatment: Sequence[str] = (), shear_strength: Value | None = None,
                  boundary_shear_strength: Value | None = None, area: str | None = None,
                  oil_density: Value = 900.0, droplet_height: Value = 1e-7, model: str = "droplets",
@@ -90,25 +54,24 @@ class Study:
         strength = solid.shear_strength if shear_strength is None else shear_strength
         wet = optional_si(boundary_shear_strength, "pressure", "boundary_shear_strength")
         counter = solid.counter_youngs_modulus
-        text = _table("", {
-            "title": _text(title), "area": None if area is None else _text(area),
-            "shear_strength": None if strength is None else _quantity(si(strength, "pressure", "shear_strength"), "Pa"),
-            "boundary_shear_strength": None if wet is None else _quantity(wet, "Pa")})
-        text += _table("[material]", {
-            "youngs_modulus": _quantity(solid.youngs_modulus, "Pa"), "poissons_ratio": repr(float(solid.poissons_ratio)),
-            "saturation_pressure": None if solid.saturation_pressure is None else _quantity(solid.saturation_pressure, "Pa"),
-            "counter_youngs_modulus": None if counter is None else _quantity(counter, "Pa"),
+        lines = table("", {
+            "title": text(title), "area": None if area is None else text(area),
+            "shear_strength": None if strength is None else quantity(si(strength, "pressure", "shear_strength"), "Pa"),
+            "boundary_shear_strength": None if wet is None else quantity(wet, "Pa")})
+        lines += table("[material]", {
+            "youngs_modulus": quantity(solid.youngs_modulus, "Pa"), "poissons_ratio": repr(float(solid.poissons_ratio)),
+            "saturation_pressure": None if solid.saturation_pressure is None else quantity(solid.saturation_pressure, "Pa"),
+            "counter_youngs_modulus": None if counter is None else quantity(counter, "Pa"),
             "counter_poissons_ratio": None if counter is None else repr(float(solid.counter_poissons_ratio or 0))})
-        text += _table("[treatment]", {"steps": "[" + ", ".join(map(_text, treatment)) + "]" if treatment else None})
-        text += _table("[contact]", {"boundary": _text(boundary), "tolerance": repr(float(tolerance))})
-        text += _table("[sweep]", {
-            "mean_pressure": _quantities(si_list(pressure, "pressure", "pressure")[0], "Pa"),
-            "lubricant_density": _quantities(si_list(density, "areal_density", "density")[0], "kg/m^2")})
-        text += _table("[lubricant]", {
-            "oil_density": _quantity(si(oil_density, "density", "oil_density"), "kg/m^3"), "model": _text(model),
-            "reading": _text(reading), "edge": _text(edge), "seed": str(int(seed)),
-            "droplet": _quantity(si(droplet_height, "length", "droplet_height"), "m")})
-        self._text = text + _scan_tables(scans)
+        lines += table("[treatment]", {"steps": texts(treatment) if treatment else None})
+        lines += table("[contact]", {"boundary": text(boundary), "tolerance": repr(float(tolerance))})
+        lines += table("[sweep]", {
+            "mean_pressure": pressures(pressure), "lubricant_density": densities(density)})
+        lines += table("[lubricant]", {
+            "oil_density": quantity(si(oil_density, "density", "oil_density"), "kg/m^3"), "model": text(model),
+            "reading": text(reading), "edge": text(edge), "seed": str(int(seed)),
+            "droplet": quantity(si(droplet_height, "length", "droplet_height"), "m")})
+        self._text = lines + scan_tables(scans)
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "study.toml")
             try:
@@ -118,7 +81,7 @@ class Study:
         self._file: pathlib.Path | None = None
 
     @classmethod
-    def read(cls, file: _Path) -> Study:
+    def read(cls, file: Path) -> Study:
         """A study file of ``tabor sweep``. Raises ValueError with file, line and key."""
         study = cls.__new__(cls)
         study._study = _tabor.read_study(os.fspath(file))
@@ -137,7 +100,7 @@ class Study:
     def __repr__(self) -> str:
         return f"Study {self._study.title}: {self._study.n_scans} scans, {self.n_cases} cases"
 
-    def run(self, folder: _Path, *, jobs: int = 0, retry: bool = False, progress: Progress = None) -> Results:
+    def run(self, folder: Path, *, jobs: int = 0, retry: bool = False, progress: Progress = None) -> Results:
         """Computes what the store in the folder does not hold yet. Ctrl-C keeps what is finished; the same
         call, or ``tabor sweep FOLDER/study.toml -o FOLDER``, continues.
 
@@ -167,7 +130,7 @@ class Results:
     """The tables in a folder of ``Study.run`` or ``tabor sweep``. ``warnings`` and ``failures`` are those of
     the run that made it."""
 
-    def __init__(self, folder: _Path, outcome: _tabor.Outcome | None = None) -> None:
+    def __init__(self, folder: Path, outcome: _tabor.Outcome | None = None) -> None:
         self.folder = pathlib.Path(folder)
         if not (self.folder / "results.csv").is_file():
             raise ValueError(f"{self.folder}: no results.csv; expected a folder of Study.run or tabor sweep")
@@ -188,6 +151,17 @@ class Results:
     def averages(self) -> list[dict[str, float | bool | str]]:
         """One for each group, pressure and density."""
         return self._rows("averages.csv")
+
+    @property
+    def density_curves(self) -> list[dict[str, float | bool | str]]:
+        """Lubricated share and friction of each scan under each pressure over the density of the oil; empty
+        where no oil runs downhill (docs/lubrication.md)."""
+        return self._rows("density_curves.csv") if (self.folder / "density_curves.csv").is_file() else []
+
+    @property
+    def answers(self) -> tuple[str, ...]:
+        """What the mean curves say, one sentence for each group and pressure."""
+        return tuple(_tabor.result_texts(os.fspath(self.folder / "results.h5"), "answers"))
 
     @property
     def table(self) -> Any:

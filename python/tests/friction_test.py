@@ -162,3 +162,42 @@ def test_a_pickled_film_and_friction_are_the_same(rough, steel):
     found = tb.friction(tb.contact(rough, 5e7, steel), copy)
     again = pickle.loads(pickle.dumps(found))
     assert dict(again.values) == dict(found.values) and again.warnings == found.warnings
+
+
+def test_a_density_curve_is_that_of_the_command_line(program, scan_file):
+    run = subprocess.run([program, "friction", scan_file, "--level", "plane", "--crop", "0,0,128,128", "--pressure",
+                          "2MPa,7MPa", "--material", "aluminium-6016", "--density", "0.45g/m^2,0.9g/m^2", "--json"],
+                         capture_output=True, text=True, check=True)
+    told = json.loads(run.stdout)["density_curves"]
+    surface = tb.read(scan_file).level("plane").crop("0,0,128,128")
+    found = tb.density_curve(tb.contact(surface, ["2 MPa", "7 MPa"], tb.Solid("aluminium-6016")))
+    assert len(told) == len(found) == 2
+    for one, curve in zip(told, found):
+        assert one["mean_pressure_Pa"] == curve.mean_pressure
+        assert one["friction_lubricated"] == curve.friction_lubricated.tolist()
+        assert one["lubricated_share"] == curve.lubricated_share.tolist()
+        assert one["plateau_from_g_per_m2"] == pytest.approx(curve.plateau.first * 1e3, rel=1e-14)
+    text = subprocess.run([*run.args[:-1]], capture_output=True, text=True, check=True).stdout
+    assert found[1].says(["0.45 g/m^2", 0.9e-3]) in " ".join(text.split())
+
+
+def test_a_density_curve_falls_from_dry_friction(rough, steel):
+    curve = tb.density_curve(tb.contact(rough, "50 MPa", steel), boundary_shear_share=0.25)
+    dry = curve.friction_dry
+    assert dry == tb.friction(tb.contact(rough, "50 MPa", steel), tb.rain(rough, 0)).dry
+    assert (np.diff(curve.friction_lubricated) <= 1e-15).all()
+    np.testing.assert_allclose(curve.friction_lubricated, dry * (1 - 0.75 * curve.lubricated_share), rtol=1e-12)
+    assert pickle.loads(pickle.dumps(curve)).says() == curve.says()
+
+
+def test_what_has_no_density_curve_is_refused(rough, levelled, steel):
+    one, other = tb.contact(rough, 5e7, steel), tb.contact(levelled, 5e6, steel)
+    with pytest.raises(ValueError, match="several surfaces"):
+        tb.density_curve([one, other])
+    with pytest.raises(ValueError, match="empty list"):
+        tb.density_curve([])
+    with pytest.raises(ValueError, match="edge: got 'shut'"):
+        tb.density_curve(one, edge="shut")
+    flat = tb.Surface(np.zeros((16, 16)), pixel=1e-6, periodic=True)
+    with pytest.raises(ValueError, match="without heights"):
+        tb.density_curve(tb.contact(flat, 5e7, steel))

@@ -63,6 +63,33 @@ def test_the_table_is_a_data_frame(folder, tmp_path):
     assert table.shape == (2, 2) and np.isfinite(table.values).all()
 
 
+def test_scans_have_settings_of_their_own(folder, tmp_path):
+    before = folder / "before_1.h5"
+    own = tb.Scans(before, pressure=["1 MPa", 3e6], density=0, treatment=["level=plane", "lowpass=gauss:2um"],
+                   contact="elastic", reading="literal")
+    study = tb.Study({"before": [before, folder / "after_1.h5"], "filtered": own}, tb.Solid("aluminium-6016"),
+                     pressure="7 MPa", density="0.45 g/m^2", treatment=["level=plane"])
+    assert study.n_cases == 4
+    rows = {(row["group"], row["mean_pressure_Pa"]): row for row in study.run(tmp_path / "r").rows}
+    assert rows["filtered", 3e6]["saturated_area_fraction"] == 0 < rows["before", 7e6]["saturated_area_fraction"]
+    surface = tb.read(before).treat("level=plane", "lowpass=gauss:2um")
+    one = tb.contact(surface, 3e6, tb.Solid("aluminium-6016", saturation_pressure="none"))
+    assert rows["filtered", 3e6]["contact_area_fraction"] == one.area_fraction
+    assert rows["filtered", 3e6]["lubricant_density_g_per_m2"] == 0
+
+
+def test_curves_and_what_they_say_are_those_of_single_calls(folder, tmp_path):
+    found = study_of(folder).run(tmp_path / "r")
+    surface = tb.read(folder / "after_1.h5").level("plane")
+    curve = tb.density_curve(tb.contact(surface, 7e6, tb.Solid("aluminium-6016")))
+    rows = [row for row in found.density_curves if row["group"] == "after" and row["mean_pressure_Pa"] == 7e6]
+    assert [row["friction_lubricated"] for row in rows] == curve.friction_lubricated.tolist()
+    assert len(found.answers) == 4
+    assert f"after at 7 MPa: {curve.says([0.45e-3, 0.9e-3])}" in found.answers
+    dry = study_of(folder, density=0).run(tmp_path / "dry")
+    assert dry.density_curves == [] and dry.answers == ()
+
+
 def test_ctrl_c_keeps_what_is_finished(tmp_path, scan_file):
     study = tb.Study({"all": scan_file}, tb.Solid("aluminium-6016"), pressure=np.linspace(1e6, 5e7, 100))
     sender = threading.Thread(target=lambda: (time.sleep(1), signal.raise_signal(signal.SIGINT)))
@@ -78,10 +105,20 @@ def test_ctrl_c_keeps_what_is_finished(tmp_path, scan_file):
     ({"pressure": "1 GPa"}, "study:[0-9]+: sweep.mean_pressure.*saturation"),
     ({"density": "-1 g/m^2"}, "lubricant_density"),
     ({"treatment": ["levle=plane"]}, "did you mean 'level'"),
+    ({"pressure": None}, "sweep.mean_pressure is missing"),
     ({"model": "droplet"}, "did you mean 'droplets'")])
 def test_what_no_study_can_be_is_refused(folder, changes, text):
     with pytest.raises(ValueError, match=text):
         study_of(folder, **changes)
+
+
+@pytest.mark.parametrize("own, text", [
+    ({"pressure": "1 GPa"}, "saturation"), ({"contact": "plastic"}, "elastic or saturated"),
+    ({"reading": "literl"}, "did you mean 'literal'"), ({"density": "-1 g/m^2"}, "zero or more"),
+    ({"treatment": ["levle=plane"]}, "did you mean 'level'"), ({"pixel": "1 MPa"}, "pixel")])
+def test_settings_that_no_scan_can_have_are_refused(folder, own, text):
+    with pytest.raises(ValueError, match=text):
+        tb.Study({"a": tb.Scans(folder / "before_1.h5", **own)}, tb.Solid("aluminium-6016"), pressure=1e6)
 
 
 def test_missing_scans_and_folders_are_named(tmp_path):
