@@ -32,5 +32,6 @@ NB_MODULE(_tabor, module) {
   bind_contact(module);
   bind_film(module);
   bind_friction(module);
+  bind_synthesis(module);
   bind_study(module);
 }

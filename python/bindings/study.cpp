@@ -3,6 +3,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.hpp"
+#include "tabor/analysis/citations.hpp"
 #include "tabor/io/hdf5_guard.hpp"
 #include "tabor/study/sweep.hpp"
 #include "watched.hpp"
@@ -23,6 +24,14 @@ Outcome run(const Study& study, const std::filesystem::path& folder, int jobs, b
     options.command = "tabor.Study.run";
     return study::run(study, folder, options);
   });
+}
+
+/// BibTeX of what results of these keys and these result files rest on.
+std::string bibtex(const std::vector<std::string>& keys,
+                   const std::vector<std::filesystem::path>& files) {
+  analysis::ReferenceKeys wanted = analysis::with_software({keys.begin(), keys.end()});
+  for (const std::filesystem::path& file : files) wanted.merge(analysis::references_in(file));
+  return analysis::bibtex_of(analysis::citations(wanted));
 }
 
 std::vector<std::string> warnings_of(const Outcome& outcome) {
@@ -59,6 +68,8 @@ void bind_study(nb::module_& module) {
       .def_ro("failures", &Outcome::failures)
       .def_prop_ro("warnings", &warnings_of);
   module.def("read_study", &study::read_study, "file"_a);
+  module.def("bibtex", &bibtex, "keys"_a, "files"_a);
+  module.def("whole_bibtex", [] { return analysis::bibtex_of(analysis::citations()); });
   module.def("result_texts", &result_texts, "file"_a, "name"_a);
   module.def("run_study", &run, "study"_a, "folder"_a, "jobs"_a, "retry"_a, "progress"_a.none());
 }

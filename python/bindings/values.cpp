@@ -12,7 +12,6 @@
 #include "records.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
-#include "tabor/core/units.hpp"
 #include "tabor/core/version.hpp"
 #include "tabor/io/protection.hpp"
 
@@ -47,6 +46,13 @@ nb::object object_of(const Cell& cell) {
 }
 
 }  // namespace
+
+std::string name_of(const Dimension& dimension) {
+  for (const auto& [name, one] : dimensions()) {
+    if (one == dimension) return std::string(name);
+  }
+  throw InputError("a dimension without a name");
+}
 
 MapView view_of(const Field& field, nb::handle owner) {
   const std::array<std::size_t, 2> shape = {static_cast<std::size_t>(field.rows()),

@@ -12,6 +12,7 @@
 #include "tabor/analysis/warning.hpp"
 #include "tabor/core/column.hpp"
 #include "tabor/core/types.hpp"
+#include "tabor/core/units.hpp"
 
 // What goes between C++ and Python: maps, records, warnings and objections.
 namespace tabor::python {
@@ -31,6 +32,9 @@ nb::dict dict_of(const NamedCells& cells);
 using WarningTexts = std::vector<std::pair<std::string, std::string>>;
 WarningTexts texts_of(const analysis::Warnings& warnings);
 analysis::Warnings warnings_of(const WarningTexts& texts);
+
+/// "length", as parse_si of the module takes it.
+std::string name_of(const Dimension& dimension);
 
 /// How the package calls what analysis calls by this name.
 std::string argument_of(std::string_view setting);

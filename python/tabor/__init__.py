@@ -10,6 +10,7 @@ import os as _os
 # OpenMP library reads this when it is loaded.
 _os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
+from ._cite import cite
 from ._contact import Contact, Material, NotConverged, Solid, contact, materials
 from ._friction import (DensityCurve, Film, FluidFilm, Friction, Lubricant, Plateau, density_curve, fluid_film,
                         friction, rain)
@@ -17,11 +18,11 @@ from ._progress import Progress
 from ._records import Warning
 from ._scans import Scans
 from ._study import Results, Study
-from ._surface import Parameter, Parameters, Spectra, Spectrum, Surface, read
+from ._surface import Format, Parameter, Parameters, Spectra, Spectrum, Surface, formats, generate, read
 from ._tabor import set_threads
 from ._tabor import version as __version__
 
-__all__ = ["Contact", "DensityCurve", "Film", "FluidFilm", "Friction", "Lubricant", "Material", "NotConverged",
+__all__ = ["Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction", "Lubricant", "Material", "NotConverged",
            "Parameter", "Parameters", "Plateau", "Progress", "Results", "Scans", "Solid", "Spectra", "Spectrum", "Study",
-           "Surface", "Warning", "contact", "density_curve", "fluid_film", "friction", "materials", "rain", "read",
-           "set_threads"]
+           "Surface", "Warning", "cite", "contact", "density_curve", "fluid_film", "formats", "friction", "generate",
+           "materials", "rain", "read", "set_threads"]

@@ -350,6 +350,68 @@ def read(file: str | os.PathLike[str], *, channel: str | int | None = None,
         return Surface._of(_tabor.read(os.fspath(file), options, told))
 
 
+def generate(kind: str, *, pixels: int | tuple[int, int] = 512, pixel: Value | tuple[Value, Value] = 0.67e-6,
+             seed: int = 1, stage: str = "before", periodic: bool = True, random_amplitudes: bool = False,
+             **numbers: Value) -> Surface:
+    """Makes a surface; the same arguments give the same bits, on any number of threads.
+
+    Parameters
+    ----------
+    kind : "self-affine", "edt", "ground", "sinusoid", "sphere" or "bump".
+    pixels : number of pixels along x and y, or one for both.
+    pixel : side of a pixel [m], or those along x and y.
+    seed : of random numbers.
+    stage : edt: "before" or "after" sliding.
+    periodic : edt: a tile, or a cut-out.
+    random_amplitudes : self-affine: Gaussian amplitudes, not random phases only.
+
+    Raises
+    ------
+    ValueError
+        For an unknown kind, and for numbers that do not belong to it, are missing or out of range.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> tb.generate("sinusoid", pixels=64, pixel="1 um", amplitude="1 um", wavelength_x="16 um").periodic
+    True
+
+    Further numbers, with the kinds that take them and [their usual values]:
+
+    """
+    request = _tabor.GenerateRequest()
+    nx, ny = (pixels, pixels) if isinstance(pixels, int) else pixels
+    request.set_grid(nx, ny, *_pixels(pixel))
+    request.kind, request.periodic, request.random_amplitudes = kind, periodic, random_amplitudes
+    request.set_stage(stage)
+    if seed < 0:
+        raise ValueError(f"seed: got {seed}; expected zero or more")
+    request.seed = seed
+    request.numbers = {name: si(value, _NUMBERS.get(name, "none"), name) for name, value in numbers.items()}
+    return Surface._of(_tabor.generate(request))
+
+
+_NUMBERS = {name: dimension for name, dimension, _ in _tabor.recipe_numbers()}
+generate.__doc__ = (generate.__doc__ or "").rstrip() + "\n\n" + "\n".join(
+    f"    {name} : {text}" for name, _, text in _tabor.recipe_numbers()) + "\n"
+
+
+class Format(NamedTuple):
+    """A format of scan files."""
+
+    name: str
+    description: str
+    extensions: tuple[str, ...]
+    reads: bool
+    writes: bool
+    via_gwyddion: bool  #: only where Gwyddion is installed
+
+
+def formats() -> tuple[Format, ...]:
+    """The formats that ``read`` and ``Surface.write`` know, as ``tabor formats`` lists them."""
+    return tuple(Format(name, text, tuple(extensions), *can) for name, text, extensions, *can in _tabor.formats())
+
+
 def coordinates(surface: Surface) -> tuple[Array, Array]:
     """Centres of the columns and of the rows [m], from the upper left corner."""
     (ny, nx), (dx, dy) = surface.shape, surface.pixel
