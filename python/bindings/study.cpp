@@ -1,9 +1,11 @@
 #include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include "bindings.hpp"
 #include "tabor/analysis/citations.hpp"
+#include "tabor/io/atomic_file.hpp"
 #include "tabor/io/hdf5_guard.hpp"
 #include "tabor/study/sweep.hpp"
 #include "watched.hpp"
@@ -24,6 +26,37 @@ Outcome run(const Study& study, const std::filesystem::path& folder, int jobs, b
     options.command = "tabor.Study.run";
     return study::run(study, folder, options);
   });
+}
+
+/// (study files of the parts that the store lacks, warnings)
+using MissingTexts = std::pair<std::vector<std::string>, std::vector<std::string>>;
+MissingTexts missing_parts(const Study& study, const std::filesystem::path& folder, bool retry,
+                           const nb::object& progress) {
+  study::Missing missing = watched(progress, [&](const Observer& observer) {
+    return study::missing_parts(study, folder, retry, observer);
+  });
+  const std::vector<Study> parts = study::parts_of(study);
+  std::vector<std::string> texts;
+  texts.reserve(missing.parts.size());
+  for (const std::size_t place : missing.parts) texts.push_back(study::to_toml(parts[place]));
+  return {std::move(texts), std::move(missing.warnings)};
+}
+
+/// (contacts computed, failures)
+std::pair<std::size_t, std::vector<std::string>> run_part(const Study& part,
+                                                          const std::filesystem::path& folder,
+                                                          bool retry) {
+  study::PartOutcome outcome = watched(nb::none(), [&](const Observer& observer) {
+    study::RunOptions options;
+    options.retry = retry;
+    options.observer = observer;
+    return study::run_part(part, folder, options);
+  });
+  return {outcome.n_contacts, std::move(outcome.failures)};
+}
+
+void write_file(const std::filesystem::path& file, const nb::bytes& bytes) {
+  io::write_file(file, std::string_view(bytes.c_str(), bytes.size()));
 }
 
 /// BibTeX of what results of these keys and these result files rest on.
@@ -56,8 +89,16 @@ void bind_study(nb::module_& module) {
   using namespace nb::literals;
   nb::class_<Study>(module, "Study")
       .def_ro("title", &Study::title)
+      .def_ro("file", &Study::file)
       .def_prop_ro("n_cases", &Study::n_cases)
       .def_prop_ro("n_scans", [](const Study& self) { return self.scans.size(); })
+      .def_prop_ro("files",
+                   [](const Study& self) {
+                     std::vector<std::filesystem::path> files;
+                     files.reserve(self.scans.size());
+                     for (const study::Scan& scan : self.scans) files.push_back(scan.file);
+                     return files;
+                   })
       .def_prop_ro("toml", [](const Study& self) { return study::to_toml(self); });
   nb::class_<Outcome>(module, "Outcome")
       .def_ro("n_cases", &Outcome::n_cases)
@@ -68,6 +109,11 @@ void bind_study(nb::module_& module) {
       .def_ro("failures", &Outcome::failures)
       .def_prop_ro("warnings", &warnings_of);
   module.def("read_study", &study::read_study, "file"_a);
+  module.def("parse_study", &study::parse_study, "text"_a, "file"_a);
+  module.def("missing_parts", &missing_parts, "study"_a, "folder"_a, "retry"_a,
+             "progress"_a.none());
+  module.def("run_part", &run_part, "part"_a, "folder"_a, "retry"_a);
+  module.def("write_file", &write_file, "file"_a, "bytes"_a);
   module.def("bibtex", &bibtex, "keys"_a, "files"_a);
   module.def("whole_bibtex", [] { return analysis::bibtex_of(analysis::citations()); });
   module.def("result_texts", &result_texts, "file"_a, "name"_a);

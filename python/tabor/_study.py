@@ -5,13 +5,14 @@ from __future__ import annotations
 import csv
 import os
 import pathlib
-import tempfile
 from collections.abc import Mapping, Sequence
+from concurrent.futures import Executor
 from typing import Any
 
 from . import _tabor
 from ._contact import Solid
 from ._optional import needs
+from ._parts import run as run_parts
 from ._progress import Progress, watching
 from ._scans import Path, Scans, densities, pressures, quantity, scan_tables, table, text, texts
 from ._values import Value, optional_si, si
@@ -72,12 +73,7 @@ class Study:
             "reading": text(reading), "edge": text(edge), "seed": str(int(seed)),
             "droplet": quantity(si(droplet_height, "length", "droplet_height"), "m")})
         self._text = lines + scan_tables(scans)
-        with tempfile.TemporaryDirectory() as folder:
-            file = pathlib.Path(folder, "study.toml")
-            try:
-                self._study = self._write(file)
-            except ValueError as error:
-                raise ValueError(str(error).replace(str(file), "study")) from None
+        self._study = _tabor.parse_study(self._text, "study")
         self._file: pathlib.Path | None = None
 
     @classmethod
@@ -100,21 +96,48 @@ class Study:
     def __repr__(self) -> str:
         return f"Study {self._study.title}: {self._study.n_scans} scans, {self.n_cases} cases"
 
-    def run(self, folder: Path, *, jobs: int = 0, retry: bool = False, progress: Progress = None) -> Results:
+    def run(self, folder: Path, *, jobs: int = 0, retry: bool = False, executor: Executor | None = None,
+            threads: int = 1, store: str = "shared", progress: Progress = None) -> Results:
         """Computes what the store in the folder does not hold yet. Ctrl-C keeps what is finished; the same
         call, or ``tabor sweep FOLDER/study.toml -o FOLDER``, continues.
 
-        ``jobs``: cases at the same time [as many as there are threads and room for]; ``retry``: what failed
-        or did not converge is computed again. Raises ValueError for scans that cannot be read, OSError where
-        the folder cannot be written.
+        Parameters
+        ----------
+        jobs : cases at the same time [as many as there are threads and room for].
+        retry : what failed or did not converge is computed again.
+        executor : any executor of concurrent.futures, whose workers compute one scan under one pressure at a
+            time: ProcessPoolExecutor (started by "spawn"), ``client.get_executor()`` of Dask, MPIPoolExecutor
+            of mpi4py.
+        threads : of each worker.
+        store : "shared" where workers see the folder; "return" where they do not: scans go to them and
+            results come back.
+
+        Raises
+        ------
+        ValueError
+            For scans that cannot be read.
+        OSError
+            Where the folder cannot be written.
+
+        What a worker raises is raised when all others are done; their results are kept.
         """
-        if jobs < 0:
-            raise ValueError(f"jobs: got {jobs}; expected zero or more")
-        os.makedirs(folder, exist_ok=True)
-        study = self._study if self._file else self._write(pathlib.Path(folder).absolute() / "study.toml")
+        if jobs < 0 or threads < 0:
+            raise ValueError(f"jobs, threads: got {jobs}, {threads}; expected zero or more")
+        if store not in ("shared", "return"):
+            raise ValueError(f"store: got {store!r}; expected 'shared' or 'return'")
+        path = os.path.abspath(folder)
+        os.makedirs(path, exist_ok=True)
+        study = self._study if self._file else self._write(pathlib.Path(path, "study.toml"))
+        n_contacts = 0
+        warnings: list[str] = []
         with watching(progress) as told:
-            outcome = _tabor.run_study(study, os.fspath(folder), jobs, retry, told)
-        return Results(folder, outcome)
+            if executor is not None:
+                parts, warnings = _tabor.missing_parts(study, path, retry, told)
+                n_contacts = run_parts(executor, parts, os.path.abspath(study.file), path, retry=retry,
+                                       threads=threads, returns=store == "return", told=told)
+                retry = False
+            outcome = _tabor.run_study(study, path, jobs, retry, told)
+        return Results(folder, outcome, n_contacts, tuple(warnings))
 
 
 def _number(cell: str) -> float | bool | str:
@@ -130,13 +153,14 @@ class Results:
     """The tables in a folder of ``Study.run`` or ``tabor sweep``. ``warnings`` and ``failures`` are those of
     the run that made it."""
 
-    def __init__(self, folder: Path, outcome: _tabor.Outcome | None = None) -> None:
+    def __init__(self, folder: Path, outcome: _tabor.Outcome | None = None, n_contacts: int = 0,
+                 warnings: tuple[str, ...] = ()) -> None:
         self.folder = pathlib.Path(folder)
         if not (self.folder / "results.csv").is_file():
             raise ValueError(f"{self.folder}: no results.csv; expected a folder of Study.run or tabor sweep")
-        self.warnings: tuple[str, ...] = tuple(outcome.warnings) if outcome else ()
+        self.warnings: tuple[str, ...] = warnings + (tuple(outcome.warnings) if outcome else ())
         self.failures: tuple[str, ...] = tuple(outcome.failures) if outcome else ()
-        self.n_contacts = outcome.n_contacts if outcome else 0  #: that the run computed
+        self.n_contacts = n_contacts + (outcome.n_contacts if outcome else 0)  #: that the run computed
 
     def _rows(self, name: str) -> list[dict[str, float | bool | str]]:
         with open(self.folder / name, newline="", encoding="utf-8") as file:
