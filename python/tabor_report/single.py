@@ -43,10 +43,14 @@ class Single:
         return tuple(_spacing(self.surface, name) for name in ("x", "y"))
 
     def height(self):
-        return self.surface["height"][()]
+        return self.surface["height"][()].astype(float, copy=False)
 
 
 def load(path, file):
+    if "states" in file and "surface" not in file:
+        raise InputError(
+            f"{path}: has numbers and no maps to draw; write it with --fields contact or --fields all"
+        )
     if "surface" not in file or "height" not in file["surface"]:
         raise InputError(f"{path}: holds neither a study (/scans) nor a scan (/surface/height)")
     facts = hdf.attributes(file)

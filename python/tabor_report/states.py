@@ -5,6 +5,7 @@ import numpy as np
 from tabor_report import hdf, units
 
 NO_CONTACT, CONTACT, SATURATED = 0, 1, 2
+PRESSURE_ROUNDING = 1e-6
 
 
 class StudyContact:
@@ -95,7 +96,7 @@ class SingleState:
     def map(self, name):
         """float64, shape (ny, nx), or None if this command stored no such map."""
         dataset = hdf.child(self.node, name)
-        return None if dataset is None else dataset[()]
+        return None if dataset is None else dataset[()].astype(np.float64, copy=False)
 
     def state(self):
         pressure = self.map("pressure")
@@ -103,8 +104,8 @@ class SingleState:
             return None
         state = np.where(pressure > 0, CONTACT, NO_CONTACT).astype(np.uint8)
         if self.saturation_pressure:
-            # The solver clips at the cap, so only rounding separates a saturated pixel from it.
-            state[pressure >= self.saturation_pressure * (1 - 1e-9)] = SATURATED
+            # The solver clips at the cap, so only rounding to float32 separates a saturated pixel from it.
+            state[pressure >= self.saturation_pressure * (1 - PRESSURE_ROUNDING)] = SATURATED
         return state
 
 

@@ -306,7 +306,7 @@ TEST_F(Outputs, WithoutAStateAreNotMade) {
   scan.surface = scan::read(file("in.h5"));
   const Field map = scan.surface.height;
   for (const bool has_state : {false, true}) {
-    cli::FieldsFile fields(file("out.h5"), context, scan, io::Json::object(), {});
+    cli::FieldsFile fields({.output = file("out.h5")}, context, scan, io::Json::object(), {});
     if (has_state) fields.add_state(0, {}, {{"gap", "m", "gap", map}});
     fields.commit(context);
     EXPECT_EQ(fs::exists(file("out.h5")), has_state);

@@ -1,4 +1,5 @@
 // lubricate and friction on a small generated surface.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include "run_tabor.hpp"
@@ -151,13 +152,58 @@ TEST_F(LubricantVerbs, FrictionWithoutOilIsDry) {
 TEST_F(LubricantVerbs, FrictionKeepsContactAndFilm) {
   ASSERT_EQ(run_tabor(friction("7MPa", "0.9g/m^2") + Words{"-o", file("out.h5")}).code, 0);
   const io::Hdf5Reader result(file("out.h5"));
-  for (const char* map : {"pressure", "displacement", "gap", "film_thickness"}) {
+  for (const char* map : {"pressure", "gap", "film_thickness"}) {
     EXPECT_EQ(result.shape(std::string("/states/0000/") + map), (std::vector<Index>{64, 64}));
   }
   const io::Json entries = json_of({"cite", file("out.h5")}).at("bibtex");
   for (const char* key : {"bowden1950", "almqvist2007", "costagliola2021", "hdf5"}) {
     EXPECT_TRUE(entries.contains(key)) << key;
   }
+}
+
+TEST_F(LubricantVerbs, FrictionStoresEveryMapOnceAndNamesItInEveryState) {
+  const auto size_of = [&](const std::string& densities) {
+    EXPECT_EQ(run_tabor(friction("2MPa,7MPa", densities) + Words{"-o", file("out.h5")}).code, 0);
+    return std::filesystem::file_size(file("out.h5"));
+  };
+  const auto one = size_of("0.45g/m^2"), three = size_of("0.45g/m^2,0.9g/m^2,0.6g/m^2");
+  EXPECT_LT(three - one, 2 * 64 * 64 * sizeof(float) + 40000);  // two films, no contact
+  const io::Hdf5Reader result(file("out.h5"));
+  const auto map = [&](int state, const std::string& name) {
+    return result.field(fmt::format("/states/{:04}/{}", state, name));
+  };
+  for (const int state : {1, 2}) {
+    EXPECT_TRUE((map(state, "gap") == map(0, "gap")).all());
+    EXPECT_TRUE((map(state + 3, "film_thickness") == map(state, "film_thickness")).all());
+    EXPECT_FALSE((map(state + 3, "pressure") == map(state, "pressure")).all());
+    EXPECT_EQ(result.shape(fmt::format("/states/{:04}/x", state)), std::vector<Index>{64});
+  }
+}
+
+TEST_F(LubricantVerbs, FilesKeepTheMapsAskedForInThePrecisionAskedFor) {
+  const auto kept = [&](const Words& more) {
+    EXPECT_EQ(run_tabor(friction("7MPa", "0.9g/m^2") + Words{"-o", file("out.h5")} + more).code, 0);
+    return io::Hdf5Reader(file("out.h5")).children("/states/0000");
+  };
+  EXPECT_EQ(kept({}), (Words{"film_thickness", "gap", "pressure", "x", "y"}));
+  const Field rounded = io::Hdf5Reader(file("out.h5")).field("/states/0000/gap");
+  EXPECT_EQ(kept({"--fields", "contact"}), (Words{"film_thickness", "pressure", "x", "y"}));
+  EXPECT_EQ(kept({"--fields", "none"}), Words{});
+  EXPECT_FALSE(io::Hdf5Reader(file("out.h5")).exists("/surface"));
+  EXPECT_GT(io::Hdf5Reader(file("out.h5")).number("/states/0000", "friction_dry"), 0);
+  kept({"--double"});
+  const Field exact = io::Hdf5Reader(file("out.h5")).field("/states/0000/gap");
+  EXPECT_TRUE((exact.cast<float>().cast<double>() == rounded).all());
+  EXPECT_FALSE((exact == rounded).all());
+}
+
+TEST_F(LubricantVerbs, MapsNeedAFileAndAKnownChoice) {
+  EXPECT_EQ(run_tabor(friction("7MPa", "0.9g/m^2") + Words{"--double"}).code, 2);
+  EXPECT_EQ(run_tabor(friction("7MPa", "0.9g/m^2") + Words{"--fields", "all"}).code, 2);
+  const Outcome outcome =
+      run_tabor(friction("7MPa", "0.9g/m^2") + Words{"-o", file("out.h5"), "--fields", "contacts"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, testing::HasSubstr("did you mean 'contact'"));
 }
 
 TEST_F(LubricantVerbs, FlowingOilCarriesLoadAndAddsViscousFriction) {

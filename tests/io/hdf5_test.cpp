@@ -1,5 +1,6 @@
 #include "tabor/io/hdf5.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -8,6 +9,8 @@
 #include "support/folder.hpp"
 #include "support/rejection.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/core/parallel.hpp"
+#include "tabor/io/atomic_file.hpp"
 
 namespace tabor::io {
 namespace {
@@ -54,6 +57,67 @@ TEST(Hdf5, MapsReadBackInBothPrecisions) {
   EXPECT_TRUE(same(reader.field("/deep/er/float"), map.cast<float>().cast<double>()));
   EXPECT_TRUE((reader.bytes("/bytes") == 2).all());
   EXPECT_THAT(reader.shape("/bytes"), ElementsAre(3, 4));
+}
+
+/// Less than a chunk, exactly chunks, one row or column more, one row, one column, many batches.
+TEST(Hdf5, MapsOfAnyShapeReadBack) {
+  const Folder folder;
+  for (const auto& [ny, nx] :
+       {std::pair<Index, Index>{1, 1}, {64, 1024}, {65, 1025}, {1, 3000}, {300, 1}, {64 * 34, 8}}) {
+    const Field map = sample_map(ny, nx);
+    ByteMap bytes(ny, nx);
+    for (Index i = 0; i < bytes.size(); ++i) bytes.data()[i] = static_cast<std::uint8_t>(i % 251);
+    Hdf5Writer writer(folder / "a.h5");
+    writer.write("/double", map);
+    writer.write("/float", map, Precision::float32);
+    writer.write("/bytes", bytes);
+    writer.write("/zero", Field(Field::Zero(ny, nx)), Precision::float32);
+    writer.commit();
+    const Hdf5Reader reader(folder / "a.h5");
+    EXPECT_TRUE(same(reader.field("/double"), map)) << ny << " x " << nx;
+    EXPECT_TRUE(same(reader.field("/float"), map.cast<float>().cast<double>()))
+        << ny << " x " << nx;
+    EXPECT_TRUE((reader.bytes("/bytes") == bytes).all()) << ny << " x " << nx;
+    EXPECT_TRUE((reader.field("/zero") == 0).all()) << ny << " x " << nx;
+  }
+}
+
+TEST(Hdf5, AMapWithoutPixelsReadsBack) {
+  const Folder folder;
+  Hdf5Writer writer(folder / "a.h5");
+  writer.write("/map", Field(0, 5), Precision::float32);
+  writer.commit();
+  EXPECT_THAT(Hdf5Reader(folder / "a.h5").shape("/map"), ElementsAre(0, 5));
+}
+
+TEST(Hdf5, BytesDoNotDependOnTheNumberOfThreads) {
+  const Folder folder;
+  const int before = thread_count();
+  for (const int threads : {1, 3}) {
+    set_thread_count(threads);
+    Hdf5Writer writer(folder / fmt::format("{}.h5", threads));
+    writer.write("/map", sample_map(700, 1500), Precision::float32);
+    writer.commit();
+  }
+  set_thread_count(before);
+  EXPECT_EQ(read_text(folder / "1.h5"), read_text(folder / "3.h5"));
+}
+
+TEST(Hdf5, ASecondNameIsTheSameMap) {
+  const Folder folder;
+  const Field map = sample_map(70, 1100);
+  const auto size_with = [&](bool twice) {
+    Hdf5Writer writer(folder / "a.h5");
+    writer.write("/one/map", map);
+    if (twice) writer.link("/two/map", "/one/map");
+    writer.commit();
+    return std::filesystem::file_size(folder / "a.h5");
+  };
+  const auto alone = size_with(false);
+  EXPECT_LT(size_with(true), alone + 10000);
+  EXPECT_TRUE(same(Hdf5Reader(folder / "a.h5").field("/two/map"), map));
+  Hdf5Writer writer(folder / "b.h5");
+  EXPECT_THROW(writer.link("/two/map", "/nothing"), OutputError);
 }
 
 TEST(Hdf5, ColumnsAndAttributesReadBack) {

@@ -16,7 +16,7 @@ namespace {
 struct Request {
   ScanRequest scan;
   analysis::CaseSettings settings;
-  std::optional<std::string> output;
+  FieldsRequest file;
   std::vector<double> cutoffs;           ///< of --lowpass-scan
   std::optional<double> shear_strength;  ///< [Pa], for its friction
 };
@@ -41,7 +41,7 @@ io::Json statistics_json(const analysis::ContactRecord& record, Context& context
 
 void check_all(const Request& request) {
   check_contact(request.settings);
-  if (request.output && !request.cutoffs.empty()) {
+  if (request.file.output && !request.cutoffs.empty()) {
     throw UsageError("--lowpass-scan keeps no maps; leave out -o");
   }
 }
@@ -57,8 +57,8 @@ int show(const Request& request, Context& context) {
   const analysis::ContactSettings& settings = request.settings.contact;
   const io::Json in_force = settings_json(settings);
   std::optional<FieldsFile> file;
-  if (request.output) {
-    file.emplace(*request.output, context, scan, in_force, analysis::references_of(settings));
+  if (request.file.output) {
+    file.emplace(request.file, context, scan, in_force, analysis::references_of(settings));
   }
   io::Json object = json_head(context, scan);
   object["nx"] = scan.surface.grid.nx;
@@ -139,7 +139,7 @@ Verb contact_verb() {
             declare_contact(set, request->settings);
             declare_extras(set, request->settings.contact);
             declare_lowpass_scan(set, *request);
-            declare_output(set, request->output);
+            declare_fields(set, request->file);
             return [request](Context& context) { return show(*request, context); };
           }};
 }

@@ -245,8 +245,6 @@ std::string density_text(double density) { return plain(in_g_per_m2(density)) + 
 
 std::vector<StateField> fields_of(const analysis::ContactRecord& record) {
   return {{"pressure", "Pa", "contact pressure", record.state.pressure},
-          {"displacement", "m", "displacement of the surface, into the body",
-           record.state.displacement},
           {"gap", "m", "gap between the deformed surface and the flat", record.state.gap}};
 }
 

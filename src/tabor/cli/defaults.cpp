@@ -67,8 +67,20 @@ std::string file_for(const Words& words) {
 }
 
 bool is_typed(const Option& option, const Words& words) {
-  return typed(option.flag, words) || (!option.unless.empty() && typed(option.unless, words)) ||
+  return typed(option.flag, words) ||
          (!option.short_flag.empty() && typed(option.short_flag, words));
+}
+
+bool is_typed(const std::string& flag, const std::vector<Option>& options, const Words& words) {
+  return std::any_of(options.begin(), options.end(), [&](const Option& option) {
+    return option.flag == flag && is_typed(option, words);
+  });
+}
+
+/// Whether what is typed leaves room for a default of this option.
+bool is_wanted(const Option& option, const std::vector<Option>& options, const Words& words) {
+  if (is_typed(option, words) || is_typed(option.unless, options, words)) return false;
+  return option.only_with.empty() || is_typed(option.only_with, options, words);
 }
 
 /// Values as they stand on a command line: a list in one word, of steps in several.
@@ -145,8 +157,7 @@ Defaults defaults_for(const Verb& verb, const Words& words) {
   const Trial trial(verb);
   for (const std::string& path : config.keys()) {  // steps act in the order of the file
     for (const Option& option : trial.options()) {
-      if (!may_have_default(option) || is_typed(option, words)) continue;
-      if (!option.only_with.empty() && !typed(option.only_with, words)) continue;
+      if (!may_have_default(option) || !is_wanted(option, trial.options(), words)) continue;
       const auto key = keys.find(key_of(option.flag));
       if (key == keys.end() || key->second != path) continue;
       for (const std::string& value : values_of(config, path, option)) {

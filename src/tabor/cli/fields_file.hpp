@@ -1,11 +1,13 @@
 #pragma once
 
-#include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tabor/cli/result.hpp"
 #include "tabor/core/column.hpp"
+#include "tabor/core/names.hpp"
 #include "tabor/io/columns.hpp"
 #include "tabor/io/hdf5.hpp"
 
@@ -17,14 +19,33 @@ struct StateField {
   std::string unit;  ///< "Pa"
   std::string long_name;
   const Field& map;
+  std::string owner = {};  ///< maps of one name and owner are the same one, stored once; "": none
 };
+
+/// Which maps a result file keeps.
+enum class Fields {
+  none,     ///< numbers alone
+  contact,  ///< heights, contact pressure and film thickness
+  all
+};
+inline constexpr auto kFields = names<Fields>("none", "contact", "all");
+
+/// What is asked of a result file.
+struct FieldsRequest {
+  std::optional<std::string> output;  ///< its name; none is written without
+  Fields fields = Fields::all;
+  bool doubles = false;  ///< maps are float64 and not float32
+};
+
+/// Declares -o, --fields and --double.
+void declare_fields(OptionSet& set, FieldsRequest& request);
 
 /// The `-o` file of contact, lubricate and friction (docs/results.md). Nothing appears under its
 /// name before commit().
 class FieldsFile {
  public:
   /// `settings` is a flat object, stored as TOML text; `methods` are keys of references.bib.
-  FieldsFile(const std::filesystem::path& file, const Context& context, const Scan& scan,
+  FieldsFile(const FieldsRequest& request, const Context& context, const Scan& scan,
              const io::Json& settings, const std::vector<std::string>& methods);
 
   /// Adds /states/NNNN: scalars as attributes, the first field as what viewers plot.
@@ -46,9 +67,14 @@ class FieldsFile {
  private:
   void write_root(const Context& context, const Scan& scan, const io::Json& settings,
                   const std::vector<std::string>& methods);
+  void write_axes(const std::string& group);
+  void write_map(const std::string& group, const StateField& field);
 
   io::Hdf5Writer writer_;
   Grid grid_;
+  Fields fields_;
+  io::Precision precision_;
+  std::map<std::string, std::string> stored_;  ///< path of what stands in the file, by its owner
   std::size_t n_states_ = 0;
 };
 

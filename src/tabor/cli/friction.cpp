@@ -18,7 +18,7 @@ namespace {
 struct Request {
   ScanRequest scan;
   analysis::CaseSettings settings;
-  std::optional<std::string> output;
+  FieldsRequest file;
   bool density_curve = false;
   bool resolution_scan = false;
 };
@@ -39,9 +39,14 @@ io::Json all_settings(const analysis::CaseSettings& settings) {
   return all;
 }
 
+/// A contact is the same under all films, and a film on all contacts.
 std::vector<StateField> maps_of(const study::FrictionState& state) {
   std::vector<StateField> fields = fields_of(state.contact);
-  for (const StateField& field : fields_of(state.film)) fields.push_back(field);
+  for (StateField& field : fields) field.owner = fmt::format("{}", state.friction.mean_pressure);
+  for (StateField field : fields_of(state.film)) {
+    field.owner = fmt::format("{}", state.friction.lubricant_density);
+    fields.push_back(field);
+  }
   if (state.fluid == nullptr) return fields;
   for (const StateField& field : fields_of(*state.fluid)) fields.push_back(field);
   return fields;
@@ -156,9 +161,8 @@ int show(Request request, Context& context) {
   require_no_holes(scan);
   const io::Json settings = all_settings(request.settings);
   std::optional<FieldsFile> file;
-  if (request.output) {
-    file.emplace(*request.output, context, scan, settings,
-                 analysis::references_of(request.settings));
+  if (request.file.output) {
+    file.emplace(request.file, context, scan, settings, analysis::references_of(request.settings));
   }
   const Solved solved = solve_all(request, scan.surface, file ? &*file : nullptr, context);
   if (solved.code == kInterrupted && solved.records.empty()) throw Interrupted();
@@ -220,7 +224,7 @@ Verb friction_verb() {
                    request->resolution_scan);
         set.toggle("--density-curve", "print friction against the density of the oil",
                    request->density_curve);
-        declare_output(set, request->output);
+        declare_fields(set, request->file);
         return [request](Context& context) { return show(*request, context); };
       }};
 }

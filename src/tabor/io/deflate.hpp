@@ -10,7 +10,7 @@ namespace tabor::io {
 /// that were really unpacked. Throws InputError (`name` is the file) for anything else.
 std::string inflate(std::string_view stream, std::size_t size, const std::string& name);
 
-/// A zlib stream of these bytes.
+/// A zlib stream of these bytes. Safe to call from any thread.
 std::string deflate(std::string_view bytes);
 
 }  // namespace tabor::io

@@ -74,6 +74,9 @@ class Hdf5Writer {
   /// Makes the group NeXus NXdata with this default signal over (y, x).
   void nxdata(const std::string& group, const std::string& signal);
 
+  /// A second name for what is at `target` already.
+  void link(const std::string& path, const std::string& target);
+
   /// A link at `path` to `target` inside `file` (relative to this file's folder). It may dangle.
   void external_link(const std::string& path, const std::string& file, const std::string& target);
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 #include "tabor/core/error.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5_chunks.hpp"
 #include "tabor/io/hdf5_library.hpp"
 #include "tabor/io/sealed_file.hpp"
 
@@ -35,19 +37,40 @@ Handle link_creation() {
   return creation;
 }
 
-/// Chunked, shuffled and compressed for maps; the same bytes for the same content (no time stamps).
-Handle dataset_creation(const std::vector<hsize_t>& shape, bool compressed) {
+/// The same bytes for the same content: no time stamps.
+Handle dataset_creation() {
   Handle creation(H5Pcreate(H5P_DATASET_CREATE), &H5Pclose);
   H5Pset_obj_track_times(creation, false);
-  if (compressed && std::all_of(shape.begin(), shape.end(), [](hsize_t n) { return n > 0; })) {
-    // A band of rows, so that one line across a map touches few chunks; about 0.5 MB of doubles.
-    const std::array<hsize_t, 2> chunk{std::min<hsize_t>(shape[0], 64),
-                                       std::min<hsize_t>(shape[1], 1024)};
-    H5Pset_chunk(creation, 2, chunk.data());
-    H5Pset_shuffle(creation);
-    H5Pset_deflate(creation, 4);
-  }
   return creation;
+}
+
+/// Chunks of a map, none larger than it unless it is empty: a band of rows, so that one line across
+/// the map touches few of them; at most 0.5 MB of doubles.
+ChunkLayout layout_of(Index rows, Index columns, std::size_t element_size) {
+  return {{rows, columns},
+          {std::clamp<Index>(rows, 1, 64), std::clamp<Index>(columns, 1, 1024)},
+          element_size};
+}
+
+/// Chunked; the filters are those that pack_chunks() has applied.
+Handle map_creation(const ChunkLayout& layout) {
+  Handle creation = dataset_creation();
+  const std::array<hsize_t, 2> chunk{static_cast<hsize_t>(layout.chunk[0]),
+                                     static_cast<hsize_t>(layout.chunk[1])};
+  H5Pset_chunk(creation, 2, chunk.data());
+  H5Pset_shuffle(creation);
+  H5Pset_deflate(creation, 4);
+  return creation;
+}
+
+/// Copies part of a row of a map, converted to the element type of the file.
+template <typename Stored, typename Map>
+CopyRow rows_of(const Map& map) {
+  return [&map](Index row, Index column, Index count, char* to) {
+    using Row = Eigen::Array<Stored, 1, Eigen::Dynamic>;
+    const Row values = map.row(row).segment(column, count).template cast<Stored>();
+    std::memcpy(to, values.data(), static_cast<std::size_t>(count) * sizeof(Stored));
+  };
 }
 
 std::vector<const char*> c_strings(const std::vector<std::string>& values) {
@@ -57,6 +80,15 @@ std::vector<const char*> c_strings(const std::vector<std::string>& values) {
   pointers.push_back(nullptr);  // so that data() of an empty list is a valid address
   return pointers;
 }
+
+/// Closes its dataset within a session, whatever ends the writing.
+struct OpenMap {
+  Handle dataset;
+  ~OpenMap() {
+    const Session session;
+    dataset.reset();
+  }
+};
 
 }  // namespace
 
@@ -86,7 +118,7 @@ struct Hdf5Writer::File {
     const Session session;
     const Handle space = simple_space(shape);
     const Handle links = link_creation();
-    const Handle creation = dataset_creation(shape, shape.size() == 2);
+    const Handle creation = dataset_creation();
     Handle dataset(H5Dcreate2(id, path.c_str(), file_type, space, links, creation, H5P_DEFAULT),
                    &H5Dclose);
     check(dataset.valid(), path);
@@ -94,6 +126,40 @@ struct Hdf5Writer::File {
       check(H5Dwrite(dataset, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0, path);
     }
     check(dataset.reset(), path);
+  }
+
+  Handle make_map(const std::string& path, hid_t type, const ChunkLayout& layout) {
+    const auto [rows, columns] = layout.shape;
+    const Handle space = simple_space({static_cast<hsize_t>(rows), static_cast<hsize_t>(columns)});
+    const Handle links = link_creation();
+    const bool is_empty = rows == 0 || columns == 0;
+    const Handle creation = is_empty ? dataset_creation() : map_creation(layout);
+    Handle dataset(H5Dcreate2(id, path.c_str(), type, space, links, creation, H5P_DEFAULT),
+                   &H5Dclose);
+    check(dataset.valid(), path);
+    return dataset;
+  }
+
+  /// Within no session: others write while this one packs.
+  void write_map(const std::string& path, hid_t type, const ChunkLayout& layout,
+                 const CopyRow& copy_row) {
+    OpenMap map{[&] {
+      const Session session;
+      return make_map(path, type, layout);
+    }()};
+    pack_chunks(layout, copy_row, [&](const PackedChunk& chunk) {
+      const Session session;
+      check(write_chunk(map.dataset, chunk) >= 0, path);
+    });
+    const Session session;
+    check(map.dataset.reset(), path);
+  }
+
+  static herr_t write_chunk(hid_t dataset, const PackedChunk& chunk) {
+    const std::array<hsize_t, 2> offset{static_cast<hsize_t>(chunk.offset[0]),
+                                        static_cast<hsize_t>(chunk.offset[1])};
+    return H5Dwrite_chunk(dataset, H5P_DEFAULT, 0, offset.data(), chunk.bytes.size(),
+                          chunk.bytes.data());
   }
 
   void attribute(const std::string& path, const std::string& name, hid_t type, const Handle& space,
@@ -137,14 +203,18 @@ void Hdf5Writer::group(const std::string& path) {
 }
 
 void Hdf5Writer::write(const std::string& path, const Field& map, Precision precision) {
-  const hid_t type = precision == Precision::float32 ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
-  file_->write(path, type, H5T_NATIVE_DOUBLE,
-               {static_cast<hsize_t>(map.rows()), static_cast<hsize_t>(map.cols())}, map.data());
+  if (precision == Precision::float32) {
+    file_->write_map(path, H5T_IEEE_F32LE, layout_of(map.rows(), map.cols(), sizeof(float)),
+                     rows_of<float>(map));
+  } else {
+    file_->write_map(path, H5T_IEEE_F64LE, layout_of(map.rows(), map.cols(), sizeof(double)),
+                     rows_of<double>(map));
+  }
 }
 
 void Hdf5Writer::write(const std::string& path, const ByteMap& map) {
-  file_->write(path, H5T_STD_U8LE, H5T_NATIVE_UINT8,
-               {static_cast<hsize_t>(map.rows()), static_cast<hsize_t>(map.cols())}, map.data());
+  file_->write_map(path, H5T_STD_U8LE, layout_of(map.rows(), map.cols(), 1),
+                   rows_of<std::uint8_t>(map));
 }
 
 void Hdf5Writer::write(const std::string& path, const std::vector<double>& values) {
@@ -224,6 +294,14 @@ void Hdf5Writer::nxdata(const std::string& group, const std::string& signal) {
   attribute(group, "NX_class", "NXdata");
   attribute(group, "signal", signal);
   attribute(group, "axes", std::vector<std::string>{"y", "x"});
+}
+
+void Hdf5Writer::link(const std::string& path, const std::string& target) {
+  const Session session;
+  const Handle links = link_creation();
+  file_->check(
+      H5Lcreate_hard(file_->id, target.c_str(), file_->id, path.c_str(), links, H5P_DEFAULT) >= 0,
+      path);
 }
 
 void Hdf5Writer::external_link(const std::string& path, const std::string& file,

@@ -56,7 +56,7 @@ void write_attributes(io::Hdf5Writer& writer, const std::string& path, const Sca
 
 void write_root(io::Hdf5Writer& writer, const std::string& default_group) {
   writer.attribute("/", "format", "tabor");
-  writer.attribute("/", "format_version", 1);
+  writer.attribute("/", "format_version", kFormatVersion);
   writer.attribute("/", "software_version", kVersion);
   writer.attribute("/", "default", default_group);
 }

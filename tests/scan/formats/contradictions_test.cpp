@@ -196,8 +196,8 @@ TEST(Hdf5Contradictions, ANewerFormatIsRejected) {
   const Folder folder;
   EXPECT_THAT(
       rejection_of_h5(folder,
-                      [](io::Hdf5Writer& writer) { writer.attribute("/", "format_version", 2); }),
-      HasSubstr("format_version 2"));
+                      [](io::Hdf5Writer& writer) { writer.attribute("/", "format_version", 3); }),
+      HasSubstr("format_version 3"));
 }
 
 format::GwyBuilder gwy_field(std::int32_t nx, std::int32_t ny, double xreal) {

@@ -73,7 +73,7 @@ double pixel(const Contents& contents, const io::Hdf5Reader& reader, const std::
 }
 
 void require_known_version(const Contents& contents, const io::Hdf5Reader& reader) {
-  constexpr std::int64_t newest = 1;
+  constexpr std::int64_t newest = kFormatVersion;
   if (!reader.has_attribute("/", "format_version")) return;
   const std::int64_t version = reader.integer("/", "format_version");
   if (version > newest) {
@@ -177,7 +177,7 @@ Document open_h5(const Contents& contents) {
 void write_h5(const topography::Topography& topography, const std::filesystem::path& file) {
   io::Hdf5Writer writer(file);
   writer.attribute("/", "format", "tabor");
-  writer.attribute("/", "format_version", 1);
+  writer.attribute("/", "format_version", kFormatVersion);
   writer.attribute("/", "software_version", kVersion);
   writer.attribute("/", "created", now_utc());
   writer.attribute("/", "default", "surface");
