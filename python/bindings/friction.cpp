@@ -5,11 +5,11 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include "records.hpp"
 #include "tabor/analysis/density_curve.hpp"
 #include "tabor/analysis/states.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/topography/topography.hpp"
-#include "values.hpp"
 #include "watched.hpp"
 
 namespace tabor::python {
@@ -50,36 +50,74 @@ FrictionRecord friction_of(const Pair& pair, const FluidRecord* fluid,
                                   pair.film, fluid, contact, settings);
 }
 
-/// (numbers, warnings, references)
-using FrictionRow = std::tuple<nb::dict, WarningTexts, std::vector<std::string>>;
-FrictionRow row_of(const FrictionRecord& record) {
-  return {dict_of(cells_of(analysis::friction_columns(), record)), texts_of(record.warnings),
-          record.references};
+/// (numbers, whether oil flows, area, warnings, references)
+using FrictionState =
+    std::tuple<nb::dict, bool, std::string, WarningTexts, std::vector<std::string>>;
+
+FrictionState saved_friction(const FrictionRecord& one) {
+  const bool flows = one.fluid.has_value();
+  return {saved(analysis::friction_columns(flows), one), flows,
+          std::string(tabor::friction::kAreas.of(one.area)), texts_of(one.warnings),
+          one.references};
 }
 
-FrictionRow friction(const Topography& surface, const ContactRecord& contact,
-                     const FilmRecord& film, const ContactSettings& contact_settings,
-                     const FrictionSettings& settings) {
+void restore_friction(FrictionRecord& self, const FrictionState& saved) {
+  auto& one = *new (&self) FrictionRecord();
+  if (std::get<1>(saved)) one.fluid.emplace();
+  restore(analysis::friction_columns(std::get<1>(saved)), std::get<0>(saved), one);
+  one.area = tabor::friction::kAreas.parse(std::get<2>(saved), "area");
+  one.warnings = warnings_of(std::get<3>(saved));
+  one.references = std::get<4>(saved);
+}
+
+/// (numbers, speed [m/s], status, warnings, references, maps)
+using FluidState = std::tuple<nb::dict, double, int, WarningTexts, std::vector<std::string>,
+                              MapArgument, MapArgument, MapArgument, MapArgument>;
+
+nb::object saved_fluid(nb::handle_t<FluidRecord> self) {
+  const auto& one = nb::cast<const FluidRecord&>(self);
+  const tabor::friction::FluidFilmState& state = one.state;
+  return nb::cast(std::make_tuple(
+      saved(analysis::fluid_columns(), one), one.sliding_speed,
+      static_cast<int>(one.summary.convergence.status), texts_of(one.warnings), one.references,
+      view_of(state.film.pressure, self), view_of(state.film.fill, self),
+      view_of(state.contact.gap, self), view_of(state.contact.pressure, self)));
+}
+
+void restore_fluid(FluidRecord& self, const FluidState& saved) {
+  auto& one = *new (&self) FluidRecord();
+  restore(analysis::fluid_columns(), std::get<0>(saved), one);
+  one.sliding_speed = std::get<1>(saved);
+  one.summary.convergence.status = static_cast<Status>(std::get<2>(saved));
+  one.warnings = warnings_of(std::get<3>(saved));
+  one.references = std::get<4>(saved);
+  one.state.film.pressure = field_of(std::get<5>(saved));
+  one.state.film.fill = field_of(std::get<6>(saved));
+  one.state.contact.gap = field_of(std::get<7>(saved));
+  one.state.contact.pressure = field_of(std::get<8>(saved));
+}
+
+FrictionRecord friction(const Topography& surface, const ContactRecord& contact,
+                        const FilmRecord& film, const ContactSettings& contact_settings,
+                        const FrictionSettings& settings) {
   check(analysis::objection(settings, argument_of));
   const Pair pair{surface, contact, film};
   require_one_shape(pair);
-  return row_of(watched(nb::none(), [&](const Observer&) {
+  return watched(nb::none(), [&](const Observer&) {
     return friction_of(pair, nullptr, contact_settings, settings);
-  }));
+  });
 }
 
 /// The flowing film, and friction with it.
-std::pair<FluidRecord, FrictionRow> fluid_film(const Topography& surface,
-                                               const ContactRecord& contact, const FilmRecord& film,
-                                               const ContactSettings& contact_settings,
-                                               const FluidSettings& fluid_settings,
-                                               const FrictionSettings& settings,
-                                               const nb::object& progress) {
+std::pair<FluidRecord, FrictionRecord> fluid_film(
+    const Topography& surface, const ContactRecord& contact, const FilmRecord& film,
+    const ContactSettings& contact_settings, const FluidSettings& fluid_settings,
+    const FrictionSettings& settings, const nb::object& progress) {
   check(analysis::objection(fluid_settings, contact_settings, argument_of));
   check(analysis::objection(settings, argument_of));
   const Pair pair{surface, contact, film};
   require_one_shape(pair);
-  auto [fluid, friction] = watched(progress, [&](const Observer& observer) {
+  return watched(progress, [&](const Observer& observer) {
     const auto elasticity = analysis::make_operator(contact_settings, surface.grid);
     FluidRecord flowing = analysis::fluid_state(*elasticity, surface.height, contact.state,
                                                 contact.summary.mean_pressure, film.film.thickness,
@@ -87,7 +125,6 @@ std::pair<FluidRecord, FrictionRow> fluid_film(const Topography& surface,
     FrictionRecord record = friction_of(pair, &flowing, contact_settings, settings);
     return std::make_pair(std::move(flowing), std::move(record));
   });
-  return {std::move(fluid), row_of(friction)};
 }
 
 using Numbers = std::vector<double>;
@@ -180,7 +217,18 @@ void bind_friction(nb::module_& module) {
   using namespace nb::literals;
   using State = tabor::friction::FluidFilmState;
   bind_settings(module);
+  nb::class_<FrictionRecord>(module, "FrictionRecord")
+      .def("__getstate__", &saved_friction)
+      .def("__setstate__", &restore_friction)
+      .def_prop_ro("values",
+                   [](const FrictionRecord& self) {
+                     return dict_of(cells_of(analysis::friction_columns(), self));
+                   })
+      .def_prop_ro("warnings", [](const FrictionRecord& self) { return texts_of(self.warnings); })
+      .def_ro("references", &FrictionRecord::references);
   nb::class_<FluidRecord>(module, "FluidRecord")
+      .def("__getstate__", &saved_fluid)
+      .def("__setstate__", &restore_fluid)
       .def_prop_ro("pressure", map_of([](const State& s) -> auto& { return s.film.pressure; }))
       .def_prop_ro("fill", map_of([](const State& s) -> auto& { return s.film.fill; }))
       .def_prop_ro("gap", map_of([](const State& s) -> auto& { return s.contact.gap; }))

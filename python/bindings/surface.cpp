@@ -76,10 +76,14 @@ Topography make_surface(const MapArgument& height, double dx, double dy, bool pe
   });
 }
 
-Topography read(const std::filesystem::path& file, const scan::ReadOptions& options,
-                const nb::object& progress) {
-  return watched(progress,
-                 [&](const Observer& observer) { return scan::read(file, options, observer); });
+/// With the digest of the file's bytes.
+std::pair<Topography, std::string> read(const std::filesystem::path& file,
+                                        const scan::ReadOptions& options,
+                                        const nb::object& progress) {
+  return watched(progress, [&](const Observer& observer) {
+    const scan::ScanFile opened(file, observer);
+    return std::make_pair(opened.read(options), opened.sha256());
+  });
 }
 
 Topography apply(const Topography& surface, const topography::Treatment& treatment,

@@ -1,6 +1,7 @@
 #include "values.hpp"
 
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
@@ -87,14 +88,14 @@ Cell cell_of(nb::handle value, const Cell& kind) {
 WarningTexts texts_of(const analysis::Warnings& warnings) {
   WarningTexts texts;
   texts.reserve(warnings.size());
-  for (const analysis::Warning& warning : warnings) texts.emplace_back(warning.code, warning.text);
+  for (const auto& [code, text, weight] : warnings) texts.emplace_back(code, text, weight);
   return texts;
 }
 
 analysis::Warnings warnings_of(const WarningTexts& texts) {
   analysis::Warnings warnings;
   warnings.reserve(texts.size());
-  for (const auto& [code, text] : texts) warnings.push_back({.code = code, .text = text});
+  for (const auto& [code, text, weight] : texts) warnings.push_back({code, text, weight});
   return warnings;
 }
 

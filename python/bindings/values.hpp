@@ -4,7 +4,7 @@
 
 #include <string>
 #include <string_view>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "bindings.hpp"
@@ -28,8 +28,8 @@ Field field_of(const MapArgument& array);
 /// The numbers of a record by the names of `--json`; a NaN stays one.
 nb::dict dict_of(const NamedCells& cells);
 
-/// (code, text) of each.
-using WarningTexts = std::vector<std::pair<std::string, std::string>>;
+/// (code, text, weight) of each.
+using WarningTexts = std::vector<std::tuple<std::string, std::string, double>>;
 WarningTexts texts_of(const analysis::Warnings& warnings);
 analysis::Warnings warnings_of(const WarningTexts& texts);
 

@@ -16,6 +16,7 @@ from ._friction import (DensityCurve, Film, FluidFilm, Friction, Lubricant, Plat
                         friction, rain)
 from ._progress import Progress
 from ._records import Warning
+from ._save import save
 from ._scans import Scans
 from ._study import Results, Study
 from ._surface import Format, Parameter, Parameters, Spectra, Spectrum, Surface, formats, generate, read
@@ -25,4 +26,4 @@ from ._tabor import version as __version__
 __all__ = ["Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction", "Lubricant", "Material", "NotConverged",
            "Parameter", "Parameters", "Plateau", "Progress", "Results", "Scans", "Solid", "Spectra", "Spectrum", "Study",
            "Surface", "Warning", "cite", "contact", "density_curve", "fluid_film", "formats", "friction", "generate",
-           "materials", "rain", "read", "set_threads"]
+           "materials", "rain", "read", "save", "set_threads"]

@@ -17,6 +17,26 @@ from ._surface import Array, Surface, map_to_xarray, plot_map
 from ._values import Value, optional_si, si, si_list
 
 
+@dataclass(frozen=True)
+class _Rain:
+    """How oil is laid down, in SI."""
+
+    oil_density: float
+    droplet_height: float
+    model: str
+    reading: str
+    edge: str
+    seed: int
+
+    def settings(self, densities: Sequence[float]) -> _tabor.FilmSettings:
+        settings = _tabor.FilmSettings()
+        settings.lubricant_densities = list(densities)
+        settings.oil_density, settings.droplet_height = self.oil_density, self.droplet_height
+        settings.model, settings.reading, settings.edge = self.model, self.reading, self.edge
+        settings.seed = self.seed
+        return settings
+
+
 class Film(Record):
     """Oil as it was laid on a surface."""
 
@@ -25,10 +45,11 @@ class Film(Record):
 
     surface: Surface  #: that it lies on
     _record: _tabor.FilmRecord
+    _options: _Rain
 
-    def __init__(self, record: _tabor.FilmRecord, surface: Surface) -> None:
+    def __init__(self, record: _tabor.FilmRecord, surface: Surface, options: _Rain) -> None:
         super().__init__(record.values, warnings_of(record.warnings), tuple(record.references))
-        self.__dict__.update(_record=record, surface=surface)
+        self.__dict__.update(_record=record, surface=surface, _options=options)
 
     @property
     def thickness(self) -> Array:
@@ -83,18 +104,42 @@ def rain(surface: Surface, density: Any, *, oil_density: Value = 900.0, droplet_
     ValueError
         For holes, negative densities, unknown names.
     """
-    settings = _tabor.FilmSettings()
-    settings.lubricant_densities, single = si_list(density, "areal_density", "density")
-    settings.oil_density = si(oil_density, "density", "oil_density")
-    settings.droplet_height = si(droplet_height, "length", "droplet_height")
-    settings.model, settings.reading, settings.edge = model, reading, edge
     if seed < 0:
         raise ValueError(f"seed: got {seed}; expected zero or more")
-    settings.seed = seed
+    densities, single = si_list(density, "areal_density", "density")
+    options = _Rain(si(oil_density, "density", "oil_density"), si(droplet_height, "length", "droplet_height"), model,
+                    reading, edge, seed)
+    settings = options.settings(densities)
     _tabor.require_no_holes(surface._topography)
     with watching(progress) as told:
-        films = [Film(record, surface) for record in _tabor.rain(surface._topography, settings, told)]
+        films = [Film(record, surface, options) for record in _tabor.rain(surface._topography, settings, told)]
     return films[0] if single else films
+
+
+@dataclass(frozen=True)
+class _Shear:
+    """What turns contact into friction, in SI."""
+
+    strength: float
+    boundary_strength: float | None
+    boundary_share: float | None
+    area: str | None
+
+    def settings(self) -> _tabor.FrictionSettings:
+        settings = _tabor.FrictionSettings()
+        settings.shear_strength = self.strength
+        settings.boundary_shear_strength = self.boundary_strength
+        settings.boundary_shear_share = self.boundary_share
+        settings.area = self.area
+        return settings
+
+
+def _shear(contact: Contact, strength: Value | None, boundary_strength: Value | None, boundary_share: float | None,
+           area: str | None) -> _Shear:
+    strength = contact.solid.shear_strength if strength is None else strength
+    return _Shear(0.0 if strength is None else si(strength, "pressure", "shear_strength"),
+                  optional_si(boundary_strength, "pressure", "boundary_shear_strength"),
+                  optional_si(boundary_share, "none", "boundary_shear_share"), area)
 
 
 class Friction(Record):
@@ -102,6 +147,15 @@ class Friction(Record):
 
     _facts: tuple[tuple[str, str, str], ...] = (("dry", "friction_dry", ""), ("lubricated", "friction_lubricated", ""),
               ("wet share", "lubricated_share", ""), ("pressure", "mean_pressure_Pa", "Pa"))
+
+    contact: Contact
+    film: Film
+    _record: _tabor.FrictionRecord
+    _options: _Shear
+
+    def __init__(self, record: _tabor.FrictionRecord, contact: Contact, film: Film, options: _Shear) -> None:
+        super().__init__(record.values, warnings_of(record.warnings), tuple(record.references))
+        self.__dict__.update(_record=record, contact=contact, film=film, _options=options)
 
     @property
     def dry(self) -> float:
@@ -117,17 +171,6 @@ class Friction(Record):
     def lubricated_share(self) -> float:
         """Share of the contact that stands in oil."""
         return float(self.values["lubricated_share"])
-
-
-def _friction_settings(contact: Contact, shear_strength: Value | None, boundary_shear_strength: Value | None,
-                       boundary_shear_share: float | None, area: str | None) -> _tabor.FrictionSettings:
-    settings = _tabor.FrictionSettings()
-    strength = contact.solid.shear_strength if shear_strength is None else shear_strength
-    settings.shear_strength = 0.0 if strength is None else si(strength, "pressure", "shear_strength")
-    settings.boundary_shear_strength = optional_si(boundary_shear_strength, "pressure", "boundary_shear_strength")
-    settings.boundary_shear_share = optional_si(boundary_shear_share, "none", "boundary_shear_share")
-    settings.area = area
-    return settings
 
 
 def friction(contact: Contact, film: Film, *, shear_strength: Value | None = None,
@@ -148,10 +191,9 @@ def friction(contact: Contact, film: Film, *, shear_strength: Value | None = Non
     ValueError
         Without a shear strength, for one out of range, for a film of another shape.
     """
-    settings = _friction_settings(contact, shear_strength, boundary_shear_strength, boundary_shear_share, area)
-    values, warnings, references = _tabor.friction(contact.surface._topography, contact._record, film._record,
-                                                   contact._settings(), settings)
-    return Friction(values, warnings_of(warnings), tuple(references))
+    options = _shear(contact, shear_strength, boundary_shear_strength, boundary_shear_share, area)
+    return Friction(_tabor.friction(contact.surface._topography, contact._record, film._record, contact._settings(),
+                                    options.settings()), contact, film, options)
 
 
 class Plateau(NamedTuple):
@@ -221,10 +263,8 @@ def density_curve(contact: Any, *, shear_strength: Value | None = None, boundary
     first = contacts[0]
     if any(one.surface is not first.surface or one.solid != first.solid for one in contacts):
         raise ValueError("contact: got contacts of several surfaces or solids; expected those of one")
-    film = _tabor.FilmSettings()
-    film.oil_density = si(oil_density, "density", "oil_density")
-    film.reading, film.edge = reading, edge
-    settings = _friction_settings(first, shear_strength, boundary_shear_strength, boundary_shear_share, area)
+    film = _Rain(si(oil_density, "density", "oil_density"), 1e-7, "limit", reading, edge, 1).settings([])
+    settings = _shear(first, shear_strength, boundary_shear_strength, boundary_shear_share, area).settings()
     with watching(progress) as told:
         rows = _tabor.density_curves(first.surface._topography, [one._record for one in contacts], first._settings(),
                                      film, settings, told)
@@ -252,16 +292,48 @@ class Lubricant:
                            optional_si(pressure_viscosity, "per_pressure", "pressure_viscosity"))
         object.__setattr__(self, "eyring_stress", optional_si(eyring_stress, "pressure", "eyring_stress"))
 
+    def _settings(self, speed: float) -> _tabor.FluidSettings:
+        settings = _tabor.FluidSettings()
+        settings.sliding_speed = speed
+        settings.viscosity = self.viscosity
+        settings.pressure_viscosity = self.pressure_viscosity
+        settings.eyring_stress = self.eyring_stress
+        return settings
+
 
 class FluidFilm(Friction):
     """A film that flows between sliding surfaces and carries part of the load."""
 
     _facts = Friction._facts + (("mixed", "friction_mixed", ""), ("oil carries", "fluid_load_share", ""))
 
-    pressure: Array  #: of the oil [Pa], shape (ny, nx)
-    fill: Array  #: share of the gap that oil fills
-    gap: Array  #: while sliding [m]
-    solid_pressure: Array  #: contact pressure while sliding [Pa]
+    lubricant: Lubricant
+    speed: float  #: of sliding [m/s]
+    _fluid: _tabor.FluidRecord
+
+    def __init__(self, record: _tabor.FrictionRecord, contact: Contact, film: Film, options: _Shear,
+                 fluid: _tabor.FluidRecord, lubricant: Lubricant, speed: float) -> None:
+        super().__init__(record, contact, film, options)
+        self.__dict__.update(_fluid=fluid, lubricant=lubricant, speed=speed)
+
+    @property
+    def pressure(self) -> Array:
+        """Of the oil [Pa], shape (ny, nx)."""
+        return self._fluid.pressure
+
+    @property
+    def fill(self) -> Array:
+        """Share of the gap that oil fills."""
+        return self._fluid.fill
+
+    @property
+    def gap(self) -> Array:
+        """While sliding [m]."""
+        return self._fluid.gap
+
+    @property
+    def solid_pressure(self) -> Array:
+        """Contact pressure while sliding [Pa]."""
+        return self._fluid.solid_pressure
 
     @property
     def friction_mixed(self) -> float:
@@ -288,17 +360,13 @@ def fluid_film(contact: Contact, film: Film, lubricant: Lubricant, speed: Value,
     ``speed`` is in m/s; the others are those of ``friction``. The contact must be periodic. Raises
     ValueError as ``friction`` does, and NotConverged unless ``check`` is False.
     """
-    settings = _friction_settings(contact, shear_strength, boundary_shear_strength, boundary_shear_share, area)
-    fluid = _tabor.FluidSettings()
-    fluid.sliding_speed = si(speed, "speed", "speed")
-    fluid.viscosity = lubricant.viscosity
-    fluid.pressure_viscosity = lubricant.pressure_viscosity
-    fluid.eyring_stress = lubricant.eyring_stress
+    options = _shear(contact, shear_strength, boundary_shear_strength, boundary_shear_share, area)
+    metres_per_second = si(speed, "speed", "speed")
     with watching(progress) as told:
-        maps, (values, warnings, references) = _tabor.fluid_film(
-            contact.surface._topography, contact._record, film._record, contact._settings(), fluid, settings, told)
-    found = FluidFilm(values, warnings_of(warnings), tuple(references))
-    found.__dict__.update({name: getattr(maps, name) for name in ("pressure", "fill", "gap", "solid_pressure")})
+        fluid, record = _tabor.fluid_film(contact.surface._topography, contact._record, film._record,
+                                          contact._settings(), lubricant._settings(metres_per_second),
+                                          options.settings(), told)
+    found = FluidFilm(record, contact, film, options, fluid, lubricant, metres_per_second)
     if check and not found.converged:
         raise NotConverged("fluid film: film and load do not balance; check=False returns it all the same", found)
     return found

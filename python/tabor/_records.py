@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -18,9 +18,9 @@ class Warning(NamedTuple):
         return self.text
 
 
-def warnings_of(texts: list[tuple[str, str]]) -> tuple[Warning, ...]:
+def warnings_of(texts: Iterable[tuple[str, str, float]]) -> tuple[Warning, ...]:
     """Warnings as a result keeps them."""
-    return tuple(Warning(code, text) for code, text in texts)
+    return tuple(Warning(code, text) for code, text, _ in texts)
 
 
 class Record:
@@ -48,6 +48,11 @@ class Record:
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
+
+    def save(self, file: Any, *, fields: str = "all", double: bool = False) -> None:
+        """Writes it as ``tabor.save`` does."""
+        from ._save import save
+        save(file, self, fields=fields, double=double)
 
     def _lines(self) -> list[tuple[str, str]]:
         from . import _tabor

@@ -143,6 +143,7 @@ class Surface:
     """
 
     _topography: _tabor.Topography
+    _sha256: str  #: of the file it was read from, "" if there is none
 
     def __init__(self, z: Any, *, pixel: Value | tuple[Value, Value] | None = None, unit: str = "m",
                  periodic: bool = False, name: str = "array") -> None:
@@ -155,12 +156,12 @@ class Surface:
         heights = _heights(z)
         if unit != "m":
             heights = heights * _tabor.parse_si(f"1 {unit}", "length", "unit")
-        self.__dict__["_topography"] = _tabor.make_surface(heights, dx, dy, periodic, name)
+        self.__dict__.update(_topography=_tabor.make_surface(heights, dx, dy, periodic, name), _sha256="")
 
     @classmethod
-    def _of(cls, topography: _tabor.Topography) -> Surface:
+    def _of(cls, topography: _tabor.Topography, sha256: str = "") -> Surface:
         surface = cls.__new__(cls)
-        surface.__dict__["_topography"] = topography
+        surface.__dict__.update(_topography=topography, _sha256=sha256)
         return surface
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -233,7 +234,7 @@ class Surface:
         """Applies steps in the order given, as a study file writes them: ``treat("level=plane",
         "fill=harmonic")``. Raises ValueError that names the nearest step."""
         with watching(progress) as told:
-            return Surface._of(_tabor.apply(self._topography, list(steps), told))
+            return Surface._of(_tabor.apply(self._topography, list(steps), told), self._sha256)
 
     def parameters(self, symbols: Iterable[str] | None = None, *, progress: Progress = None) -> Parameters:
         """Roughness parameters of the surface as it is (ISO 25178-2 and others, docs/parameters.md), all
@@ -347,7 +348,7 @@ def read(file: str | os.PathLike[str], *, channel: str | int | None = None,
     options.z_scale = optional_si(z_scale, "length", "z_scale")
     options.override_unit = override_unit
     with watching(progress) as told:
-        return Surface._of(_tabor.read(os.fspath(file), options, told))
+        return Surface._of(*_tabor.read(os.fspath(file), options, told))
 
 
 def generate(kind: str, *, pixels: int | tuple[int, int] = 512, pixel: Value | tuple[Value, Value] = 0.67e-6,

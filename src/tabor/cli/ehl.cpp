@@ -6,7 +6,6 @@
 
 #include "tabor/analysis/ehl_surfaces.hpp"
 #include "tabor/cli/axis_option.hpp"
-#include "tabor/cli/fields_file.hpp"
 #include "tabor/cli/film_sweep.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
@@ -65,10 +64,10 @@ std::string text_of(const std::vector<ehl::Facts>& groups) {
 void write_one(const ehl::Program& program, const io::Config& config, const ehl::CaseResult& result,
                const std::string& output, const Context& context) {
   io::Hdf5Writer writer(output);
-  write_result_head(writer, context, config.to_text(), program.methods);
+  analysis::write_result_head(writer, head_of(context, config.to_text(), program.methods));
   writer.attribute("/", "kind", "ehl " + program.name);
   write_result(writer, "/result", result.scalars);
-  write_warnings(writer, context);
+  analysis::write_warnings(writer, context.warnings);
   if (result.write) result.write(writer);
   writer.commit();
 }
