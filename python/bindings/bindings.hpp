@@ -13,6 +13,7 @@ void bind_surface(nb::module_& module);
 void bind_contact(nb::module_& module);
 void bind_film(nb::module_& module);
 void bind_friction(nb::module_& module);
+void bind_ehl(nb::module_& module);
 void bind_save(nb::module_& module);
 void bind_synthesis(nb::module_& module);
 void bind_study(nb::module_& module);

@@ -32,6 +32,7 @@ NB_MODULE(_tabor, module) {
   bind_contact(module);
   bind_film(module);
   bind_friction(module);
+  bind_ehl(module);
   bind_save(module);
   bind_synthesis(module);
   bind_study(module);

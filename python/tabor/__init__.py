@@ -10,6 +10,7 @@ import os as _os
 # OpenMP library reads this when it is loaded.
 _os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
+from . import ehl
 from ._cite import cite
 from ._contact import Contact, Material, NotConverged, Solid, contact, materials
 from ._friction import (DensityCurve, Film, FluidFilm, Friction, Lubricant, Plateau, density_curve, fluid_film,
@@ -25,5 +26,5 @@ from ._tabor import version as __version__
 
 __all__ = ["Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction", "Lubricant", "Material", "NotConverged",
            "Parameter", "Parameters", "Plateau", "Progress", "Results", "Scans", "Solid", "Spectra", "Spectrum", "Study",
-           "Surface", "Warning", "cite", "contact", "density_curve", "fluid_film", "formats", "friction", "generate",
+           "Surface", "Warning", "cite", "contact", "density_curve", "ehl", "fluid_film", "formats", "friction", "generate",
            "materials", "rain", "read", "save", "set_threads"]
