@@ -49,7 +49,8 @@ class Solid:
     Parameters
     ----------
     material : str, optional
-        Name in the library (``materials()``): what is not given is taken from there.
+        Name in the library (``materials()``), or "aluminium" for "aluminium-6016" as long as there is one
+        alone: what is not given is taken from there.
     youngs_modulus, poissons_ratio : value
         E [Pa] and nu of the rough body.
     saturation_pressure : value, optional
@@ -99,7 +100,7 @@ class Solid:
                            optional_si(counter_youngs_modulus, "pressure", "counter_youngs_modulus"))
         object.__setattr__(self, "counter_poissons_ratio",
                            optional_si(counter_poissons_ratio, "none", "counter_poissons_ratio"))
-        object.__setattr__(self, "material", material or "")
+        object.__setattr__(self, "material", known.name if known is not None else "")
         _tabor.check_contact(self._settings(), [])
 
     @property

@@ -79,6 +79,7 @@ def test_the_library_knows_solids():
     solid = tb.Solid("steel-dc04")
     assert solid.youngs_modulus == known["steel-dc04"].youngs_modulus
     assert tb.Solid("steel-dc04", youngs_modulus="1 GPa").youngs_modulus == 1e9
+    assert tb.Solid("aluminium", saturation_pressure="240 MPa") == tb.Solid("aluminium-6016")
     assert tb.Solid("aluminium-6016", saturation_pressure="none").saturation_pressure is None
 
 
@@ -89,7 +90,7 @@ def test_a_counter_body_makes_it_softer():
 
 
 @pytest.mark.parametrize("arguments, text", [
-    ({"material": "steel-dc4"}, "steel-dc04"),
+    ({"material": "steel-dc4"}, "steel-dc04"), ({"material": "steel"}, "steel-100cr6, steel-dc04"),
     ({}, "give youngs_modulus and poissons_ratio"),
     ({"youngs_modulus": 1e9}, "give youngs_modulus and poissons_ratio"),
     ({"youngs_modulus": -1e9, "poissons_ratio": 0.3}, "modulus"),
