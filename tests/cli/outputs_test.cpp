@@ -63,6 +63,11 @@ class Outputs : public testing::Test {
           run_tabor(make + Words{"--rms-height", "0.2um", "-o", folder_ / name, "--seed", seed});
       ASSERT_EQ(made.code, 0) << made.err;
     }
+    const Outcome solved =
+        run_tabor({"friction", file("in.h5"), "--level", "mean", "--pressure", "1MPa",
+                   "--youngs-modulus", "70GPa", "--poisson-ratio", "0.33", "--density", "0g/m^2",
+                   "--shear-strength", "70MPa", "-o", file("friction.h5")});
+    ASSERT_EQ(solved.code, 0) << solved.err;
     put_bytes(folder_ / "case.toml", kBall);
     put_bytes(folder_ / "study.toml", kStudy);
     put_bytes(folder_ / "measured.csv", "mean_pressure_Pa,friction\n5e6,0.1\n");
@@ -97,6 +102,10 @@ class Outputs : public testing::Test {
         {"lubricate", {Words{"lubricate", scan} + oil, "in.h5"}},
         {"friction",
          {Words{"friction"} + contact + oil + Words{"--shear-strength", "70MPa"}, "in.h5"}},
+        {"table",
+         {{"table", file("friction.h5"), "--for", "csv", "--units", "mm,s,t"},
+          "friction.h5",
+          "out.csv"}},
         {"ehl", {{"ehl", "point", file("case.toml")}, "case.toml"}},
         {"ehl",
          {{"ehl", "point", file("case.toml"), "--set", "motion.speed=0.1m/s,0.2m/s"}, "case.toml"}},

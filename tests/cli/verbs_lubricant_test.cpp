@@ -19,8 +19,8 @@ Words operator+(Words words, const Words& more) {
 class LubricantVerbs : public testing::Test {
  protected:
   void SetUp() override {
-    const Outcome made = run_tabor(
-        {"generate", "edt", "-o", scan(), "--pixels", "64", "--pixel", "2um", "--noise", "0nm"});
+    const Outcome made = run_tabor({"generate", "edt", "-o", scan(), "--pixels", "64", "--pixel",
+                                    "2um", "--noise", "0nm", "--plateau-roughness", "80nm"});
     ASSERT_EQ(made.code, 0) << made.err;
   }
   std::string file(const std::string& name) const { return (folder_ / name).string(); }

@@ -14,8 +14,9 @@ class StudyVerbs : public testing::Test {
  protected:
   void SetUp() override {
     for (const char* seed : {"1", "2"}) {
-      const Outcome made = run_tabor({"generate", "edt", "-o", file(std::string(seed) + ".h5"),
-                                      "--pixels", "32", "--pixel", "4um", "--seed", seed});
+      const Outcome made =
+          run_tabor({"generate", "edt", "-o", file(std::string(seed) + ".h5"), "--pixels", "32",
+                     "--pixel", "4um", "--seed", seed, "--plateau-roughness", "80nm"});
       ASSERT_EQ(made.code, 0) << made.err;
     }
     put_bytes(folder_ / "study.toml",

@@ -9,7 +9,7 @@ import unittest
 from program import ALUMINIUM, SOURCE, ProgramTest
 
 VERBS = ["info", "convert", "params", "psd", "combine", "generate", "contact", "lubricate", "friction", "sweep",
-         "ehl", "report", "formats", "cite", "options"]
+         "ehl", "report", "table", "formats", "cite", "options"]
 
 
 def examples_of(help_text):
@@ -32,13 +32,18 @@ class HelpExamples(ProgramTest):
             done = self.tabor(*words[1:])
             self.assertEqual(done.returncode, 0, f"{shlex.join(words)}\n{done.stderr}")
 
+    def test_table(self):
+        done = self.tabor("sweep", "examples/06_study/study.toml", "-o", "study_results")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.run_examples("table")
+
 
 def add_test(verb):
     setattr(HelpExamples, f"test_{verb}", lambda self: self.run_examples(verb))
 
 
 for name in VERBS:
-    if name not in ("sweep", "report"):
+    if name not in ("sweep", "report", "table"):
         add_test(name)
 
 

@@ -16,6 +16,7 @@ using testing::HasSubstr;
 topography::Topography sheet(Index n) {
   synthesis::Edt recipe;
   recipe.grid = {n, n, static_cast<double>(n) * 0.67e-6, static_cast<double>(n) * 0.67e-6};
+  recipe.plateau_roughness = 80e-9;
   return synthesis::edt(recipe);
 }
 

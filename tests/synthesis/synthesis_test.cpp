@@ -183,7 +183,8 @@ TEST(EdtSurface, AfterSlidingHasFlatTopsWithGroovesAlongX) {  // slow
   recipe.stage = EdtStage::after;
   const auto after = edt(recipe);
   EXPECT_LT(parameter(after, "Ssk"), parameter(before, "Ssk"));
-  EXPECT_LT(parameter(after, "Sp"), 0.7 * parameter(before, "Sp"));
+  EXPECT_LT(parameter(after, "Sp"), parameter(before, "Sp"));
+  EXPECT_LT(parameter(after, "Spk"), 0.3 * parameter(before, "Spk"));     // no peaks above the core
   EXPECT_NEAR(parameter(after, "Sv") / parameter(before, "Sv"), 1, 0.1);  // pockets stay
   // On the tops of both, slopes along y exceed those along x by more than before sliding.
   const auto anisotropy = [](const topography::Topography& surface) {
@@ -244,9 +245,10 @@ TEST(EdtSurface, HasWavesThatDoNotGrowWithTheSheet) {
     const topography::Topography sheet = edt(recipe);
     share += long_wave_power(sheet, 1.1e-3) / long_wave_power(sheet, 250e-6) / 4;
   }
-  // A spectrum q^-4 from 250 um to 1.1 mm and level beyond has half of its power beyond; one that
-  // goes on as q^-4 to the size of the sheet has nine tenths there.
-  EXPECT_GT(share, 0.35);
+  // Waves whose spectrum is q^-4 from 250 um to 1.1 mm and level beyond, with pressed crests, have
+  // 0.43 of their power beyond, the mean of four sheets within 0.06 of it; craters take a little of
+  // that. A spectrum that goes on as q^-4 to the size of the sheet has 0.84 there.
+  EXPECT_GT(share, 0.25);
   EXPECT_LT(share, 0.65);
 }
 

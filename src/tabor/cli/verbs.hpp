@@ -16,6 +16,7 @@ Verb friction_verb();
 Verb sweep_verb();
 Verb ehl_verb();
 Verb report_verb();
+Verb table_verb();
 Verb formats_verb();
 Verb materials_verb();
 Verb cite_verb();

@@ -34,6 +34,7 @@ constexpr double kRoughnessRollOff = 60e-6;  // [m]
 constexpr double kPlateauRollOff = 20e-6;    // [m], of the finer roughness
 constexpr double kShortestWave = 250e-6;     // [m], of the waviness
 constexpr double kLongWave = 1.1e-3;         // [m], longer waves are no higher
+constexpr double kCrest = 0.7;               // rms heights at which the roll ends their crests
 constexpr double kStretch = 1.3;             // rolling lengthens roughness along x
 constexpr double kPlateauRelief = 0.02;      // what rolling leaves of the height above a plateau
 
@@ -44,6 +45,9 @@ void normalise(Field& z) {
       z.rows(), [&](Index y) { return Eigen::Array<double, 1, 1>(z.row(y).square().sum()); })[0];
   if (square > 0) z /= std::sqrt(square / static_cast<double>(z.size()));
 }
+
+/// What stands above zero ends smoothly at `most`.
+Field capped(const Field& z, double most) { return (z > 0).select(most * (z / most).tanh(), z); }
 
 /// Normalised self-affine roughness, flat above the roll-off.
 Field roughness(const Grid& grid, double hurst, double roll_off, double stretch, std::uint64_t seed,
@@ -57,14 +61,16 @@ Field roughness(const Grid& grid, double hurst, double roll_off, double stretch,
 }
 
 /// Normalised waves, none shorter than kShortestWave, the longer ones higher: spectrum q^-4, and
-/// level beyond kLongWave, so that a larger sheet has more waves and not higher ones; flat where
-/// none fits.
+/// level beyond kLongWave, so that a larger sheet has more waves and not higher ones; the roll has
+/// pressed their crests to nearly one height. Flat where none fits.
 Field waves(const Grid& grid, std::uint64_t seed) {
   auto field = random_field({grid, kStretch, true, seed, kWavinessStream, [](double q) {
                                return q <= 2 * pi / kShortestWave
                                           ? std::pow(std::max(q, 2 * pi / kLongWave), -4)
                                           : 0;
                              }});
+  normalise(field.height);
+  field.height = capped(field.height, kCrest);
   normalise(field.height);
   return std::move(field.height);
 }
@@ -81,7 +87,7 @@ double quantile(const Field& z, double share) {
 Field textured(const Grid& grid, const Edt& recipe) {
   Field z = craters(grid, recipe.seed);
   normalise(z);
-  z = (z > 0).select(kCap * (z / kCap).tanh(), z);
+  z = capped(z, kCap);
   normalise(z);
   z += kCraterRoughness *
        roughness(grid, recipe.hurst, kRoughnessRollOff, kStretch, recipe.seed, kRoughnessStream);

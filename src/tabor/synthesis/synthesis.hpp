@@ -36,9 +36,9 @@ struct Edt {
   Grid grid{512, 512, 512 * 0.67e-6, 512 * 0.67e-6};
   double mean_abs_height = 0.9e-6;  ///< Sa of the surface before sliding [m], exact
   double hurst = 0.75;              ///< of the roughness in craters and on plateaus
-  double waviness = 0.5e-6;         ///< rms [m] of waves longer than 250 um; none on smaller maps
+  double waviness = 0.6e-6;         ///< rms [m] of waves longer than 250 um; none on smaller maps
   double plateau_share = 0.5;       ///< of the area that rolling makes plateaus of
-  double plateau_roughness = 0.08e-6;  ///< rms [m], with a roll-off of 20 um
+  double plateau_roughness = 0.05e-6;  ///< rms [m], with a roll-off of 20 um
   double noise = 40e-9;                ///< rms [m] of each pixel, independent
   EdtStage stage = EdtStage::before;
   double sliding_pressure = 7e6;     ///< [Pa], mean; of a surface after sliding
