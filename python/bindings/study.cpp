@@ -1,12 +1,16 @@
 #include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include "bindings.hpp"
 #include "tabor/analysis/citations.hpp"
+#include "tabor/forming/deck.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/hdf5_guard.hpp"
+#include "tabor/study/friction_table.hpp"
 #include "tabor/study/sweep.hpp"
 #include "watched.hpp"
 
@@ -55,6 +59,40 @@ std::pair<std::size_t, std::vector<std::string>> run_part(const Study& part,
   return {outcome.n_contacts, std::move(outcome.failures)};
 }
 
+/// Which numbers a friction table is of, and for whom.
+study::FrictionTableChoice choice_of(const std::optional<std::string>& group,
+                                     const std::vector<double>& densities,
+                                     const std::vector<std::string>& kept_codes) {
+  return {.group = group, .lubricant_densities = densities, .kept_codes = kept_codes};
+}
+
+/// (pressure [Pa], density [kg/m^2], speed [m/s], friction, standard deviation, scans)
+using FrictionEntryRow =
+    std::tuple<double, double, std::optional<double>, double, double, std::size_t>;
+/// (rows, reasons why numbers are left out)
+std::pair<std::vector<FrictionEntryRow>, std::string> friction_table(
+    const std::filesystem::path& results, const study::FrictionTableChoice& choice) {
+  const forming::FrictionTable table = study::friction_table(study::read_friction(results), choice);
+  std::vector<FrictionEntryRow> rows;
+  rows.reserve(table.entries.size());
+  for (const forming::FrictionEntry& one : table.entries) {
+    rows.emplace_back(one.at.mean_pressure, one.at.lubricant_density, one.at.sliding_speed,
+                      one.friction, one.standard_deviation, one.n);
+  }
+  return {std::move(rows), forming::reasons_of(table)};
+}
+
+/// The text of a deck.
+std::string deck(const std::filesystem::path& results, const study::FrictionTableChoice& choice,
+                 const std::string& program, const std::string& units, int first_id) {
+  const forming::Program wanted = forming::kPrograms.parse(program, "program");
+  forming::FrictionTable table = study::friction_table(study::read_friction(results), choice);
+  table.origin.insert(table.origin.begin(), "command: tabor.FrictionTable.deck");
+  if (wanted == forming::Program::lsdyna) table = forming::complete_rows(std::move(table));
+  if (wanted != forming::Program::csv) forming::require_two_pressures(table);
+  return forming::deck_for(wanted, table, forming::unit_system(units), first_id);
+}
+
 void write_file(const std::filesystem::path& file, const nb::bytes& bytes) {
   io::write_file(file, std::string_view(bytes.c_str(), bytes.size()));
 }
@@ -100,6 +138,16 @@ void bind_study(nb::module_& module) {
                      return files;
                    })
       .def_prop_ro("toml", [](const Study& self) { return study::to_toml(self); });
+  nb::class_<study::FrictionTableChoice>(module, "FrictionTableChoice")
+      .def(
+          "__init__",
+          [](study::FrictionTableChoice* self, const std::optional<std::string>& group,
+             const std::vector<double>& densities, const std::vector<std::string>& kept_codes) {
+            new (self) study::FrictionTableChoice(choice_of(group, densities, kept_codes));
+          },
+          "group"_a.none(), "densities"_a, "kept_codes"_a);
+  module.def("friction_table", &friction_table, "results"_a, "choice"_a);
+  module.def("deck", &deck, "results"_a, "choice"_a, "program"_a, "units"_a, "first_id"_a);
   nb::class_<Outcome>(module, "Outcome")
       .def_ro("n_cases", &Outcome::n_cases)
       .def_ro("n_done", &Outcome::n_done)

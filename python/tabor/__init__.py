@@ -15,6 +15,7 @@ from ._cite import cite
 from ._contact import Contact, Material, NotConverged, Solid, contact, materials
 from ._friction import (DensityCurve, Film, FluidFilm, Friction, Lubricant, Plateau, density_curve, fluid_film,
                         friction, rain)
+from ._friction_table import FrictionEntry, FrictionTable
 from ._progress import Progress
 from ._records import Warning
 from ._save import save
@@ -24,7 +25,7 @@ from ._surface import Format, Parameter, Parameters, Spectra, Spectrum, Surface,
 from ._tabor import set_threads
 from ._tabor import version as __version__
 
-__all__ = ["Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction", "Lubricant", "Material", "NotConverged",
+__all__ = ["Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction", "FrictionEntry", "FrictionTable", "Lubricant", "Material", "NotConverged",
            "Parameter", "Parameters", "Plateau", "Progress", "Results", "Scans", "Solid", "Spectra", "Spectrum", "Study",
            "Surface", "Warning", "cite", "contact", "density_curve", "ehl", "fluid_film", "formats", "friction", "generate",
            "materials", "rain", "read", "save", "set_threads"]

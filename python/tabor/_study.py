@@ -11,6 +11,7 @@ from typing import Any
 
 from . import _tabor
 from ._contact import Solid
+from ._friction_table import FrictionTable
 from ._optional import needs
 from ._parts import run as run_parts
 from ._progress import Progress, watching
@@ -186,6 +187,11 @@ class Results:
     def answers(self) -> tuple[str, ...]:
         """What the mean curves say, one sentence for each group and pressure."""
         return tuple(_tabor.result_texts(os.fspath(self.folder / "results.h5"), "answers"))
+
+    def friction_table(self, *, group: str | None = None, density: Value | Sequence[Value] | None = None,
+                       keep: Sequence[str] = ()) -> FrictionTable:
+        """Friction for forming codes; see ``FrictionTable``."""
+        return FrictionTable(self.folder, group=group, density=density, keep=keep)
 
     @property
     def table(self) -> Any:

@@ -126,3 +126,20 @@ def test_missing_scans_and_folders_are_named(tmp_path):
         tb.Study({"a": "none_*.x3p"}, tb.Solid("aluminium-6016"), pressure=1e6)
     with pytest.raises(ValueError, match="no results.csv"):
         tb.Results(tmp_path)
+
+
+def test_decks_are_those_of_the_command_line(program, folder, tmp_path):
+    table = study_of(folder).run(tmp_path / "r").friction_table(group="before", keep=["flood"])
+    assert len(table.entries) == 4 and all(0 < one.friction < 1 and one.n == 1 for one in table.entries)
+    for name, write in [("lsdyna", table.to_lsdyna), ("abaqus", table.to_abaqus), ("ansys", table.to_ansys),
+                        ("openradioss", table.to_openradioss), ("csv", table.to_csv)]:
+        run = subprocess.run([program, "table", tmp_path / "r", "--for", name, "--units", "mm,s,t", "--group", "before",
+                              "--keep", "flood"], capture_output=True, text=True, check=True)
+        write(tmp_path / "deck", units="mm,s,t")
+        cards = [[line for line in text.splitlines() if not line.startswith(("$", "**", "!", "#"))]
+                 for text in (run.stdout, (tmp_path / "deck").read_text("utf-8"))]
+        assert len(cards[0]) >= 3 and cards[0] == cards[1]
+    with pytest.raises(ValueError, match="before"):
+        tb.FrictionTable(tmp_path / "r")
+    with pytest.raises(ValueError, match="units|parsec"):
+        table.to_csv(tmp_path / "deck", units="parsec,s,t")
