@@ -24,12 +24,8 @@ class Done(NamedTuple):
 
 def compute(text: str, file: str, folder: str, retry: bool, threads: int) -> Done:
     """Computes a part, whose text stands as if in ``file``, into the store of the folder."""
-    before = _tabor.threads()
-    _tabor.set_threads(threads)
-    try:
-        n_contacts, _ = _tabor.run_part(_tabor.parse_study(text, file), folder, retry)
-    finally:
-        _tabor.set_threads(before)
+    _tabor.set_threads(threads)  # workers may be threads of one process: run() puts back what was before
+    n_contacts, _ = _tabor.run_part(_tabor.parse_study(text, file), folder, retry)
     return Done(n_contacts, {})
 
 
@@ -67,6 +63,7 @@ def run(executor: Executor, texts: list[str], file: str, folder: str, *, retry: 
     """Computes the parts; returns how many contacts were computed. Whatever a worker raises is raised when
     all others are done; Ctrl-C leaves out those that have not begun."""
     futures: list[Future[Done]] = []
+    n_threads = _tabor.threads()
     error: BaseException | None = None
     n_contacts = 0
     try:
@@ -83,6 +80,8 @@ def run(executor: Executor, texts: list[str], file: str, folder: str, *, retry: 
         for future in futures:
             future.cancel()
         raise
+    finally:
+        _tabor.set_threads(n_threads)
     if error is not None:
         raise error
     return n_contacts
