@@ -24,6 +24,9 @@ def content(file):
         def visit(name, thing):
             attributes[name] = {key: np.asarray(value).tolist() for key, value in thing.attrs.items()
                                 if key not in RUN and "REFERENCE_LIST" not in key and "DIMENSION_LIST" not in key}
+            if name == "/":  # how many threads there were is of the run, too
+                lines = attributes[name]["config_toml"].splitlines()
+                attributes[name]["config_toml"] = [line for line in lines if not line.startswith("threads =")]
             if isinstance(thing, h5py.Dataset):
                 maps[name] = thing[()]
         visit("/", opened)
