@@ -7,7 +7,7 @@ from tabor_report.errors import InputError
 
 _HERE = Path(__file__).resolve().parent
 # Beside the installed package, or where the source tree keeps it.
-_PLACES = (_HERE / "references.bib", _HERE.parents[1] / "src/tabor/cli/references.bib")
+_PLACES = (_HERE / "references.bib", _HERE.parents[1] / "src/tabor/analysis/references.bib")
 
 _STUDY = ("polonsky1999", "stanley1997", "bowden1950", "costagliola2021", "barnes2021", "jacobs2017")
 

@@ -68,5 +68,13 @@ TEST(Materials, GiveWhatIsKnownAndLeaveTheRest) {
   EXPECT_THROW(take_material("unobtainium", settings), InputError);
 }
 
+TEST(Materials, AreNamedByTheirFamilyWhereItHasOneMember) {
+  CaseSettings settings;
+  take_material("aluminium", settings);
+  EXPECT_EQ(settings.contact.material, "aluminium-6016");
+  EXPECT_THROW(take_material("steel", settings), InputError);
+  EXPECT_THROW(take_material("", settings), InputError);
+}
+
 }  // namespace
 }  // namespace tabor::analysis

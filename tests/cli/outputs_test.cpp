@@ -7,9 +7,10 @@
 
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
-#include "tabor/cli/fields_file.hpp"
+#include "tabor/analysis/fields_file.hpp"
 #include "tabor/cli/interrupt.hpp"
 #include "tabor/cli/verb.hpp"
+#include "tabor/scan/file.hpp"
 
 namespace tabor::test {
 namespace {
@@ -309,15 +310,11 @@ TEST_F(Outputs, InterruptedBeforeTheFirstStateAreNotMade) {
 }
 
 TEST_F(Outputs, WithoutAStateAreNotMade) {
-  std::ostringstream nowhere;
-  const cli::Context context{.out = nowhere, .err = nowhere};
-  cli::Scan scan;
-  scan.surface = scan::read(file("in.h5"));
-  const Field map = scan.surface.height;
+  const topography::Topography surface = scan::read(file("in.h5"));
   for (const bool has_state : {false, true}) {
-    cli::FieldsFile fields({.output = file("out.h5")}, context, scan, io::Json::object(), {});
-    if (has_state) fields.add_state(0, {}, {{"gap", "m", "gap", map}});
-    fields.commit(context);
+    analysis::FieldsFile fields(file("out.h5"), {}, {}, surface, {});
+    if (has_state) fields.add_state(0, {}, {{"gap", "m", "gap", surface.height}});
+    fields.commit({});
     EXPECT_EQ(fs::exists(file("out.h5")), has_state);
   }
 }

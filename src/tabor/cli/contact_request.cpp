@@ -6,56 +6,11 @@
 
 #include "tabor/cli/exit_code.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/core/parallel.hpp"
 #include "tabor/core/units.hpp"
 
 namespace tabor::cli {
 
 namespace {
-
-using analysis::ContactSettings;
-using analysis::FilmSettings;
-using analysis::FluidSettings;
-
-const Columns<ContactSettings>& contact_setting_columns() {
-  static const Columns<ContactSettings> columns{
-      {"youngs_modulus_Pa", "Pa", "", &ContactSettings::youngs_modulus},
-      {"poissons_ratio", "", "", &ContactSettings::poissons_ratio},
-      {"counter_youngs_modulus_Pa", "Pa", "", &ContactSettings::counter_youngs_modulus},
-      {"counter_poissons_ratio", "", "", &ContactSettings::counter_poissons_ratio},
-      {"effective_modulus_Pa", "Pa", "", &ContactSettings::effective_modulus},
-      {"saturation_pressure_Pa", "Pa", "", &ContactSettings::saturation_pressure},
-      {"boundary", "", "",
-       [](const ContactSettings& one) { return analysis::kBoundaries.of(one.boundary); }},
-      {"solver", "", "",
-       [](const ContactSettings& one) { return analysis::kSolvers.of(one.solver); }},
-      {"tolerance", "", "", &ContactSettings::tolerance},
-      {"load_path", "", "", &ContactSettings::load_path},
-      {"threads", "", "", [](const ContactSettings&) { return thread_count(); }}};
-  return columns;
-}
-
-const Columns<FilmSettings>& film_setting_columns() {
-  static const Columns<FilmSettings> columns{
-      {"model", "", "", [](const FilmSettings& one) { return deposition::kModels.of(one.model); }},
-      {"reading", "", "",
-       [](const FilmSettings& one) { return deposition::kReadings.of(one.reading); }},
-      {"edge", "", "", [](const FilmSettings& one) { return deposition::kEdges.of(one.edge); }},
-      {"seed", "", "", &FilmSettings::seed},
-      {"droplet_height_m", "m", "", &FilmSettings::droplet_height},
-      {"oil_density_kg_per_m3", "kg/m^3", "", &FilmSettings::oil_density}};
-  return columns;
-}
-
-const Columns<FluidSettings>& fluid_setting_columns() {
-  static const Columns<FluidSettings> columns{
-      {"fluid", "", "", [](const FluidSettings& one) { return analysis::kFluids.of(one.fluid); }},
-      {"sliding_speed_m_per_s", "m/s", "", &FluidSettings::sliding_speed},
-      {"viscosity_Pa_s", "Pa s", "", &FluidSettings::viscosity},
-      {"pressure_viscosity_per_Pa", "1/Pa", "", &FluidSettings::pressure_viscosity},
-      {"eyring_stress_Pa", "Pa", "", &FluidSettings::eyring_stress}};
-  return columns;
-}
 
 const char* const kMaterial = "--material";
 
@@ -164,6 +119,26 @@ void declare_friction(OptionSet& set, analysis::FrictionSettings& settings) {
              settings.area);
 }
 
+void declare_fields(OptionSet& set, FieldsRequest& request) {
+  declare_output(set, request.output);
+  constexpr const char* file = "--output";
+  set.choice("--fields", analysis::kFields,
+             "maps in OUT.h5: contact has heights, pressure and film [all]", request.options.fields)
+      .only_with = file;
+  set.toggle("--double", "keep maps in OUT.h5 in double precision", request.options.doubles)
+      .only_with = file;
+}
+
+std::optional<analysis::FieldsFile> fields_file(const FieldsRequest& request,
+                                                const Context& context, const Scan& scan,
+                                                const io::Json& settings,
+                                                const std::vector<std::string>& methods) {
+  if (!request.output) return std::nullopt;
+  return analysis::FieldsFile(*request.output, request.options,
+                              head_of(context, analysis::toml_of(settings), methods), scan.surface,
+                              {scan.path, scan.sha256});
+}
+
 std::string flag_of(std::string_view setting) {
   static const std::map<std::string_view, std::string_view> others = {
       {"mean_pressure", "pressure"},
@@ -192,22 +167,7 @@ void check_contact(const analysis::CaseSettings& settings) {
   check(analysis::objection(settings.contact, settings.mean_pressures, flag_of));
 }
 
-io::Json settings_json(const ContactSettings& settings) {
-  io::Json object = io::Json::object();
-  if (!settings.material.empty()) object["material"] = settings.material;
-  object.update(io::json_of(contact_setting_columns(), settings));
-  return object;
-}
-
-io::Json settings_json(const FilmSettings& settings) {
-  return io::json_of(film_setting_columns(), settings);
-}
-
-io::Json settings_json(const FluidSettings& settings) {
-  return settings.flows() ? io::json_of(fluid_setting_columns(), settings) : io::Json::object();
-}
-
-void describe(const ContactSettings& settings, Facts& facts) {
+void describe(const analysis::ContactSettings& settings, Facts& facts) {
   if (settings.load_path) {
     facts.fact("load path", "in the order given, plastic indentation is kept");
   }
@@ -221,7 +181,7 @@ void describe(const ContactSettings& settings, Facts& facts) {
                                     analysis::kSolvers.of(settings.solver)));
 }
 
-void describe(const FilmSettings& settings, Facts& facts) {
+void describe(const analysis::FilmSettings& settings, Facts& facts) {
   std::string text(deposition::kModels.of(settings.model));
   if (settings.model == deposition::Model::droplets) {
     text += fmt::format(" of {}, {}, seed {}", si(settings.droplet_height, "m"),
@@ -232,33 +192,13 @@ void describe(const FilmSettings& settings, Facts& facts) {
                          plain(settings.oil_density)));
 }
 
-void describe(const FluidSettings& settings, Facts& facts) {
+void describe(const analysis::FluidSettings& settings, Facts& facts) {
   if (!settings.flows()) return;
   std::string text = fmt::format("sliding at {}, {}", si(*settings.sliding_speed, "m/s"),
                                  si(*settings.viscosity, "Pa s"));
   if (settings.pressure_viscosity) text += ", Roelands";
   if (settings.eyring_stress) text += ", Eyring stress " + si(*settings.eyring_stress, "Pa");
   facts.fact("fluid film", text);
-}
-
-std::string density_text(double density) { return plain(in_g_per_m2(density)) + " g/m^2"; }
-
-std::vector<StateField> fields_of(const analysis::ContactRecord& record) {
-  return {{"pressure", "Pa", "contact pressure", record.state.pressure},
-          {"gap", "m", "gap between the deformed surface and the flat", record.state.gap}};
-}
-
-std::vector<StateField> fields_of(const analysis::FilmRecord& record) {
-  return {{"film_thickness", "m", "thickness of the lubricant film", record.film.thickness}};
-}
-
-std::vector<StateField> fields_of(const analysis::FluidRecord& record) {
-  return {
-      {"fluid_pressure", "Pa", "pressure of the oil", record.state.film.pressure},
-      {"fluid_fill", "1", "share of the gap that oil fills while sliding", record.state.film.fill},
-      {"fluid_gap", "m", "gap while sliding", record.state.contact.gap},
-      {"fluid_solid_pressure", "Pa", "contact pressure while sliding",
-       record.state.contact.pressure}};
 }
 
 int until_interrupted(Context& context, const std::function<void()>& make_states,

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tabor/analysis/fields_file.hpp"
 #include "tabor/analysis/states.hpp"
-#include "tabor/cli/fields_file.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/scan.hpp"
 #include "tabor/cli/table.hpp"
@@ -23,28 +24,28 @@ void declare_film(OptionSet& set, analysis::FilmSettings& settings);
 void declare_fluid(OptionSet& set, analysis::FluidSettings& settings);
 void declare_friction(OptionSet& set, analysis::FrictionSettings& settings);
 
+/// What is asked of a file of maps.
+struct FieldsRequest {
+  std::optional<std::string> output;  ///< its name; none is written without
+  analysis::FieldsOptions options;
+};
+/// Declares -o, --fields and --double.
+void declare_fields(OptionSet& set, FieldsRequest& request);
+/// The file that is asked for, with the settings in force and what to cite; nothing without -o.
+std::optional<analysis::FieldsFile> fields_file(const FieldsRequest& request,
+                                                const Context& context, const Scan& scan,
+                                                const io::Json& settings,
+                                                const std::vector<std::string>& methods);
+
 /// The option of what analysis calls by this name.
 std::string flag_of(std::string_view setting);
 /// Throws what analysis objects to, before a scan is read.
 void check(const std::optional<analysis::Objection>& objection);
 void check_contact(const analysis::CaseSettings& settings);
 
-/// Settings in force, for the JSON head and the result file.
-io::Json settings_json(const analysis::ContactSettings& settings);
-io::Json settings_json(const analysis::FilmSettings& settings);
-io::Json settings_json(const analysis::FluidSettings& settings);
-
 void describe(const analysis::ContactSettings& settings, Facts& facts);
 void describe(const analysis::FilmSettings& settings, Facts& facts);
 void describe(const analysis::FluidSettings& settings, Facts& facts);
-
-/// "0.9 g/m^2"
-std::string density_text(double density);
-
-/// The maps of each record.
-std::vector<StateField> fields_of(const analysis::ContactRecord& record);
-std::vector<StateField> fields_of(const analysis::FilmRecord& record);
-std::vector<StateField> fields_of(const analysis::FluidRecord& record);
 
 /// Runs what makes one state after the other; Ctrl-C keeps the finished ones. Returns the exit
 /// code: done or interrupted.

@@ -4,16 +4,15 @@
 #include <memory>
 #include <set>
 
+#include "tabor/analysis/ehl_file.hpp"
 #include "tabor/analysis/ehl_surfaces.hpp"
 #include "tabor/cli/axis_option.hpp"
-#include "tabor/cli/fields_file.hpp"
 #include "tabor/cli/film_sweep.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/io/columns.hpp"
 
 namespace tabor::cli {
 
@@ -43,15 +42,6 @@ const ehl::Program& find_program(const std::string& name) {
 
 // One case
 
-/// Objects in it as groups of their own.
-void write_result(io::Hdf5Writer& writer, const std::string& group, const io::Json& scalars) {
-  writer.group(group);
-  io::write_members(writer, group, scalars);
-  for (const auto& [key, value] : scalars.items()) {
-    if (value.is_object()) write_result(writer, fmt::format("{}/{}", group, key), value);
-  }
-}
-
 std::string text_of(const std::vector<ehl::Facts>& groups) {
   std::string text;
   for (const ehl::Facts& group : groups) {
@@ -62,17 +52,6 @@ std::string text_of(const std::vector<ehl::Facts>& groups) {
   return text;
 }
 
-void write_one(const ehl::Program& program, const io::Config& config, const ehl::CaseResult& result,
-               const std::string& output, const Context& context) {
-  io::Hdf5Writer writer(output);
-  write_result_head(writer, context, config.to_text(), program.methods);
-  writer.attribute("/", "kind", "ehl " + program.name);
-  write_result(writer, "/result", result.scalars);
-  write_warnings(writer, context);
-  if (result.write) result.write(writer);
-  writer.commit();
-}
-
 int show_one(const ehl::Program& program, const io::Config& config, const Request& request,
              Context& context) {
   const ehl::CaseResult result = solve_case(program, config,
@@ -80,7 +59,10 @@ int show_one(const ehl::Program& program, const io::Config& config, const Reques
                                              .seed = context.seed_or_default(),
                                              .surfaces = analysis::ehl_surfaces()});
   for (const std::string& warning : result.warnings) context.warn(warning);
-  if (request.output) write_one(program, config, result, *request.output, context);
+  if (request.output) {
+    analysis::write_case(*request.output, context.command_line, program, config, result,
+                         context.warnings);
+  }
   io::Json object = json_head(context);
   object["case"] = request.file;
   object.update(result.scalars);

@@ -8,7 +8,6 @@
 #include <ostream>
 
 #include "tabor/cli/failure.hpp"
-#include "tabor/cli/fields_file.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
@@ -153,7 +152,8 @@ void write_columns(io::Hdf5Writer& writer, const CaseColumns& columns, const Res
 void write_sweep(const FilmSweep& sweep, const Results& results,
                  const std::vector<std::string>& marks, const Context& context) {
   io::Hdf5Writer writer(*sweep.output);
-  write_result_head(writer, context, sweep.config.to_text(), sweep.program.methods);
+  analysis::write_result_head(writer,
+                              head_of(context, sweep.config.to_text(), sweep.program.methods));
   writer.attribute("/", "kind", "ehl " + sweep.program.name + " sweep");
   write_axes(writer, sweep.axes);
   write_columns(writer, study::columns_of(sweep.program, results), results);
@@ -164,7 +164,7 @@ void write_sweep(const FilmSweep& sweep, const Results& results,
   }
   writer.write("/sweep/warnings", warnings);
   writer.write("/sweep/warning_marks", marks);
-  write_warnings(writer, context);
+  analysis::write_warnings(writer, context.warnings);
   writer.commit();
 }
 

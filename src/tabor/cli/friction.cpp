@@ -7,7 +7,7 @@
 #include "tabor/cli/density_curve.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/study/density_curves.hpp"
+#include "tabor/study/curves_file.hpp"
 #include "tabor/study/resolution_scan.hpp"
 #include "tabor/study/scan_friction.hpp"
 
@@ -30,28 +30,6 @@ void check_all(const analysis::CaseSettings& settings) {
   check(analysis::objection(settings.friction, flag_of));
 }
 
-io::Json all_settings(const analysis::CaseSettings& settings) {
-  io::Json all = settings_json(settings.contact);
-  all.update(settings_json(settings.film));
-  all.update(settings_json(settings.fluid));
-  all["shear_strength_Pa"] = settings.friction.shear_strength;
-  all["area"] = friction::kAreas.of(settings.friction.area_of(settings.contact));
-  return all;
-}
-
-/// A contact is the same under all films, and a film on all contacts.
-std::vector<StateField> maps_of(const study::FrictionState& state) {
-  std::vector<StateField> fields = fields_of(state.contact);
-  for (StateField& field : fields) field.owner = fmt::format("{}", state.friction.mean_pressure);
-  for (StateField field : fields_of(state.film)) {
-    field.owner = fmt::format("{}", state.friction.lubricant_density);
-    fields.push_back(field);
-  }
-  if (state.fluid == nullptr) return fields;
-  for (const StateField& field : fields_of(*state.fluid)) fields.push_back(field);
-  return fields;
-}
-
 /// All that is printed, and the exit code so far.
 struct Solved {
   std::vector<analysis::FrictionRecord> records;
@@ -60,8 +38,8 @@ struct Solved {
   int code = kDone;
 };
 
-Solved solve_all(const Request& request, const topography::Topography& surface, FieldsFile* file,
-                 Context& context) {
+Solved solve_all(const Request& request, const topography::Topography& surface,
+                 analysis::FieldsFile* file, Context& context) {
   Solved solved;
   const auto receive = [&](const study::FrictionState& state) {
     solved.records.push_back(state.friction);
@@ -69,7 +47,7 @@ Solved solve_all(const Request& request, const topography::Topography& surface, 
     file->add_state(
         solved.records.size() - 1,
         cells_of(analysis::friction_columns(), state.friction, analysis::media::kObject),
-        maps_of(state));
+        analysis::fields_of(state.contact, state.film, state.fluid));
   };
   study::RunOptions options;
   options.observer = context.observer();
@@ -106,8 +84,8 @@ std::string curves_text(const std::vector<analysis::DensityCurve>& curves, const
     if (!request.density_curve) continue;
     Table table({"density at " + si(curve.mean_pressure, "Pa"), "wet share", "friction wet"});
     for (std::size_t i = 0; i < curve.lubricant_densities.size(); ++i) {
-      table.row({density_text(curve.lubricant_densities[i]), percent(curve.lubricated_shares[i]),
-                 plain(curve.friction_lubricated[i], 4)});
+      table.row({analysis::density_text(curve.lubricant_densities[i]),
+                 percent(curve.lubricated_shares[i]), plain(curve.friction_lubricated[i], 4)});
     }
     tables += '\n' + table.text();
   }
@@ -134,44 +112,24 @@ std::string text_of(const Scan& scan, const Request& request, const Solved& solv
   return text + '\n' + table_of(study::resolution_columns(), solved.resolution).text();
 }
 
-/// The curves and what they say, for the report.
-void write_curves(const Request& request, const Solved& solved, FieldsFile& file) {
-  if (solved.curves.empty()) return;
-  const std::vector<double>& asked = request.settings.film.lubricant_densities;
-  std::vector<study::ScanCurve> curves;
-  std::vector<std::string> answers;
-  for (const analysis::DensityCurve& curve : solved.curves) {
-    curves.push_back({request.scan.file, "", curve});
-    answers.push_back(study::answer_of({"", 1, curve, {}, {}, asked}));
-  }
-  file.add_table("/density_curves", study::curve_columns(), study::points_of(curves));
-  file.add_answers(answers);
-}
-
-analysis::Case case_of(const analysis::FrictionRecord& record) {
-  return {.pressure = si(record.mean_pressure, "Pa"),
-          .density = density_text(record.lubricant_density),
-          .warnings = record.warnings};
-}
-
 int show(Request request, Context& context) {
   request.settings.film.seed = context.seed_or_default();
   check_all(request.settings);
   const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
-  const io::Json settings = all_settings(request.settings);
-  std::optional<FieldsFile> file;
-  if (request.file.output) {
-    file.emplace(request.file, context, scan, settings, analysis::references_of(request.settings));
-  }
+  const io::Json settings = analysis::settings_json(request.settings);
+  auto file =
+      fields_file(request.file, context, scan, settings, analysis::references_of(request.settings));
   const Solved solved = solve_all(request, scan.surface, file ? &*file : nullptr, context);
   if (solved.code == kInterrupted && solved.records.empty()) throw Interrupted();
   std::vector<analysis::Case> cases;
-  for (const analysis::FrictionRecord& record : solved.records) cases.push_back(case_of(record));
+  cases.reserve(solved.records.size());
+  for (const analysis::FrictionRecord& one : solved.records) cases.push_back(case_of(one));
   context.warn(analysis::findings_of(cases));
   if (file) {
-    write_curves(request, solved, *file);
-    file->commit(context);
+    study::write_curves(solved.curves, request.scan.file, request.settings.film.lubricant_densities,
+                        *file);
+    file->commit(context.warnings);
   }
   io::Json object = json_head(context, scan);
   object.update(settings);

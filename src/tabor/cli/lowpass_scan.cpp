@@ -89,7 +89,7 @@ int run_lowpass_scan(const Scan& scan, const analysis::CaseSettings& settings,
   io::Json object = json_head(context, scan);
   object["nx"] = scan.surface.grid.nx;
   object["ny"] = scan.surface.grid.ny;
-  object.update(settings_json(settings.contact));
+  object.update(analysis::settings_json(settings.contact));
   object["states"] = states_json(analysis::lowpass_columns(), records);
   Facts head;
   describe(scan, head);

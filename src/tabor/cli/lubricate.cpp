@@ -19,21 +19,14 @@ struct Request {
   FieldsRequest file;
 };
 
-analysis::Case case_of(const analysis::FilmRecord& record) {
-  return {.density = density_text(record.lubricant_density), .warnings = record.warnings};
-}
-
 int show(const Request& request, Context& context) {
   analysis::FilmSettings settings = request.film;
   settings.seed = context.seed_or_default();
   check(analysis::objection(settings));
   const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
-  const io::Json in_force = settings_json(settings);
-  std::optional<FieldsFile> file;
-  if (request.file.output) {
-    file.emplace(request.file, context, scan, in_force, analysis::references_of(settings));
-  }
+  const io::Json in_force = analysis::settings_json(settings);
+  auto file = fields_file(request.file, context, scan, in_force, analysis::references_of(settings));
 
   const analysis::Warnings about_surface = analysis::of_surface(scan.surface);
   std::map<std::size_t, analysis::FilmRecord> films;  // they come in rising order of dose
@@ -44,7 +37,7 @@ int show(const Request& request, Context& context) {
     const std::size_t place = record.film.request;
     if (file) {
       file->add_state(place, cells_of(analysis::film_columns(), record, analysis::media::kObject),
-                      fields_of(record));
+                      analysis::fields_of(record));
     }
     record.film.thickness = {};
     films.emplace(place, std::move(record));
@@ -56,11 +49,11 @@ int show(const Request& request, Context& context) {
   std::vector<analysis::FilmRecord> records;
   std::vector<analysis::Case> cases;
   for (auto& [place, record] : films) {
-    cases.push_back(case_of(record));
+    cases.push_back(analysis::case_of(record));
     records.push_back(std::move(record));
   }
   context.warn(analysis::findings_of(cases));
-  if (file) file->commit(context);
+  if (file) file->commit(context.warnings);
 
   io::Json object = json_head(context, scan);
   object.update(in_force);

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tabor/cli/fields_file.hpp"
+#include "tabor/cli/result.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/csv.hpp"
@@ -41,13 +41,13 @@ void write_curves(const std::vector<Curve>& curves, const std::filesystem::path&
     return;
   }
   io::Hdf5Writer writer(file);
-  write_result_head(writer, context, "", methods);
+  analysis::write_result_head(writer, head_of(context, "", methods));
   for (const Curve& curve : curves) {
     const std::string path = "/curves/" + curve.name;
     writer.write(path, curve.values);
     writer.describe(path, curve.unit, curve.long_name);
   }
-  write_warnings(writer, context);
+  analysis::write_warnings(writer, context.warnings);
   writer.commit();
 }
 

@@ -44,6 +44,11 @@ io::Json json_head(const Context& context, const Scan& scan) {
   return object;
 }
 
+analysis::ResultHead head_of(const Context& context, const std::string& config_toml,
+                             const std::vector<std::string>& methods) {
+  return {.command = context.command_line, .config_toml = config_toml, .methods = methods};
+}
+
 io::Json json_warnings(const Context& context) {
   io::Json list = io::Json::array();
   for (const analysis::Finding& warning : context.warnings) list.push_back(json_of(warning));

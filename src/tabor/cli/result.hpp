@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tabor/analysis/fields_file.hpp"
 #include "tabor/cli/exit_code.hpp"
 #include "tabor/cli/scan.hpp"
 #include "tabor/cli/verb.hpp"
@@ -14,6 +15,10 @@ namespace tabor::cli {
 /// The keys every JSON object begins with.
 io::Json json_head(const Context& context);
 io::Json json_head(const Context& context, const Scan& scan);
+
+/// What a result file of this command begins with; `methods` are keys of references.bib.
+analysis::ResultHead head_of(const Context& context, const std::string& config_toml,
+                             const std::vector<std::string>& methods);
 
 /// Those of the context: a text each, or an object with code, text and cases.
 io::Json json_warnings(const Context& context);

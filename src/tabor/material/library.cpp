@@ -57,10 +57,13 @@ const std::vector<NamedSolid>& solids() {
 const NamedSolid& find_solid(std::string_view name) {
   const std::string wanted = lower(name);
   std::vector<std::string> names;
+  std::vector<const NamedSolid*> of_family;
   for (const NamedSolid& solid : solids()) {
     if (solid.name == wanted) return solid;
+    if (split(solid.name, '-').front() == wanted) of_family.push_back(&solid);
     names.push_back(solid.name);
   }
+  if (of_family.size() == 1) return *of_family.front();
   throw InputError("material", fmt::format("'{}'{}", name, suggestion(wanted, names)),
                    fmt::format("{}", fmt::join(names, ", ")), "");
 }

@@ -26,7 +26,8 @@ struct NamedSolid {
 /// All there are, ordered by name.
 const std::vector<NamedSolid>& solids();
 
-/// Throws InputError with all names and the nearest one.
+/// By its name, or what stands before the hyphen where only one solid has it: "aluminium". Throws
+/// InputError with all names and the nearest one.
 const NamedSolid& find_solid(std::string_view name);
 
 }  // namespace tabor::material

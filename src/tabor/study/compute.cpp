@@ -68,6 +68,7 @@ topography::Topography treated_surface(const Study& study, const Scan& scan,
                                        const std::string& scan_sha256, const Observer& observer) {
   topography::Topography treated =
       topography::apply(study.treatment, read_unchanged(scan, scan_sha256, observer), observer);
+  treated.source = scan.label;  // wherever the study lies
   topography::require_no_holes(treated, scan.label, "add \"fill=harmonic\" to treatment.steps");
   return treated;
 }

@@ -6,6 +6,7 @@
 
 #include "tabor/analysis/plateau.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/study/curves_file.hpp"
 
 namespace tabor::study {
 namespace {
@@ -113,6 +114,21 @@ std::vector<AveragePoint> points_of(const std::vector<GroupCurve>& curves) {
     }
   }
   return points;
+}
+
+void write_curves(const std::vector<analysis::DensityCurve>& curves, const std::string& scan,
+                  const std::vector<double>& asked, analysis::FieldsFile& file) {
+  if (curves.empty()) return;
+  std::vector<ScanCurve> of_scan;
+  std::vector<std::string> answers;
+  of_scan.reserve(curves.size());
+  answers.reserve(curves.size());
+  for (const analysis::DensityCurve& curve : curves) {
+    of_scan.push_back({scan, "", curve});
+    answers.push_back(answer_of({"", 1, curve, {}, {}, asked}));
+  }
+  file.add_table("/density_curves", curve_columns(), points_of(of_scan));
+  file.add_answers(answers);
 }
 
 const Columns<CurvePoint>& curve_columns() {

@@ -212,8 +212,9 @@ analysis::FluidSettings Study::fluid_settings(const Condition& condition) const 
 
 const std::vector<std::string>& known_keys() { return kKeys; }
 
-Study read_study(const fs::path& file) {
-  const io::Config config = io::Config::read(file);
+namespace {
+
+Study study_of(const io::Config& config, const fs::path& file) {
   config.reject_unknown(known_keys());
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   Study study;
@@ -232,6 +233,14 @@ Study read_study(const fs::path& file) {
     study.experiment = read_experiment(folder / config.text("experiment.file"));
   }
   return study;
+}
+
+}  // namespace
+
+Study read_study(const fs::path& file) { return study_of(io::Config::read(file), file); }
+
+Study parse_study(const std::string& text, const fs::path& file) {
+  return study_of(io::Config::parse(text, file.string()), file);
 }
 
 }  // namespace tabor::study

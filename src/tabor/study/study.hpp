@@ -68,6 +68,9 @@ struct Study {
 /// its unit or out of range, and for scans that are not there.
 Study read_study(const std::filesystem::path& file);
 
+/// The same of a text, as if it stood in this file.
+Study parse_study(const std::string& text, const std::filesystem::path& file);
+
 /// A study file to start from, with every key there is; those that need not be are commented out.
 std::string study_template();
 

@@ -35,6 +35,30 @@ struct Outcome {
   std::vector<GroupCurve> density_curves;   ///< friction against density, the same
 };
 
+/// What processes may compute into one store at the same time: one scan under one pressure each.
+/// The study of a part has this scan alone, with the pressure as its own, and no experiment.
+std::vector<Study> parts_of(const Study& study);
+
+/// What the store in `directory` lacks.
+struct Missing {
+  std::vector<std::size_t> parts;  ///< places in parts_of(), the first pressures of all scans first
+  std::vector<std::string> warnings;  ///< one per damaged file, which is removed
+};
+/// Looks at every file of the store. With `retry`, what failed or did not converge is missing, too.
+/// Throws as run().
+Missing missing_parts(const Study& study, const std::filesystem::path& directory,
+                      bool retry = false, const Observer& observer = {});
+
+/// What a run of one part did.
+struct PartOutcome {
+  std::size_t n_contacts = 0;         ///< that it computed
+  std::vector<std::string> failures;  ///< of what has no numbers
+};
+/// Computes what the store does not hold yet of a part, while others may compute other parts into
+/// the same store. Tables are left to run(), which finds the part done. Throws as run().
+PartOutcome run_part(const Study& part, const std::filesystem::path& directory,
+                     const RunOptions& options = {});
+
 /// Computes what the store in `directory` does not hold yet: each scan is treated once, each
 /// contact solved once per scan and pressure, each film laid down once per scan for all densities;
 /// where the oil flows, every condition of a contact is one more task.

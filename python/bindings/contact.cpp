@@ -1,0 +1,156 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include "records.hpp"
+#include "tabor/analysis/states.hpp"
+#include "tabor/material/library.hpp"
+#include "tabor/topography/topography.hpp"
+#include "watched.hpp"
+
+namespace tabor::python {
+namespace {
+
+using analysis::ContactRecord;
+using analysis::ContactSettings;
+using contact::State;
+
+/// (name, description, E [Pa], nu, saturation pressure [Pa], shear strength [Pa], source of E)
+using MaterialRow = std::tuple<std::string, std::string, double, double, std::optional<double>,
+                               std::optional<double>, std::string>;
+
+std::optional<double> value_of(const std::optional<material::Sourced>& number) {
+  if (!number) return std::nullopt;
+  return number->value;
+}
+
+MaterialRow row_of(const material::NamedSolid& solid) {
+  return {solid.name,
+          solid.description,
+          solid.youngs_modulus.value,
+          solid.poissons_ratio.value,
+          value_of(solid.saturation_pressure),
+          value_of(solid.shear_strength),
+          solid.youngs_modulus.source};
+}
+
+std::vector<MaterialRow> materials() {
+  std::vector<MaterialRow> rows;
+  for (const material::NamedSolid& solid : material::solids()) rows.push_back(row_of(solid));
+  return rows;
+}
+
+void check_contact(const ContactSettings& settings, const std::vector<double>& mean_pressures) {
+  check(analysis::objection(settings, mean_pressures, argument_of));
+}
+
+std::vector<ContactRecord> contacts(const topography::Topography& surface,
+                                    const ContactSettings& settings,
+                                    const std::vector<double>& mean_pressures,
+                                    const nb::object& progress) {
+  check_contact(settings, mean_pressures);
+  return watched(progress, [&](const Observer& observer) {
+    std::vector<ContactRecord> records;
+    records.reserve(mean_pressures.size());
+    const auto elasticity = analysis::make_operator(settings, surface.grid);
+    analysis::contact_states(
+        *elasticity, surface, settings, mean_pressures,
+        [&records](ContactRecord&& record) { records.push_back(std::move(record)); }, observer);
+    return records;
+  });
+}
+
+using Scalars = std::tuple<int, double, double, double, int>;
+using ContactState = std::tuple<nb::dict, Scalars, WarningTexts, std::vector<std::string>,
+                                MapArgument, MapArgument, MapArgument>;
+
+nb::object saved_contact(nb::handle_t<ContactRecord> self) {
+  const auto& one = nb::cast<const ContactRecord&>(self);
+  const State& state = one.state;
+  return nb::cast(
+      std::make_tuple(saved(analysis::contact_columns(), one),
+                      Scalars{static_cast<int>(one.convergence.status), one.convergence.fft_pairs,
+                              state.gap_error, state.gap_limit, state.compact_steps},
+                      texts_of(one.warnings), one.references, view_of(state.pressure, self),
+                      view_of(state.displacement, self), view_of(state.gap, self)));
+}
+
+void restore_contact(ContactRecord& self, const ContactState& saved) {
+  auto& one = *new (&self) ContactRecord();
+  restore(analysis::contact_columns(), std::get<0>(saved), one);
+  int status = 0;
+  State& state = one.state;
+  std::tie(status, one.convergence.fft_pairs, state.gap_error, state.gap_limit,
+           state.compact_steps) = std::get<1>(saved);
+  one.convergence.status = static_cast<Status>(status);
+  one.warnings = warnings_of(std::get<2>(saved));
+  one.references = std::get<3>(saved);
+  state.pressure = field_of(std::get<4>(saved));
+  state.displacement = field_of(std::get<5>(saved));
+  state.gap = field_of(std::get<6>(saved));
+  state.separation = one.summary.separation;
+  state.convergence = one.convergence;
+}
+
+/// A map of a contact as a property.
+template <Field State::*map>
+MapView map_of(nb::handle_t<ContactRecord> self) {
+  return view_of(nb::cast<const ContactRecord&>(self).state.*map, self);
+}
+
+void bind_settings(nb::module_& module) {
+  nb::class_<ContactSettings>(module, "ContactSettings")
+      .def(nb::init<>())
+      .def_rw("material", &ContactSettings::material)
+      .def_rw("youngs_modulus", &ContactSettings::youngs_modulus)
+      .def_rw("poissons_ratio", &ContactSettings::poissons_ratio)
+      .def_rw("counter_youngs_modulus", &ContactSettings::counter_youngs_modulus)
+      .def_rw("counter_poissons_ratio", &ContactSettings::counter_poissons_ratio)
+      .def_rw("saturation_pressure", &ContactSettings::saturation_pressure)
+      .def_rw("tolerance", &ContactSettings::tolerance)
+      .def_rw("load_path", &ContactSettings::load_path)
+      .def_prop_ro("effective_modulus", &ContactSettings::effective_modulus)
+      .def_prop_rw(
+          "boundary",
+          [](const ContactSettings& self) { return analysis::kBoundaries.of(self.boundary); },
+          [](ContactSettings& self, const std::string& name) {
+            self.boundary = analysis::kBoundaries.parse(name, "boundary");
+          })
+      .def_prop_rw(
+          "solver", [](const ContactSettings& self) { return analysis::kSolvers.of(self.solver); },
+          [](ContactSettings& self, const std::string& name) {
+            self.solver = analysis::kSolvers.parse(name, "solver");
+          });
+}
+
+}  // namespace
+
+void bind_contact(nb::module_& module) {
+  using namespace nb::literals;
+  bind_settings(module);
+  nb::class_<ContactRecord>(module, "ContactRecord")
+      .def("__getstate__", &saved_contact)
+      .def("__setstate__", &restore_contact)
+      .def_prop_ro("values",
+                   [](const ContactRecord& self) {
+                     return dict_of(cells_of(analysis::contact_columns(), self));
+                   })
+      .def_prop_ro("warnings", [](const ContactRecord& self) { return texts_of(self.warnings); })
+      .def_ro("references", &ContactRecord::references)
+      .def_prop_ro("gap_limit", [](const ContactRecord& self) { return self.state.gap_limit; })
+      .def_prop_ro("pressure", &map_of<&State::pressure>)
+      .def_prop_ro("displacement", &map_of<&State::displacement>)
+      .def_prop_ro("gap", &map_of<&State::gap>);
+  module.def("materials", &materials);
+  module.def(
+      "material", [](const std::string& name) { return row_of(material::find_solid(name)); },
+      "name"_a);
+  module.def("check_contact", &check_contact, "settings"_a, "mean_pressures"_a);
+  module.def("contacts", &contacts, "surface"_a, "settings"_a, "mean_pressures"_a,
+             "progress"_a.none());
+}
+
+}  // namespace tabor::python

@@ -1,0 +1,213 @@
+#include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include "tabor/analysis/warnings.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/psd.hpp"
+#include "tabor/scan/file.hpp"
+#include "tabor/topography/treatment.hpp"
+#include "tabor/topography/warnings.hpp"
+#include "values.hpp"
+#include "watched.hpp"
+
+namespace tabor::python {
+namespace {
+
+using topography::Topography;
+
+using Text = std::string;
+using Texts = std::vector<std::string>;
+using WarningState = std::tuple<Text, int, Text>;
+using TopographyState = std::tuple<double, double, bool, double, std::tuple<Text, Text, Text, Text>,
+                                   std::map<Text, Text>, Texts, std::vector<WarningState>>;
+
+/// All but the heights.
+TopographyState state_of(const Topography& one) {
+  std::vector<WarningState> warnings;
+  warnings.reserve(one.warnings.size());
+  for (const topography::Warning& warning : one.warnings) {
+    warnings.emplace_back(warning.text, static_cast<int>(warning.about), warning.code);
+  }
+  return {one.grid.lx,
+          one.grid.ly,
+          one.periodic,
+          one.tiles,
+          {one.source, one.format, one.instrument, one.channel},
+          one.metadata,
+          one.history,
+          warnings};
+}
+
+Topography topography_of(const MapArgument& height, const TopographyState& state) {
+  Topography one;
+  one.height = field_of(height);
+  one.grid = {one.height.cols(), one.height.rows(), std::get<0>(state), std::get<1>(state)};
+  one.periodic = std::get<2>(state);
+  one.tiles = std::get<3>(state);
+  std::tie(one.source, one.format, one.instrument, one.channel) = std::get<4>(state);
+  one.metadata = std::get<5>(state);
+  one.history = std::get<6>(state);
+  for (const auto& [text, about, code] : std::get<7>(state)) {
+    one.warnings.push_back({text, static_cast<topography::Warning::About>(about), code});
+  }
+  return one;
+}
+
+/// A surface of heights [m] that no file holds, on pixels of dx by dy [m].
+Topography make_surface(const MapArgument& height, double dx, double dy, bool periodic,
+                        const std::string& source) {
+  return watched(nb::none(), [&](const Observer&) {
+    Topography one;
+    one.height = field_of(height);
+    const auto nx = static_cast<double>(one.height.cols());
+    const auto ny = static_cast<double>(one.height.rows());
+    one.grid = {one.height.cols(), one.height.rows(), nx * dx, ny * dy};
+    one.periodic = periodic;
+    one.source = source;
+    one.format = "array";
+    one.warnings = topography::warnings(one);
+    return one;
+  });
+}
+
+/// With the digest of the file's bytes.
+std::pair<Topography, std::string> read(const std::filesystem::path& file,
+                                        const scan::ReadOptions& options,
+                                        const nb::object& progress) {
+  return watched(progress, [&](const Observer& observer) {
+    const scan::ScanFile opened(file, observer);
+    return std::make_pair(opened.read(options), opened.sha256());
+  });
+}
+
+Topography apply(const Topography& surface, const topography::Treatment& treatment,
+                 const nb::object& progress) {
+  topography::check(treatment);
+  return watched(progress, [&](const Observer& observer) {
+    return topography::apply(treatment, surface, observer);
+  });
+}
+
+using StepTexts = std::vector<std::tuple<Text, Text, Text>>;
+StepTexts treatment_steps() {
+  StepTexts steps;
+  for (const topography::StepDescription& step : topography::treatment_steps()) {
+    steps.emplace_back(step.name, step.argument, step.help);
+  }
+  return steps;
+}
+
+/// (symbol, value, unit, definition, note, set)
+using ParameterRow = std::tuple<Text, double, Text, Text, Text, Text>;
+std::vector<ParameterRow> parameters(const Topography& surface, const nb::object& progress) {
+  const auto all = watched(progress, [&](const Observer& observer) {
+    return metrology::parameters(surface, {}, observer);
+  });
+  std::vector<ParameterRow> rows;
+  rows.reserve(all.size());
+  for (const metrology::Parameter& one : all) {
+    rows.emplace_back(one.symbol, one.value, one.unit, one.definition, one.note,
+                      metrology::name_of(one.set));
+  }
+  return rows;
+}
+
+/// (q, density, unit, Hurst exponent)
+using SpectrumRow = std::tuple<std::vector<double>, std::vector<double>, Text, double>;
+SpectrumRow row_of(const metrology::Spectrum& one) {
+  return {one.q, one.density, one.unit, one.hurst.hurst};
+}
+
+nb::dict psd(const Topography& surface, metrology::PsdConvention convention,
+             std::optional<metrology::PsdWindow> window, const nb::object& progress) {
+  const auto spectra = watched(progress, [&](const Observer&) {
+    metrology::PsdOptions options;
+    options.convention = convention;
+    options.window = window;
+    return metrology::power_spectra(surface, options);
+  });
+  nb::dict all;
+  all["x"] = row_of(spectra.x);
+  all["y"] = row_of(spectra.y);
+  all["radial"] = row_of(spectra.radial);
+  all["window"] = std::string(metrology::name_of(spectra.window));
+  return all;
+}
+
+WarningTexts warnings_about(const Topography& surface) {
+  return texts_of(analysis::of_surface(surface));
+}
+
+void require_no_holes(const Topography& surface) {
+  topography::require_no_holes(surface, surface.source, "surface.fill('harmonic') fills them");
+}
+
+void bind_topography(nb::module_& module) {
+  nb::class_<Topography>(module, "Topography")
+      .def("__getstate__",
+           [](nb::handle_t<Topography> self) {
+             const auto& one = nb::cast<const Topography&>(self);
+             return std::make_tuple(view_of(one.height, self), state_of(one));
+           })
+      .def("__setstate__",
+           [](Topography& self, const std::tuple<MapArgument, TopographyState>& state) {
+             new (&self) Topography(topography_of(std::get<0>(state), std::get<1>(state)));
+           })
+      .def_prop_ro("height",
+                   [](nb::handle_t<Topography> self) {
+                     return view_of(nb::cast<const Topography&>(self).height, self);
+                   })
+      .def_prop_ro("lx", [](const Topography& self) { return self.grid.lx; })
+      .def_prop_ro("ly", [](const Topography& self) { return self.grid.ly; })
+      .def_prop_ro("n_holes", &topography::count_holes)
+      .def_prop_ro("warnings", &warnings_about)
+      .def_ro("periodic", &Topography::periodic)
+      .def_ro("source", &Topography::source)
+      .def_ro("format", &Topography::format)
+      .def_ro("instrument", &Topography::instrument)
+      .def_ro("channel", &Topography::channel)
+      .def_ro("metadata", &Topography::metadata)
+      .def_ro("history", &Topography::history);
+}
+
+}  // namespace
+
+void bind_surface(nb::module_& module) {
+  using namespace nb::literals;
+  bind_topography(module);
+  nb::class_<scan::ReadOptions>(module, "ReadOptions")
+      .def(nb::init<>())
+      .def_rw("channel", &scan::ReadOptions::channel)
+      .def_rw("pixel_x", &scan::ReadOptions::pixel_x)
+      .def_rw("pixel_y", &scan::ReadOptions::pixel_y)
+      .def_rw("unit", &scan::ReadOptions::unit)
+      .def_rw("z_scale", &scan::ReadOptions::z_scale)
+      .def_rw("override_unit", &scan::ReadOptions::override_unit);
+  module.def("make_surface", &make_surface, "height"_a, "dx"_a, "dy"_a, "periodic"_a, "source"_a);
+  module.def("read", &read, "file"_a, "options"_a, "progress"_a.none());
+  module.def("write", &scan::write, "surface"_a, "file"_a);
+  module.def("apply", &apply, "surface"_a, "treatment"_a, "progress"_a.none());
+  module.def("treatment_steps", &treatment_steps);
+  module.def("require_no_holes", &require_no_holes, "surface"_a);
+  module.def("parameters", &parameters, "surface"_a, "progress"_a.none());
+  module.def(
+      "psd",
+      [](const Topography& surface, const std::string& convention,
+         const std::optional<std::string>& window, const nb::object& progress) {
+        const auto known = metrology::psd_convention_from(convention);
+        if (!known) throw InputError("convention", convention, "jacobs, persson or gwyddion", "");
+        std::optional<metrology::PsdWindow> taper;
+        if (window) taper = metrology::psd_window_from(*window);
+        if (window && !taper) throw InputError("window", *window, "none or hann", "");
+        return psd(surface, *known, taper, progress);
+      },
+      "surface"_a, "convention"_a, "window"_a.none(), "progress"_a.none());
+}
+
+}  // namespace tabor::python

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <nanobind/ndarray.h>
+
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "bindings.hpp"
+#include "tabor/analysis/settings.hpp"
+#include "tabor/analysis/warning.hpp"
+#include "tabor/core/column.hpp"
+#include "tabor/core/types.hpp"
+#include "tabor/core/units.hpp"
+
+// What goes between C++ and Python: maps, records, warnings and objections.
+namespace tabor::python {
+
+/// A map as a read-only array of NumPy; it is not copied and keeps its owner alive.
+using MapView = nb::ndarray<nb::numpy, const double, nb::ndim<2>, nb::c_contig>;
+MapView view_of(const Field& field, nb::handle owner);
+
+/// Heights or films that Python hands over: C-ordered float64 of shape (ny, nx).
+using MapArgument = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+Field field_of(const MapArgument& array);
+
+/// The numbers of a record by the names of `--json`; a NaN stays one.
+nb::dict dict_of(const NamedCells& cells);
+
+/// (code, text, weight) of each.
+using WarningTexts = std::vector<std::tuple<std::string, std::string, double>>;
+WarningTexts texts_of(const analysis::Warnings& warnings);
+analysis::Warnings warnings_of(const WarningTexts& texts);
+
+/// "length", as parse_si of the module takes it.
+std::string name_of(const Dimension& dimension);
+
+/// How the package calls what analysis calls by this name.
+std::string argument_of(std::string_view setting);
+/// Throws what analysis objects to.
+void check(const std::optional<analysis::Objection>& objection);
+
+}  // namespace tabor::python

@@ -1,0 +1,108 @@
+#include "watched.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace tabor::python {
+namespace {
+
+constexpr std::chrono::milliseconds kPeriod{20};
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// What the work says of itself, for the thread that waits.
+struct News {
+  std::string stage;
+  double fraction = kUnknown;
+  double certificate = kUnknown;
+};
+
+/// Work on a thread of its own.
+class Worker {
+ public:
+  explicit Worker(const std::function<void(const Observer&)>& work)
+      : thread_([this, &work] { run(work); }) {}
+  ~Worker() { thread_.join(); }
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  /// True if it ended within the period.
+  bool ends() {
+    std::unique_lock lock(mutex_);
+    return ended_.wait_for(lock, kPeriod, [this] { return has_ended_; });
+  }
+  void stop() { stops_ = true; }
+  News news() {
+    const std::lock_guard lock(mutex_);
+    return news_;
+  }
+  /// What it threw, once it has ended.
+  std::exception_ptr error() const { return error_; }
+
+ private:
+  void run(const std::function<void(const Observer&)>& work) {
+    try {
+      work([this](const Progress& progress) { return listen(progress); });
+    } catch (...) {
+      error_ = std::current_exception();
+    }
+    const std::lock_guard lock(mutex_);
+    has_ended_ = true;
+    ended_.notify_all();
+  }
+
+  bool listen(const Progress& progress) {
+    const std::lock_guard lock(mutex_);
+    news_ = {.stage = std::string(progress.stage),
+             .fraction = progress.fraction,
+             .certificate =
+                 progress.convergence != nullptr ? progress.convergence->certificate : kUnknown};
+    return !stops_;
+  }
+
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool has_ended_ = false;
+  std::atomic<bool> stops_ = false;
+  News news_;
+  std::exception_ptr error_;
+  std::thread thread_;  // last: it uses the others
+};
+
+/// Raises what a signal's handler or the callable raised.
+void ask_python(const nb::object& progress, Worker& worker) {
+  if (PyErr_CheckSignals() != 0) throw nb::python_error();
+  if (progress.is_none()) return;
+  const News news = worker.news();
+  if (!news.stage.empty()) progress(news.stage.c_str(), news.fraction, news.certificate);
+}
+
+}  // namespace
+
+void watch(const nb::object& progress, const std::function<void(const Observer&)>& work) {
+  std::optional<nb::python_error> raised;
+  std::exception_ptr error;
+  {
+    const nb::gil_scoped_release unlocked;
+    Worker worker(work);
+    while (!worker.ends()) {
+      const nb::gil_scoped_acquire locked;
+      try {
+        if (!raised) ask_python(progress, worker);
+      } catch (nb::python_error& found) {
+        raised.emplace(std::move(found));
+        worker.stop();
+      }
+    }
+    error = worker.error();
+  }
+  if (raised) throw std::move(*raised);
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace tabor::python

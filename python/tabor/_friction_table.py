@@ -1,0 +1,79 @@
+"""Friction of a study or a result for forming codes."""
+
+from __future__ import annotations
+
+import os
+import pathlib
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from . import _tabor
+from ._values import Value, si_list
+
+
+class FrictionEntry(NamedTuple):
+    """One coefficient of friction: the mean over scans."""
+
+    mean_pressure: float  #: [Pa]
+    lubricant_density: float  #: [kg/m^2]; 0 is dry
+    sliding_speed: float | None  #: [m/s]; None where friction does not depend on it
+    friction: float
+    standard_deviation: float  #: NaN for one scan
+    n: int  #: scans
+
+
+class FrictionTable:
+    """Coefficients of friction over pressure, density of the oil and sliding speed (docs/friction_tables.md).
+
+    Parameters
+    ----------
+    results : folder of a study, or a file of ``tabor friction -o`` or ``save``.
+    group : of scans; needed where there are several.
+    density : densities [kg/m^2]; 0 is dry friction [those of the result].
+    keep : codes of warnings whose numbers stay in.
+
+    Raises
+    ------
+    ValueError
+        For what is no such result, a group or a density that is not there, and where nothing remains.
+    """
+
+    def __init__(self, results: str | os.PathLike[str], *, group: str | None = None,
+                 density: Value | Sequence[Value] | None = None, keep: Sequence[str] = ()) -> None:
+        densities = [] if density is None else si_list(density, "areal_density", "density")[0]
+        self._results = os.fspath(results)
+        self._choice = _tabor.FrictionTableChoice(group, densities, list(keep))
+        rows, self.left_out = _tabor.friction_table(self._results, self._choice)
+        self.entries: tuple[FrictionEntry, ...] = tuple(FrictionEntry(*row) for row in rows)
+
+    def deck(self, program: str, units: str, first_id: int = 1) -> str:
+        """The text of a deck for "abaqus", "lsdyna", "ansys", "openradioss" or "csv", with the numbers in the
+        units that follow from a length, a time and a mass or a force: "mm,s,t"."""
+        return _tabor.deck(self._results, self._choice, program, units, first_id)
+
+    def _write(self, file: str | os.PathLike[str], program: str, units: str, first_id: int = 1) -> None:
+        _tabor.write_file(pathlib.Path(file), self.deck(program, units, first_id).encode())
+
+    def to_abaqus(self, file: str | os.PathLike[str], *, units: str) -> None:
+        """Writes *FRICTION."""
+        self._write(file, "abaqus", units)
+
+    def to_lsdyna(self, file: str | os.PathLike[str], *, units: str, first_id: int = 1) -> None:
+        """Writes *DEFINE_TABLE and *DEFINE_CURVE."""
+        self._write(file, "lsdyna", units, first_id)
+
+    def to_ansys(self, file: str | os.PathLike[str], *, units: str, first_id: int = 1) -> None:
+        """Writes TB,FRIC."""
+        self._write(file, "ansys", units, first_id)
+
+    def to_openradioss(self, file: str | os.PathLike[str], *, units: str, first_id: int = 1) -> None:
+        """Writes /FRICTION."""
+        self._write(file, "openradioss", units, first_id)
+
+    def to_csv(self, file: str | os.PathLike[str], *, units: str = "m,s,kg") -> None:
+        """Writes a line per number."""
+        self._write(file, "csv", units)
+
+    def __repr__(self) -> str:
+        return f"FrictionTable of {self._results}: {len(self.entries)} numbers" + (
+            f"; left out: {self.left_out}" if self.left_out else "")

@@ -1,0 +1,58 @@
+"""What a long computation tells while it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any, Union
+
+#: True for a bar of tqdm (plain lines without tqdm); or what is called up to fifty times a second with
+#: (stage, done share 0..1, certificate), where NaN is unknown.
+Progress = Union[bool, None, Callable[[str, float, float], Any]]
+
+
+@contextmanager
+def watching(progress: Progress) -> Iterator[Callable[[str, float, float], Any] | None]:
+    """The callable that the extension module asks for; a bar is closed at the end."""
+    if progress is None or progress is False:
+        yield None
+    elif progress is not True:
+        if not callable(progress):
+            raise TypeError(f"progress: got {type(progress).__name__}; expected True, False or a callable")
+        yield progress
+    else:
+        bar = _Bar()
+        try:
+            yield bar
+        finally:
+            bar.close()
+
+
+class _Bar:
+    """A bar of tqdm, or one line per stage where tqdm is not installed."""
+
+    def __init__(self) -> None:
+        self._stage = ""
+        self._bar: Any = None
+        try:
+            from tqdm.auto import tqdm
+        except ImportError:
+            return
+        self._bar = tqdm(total=1.0, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed}{postfix}")
+
+    def __call__(self, stage: str, fraction: float, certificate: float) -> None:
+        if self._bar is None:
+            if stage != self._stage:
+                print(stage, flush=True)
+            self._stage = stage
+            return
+        self._bar.set_description_str(stage, refresh=False)
+        if fraction == fraction:
+            self._bar.n = min(1.0, max(0.0, fraction))
+        if certificate == certificate:
+            self._bar.set_postfix_str(f"certificate {certificate:.1e}", refresh=False)
+        self._bar.refresh()
+
+    def close(self) -> None:
+        if self._bar is not None:
+            self._bar.close()

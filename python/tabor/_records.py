@@ -1,0 +1,79 @@
+"""What all results have in common: numbers by name, warnings, and what to cite."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+
+class Warning(NamedTuple):
+    """One reason to doubt a number; docs/warnings.md says what to do."""
+
+    code: str
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def warnings_of(texts: Iterable[tuple[str, str, float]]) -> tuple[Warning, ...]:
+    """Warnings as a result keeps them."""
+    return tuple(Warning(code, text) for code, text, _ in texts)
+
+
+class Record:
+    """A result that does not change. ``values`` has its numbers by the names that ``--json`` and
+    result files give them, whose endings are the units."""
+
+    _facts: tuple[tuple[str, str, str], ...] = ()  #: heading, key, unit of what repr shows
+
+    def __init__(self, values: Mapping[str, Any], warnings: tuple[Warning, ...],
+                 references: tuple[str, ...]) -> None:
+        self.__dict__["_values"] = dict(values)
+        self.__dict__["warnings"] = warnings
+        self.__dict__["references"] = references
+
+    warnings: tuple[Warning, ...]  #: reasons to doubt its numbers
+    references: tuple[str, ...]  #: what to cite: keys of the bibliography of ``tabor cite``
+
+    @property
+    def values(self) -> Mapping[str, Any]:
+        """All numbers by name."""
+        return MappingProxyType(self.__dict__["_values"])
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"a {type(self).__name__} does not change")
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+    def save(self, file: Any, *, fields: str = "all", double: bool = False) -> None:
+        """Writes it as ``tabor.save`` does."""
+        from ._save import save
+        save(file, self, fields=fields, double=double)
+
+    def _lines(self) -> list[tuple[str, str]]:
+        from . import _tabor
+        lines = []
+        for heading, key, unit in self._facts:
+            value = self.__dict__["_values"][key]
+            lines.append((heading, _tabor.format_si(value, unit) if unit else f"{value:.4g}"))
+        return lines + [("warning", warning.text) for warning in self.warnings]
+
+    def __repr__(self) -> str:
+        lines = self._lines()
+        width = max(len(heading) for heading, _ in lines)
+        return "\n".join([type(self).__name__] + [f"  {h:<{width}}  {t}" for h, t in lines])
+
+    def _repr_html_(self) -> str:
+        return table_html(type(self).__name__, self._lines())
+
+
+def table_html(title: str, lines: list[tuple[str, str]], picture: str = "") -> str:
+    """Headings and texts as a table for notebooks; ``picture`` is a base64 PNG."""
+    rows = "".join(f"<tr><th style='text-align:left'>{html.escape(heading)}</th>"
+                   f"<td style='text-align:left'>{html.escape(text)}</td></tr>" for heading, text in lines)
+    image = f"<img src='data:image/png;base64,{picture}' alt='heights'>" if picture else ""
+    return f"<div><b>{html.escape(title)}</b>{image}<table>{rows}</table></div>"

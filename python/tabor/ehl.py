@@ -1,0 +1,173 @@
+"""Films under load: cases of ``tabor ehl`` (docs/ehl.md, docs/ehl_line.md, docs/ehl_point.md).
+
+A case is a file, or a mapping of its keys; settings override them, as ``--set`` does:
+
+>>> import tabor as tb
+>>> case = tb.ehl.squeeze(tb.ehl.template("squeeze"))
+>>> case.solve().converged
+True
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import pathlib
+from collections.abc import Iterator, Mapping
+from types import MappingProxyType
+from typing import Any, NamedTuple, Union
+
+from . import _tabor
+from ._contact import NotConverged
+from ._progress import Progress, watching
+from ._records import table_html
+
+__all__ = ["Case", "Key", "Solution", "Template", "impact", "keys", "line", "point", "squeeze", "template"]
+
+
+class Template(str):
+    """The text of a case file."""
+
+
+#: A case file, its keys, plain ("ball.radius") or in tables, or the text of one.
+Source = Union[str, "os.PathLike[str]", Mapping[str, Any], Template]
+
+
+class Key(NamedTuple):
+    """One key of a case."""
+
+    name: str
+    unit: str
+    usual: str  #: value if it is not given
+    meaning: str
+
+
+class Solution:
+    """What was found out about a case. It does not change."""
+
+    values: Mapping[str, Any]  #: numbers by the names of ``--json``, whose endings are the units; tables as dicts
+    facts: tuple[tuple[str, str], ...]  #: the same for people
+    warnings: tuple[str, ...]  #: reasons to doubt them
+    references: tuple[str, ...]  #: what to cite
+    converged: bool
+
+    def __init__(self, solved: _tabor.SolvedCase, program: str) -> None:
+        self.__dict__.update(_solved=solved, program=program, _values=json.loads(solved.json), warnings=tuple(solved.warnings),
+                             facts=tuple(solved.facts), references=tuple(solved.references), converged=solved.converged)
+
+    def __getattr__(self, name: str) -> Any:
+        if name == "values":
+            return MappingProxyType(self.__dict__["_values"])
+        raise AttributeError(f"a Solution has no {name}")
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError("a Solution does not change")
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_solved": None}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+    def save(self, file: str | os.PathLike[str]) -> None:
+        """Writes the file of ``tabor ehl -o``, with histories and profiles. Raises OSError, and ValueError for
+        a solution that came out of a pickle, which has its numbers alone."""
+        if self._solved is None:
+            raise ValueError("save: histories and profiles do not travel with a pickle; save it where it is solved")
+        self._solved.save(pathlib.Path(file))
+
+    def _lines(self) -> list[tuple[str, str]]:
+        return [*self.facts, *(("warning", text) for text in self.warnings)]
+
+    def __repr__(self) -> str:
+        lines = self._lines()
+        width = max(len(heading) for heading, _ in lines)
+        return "\n".join([f"Solution of ehl {self.program}"] + [f"  {h:<{width}}  {t}" for h, t in lines])
+
+    def _repr_html_(self) -> str:
+        return table_html(f"Solution of ehl {self.program}", self._lines())
+
+
+class Case:
+    """A case that can be solved, and pickled for process pools."""
+
+    def __init__(self, program: str, source: Source, settings: Mapping[str, Any]) -> None:
+        overrides = [(key, _toml(value)) for key, value in _flat(settings)]
+        if isinstance(source, Mapping):
+            overrides = [(key, _toml(value)) for key, value in _flat(source)] + overrides
+            self._case = _tabor.parse_case(program, "", "case", overrides)
+        elif isinstance(source, Template):
+            self._case = _tabor.parse_case(program, source, "case", overrides)
+        else:
+            self._case = _tabor.read_case(program, os.fspath(source), overrides)
+        self.program = program
+        self._name = "case" if isinstance(source, (Mapping, Template)) else os.path.abspath(source)
+
+    @property
+    def toml(self) -> str:
+        """The case as the text of its file."""
+        return self._case.toml
+
+    def __getstate__(self) -> tuple[str, str, str]:
+        return self.program, self._name, self.toml
+
+    def __setstate__(self, state: tuple[str, str, str]) -> None:
+        self.program, self._name, text = state
+        self._case = _tabor.parse_case(self.program, text, self._name, [])
+
+    def __repr__(self) -> str:
+        return f"Case of ehl {self.program}\n{self.toml}"
+
+    def solve(self, *, seed: int = 1, check: bool = True, progress: Progress = None) -> Solution:
+        """Solves it. ``seed`` is that of generated surfaces whose case names none. Raises ValueError for values
+        out of range, NotConverged unless ``check`` is False."""
+        with watching(progress) as told:
+            found = Solution(_tabor.solve_case(self._case, seed, told), self.program)
+        if check and not found.converged:
+            raise NotConverged(f"ehl {self.program}: the film does not converge; check=False returns it all the same", found)
+        return found
+
+
+def _flat(settings: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+    for key, value in settings.items():
+        if isinstance(value, Mapping):
+            yield from _flat(value, f"{before}{key}.")
+        else:
+            yield before + key, value
+
+
+def _toml(value: Any) -> str:
+    """TOML, whose numbers, texts, switches and lists are those of JSON."""
+    if hasattr(value, "magnitude"):
+        return json.dumps(f"{value.to_base_units():~C}".replace("**", "^"))
+    return json.dumps(os.fspath(value) if isinstance(value, os.PathLike) else value)
+
+
+def impact(case: Source, **settings: Any) -> Case:
+    """A ball falls on a lubricated flat. Raises ValueError for unknown keys, with the nearest one."""
+    return Case("impact", case, settings)
+
+
+def squeeze(case: Source, **settings: Any) -> Case:
+    """A roller closes on a sliding flat. Raises ValueError for unknown keys, with the nearest one."""
+    return Case("squeeze", case, settings)
+
+
+def line(case: Source, **settings: Any) -> Case:
+    """A line contact, smooth, rough or worn. Raises ValueError for unknown keys, with the nearest one."""
+    return Case("line", case, settings)
+
+
+def point(case: Source, **settings: Any) -> Case:
+    """A point contact, smooth or rough. Raises ValueError for unknown keys, with the nearest one."""
+    return Case("point", case, settings)
+
+
+def keys(program: str) -> tuple[Key, ...]:
+    """All keys of the cases of a program: "impact", "squeeze", "line" or "point"."""
+    return tuple(Key(*row) for row in _tabor.case_keys(program))
+
+
+def template(program: str) -> Template:
+    """A case to start from, with every key there is."""
+    return Template(_tabor.case_template(program))

@@ -1,0 +1,229 @@
+"""Contacts: closed forms, refusals, certificates, and what stops them."""
+
+import pickle
+import signal
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import tabor as tb
+from conftest import heights
+
+
+def wave(n=64, amplitude=1e-6, wavelength=64e-6):
+    x = 2 * np.pi * (np.arange(n) + 0.5) / n
+    return tb.Surface(np.tile(amplitude * np.cos(x), (n, 1)), pixel=wavelength / n, periodic=True)
+
+
+def test_a_wave_is_flattened_at_westergaards_pressure():
+    solid = tb.Solid(youngs_modulus=1e11, poissons_ratio=0)
+    full = np.pi * 1e11 * 1e-6 / 64e-6
+    for share in (0.1, 0.5, 0.9):
+        found = tb.contact(wave(256), share * full, solid)
+        expected = 2 / np.pi * np.arcsin(np.sqrt(share))  # Westergaard 1939
+        assert found.values["contact_area_fraction_pixels"] == pytest.approx(expected, abs=2 / 256)
+    assert tb.contact(wave(), 1.01 * full, solid).values["contact_area_fraction_pixels"] == 1
+
+
+def test_the_load_is_carried_and_the_maps_agree(rough, steel):
+    found = tb.contact(rough, "50 MPa", steel)
+    assert found.pressure.mean() == pytest.approx(5e7, rel=1e-12)
+    assert found.pressure.min() >= 0 and found.pressure.max() <= 2e9
+    separation = found.values["separation_m"]
+    np.testing.assert_allclose(found.gap, separation + found.displacement - rough.height, atol=1e-18)
+    assert found.converged and found.certificate <= 1e-6
+    assert found.mean_pressure == 5e7 and 0 < found.area_fraction < 1
+
+
+def test_maps_are_read_only_views_of_the_result(rough, steel):
+    found = tb.contact(rough, "50 MPa", steel)
+    view = found.pressure
+    assert not view.flags.writeable and np.shares_memory(view, found.pressure)
+    kept = view.copy()
+    del found
+    np.testing.assert_array_equal(view, kept)
+
+
+def test_several_pressures_give_a_list_of_the_same_contacts(rough, steel):
+    many = tb.contact(rough, np.array([2e7, 5e7]), steel)
+    assert [one.mean_pressure for one in many] == [2e7, 5e7]
+    np.testing.assert_array_equal(many[1].pressure, tb.contact(rough, 5e7, steel).pressure)
+
+
+def test_a_load_path_keeps_plastic_indentation(rough):
+    soft = tb.Solid(youngs_modulus="210 GPa", poissons_ratio=0.3, saturation_pressure="400 MPa")
+    fresh = tb.contact(rough, [2e8, 5e7], soft)
+    path = tb.contact(rough, [2e8, 5e7], soft, load_path=True)
+    np.testing.assert_array_equal(fresh[0].pressure, path[0].pressure)
+    assert path[1].area_fraction > fresh[1].area_fraction
+
+
+def test_warnings_have_a_code_and_a_text(levelled):
+    found = tb.contact(levelled, "7 MPa", tb.Solid("aluminium-6016"))
+    assert found.warnings and all(one.code and one.text for one in found.warnings)
+    assert found.references and found.warnings[0].text in repr(found) and "certificate" in found._repr_html_()
+
+
+def test_a_result_does_not_change(rough, steel):
+    found = tb.contact(rough, 5e7, steel)
+    with pytest.raises(AttributeError, match="a Contact does not change"):
+        found.area = 1
+    with pytest.raises(TypeError):
+        found.values["seconds"] = 0
+
+
+def test_the_library_knows_solids():
+    known = {one.name: one for one in tb.materials()}
+    solid = tb.Solid("steel-dc04")
+    assert solid.youngs_modulus == known["steel-dc04"].youngs_modulus
+    assert tb.Solid("steel-dc04", youngs_modulus="1 GPa").youngs_modulus == 1e9
+    assert tb.Solid("aluminium", saturation_pressure="240 MPa") == tb.Solid("aluminium-6016")
+    assert tb.Solid("aluminium-6016", saturation_pressure="none").saturation_pressure is None
+
+
+def test_a_counter_body_makes_it_softer():
+    rigid = tb.Solid(youngs_modulus=1e11, poissons_ratio=0)
+    both = tb.Solid(youngs_modulus=1e11, poissons_ratio=0, counter_youngs_modulus=1e11, counter_poissons_ratio=0)
+    assert (rigid.effective_modulus, both.effective_modulus) == (1e11, 5e10)
+
+
+@pytest.mark.parametrize("arguments, text", [
+    ({"material": "steel-dc4"}, "steel-dc04"), ({"material": "steel"}, "steel-100cr6, steel-dc04"),
+    ({}, "give youngs_modulus and poissons_ratio"),
+    ({"youngs_modulus": 1e9}, "give youngs_modulus and poissons_ratio"),
+    ({"youngs_modulus": -1e9, "poissons_ratio": 0.3}, "modulus"),
+    ({"youngs_modulus": 1e9, "poissons_ratio": 0.7}, "ratio"),
+    ({"youngs_modulus": "70", "poissons_ratio": 0.3}, "youngs_modulus"),
+    ({"youngs_modulus": 1e9, "poissons_ratio": 0.3, "counter_youngs_modulus": 1e9}, "belong together")])
+def test_solids_that_do_not_exist_are_refused(arguments, text):
+    with pytest.raises(ValueError, match=text):
+        tb.Solid(**arguments)
+
+
+@pytest.mark.parametrize("pressure, changes, text", [
+    (0, {}, "pressure: got 0 Pa; expected more than zero"),
+    (-1e6, {}, "expected more than zero"),
+    (2e9, {}, "expected less than the saturation pressure 2 GPa"),
+    (1e6, {"tolerance": 1}, "tolerance: got 1; expected 1e-12 to 1e-4"),
+    (1e6, {"boundary": "periodc"}, "did you mean 'periodic'"),
+    (1e6, {"solver": "slow"}, "solver: got 'slow'")])
+def test_what_no_contact_can_be_is_refused(rough, steel, pressure, changes, text):
+    with pytest.raises(ValueError, match=text):
+        tb.contact(rough, pressure, steel, **changes)
+
+
+def test_holes_are_refused_with_the_remedy(steel):
+    z = heights()
+    z[3, 3] = np.nan
+    with pytest.raises(ValueError, match=r"surface.fill\('harmonic'\)"):
+        tb.contact(tb.Surface(z, pixel=1e-6), 1e6, steel)
+
+
+def test_a_contact_that_does_not_converge_is_raised_with_its_result():
+    slats = tb.Surface(heights(64), pixel=(1e-3, 1e-8), periodic=True)  # 1e5 times longer than wide
+    elastic = tb.Solid(youngs_modulus=2e11, poissons_ratio=0.3)
+    found = tb.contact(slats, 1e9, elastic, tolerance=1e-12, solver="polonsky-keer", check=False)
+    assert not found.converged and found.certificate > 1e-12
+    with pytest.raises(tb.NotConverged, match="check=False") as raised:
+        tb.contact(slats, 1e9, elastic, tolerance=1e-12, solver="polonsky-keer")
+    assert raised.value.result.certificate == found.certificate
+    assert pickle.loads(pickle.dumps(raised.value)).result.certificate == found.certificate
+
+
+@pytest.fixture(scope="module")
+def slow_case():
+    """A contact of several seconds."""
+    surface = tb.Surface(heights(1024), pixel=1e-6, periodic=True)
+    return surface, tb.Solid(youngs_modulus="210 GPa", poissons_ratio=0.3)
+
+
+def seconds_to_stop(surface, solid):
+    """From Ctrl-C in the middle of a long path to the exception."""
+    sent = []
+
+    def interrupt():
+        time.sleep(0.4)
+        sent.append(time.perf_counter())
+        signal.raise_signal(signal.SIGINT)
+
+    sender = threading.Thread(target=interrupt)
+    sender.start()
+    with pytest.raises(KeyboardInterrupt):
+        tb.contact(surface, np.geomspace(1e8, 1e9, 500), solid, tolerance=1e-12)
+    waited = time.perf_counter() - sent[0]
+    sender.join()
+    return waited
+
+
+def test_ctrl_c_stops_within_three_tenths_of_a_second(slow_case):
+    assert min(seconds_to_stop(*slow_case) for _ in range(3)) < 0.3  # of three: other programs take cores
+
+
+def test_other_threads_run_meanwhile(slow_case):
+    surface, solid = slow_case
+    ticks, ends = [], threading.Event()
+
+    def tick():
+        while not ends.wait(0.01):
+            ticks.append(time.perf_counter())
+
+    ticker = threading.Thread(target=tick)
+    ticker.start()
+    start = time.perf_counter()
+    tb.contact(surface, 1e8, solid)
+    seconds = time.perf_counter() - start
+    ends.set()
+    ticker.join()
+    assert sum(start < moment < start + seconds for moment in ticks) > seconds / 0.1
+
+
+def test_progress_is_told_and_what_it_raises_stops(slow_case):
+    surface, solid = slow_case
+    stages = []
+    tb.contact(surface, 1e8, solid, progress=lambda stage, share, certificate: stages.append(stage))
+    assert stages
+
+    def refuse(stage, share, certificate):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        tb.contact(surface, 1e8, solid, progress=refuse)
+    with pytest.raises(TypeError, match="progress"):
+        tb.contact(surface, 1e8, solid, progress=3)
+
+
+def test_a_bar_is_shown_without_a_word_elsewhere(slow_case, capfd):
+    surface, solid = slow_case
+    tb.contact(surface, 1e8, solid, progress=True)
+    shown = capfd.readouterr()
+    assert "contact" in shown.out + shown.err
+
+
+def test_threads_do_not_change_a_bit(rough, steel):
+    try:
+        tb.set_threads(1)
+        one = tb.contact(rough, 5e7, steel)
+    finally:
+        tb.set_threads(0)
+    np.testing.assert_array_equal(one.pressure, tb.contact(rough, 5e7, steel).pressure)
+
+
+def test_a_pickled_contact_is_the_same(rough, steel):
+    found = tb.contact(rough, 5e7, steel)
+    copy = pickle.loads(pickle.dumps(found))
+    for name in ("pressure", "displacement", "gap"):
+        np.testing.assert_array_equal(getattr(copy, name), getattr(found, name))
+    assert (dict(copy.values), copy.warnings, copy.references, copy.solid) == (
+        dict(found.values), found.warnings, found.references, found.solid)
+    film = tb.rain(rough, "0.2 g/m^2")
+    assert dict(tb.friction(copy, film).values) == dict(tb.friction(found, film).values)
+
+
+def test_xarray_has_maps_units_and_numbers(rough, steel):
+    pytest.importorskip("xarray")
+    found = tb.contact(rough, 5e7, steel)
+    data = found.to_xarray()
+    np.testing.assert_array_equal(data.gap.values, found.gap)
+    assert data.pressure.attrs["units"] == "Pa" and data.attrs["mean_pressure_Pa"] == 5e7

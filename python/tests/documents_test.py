@@ -1,0 +1,67 @@
+"""What documents show is what the package does."""
+
+import doctest
+import importlib
+import os
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+import tabor as tb
+from conftest import ROOT
+
+
+@pytest.fixture(autouse=True)
+def in_the_root():
+    before = pathlib.Path.cwd()
+    os.chdir(ROOT)
+    yield
+    os.chdir(before)
+
+
+def test_the_session_of_the_page_prints_what_it_shows():
+    found = doctest.testfile(str(ROOT / "docs" / "python.md"), module_relative=False, encoding="utf-8",
+                             optionflags=doctest.REPORT_NDIFF)
+    assert found.attempted > 15 and found.failed == 0
+
+
+def test_types_hold():
+    pytest.importorskip("mypy")
+    package = pathlib.Path(tb.__file__).parent
+    if not (package / "_tabor.pyi").is_file():
+        pytest.skip("the stub of the extension module is not built")
+    checked = subprocess.run([sys.executable, "-m", "mypy", "--config-file", ROOT / "pyproject.toml", "--cache-dir",
+                              os.devnull, package], capture_output=True, text=True, check=False)
+    assert checked.returncode == 0, checked.stdout
+
+
+def test_every_step_has_a_method_and_a_type():
+    source = (ROOT / "python" / "tabor" / "_surface.py").read_text("utf-8")
+    for name, _, text in tb._tabor.treatment_steps():
+        assert text[1:] in getattr(tb.Surface, name).__doc__
+        assert f"        def {name}(self, *" in source
+
+
+@pytest.mark.parametrize("name", ["_cite", "_contact", "_friction", "ehl", "_surface", "_values"])
+def test_examples_of_docstrings_hold(name):
+    assert doctest.testmod(importlib.import_module(f"tabor.{name}")).failed == 0
+
+
+def test_all_that_is_public_is_explained():
+    for name in tb.__all__:
+        thing = getattr(tb, name)
+        assert name == "Progress" or thing.__doc__, name
+        if isinstance(thing, type):
+            members = [value for key, value in vars(thing).items() if not key.startswith("_")]
+            assert all(value.__doc__ for value in members if callable(value) or isinstance(value, property)), name
+
+
+def test_the_readme_gives_a_friction_number():
+    lines = (ROOT / "README.md").read_text("utf-8").splitlines()
+    code = [line.removeprefix("    ") for line in lines if line.startswith(("    import tabor", "    sheet", "    pressed", "    oil", "    print("))]
+    assert len(code) >= 5
+    names = {}
+    exec("\n".join(code), names)
+    assert 0 < names["pressed"].area_fraction < 1

@@ -1,0 +1,145 @@
+"""Studies give the rows of the command line, and either continues what the other began."""
+
+import signal
+import subprocess
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import tabor as tb
+
+GROUPS = ("before", "after")
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory, scan_file):
+    folder = tmp_path_factory.mktemp("scans")
+    sheet = tb.read(scan_file).level("plane")
+    for i, group in enumerate(GROUPS):
+        sheet.crop(96 * i, 96, 48, 48).write(folder / f"{group}_1.h5")
+    return folder
+
+
+def study_of(folder, **changes):
+    settings = dict(pressure=["2 MPa", 7e6], density=["0.45 g/m^2", 0.9e-3], treatment=["level=plane"])
+    return tb.Study({group: folder / f"{group}_*.h5" for group in GROUPS}, tb.Solid("aluminium-6016"),
+                    **{**settings, **changes})
+
+
+def test_rows_are_those_of_single_calls_to_the_last_bit(folder, tmp_path):
+    found = study_of(folder).run(tmp_path / "r", jobs=2)
+    assert not found.failures and len(found.rows) == 8 and len(found.averages) == 8
+    surface = tb.read(folder / "before_1.h5").level("plane")
+    one = tb.friction(tb.contact(surface, 7e6, tb.Solid("aluminium-6016")), tb.rain(surface, ["0.45 g/m^2", 0.9e-3])[1])
+    row = [row for row in found.rows if str(row["scan"]).endswith("before_1.h5")
+           and row["mean_pressure_Pa"] == 7e6 and row["lubricant_density_g_per_m2"] == 0.9]
+    assert len(row) == 1
+    assert row[0]["friction_lubricated"] == one.lubricated and row[0]["friction_dry"] == one.dry
+
+
+def test_a_finished_study_is_not_computed_again(folder, tmp_path):
+    study = study_of(folder)
+    assert study.run(tmp_path / "r").n_contacts == 4
+    assert study.run(tmp_path / "r").n_contacts == 0
+    assert tb.Study.read(tmp_path / "r" / "study.toml").run(tmp_path / "r").n_contacts == 0
+
+
+def test_the_command_line_continues_it(program, folder, tmp_path):
+    study_of(folder, pressure="2 MPa").run(tmp_path / "r")
+    study_of(folder)._write(tmp_path / "r" / "study.toml")
+    run = subprocess.run([program, "sweep", tmp_path / "r" / "study.toml", "-o", tmp_path / "r", "--json"],
+                         capture_output=True, text=True, check=True)
+    assert '"n_computed_contacts": 2' in run.stdout
+    assert study_of(folder).run(tmp_path / "r").n_contacts == 0
+
+
+def test_the_table_is_a_data_frame(folder, tmp_path):
+    pytest.importorskip("pandas")
+    found = study_of(folder).run(tmp_path / "r")
+    table = found.table.pivot_table(index="mean_pressure_Pa", values="friction_lubricated",
+                                    columns="lubricant_density_g_per_m2")
+    assert table.shape == (2, 2) and np.isfinite(table.values).all()
+
+
+def test_scans_have_settings_of_their_own(folder, tmp_path):
+    before = folder / "before_1.h5"
+    own = tb.Scans(before, pressure=["1 MPa", 3e6], density=0, treatment=["level=plane", "lowpass=gauss:2um"],
+                   contact="elastic", reading="literal")
+    study = tb.Study({"before": [before, folder / "after_1.h5"], "filtered": own}, tb.Solid("aluminium-6016"),
+                     pressure="7 MPa", density="0.45 g/m^2", treatment=["level=plane"])
+    assert study.n_cases == 4
+    rows = {(row["group"], row["mean_pressure_Pa"]): row for row in study.run(tmp_path / "r").rows}
+    assert rows["filtered", 3e6]["saturated_area_fraction"] == 0 < rows["before", 7e6]["saturated_area_fraction"]
+    surface = tb.read(before).treat("level=plane", "lowpass=gauss:2um")
+    one = tb.contact(surface, 3e6, tb.Solid("aluminium-6016", saturation_pressure="none"))
+    assert rows["filtered", 3e6]["contact_area_fraction"] == one.area_fraction
+    assert rows["filtered", 3e6]["lubricant_density_g_per_m2"] == 0
+
+
+def test_curves_and_what_they_say_are_those_of_single_calls(folder, tmp_path):
+    found = study_of(folder).run(tmp_path / "r")
+    surface = tb.read(folder / "after_1.h5").level("plane")
+    curve = tb.density_curve(tb.contact(surface, 7e6, tb.Solid("aluminium-6016")))
+    rows = [row for row in found.density_curves if row["group"] == "after" and row["mean_pressure_Pa"] == 7e6]
+    assert [row["friction_lubricated"] for row in rows] == curve.friction_lubricated.tolist()
+    assert len(found.answers) == 4
+    assert f"after at 7 MPa: {curve.says([0.45e-3, 0.9e-3])}" in found.answers
+    dry = study_of(folder, density=0).run(tmp_path / "dry")
+    assert dry.density_curves == [] and dry.answers == ()
+
+
+def test_ctrl_c_keeps_what_is_finished(tmp_path, scan_file):
+    study = tb.Study({"all": scan_file}, tb.Solid("aluminium-6016"), pressure=np.linspace(1e6, 5e7, 100))
+    sender = threading.Thread(target=lambda: (time.sleep(1), signal.raise_signal(signal.SIGINT)))
+    sender.start()
+    with pytest.raises(KeyboardInterrupt):
+        study.run(tmp_path / "r")
+    sender.join()
+    assert len(tb.Results(tmp_path / "r").rows) < 100
+
+
+@pytest.mark.parametrize("changes, text", [
+    ({"pressure": "7"}, "pressure: got '7' without a unit"),
+    ({"pressure": "1 GPa"}, "study:[0-9]+: sweep.mean_pressure.*saturation"),
+    ({"density": "-1 g/m^2"}, "lubricant_density"),
+    ({"treatment": ["levle=plane"]}, "did you mean 'level'"),
+    ({"pressure": None}, "sweep.mean_pressure is missing"),
+    ({"model": "droplet"}, "did you mean 'droplets'")])
+def test_what_no_study_can_be_is_refused(folder, changes, text):
+    with pytest.raises(ValueError, match=text):
+        study_of(folder, **changes)
+
+
+@pytest.mark.parametrize("own, text", [
+    ({"pressure": "1 GPa"}, "saturation"), ({"contact": "plastic"}, "elastic or saturated"),
+    ({"reading": "literl"}, "did you mean 'literal'"), ({"density": "-1 g/m^2"}, "zero or more"),
+    ({"treatment": ["levle=plane"]}, "did you mean 'level'"), ({"pixel": "1 MPa"}, "pixel")])
+def test_settings_that_no_scan_can_have_are_refused(folder, own, text):
+    with pytest.raises(ValueError, match=text):
+        tb.Study({"a": tb.Scans(folder / "before_1.h5", **own)}, tb.Solid("aluminium-6016"), pressure=1e6)
+
+
+def test_missing_scans_and_folders_are_named(tmp_path):
+    with pytest.raises(ValueError, match="scans: no file 'none_"):
+        tb.Study({"a": "none_*.x3p"}, tb.Solid("aluminium-6016"), pressure=1e6)
+    with pytest.raises(ValueError, match="no results.csv"):
+        tb.Results(tmp_path)
+
+
+def test_decks_are_those_of_the_command_line(program, folder, tmp_path):
+    table = study_of(folder).run(tmp_path / "r").friction_table(group="before", keep=["flood"])
+    assert len(table.entries) == 4 and all(0 < one.friction < 1 and one.n == 1 for one in table.entries)
+    for name, write in [("lsdyna", table.to_lsdyna), ("abaqus", table.to_abaqus), ("ansys", table.to_ansys),
+                        ("openradioss", table.to_openradioss), ("csv", table.to_csv)]:
+        run = subprocess.run([program, "table", tmp_path / "r", "--for", name, "--units", "mm,s,t", "--group", "before",
+                              "--keep", "flood"], capture_output=True, text=True, check=True)
+        write(tmp_path / "deck", units="mm,s,t")
+        cards = [[line for line in text.splitlines() if not line.startswith(("$", "**", "!", "#"))]
+                 for text in (run.stdout, (tmp_path / "deck").read_text("utf-8"))]
+        assert len(cards[0]) >= 3 and cards[0] == cards[1]
+    with pytest.raises(ValueError, match="before"):
+        tb.FrictionTable(tmp_path / "r")
+    with pytest.raises(ValueError, match="units|parsec"):
+        table.to_csv(tmp_path / "deck", units="parsec,s,t")
