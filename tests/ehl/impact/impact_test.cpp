@@ -181,7 +181,7 @@ TEST(BallStepper, LosesAsMuchLiquidAsFlowsOut) {
   const double outflow = ball.grid.width[40] * reynolds::face_flow(last, edge, 0).flow;
   const double lost = (ball.grid.volume * (start.film_mass - next->film_mass)).sum();
   expect_within("EHL", "one step of an approach", "liquid lost against outflow, relative",
-                "conservation", std::abs(lost / (outflow * step) - 1), 1e-5);
+                "conservation", std::abs(lost / (outflow * step) - 1), 1e-9);
   EXPECT_NEAR(next->speed, start.speed + step * next->force / (2 * ball.mass), 1e-9);
 }
 

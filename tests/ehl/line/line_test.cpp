@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "ehl/line/akchurin.hpp"
+#include "support/independent.hpp"
 #include "support/stopping.hpp"
 #include "support/validation.hpp"
 #include "tabor/core/error.hpp"
@@ -23,19 +24,16 @@ using testing::HasSubstr;
 
 constexpr double kNano = 1e-9;
 
-TEST(SolveLine, FindsTheFilmOfTable6WithTheGrid) {
-  // Of an independent computation with the same inputs, by number of nodes.
-  const double expected[] = {82.7, 83.2, 83.4};
-  Index nodes = 300;
-  for (const double film : expected) {
+TEST(SolveLine, FindsTheFilmOfTable6OnCoarseGridsToo) {
+  const double theirs = test::independent("line_film", {"Table 6", "limit", "min_film_nm"});
+  for (const Index nodes : {300, 600, 1200}) {
     LineProblem problem = table_6();
     problem.nodes = nodes;
     const LineResult result = solve_line(problem);
     EXPECT_TRUE(result.convergence.converged());
     EXPECT_LE(result.load_error, 1e-8);
     EXPECT_LE(result.mass_error, 1e-8);
-    EXPECT_NEAR(result.min_film / kNano, film, 1);
-    nodes *= 2;
+    EXPECT_NEAR(result.min_film / kNano, theirs, 300.0 / static_cast<double>(nodes)) << nodes;
   }
 }
 
@@ -82,12 +80,14 @@ TEST(SolveLine, AgreesWithTable6) {
   LineProblem problem = table_6();
   problem.nodes = 1200;
   const LineResult result = solve_line(problem);
-  expect_within("EHL", "line contact, Table 6", "smallest film against 83.4 nm, nm",
-                "independent computation", std::abs(result.min_film / kNano - 83.4), 0.05);
-  expect_within("EHL", "line contact, Table 6", "central film against 105.6 nm, nm",
-                "independent computation", std::abs(result.central_film / kNano - 105.6), 0.05);
-  expect_within("EHL", "line contact, Table 6", "largest pressure against 27.43 MPa, relative",
-                "independent computation", std::abs(result.max_pressure / 27.43e6 - 1), 3.6e-4);
+  const auto error = [](double value, const char* key) {
+    return std::abs(value / test::independent("line_film", {"Table 6", "limit", key}) - 1);
+  };
+  const std::string source = test::independent_source("line_film");
+  expect_within("EHL", "line contact, Table 6", "central film, relative", source,
+                error(result.central_film / kNano, "central_film_nm"), 1e-4);
+  expect_within("EHL", "line contact, Table 6", "largest pressure, relative", source,
+                error(result.max_pressure / 1e6, "max_pressure_mpa"), 1e-4);
   test::record_unreproduced(
       "EHL", "line contact, Table 6", "smallest film, nm", "Akchurin's thesis", 52,
       result.min_film / kNano,
@@ -97,7 +97,6 @@ TEST(SolveLine, AgreesWithTable6) {
 
 struct Reading {
   const char* name;
-  double film;  // [nm], of an independent computation
   void (*change)(LineProblem&);
 };
 
@@ -109,43 +108,47 @@ TEST_P(ReadingsOfTable6, GiveTheFilmOfAnIndependentComputation) {
   GetParam().change(problem);
   const LineResult result = solve_line(problem);
   EXPECT_TRUE(result.convergence.converged());
-  expect_within("EHL", std::string("line contact, Table 6, ") + GetParam().name,
-                "smallest film, nm", "independent computation",
-                std::abs(result.min_film / kNano - GetParam().film), 0.1);
+  const double theirs = test::independent("line_film", {GetParam().name, "limit", "min_film_nm"});
+  expect_within("EHL", std::string("line contact, ") + GetParam().name, "smallest film, relative",
+                test::independent_source("line_film"),
+                std::abs(result.min_film / kNano / theirs - 1), 2.5e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(
     EHL, ReadingsOfTable6,
-    testing::Values(
-        Reading{
-            "constant viscosity", 81.5,
-            [](LineProblem& p) { p.lubricant.viscosity = material::constant_viscosity(0.3638); }},
-        Reading{"compressible", 83.6,
-                [](LineProblem& p) {
-                  p.lubricant.density =
-                      material::relative_density(material::DensityLaw::rounded_dowson_higginson);
-                }},
-        Reading{"half the modulus", 108.4, [](LineProblem& p) { p.effective_modulus /= 2; }},
-        Reading{"twice the modulus", 64.6, [](LineProblem& p) { p.effective_modulus *= 2; }},
-        Reading{"twice the load", 71.9, [](LineProblem& p) { p.load *= 2; }},
-        Reading{"half the speed", 54.5, [](LineProblem& p) { p.entrainment_speed /= 2; }},
-        Reading{"half the speed, a ball of 2.381 mm", 52.4,
-                [](LineProblem& p) {
-                  p.entrainment_speed /= 2;
-                  p.radius = 2.381e-3;
-                  p.load = 5 / (0.4 * p.radius);
-                }},
-        Reading{"0.168 Pa s", 51.9, [](LineProblem& p) {
-                  p.lubricant.viscosity = material::barus_viscosity(0.168, 5.9e-9);
-                }}));
+    testing::Values(Reading{"Table 6", [](LineProblem&) {}},
+                    Reading{"constant viscosity",
+                            [](LineProblem& p) {
+                              p.lubricant.viscosity = material::constant_viscosity(0.3638);
+                            }},
+                    Reading{"compressible",
+                            [](LineProblem& p) {
+                              p.lubricant.density = material::relative_density(
+                                  material::DensityLaw::rounded_dowson_higginson);
+                            }},
+                    Reading{"half the modulus", [](LineProblem& p) { p.effective_modulus /= 2; }},
+                    Reading{"twice the modulus", [](LineProblem& p) { p.effective_modulus *= 2; }},
+                    Reading{"twice the load", [](LineProblem& p) { p.load *= 2; }},
+                    Reading{"half the speed", [](LineProblem& p) { p.entrainment_speed /= 2; }},
+                    Reading{"half the speed, a ball of 2.381 mm",
+                            [](LineProblem& p) {
+                              p.entrainment_speed /= 2;
+                              p.radius = 2.381e-3;
+                              p.load = 5 / (0.4 * p.radius);
+                            }},
+                    Reading{"0.168 Pa s", [](LineProblem& p) {
+                              p.lubricant.viscosity = material::barus_viscosity(0.168, 5.9e-9);
+                            }}));
 
 TEST(SolveLine, GivesTheFrictionOfAShearedFilm) {
-  for (const auto& [viscosity, expected] : {std::pair{0.3638, 0.0030}, {0.987, 0.0044}}) {
+  for (const auto& [viscosity, name] : {std::pair{0.3638, "Table 6"}, {0.987, "0.987 Pa s"}}) {
     LineProblem problem = table_6();
+    problem.nodes = 1200;
     problem.lubricant.viscosity = material::barus_viscosity(viscosity, 5.9e-9);
-    expect_within("EHL", fmt::format("line contact, {} Pa s", viscosity), "friction coefficient",
-                  "independent computation",
-                  std::abs(solve_line(problem).friction_coefficient - expected), 5e-5);
+    const double theirs = test::independent("line_film", {name, "limit", "friction"});
+    expect_within("EHL", fmt::format("line contact, {} Pa s", viscosity),
+                  "friction coefficient, relative", test::independent_source("line_film"),
+                  std::abs(solve_line(problem).friction_coefficient / theirs - 1), 3e-3);
   }
 }
 

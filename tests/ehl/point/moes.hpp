@@ -40,14 +40,19 @@ inline double film_unit(const ehl::PointProblem& problem) {
   return half_axis * half_axis / problem.radius_x;
 }
 
-/// Film at (0, 0) by straight lines between the nodes [m].
-inline double film_at_centre(const ehl::PointProblem& problem, const ehl::PointResult& result) {
+/// Value at (0, 0) of a field by straight lines between the nodes.
+inline double value_at_centre(const ehl::PointProblem& problem, const Field& field) {
   const double place =
       problem.inlet / (problem.inlet + problem.outlet) * static_cast<double>(problem.nodes_x - 1);
   const auto i = static_cast<Index>(place);
   const Index j = (problem.nodes_y - 1) / 2;
   const double share = place - static_cast<double>(i);
-  return (1 - share) * result.film(j, i) + share * result.film(j, i + 1);
+  return share > 0 ? (1 - share) * field(j, i) + share * field(j, i + 1) : field(j, i);
+}
+
+/// Film at (0, 0) [m].
+inline double film_at_centre(const ehl::PointProblem& problem, const ehl::PointResult& result) {
+  return value_at_centre(problem, result.film);
 }
 
 }  // namespace tabor::test
