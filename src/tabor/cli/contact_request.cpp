@@ -123,9 +123,9 @@ void declare_fields(OptionSet& set, FieldsRequest& request) {
   declare_output(set, request.output);
   constexpr const char* file = "--output";
   set.choice("--fields", analysis::kFields,
-             "maps in OUT.h5: contact has heights, pressure and film [all]", request.options.fields)
+             "maps in OUT: contact has heights, pressure and film [all]", request.options.fields)
       .only_with = file;
-  set.toggle("--double", "keep maps in OUT.h5 in double precision", request.options.doubles)
+  set.toggle("--double", "keep maps in OUT in double precision", request.options.doubles)
       .only_with = file;
 }
 

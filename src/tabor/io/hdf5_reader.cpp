@@ -329,6 +329,13 @@ std::array<Index, 2> Hdf5Reader::map_shape(const std::string& path) const {
   return {map.ny(), map.nx()};
 }
 
+Precision Hdf5Reader::precision(const std::string& path) const {
+  const Session session;
+  const OpenMap map = file_->open_map(path);
+  const std::size_t exact = map.what.kind == H5T_FLOAT ? sizeof(float) : sizeof(std::int16_t);
+  return H5Tget_size(map.what.type) <= exact ? Precision::float32 : Precision::float64;
+}
+
 Field Hdf5Reader::field(const std::string& path,
                         const std::function<void(double)>& progress) const {
   const Session session;
