@@ -127,6 +127,7 @@ void declare_fields(OptionSet& set, FieldsRequest& request) {
       .only_with = file;
   set.toggle("--double", "keep maps in OUT in double precision", request.options.doubles)
       .only_with = file;
+  declare_csv(set, "one row per state with the keys of --json", request.csv);
 }
 
 std::optional<analysis::FieldsFile> fields_file(const FieldsRequest& request,
