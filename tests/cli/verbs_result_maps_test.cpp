@@ -71,8 +71,8 @@ TEST_F(ResultMapsVerb, MakeTheDisplacementThatTheFileLeavesOut) {
     const auto at = static_cast<Index>(i);
     EXPECT_EQ(table.number(i, "pressure_Pa"), pressure.data()[at]);
     EXPECT_EQ(table.number(i, "contact"), pressure.data()[at] > 0 ? 1 : 0);
-    EXPECT_NEAR(table.number(i, "displacement_m"),
-                gap.data()[at] + height.data()[at] - separation, 1e-20);
+    EXPECT_NEAR(table.number(i, "displacement_m"), gap.data()[at] + height.data()[at] - separation,
+                1e-20);
   }
 }
 
@@ -87,8 +87,8 @@ TEST_F(ResultMapsVerb, TakeOneScanOfAStudyWhoseStatesAreItsRows) {
     words.insert(words.end(), {"--scan", "1", "--state", "2"});
     return words;
   }());
-  EXPECT_EQ(object["maps"], (io::Json{"height", "gap", "film_thickness", "contact",
-                                      "displacement"}));
+  EXPECT_EQ(object["maps"],
+            (io::Json{"height", "gap", "film_thickness", "contact", "displacement"}));
   solve("f.h5");
   for (const char* field : {"contact", "film_thickness"}) {
     run({"convert", file("f.h5"), file("one.csv"), "--field", field, "--state", "2"});

@@ -178,8 +178,11 @@ ResultMaps read_result_maps(const Hdf5Reader& reader, const fs::path& file) {
   const bool has_path = has_load_path(reader);
   for (const std::string& name : reader.children("/states")) {
     const bool is_first = result.states.empty();
-    add_state(reader, {.contact = "/states/" + name, .film = {}, .fluid = {},
-                       .keeps_height = is_first || !has_path},
+    add_state(reader,
+              {.contact = "/states/" + name,
+               .film = {},
+               .fluid = {},
+               .keeps_height = is_first || !has_path},
               result);
   }
   return result;

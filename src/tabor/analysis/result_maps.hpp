@@ -28,9 +28,9 @@ struct ResultMaps {
 
 /// What the groups of one state hold, for add_state(). Paths are in the file; "": none.
 struct StateGroups {
-  std::string contact;  ///< pressure or state, and gap
-  std::string film;     ///< film_thickness
-  std::string fluid;    ///< fluid_pressure, ...
+  std::string contact;       ///< pressure or state, and gap
+  std::string film;          ///< film_thickness
+  std::string fluid;         ///< fluid_pressure, ...
   bool keeps_height = true;  ///< the surface is not one that earlier states have left
 };
 

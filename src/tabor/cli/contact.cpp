@@ -88,10 +88,9 @@ int show(const Request& request, Context& context) {
   describe(settings, facts);
   const std::string text =
       facts.text() + '\n' + table_of(analysis::contact_columns(), records).text();
-  return finish(
-      context, object,
-      write_csv(request.file.csv, states_csv(analysis::contact_columns(), records), text),
-      ended == kInterrupted ? ended : code);
+  return finish(context, object,
+                write_csv(request.file.csv, states_csv(analysis::contact_columns(), records), text),
+                ended == kInterrupted ? ended : code);
 }
 
 void declare_extras(OptionSet& set, analysis::ContactSettings& settings) {

@@ -78,8 +78,7 @@ std::string state_text(const analysis::ResultMaps& result, std::optional<std::si
 
 int convert_maps(const Request& request, Context& context) {
   require_no_scan_options(request);
-  const analysis::ResultMaps result =
-      study::read_maps(request.scan.file, request.scan_number);
+  const analysis::ResultMaps result = study::read_maps(request.scan.file, request.scan_number);
   analysis::MapChoice choice = request.choice;
   choice.field = *request.field;
   const scan::MapSet maps = chosen_maps(result, choice);
@@ -125,8 +124,9 @@ void declare_maps(OptionSet& set, Request& request) {
            .placeholder = "N|all",
            .help = "of which state: the number in the result, from 0 [0]",
            .only_with = kField,
-           .assign = [&choice = request.choice](
-                         const std::string& text) { choice.state = parse_state(text); }});
+           .assign = [&choice = request.choice](const std::string& text) {
+             choice.state = parse_state(text);
+           }});
   set.count("--scan", "of which scan of a study, from 0 [the only one]", request.scan_number)
       .only_with = kField;
 }

@@ -167,10 +167,9 @@ int show_one(const Request& request, Context& context) {
   const Measured measured = measure(request, request.files.front(), context);
   warn_of({measured}, context);
   if (request.output) io::write_file(*request.output, csv_table({measured.row}));
-  const std::string text = measured.facts + '\n' + grouped_table(measured.row.parameters) +
-                           other_sets(request, context);
-  return finish(context, measured.object,
-                write_csv(request.csv, csv_table({measured.row}), text));
+  const std::string text =
+      measured.facts + '\n' + grouped_table(measured.row.parameters) + other_sets(request, context);
+  return finish(context, measured.object, write_csv(request.csv, csv_table({measured.row}), text));
 }
 
 io::Json json_of(const std::vector<Measured>& all, const Context& context) {
@@ -306,29 +305,30 @@ void declare_output(OptionSet& set, Request& request) {
 }  // namespace
 
 Verb params_verb() {
-  return {.name = "params",
-          .arguments = "SCAN [SCAN...] [options]",
-          .summary = "roughness parameters (ISO 25178-2, ISO 21920-2), each with its definition",
-          .details =
-              "Several scans stand side by side, each treated in the same way. A scan that cannot "
-              "be read is named, the others are measured all the same, and the exit code is 3. With "
-              "--group the CSV has a row per group and parameter.",
-          .examples = {"tabor params surfaces/edt_before.x3p --level plane",
-                       "tabor params surfaces/edt_before.x3p --level plane --lowpass gauss:8um "
-                       "--set height,function --json",
-                       "tabor params surfaces/edt_before.x3p surfaces/edt_after.x3p --level plane "
-                       "--set height --csv",
-                       "tabor params surfaces/edt_before.x3p surfaces/edt_after.x3p --level plane "
-                       "--set height --group 'edt=edt_*'"},
-          .declare = [](OptionSet& set) -> Action {
-            const auto request = std::make_shared<Request>();
-            declare_scans(set, request->scan, request->files);
-            declare_groups(set, request->groups);
-            declare_parameters(set, *request);
-            declare_profiles(set, *request);
-            declare_output(set, *request);
-            return [request](Context& context) { return show(*request, context); };
-          }};
+  return {
+      .name = "params",
+      .arguments = "SCAN [SCAN...] [options]",
+      .summary = "roughness parameters (ISO 25178-2, ISO 21920-2), each with its definition",
+      .details =
+          "Several scans stand side by side, each treated in the same way. A scan that cannot "
+          "be read is named, the others are measured all the same, and the exit code is 3. With "
+          "--group the CSV has a row per group and parameter.",
+      .examples = {"tabor params surfaces/edt_before.x3p --level plane",
+                   "tabor params surfaces/edt_before.x3p --level plane --lowpass gauss:8um "
+                   "--set height,function --json",
+                   "tabor params surfaces/edt_before.x3p surfaces/edt_after.x3p --level plane "
+                   "--set height --csv",
+                   "tabor params surfaces/edt_before.x3p surfaces/edt_after.x3p --level plane "
+                   "--set height --group 'edt=edt_*'"},
+      .declare = [](OptionSet& set) -> Action {
+        const auto request = std::make_shared<Request>();
+        declare_scans(set, request->scan, request->files);
+        declare_groups(set, request->groups);
+        declare_parameters(set, *request);
+        declare_profiles(set, *request);
+        declare_output(set, *request);
+        return [request](Context& context) { return show(*request, context); };
+      }};
 }
 
 }  // namespace tabor::cli

@@ -143,8 +143,8 @@ const Columns<GroupRow>& group_columns() {
       {"mean", "", "", member_of(&ParameterMean::value, &Mean::mean)},
       {"std", "", "", member_of(&ParameterMean::value, &Mean::standard_deviation)},
       {"sem", "", "", member_of(&ParameterMean::value, &Mean::standard_error)}};
-  static const Columns<GroupRow> all = joined<GroupRow>({{"group", "", "", &GroupRow::group}},
-                                                        within(mean, &GroupRow::mean));
+  static const Columns<GroupRow> all =
+      joined<GroupRow>({{"group", "", "", &GroupRow::group}}, within(mean, &GroupRow::mean));
   return all;
 }
 
@@ -222,8 +222,7 @@ std::string group_table(const GroupParameters& group) {
   for (const metrology::ParameterMean& one : group.means) {
     const ReadableUnit unit = readable_unit(one.unit, one.value.mean);
     table.row({one.symbol, unit.name, digits(one.value.mean * unit.factor),
-               digits(one.value.standard_deviation * unit.factor),
-               fmt::format("{}", one.value.n)});
+               digits(one.value.standard_deviation * unit.factor), fmt::format("{}", one.value.n)});
   }
   return table.text();
 }

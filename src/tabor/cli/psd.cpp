@@ -102,8 +102,8 @@ void warn_of(const std::vector<Measured>& all, const Request& request, Context& 
   }
 }
 
-std::vector<GroupSpectra> means_of(const std::vector<GroupMembers>& groups,
-                                   const Request& request, const std::vector<Measured>& all) {
+std::vector<GroupSpectra> means_of(const std::vector<GroupMembers>& groups, const Request& request,
+                                   const std::vector<Measured>& all) {
   std::vector<GroupSpectra> means;
   for (const GroupMembers& group : groups) {
     std::vector<std::string> scans;

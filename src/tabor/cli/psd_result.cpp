@@ -329,12 +329,9 @@ std::vector<Curve> columns_of(const GroupSpectra& group) {
 }
 
 io::Json json_of(const GroupSpectra& group) {
-  return {{"group", group.name},
-          {"scans", group.scans},
-          {"rms_height_m", json_of(group.rms_height)},
-          {"x", json_of(group.x)},
-          {"y", json_of(group.y)},
-          {"radial", json_of(group.radial)}};
+  return {
+      {"group", group.name},   {"scans", group.scans},  {"rms_height_m", json_of(group.rms_height)},
+      {"x", json_of(group.x)}, {"y", json_of(group.y)}, {"radial", json_of(group.radial)}};
 }
 
 std::string text_of(const std::vector<GroupSpectra>& groups) {

@@ -58,7 +58,8 @@ std::vector<GroupMembers> members_of(const std::vector<ScanGroup>& groups,
     }
     std::sort(places.begin(), places.end());
     if (is_used) continue;
-    throw InputError("--group " + group.name, fmt::format("'{}', which no scan fits", group.pattern),
+    throw InputError("--group " + group.name,
+                     fmt::format("'{}', which no scan fits", group.pattern),
                      fmt::format("a pattern of one of: {}", fmt::join(files, ", ")), "");
   }
   return all;

@@ -191,8 +191,7 @@ void write_file(const fs::path& file, const std::function<void(const Append&)>& 
 }
 
 void write_file(const fs::path& file, std::span<const std::byte> bytes) {
-  write_file(file,
-             std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  write_file(file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
 void write_file(const fs::path& file, std::string_view text) {

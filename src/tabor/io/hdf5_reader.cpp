@@ -139,8 +139,10 @@ struct Hdf5Reader::File {
   }
 
   Handle open_attribute(const std::string& path, const std::string& attribute) const {
-    Handle opened(H5Aopen_by_name(id, path.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                  &H5Aclose);
+    // By name from this file, the library (1.10.8) would look for texts of an object behind an
+    // external link in this file.
+    const Handle object(H5Oopen(id, path.c_str(), H5P_DEFAULT), &H5Oclose);
+    Handle opened(H5Aopen(object, attribute.c_str(), H5P_DEFAULT), &H5Aclose);
     if (!opened.valid()) fail(path, "has no attribute " + attribute);
     return opened;
   }

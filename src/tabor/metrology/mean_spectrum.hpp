@@ -9,7 +9,7 @@ namespace tabor::metrology {
 
 /// The mean of the densities of several surfaces at each wavevector, and how they scatter.
 struct MeanSpectrum {
-  std::vector<double> q;     ///< [rad/m], rising: where all of them are known
+  std::vector<double> q;      ///< [rad/m], rising: where all of them are known
   std::vector<Mean> density;  ///< at each q, in `unit`
   std::string unit;
 };

@@ -14,9 +14,8 @@ struct Gathered {
 };
 
 std::vector<double>& values_of(const Parameter& parameter, std::vector<Gathered>& all) {
-  const auto known = std::find_if(all.begin(), all.end(), [&](const Gathered& one) {
-    return one.symbol == parameter.symbol;
-  });
+  const auto known = std::find_if(
+      all.begin(), all.end(), [&](const Gathered& one) { return one.symbol == parameter.symbol; });
   if (known != all.end()) return known->values;
   return all.emplace_back(Gathered{parameter.symbol, parameter.unit, {}}).values;
 }

@@ -22,9 +22,9 @@ struct MapWriter {
 
 const std::vector<MapWriter>& writers() {
   static const std::vector<MapWriter> all{
-      {".vti", true, format::write_vti_maps},   {".gwy", true, format::write_gwy_maps},
-      {".csv", true, format::write_csv_maps},   {".xyz", false, format::write_xyz_map},
-      {".npy", false, format::write_npy_map},   {".txt", false, format::write_matrix_map}};
+      {".vti", true, format::write_vti_maps}, {".gwy", true, format::write_gwy_maps},
+      {".csv", true, format::write_csv_maps}, {".xyz", false, format::write_xyz_map},
+      {".npy", false, format::write_npy_map}, {".txt", false, format::write_matrix_map}};
   return all;
 }
 
@@ -57,11 +57,10 @@ std::vector<std::string> map_extensions() {
 void write(const MapSet& maps, const fs::path& file) {
   const MapWriter& writer = writer_for(file);
   if (maps.maps.size() != 1 && !writer.takes_several) {
-    throw InputError(
-        file.string(), fmt::format("{} maps", maps.maps.size()),
-        fmt::format("one map in {}", writer.extension),
-        fmt::format("choose one map of one state, or write {}",
-                    fmt::join(extensions_of_several(), " ")));
+    throw InputError(file.string(), fmt::format("{} maps", maps.maps.size()),
+                     fmt::format("one map in {}", writer.extension),
+                     fmt::format("choose one map of one state, or write {}",
+                                 fmt::join(extensions_of_several(), " ")));
   }
   writer.write(maps, file);
 }

@@ -20,8 +20,8 @@ constexpr const char* kResult = "a result of contact, lubricate, friction or swe
 std::string listed(const Hdf5Reader& reader, const std::vector<std::string>& scans) {
   std::string text;
   for (std::size_t i = 0; i < scans.size(); ++i) {
-    text += fmt::format("{}{} ({})", i > 0 ? ", " : "", i,
-                        reader.text("/scans/" + scans[i], "file"));
+    text +=
+        fmt::format("{}{} ({})", i > 0 ? ", " : "", i, reader.text("/scans/" + scans[i], "file"));
   }
   return text;
 }
@@ -110,8 +110,8 @@ ResultMaps read_maps(const fs::path& result, std::optional<std::size_t> scan) {
   if (fs::is_regular_file(file, unknown) && !io::is_hdf5(file)) {
     throw InputError(file.string(), "no HDF5 file", kResult, "");
   }
-  return io::read_guarded(
-      file, [&](const Hdf5Reader& reader) { return read_from(reader, file, scan); });
+  return io::read_guarded(file,
+                          [&](const Hdf5Reader& reader) { return read_from(reader, file, scan); });
 }
 
 }  // namespace tabor::study

@@ -25,12 +25,11 @@ Field states() {
 }
 
 MapSet two_maps() {
-  return {.grid = {.nx = 3, .ny = 2, .lx = 3e-6, .ly = 4e-6},
-          .maps = {{.name = "pressure", .unit = "Pa", .load = pressures},
-                   {.name = "contact",
-                    .unit = "1",
-                    .load = states,
-                    .precision = io::Precision::float32}}};
+  return {
+      .grid = {.nx = 3, .ny = 2, .lx = 3e-6, .ly = 4e-6},
+      .maps = {
+          {.name = "pressure", .unit = "Pa", .load = pressures},
+          {.name = "contact", .unit = "1", .load = states, .precision = io::Precision::float32}}};
 }
 
 MapSet one_map() {

@@ -119,9 +119,8 @@ void write_npy_map(const MapSet& maps, const std::filesystem::path& file) {
   const Grid& grid = maps.grid;
   const NamedMap& map = maps.maps.front();
   const bool is_single = map.precision == io::Precision::float32;
-  std::string header =
-      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}), }}",
-                  is_single ? "<f4" : "<f8", grid.ny, grid.nx);
+  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}), }}",
+                                   is_single ? "<f4" : "<f8", grid.ny, grid.nx);
   constexpr std::size_t kAlignment = 64;  // numpy aligns the data so that it can be memory-mapped
   const std::size_t before = kMagic.size() + 4;
   header.resize((before + header.size() + kAlignment) / kAlignment * kAlignment - before - 1, ' ');

@@ -11,7 +11,8 @@ namespace {
 bool is_single(const NamedMap& map) { return map.precision == io::Precision::float32; }
 
 std::uint64_t size_of(const NamedMap& map, const Grid& grid) {
-  return static_cast<std::uint64_t>(grid.size()) * (is_single(map) ? sizeof(float) : sizeof(double));
+  return static_cast<std::uint64_t>(grid.size()) *
+         (is_single(map) ? sizeof(float) : sizeof(double));
 }
 
 /// One DataArray; ParaView shows its unit beside the name.
