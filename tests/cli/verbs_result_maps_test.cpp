@@ -120,6 +120,14 @@ TEST_F(ResultMapsVerb, RejectWhatAResultDoesNotHave) {
   EXPECT_FALSE(std::filesystem::exists(out));
 }
 
+TEST_F(ResultMapsVerb, AreTakenAsTheyAreWhateverTheDefaultsOfScans) {
+  solve("f.h5");
+  put_bytes(folder_ / "mine.toml", "level = \"plane\"\n");
+  run({"convert", file("f.h5"), file("a.vti"), "--field", "gap", "--defaults", file("mine.toml")});
+  run({"convert", file("f.h5"), file("b.vti"), "--field", "gap"});
+  EXPECT_EQ(bytes_of(file("a.vti")), bytes_of(file("b.vti")));
+}
+
 TEST_F(ResultMapsVerb, AreWrittenByTheVerbThatMakesThem) {
   solve("f.h5");
   solve("f.vti");

@@ -57,16 +57,30 @@ int convert_scan(const Request& request, Context& context) {
   return finish(context, object, facts.text());
 }
 
-/// What is asked of a scan means nothing for the maps of a result.
-void require_no_scan_options(const Request& request) {
-  const scan::ReadOptions& read = request.scan.read;
-  if (request.scan.treatment.empty() && !read.channel && !read.pixel_x && !read.unit &&
-      !read.z_scale && !read.override_unit) {
-    return;
+/// The options of a scan that are in force.
+std::vector<std::string> scan_flags(const ScanRequest& request) {
+  std::vector<std::string> flags;
+  for (const std::string& step : request.treatment) {
+    flags.push_back("--" + step.substr(0, step.find('=')));
   }
-  throw UsageError(
-      "--field takes a map of a result as it is; leave out reading and treatment, which belong to "
-      "scans");
+  const scan::ReadOptions& read = request.read;
+  if (read.channel) flags.emplace_back("--channel");
+  if (read.pixel_x) flags.emplace_back("--pixel");
+  if (read.unit) flags.emplace_back("--unit");
+  if (read.z_scale) flags.emplace_back("--z-scale");
+  if (read.override_unit) flags.emplace_back("--override-unit");
+  return flags;
+}
+
+/// They mean nothing for the maps of a result; defaults are meant for scans and do no harm.
+void require_no_scan_options(const Request& request, const Context& context) {
+  for (const std::string& flag : scan_flags(request.scan)) {
+    const bool is_default = std::any_of(context.defaults.begin(), context.defaults.end(),
+                                        [&](const auto& used) { return used.first == flag; });
+    if (is_default) continue;
+    throw UsageError("--field takes a map of a result as it is; leave out " + flag +
+                     ", which belongs to scans");
+  }
 }
 
 std::string state_text(const analysis::ResultMaps& result, std::optional<std::size_t> state) {
@@ -77,7 +91,7 @@ std::string state_text(const analysis::ResultMaps& result, std::optional<std::si
 }
 
 int convert_maps(const Request& request, Context& context) {
-  require_no_scan_options(request);
+  require_no_scan_options(request, context);
   const analysis::ResultMaps result = study::read_maps(request.scan.file, request.scan_number);
   analysis::MapChoice choice = request.choice;
   choice.field = *request.field;
