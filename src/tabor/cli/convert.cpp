@@ -165,7 +165,9 @@ Verb convert_verb() {
           .examples = {"tabor convert surfaces/edt_before.x3p edt.gwy",
                        "tabor convert surfaces/edt_before.x3p edt.h5 --level plane --lowpass "
                        "gauss:8um",
-                       "tabor convert contact.h5 gap.vti --field all --state 0"},
+                       "tabor lubricate surfaces/edt_before.x3p --level plane --density 0.9g/m^2 "
+                       "--model limit -o film.h5",
+                       "tabor convert film.h5 film.vti --field all"},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_scan(set, request->scan);
