@@ -17,8 +17,8 @@ from ._surface import Surface
 
 def _target(file: str | os.PathLike[str], surface: Surface, fields: str, double: bool) -> _tabor.Target:
     path = pathlib.Path(file)
-    if path.suffix not in (".h5", ".hdf5"):
-        raise ValueError(f"{path}: expected a name that ends with .h5 or .hdf5")
+    if path.suffix not in (".h5", ".hdf5", ".vti"):
+        raise ValueError(f"{path}: expected a name that ends with .h5, .hdf5 or .vti")
     if path.exists() and os.path.exists(surface.source) and os.path.samefile(path, surface.source):
         raise ValueError(f"{path}: it is the scan that the results are of; choose another name")
     return _tabor.Target(path, fields, double, surface._sha256)
@@ -57,7 +57,7 @@ def save(file: str | os.PathLike[str], results: Record | Sequence[Record], *, fi
 
     Parameters
     ----------
-    file : its name, which ends with .h5.
+    file : its name, which ends with .h5, or with .vti for the maps alone, for ParaView.
     results : contacts, films, frictions or films that flow, of one surface and under the same settings but
         for pressure and density.
     fields : "all" maps; "contact", heights, pressure and film alone; or "none".

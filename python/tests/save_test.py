@@ -139,3 +139,12 @@ def test_xarray_opens_its_maps(rough, steel, tmp_path):
         np.testing.assert_array_equal(data.pressure.values, found.pressure)
         assert data.pressure.attrs["units"] == "Pa" and data.pressure.dims == ("y", "x")
         assert float(data.x[0]) == pytest.approx(0.5e-6, rel=1e-12)
+
+
+def test_maps_for_paraview_are_those_of_the_result_file(tile, program, tmp_path):
+    contact = tb.contact(tile, "2 MPa", SOLID)
+    for name in ("a.vti", "a.h5"):
+        contact.save(tmp_path / name)
+    subprocess.run([program, "convert", tmp_path / "a.h5", tmp_path / "b.vti", "--field", "all"], check=True,
+                   capture_output=True)
+    assert (tmp_path / "a.vti").read_bytes() == (tmp_path / "b.vti").read_bytes()

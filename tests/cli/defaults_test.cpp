@@ -132,7 +132,7 @@ TEST_F(Defaults, ThatAreNoneAreRejected) {
   expect_rejected("contact", "\npressure = \"7 um\"\n", ":2", "pressure");
   expect_rejected("contact", "pressure = true\n", ":1", "number");
   expect_rejected("contact", "material = \"cheese\"\n", ":1", "cheese");
-  expect_rejected("params", "csv = \"yes\"\n", ":1", "true or false");
+  expect_rejected("params", "override_unit = \"yes\"\n", ":1", "true or false");
   expect_rejected("contact", "pressure = \"7 MPa\"\npressure = \"8 MPa\"\n", "", "pressure");
   expect_rejected("contact", "json = true\n", ":1", "json");
   expect_rejected("contact", "output = \"x.h5\"\n", ":1", "output");

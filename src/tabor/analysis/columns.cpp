@@ -150,6 +150,7 @@ Columns<FrictionRecord> columns_before_the_film() {
           {"contact_area_fraction_pixels", "", "", &Record::contact_area_fraction_pixels},
           {"saturated_area_fraction", "", "", &Record::saturated_area_fraction},
           {"mean_gap_m", "m", "", &Record::mean_gap},
+          {"separation_m", "m", "", &Record::separation, kObjectAlone},
           {"mean_film_m", "m", "", &Record::mean_film, kObjectAlone},
           {"", "", "contact", &Record::friction_area_fraction, kPercent},
           {"", "", "corrected", corrected_beside, kPercent},

@@ -7,8 +7,11 @@
 #include <ctime>
 #include <iterator>
 
+#include "tabor/analysis/result_maps.hpp"
 #include "tabor/analysis/states.hpp"
+#include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
+#include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/core/version.hpp"
 #include "tabor/io/columns.hpp"
@@ -69,6 +72,10 @@ std::vector<StateField> kept_of(const std::vector<StateField>& fields, Fields wa
     return wanted == Fields::all || (wanted == Fields::contact && is_contact);
   });
   return kept;
+}
+
+bool is_vti(const std::filesystem::path& file) {
+  return lower(file.extension().string()) == ".vti";
 }
 
 }  // namespace
@@ -173,7 +180,11 @@ Case case_of(const FrictionRecord& record) {
 FieldsFile::FieldsFile(const std::filesystem::path& file, const FieldsOptions& options,
                        const ResultHead& head, const topography::Topography& surface,
                        const ScanOrigin& origin)
-    : writer_(file), grid_(surface.grid), options_(options) {
+    : file_(file), writer_(file), grid_(surface.grid), options_(options) {
+  if (is_vti(file) && options_.fields == Fields::none) {
+    throw InputError(file.string(), "no maps", "fields 'contact' or 'all': a .vti holds maps alone",
+                     "");
+  }
   write_result_head(writer_, head);
   writer_.attribute("/", "input_sha256", origin.sha256);
   if (options_.fields == Fields::none) return;
@@ -223,7 +234,10 @@ void FieldsFile::add_state(std::size_t number, const NamedCells& scalars,
 void FieldsFile::commit(const std::vector<Finding>& warnings) {
   if (n_states_ == 0) return;
   write_warnings(writer_, warnings);
-  writer_.commit();
+  if (!is_vti(file_)) return writer_.commit();
+  const std::filesystem::path& maps = writer_.close();
+  scan::write(chosen_maps(read_result_maps(io::Hdf5Reader(maps), maps), {.state = std::nullopt}),
+              file_);
 }
 
 }  // namespace tabor::analysis

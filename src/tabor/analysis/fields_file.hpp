@@ -85,10 +85,11 @@ Case case_of(const ContactRecord& record);
 Case case_of(const FilmRecord& record);
 Case case_of(const FrictionRecord& record);
 
-/// The `-o` file of contact, lubricate and friction (docs/results.md). Nothing appears under its
-/// name before commit().
+/// The `-o` file of contact, lubricate and friction (docs/results.md): HDF5, or by the extension
+/// .vti the maps alone, for ParaView. Nothing appears under its name before commit().
 class FieldsFile {
  public:
+  /// Throws InputError for a .vti without maps.
   FieldsFile(const std::filesystem::path& file, const FieldsOptions& options,
              const ResultHead& head, const topography::Topography& surface,
              const ScanOrigin& origin);
@@ -114,6 +115,7 @@ class FieldsFile {
   void write_axes(const std::string& group);
   void write_map(const std::string& group, const StateField& field);
 
+  std::filesystem::path file_;
   io::Hdf5Writer writer_;
   Grid grid_;
   FieldsOptions options_;

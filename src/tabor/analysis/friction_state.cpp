@@ -14,6 +14,7 @@ FrictionRecord numbers_of(const ContactRecord& contact, const FilmRecord& film) 
   record.contact_area_fraction_pixels = contact.summary.contact_area_fraction_pixels;
   record.saturated_area_fraction = contact.summary.saturated_area_fraction;
   record.mean_gap = contact.summary.mean_gap;
+  record.separation = contact.summary.separation;
   record.mean_film = film.film.mean_film;
   record.certificate = contact.convergence.certificate;
   record.contact_gap_error = contact.summary.contact_gap_error;

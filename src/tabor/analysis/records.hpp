@@ -105,8 +105,9 @@ struct FrictionRecord {
   double contact_area_fraction = kNoValue;
   double contact_area_fraction_pixels = kNoValue;
   double saturated_area_fraction = kNoValue;
-  double mean_gap = kNoValue;   ///< [m]
-  double mean_film = kNoValue;  ///< [m]
+  double mean_gap = kNoValue;    ///< [m]
+  double separation = kNoValue;  ///< [m]
+  double mean_film = kNoValue;   ///< [m]
   double lubricated_share = kNoValue;
   double spill_over_fraction = kNoValue;
   double trapped_fraction = kNoValue;   ///< of the liquid, in closed pockets

@@ -104,7 +104,7 @@ OptionSet noting_files(const OptionSet& set, NamedFiles& named) {
     if (option.names != FileRole::none) {
       option.assign = [option, &named](const std::string& word) {
         option.assign(word);
-        named.emplace_back(word, option);
+        if (word != option.if_bare) named.emplace_back(word, option);
       };
     }
     noting.add(option);

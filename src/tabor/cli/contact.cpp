@@ -51,7 +51,7 @@ int show(const Request& request, Context& context) {
   require_no_holes(scan);
   if (!request.cutoffs.empty()) {
     return run_lowpass_scan(scan, request.settings, request.cutoffs, request.shear_strength,
-                            context);
+                            request.file.csv, context);
   }
   const analysis::ContactSettings& settings = request.settings.contact;
   const io::Json in_force = analysis::settings_json(settings);
@@ -86,8 +86,10 @@ int show(const Request& request, Context& context) {
   Facts facts;
   describe(scan, facts);
   describe(settings, facts);
+  const std::string text =
+      facts.text() + '\n' + table_of(analysis::contact_columns(), records).text();
   return finish(context, object,
-                facts.text() + '\n' + table_of(analysis::contact_columns(), records).text(),
+                write_csv(request.file.csv, states_csv(analysis::contact_columns(), records), text),
                 ended == kInterrupted ? ended : code);
 }
 

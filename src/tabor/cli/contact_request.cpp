@@ -123,10 +123,11 @@ void declare_fields(OptionSet& set, FieldsRequest& request) {
   declare_output(set, request.output);
   constexpr const char* file = "--output";
   set.choice("--fields", analysis::kFields,
-             "maps in OUT.h5: contact has heights, pressure and film [all]", request.options.fields)
+             "maps in OUT: contact has heights, pressure and film [all]", request.options.fields)
       .only_with = file;
-  set.toggle("--double", "keep maps in OUT.h5 in double precision", request.options.doubles)
+  set.toggle("--double", "keep maps in OUT in double precision", request.options.doubles)
       .only_with = file;
+  declare_csv(set, "one row per state with the keys of --json", request.csv);
 }
 
 std::optional<analysis::FieldsFile> fields_file(const FieldsRequest& request,

@@ -8,6 +8,7 @@
 
 #include "tabor/analysis/fields_file.hpp"
 #include "tabor/analysis/states.hpp"
+#include "tabor/cli/csv_output.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/scan.hpp"
 #include "tabor/cli/table.hpp"
@@ -28,8 +29,9 @@ void declare_friction(OptionSet& set, analysis::FrictionSettings& settings);
 struct FieldsRequest {
   std::optional<std::string> output;  ///< its name; none is written without
   analysis::FieldsOptions options;
+  CsvRequest csv;
 };
-/// Declares -o, --fields and --double.
+/// Declares -o, --fields, --double and --csv.
 void declare_fields(OptionSet& set, FieldsRequest& request);
 /// The file that is asked for, with the settings in force and what to cite; nothing without -o.
 std::optional<analysis::FieldsFile> fields_file(const FieldsRequest& request,
@@ -51,6 +53,12 @@ void describe(const analysis::FluidSettings& settings, Facts& facts);
 /// code: done or interrupted.
 int until_interrupted(Context& context, const std::function<void()>& make_states,
                       const std::string& what = "states");
+
+/// The same numbers as CSV.
+template <typename Record>
+std::string states_csv(const Columns<Record>& columns, const std::vector<Record>& records) {
+  return io::csv_of(columns, records, analysis::media::kObject);
+}
 
 /// The JSON objects of many records.
 template <typename Record>

@@ -28,6 +28,7 @@ struct Request {
   std::optional<std::string> output;
   bool wants_template = false;
   RunRequest run;
+  CsvRequest csv;
 };
 
 const ehl::Program& find_program(const std::string& name) {
@@ -66,7 +67,10 @@ int show_one(const ehl::Program& program, const io::Config& config, const Reques
   io::Json object = json_head(context);
   object["case"] = request.file;
   object.update(result.scalars);
-  return finish(context, object, text_of(result.facts), result.converged ? kDone : kNotConverged);
+  const std::string csv =
+      request.csv.is_asked() ? csv_of(program, {.keys = {}, .values = {{}}}, {result}) : "";
+  return finish(context, object, write_csv(request.csv, csv, text_of(result.facts)),
+                result.converged ? kDone : kNotConverged);
 }
 
 // What the words ask for
@@ -98,6 +102,9 @@ void check_combination(const Request& request, const std::vector<SweepAxis>& swe
         "--shard and --retry work on the cases that a sweep keeps: give a range or a list in --set "
         "and -o OUT.h5");
   }
+  if (request.run.shard && request.csv.is_asked()) {
+    throw UsageError("--csv has all cases: give it to the run without --shard");
+  }
 }
 
 int run(const Request& request, Context& context) {
@@ -109,7 +116,8 @@ int run(const Request& request, Context& context) {
                   io::Config::read(request.file),
                   {},
                   request.output,
-                  request.run};
+                  request.run,
+                  request.csv};
   sweep.axes = take_axes(request.axes, sweep.config);
   check_combination(request, sweep.axes);
   study::EhlSeries series =
@@ -154,6 +162,7 @@ void declare_options(OptionSet& set, Request& request) {
   set.group("Output");
   set.output("OUT.h5", "keep histories, profiles and maps, or the numbers of a sweep",
              hdf5_extensions(), request.output);
+  declare_csv(set, "one row per case with the keys of --json", request.csv);
   set.group("Many cases");
   declare_run_options(set, request.run);
 }

@@ -13,6 +13,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/printable.hpp"
 #include "tabor/core/text.hpp"
+#include "tabor/io/columns.hpp"
 #include "tabor/study/ehl_warnings.hpp"
 
 namespace tabor::cli {
@@ -105,13 +106,34 @@ io::Json result_of(io::Json set, const ehl::CaseResult& result) {
 }
 
 int finish_many(const FilmSweep& sweep, const CaseTable& table, const io::Json& object,
-                const Results& results, Context& context) {
+                const CaseRows& rows, const Results& results, Context& context) {
   const bool converged = all_converged(results);
   io::Json whole = json_head(context);
   whole["case"] = sweep.file;
   whole.update(object);
   whole["converged"] = converged;
-  return finish(context, whole, table.text(), converged ? kDone : kNotConverged);
+  const std::string csv = sweep.csv.is_asked() ? csv_of(sweep.program, rows, results) : "";
+  return finish(context, whole, write_csv(sweep.csv, csv, table.text()),
+                converged ? kDone : kNotConverged);
+}
+
+std::string with_unit(const std::string& key, const std::string& unit) {
+  return unit.empty() ? key : fmt::format("{} [{}]", key, unit);
+}
+
+/// The values of all combinations, in SI where they are no words.
+CaseRows rows_of(const std::vector<SweepAxis>& axes) {
+  CaseRows rows;
+  for (const SweepAxis& axis : axes) rows.keys.push_back(with_unit(axis.key, axis.unit()));
+  for (const study::Places& places : combinations(axes)) {
+    std::vector<Cell>& cells = rows.values.emplace_back();
+    for (std::size_t a = 0; a < axes.size(); ++a) {
+      const bool is_word = axes[a].has_words();
+      cells.push_back(is_word ? Cell(axes[a].values[places[a]])
+                              : Cell(axes[a].numbers()[places[a]]));
+    }
+  }
+  return rows;
 }
 
 /// The axes, in their order: the last one is the fastest.
@@ -175,6 +197,7 @@ int show_results(const FilmSweep& sweep, const Results& results,
   for (const SweepAxis& axis : sweep.axes) keys.push_back(axis.key);
   const CaseColumns columns = study::columns_of(sweep.program, results);
   CaseTable table(keys, columns, {"converged"}, marks);
+  CaseRows rows = rows_of(sweep.axes);
   io::Json shown = io::Json::array();
   const std::vector<study::Places> all = combinations(sweep.axes);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -192,7 +215,7 @@ int show_results(const FilmSweep& sweep, const Results& results,
     table.add_limits(study::limits_of(columns, *study, sweep.axes.front().numbers(), results),
                      object);
   }
-  return finish_many(sweep, table, object, results, context);
+  return finish_many(sweep, table, object, rows, results, context);
 }
 
 void say(const std::string& text, Context& context) {
@@ -256,6 +279,25 @@ int end_early(const FilmSweep& sweep, const study::EhlOutcome& outcome, Context&
 
 }  // namespace
 
+std::string csv_of(const ehl::Program& program, const CaseRows& rows, const Results& results) {
+  const CaseColumns columns = study::columns_of(program, results);
+  std::vector<Cell> cells(rows.keys.begin(), rows.keys.end());
+  for (const ehl::CaseColumn& column : columns) cells.emplace_back(column.key);
+  cells.emplace_back("converged");
+  cells.emplace_back("warnings");
+  std::string csv = io::csv_line_of(cells);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    cells = rows.values[i];
+    for (const ehl::CaseColumn& column : columns) {
+      cells.emplace_back(study::number_of(results[i].scalars, column.key));
+    }
+    cells.emplace_back(results[i].converged);
+    cells.emplace_back(fmt::format("{}", fmt::join(results[i].warnings, "; ")));
+    csv += io::csv_line_of(cells);
+  }
+  return csv;
+}
+
 int show_sweep(const FilmSweep& sweep, study::EhlSeries& series, Context& context) {
   const study::RunOptions options = run_options(sweep.run, context);
   std::optional<study::EhlStore> store;
@@ -289,14 +331,16 @@ int show_study(const FilmSweep& sweep, const std::string& name, Context& context
       warn_of_many(results, {.key = study.key, .values = texts}, context);
   const CaseColumns columns = study::columns_of(sweep.program, results);
   CaseTable table({study.key}, columns, {}, marks);
+  CaseRows rows{{with_unit(study.key, study.unit)}, {}};
   io::Json shown = io::Json::array();
   for (std::size_t i = 0; i < results.size(); ++i) {
+    rows.values.push_back({values[i]});
     table.add({study.unit.empty() ? texts[i] : si(values[i], study.unit)}, results[i], {});
     shown.push_back(result_of({{study.key, texts[i]}}, results[i]));
   }
   io::Json object = {{"study", study.name}, {"results", shown}};
   if (study.has_limit) table.add_limits(study::limits_of(columns, study, values, results), object);
-  return finish_many(sweep, table, object, results, context);
+  return finish_many(sweep, table, object, rows, results, context);
 }
 
 }  // namespace tabor::cli

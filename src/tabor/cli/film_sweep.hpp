@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "tabor/cli/csv_output.hpp"
 #include "tabor/cli/run_options.hpp"
+#include "tabor/core/column.hpp"
 #include "tabor/study/ehl_sweep.hpp"
 
 // Many cases of `tabor ehl` as tables, JSON objects and files.
@@ -19,6 +21,7 @@ struct FilmSweep {
   std::vector<study::SweepAxis> axes;
   std::optional<std::string> output;  ///< HDF5
   RunRequest run;
+  CsvRequest csv;
 
   /// Where a sweep with an output keeps its finished cases until all are done.
   std::filesystem::path folder() const { return *output + ".cases"; }
@@ -27,6 +30,15 @@ struct FilmSweep {
 /// A table, or a JSON object with `results`, of all combinations of the values on the axes; with
 /// limits where three grids were swept. Returns the exit code.
 int show_sweep(const FilmSweep& sweep, study::EhlSeries& series, Context& context);
+
+/// What tells cases apart: keys with their units, and their values in each case.
+struct CaseRows {
+  std::vector<std::string> keys;
+  std::vector<std::vector<Cell>> values;
+};
+/// A row of numbers per case behind those, as CSV.
+std::string csv_of(const ehl::Program& program, const CaseRows& rows,
+                   const std::vector<ehl::CaseResult>& results);
 
 /// The case repeated with other values of one key, and the limit they tend to. Throws UsageError
 /// for a study that the program does not know.

@@ -138,7 +138,11 @@ int show(Request request, Context& context) {
   if (request.resolution_scan) {
     object["resolution"] = states_json(study::resolution_columns(), solved.resolution);
   }
-  return finish(context, object, text_of(scan, request, solved), solved.code);
+  const auto columns = analysis::friction_columns(request.settings.fluid.flows());
+  return finish(context, object,
+                write_csv(request.file.csv, states_csv(columns, solved.records),
+                          text_of(scan, request, solved)),
+                solved.code);
 }
 
 }  // namespace

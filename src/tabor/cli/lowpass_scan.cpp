@@ -66,7 +66,8 @@ std::vector<double> parse_cutoffs(const std::string& text) {
 
 int run_lowpass_scan(const Scan& scan, const analysis::CaseSettings& settings,
                      const std::vector<double>& cutoffs,
-                     const std::optional<double>& shear_strength, Context& context) {
+                     const std::optional<double>& shear_strength, const CsvRequest& csv,
+                     Context& context) {
   std::vector<analysis::LowpassRecord> records;
   std::vector<analysis::Case> cases;
   std::vector<std::vector<double>> areas(settings.mean_pressures.size());  // [pressure][cutoff]
@@ -96,10 +97,11 @@ int run_lowpass_scan(const Scan& scan, const analysis::CaseSettings& settings,
   describe(settings.contact, head);
   Facts facts;
   object["plateaus"] = plateaus_of(settings, cutoffs, areas, facts);
+  const std::string text = head.text() + '\n' +
+                           table_of(analysis::lowpass_columns(), records).text() + '\n' +
+                           facts.text();
   return finish(context, object,
-                head.text() + '\n' + table_of(analysis::lowpass_columns(), records).text() + '\n' +
-                    facts.text(),
-                code);
+                write_csv(csv, states_csv(analysis::lowpass_columns(), records), text), code);
 }
 
 }  // namespace tabor::cli

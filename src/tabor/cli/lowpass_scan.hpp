@@ -16,6 +16,7 @@ std::vector<double> parse_cutoffs(const std::string& text);
 /// result and returns the exit code.
 int run_lowpass_scan(const Scan& scan, const analysis::CaseSettings& settings,
                      const std::vector<double>& cutoffs,
-                     const std::optional<double>& shear_strength, Context& context);
+                     const std::optional<double>& shear_strength, const CsvRequest& csv,
+                     Context& context);
 
 }  // namespace tabor::cli

@@ -61,8 +61,10 @@ int show(const Request& request, Context& context) {
   Facts facts;
   describe(scan, facts);
   describe(settings, facts);
+  const std::string text = facts.text() + '\n' + table_of(analysis::film_columns(), records).text();
   return finish(context, object,
-                facts.text() + '\n' + table_of(analysis::film_columns(), records).text(), code);
+                write_csv(request.file.csv, states_csv(analysis::film_columns(), records), text),
+                code);
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ struct Option {
   bool is_base = false;        ///< assigned before all others, which override it
   bool repeatable = false;
   FileRole names = FileRole::none;
+  std::string if_bare = {};  ///< value where no word with one of its extensions follows; "": none
   std::vector<std::string> extensions = {};  ///< of an output: ".h5"; empty: not told from the name
   std::function<void(const std::string&)> assign = {};  ///< throws InputError or UsageError
 

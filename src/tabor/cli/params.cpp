@@ -7,8 +7,10 @@
 #include <optional>
 #include <ostream>
 
+#include "tabor/cli/csv_output.hpp"
 #include "tabor/cli/params_result.hpp"
 #include "tabor/cli/result.hpp"
+#include "tabor/cli/scan_groups.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
@@ -26,6 +28,7 @@ using metrology::ParameterSet;
 struct Request {
   ScanRequest scan;  ///< how each of the files is read and treated
   std::vector<std::string> files;
+  std::vector<ScanGroup> groups;
   metrology::ParameterOptions options;
   std::optional<std::vector<ParameterSet>> sets;
   std::string stencil = "forward";
@@ -34,7 +37,7 @@ struct Request {
   std::string profile_kind = "roughness";
   std::string profile_ends = "regression";
   std::optional<std::uint64_t> profile_sections;
-  bool csv = false;
+  CsvRequest csv;
   std::optional<std::string> output;
 };
 
@@ -83,7 +86,7 @@ metrology::ProfileOptions profile_options_of(const Request& request) {
 
 /// Whether the result is a table for people that nobody chose the sets of.
 bool is_short(const Request& request, const Context& context) {
-  return !request.sets && !request.csv && !request.output && !context.json;
+  return !request.sets && !request.csv.is_asked() && !request.output && !context.json;
 }
 
 metrology::ParameterOptions options_of(const Request& request, const Context& context) {
@@ -164,10 +167,9 @@ int show_one(const Request& request, Context& context) {
   const Measured measured = measure(request, request.files.front(), context);
   warn_of({measured}, context);
   if (request.output) io::write_file(*request.output, csv_table({measured.row}));
-  if (request.csv) return finish(context, measured.object, csv_table({measured.row}));
-  return finish(context, measured.object,
-                measured.facts + '\n' + grouped_table(measured.row.parameters) +
-                    other_sets(request, context));
+  const std::string text =
+      measured.facts + '\n' + grouped_table(measured.row.parameters) + other_sets(request, context);
+  return finish(context, measured.object, write_csv(request.csv, csv_table({measured.row}), text));
 }
 
 io::Json json_of(const std::vector<Measured>& all, const Context& context) {
@@ -190,7 +192,31 @@ std::string text_of(const std::vector<Measured>& all, const std::vector<ScanPara
   return text + comparison_table(rows);
 }
 
+/// The means over the scans that were measured.
+std::vector<GroupParameters> means_of(const std::vector<GroupMembers>& groups,
+                                      const std::vector<ScanParameters>& rows) {
+  std::vector<GroupParameters> means;
+  for (const GroupMembers& group : groups) {
+    GroupParameters& mean = means.emplace_back(GroupParameters{group.name, {}, {}});
+    std::vector<std::vector<metrology::Parameter>> measured;
+    for (const std::size_t place : group.places) {
+      if (!rows[place].failure.empty()) continue;
+      mean.scans.push_back(rows[place].path);
+      measured.push_back(rows[place].parameters);
+    }
+    mean.means = metrology::parameter_means(measured);
+  }
+  return means;
+}
+
+/// Groups take the place of their scans in a CSV.
+std::string csv_of(const std::vector<ScanParameters>& rows,
+                   const std::vector<GroupParameters>& groups) {
+  return groups.empty() ? csv_table(rows) : csv_table(groups);
+}
+
 int show_many(const Request& request, Context& context) {
+  const std::vector<GroupMembers> members = members_of(request.groups, request.files);
   std::vector<Measured> all;
   all.reserve(request.files.size());
   for (const std::string& file : request.files) all.push_back(try_measure(request, file, context));
@@ -198,36 +224,27 @@ int show_many(const Request& request, Context& context) {
   std::vector<ScanParameters> rows;
   rows.reserve(all.size());
   for (const Measured& measured : all) rows.push_back(measured.row);
-  if (request.output) io::write_file(*request.output, csv_table(rows));
+  const std::vector<GroupParameters> groups = means_of(members, rows);
+  if (request.output) io::write_file(*request.output, csv_of(rows, groups));
   int code = kDone;
   for (const ScanParameters& row : rows) {
     if (row.failure.empty()) continue;
     code = kInput;
     if (!context.json) context.warn("not measured: " + row.failure);
   }
-  const std::string text =
-      request.csv ? csv_table(rows) : text_of(all, rows) + other_sets(request, context);
-  return finish(context, json_of(all, context), text, code);
+  std::string text = text_of(all, rows);
+  io::Json object = json_of(all, context);
+  for (const GroupParameters& group : groups) {
+    text += '\n' + group_table(group);
+    object["groups"].push_back(json_of(group));
+  }
+  text += other_sets(request, context);
+  return finish(context, object, write_csv(request.csv, csv_of(rows, groups), text), code);
 }
 
 int show(const Request& request, Context& context) {
-  return request.files.size() == 1 ? show_one(request, context) : show_many(request, context);
-}
-
-/// The options of a scan, with as many scans as one likes.
-void declare_scans(OptionSet& set, Request& request) {
-  OptionSet one;
-  declare_scan(one, request.scan);
-  for (const Option& option : one.options()) {
-    set.group(option.group);
-    if (option.is_positional()) {
-      set.positionals("SCAN", "scan files, see 'tabor formats'; two or more stand side by side",
-                      request.files)
-          .names = option.names;
-    } else {
-      set.add(option);
-    }
-  }
+  const bool is_one = request.files.size() == 1 && request.groups.empty();
+  return is_one ? show_one(request, context) : show_many(request, context);
 }
 
 void assign_ratios(metrology::ParameterOptions& options, const std::string& text) {
@@ -281,32 +298,37 @@ void declare_profiles(OptionSet& set, Request& request) {
 
 void declare_output(OptionSet& set, Request& request) {
   set.group("Output");
-  set.toggle("--csv", "print CSV in SI units, one row per scan", request.csv);
+  declare_csv(set, "one row per scan", request.csv);
   set.output("OUT.csv", "write the same CSV to a file", {".csv"}, request.output);
 }
 
 }  // namespace
 
 Verb params_verb() {
-  return {.name = "params",
-          .arguments = "SCAN [SCAN...] [options]",
-          .summary = "roughness parameters (ISO 25178-2, ISO 21920-2), each with its definition",
-          .details =
-              "Several scans stand side by side, each treated in the same way. A scan that cannot "
-              "be read is named, the others are measured all the same, and the exit code is 3.",
-          .examples = {"tabor params surfaces/edt_before.x3p --level plane",
-                       "tabor params surfaces/edt_before.x3p --level plane --lowpass gauss:8um "
-                       "--set height,function --json",
-                       "tabor params surfaces/edt_before.x3p surfaces/edt_after.x3p --level plane "
-                       "--set height --csv"},
-          .declare = [](OptionSet& set) -> Action {
-            const auto request = std::make_shared<Request>();
-            declare_scans(set, *request);
-            declare_parameters(set, *request);
-            declare_profiles(set, *request);
-            declare_output(set, *request);
-            return [request](Context& context) { return show(*request, context); };
-          }};
+  return {
+      .name = "params",
+      .arguments = "SCAN [SCAN...] [options]",
+      .summary = "roughness parameters (ISO 25178-2, ISO 21920-2), each with its definition",
+      .details =
+          "Several scans stand side by side, each treated in the same way. A scan that cannot "
+          "be read is named, the others are measured all the same, and the exit code is 3. With "
+          "--group the CSV has a row per group and parameter.",
+      .examples = {"tabor params surfaces/edt_before.x3p --level plane",
+                   "tabor params surfaces/edt_before.x3p --level plane --lowpass gauss:8um "
+                   "--set height,function --json",
+                   "tabor params surfaces/edt_before.x3p surfaces/edt_after.x3p --level plane "
+                   "--set height --csv",
+                   "tabor params surfaces/edt_before.x3p surfaces/edt_after.x3p --level plane "
+                   "--set height --group 'edt=edt_*'"},
+      .declare = [](OptionSet& set) -> Action {
+        const auto request = std::make_shared<Request>();
+        declare_scans(set, request->scan, request->files);
+        declare_groups(set, request->groups);
+        declare_parameters(set, *request);
+        declare_profiles(set, *request);
+        declare_output(set, *request);
+        return [request](Context& context) { return show(*request, context); };
+      }};
 }
 
 }  // namespace tabor::cli

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <set>
 
+#include "tabor/cli/scan_groups.hpp"
 #include "tabor/cli/table.hpp"
+#include "tabor/io/columns.hpp"
 #include "tabor/io/csv.hpp"
 
 namespace tabor::cli {
@@ -114,17 +115,10 @@ std::string change(const Parameter& first, const Parameter& second, const Readab
   return fmt::format("{:+.4g}", (b - a) * unit.factor);
 }
 
-/// File names, or whole paths where names are the same.
-std::vector<std::string> headings(const std::vector<ScanParameters>& scans) {
-  std::vector<std::string> names;
-  std::set<std::string> known;
-  for (const ScanParameters& scan : scans) {
-    names.push_back(std::filesystem::path(scan.path).filename().string());
-    known.insert(names.back());
-  }
-  if (known.size() == names.size()) return names;
-  for (std::size_t i = 0; i < scans.size(); ++i) names[i] = scans[i].path;
-  return names;
+std::vector<std::string> paths_of(const std::vector<ScanParameters>& scans) {
+  std::vector<std::string> paths;
+  for (const ScanParameters& scan : scans) paths.push_back(scan.path);
+  return paths;
 }
 
 std::vector<ScanParameters> without_failures(const std::vector<ScanParameters>& scans) {
@@ -132,6 +126,26 @@ std::vector<ScanParameters> without_failures(const std::vector<ScanParameters>& 
   std::copy_if(scans.begin(), scans.end(), std::back_inserter(good),
                [](const ScanParameters& scan) { return scan.failure.empty(); });
   return good;
+}
+
+/// A line of the table of groups.
+struct GroupRow {
+  std::string group;
+  metrology::ParameterMean mean;
+};
+
+const Columns<GroupRow>& group_columns() {
+  using metrology::ParameterMean;
+  static const Columns<ParameterMean> mean{
+      {"parameter", "", "", &ParameterMean::symbol},
+      {"unit", "", "", &ParameterMean::unit},
+      {"n", "", "", member_of(&ParameterMean::value, &Mean::n)},
+      {"mean", "", "", member_of(&ParameterMean::value, &Mean::mean)},
+      {"std", "", "", member_of(&ParameterMean::value, &Mean::standard_deviation)},
+      {"sem", "", "", member_of(&ParameterMean::value, &Mean::standard_error)}};
+  static const Columns<GroupRow> all =
+      joined<GroupRow>({{"group", "", "", &GroupRow::group}}, within(mean, &GroupRow::mean));
+  return all;
 }
 
 }  // namespace
@@ -167,7 +181,7 @@ std::string grouped_table(const std::vector<Parameter>& parameters) {
 std::string comparison_table(const std::vector<ScanParameters>& scans) {
   const std::vector<ScanParameters> good = without_failures(scans);
   std::vector<std::string> titles{"symbol", "unit"};
-  for (const std::string& name : headings(good)) titles.push_back(name);
+  for (const std::string& name : headings(paths_of(good))) titles.push_back(name);
   if (good.size() == 2) titles.emplace_back("change");
   Table table(titles);
   for (const Parameter* row : rows_of(good)) {
@@ -201,6 +215,35 @@ std::string csv_table(const std::vector<ScanParameters>& scans) {
     text += io::csv_line(cells);
   }
   return text;
+}
+
+std::string group_table(const GroupParameters& group) {
+  Table table({group.name, "unit", "mean", "standard deviation", "n"});
+  for (const metrology::ParameterMean& one : group.means) {
+    const ReadableUnit unit = readable_unit(one.unit, one.value.mean);
+    table.row({one.symbol, unit.name, digits(one.value.mean * unit.factor),
+               digits(one.value.standard_deviation * unit.factor), fmt::format("{}", one.value.n)});
+  }
+  return table.text();
+}
+
+std::string csv_table(const std::vector<GroupParameters>& groups) {
+  std::vector<GroupRow> rows;
+  for (const GroupParameters& group : groups) {
+    for (const metrology::ParameterMean& mean : group.means) rows.push_back({group.name, mean});
+  }
+  return io::csv_of(group_columns(), rows);
+}
+
+io::Json json_of(const GroupParameters& group) {
+  io::Json parameters = io::Json::object();
+  for (const metrology::ParameterMean& mean : group.means) {
+    io::Json row = io::json_of(group_columns(), {group.name, mean});
+    row.erase("group");
+    row.erase("parameter");
+    parameters[mean.symbol] = row;
+  }
+  return {{"group", group.name}, {"scans", group.scans}, {"parameters", parameters}};
 }
 
 io::Json json_of(const std::vector<Parameter>& parameters) {

@@ -5,6 +5,7 @@
 
 #include "tabor/io/json.hpp"
 #include "tabor/metrology/parameter.hpp"
+#include "tabor/metrology/parameter_means.hpp"
 
 namespace tabor::cli {
 
@@ -35,6 +36,20 @@ std::string comparison_table(const std::vector<ScanParameters>& scans);
 
 /// One row per scan, one column "symbol [SI unit]" per parameter; empty where there is no value.
 std::string csv_table(const std::vector<ScanParameters>& scans);
+
+/// The means of one group of scans.
+struct GroupParameters {
+  std::string name;
+  std::vector<std::string> scans;  ///< that were measured
+  std::vector<metrology::ParameterMean> means;
+};
+
+/// One row per parameter: mean, standard deviation and number of scans.
+std::string group_table(const GroupParameters& group);
+/// One row per group and parameter, SI.
+std::string csv_table(const std::vector<GroupParameters>& groups);
+/// {"group", "scans", "parameters": {"Sq": {"mean", "std", "sem", "n", "unit"}, ...}}
+io::Json json_of(const GroupParameters& group);
 
 /// {"Sq": {"value", "unit", "definition", "note", "set"}, ...}
 io::Json json_of(const std::vector<metrology::Parameter>& parameters);

@@ -16,6 +16,23 @@ namespace {
 
 using Declared = std::map<const CLI::Option*, const Option*>;
 
+bool names_file_of(const Option& option, const std::string& word) {
+  return std::any_of(option.extensions.begin(), option.extensions.end(),
+                     [word = lower(word)](const auto& one) { return word.ends_with(one); });
+}
+
+/// Options that may stand alone are given the value that they then have.
+std::vector<std::string> with_bare_values(const OptionSet& set, std::vector<std::string> words) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    for (const Option& option : set.options()) {
+      if (option.if_bare.empty() || words[i] != option.flag) continue;
+      if (i + 1 < words.size() && names_file_of(option, words[i + 1])) continue;
+      words[i] += "=" + option.if_bare;
+    }
+  }
+  return words;
+}
+
 Declared declare(CLI::App& app, const OptionSet& set) {
   Declared declared;
   for (const Option& option : set.options()) {
@@ -115,7 +132,9 @@ void parse(const OptionSet& set, const std::string& verb, const std::vector<std:
   app.allow_extras();
   const Declared declared = declare(app, set);
   try {
-    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+    std::vector<std::string> whole = with_bare_values(set, words);
+    std::reverse(whole.begin(), whole.end());
+    app.parse(std::move(whole));
   } catch (const CLI::ParseError& error) {
     throw UsageError(fmt::format("{}; see 'tabor {} --help'", error.what(), verb));
   }

@@ -1,8 +1,12 @@
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
 
+#include "tabor/cli/csv_output.hpp"
 #include "tabor/cli/psd_result.hpp"
 #include "tabor/cli/result.hpp"
+#include "tabor/cli/scan_groups.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/metrology/parameters.hpp"
@@ -12,7 +16,9 @@ namespace tabor::cli {
 namespace {
 
 struct Request {
-  ScanRequest scan;
+  ScanRequest scan;  ///< how each of the files is read and treated
+  std::vector<std::string> files;
+  std::vector<ScanGroup> groups;
   std::string convention = "jacobs";
   std::string window;  ///< "": none for a periodic surface, else hann
   std::optional<double> fit_min;
@@ -21,6 +27,15 @@ struct Request {
   bool acf = false;
   bool hdf = false;
   std::optional<std::string> output;
+  CsvRequest csv;
+};
+
+/// One scan of a run.
+struct Measured {
+  PsdCurves curves;
+  io::Json object;
+  std::string text;
+  analysis::Case doubts;
 };
 
 metrology::PsdOptions options_of(const Request& request) {
@@ -62,27 +77,106 @@ std::vector<std::string> methods_of(const PsdCurves& curves) {
   return methods;
 }
 
-int show(const Request& request, Context& context) {
-  const Scan scan = read_scan(request.scan, context);
-  const PsdCurves curves = compute(request, scan, context);
-  context.warn(analysis::findings_of({doubts_of(scan)}));
-  if (curves.spectra) {
-    const std::string warning = warning_about_exponents(*curves.spectra);
-    if (!warning.empty()) context.warn(warning);
+Measured measure(const Request& request, const std::string& file, Context& context) {
+  ScanRequest one = request.scan;
+  one.file = file;
+  const Scan scan = read_scan(one, context);
+  Measured measured{.curves = compute(request, scan, context),
+                    .object = json_head(context, scan),
+                    .text = {},
+                    .doubts = doubts_of(scan)};
+  add_curves(measured.object, measured.curves);
+  measured.text = text_of(scan, measured.curves);
+  return measured;
+}
+
+void warn_of(const std::vector<Measured>& all, const Request& request, Context& context) {
+  std::vector<analysis::Case> cases;
+  for (const Measured& one : all) cases.push_back(one.doubts);
+  context.warn(analysis::findings_of(cases));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!all[i].curves.spectra) continue;
+    const std::string warning = warning_about_exponents(*all[i].curves.spectra);
+    if (warning.empty()) continue;
+    context.warn(all.size() > 1 ? request.files[i] + ": " + warning : warning);
   }
-  io::Json object = json_head(context, scan);
-  add_curves(object, curves);
-  std::string text = text_of(scan, curves);
+}
+
+std::vector<GroupSpectra> means_of(const std::vector<GroupMembers>& groups, const Request& request,
+                                   const std::vector<Measured>& all) {
+  std::vector<GroupSpectra> means;
+  for (const GroupMembers& group : groups) {
+    std::vector<std::string> scans;
+    std::vector<const PsdCurves*> curves;
+    for (const std::size_t place : group.places) {
+      scans.push_back(request.files[place]);
+      curves.push_back(&all[place].curves);
+    }
+    means.push_back(mean_of(group.name, scans, curves));
+  }
+  return means;
+}
+
+bool is_one(const Request& request) { return request.files.size() == 1 && request.groups.empty(); }
+
+/// Those of each scan and of each group.
+std::vector<CurveSet> curve_sets(const Request& request, const std::vector<Measured>& all,
+                                 const std::vector<GroupSpectra>& groups) {
+  if (is_one(request)) return {{.curves = columns_of(all.front().curves)}};
+  std::vector<CurveSet> sets;
+  const std::vector<std::string> names = headings(request.files);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    sets.push_back({.place = fmt::format("/scans/{:04}", i),
+                    .heading = names[i],
+                    .attributes = {{"file", {request.files[i]}}},
+                    .curves = columns_of(all[i].curves)});
+  }
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    sets.push_back({.place = fmt::format("/groups/{:04}", i),
+                    .heading = groups[i].name,
+                    .attributes = {{"group", {groups[i].name}}, {"scans", groups[i].scans}},
+                    .curves = columns_of(groups[i])});
+  }
+  return sets;
+}
+
+io::Json json_of(const std::vector<Measured>& all, const std::vector<GroupSpectra>& groups,
+                 const Context& context) {
+  io::Json object = json_head(context);
+  for (Measured one : all) {
+    one.object.erase("tabor_version");
+    one.object.erase("command");
+    object["scans"].push_back(one.object);
+  }
+  for (const GroupSpectra& group : groups) object["groups"].push_back(json_of(group));
+  return object;
+}
+
+int show(const Request& request, Context& context) {
+  const std::vector<GroupMembers> members = members_of(request.groups, request.files);
+  std::vector<Measured> all;
+  std::string text;
+  for (const std::string& file : request.files) {
+    all.push_back(measure(request, file, context));
+    text += (text.empty() ? "" : "\n") + all.back().text;
+  }
+  warn_of(all, request, context);
+  const std::vector<GroupSpectra> groups = means_of(members, request, all);
+  io::Json object = is_one(request) ? all.front().object : json_of(all, groups, context);
+  if (!groups.empty()) text += '\n' + text_of(groups);
+  const std::vector<CurveSet> sets = curve_sets(request, all, groups);
   if (request.output) {
-    write_curves(columns_of(curves), *request.output, context, methods_of(curves));
+    write_curves(sets, *request.output, context, methods_of(all.front().curves));
     object["output"] = *request.output;
     text += "written " + *request.output + '\n';
   }
-  return finish(context, object, text);
+  const std::string csv = request.csv.is_asked() ? csv_of(sets) : "";
+  return finish(context, object, write_csv(request.csv, csv, text));
 }
 
 void declare_options(OptionSet& set, Request& request) {
-  declare_scan(set, request.scan);
+  declare_scans(set, request.scan, request.files);
+  declare_groups(set, request.groups);
   set.group("Spectrum");
   set.choice("--psd-convention", {"jacobs", "persson", "gwyddion"},
              "normalisation [jacobs: Jacobs, Junge & Pastewka 2017]", request.convention);
@@ -104,18 +198,23 @@ void declare_options(OptionSet& set, Request& request) {
   extensions.insert(extensions.begin(), ".csv");
   set.output("OUT", "write all curves as columns of a .csv or datasets of an .h5 file", extensions,
              request.output);
+  declare_csv(set, "the curves as columns", request.csv);
 }
 
 }  // namespace
 
 Verb psd_verb() {
   return {.name = "psd",
-          .arguments = "SCAN [options]",
+          .arguments = "SCAN [SCAN...] [options]",
           .summary = "power spectra along x, along y and radial, with fitted Hurst exponents",
-          .details = "The curves themselves are in the JSON object and in the -o file.",
+          .details =
+              "The curves themselves are in the JSON object, in the -o file and in --csv. Several "
+              "scans are treated alike; --group adds the mean of their spectra.",
           .examples = {"tabor psd surfaces/edt_before.x3p --level plane",
                        "tabor psd surfaces/edt_before.x3p --level plane --window none --json",
-                       "tabor psd surfaces/edt_before.x3p --level plane --acf --hdf -o curves.csv"},
+                       "tabor psd surfaces/edt_before.x3p --level plane --acf --hdf -o curves.csv",
+                       "tabor psd surfaces/edt_before.x3p surfaces/edt_after.x3p --level plane "
+                       "--group 'edt=edt_*' --csv spectra.csv"},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_options(set, *request);

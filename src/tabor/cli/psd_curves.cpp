@@ -14,17 +14,39 @@ namespace tabor::cli {
 
 namespace {
 
-std::string csv_of(const std::vector<Curve>& curves) {
+void write_set(const CurveSet& set, io::Hdf5Writer& writer) {
+  writer.group(set.place);
+  for (const auto& [name, texts] : set.attributes) {
+    if (texts.size() == 1) {
+      writer.attribute(set.place, name, texts.front());
+    } else {
+      writer.attribute(set.place, name, texts);
+    }
+  }
+  for (const Curve& curve : set.curves) {
+    const std::string path = set.place + "/" + curve.name;
+    writer.write(path, curve.values);
+    writer.describe(path, curve.unit, curve.long_name);
+  }
+}
+
+}  // namespace
+
+std::string csv_of(const std::vector<CurveSet>& sets) {
   std::size_t n_rows = 0;
   std::vector<std::string> cells;
-  for (const Curve& curve : curves) {
-    n_rows = std::max(n_rows, curve.values.size());
-    cells.push_back(curve.name);
+  std::vector<const std::vector<double>*> columns;
+  for (const CurveSet& set : sets) {
+    for (const Curve& curve : set.curves) {
+      n_rows = std::max(n_rows, curve.values.size());
+      cells.push_back(set.heading.empty() ? curve.name : set.heading + " " + curve.name);
+      columns.push_back(&curve.values);
+    }
   }
   std::string text = io::csv_line(cells);
   for (std::size_t row = 0; row < n_rows; ++row) {
-    for (std::size_t i = 0; i < curves.size(); ++i) {
-      const auto& values = curves[i].values;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const std::vector<double>& values = *columns[i];
       cells[i] = row < values.size() ? io::csv_number(values[row]) : "";
     }
     text += io::csv_line(cells);
@@ -32,21 +54,15 @@ std::string csv_of(const std::vector<Curve>& curves) {
   return text;
 }
 
-}  // namespace
-
-void write_curves(const std::vector<Curve>& curves, const std::filesystem::path& file,
+void write_curves(const std::vector<CurveSet>& sets, const std::filesystem::path& file,
                   const Context& context, const std::vector<std::string>& methods) {
   if (lower(file.extension().string()) == ".csv") {
-    io::write_file(file, csv_of(curves));
+    io::write_file(file, csv_of(sets));
     return;
   }
   io::Hdf5Writer writer(file);
   analysis::write_result_head(writer, head_of(context, "", methods));
-  for (const Curve& curve : curves) {
-    const std::string path = "/curves/" + curve.name;
-    writer.write(path, curve.values);
-    writer.describe(path, curve.unit, curve.long_name);
-  }
+  for (const CurveSet& set : sets) write_set(set, writer);
   analysis::write_warnings(writer, context.warnings);
   writer.commit();
 }

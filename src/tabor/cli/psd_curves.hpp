@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tabor/cli/verb.hpp"
@@ -16,9 +17,21 @@ struct Curve {
   std::vector<double> values;
 };
 
-/// Writes the curves side by side as CSV (short ones end in empty cells) or as datasets of an HDF5
-/// file, by the extension: .csv or another. `methods` are keys of references.bib.
-void write_curves(const std::vector<Curve>& curves, const std::filesystem::path& file,
+/// The curves of one scan or of one group of scans.
+struct CurveSet {
+  std::string place = "/curves";  ///< group of an HDF5 file: "/scans/0000"
+  std::string heading = {};       ///< before the names of columns: "a.x3p"; "" where there is one
+  std::vector<std::pair<std::string, std::vector<std::string>>> attributes =
+      {};  ///< of the place: "file", ...
+  std::vector<Curve> curves = {};
+};
+
+/// All curves side by side; short ones end in empty cells.
+std::string csv_of(const std::vector<CurveSet>& sets);
+
+/// Writes them as CSV or as datasets of an HDF5 file, by the extension: .csv or another. `methods`
+/// are keys of references.bib.
+void write_curves(const std::vector<CurveSet>& sets, const std::filesystem::path& file,
                   const Context& context, const std::vector<std::string>& methods);
 
 }  // namespace tabor::cli

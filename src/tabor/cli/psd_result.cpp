@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
+#include "tabor/core/error.hpp"
 
 namespace tabor::cli {
 
@@ -242,6 +244,109 @@ std::vector<Curve> columns_of(const PsdCurves& curves) {
     columns.push_back({"acf_y", "1", "autocorrelation, y", profile(*curves.acf, false)});
   }
   return columns;
+}
+
+namespace {
+
+/// The mean of one of the spectra; nullopt where none of the scans has it.
+std::optional<metrology::MeanSpectrum> mean_over(const std::vector<const PsdCurves*>& curves,
+                                                 Spectrum PowerSpectra::*which) {
+  std::vector<Spectrum> spectra;
+  for (const PsdCurves* one : curves) spectra.push_back(*one->spectra.*which);
+  const bool is_absent = std::all_of(spectra.begin(), spectra.end(),
+                                     [](const Spectrum& one) { return one.q.empty(); });
+  if (is_absent) return std::nullopt;
+  return metrology::mean_spectrum(spectra);
+}
+
+/// One of the numbers of a mean at each wavevector.
+template <typename Number>
+std::vector<double> numbers_of(const metrology::MeanSpectrum& mean, Number Mean::*which) {
+  std::vector<double> numbers;
+  for (const Mean& one : mean.density) numbers.push_back(static_cast<double>(one.*which));
+  return numbers;
+}
+
+io::Json json_of(const Mean& mean) {
+  return {{"mean", io::number(mean.mean)},
+          {"std", io::number(mean.standard_deviation)},
+          {"sem", io::number(mean.standard_error)},
+          {"n", mean.n}};
+}
+
+io::Json numbers_json(const std::vector<double>& numbers) {
+  io::Json list = io::Json::array();
+  for (const double one : numbers) list.push_back(io::number(one));
+  return list;
+}
+
+io::Json json_of(const std::optional<metrology::MeanSpectrum>& mean) {
+  if (!mean) return nullptr;
+  return {{"q_rad_per_m", mean->q},
+          {"mean", numbers_json(numbers_of(*mean, &Mean::mean))},
+          {"std", numbers_json(numbers_of(*mean, &Mean::standard_deviation))},
+          {"n", mean->density.front().n},
+          {"unit", mean->unit}};
+}
+
+void add_columns(std::vector<Curve>& columns, const std::string& name,
+                 const std::optional<metrology::MeanSpectrum>& mean) {
+  if (!mean) return;
+  const std::string key = "psd_" + name + "_" + in_a_name(mean->unit);
+  columns.push_back({"q_" + name + "_rad_per_m", "rad/m", "wavevector, " + name, mean->q});
+  columns.push_back({key + "_mean", mean->unit, "mean power spectral density, " + name,
+                     numbers_of(*mean, &Mean::mean)});
+  columns.push_back({key + "_std", mean->unit, "its standard deviation, " + name,
+                     numbers_of(*mean, &Mean::standard_deviation)});
+}
+
+}  // namespace
+
+GroupSpectra mean_of(const std::string& name, const std::vector<std::string>& scans,
+                     const std::vector<const PsdCurves*>& curves) {
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    if (!curves[i]->spectra) {
+      throw InputError("group " + name, scans[i] + " without a spectrum", "scans without holes",
+                       "add --fill harmonic");
+    }
+    heights.push_back(curves[i]->spectra->rms_height);
+  }
+  return {.name = name,
+          .scans = scans,
+          .x = mean_over(curves, &PowerSpectra::x),
+          .y = mean_over(curves, &PowerSpectra::y),
+          .radial = mean_over(curves, &PowerSpectra::radial),
+          .rms_height = tabor::mean_of(heights)};
+}
+
+std::vector<Curve> columns_of(const GroupSpectra& group) {
+  std::vector<Curve> columns;
+  add_columns(columns, "x", group.x);
+  add_columns(columns, "y", group.y);
+  add_columns(columns, "radial", group.radial);
+  return columns;
+}
+
+io::Json json_of(const GroupSpectra& group) {
+  return {
+      {"group", group.name},   {"scans", group.scans},  {"rms_height_m", json_of(group.rms_height)},
+      {"x", json_of(group.x)}, {"y", json_of(group.y)}, {"radial", json_of(group.radial)}};
+}
+
+std::string text_of(const std::vector<GroupSpectra>& groups) {
+  Table table({"group", "scans", "rms height, mean", "standard deviation", "points, x y radial"});
+  const auto points = [](const std::optional<metrology::MeanSpectrum>& mean) {
+    return mean ? fmt::format("{}", mean->q.size()) : std::string("-");
+  };
+  for (const GroupSpectra& group : groups) {
+    table.row({group.name, fmt::format("{}", group.scans.size()), si(group.rms_height.mean, "m"),
+               std::isnan(group.rms_height.standard_deviation)
+                   ? "-"
+                   : si(group.rms_height.standard_deviation, "m"),
+               fmt::format("{} {} {}", points(group.x), points(group.y), points(group.radial))});
+  }
+  return table.text();
 }
 
 }  // namespace tabor::cli

@@ -9,6 +9,7 @@
 #include "tabor/io/json.hpp"
 #include "tabor/metrology/correlation.hpp"
 #include "tabor/metrology/height_differences.hpp"
+#include "tabor/metrology/mean_spectrum.hpp"
 #include "tabor/metrology/psd.hpp"
 #include "tabor/metrology/reliability.hpp"
 
@@ -35,5 +36,22 @@ std::string text_of(const Scan& scan, const PsdCurves& curves);
 
 /// The columns of an output file.
 std::vector<Curve> columns_of(const PsdCurves& curves);
+
+/// The means of one group of scans; of profiles there is one of x and y, and no radial one.
+struct GroupSpectra {
+  std::string name;
+  std::vector<std::string> scans;
+  std::optional<metrology::MeanSpectrum> x, y, radial;
+  Mean rms_height;  ///< [m]
+};
+
+/// Throws InputError for a scan without spectra.
+GroupSpectra mean_of(const std::string& name, const std::vector<std::string>& scans,
+                     const std::vector<const PsdCurves*>& curves);
+std::vector<Curve> columns_of(const GroupSpectra& group);
+/// {"group", "scans", "rms_height_m": {..}, "x": {"q_rad_per_m", "mean", "std", "n", "unit"}, ..}
+io::Json json_of(const GroupSpectra& group);
+/// One row per group.
+std::string text_of(const std::vector<GroupSpectra>& groups);
 
 }  // namespace tabor::cli

@@ -95,7 +95,11 @@ int show_template(const std::string& text, Context& context) {
 
 void declare_output(OptionSet& set, std::optional<std::string>& target) {
   set.group("Output");
-  set.output("OUT.h5", "keep the maps of every state in an HDF5 file", hdf5_extensions(), target);
+  std::vector<std::string> extensions = hdf5_extensions();
+  extensions.emplace_back(".vti");
+  set.output("OUT.h5|OUT.vti",
+             "keep the maps of every state in an HDF5 file, or for ParaView in a .vti", extensions,
+             target);
 }
 
 }  // namespace tabor::cli

@@ -26,7 +26,7 @@ io::Json json_warnings(const Context& context);
 /// Prints the object (with the warnings) or the text (warnings on stderr); returns `code`.
 int finish(Context& context, io::Json object, const std::string& text, int code = kDone);
 
-/// Declares `-o OUT.h5`.
+/// Declares `-o OUT.h5|OUT.vti`.
 void declare_output(OptionSet& set, std::optional<std::string>& target);
 
 /// Declares `--template`, which stands for the file that it prints one for.

@@ -93,6 +93,21 @@ void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment) {
   if (with_treatment) declare_treatment(set, request.treatment);
 }
 
+void declare_scans(OptionSet& set, ScanRequest& request, std::vector<std::string>& files) {
+  OptionSet one;
+  declare_scan(one, request);
+  for (const Option& option : one.options()) {
+    set.group(option.group);
+    if (option.is_positional()) {
+      set.positionals("SCAN", "scan files, see 'tabor formats'; two or more stand side by side",
+                      files)
+          .names = option.names;
+    } else {
+      set.add(option);
+    }
+  }
+}
+
 Scan read_scan(const ScanRequest& request, Context& context) {
   return read_scan(scan::ScanFile(request.file, context.observer()), request, context);
 }

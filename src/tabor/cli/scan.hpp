@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verb.hpp"
@@ -28,6 +29,8 @@ struct Scan {
 /// Declares SCAN and how it is read; with_treatment adds the treatment steps, each an option of its
 /// own, applied in the order given.
 void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment = true);
+/// The same with as many scans as one likes, all read and treated alike.
+void declare_scans(OptionSet& set, ScanRequest& request, std::vector<std::string>& files);
 
 /// Reads and treats. Warnings about the surface are left to the warnings of the numbers that follow
 /// from it (analysis/warnings.hpp).

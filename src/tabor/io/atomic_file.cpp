@@ -177,19 +177,25 @@ void remove_leftovers(const fs::path& file) {
 
 void remove_all_leftovers(const fs::path& folder) { remove_where(folder, &is_temporary_name); }
 
-void write_file(const fs::path& file, std::span<const std::byte> bytes) {
+void write_file(const fs::path& file, const std::function<void(const Append&)>& write) {
   TemporaryFile temporary(file);
   {
     Descriptor descriptor(temporary.path(), O_WRONLY | O_TRUNC);
     if (!descriptor.is_open()) fail(file, "write", errno);
-    write_all(descriptor.value(), bytes, file);
+    write([&](std::string_view piece) {
+      write_all(descriptor.value(), std::as_bytes(std::span(piece.data(), piece.size())), file);
+    });
     if (!descriptor.close()) fail(file, "write", errno);
   }
   temporary.commit();
 }
 
+void write_file(const fs::path& file, std::span<const std::byte> bytes) {
+  write_file(file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
 void write_file(const fs::path& file, std::string_view text) {
-  write_file(file, std::as_bytes(std::span(text.data(), text.size())));
+  write_file(file, [text](const Append& append) { append(text); });
 }
 
 void make_folder(const fs::path& folder) {

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -50,6 +51,10 @@ void remove_all_leftovers(const std::filesystem::path& folder);
 /// Replaces `file` by these bytes, or leaves it as it was and throws OutputError.
 void write_file(const std::filesystem::path& file, std::span<const std::byte> bytes);
 void write_file(const std::filesystem::path& file, std::string_view text);
+/// The same of what `write` appends piece after piece, so that it need not be in memory at once.
+using Append = std::function<void(std::string_view piece)>;
+void write_file(const std::filesystem::path& file,
+                const std::function<void(const Append& append)>& write);
 
 /// Makes a folder and its parents; OutputError if that cannot be.
 void make_folder(const std::filesystem::path& folder);

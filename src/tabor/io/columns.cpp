@@ -1,5 +1,8 @@
 #include "tabor/io/columns.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -38,6 +41,9 @@ Json value_of(const Cell& cell) {
 std::string text_of(const Cell& cell) {
   if (const auto* text = std::get_if<std::string>(&cell)) return *text;
   if (const auto* value = std::get_if<bool>(&cell)) return *value ? "true" : "false";
+  if (const auto* texts = std::get_if<std::vector<std::string>>(&cell)) {
+    return fmt::format("{}", fmt::join(*texts, " "));
+  }
   return csv_number(number_in(cell));
 }
 

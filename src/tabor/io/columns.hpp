@@ -24,7 +24,8 @@ void write_members(Hdf5Writer& writer, const std::string& path, const Json& obje
 void write_dataset(Hdf5Writer& writer, const std::string& path, const std::vector<Cell>& cells,
                    const Cell& kind);
 
-/// A line of a CSV file; the cell of a value that does not exist is empty.
+/// A line of a CSV file; the cell of a value that does not exist is empty, a list of texts has
+/// blanks between them.
 std::string csv_line_of(const std::vector<Cell>& cells);
 
 /// Values of a JSON object or of attributes; throw InputError where there is none of this kind.

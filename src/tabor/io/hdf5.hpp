@@ -41,6 +41,9 @@ class Hdf5Writer {
   Hdf5Writer& operator=(Hdf5Writer&&) = delete;
 
   void commit();
+  /// Closes the file instead, and returns the temporary name under which it can be read until the
+  /// writer ends and removes it: for what is made from it.
+  const std::filesystem::path& close();
 
   void group(const std::string& path);
   void write(const std::string& path, const Field& map, Precision precision = Precision::float64);
@@ -103,6 +106,9 @@ class Hdf5Reader {
   /// Rows and columns of what field() and rows() read, once it is known that the file's bytes can
   /// hold them and that they fit into memory.
   std::array<Index, 2> map_shape(const std::string& path) const;
+
+  /// Whether numbers are kept as float32 or smaller, else float64.
+  Precision precision(const std::string& path) const;
 
   /// Any numeric two-dimensional dataset. `progress` is told the share of rows read so far.
   Field field(const std::string& path,

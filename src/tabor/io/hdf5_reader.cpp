@@ -139,8 +139,10 @@ struct Hdf5Reader::File {
   }
 
   Handle open_attribute(const std::string& path, const std::string& attribute) const {
-    Handle opened(H5Aopen_by_name(id, path.c_str(), attribute.c_str(), H5P_DEFAULT, H5P_DEFAULT),
-                  &H5Aclose);
+    // By name from this file, the library (1.10.8) would look for texts of an object behind an
+    // external link in this file.
+    const Handle object(H5Oopen(id, path.c_str(), H5P_DEFAULT), &H5Oclose);
+    Handle opened(H5Aopen(object, attribute.c_str(), H5P_DEFAULT), &H5Aclose);
     if (!opened.valid()) fail(path, "has no attribute " + attribute);
     return opened;
   }
@@ -327,6 +329,13 @@ std::array<Index, 2> Hdf5Reader::map_shape(const std::string& path) const {
   const Session session;
   const OpenMap map = file_->open_map(path);
   return {map.ny(), map.nx()};
+}
+
+Precision Hdf5Reader::precision(const std::string& path) const {
+  const Session session;
+  const OpenMap map = file_->open_map(path);
+  const std::size_t exact = map.what.kind == H5T_FLOAT ? sizeof(float) : sizeof(std::int16_t);
+  return H5Tget_size(map.what.type) <= exact ? Precision::float32 : Precision::float64;
 }
 
 Field Hdf5Reader::field(const std::string& path,

@@ -186,10 +186,15 @@ Hdf5Writer::~Hdf5Writer() {
   file_.reset();
 }
 
-void Hdf5Writer::commit() {
+const fs::path& Hdf5Writer::close() {
   const Session session;
   file_->check(H5Fflush(file_->id, H5F_SCOPE_GLOBAL) >= 0, "");
   if (!file_->id.reset()) file_->fail("");
+  return file_->temporary.path();
+}
+
+void Hdf5Writer::commit() {
+  close();
   if (file_->seal == Seal::yes) io::seal(file_->temporary.path());
   file_->temporary.commit();
 }

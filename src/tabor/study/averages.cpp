@@ -90,21 +90,6 @@ const Columns<Mean>& mean_columns() {
   return columns;
 }
 
-Mean mean_of(const std::vector<double>& values) {
-  Mean result;
-  result.n = values.size();
-  const double n = static_cast<double>(values.size());
-  if (values.empty()) return result;
-  result.mean = std::accumulate(values.begin(), values.end(), 0.0) / n;
-  if (values.size() >= 2) {
-    double squares = 0;
-    for (const double value : values) squares += (value - result.mean) * (value - result.mean);
-    result.standard_deviation = std::sqrt(squares / (n - 1));
-    result.standard_error = result.standard_deviation / std::sqrt(n);
-  }
-  return result;
-}
-
 std::vector<Average> averages(const std::vector<Row>& rows) {
   std::vector<Average> result;
   for (const Key& key : ordered_keys(rows)) {

@@ -6,21 +6,14 @@
 
 #include "tabor/analysis/records.hpp"
 #include "tabor/core/column.hpp"
+#include "tabor/core/mean.hpp"
 
 namespace tabor::study {
 
 struct Row;
 
-/// Statistics of repeated values. NaN where they do not exist: mean for n = 0, the rest for n < 2.
-struct Mean {
-  std::size_t n = 0;
-  double mean = analysis::kNoValue;
-  double standard_deviation = analysis::kNoValue;  ///< with n - 1
-  double standard_error = analysis::kNoValue;      ///< standard deviation / sqrt(n)
-};
-
-/// Of any values; NaN where there are too few: of fewer than two there is no deviation.
-Mean mean_of(const std::vector<double>& values);
+using tabor::Mean;
+using tabor::mean_of;
 
 /// Means of what only a film that flows has.
 struct FluidAverage {

@@ -153,35 +153,52 @@ GwyBuilder data_field(const Grid& grid, const Field& values, const std::string& 
 }
 
 /// Objects of the format count their bytes in 32 bits.
-void require_countable(const topography::Topography& topography, bool with_mask,
-                       const std::filesystem::path& file) {
+void require_countable(const Grid& grid, std::size_t n_fields, const std::filesystem::path& file) {
   constexpr std::size_t most_bytes = 0xffffffff - (1 << 20);  // some for names and metadata
-  const Grid& grid = topography.grid;
-  const std::size_t bytes_per_pixel = with_mask ? 2 * sizeof(double) : sizeof(double);
-  if (static_cast<std::size_t>(grid.size()) * bytes_per_pixel <= most_bytes) return;
-  throw InputError(file.string(), fmt::format("{} x {} pixels", grid.nx, grid.ny),
-                   "at most 4 GiB of heights and mask in GWY", "write .h5 instead");
+  if (static_cast<std::size_t>(grid.size()) * n_fields * sizeof(double) <= most_bytes) return;
+  throw InputError(file.string(),
+                   fmt::format("{} x {} pixels, {} times", grid.nx, grid.ny, n_fields),
+                   "at most 4 GiB of maps and masks in GWY", "write .h5 or .vti instead");
+}
+
+/// Adds one channel; returns the number of its fields: values, and a mask where it has holes.
+std::size_t add_channel(std::size_t id, const NamedMap& map, const Grid& grid, GwyBuilder& root) {
+  const std::string prefix = fmt::format("/{}/", id);
+  const Field values = map.load();
+  const Mask hole = values.isNaN();
+  // Gwyddion computes with the values under a mask, so they must be numbers: the mean.
+  const double n_valid = static_cast<double>(hole.size() - hole.count());
+  const double mean = hole.select(0, values).sum() / std::max(1.0, n_valid);
+  const std::string unit_of_values = map.unit == "1" ? "" : map.unit;
+  root.add(prefix + "data", data_field(grid, hole.select(mean, values), unit_of_values));
+  root.add(prefix + "data/title", map.name);
+  if (!hole.any()) return 1;
+  root.add(prefix + "mask", data_field(grid, hole.cast<double>(), ""));
+  return 2;
 }
 
 }  // namespace
 
-void write_gwy(const topography::Topography& topography, const std::filesystem::path& file) {
-  const Mask hole = topography::holes(topography);
-  require_countable(topography, hole.any(), file);
-  // Gwyddion computes with the values under a mask, so they must be numbers: the mean height.
-  const double n_valid = static_cast<double>(hole.size() - hole.count());
-  const double mean = hole.select(0, topography.height).sum() / std::max(1.0, n_valid);
+void write_gwy_maps(const MapSet& maps, const std::filesystem::path& file) {
+  require_countable(maps.grid, maps.maps.size(), file);
   GwyBuilder root("GwyContainer");
-  root.add("/0/data", data_field(topography.grid, hole.select(mean, topography.height), "m"));
-  root.add("/0/data/title", topography.channel.empty() ? "height" : topography.channel);
-  if (hole.any()) root.add("/0/mask", data_field(topography.grid, hole.cast<double>(), ""));
+  std::size_t n_fields = 0;
+  for (std::size_t id = 0; id < maps.maps.size(); ++id) {
+    n_fields += add_channel(id, maps.maps[id], maps.grid, root);
+    require_countable(maps.grid, n_fields, file);
+  }
   GwyBuilder meta("GwyContainer");
-  std::map<std::string, std::string> entries = topography.metadata;
-  entries["Source"] = topography.source;
-  entries[kInstrument] = topography.instrument;
-  for (const auto& [key, value] : entries) meta.add(key, value);
+  for (const auto& [key, value] : maps.metadata) meta.add(key, value);
   root.add("/0/meta", meta);
   io::write_file(file, std::string_view(std::string(kMagic) + root.bytes()));
+}
+
+void write_gwy(const topography::Topography& topography, const std::filesystem::path& file) {
+  MapSet maps = as_maps(topography, topography.channel.empty() ? "height" : topography.channel);
+  maps.metadata = topography.metadata;
+  maps.metadata["Source"] = topography.source;
+  maps.metadata[kInstrument] = topography.instrument;
+  write_gwy_maps(maps, file);
 }
 
 }  // namespace tabor::scan::format

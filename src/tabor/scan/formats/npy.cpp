@@ -115,10 +115,12 @@ Document open_npy(const Contents& contents) {
   return document;
 }
 
-void write_npy(const topography::Topography& topography, const std::filesystem::path& file) {
-  const Grid& grid = topography.grid;
-  std::string header = fmt::format(
-      "{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, {}), }}", grid.ny, grid.nx);
+void write_npy_map(const MapSet& maps, const std::filesystem::path& file) {
+  const Grid& grid = maps.grid;
+  const NamedMap& map = maps.maps.front();
+  const bool is_single = map.precision == io::Precision::float32;
+  std::string header = fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}, {}), }}",
+                                   is_single ? "<f4" : "<f8", grid.ny, grid.nx);
   constexpr std::size_t kAlignment = 64;  // numpy aligns the data so that it can be memory-mapped
   const std::size_t before = kMagic.size() + 4;
   header.resize((before + header.size() + kAlignment) / kAlignment * kAlignment - before - 1, ' ');
@@ -128,8 +130,12 @@ void write_npy(const topography::Topography& topography, const std::filesystem::
   put<std::uint8_t>(bytes, 0);
   put(bytes, static_cast<std::uint16_t>(header.size()));
   bytes += header;
-  put_field(bytes, topography.height);
+  is_single ? put_field_f32(bytes, map.load()) : put_field(bytes, map.load());
   io::write_file(file, std::string_view(bytes));
+}
+
+void write_npy(const topography::Topography& topography, const std::filesystem::path& file) {
+  write_npy_map(as_maps(topography, "height"), file);
 }
 
 }  // namespace tabor::scan::format

@@ -1,9 +1,13 @@
 #pragma once
 
 #include "tabor/scan/formats/format.hpp"
+#include "tabor/scan/maps.hpp"
 
 /// The readers and writers behind the format table, one .cpp file per format.
 namespace tabor::scan::format {
+
+/// The heights as a set of one map.
+MapSet as_maps(const topography::Topography& topography, const std::string& name);
 
 Match identify_h5(std::string_view head);
 Document open_h5(const Contents& contents);
@@ -12,6 +16,7 @@ void write_h5(const topography::Topography& topography, const std::filesystem::p
 Match identify_gwy(std::string_view head);
 Document open_gwy(const Contents& contents);
 void write_gwy(const topography::Topography& topography, const std::filesystem::path& file);
+void write_gwy_maps(const MapSet& maps, const std::filesystem::path& file);
 
 Match identify_gsf(std::string_view head);
 Document open_gsf(const Contents& contents);
@@ -31,6 +36,7 @@ void write_sdf_ascii(const topography::Topography& topography, const std::filesy
 Match identify_npy(std::string_view head);
 Document open_npy(const Contents& contents);
 void write_npy(const topography::Topography& topography, const std::filesystem::path& file);
+void write_npy_map(const MapSet& maps, const std::filesystem::path& file);
 
 Match identify_sur(std::string_view head);
 Document open_sur(const Contents& contents);
@@ -75,8 +81,12 @@ Match identify_text(std::string_view head);
 Document open_text(const Contents& contents);
 void write_matrix(const topography::Topography& topography, const std::filesystem::path& file);
 void write_xyz(const topography::Topography& topography, const std::filesystem::path& file);
+void write_matrix_map(const MapSet& maps, const std::filesystem::path& file);
+void write_xyz_map(const MapSet& maps, const std::filesystem::path& file);
+void write_csv_maps(const MapSet& maps, const std::filesystem::path& file);
 
 void write_vti(const topography::Topography& topography, const std::filesystem::path& file);
+void write_vti_maps(const MapSet& maps, const std::filesystem::path& file);
 
 Match identify_gwyddion(std::string_view head);
 Document open_gwyddion(const Contents& contents);

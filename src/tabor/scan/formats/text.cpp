@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "tabor/core/units.hpp"
-#include "tabor/io/atomic_file.hpp"
 #include "tabor/scan/formats/bytes.hpp"
 #include "tabor/scan/formats/readers.hpp"
 #include "tabor/scan/formats/text_header.hpp"
@@ -338,33 +337,6 @@ Document open_text(const Contents& contents) {
     document.layers.push_back(as_matrix(contents, std::move(numbers), header));
   }
   return document;
-}
-
-void write_matrix(const topography::Topography& topography, const std::filesystem::path& file) {
-  const Grid& grid = topography.grid;
-  std::string text = fmt::format(
-      "# Channel: {}\n# Width: {} m\n# Height: {} m\n# Value units: m\n",
-      writable_text(topography.channel.empty() ? "height" : topography.channel), grid.lx, grid.ly);
-  for (Index y = 0; y < grid.ny; ++y) {
-    for (Index x = 0; x < grid.nx; ++x) {
-      fmt::format_to(std::back_inserter(text), "{}{}", topography.height(y, x),
-                     x + 1 < grid.nx ? '\t' : '\n');
-    }
-  }
-  io::write_file(file, std::string_view(text));
-}
-
-void write_xyz(const topography::Topography& topography, const std::filesystem::path& file) {
-  const Grid& grid = topography.grid;
-  std::string text = "# x [m] y [m] z [m]\n";
-  for (Index y = 0; y < grid.ny; ++y) {
-    for (Index x = 0; x < grid.nx; ++x) {
-      fmt::format_to(std::back_inserter(text), "{} {} {}\n",
-                     (static_cast<double>(x) + 0.5) * grid.dx(),
-                     (static_cast<double>(y) + 0.5) * grid.dy(), topography.height(y, x));
-    }
-  }
-  io::write_file(file, std::string_view(text));
 }
 
 }  // namespace tabor::scan::format
