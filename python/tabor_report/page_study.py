@@ -61,7 +61,6 @@ def _scan(scan, own):
         "rows": rows,
         "steps": scan.steps,
         "treatment": scan.treatment,
-        "warnings": scan.surface_warnings,
     }
 
 

@@ -1,6 +1,7 @@
 """One look for all figures, and the same bytes for the same numbers."""
 
 import io
+import re
 
 import matplotlib
 
@@ -147,9 +148,20 @@ def svg(figure):
     return _bytes(figure, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
 
 
-def width_in_inches(png_bytes):
-    """Of a PNG made here; its IHDR chunk holds the width in bytes 16 to 19."""
-    return int.from_bytes(png_bytes[16:20], "big") / DPI
+def picture(figure, form):
+    """Bytes; form: png, svg or pdf."""
+    return {"png": png, "svg": svg, "pdf": pdf}[form](figure)
+
+
+def pdf(figure):
+    return _bytes(figure, format="pdf", metadata={"CreationDate": None, "Creator": None, "Producer": None})
+
+
+def width_in_inches(picture):
+    """Of a PNG made here, whose IHDR chunk holds the width in bytes 16 to 19, or of an SVG, which has it in points."""
+    if picture.startswith(b"\x89PNG"):
+        return int.from_bytes(picture[16:20], "big") / DPI
+    return float(re.search(rb'<svg[^>]* width="([0-9.]+)pt"', picture).group(1)) / 72
 
 
 def close(figure):

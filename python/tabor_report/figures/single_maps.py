@@ -23,6 +23,12 @@ def draw(single):
         yield from (figure for figure in figures if figure is not None)
 
 
+def draw_flow(single):
+    """Yields the maps of oil that flows alone."""
+    figures = (figure(single, state) for state in single.states for figure in (_fluid_pressure, _fluid_fill))
+    yield from (figure for figure in figures if figure is not None)
+
+
 def _pressure(single, state):
     pressure = state.map("pressure")
     if pressure is None:
@@ -139,6 +145,7 @@ def _map(single, state, what, values, axis_label, colours, text, ground, label, 
         figure,
         {"": view.csv(shown, axis_label.replace("µ", "u"))},
         is_map=True,
+        is_viewed=not what.startswith("fluid"),
     )
 
 
@@ -163,7 +170,12 @@ def _section(single, state):
         f"Heights are stretched {units.number(stretch, 2)} times against lengths."
     )
     return Drawn(
-        f"state{state.key}_section", f"Section: {state.label}", caption, figure, {"": section.csv(lines)}
+        f"state{state.key}_section",
+        f"Section: {state.label}",
+        caption,
+        figure,
+        {"": section.csv(lines)},
+        is_viewed=True,
     )
 
 
