@@ -256,15 +256,17 @@ class _Labels:
 
     def __init__(self, panels):
         self.known, self.entries = {}, {}
-        for axes in panels:
-            for handle, label in zip(*axes.get_legend_handles_labels()):
+        for handles, labels in [axes.get_legend_handles_labels() for axes in panels] + _figure_legends(panels[0].figure):
+            for handle, label in zip(handles, labels):
                 artist = handle.lines[0] if isinstance(handle, ErrorbarContainer) else handle
+                if plain(label) in self.entries:
+                    continue
                 for look in (_look(artist), _look(artist)[:1]):
                     self.known.setdefault(look, plain(label))
                 self.entries.setdefault(plain(label), artist)
 
     def of(self, artist):
-        label = artist.get_label()
+        label = getattr(artist, "tabor_label", artist.get_label())
         if isinstance(label, str) and plain(label) in self.entries:
             return plain(label)
         if _look(artist) in self.known:
@@ -279,6 +281,11 @@ class _Labels:
             stroke = _stroke_of(artist)["line_dash"] if is_line and artist.get_linestyle() not in ("None", "") else ""
             found.append({"label": label, "colour": _look(artist)[0], "dash": stroke, "marker": marker})
         return found
+
+
+def _figure_legends(drawing):
+    """[(handles, labels)] of the legends above a figure, which name more than their panels do."""
+    return [(legend.legend_handles, [text.get_text() for text in legend.get_texts()]) for legend in drawing.legends]
 
 
 def _look(artist):

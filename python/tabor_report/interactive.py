@@ -130,7 +130,7 @@ class _MapFigures:
 
         from tabor_report import style
 
-        empty = {key: [] for key in ("s", "bottom", "solid", "level", "counter")}
+        empty = {key: [0, 1] for key in ("s", "bottom", "solid", "level", "counter")}
         source = ColumnDataSource(empty, name=f"{self.name}_section")
         plot = figure(
             name=f"{self.name}_section_plot",

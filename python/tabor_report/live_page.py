@@ -47,6 +47,7 @@ class Live:
             "first": data["first"],
             "left_out": data["left_out"],
             "thinned": data["thinning"] if data["thinning"] > 1 else 0,
+            "size": _size(maps),
             "samples": f"{data['height']['array']['columns']} × {data['height']['array']['rows']}",
             "pictures": _others(data, pictures),
             "data": interactive.script_json(data),
@@ -61,6 +62,12 @@ def _maps_of(source, options):
         shown = [item for item in example.examples(source, options) if item.height is not None]
         return [viewer.of_example(item) for item in shown]
     return []
+
+
+def _size(maps):
+    """'1.2 mm × 0.8 mm; x to the right, y downwards'"""
+    sides = (units.length(count * pixel) for count, pixel in zip(reversed(maps.height.shape), maps.pixel))
+    return f"{' × '.join(sides)}; x to the right, y downwards"
 
 
 def _first_pictures(data):

@@ -123,10 +123,10 @@ class _Encoder:
     def _films(self):
         """Where each film is."""
         loaded = [np.asarray(choice.load["film"]()) for choice in self.maps.films]
-        highest = max((self._limits(film[film > 0])[1] for film in loaded if (film > 0).any()), default=1e-9)
         for place, (choice, film) in enumerate(zip(self.maps.films, loaded)):
             shown = np.where(film > 0, film, np.float32(np.nan))
-            picture = self._picture(f"film{place}", shown, (0.0, highest), map_axes.FILM_COLOURS, "dry")
+            limits = 0.0, self._limits(film[film > 0])[1]
+            picture = self._picture(f"film{place}", shown, limits, map_axes.FILM_COLOURS, "dry")
             self.films[place] = {"label": choice.label, "array": self._array(film), **picture}
         return [film > 0 for film in loaded]
 

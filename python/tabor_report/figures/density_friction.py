@@ -17,6 +17,7 @@ from tabor_report.output import table_text
 MAX_PANELS = 6
 MAX_NAMED = 8  # pressures in the legend
 TITLE_WIDTH = 44  # characters over a panel of half the page
+DRY = "dry (same colours)"  # in the legend
 LABEL_DECADES = 0.14  # asked densities nearer to each other than this share a label
 
 
@@ -133,7 +134,7 @@ def _draw_panel(axes, curves, looks, asked, with_n):
             curve.density, curve.friction - curve.spread, curve.friction + curve.spread, color=colour, alpha=0.18, lw=0
         )
         if math.isfinite(curve.dry):
-            axes.axhline(curve.dry, color=colour, linestyle=(0, (4, 3)), linewidth=0.8)
+            axes.axhline(curve.dry, color=colour, linestyle=(0, (4, 3)), linewidth=0.8).tabor_label = DRY
     axes.set_xscale("log")
     axes.grid(color="0.92", linewidth=0.6)
     _mark(axes, asked)
@@ -191,7 +192,7 @@ def _legend_entries(panels, looks):
     grey = {"color": "0.35"}
     (dry,) = panels[0].plot([], [], linestyle=(0, (4, 3)), linewidth=0.8, **grey)
     (asked,) = panels[0].plot([], [], linestyle=":", linewidth=0.9, **grey)
-    return entries | {"dry (same colours)": dry, "asked for": asked}
+    return entries | {DRY: dry, "asked for": asked}
 
 
 def _caption(curves, error_name, n_left_out):

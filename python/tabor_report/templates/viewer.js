@@ -43,7 +43,7 @@ class Maps {
     this.pictures = new Map();
     for (const image of document.querySelectorAll(`#${data.name} img[id]`)) this.pictures.set(image.id, image.src);
     [this.contact, this.film] = data.first;
-    this.ends = data.line.map(([x, y]) => [x + 0.5, y + 0.5]);  // in pixels of the scan
+    this.line = data.line.map(([x, y]) => [x + 0.5, y + 0.5]);  // in pixels of the scan
     this.grabbed = -1;
     this.arrays = new Map();
   }
@@ -90,9 +90,16 @@ class Maps {
       still.src = url || "data:,";
       still.alt = `${this.title(panel)}${part ? "" : ": not on this page"}`;
       element(`${this.data.name}_${panel}_title`).textContent = still.alt;
+      if (part && part.limits) this.bar(panel, part);
     }
     this.loadState(parts.state);
     this.section();
+  }
+
+  // The ends and the middle of a panel's colours.
+  bar(panel, {limits: [low, high], unit: [factor, unit]}) {
+    const shown = [low, (low + high) / 2, high].map((value) => digits(value * factor, 3)), places = element(`${this.data.name}_${panel}_ends`).children;
+    shown.forEach((text, k) => { places[k].textContent = k < 2 ? text : `${text} ${unit}`; });
   }
 
   title(panel) {
@@ -152,7 +159,7 @@ class Maps {
     this.reach = NEAR * (range.end - range.start) / width;
     this.pointer = [event.x, event.y];
     if (this.grabbed >= 0) {
-      this.ends[this.grabbed] = [Math.min(nx - 0.5, Math.max(0.5, x)), Math.min(ny - 0.5, Math.max(0.5, y))];
+      this.line[this.grabbed] = [Math.min(nx - 0.5, Math.max(0.5, x)), Math.min(ny - 0.5, Math.max(0.5, y))];
       this.section();
     }
     if (x < 0 || y < 0 || x >= nx || y >= ny) return;
@@ -172,7 +179,7 @@ class Maps {
   grab(event) {
     if (!this.pointer) return;
     const [factor] = this.data.length, [px, py] = this.data.pixel;
-    const distances = this.ends.map(([x, y]) => Math.hypot(x * px * factor - this.pointer[0], y * py * factor - this.pointer[1]));
+    const distances = this.line.map(([x, y]) => Math.hypot(x * px * factor - this.pointer[0], y * py * factor - this.pointer[1]));
     const nearest = distances[0] < distances[1] ? 0 : 1;
     if (distances[nearest] > this.reach) return;
     this.grabbed = nearest;
@@ -182,14 +189,14 @@ class Maps {
 
   // The section through its middle, along x or along y, over the whole scan.
   turn(across) {
-    const middle = [0, 1].map((axis) => (this.ends[0][axis] + this.ends[1][axis]) / 2), size = this.data.size;
-    this.ends = [0.5, size[across] - 0.5].map((place) => across ? [middle[0], place] : [place, middle[1]]);
+    const middle = [0, 1].map((axis) => (this.line[0][axis] + this.line[1][axis]) / 2), size = this.data.size;
+    this.line = [0.5, size[across] - 0.5].map((place) => across ? [middle[0], place] : [place, middle[1]]);
     this.section();
   }
 
   section() {
     const [factor, unit] = this.data.length, [px, py] = this.data.pixel;
-    this.model("line").data = {x: this.ends.map((end) => end[0] * px * factor), y: this.ends.map((end) => end[1] * py * factor)};
+    this.model("line").data = {x: this.line.map((end) => end[0] * px * factor), y: this.line.map((end) => end[1] * py * factor)};
     const cut = this.cut(), [scale, name] = this.data.height.unit, finite = cut.solid.filter(Number.isFinite);
     const low = finite.reduce((a, b) => Math.min(a, b), Infinity), high = finite.reduce((a, b) => Math.max(a, b), -Infinity);
     const bottom = finite.length ? low - 0.12 * Math.max(high - low, 1e-12) : 0;
@@ -202,14 +209,14 @@ class Maps {
     this.model("section_plot").left[0].axis_label = `z (${name})`;
     const length = cut.s[cut.s.length - 1] || 0;
     const place = (end) => `(${digits(end[0] * px * factor)}, ${digits(end[1] * py * factor)}) ${unit}`;
-    const text = `Section from ${place(this.ends[0])} to ${place(this.ends[1])}, ${digits(length * factor)} ${unit} long`;
+    const text = `Section from ${place(this.line[0])} to ${place(this.line[1])}, ${digits(length * factor)} ${unit} long`;
     element(`${this.data.name}_section_title`).textContent = text;
     element(`${this.data.name}_section_plot`).setAttribute("aria-label", text);
   }
 
   // {s, solid, level, counter} [m] at the samples along the line; NaN where unknown.
   cut() {
-    const [[x0, y0], [x1, y1]] = this.ends, [px, py] = this.data.pixel, [nx] = this.data.size, {columns} = this.data.height.array;
+    const [[x0, y0], [x1, y1]] = this.line, [px, py] = this.data.pixel, [nx] = this.data.size, {columns} = this.data.height.array;
     const n = Math.max(2, Math.ceil(Math.hypot(x1 - x0, y1 - y0) * columns / nx) + 1);
     const found = {s: [], x: [], y: [], solid: [], level: [], counter: []};
     for (let k = 0; k < n; k++) {
