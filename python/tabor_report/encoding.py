@@ -11,8 +11,10 @@ HOLE_CODE = 65535  # of a coarse array: no value
 STEPS = HOLE_CODE - 1
 LARGEST_SIDE = 8192  # pixels of a picture; a larger map is thinned
 
-NONE, DRY, DRY_SATURATED, WET, WET_SATURATED = range(5)  # values of a contact picture
-PALETTE = ((255, 255, 255), (240, 176, 116), (232, 134, 46), (90, 90, 90), (0, 0, 0))
+# A contact picture is two layers: where film is, in the colours of contact, and on it what hides all that is no contact.
+WET_COLOURS = ((232, 134, 46), (0, 0, 0))  # dry, wet
+VEILS = (255, 0, 110)  # opacity of white over: no contact, saturated contact, contact below saturation
+BELOW_SATURATION = (240, 176, 116), (90, 90, 90)  # the two colours under that veil
 
 
 def uri(kind, data):
@@ -35,21 +37,31 @@ def coloured(values, limits, colours, ground, quality):
     return _webp(table[_steps(values[::step, ::step], *limits)], quality)
 
 
-def contact_classes(state, film):
-    """uint8 (ny, nx) of the classes above; state: 0 none, 1 contact, 2 saturated; film [m] or None."""
-    classes = np.array(state, dtype=np.uint8)
-    if film is not None:
-        classes[(classes > 0) & (film > 0)] += WET - DRY
-    return classes
+def contact_layer(state, is_saturating):
+    """A data: URI of a PNG that hides what does not touch; state: 0 none, 1 contact, 2 saturated.
+
+    Where nothing saturates, all contact is drawn in full.
+    """
+    veils = VEILS if is_saturating else (VEILS[0], VEILS[1], VEILS[1])
+    picture = _palette(state, ((255, 255, 255),) * 3)
+    return _png(picture, 2, transparency=bytes([veils[0], veils[2], veils[1]]))
 
 
-def palette_picture(classes):
-    """A data: URI of a PNG that holds each pixel's class."""
+def wet_layer(wet):
+    """A data: URI of a PNG of the colours of contact, wet or dry."""
+    return _png(_palette(wet, WET_COLOURS), 1)
+
+
+def _palette(classes, colours):
     step = thinning(classes.shape)
-    picture = Image.fromarray(np.ascontiguousarray(classes[::step, ::step]), "P")
-    picture.putpalette([part for colour in PALETTE for part in colour])
+    picture = Image.fromarray(np.ascontiguousarray(classes[::step, ::step], dtype=np.uint8), "P")
+    picture.putpalette([part for colour in colours for part in colour])
+    return picture
+
+
+def _png(picture, bits, **keywords):
     stream = io.BytesIO()
-    picture.save(stream, "PNG", bits=4, compress_level=6)
+    picture.save(stream, "PNG", bits=bits, compress_level=6, **keywords)
     return uri("image/png", stream.getvalue())
 
 

@@ -107,8 +107,9 @@ class _MapFigures:
             background_fill_color="#bfbfbf",
             toolbar_location="above",
         )
-        source = ColumnDataSource({"url": [""]}, name=f"{self.name}_{panel}")
-        plot.image_url("url", x=0, y=0, w=self.sides[0], h=self.sides[1], anchor="top_left", source=source)
+        for layer in ("state_wet", "state") if panel == "state" else (panel,):
+            source = ColumnDataSource({"url": [""]}, name=f"{self.name}_{layer}")
+            plot.image_url("url", x=0, y=0, w=self.sides[0], h=self.sides[1], anchor="top_left", source=source)
         plot.line("x", "y", source=self.line, line_color="white", line_width=4, line_alpha=0.8)
         plot.line("x", "y", source=self.line, line_color="#c1121f", line_width=2)
         plot.scatter("x", "y", source=self.line, size=12, fill_color="white", line_color="#c1121f", line_width=2)

@@ -41,7 +41,7 @@ class Live:
         return {
             "name": maps.name,
             "title": maps.title,
-            "panels": [_panel(panel, data, pictures) for panel in figures if panel != "section"],
+            "panels": [_panel(panel, data) for panel in figures if panel != "section"],
             "contacts": [choice.label for choice in maps.contacts],
             "films": [choice.label for choice in maps.films],
             "first": data["first"],
@@ -49,7 +49,7 @@ class Live:
             "thinned": data["thinning"] if data["thinning"] > 1 else 0,
             "size": _size(maps),
             "samples": f"{data['height']['array']['columns']} × {data['height']['array']['rows']}",
-            "pictures": _others(data, pictures),
+            "pictures": pictures,
             "data": interactive.script_json(data),
         }
 
@@ -70,26 +70,21 @@ def _size(maps):
     return f"{' × '.join(sides)}; x to the right, y downwards"
 
 
-def _first_pictures(data):
+def _first_parts(data):
     """{panel: the part that it shows at first}"""
     contact, film = data["first"]
     parts = {"height": data["height"]}
     if data["contacts"]:
-        parts["state"] = {"picture": data["states"].get(f"{contact},{film}")}
-        parts["gap"] = (data["contacts"][contact] or {}).get("gap")
+        parts["state"] = data["contacts"][contact]
+        parts["gap"] = data["contacts"][contact].get("gap")
     if data["films"]:
         parts["film"] = data["films"][film]
     return {panel: part for panel, part in parts.items() if part}
 
 
-def _panel(panel, data, pictures):
-    part = _first_pictures(data).get(panel, {})
-    return {
-        "panel": panel,
-        "picture": part.get("picture", ""),
-        "uri": pictures.get(part.get("picture"), ""),
-        **({} if panel == "state" else _bar(panel, part)),
-    }
+def _panel(panel, data):
+    part = _first_parts(data).get(panel, {})
+    return {"panel": panel, **({} if panel == "state" else _bar(panel, part))}
 
 
 def _bar(panel, part):
@@ -101,9 +96,3 @@ def _bar(panel, part):
     middle = (low + high) / 2
     ends = [f"{units.number(value * factor, 3)}" for value in (low, middle, high)]
     return {"gradient": viewer.css_gradient(getattr(map_axes, _COLOURS[panel])), "ends": ends, "unit": unit}
-
-
-def _others(data, pictures):
-    """Those that the page shows only when they are chosen."""
-    first = {part.get("picture") for part in _first_pictures(data).values()}
-    return {name: uri for name, uri in pictures.items() if name not in first}

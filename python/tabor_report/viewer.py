@@ -8,13 +8,11 @@ import numpy as np
 from tabor_report import encoding, map_axes, units
 from tabor_report.example import richest_window
 
-BUDGET = 7.2e6  # bytes of the maps of a page of at most 10 MB
-QUALITIES = (80, 60)  # of WebP; the second where the first would leave states out
-RESERVE = 0.45  # of the budget, for gaps: contact states stop there
-SHRINKS = 0.72  # a picture of the second quality, by that of the first
+BUDGET = 7.6e6  # bytes of the maps of a page of at most 10 MB
+QUALITIES = {92: 2.0, 80: 1.0, 60: 0.68, 40: 0.52}  # of WebP, with the size of a picture by that of the second
 LARGEST_COARSE = 850  # samples along a side
-SMALLEST_COARSE = 400
-FULL_COARSE = 3  # as many arrays have the largest side
+FOR_SAMPLES = 0.4  # of the budget
+BYTES_A_SAMPLE = 2.17  # packed
 LOW, HIGH = 0.5, 99.5  # percentiles at which colours end
 
 GROUND = {"hole": (191, 191, 191), "dry": (244, 240, 230)}
@@ -80,113 +78,104 @@ def encoded(maps, budget=BUDGET):
 
 
 class _Encoder:
+    """First what must be there, then quality, then as many gaps as fit."""
+
     def __init__(self, maps, budget):
-        self.maps, self.budget, self.left = maps, budget, budget
-        self.interest = np.zeros(maps.height.shape, dtype=bool)
-        self.last = -1, None
+        self.maps, self.left = maps, budget
         self.pictures = {}
-        arrays = 1 + len(maps.films) + sum("gap" in choice.load for choice in maps.contacts)
-        side = LARGEST_COARSE * math.sqrt(FULL_COARSE / max(arrays, FULL_COARSE))
-        self.side = int(max(side, SMALLEST_COARSE))
-        self.quality = QUALITIES[0]
-        self.films = [None] * len(maps.films)
-        self.contacts = [None] * len(maps.contacts)
-        self.left_out = []
+        self.last = -1, None
+        self.with_gap = [place for place, choice in enumerate(maps.contacts) if "gap" in choice.load]
+        arrays = 1 + len(maps.films) + len(self.with_gap)
+        self.side = int(min(LARGEST_COARSE, max(2, math.sqrt(FOR_SAMPLES * budget / arrays / BYTES_A_SAMPLE))))
 
     def run(self):
-        height = self._height()
-        wet = self._films()
-        states = self._states(wet)
-        self._gaps()
-        rows, columns = self.maps.height.shape
+        height = self.maps.height
+        self.height = height - np.float32(np.nanmean(height)) if np.isfinite(height).any() else height
+        self.films = [np.asarray(choice.load["film"]()) for choice in self.maps.films]
+        contacts, wets, line = self._contacts()
+        self.quality = self._plan()
+        rows, columns = height.shape
         return {
             "name": self.maps.name,
             "size": [columns, rows],
             "pixel": list(self.maps.pixel),
-            "thinning": encoding.thinning(self.maps.height.shape),
-            "height": height,
-            "contacts": self.contacts,
-            "films": self.films,
-            "states": states,
+            "thinning": encoding.thinning(height.shape),
+            "height": self._part("height", *self._of_height()),
+            "films": [self._film(place, wet) for place, wet in enumerate(wets)],
+            "contacts": contacts,
             "first": list(self.maps.first),
-            "line": self._line(),
-            "left_out": self.left_out,
-            "reds": [colour[0] for colour in encoding.PALETTE],
+            "line": line,
+            "left_out": self._add_gaps(contacts),
         }, self.pictures
 
-    def _height(self):
-        height = self.maps.height
-        centred = height - np.float32(np.nanmean(height)) if np.isfinite(height).any() else height
-        limits = self._limits(centred)
-        return {"array": self._array(centred), **self._picture("height", centred, limits, map_axes.HEIGHT_COLOURS, "hole")}
+    def _contacts(self):
+        """([{"label", "picture"}], ids of the pictures of what is wet, the ends of the first section)."""
+        contacts, line = [], None
+        touched = np.zeros(self.maps.height.shape, dtype=bool)
+        for place, choice in enumerate(self.maps.contacts):
+            state = choice.load["state"]()
+            picture = encoding.contact_layer(state, (state > 1).any())
+            contacts.append({"label": choice.label, "picture": self._keep(f"contact{place}", picture)})
+            touched |= state > 0
+            if place == self.maps.first[0]:
+                line = self._line(state > 0)
+        wets = [self._keep(f"wet{place}", encoding.wet_layer(touched & (film > 0))) for place, film in enumerate(self.films)]
+        if contacts and not wets:
+            self._keep("wet", encoding.wet_layer(np.zeros((1, 1))))
+        return contacts, wets, line or self._line(touched)
 
-    def _films(self):
-        """Where each film is."""
-        loaded = [np.asarray(choice.load["film"]()) for choice in self.maps.films]
-        for place, (choice, film) in enumerate(zip(self.maps.films, loaded)):
-            shown = np.where(film > 0, film, np.float32(np.nan))
-            limits = 0.0, self._limits(film[film > 0])[1]
-            picture = self._picture(f"film{place}", shown, limits, map_axes.FILM_COLOURS, "dry")
-            self.films[place] = {"label": choice.label, "array": self._array(film), **picture}
-        return [film > 0 for film in loaded]
+    def _plan(self):
+        """The best quality with which all pictures fit, else the least."""
+        second = 80
+        samples = [(1, self._of_height())] + [(len(self.films), self._of_film(0))] * bool(self.films)
+        samples += [(len(self.with_gap), self._of_gap(self.maps.first[0]))] * bool(self.with_gap)
+        pictures = sum(count * len(_picture(*sample, second)) for count, sample in samples)
+        arrays = sum(count for count, _ in samples) * len(encoding.coarse(self.height, self.side)["data"])
+        fitting = [quality for quality, size in QUALITIES.items() if size * pictures + arrays <= self.left]
+        return max(fitting, default=min(QUALITIES))
 
-    def _states(self, wet):
-        """{"contact,film": id of its picture} of those that fit; the film is 0 where there is none."""
-        found = {}
-        for place in self._order(range(len(self.maps.contacts))):
-            state = self.maps.contacts[place].load["state"]()
-            self.contacts[place] = {"label": self.maps.contacts[place].label}
-            for number, mask in enumerate(wet or [None]):
-                if found and self.left < RESERVE * self.budget:
-                    self._leave_out(place)
-                    continue
-                classes = encoding.contact_classes(state, mask)
-                found[f"{place},{number}"] = self._keep(f"state{place}_{number}", encoding.palette_picture(classes))
-                if (place, number) == self.maps.first:
-                    self.interest = _interest(classes)
-        return found
+    def _film(self, place, wet):
+        return {"label": self.maps.films[place].label, "wet": wet, **self._part(f"film{place}", *self._of_film(place))}
 
-    def _gaps(self):
-        """The gap of the state shown first, then those that fit; all have the colours of the lowest pressure's."""
-        places = [place for place, choice in enumerate(self.maps.contacts) if "gap" in choice.load]
-        highest = self._limits(self._gap(places[0]))[1] if places else 0
-        cost = 0
-        for number, place in enumerate(self._order(places)):
+    def _add_gaps(self, contacts):
+        """The gap shown first, then those that fit; labels of the contacts whose gap does not."""
+        cost, left_out = 0, []
+        for place in self._order(self.with_gap):
             if self.left < cost:
-                self._leave_out(place)
+                left_out.append(place)
                 continue
             before = self.left
-            picture = self._picture(f"gap{place}", self._gap(place), (0.0, highest), map_axes.GAP_COLOURS, "hole")
-            self.contacts[place]["gap"] = {"array": self._array(self._gap(place)), **picture}
+            contacts[place]["gap"] = self._part(f"gap{place}", *self._of_gap(place))
             cost = before - self.left
-            if number == 0 and self.left < cost * (len(places) - 1):
-                self.quality, cost = QUALITIES[1], cost * SHRINKS
-
-    def _gap(self, place):
-        """Read once: it is asked for twice in a row."""
-        if self.last[0] != place:
-            self.last = place, np.asarray(self.maps.contacts[place].load["gap"]())
-        return self.last[1]
-
-    def _leave_out(self, place):
-        if self.maps.contacts[place].label not in self.left_out:
-            self.left_out.append(self.maps.contacts[place].label)
+        return [contacts[place]["label"] for place in sorted(left_out)]
 
     def _order(self, places):
         """That shown first, then the ends, then those between."""
-        places = list(places)
         preferred = [self.maps.first[0], *places[:1], *places[-1:], *places]
         return [place for place in dict.fromkeys(preferred) if place in places]
 
-    def _picture(self, name, values, limits, colours, ground):
-        text = encoding.coloured(values, limits, _table(colours), GROUND[ground], self.quality)
-        factor, unit = units.length_scale(max(map(abs, limits)))
-        return {"picture": self._keep(name, text), "limits": list(limits), "unit": [factor, unit]}
+    def _of_height(self):
+        """(values, limits, colours, ground)"""
+        return self.height, self._limits(self.height), map_axes.HEIGHT_COLOURS, "hole"
 
-    def _array(self, values):
-        array = encoding.coarse(values, self.side)
+    def _of_film(self, place):
+        film = self.films[place]
+        shown = np.where(film > 0, film, np.float32(np.nan))
+        return shown, (0.0, self._limits(film[film > 0])[1]), map_axes.FILM_COLOURS, "dry"
+
+    def _of_gap(self, place):
+        """The gap is read once: it is asked for twice in a row."""
+        if self.last[0] != place:
+            self.last = place, np.asarray(self.maps.contacts[place].load["gap"]())
+        return self.last[1], (0.0, self._limits(self.last[1])[1]), map_axes.GAP_COLOURS, "hole"
+
+    def _part(self, name, values, limits, colours, ground):
+        """A picture, its colours' ends, their unit, and the samples; a film's dry ground is zero in these."""
+        factor, unit = units.length_scale(max(map(abs, limits)))
+        array = encoding.coarse(np.nan_to_num(values) if ground == "dry" else values, self.side)
         self.left -= len(array["data"])
-        return array
+        picture = self._keep(name, _picture(values, limits, colours, ground, self.quality))
+        return {"picture": picture, "limits": list(limits), "unit": [factor, unit], "array": array}
 
     def _keep(self, name, picture):
         self.left -= len(picture)
@@ -203,17 +192,18 @@ class _Encoder:
         low, high = (float(value) for value in np.percentile(finite, [LOW, HIGH]))
         return (low, high) if high > low else (low, low + 1e-9)
 
-    def _line(self):
+    def _line(self, touching):
         """Ends of the first section, in pixels: along x through the most wet contact of the richest window."""
-        window = richest_window(self.interest)
-        counts = window.of(self.interest).sum(axis=1)
+        wet = touching & (self.films[self.maps.first[1]] > 0) if self.films else touching
+        interest = wet if wet.any() else touching
+        window = richest_window(interest)
+        counts = window.of(interest).sum(axis=1)
         row = window.y0 + (int(np.argmax(counts)) if counts.max() > 0 else len(counts) // 2)
         return [[window.x0, row], [window.x1 - 1, row]]
 
 
-def _interest(classes):
-    wet = classes >= encoding.WET
-    return wet if wet.any() else classes > 0
+def _picture(values, limits, colours, ground, quality):
+    return encoding.coloured(values, limits, _table(colours), GROUND[ground], quality)
 
 
 def _table(colours):

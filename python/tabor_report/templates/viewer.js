@@ -27,6 +27,15 @@ async function unpack(array) {
   return codes;
 }
 
+async function canvasOf(url) {
+  const image = new Image(), canvas = document.createElement("canvas");
+  image.src = url;
+  await image.decode();
+  [canvas.width, canvas.height] = [image.naturalWidth, image.naturalHeight];
+  canvas.getContext("2d", {willReadFrequently: true}).drawImage(image, 0, 0);
+  return canvas;
+}
+
 class Coarse {
   constructor(array, codes) { Object.assign(this, array, {codes}); }
   // Of the sample in row j and column i.
@@ -49,7 +58,7 @@ class Maps {
   }
 
   async start() {
-    await Promise.all([this.data.height, ...this.data.contacts.map((c) => c && c.gap), ...this.data.films]
+    await Promise.all([this.data.height, ...this.data.contacts.map((contact) => contact.gap), ...this.data.films]
       .filter(Boolean).map(async (map) => this.arrays.set(map, new Coarse(map.array, await unpack(map.array)))));
     for (const which of ["contact", "film"]) this.follow(which);
     for (const [name, turn] of [["along", 0], ["across", 1]]) {
@@ -75,25 +84,31 @@ class Maps {
   model(name) { return this.doc.get_model_by_name(`${this.data.name}_${name}`); }
 
   parts() {
-    const {height, contacts, films} = this.data, contact = contacts[this.contact], film = films[this.film];
-    const state = this.data.states[`${this.contact},${this.film}`];
-    return {height, gap: contact && contact.gap, film, state: state && {picture: state}};
+    const {height, contacts, films} = this.data, state = contacts[this.contact], film = films[this.film];
+    return {height, gap: state && state.gap, film, state};
   }
 
   show() {
     const parts = this.parts();
     for (const panel of ["height", "state", "gap", "film"]) {
-      const still = element(`${this.data.name}_${panel}_still`);
-      if (!still) continue;
-      const part = parts[panel], url = part ? this.pictures.get(part.picture) : "";
-      this.model(panel).data = {url: [url]};
-      still.src = url || "data:,";
+      const part = parts[panel];
+      if (!element(`${this.data.name}_${panel}_still`)) continue;
+      const still = this.picture(panel, part && part.picture);
+      if (panel == "state") this.picture("state_wet", parts.film ? parts.film.wet : `${this.data.name}_wet`);
       still.alt = `${this.title(panel)}${part ? "" : ": not on this page"}`;
       element(`${this.data.name}_${panel}_title`).textContent = still.alt;
       if (part && part.limits) this.bar(panel, part);
     }
-    this.loadState(parts.state);
+    this.loadState(parts);
     this.section();
+  }
+
+  // Shows a picture in a panel and in the page that is printed.
+  picture(panel, name) {
+    const url = name ? this.pictures.get(name) : "", still = element(`${this.data.name}_${panel}_still`);
+    this.model(panel).data = {url: [url]};
+    still.src = url || "data:,";
+    return still;
   }
 
   // The ends and the middle of a panel's colours.
@@ -109,26 +124,26 @@ class Maps {
             film: `Lubricant, ${oil}`}[panel];
   }
 
-  // Every pixel of the contact picture, to be asked for its class.
-  loadState(part) {
-    this.canvas = null;
-    if (!part) return;
-    const image = new Image();
-    image.onload = () => {
-      const canvas = document.createElement("canvas");
-      [canvas.width, canvas.height] = [image.naturalWidth, image.naturalHeight];
-      canvas.getContext("2d", {willReadFrequently: true}).drawImage(image, 0, 0);
-      this.canvas = canvas;
-    };
-    image.src = this.pictures.get(part.picture);
+  // Every pixel of the layers of the contact picture, to be asked for its class.
+  async loadState({state, film}) {
+    this.canvases = null;
+    const names = [state && state.picture, film && film.wet].filter(Boolean);
+    if (!state) return;
+    const canvases = await Promise.all(names.map((name) => canvasOf(this.pictures.get(name))));
+    if (this.parts().state == state && this.parts().film == film) this.canvases = canvases;
   }
 
-  // 0 to 4, as STATES; x, y in pixels of the scan.
+  // 0 to 4, as STATES; x, y in pixels of the scan; NaN where it is unknown.
   state(x, y) {
-    if (!this.canvas) return NaN;
+    if (!this.canvases) return NaN;
+    const [veil, wet] = this.canvases.map((canvas) => this.pixel(canvas, x, y));
+    if (veil[3] > 200) return 0;
+    return 1 + (veil[3] < 50) + (wet && wet[0] < 116 ? 2 : 0);
+  }
+
+  pixel(canvas, x, y) {
     const step = this.data.thinning;
-    const [red] = this.canvas.getContext("2d").getImageData(Math.floor(x / step), Math.floor(y / step), 1, 1).data;
-    return this.data.reds.reduce((best, value, place) => Math.abs(value - red) < Math.abs(this.data.reds[best] - red) ? place : best, 0);
+    return canvas.getContext("2d").getImageData(Math.floor(x / step), Math.floor(y / step), 1, 1).data;
   }
 
   // Column and row of the sample next to a pixel, and the pixel that it is of.
@@ -170,7 +185,7 @@ class Maps {
       const [scale, name] = parts[panel].unit;
       words.push(`${panel} ${Number.isFinite(value) ? `${digits(value * scale, 5)} ${name}` : "unknown"}`);
     }
-    if (this.canvas) words.push(STATES[this.state(x, y)]);
+    if (this.canvases) words.push(STATES[this.state(x, y)]);
     element(`${this.data.name}_reading`).textContent = words.join("  \u00b7  ");
     this.reading = {...sample, ...values, state: this.state(x, y)};
   }
