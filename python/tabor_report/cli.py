@@ -61,15 +61,16 @@ def _run(options, arguments):
 def _convert(options):
     options.pressure = None if options.pressure is None else units.parse_pressure(options.pressure)
     options.density = None if options.density is None else units.parse_density(options.density)
-    options.figures = _formats(options.figures or ("" if options.html else "png,svg"))
+    options.figures = _formats(options)
 
 
-def _formats(text):
-    """'png,svg' -> ['png', 'svg']"""
-    formats = [part.strip().lower() for part in text.split(",") if part.strip()]
-    unknown = [part for part in formats if part not in FORMATS]
-    if unknown or text and not formats:
-        raise UsageError(f"--figures: got '{text}'; expected png, svg, pdf or several of them, as png,svg")
+def _formats(options):
+    """'png,svg' -> ['png', 'svg']; none where only the page is asked for."""
+    if options.figures is None:
+        return [] if options.html else ["png", "svg"]
+    formats = options.figures.split(",")
+    if any(part not in FORMATS for part in formats):
+        raise UsageError(f"--figures: got '{options.figures}'; expected png, svg, pdf or several of them, as png,svg")
     return list(dict.fromkeys(formats))
 
 

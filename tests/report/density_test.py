@@ -239,7 +239,7 @@ class OfOneScan(unittest.TestCase):
         self.assertEqual(source.answers[0], [f"At {p} MPa: full from 0.1 g/m²" for p in (5, 10)])
 
     def test_states_are_named_by_pressure_and_density(self):
-        header = page_single.sections(self.single())["results"]["header"]
+        header = page_single.sections(self.single())["results"]["tables"][0]["header"]
         self.assertEqual(header, ["", *(f"{p} MPa, {d} g/m²" for p in (5, 10) for d in (0.9, 0.45))])
 
     def test_of_several_states_the_range_stands_first(self):
