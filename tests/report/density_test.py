@@ -62,7 +62,7 @@ class OfAStudy(StudyCase):
 
     def test_the_logarithmic_axis_has_several_labels_whatever_it_spans(self):
         for low, high in ((0.001, 10), (0.001, 0.05), (0.4, 0.9), (0.41, 0.46), (0.45, 0.450001)):
-            found = density_friction.ticks(low, high)
+            found = style.round_numbers(low, high)
             self.assertGreaterEqual(len(found), 2, (low, high))
             self.assertLessEqual(len(found), 9, (low, high))
             self.assertTrue(all(low * 0.99 <= value <= high * 1.01 for value in found), found)

@@ -185,7 +185,9 @@ class SingleReport(unittest.TestCase):
             names,
             {
                 "topography",
-                *(f"state0000_{what}" for what in ("pressure", "contact", "gap", "film", "section")),
+                *(f"{what}_5MPa" for what in ("pressure", "contact", "gap")),
+                "film_0.9g_per_m2",
+                "section_5MPa_0.9g_per_m2",
             },
         )
         self.assertIn("one.x3p", page)
@@ -198,15 +200,15 @@ class SingleReport(unittest.TestCase):
             state.attrs.update({"friction_mixed": 0.123, "sliding_speed_m_per_s": 0.005})
 
         names, page = self.report(change=flow)
-        self.assertTrue({"state0000_fluid_pressure", "state0000_fluid_fill"} <= names)
+        self.assertTrue({f"fluid_{what}_5MPa_0.9g_per_m2_5mm_per_s" for what in ("pressure", "fill")} <= names)
         self.assertIn("Fluid pressure map: P = 5 MPa, 0.9 g/m², 5 mm/s", page)
         self.assertIn("friction while oil flows", page)
 
     def test_a_contact_is_drawn_once_per_pressure_and_a_film_once_per_density(self):
         names, page = self.report(pressures=(5e6, 10e6), densities=(0.45, 0.9))
-        contact = {f"state{state}_{what}" for state in ("0000", "0002") for what in ("pressure", "contact", "gap")}
-        films = {"state0000_film", "state0001_film"}
-        sections = {f"state{state:04d}_section" for state in range(4)}
+        contact = {f"{what}_{pressure}MPa" for pressure in (5, 10) for what in ("pressure", "contact", "gap")}
+        films = {"film_0.45g_per_m2", "film_0.9g_per_m2"}
+        sections = {f"section_{p}MPa_{d}g_per_m2" for p in (5, 10) for d in (0.45, 0.9)}
         self.assertEqual(names, {"topography", "against_pressure"} | contact | films | sections)
         self.assertIn("Film map: 0.45 g/m²", page)
 
@@ -221,7 +223,7 @@ class SingleReport(unittest.TestCase):
 
     def test_a_film_alone_is_shown_without_contact(self):
         names, _ = self.report(contact=False)
-        self.assertEqual(names, {"topography", "state0000_film", "state0000_section"})
+        self.assertEqual(names, {"topography", "film_0.9g_per_m2", "section_0.9g_per_m2"})
 
     def test_a_folder_that_cannot_be_written_ends_with_5(self):
         write_single(self.folder / "one.h5", Recipe(shape=(20, 20), pressures=(5e6,)))
@@ -255,7 +257,7 @@ class SingleReport(unittest.TestCase):
     def test_more_states_than_fit_beside_each_other_make_more_tables(self):
         _, page = self.report(pressures=(2e6, 5e6, 10e6, 15e6), densities=(0.45, 0.9))
         results = page[page.index('<section id="results">') : page.index('<section id="origin">')]
-        heads = [re.findall(r"<th", head) for head in re.findall(r"<thead>.*?</thead>", results, re.S)]
+        heads = [re.findall(r"<th[ >]", head) for head in re.findall(r"<thead>.*?</thead>", results, re.S)]
         self.assertEqual([len(head) - 1 for head in heads], [6, 2])
 
     def test_no_html_makes_figures_only(self):

@@ -69,7 +69,8 @@ def _states(study, group):
 def _draw_group(axes, group, states, look):
     pressures, mean, n = means(states)
     number = number_text(n)
-    axes.plot(pressures * 1e-6, mean * 100, color=look["color"], linestyle=look["linestyle"])
+    (line,) = axes.plot(pressures * 1e-6, mean * 100, color=look["color"], linestyle=look["linestyle"])
+    style.note(line, n=n)
     axes.plot([], [], **look, label=f"{style.literal(group) or 'mean'} ({number})")
     axes.plot(
         [state["pressure"] * 1e-6 for state in states],

@@ -50,7 +50,7 @@ def _contact(single, state):
     touching = state.state()
     if touching is None:
         return None
-    return contact_map.draw(touching, single.pixel, state.facts, single.title, f"state{state.key}_contact")
+    return contact_map.draw(touching, single.pixel, state.facts, single.title, f"contact_{in_a_name(state.pressure_label)}")
 
 
 def _gap(single, state):
@@ -87,6 +87,12 @@ def _film(single, state):
         map_axes.DRY_GROUND,
         state.density_label,
     )
+
+
+def in_a_name(label):
+    """What tells states apart, in the name of a file: 'P = 7 MPa, 0.45 g/m²' -> '7MPa_0.45g_per_m2'."""
+    words = label.replace("P = ", "").replace(", ", "_").replace("/", "_per_").replace("²", "2").replace("µ", "u")
+    return "".join(letter for letter in words if letter.isascii() and (letter.isalnum() or letter in "._-"))
 
 
 def _flow_label(state):
@@ -139,7 +145,7 @@ def _map(single, state, what, values, axis_label, colours, text, ground, label, 
     grid[0][0].set_title(label.replace("P =", "$P$ ="))
     end = "" if highest else "Colours end at the 99.5th percentile of what is drawn."
     return Drawn(
-        f"state{state.key}_{what}",
+        f"{what}_{in_a_name(label)}",
         f"{what.replace('_', ' ').capitalize()} map: {label}",
         f"{text}, at {label}. {view.note}{end}",
         figure,
@@ -170,7 +176,7 @@ def _section(single, state):
         f"Heights are stretched {units.number(stretch, 2)} times against lengths."
     )
     return Drawn(
-        f"state{state.key}_section",
+        f"section_{in_a_name(_flow_label(state))}",
         f"Section: {state.label}",
         caption,
         figure,
