@@ -21,7 +21,7 @@ from bokeh.models import (
     WheelZoomTool,
 )
 from bokeh.plotting import figure as new_figure
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import LineCollection, PolyCollection, QuadMesh
 from matplotlib.colors import to_hex, to_rgba
 from matplotlib.container import ErrorbarContainer
 from matplotlib.contour import ContourSet
@@ -81,7 +81,7 @@ def _is_picture(axes):
 
 
 def _has_contours(axes):
-    return any(isinstance(artist, ContourSet) or hasattr(artist, "levels") for artist in axes.get_children())
+    return any(isinstance(artist, (ContourSet, QuadMesh)) or hasattr(artist, "levels") for artist in axes.get_children())
 
 
 class _Converter:
