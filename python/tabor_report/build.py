@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from tabor_report import ehl, example, hdf, interactive, live_page, output, page, single, study, style
+from tabor_report import ehl, example, hdf, interactive, live_page, output, page, single, spectra, study, style
 from tabor_report.figures import (
     contact_area,
     contact_clusters,
@@ -22,6 +22,7 @@ from tabor_report.figures import (
     single_maps,
     topography,
 )
+from tabor_report.figures import spectra as spectrum
 
 
 def open_result(path):
@@ -31,6 +32,8 @@ def open_result(path):
     file = hdf.open_file(path)
     if ehl.is_ehl(file):
         return ehl.load(path, file)
+    if spectra.is_one(file):
+        return spectra.load(path, file)
     if "scans" in file or "table" in file:
         return study.load(path, file)
     return single.load(path, file)
@@ -65,6 +68,8 @@ def build(source, folder, options, command):
 def _drawings(source, options, with_maps):
     if source.kind == "study":
         return study_figures(source, options, with_maps)
+    if source.kind == "psd":
+        return spectrum.draw(source)
     return ehl_figures(source) if source.kind == "ehl" else single_figures(source, with_maps)
 
 

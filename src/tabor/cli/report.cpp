@@ -30,8 +30,8 @@ struct Request {
   std::vector<std::string> passed_on;  ///< options with values, as tabor_report takes them
 };
 
-/// That of a complete environment made for reports: beside an installed program, or in the build folder of the source
-/// tree (tools/check/setup.sh). It has Bokeh, which Debian has not.
+/// That of a complete environment made for reports: beside an installed program, or in the build
+/// folder of the source tree (tools/check/setup.sh). It has Bokeh, which Debian has not.
 std::optional<fs::path> report_python() {
   std::error_code error;
   const fs::path self = fs::read_symlink("/proc/self/exe", error);
@@ -181,7 +181,8 @@ void declare_options(OptionSet& set, Request& request) {
   output.short_flag = "-o";
   output.names = FileRole::folder;
   pass_on(set, request, "--figures", "FORMATS",
-          "write figures and their tables too: png, svg, pdf or several, as png,svg", checked_formats);
+          "write figures and their tables too: png, svg, pdf or several, as png,svg",
+          checked_formats);
   set.toggle("--static", "still figures, as where Bokeh or Pillow is absent", request.is_static);
   set.toggle("--no-html", "figures and tables only [--figures png,svg]", request.no_html);
   set.group("Report of a study");
@@ -204,12 +205,14 @@ Verb report_verb() {
           .arguments = "RESULT [options]",
           .summary = "one self-contained HTML page from a study or a result file, and figures",
           .details =
-              "The page is interactive where Bokeh and Pillow are installed, as tools/quickstart does in a "
+              "The page is interactive where Bokeh and Pillow are installed, as tools/quickstart "
+              "does in a "
               "private environment, and still otherwise. "
               "Needs python3-numpy, python3-h5py, python3-matplotlib and python3-jinja2. "
               "TABOR_PYTHON chooses another interpreter, such as that of a virtual environment; "
               "PYTHONPATH, packages of the user and the current folder are not looked at.",
-          .examples = {"tabor report study_results", "tabor report contact.h5 -o contact_page --figures png,pdf"},
+          .examples = {"tabor report study_results",
+                       "tabor report contact.h5 -o contact_page --figures png,pdf"},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_options(set, *request);
