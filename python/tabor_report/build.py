@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from tabor_report import ehl, example, hdf, interactive, live_page, output, page, single, spectra, study, style
+from tabor_report import ehl, example, hdf, interactive, live_page, output, page, parameters, single, spectra, study, style
 from tabor_report.figures import (
     contact_area,
     contact_clusters,
@@ -29,6 +29,8 @@ def open_result(path):
     """A Study or a Single from a folder or file; raises InputError in one line."""
     path = Path(path)
     path = path / "results.h5" if path.is_dir() else path
+    if path.suffix == ".csv":
+        return parameters.load(path)
     file = hdf.open_file(path)
     if ehl.is_ehl(file):
         return ehl.load(path, file)
@@ -68,6 +70,8 @@ def build(source, folder, options, command):
 def _drawings(source, options, with_maps):
     if source.kind == "study":
         return study_figures(source, options, with_maps)
+    if source.kind == "params":
+        return []
     if source.kind == "psd":
         return spectrum.draw(source)
     return ehl_figures(source) if source.kind == "ehl" else single_figures(source, with_maps)

@@ -8,9 +8,9 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup, escape
 
-from tabor_report import citations, page_ehl, page_single, page_spectra, page_study, style
+from tabor_report import citations, page_ehl, page_parameters, page_single, page_spectra, page_study, style
 
-_PAGES = {"study": page_study, "single": page_single, "ehl": page_ehl, "psd": page_spectra}
+_PAGES = {"study": page_study, "single": page_single, "ehl": page_ehl, "psd": page_spectra, "params": page_parameters}
 LARGEST_CSV = 300_000  # bytes of a table in the page; larger ones come with --figures
 SCREEN_PIXELS_PER_INCH = 115  # letters of the figures a little larger than on paper
 
@@ -82,6 +82,8 @@ def _subtitle(source):
         return f"{scans} scan{'s' * (scans != 1)}, {cases} case{'s' * (cases != 1)}"
     if source.kind == "psd":
         return "one scan"
+    if source.kind == "params":
+        return f"{len(source.scans)} scan{'s' * (len(source.scans) != 1)}"
     if source.kind == "ehl":
         return "a sweep" if source.is_sweep else "one case"
     return f"{len(source.states)} state{'s' * (len(source.states) != 1)} of one scan"
