@@ -32,13 +32,14 @@ PIXELS_PER_INCH = 106
 SCREEN_WIDTH = 900  # of all panels of a row
 _DASHES = {"-": "solid", "--": "dashed", ":": "dotted", "-.": "dashdot"}
 _MARKERS = {
-    "o": "circle", "s": "square", "^": "triangle", "D": "diamond", "d": "diamond", "v": "inverted_triangle", "P": "plus",
-    "X": "x", "x": "x", ".": "dot", "p": "hex", "h": "hex", "*": "star", "<": "triangle", ">": "triangle", "8": "hex",
+    "o": "circle", "s": "square", "^": "triangle", "D": "diamond", "d": "diamond", "v": "inverted_triangle",
+    "P": "plus", "X": "x", "x": "x", ".": "dot", "p": "hex", "h": "hex", "*": "star", "<": "triangle", ">": "triangle", "8": "hex",
 }  # fmt: skip
 _LOG_LABELS = """
 if (tick >= 0.001 && tick < 10000) return String(Number(tick.toPrecision(6)))
 const power = Math.floor(Math.log10(tick) + 1e-9), digits = Number((tick / 10 ** power).toPrecision(3))
-const raised = String(power).replace(/./g, (d) => d == "-" ? "\u207b" : "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"[d])
+const small = "\u2070\u00b9\u00b2\u00b3\u2074\u2075\u2076\u2077\u2078\u2079"
+const raised = String(power).replace(/./g, (d) => d == "-" ? "\u207b" : small[d])
 return (digits == 1 ? "" : digits + "\u00d7") + "10" + raised
 """
 _RAISED = str.maketrans("0123456789+-D", "⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻ᴰ")
@@ -75,7 +76,7 @@ def _lowered(text):
 
 
 def _is_picture(axes):
-    """Whether Bokeh has nothing to match: maps, their bars, and axes that are linear about zero and logarithmic beyond."""
+    """Whether Bokeh has nothing to match: maps, their bars, axes that are linear about zero and logarithmic beyond."""
     scales = {axes.get_xscale(), axes.get_yscale()}
     return bool(axes.images or axes.child_axes or not scales <= {"linear", "log"} or _has_contours(axes))
 
@@ -179,7 +180,8 @@ class _Converter:
         x, y = (np.asarray(values, dtype=float) for values in (line.get_xdata(), line.get_ydata()))
         if not len(x) or not np.isfinite(y).any():
             return
-        columns = {"x": x, "y": y, **{key: np.asarray(value) for key, value in getattr(line, "tabor_notes", {}).items()}}
+        notes = {key: np.asarray(value) for key, value in getattr(line, "tabor_notes", {}).items()}
+        columns = {"x": x, "y": y, **notes}
         if error is not None and error.has_yerr:
             columns["error"] = self._bars(plot, error, y, line)
         source = ColumnDataSource(columns)
@@ -239,7 +241,10 @@ class _Converter:
 
     def _guide(self, plot, axes, line):
         """A line across the panel at one place of an axis."""
-        across = {"width": (axes.get_yaxis_transform(), line.get_ydata), "height": (axes.get_xaxis_transform(), line.get_xdata)}
+        across = {
+            "width": (axes.get_yaxis_transform(), line.get_ydata),
+            "height": (axes.get_xaxis_transform(), line.get_xdata),
+        }
         for dimension, (transform, values) in across.items():
             if line.get_transform() == transform:
                 span = Span(location=float(values()[0]), dimension=dimension, **_stroke_of(line), **self.keywords)
@@ -285,7 +290,8 @@ class _Labels:
 
 def _figure_legends(drawing):
     """[(handles, labels)] of the legends above a figure, which name more than their panels do."""
-    return [(legend.legend_handles, [text.get_text() for text in legend.get_texts()]) for legend in drawing.legends]
+    texts = [[text.get_text() for text in legend.get_texts()] for legend in drawing.legends]
+    return [(legend.legend_handles, labels) for legend, labels in zip(drawing.legends, texts)]
 
 
 def _look(artist):
@@ -298,7 +304,8 @@ def _look(artist):
 
 
 def _stroke_of(line):
-    return {"line_color": to_hex(line.get_color()), "line_width": max(1.0, 1.3 * line.get_linewidth()), "line_dash": _dash(line)}
+    width = max(1.0, 1.3 * line.get_linewidth())
+    return {"line_color": to_hex(line.get_color()), "line_width": width, "line_dash": _dash(line)}
 
 
 def _dash(line):

@@ -93,7 +93,9 @@ def _parser():
     )
     parser.add_argument("-o", "--output", metavar="DIR", help="where to write (default: beside the result)")
     parser.add_argument(
-        "--figures", metavar="FORMATS", help="write figures and their tables to figures/: png, svg, pdf or several, as png,svg"
+        "--figures",
+        metavar="FORMATS",
+        help="write figures and their tables to figures/: png, svg, pdf or several, as png,svg",
     )
     parser.add_argument(
         "--static", action="store_true", help="a page of still figures, as where Bokeh or Pillow is absent"

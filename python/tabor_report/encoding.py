@@ -29,7 +29,8 @@ def thinning(shape):
 def coloured(values, limits, colours, ground, quality):
     """A data: URI of a WebP picture of a map; values that are NaN have the colour `ground`.
 
-    values: (ny, nx); limits: the values of the first and last of the 255 colours; colours: uint8 (256, 3), the first is not used.
+    values: (ny, nx); limits: the values of the first and last of the 255 colours; colours: uint8 (256, 3), of which
+    the first is not used.
     """
     step = thinning(values.shape)
     table = np.array(colours, dtype=np.uint8)

@@ -45,8 +45,12 @@ def answer(states):
         "caption": "At the mean pressure",
         "header": [units.pressure(pressure) for pressure in shown],
         "rows": sorted(lines, key=lambda line: _ORDER.index(line[0].split(",")[0])),
-        "note": f"{len(pressures) - len(shown)} more pressures stand in the results." if len(pressures) > len(shown) else "",
+        "note": _left_out(len(pressures) - len(shown)),
     }
+
+
+def _left_out(count):
+    return f"{count} more pressures stand in the results." if count else ""
 
 
 def evenly(count, most):
@@ -64,11 +68,15 @@ def _questions(state):
     speed = facts.get("sliding_speed_m_per_s")
     known = {
         "real contact area": ("contact_area_fraction", lambda value: f"{units.number(100 * value, 3)} %"),
-        "friction dry": ("friction_dry", lambda value: units.number(value, 3)),
-        f"friction{oil}": ("friction_lubricated" if oil else "", lambda value: units.number(value, 3)),
-        f"friction while oil flows{oil}, {units.si(speed, 'm/s')}": ("friction_mixed", lambda value: units.number(value, 3)),
+        "friction dry": ("friction_dry", _three_digits),
+        f"friction{oil}": ("friction_lubricated" if oil else "", _three_digits),
+        f"friction while oil flows{oil}, {units.si(speed, 'm/s')}": ("friction_mixed", _three_digits),
     }
     return [(name, show(facts[key])) for name, (key, show) in known.items() if isinstance(facts.get(key), float)]
+
+
+def _three_digits(value):
+    return units.number(value, 3)
 
 
 def _highlights(single):

@@ -22,5 +22,8 @@ def _answer(source):
         return None
     low, high = source.trusted
     wavelengths = f"{wavelength(high)} to {wavelength(low)}"
-    rows = [("points", [str(len(q)) for q, _ in source.curves.values()]), ("wavelengths to be trusted", [wavelengths] * len(source.curves))]
+    rows = [
+        ("points", [str(len(q)) for q, _ in source.curves.values()]),
+        ("wavelengths to be trusted", [wavelengths] * len(source.curves)),
+    ]
     return {"caption": "Of each spectrum", "header": [NAMES[axis] for axis in source.curves], "rows": rows, "note": ""}

@@ -27,7 +27,7 @@ MOST_LINES = 24  # of the answer
 
 
 def answer(study):
-    """One line per question and group, one column per pressure: the mean, with the standard deviation of n > 1 scans."""
+    """One line per question and group, one column per pressure: the mean, with the deviation of n > 1 scans."""
     pressures = study.averages.distinct("mean_pressure_Pa")
     shown = [pressures[place] for place in evenly(len(pressures), MOST_COLUMNS)]
     lines = [line for group in study.groups for line in _lines(study, group, shown)]
@@ -54,9 +54,8 @@ def _lines(study, group, pressures):
     for question, series in curves.items():
         shown = [_with_spread(*numbers) for numbers in zip(series.mean, series.bar("std"))]
         found.append((f"{question}{name}", series.pressure, shown))
-    return [
-        (question, [_at(known, texts, pressure) for pressure in pressures]) for question, known, texts in found if len(known)
-    ]
+    found = [parts for parts in found if len(parts[1])]
+    return [(question, [_at(known, texts, place) for place in pressures]) for question, known, texts in found]
 
 
 def _with_spread(mean, spread):

@@ -1,4 +1,4 @@
-"""What the interactive maps of a page hold: height, and every contact and film of a scan as far as the page's size allows."""
+"""What the interactive maps of a page hold: height, every contact and film of a scan, and gaps as far as they fit."""
 
 import math
 from dataclasses import dataclass, field
@@ -50,7 +50,8 @@ def of_single(single):
                 state.density_label, {"film": lambda state=state: state.raw("film_thickness")}
             )
     height = single.raw_height()
-    return Maps("maps", single.title, single.pixel, height, [*contacts.values()], [*films.values()], (len(contacts) // 2, 0))
+    chosen = len(contacts) // 2, 0
+    return Maps("maps", single.title, single.pixel, height, [*contacts.values()], [*films.values()], chosen)
 
 
 def of_example(example):
@@ -119,7 +120,8 @@ class _Encoder:
             touched |= state > 0
             if place == self.maps.first[0]:
                 line = self._line(state > 0)
-        wets = [self._keep(f"wet{place}", encoding.wet_layer(touched & (film > 0))) for place, film in enumerate(self.films)]
+        layers = (encoding.wet_layer(touched & (film > 0)) for film in self.films)
+        wets = [self._keep(f"wet{place}", layer) for place, layer in enumerate(layers)]
         if contacts and not wets:
             self._keep("wet", encoding.wet_layer(np.zeros((1, 1))))
         return contacts, wets, line or self._line(touched)

@@ -1,4 +1,4 @@
-"""The interactive page in a headless browser: nothing fetched, nothing complained about, maps together, values of the file."""
+"""The interactive page in a headless browser: nothing fetched or complained about, maps together, values of the file."""
 
 import importlib.util
 import json
@@ -93,7 +93,8 @@ class OneScan(InBrowser):
         plot = self.page.locator(f"#maps_{panel}_plot")
         plot.scroll_into_view_if_needed()
         box, frame = plot.bounding_box(), self.page.evaluate(
-            f"(() => {{ const plot = tabor.doc.get_model_by_name('maps_{panel}_plot'); return [plot.inner_width, plot.inner_height] }})()"
+            f"""(() => {{ const plot = tabor.doc.get_model_by_name('maps_{panel}_plot')
+                return [plot.inner_width, plot.inner_height] }})()"""
         )
         left = box["width"] - frame[0] - 7
         self.page.mouse.move(box["x"] + left + x * frame[0], box["y"] + 34 + y * frame[1])
@@ -120,7 +121,8 @@ class OneScan(InBrowser):
                     found = self.point(x, y)
                     for name, values in stored.items():
                         step = np.ptp(values) / encoding.STEPS
-                        self.assertLessEqual(abs(found[name] - values[found["y"], found["x"]]), 0.51 * step + 1e-7 * np.ptp(values))
+                        error = abs(found[name] - values[found["y"], found["x"]])
+                        self.assertLessEqual(error, 0.51 * step + 1e-7 * np.ptp(values))  # float32 beside half a step
 
     def test_the_contact_under_the_pointer_is_that_of_the_file(self):
         with h5py.File(self.folder / "one.h5") as file:
@@ -186,7 +188,8 @@ class OneScan(InBrowser):
     def test_a_name_in_the_legend_hides_its_curve(self):
         button = self.page.locator("#against_pressure button.entry").first
         tag = button.get_attribute("data-tag")
-        shown = f"[...tabor.doc._all_models.values()].filter((model) => model.tags.includes({json.dumps(tag)})).map((model) => model.visible)"
+        shown = f"""[...tabor.doc._all_models.values()].filter((model) => model.tags.includes({json.dumps(tag)}))
+            .map((model) => model.visible)"""
         self.assertEqual(set(self.page.evaluate(shown)), {True})
         button.click()
         self.assertEqual(set(self.page.evaluate(shown)), {False})
@@ -215,11 +218,12 @@ class Study(InBrowser):
 
     def test_error_bars_measured_points_and_n_are_there(self):
         columns = self.page.evaluate(
-            """[...tabor.doc._all_models.values()].filter((model) => model.type == "ColumnDataSource").map((model) => Object.keys(model.data))"""
+            """[...tabor.doc._all_models.values()].filter((model) => model.type == "ColumnDataSource")
+               .map((model) => Object.keys(model.data))"""
         )
         self.assertTrue(any({"error", "n"} <= set(names) for names in columns))
-        labels = self.page.evaluate("[...document.querySelectorAll('button.entry')].map((entry) => entry.textContent.trim())")
-        self.assertTrue(any(label.startswith("experiment") for label in labels), labels)
+        labels = self.page.locator("button.entry").all_inner_texts()
+        self.assertTrue(any(label.strip().startswith("experiment") for label in labels), labels)
 
 
 class Size(unittest.TestCase):
