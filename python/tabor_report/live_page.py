@@ -9,8 +9,9 @@ _COLOURS = {"height": "HEIGHT_COLOURS", "gap": "GAP_COLOURS", "film": "FILM_COLO
 
 class Live:
     def __init__(self, source, options):
+        found = _maps_of(source, options)  # before Bokeh is imported: a file that lacks something is soon rejected
         self.document = interactive.Document()
-        self.maps = [self._maps(maps, 1 / len(found)) for found in [_maps_of(source, options)] for maps in found]
+        self.maps = [self._maps(maps, 1 / len(found)) for maps in found]
 
     def curves(self, drawn):
         """{"rows": ids of the elements that show a figure's panels, "legend"}; None where it stays as it is."""

@@ -129,8 +129,11 @@ class _Encoder:
     def _plan(self):
         """The best quality with which all pictures fit, else the least."""
         second = 80
-        samples = [(1, self._of_height())] + [(len(self.films), self._of_film(0))] * bool(self.films)
-        samples += [(len(self.with_gap), self._of_gap(self.maps.first[0]))] * bool(self.with_gap)
+        samples = [(1, self._of_height())]
+        if self.films:
+            samples.append((len(self.films), self._of_film(0)))
+        if self.with_gap:
+            samples.append((len(self.with_gap), self._of_gap(self.with_gap[0])))
         pictures = sum(count * len(_picture(*sample, second)) for count, sample in samples)
         arrays = sum(count for count, _ in samples) * len(encoding.coarse(self.height, self.side)["data"])
         fitting = [quality for quality, size in QUALITIES.items() if size * pictures + arrays <= self.left]

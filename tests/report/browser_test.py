@@ -226,6 +226,28 @@ class Study(InBrowser):
         self.assertTrue(any(label.strip().startswith("experiment") for label in labels), labels)
 
 
+class Parts(InBrowser):
+    """Files that hold less: heights alone, a contact without film, a film without contact."""
+
+    WITHOUT = {"heights": {"film": False, "contact": False}, "contact": {"film": False}, "film": {"contact": False}}
+
+    @classmethod
+    def make(cls):
+        for name, parts in cls.WITHOUT.items():
+            write_single(cls.folder / f"{name}.h5", Recipe(shape=(40, 50), pressures=(5e6,), densities=(0.9,)), **parts)
+            cls.report(cls.folder / f"{name}.h5", cls.folder / name)
+        return cls.folder / "heights/report.html"
+
+    def test_each_page_shows_what_there_is(self):
+        expected = {"heights": ["height"], "contact": ["height", "state", "gap"], "film": ["height", "film"]}
+        for name, panels in expected.items():
+            self.page.goto((self.folder / name / "report.html").as_uri())
+            self.assertTrue(self.page.evaluate("tabor.ready"), (name, self.said))
+            shown = self.page.evaluate("[...document.querySelectorAll('figure.map .live')].map((plot) => plot.id)")
+            self.assertEqual(shown, [f"maps_{panel}_plot" for panel in panels])
+        self.assertEqual([said for said in self.said if said[0] in ("error", "warning")], [])
+
+
 class Size(unittest.TestCase):
     def test_a_page_of_many_pressures_stays_below_its_budget(self):
         if not interactive.is_possible():
