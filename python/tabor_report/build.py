@@ -2,8 +2,7 @@
 
 from pathlib import Path
 
-from tabor_report import ehl, example, hdf, output, page, single, study, style
-from tabor_report.errors import InputError
+from tabor_report import ehl, example, hdf, interactive, live_page, output, page, parameters, single, spectra, study, style
 from tabor_report.figures import (
     contact_area,
     contact_clusters,
@@ -23,15 +22,20 @@ from tabor_report.figures import (
     single_maps,
     topography,
 )
+from tabor_report.figures import spectra as spectrum
 
 
 def open_result(path):
     """A Study or a Single from a folder or file; raises InputError in one line."""
     path = Path(path)
     path = path / "results.h5" if path.is_dir() else path
+    if path.suffix == ".csv":
+        return parameters.load(path)
     file = hdf.open_file(path)
     if ehl.is_ehl(file):
         return ehl.load(path, file)
+    if spectra.is_one(file):
+        return spectra.load(path, file)
     if "scans" in file or "table" in file:
         return study.load(path, file)
     return single.load(path, file)
@@ -45,28 +49,32 @@ def default_folder(source):
 
 
 def build(source, folder, options, command):
-    """Writes DIR/figures/* and, if asked, DIR/report.html; returns the files' paths."""
+    """Writes DIR/report.html, and DIR/figures/* where formats are asked for; returns the files' paths."""
     style.apply()
     folder = Path(folder)
-    output.make_folder(folder / "figures")
-    drawings = _drawings(source, options)
-    saved, paths = [], []
-    for drawn in drawings:
-        png, svg = style.png(drawn.figure), style.svg(drawn.figure)
+    live = live_page.Live(source, options) if options.html and not options.static and interactive.is_possible() else None
+    output.make_folder(folder / "figures" if options.figures else folder)
+    shown, paths = [], []
+    for drawn in _drawings(source, options, with_maps=bool(options.figures) or live is None):
+        paths.extend(_save(folder / "figures", drawn, options.figures))
+        if options.html and not (live and drawn.is_viewed):
+            shown.append(page.Shown.of(drawn, live))
         style.close(drawn.figure)
         drawn.figure = None
-        paths.extend(_save(folder / "figures", drawn, png, svg))
-        saved.append((drawn, png, svg))
     if options.html:
-        output.write(folder / "report.html", page.render(source, saved, command))
+        output.write(folder / "report.html", page.render(source, shown, command, live))
         paths.append(folder / "report.html")
     return paths
 
 
-def _drawings(source, options):
+def _drawings(source, options, with_maps):
     if source.kind == "study":
-        return study_figures(source, options)
-    return ehl_figures(source) if source.kind == "ehl" else single_figures(source)
+        return study_figures(source, options, with_maps)
+    if source.kind == "params":
+        return []
+    if source.kind == "psd":
+        return spectrum.draw(source)
+    return ehl_figures(source) if source.kind == "ehl" else single_figures(source, with_maps)
 
 
 def ehl_figures(source):
@@ -87,11 +95,10 @@ def sweep_figures(source):
     yield from ehl_curves.sweep(source)
 
 
-def study_figures(source, options):
+def study_figures(source, options, with_maps=True):
     """Yields what can be drawn, in the order of the page, so that one figure is in memory at a time."""
-    if options.scan is not None and not 0 <= options.scan < len(source.scans):
-        raise InputError(f"--scan {options.scan}: the study has scans 0 to {len(source.scans) - 1}")
-    shown = example.examples(source, options)
+    example.check(source, options)
+    shown = example.examples(source, options) if with_maps else []
     for item in shown:
         yield from _surface(item)
     yield from _present(psd.draw(source))
@@ -107,11 +114,14 @@ def study_figures(source, options):
     yield from _present(mixed_friction.draw(source, options.error_bar))
 
 
-def single_figures(source):
+def single_figures(source, with_maps=True):
     yield from _present(single_curves.draw(source))
     yield from _present(density_friction.of_single(source))
-    yield topography.draw(source.height(), source.pixel, "topography", source.title)
-    yield from single_maps.draw(source)
+    if with_maps:
+        yield topography.draw(source.height(), source.pixel, "topography", source.title)
+        yield from single_maps.draw(source)
+    else:
+        yield from single_maps.draw_flow(source)
 
 
 def _surface(item):
@@ -131,9 +141,11 @@ def _present(drawn):
         yield drawn
 
 
-def _save(folder, drawn, png, svg):
-    files = {f"{drawn.name}.png": png, f"{drawn.name}.svg": svg}
-    files.update({f"{drawn.name}{suffix}.csv": text for suffix, text in drawn.data.items()})
+def _save(folder, drawn, formats):
+    """Writes the figure in each format, and its tables; nothing without a format."""
+    files = {f"{drawn.name}.{form}": style.picture(drawn.figure, form) for form in formats}
+    if formats:
+        files.update({f"{drawn.name}{suffix}.csv": text for suffix, text in drawn.data.items()})
     for name, content in files.items():
         output.write(folder / name, content)
     return [folder / name for name in files]

@@ -9,9 +9,11 @@ from tabor_report import dependencies, units
 from tabor_report.errors import InputError, ReportError, UsageError, printable
 
 EXAMPLES = """examples:
-  python3 -m tabor_report study/                      figures and report.html in study/
-  python3 -m tabor_report contact.h5 -o contact_page  one scan's maps and page in contact_page/
+  python3 -m tabor_report study/                                    report.html in study/
+  python3 -m tabor_report contact.h5 -o contact_page --figures pdf  page and figures in contact_page/
 """
+
+FORMATS = ("png", "svg", "pdf")
 
 
 def main(arguments):
@@ -59,6 +61,17 @@ def _run(options, arguments):
 def _convert(options):
     options.pressure = None if options.pressure is None else units.parse_pressure(options.pressure)
     options.density = None if options.density is None else units.parse_density(options.density)
+    options.figures = _formats(options)
+
+
+def _formats(options):
+    """'png,svg' -> ['png', 'svg']; none where only the page is asked for."""
+    if options.figures is None:
+        return [] if options.html else ["png", "svg"]
+    formats = options.figures.split(",")
+    if any(part not in FORMATS for part in formats):
+        raise UsageError(f"--figures: got '{options.figures}'; expected png, svg, pdf or several of them, as png,svg")
+    return list(dict.fromkeys(formats))
 
 
 class _Parser(argparse.ArgumentParser):
@@ -79,7 +92,17 @@ def _parser():
         "result", metavar="DIR|RESULTS.h5", help="folder of `tabor sweep`, or a file written with -o"
     )
     parser.add_argument("-o", "--output", metavar="DIR", help="where to write (default: beside the result)")
-    parser.add_argument("--no-html", dest="html", action="store_false", help="figures and tables only")
+    parser.add_argument(
+        "--figures",
+        metavar="FORMATS",
+        help="write figures and their tables to figures/: png, svg, pdf or several, as png,svg",
+    )
+    parser.add_argument(
+        "--static", action="store_true", help="a page of still figures, as where Bokeh or Pillow is absent"
+    )
+    parser.add_argument(
+        "--no-html", dest="html", action="store_false", help="figures and tables only [--figures png,svg]"
+    )
     parser.add_argument("--scan", type=int, metavar="N", help="scan that the maps show, counted from 0")
     parser.add_argument("--all-scans", action="store_true", help="maps of every scan")
     parser.add_argument(

@@ -5,6 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
+from tabor_report.errors import InputError
 from tabor_report.maps import Window
 
 MIN_WINDOW, MAX_WINDOW = 64, 720  # pixels
@@ -68,6 +69,12 @@ def choose(scan, pressure=None, density=None, suffix=""):
         _nearest(_wetting(scan.films()), "density", density, middle=False),
         suffix,
     )
+
+
+def check(study, options):
+    """Raises InputError where the study has no such scan."""
+    if options.scan is not None and not 0 <= options.scan < len(study.scans):
+        raise InputError(f"--scan {options.scan}: the study has scans 0 to {len(study.scans) - 1}")
 
 
 def examples(study, options):

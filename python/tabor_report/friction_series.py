@@ -83,7 +83,7 @@ def measured_label(density):
 def draw(axes, series, error, **look):
     """The curve with its bars, and a ring for every case that did not converge."""
     shown = np.isfinite(series.mean)
-    axes.errorbar(
+    drawn = axes.errorbar(
         series.pressure[shown] * 1e-6,
         series.mean[shown],
         yerr=_bars(series.bar(error)[shown]),
@@ -91,6 +91,7 @@ def draw(axes, series, error, **look):
         elinewidth=0.9,
         **look,
     )
+    style.note(drawn[0], n=series.n[shown])
     draw_loose(axes, series.loose_pressure * 1e-6, series.loose_friction)
 
 

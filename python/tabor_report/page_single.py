@@ -7,6 +7,7 @@ from tabor_report import hdf, units
 
 def sections(single):
     return {
+        "answer": answer(single.states),
         "highlights": _highlights(single),
         "scans": [_scan(single)],
         "treatments": [(tuple(hdf.text_list(single.surface_facts.get("treatment"))), [single.title])],
@@ -23,6 +24,59 @@ _HIGHLIGHTS = {
     "friction_lubricated": ("lubricated friction", lambda value: units.number(value, 3)),
     "friction_mixed": ("friction while oil flows", lambda value: units.number(value, 3)),
 }
+
+
+MOST_COLUMNS = 8  # pressures of the answer
+MOST_STATES = 6  # columns of one table of results
+
+
+def answer(states):
+    """One line per question, one column per pressure; None where nothing is asked of a pressure."""
+    pressures = list(dict.fromkeys(state.pressure for state in states if state.pressure is not None))
+    shown = [pressures[place] for place in evenly(len(pressures), MOST_COLUMNS)]
+    rows = {}
+    for state in states:
+        for name, text in _questions(state):
+            rows.setdefault(name, {}).setdefault(state.pressure, text)
+    lines = [(name, [cells.get(pressure, "\N{EN DASH}") for pressure in shown]) for name, cells in rows.items()]
+    if not shown or not lines:
+        return None
+    return {
+        "caption": "At the mean pressure",
+        "header": [units.pressure(pressure) for pressure in shown],
+        "rows": sorted(lines, key=lambda line: _ORDER.index(line[0].split(",")[0])),
+        "note": _left_out(len(pressures) - len(shown)),
+    }
+
+
+def _left_out(count):
+    return f"{count} more pressures stand in the results." if count else ""
+
+
+def evenly(count, most):
+    """At most so many of `count` places, with the first and the last."""
+    steps = min(count, most)
+    return [round(place * (count - 1) / max(1, steps - 1)) for place in range(steps)]
+
+
+_ORDER = ("real contact area", "friction dry", "friction", "friction while oil flows")
+
+
+def _questions(state):
+    """(question, answer) of one state, as far as it has them."""
+    facts, oil = state.facts, f", {units.density(state.density)}" if state.density else ""
+    speed = facts.get("sliding_speed_m_per_s")
+    known = {
+        "real contact area": ("contact_area_fraction", lambda value: f"{units.number(100 * value, 3)} %"),
+        "friction dry": ("friction_dry", _three_digits),
+        f"friction{oil}": ("friction_lubricated" if oil else "", _three_digits),
+        f"friction while oil flows{oil}, {units.si(speed, 'm/s')}": ("friction_mixed", _three_digits),
+    }
+    return [(name, show(facts[key])) for name, (key, show) in known.items() if isinstance(facts.get(key), float)]
+
+
+def _three_digits(value):
+    return units.number(value, 3)
 
 
 def _highlights(single):
@@ -65,7 +119,6 @@ def _scan(single):
         "rows": [(name, text) for name, text in rows if text],
         "steps": [],
         "treatment": [],
-        "warnings": hdf.text_list(facts.get("doubts")),
     }
 
 
@@ -78,24 +131,27 @@ def _settings(single):
 
 
 def _results(states):
-    """One row per quantity, one column per state: few states, many quantities."""
-    keys = dict.fromkeys(key for state in states for key in state.scalars)
+    """One row per quantity, one column per state: few states, many quantities. More states make more tables."""
+    keys = [key for key in dict.fromkeys(key for state in states for key in state.scalars) if key != "converged"]
+    parts = [states[start : start + MOST_STATES] for start in range(0, len(states), MOST_STATES)]
+    return {
+        "header": [],
+        "rows": [],
+        "tables": [_table(part, keys) for part in parts],
+        "n_total": 0,
+        "n_text": 1,
+    }
+
+
+def _table(states, keys):
     rows = [
-        {"sure": True, "cells": [words(key), *(show(key, state.scalars.get(key)) for state in states)]}
-        for key in keys
-        if key != "converged"
+        {"sure": True, "cells": [words(key), *(show(key, state.scalars.get(key)) for state in states)]} for key in keys
     ]
     sure = [bool(state.facts["converged"]) for state in states if "converged" in state.facts]
     if sure:
         answers = ["yes" if state.facts.get("converged", True) else "NO" for state in states]
         rows.append({"sure": all(sure), "cells": ["converged", *answers]})
-    header = ["", *(state.name for state in states)]
-    return {
-        "header": header,
-        "rows": rows if states else [],
-        "n_total": len(rows),
-        "n_text": 1,
-    }
+    return {"header": ["", *(state.name for state in states)], "rows": rows}
 
 
 # Endings of keys: how a value is shown with that unit. Longer endings first.

@@ -2,7 +2,10 @@
 
 import numpy as np
 
+from tabor_report import friction_series as series_of
 from tabor_report import units
+from tabor_report.figures import contact_area
+from tabor_report.page_single import MOST_COLUMNS, evenly
 from tabor_report.table import converged
 
 MAX_ROWS = 400  # of the results table; results.csv holds all
@@ -10,6 +13,7 @@ MAX_ROWS = 400  # of the results table; results.csv holds all
 
 def sections(study):
     return {
+        "answer": answer(study),
         "highlights": _highlights(study),
         "scans": [_scan(scan, _own_settings(study.scans)) for scan in study.scans],
         "treatments": _treatments(study.scans),
@@ -17,6 +21,51 @@ def sections(study):
         "results": _results(study.table),
         "averages": _averages(study.averages),
     }
+
+
+MOST_LINES = 24  # of the answer
+
+
+def answer(study):
+    """One line per question and group, one column per pressure: the mean, with the deviation of n > 1 scans."""
+    pressures = study.averages.distinct("mean_pressure_Pa")
+    shown = [pressures[place] for place in evenly(len(pressures), MOST_COLUMNS)]
+    lines = [line for group in study.groups for line in _lines(study, group, shown)]
+    if not shown or not lines:
+        return None
+    left_out = [f"{len(pressures) - len(shown)} more pressures"] * (len(pressures) > len(shown))
+    left_out += [f"{len(lines) - MOST_LINES} more lines"] * (len(lines) > MOST_LINES)
+    return {
+        "caption": "Means over the scans of a group, with the standard deviation, at the mean pressure",
+        "header": [units.pressure(pressure) for pressure in shown],
+        "rows": lines[:MOST_LINES],
+        "note": f"{' and '.join(left_out)} stand in the averages and results." if left_out else "",
+    }
+
+
+def _lines(study, group, pressures):
+    """(question, answers) of a group, as far as it has them."""
+    name = f" ({group})" if len(study.groups) > 1 else ""
+    known, area, _ = contact_area.means(contact_area.states_of(study, group))
+    found = [(f"real contact area{name}", known, [f"{units.number(100 * value, 3)} %" for value in area])]
+    curves = {"friction dry": series_of.dry(study, group)}
+    for density in series_of.densities(study):
+        curves[f"friction, {units.density(density)}"] = series_of.lubricated(study, group, density)
+    for question, series in curves.items():
+        shown = [_with_spread(*numbers) for numbers in zip(series.mean, series.bar("std"))]
+        found.append((f"{question}{name}", series.pressure, shown))
+    found = [parts for parts in found if len(parts[1])]
+    return [(question, [_at(known, texts, place) for place in pressures]) for question, known, texts in found]
+
+
+def _with_spread(mean, spread):
+    text = units.number(float(mean), 3)
+    return text if not np.isfinite(spread) else f"{text} ± {units.number(float(spread), 2)}"
+
+
+def _at(known, texts, pressure):
+    places = np.flatnonzero(np.isclose(known, pressure, rtol=1e-9))
+    return texts[places[0]] if places.size else "\N{EN DASH}"
 
 
 def _highlights(study):
@@ -61,7 +110,6 @@ def _scan(scan, own):
         "rows": rows,
         "steps": scan.steps,
         "treatment": scan.treatment,
-        "warnings": scan.surface_warnings,
     }
 
 

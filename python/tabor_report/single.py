@@ -43,7 +43,11 @@ class Single:
         return tuple(_spacing(self.surface, name) for name in ("x", "y"))
 
     def height(self):
-        return self.surface["height"][()].astype(float, copy=False)
+        return self.raw_height().astype(float, copy=False)
+
+    def raw_height(self):
+        """As stored [m], shape (ny, nx)."""
+        return self.surface["height"][()]
 
 
 def load(path, file):

@@ -93,13 +93,23 @@ class SingleState:
         """What --json prints for this state, without the bookkeeping of NeXus and HDF5."""
         return {key: value for key, value in self.facts.items() if not _is_file_matter(key, value)}
 
+    def has(self, name):
+        """Whether this command stored such a map."""
+        return name in self.node
+
+    def raw(self, name):
+        """As stored, shape (ny, nx), or None if this command stored no such map."""
+        dataset = hdf.child(self.node, name)
+        return None if dataset is None else dataset[()]
+
     def map(self, name):
         """float64, shape (ny, nx), or None if this command stored no such map."""
-        dataset = hdf.child(self.node, name)
-        return None if dataset is None else dataset[()].astype(np.float64, copy=False)
+        values = self.raw(name)
+        return None if values is None else values.astype(np.float64, copy=False)
 
     def state(self):
-        pressure = self.map("pressure")
+        """uint8, shape (ny, nx): 0 none, 1 contact, 2 saturated; None without pressures."""
+        pressure = self.raw("pressure")
         if pressure is None:
             return None
         state = np.where(pressure > 0, CONTACT, NO_CONTACT).astype(np.uint8)

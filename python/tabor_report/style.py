@@ -1,6 +1,8 @@
 """One look for all figures, and the same bytes for the same numbers."""
 
 import io
+import math
+import re
 
 import matplotlib
 
@@ -10,10 +12,13 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.colors import to_hex
 from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, Locator, NullLocator
 
+from tabor_report import units
 from tabor_report.errors import readable
 
 DPI = 180
+MOST_LOG_TICKS = 7
 WIDTH = 7.2  # inches, a full text column pair
 
 # Okabe & Ito (2008): told apart with every common colour blindness.
@@ -79,6 +84,47 @@ def curve_styles(n):
         }
         for step, colour in enumerate(colours(n))
     ]
+
+
+def ordered_styles(n):
+    """curve_styles of a family in the order of a quantity: darker for more of it."""
+    return [{**look, "color": colour} for look, colour in zip(curve_styles(n), sequence(n)[::-1])]
+
+
+def note(line, **columns):
+    """Numbers of a curve's points that an interactive page shows under the pointer, as n."""
+    line.tabor_notes = columns
+
+
+def round_numbers(low, high):
+    """At least two round numbers between low and high of a logarithmic axis, but not many."""
+    for digits in ((1,), (1, 3), (1, 2, 5), tuple(range(1, 10))):
+        found = _with_digits(digits, low, high)
+        if len(found) >= 3:
+            return found[:: 1 + (len(found) - 1) // MOST_LOG_TICKS]
+    return [low, high]
+
+
+def _with_digits(digits, low, high):
+    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    numbers = [digit * 10.0**decade for decade in decades for digit in digits]
+    return [number for number in numbers if low * 0.999 <= number <= high * 1.001]
+
+
+def log_axis(axis):
+    """Labels of an axis that is already logarithmic: round numbers, never one alone."""
+    axis.set_major_locator(_RoundNumbers())
+    axis.set_minor_locator(NullLocator())
+    axis.set_major_formatter(FuncFormatter(lambda value, _: units.number(value)))
+
+
+class _RoundNumbers(Locator):
+    def __call__(self):
+        low, high = sorted(self.axis.get_view_interval())
+        return round_numbers(low, high) if 0 < low < high else [high]
+
+    def tick_values(self, low, high):
+        return round_numbers(low, high)
 
 
 def legend_on_top(figure, entries):
@@ -147,9 +193,20 @@ def svg(figure):
     return _bytes(figure, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
 
 
-def width_in_inches(png_bytes):
-    """Of a PNG made here; its IHDR chunk holds the width in bytes 16 to 19."""
-    return int.from_bytes(png_bytes[16:20], "big") / DPI
+def picture(figure, form):
+    """Bytes; form: png, svg or pdf."""
+    return {"png": png, "svg": svg, "pdf": pdf}[form](figure)
+
+
+def pdf(figure):
+    return _bytes(figure, format="pdf", metadata={"CreationDate": None, "Creator": None, "Producer": None})
+
+
+def width_in_inches(picture):
+    """Of a PNG made here, whose IHDR chunk holds the width in bytes 16 to 19, or of an SVG, which has it in points."""
+    if picture.startswith(b"\x89PNG"):
+        return int.from_bytes(picture[16:20], "big") / DPI
+    return float(re.search(rb'<svg[^>]* width="([0-9.]+)pt"', picture).group(1)) / 72
 
 
 def close(figure):

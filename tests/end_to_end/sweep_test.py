@@ -176,6 +176,7 @@ class Report(SweepTest):
 
     def test_with_a_wrong_word_is_a_usage_error(self):
         self.assert_rejected(self.tabor("report", "reference", "--presure", "7MPa"), 2, "--pressure")
+        self.assert_rejected(self.tabor("report", "reference", "--figures", "png,jpeg"), 2, "png, svg, pdf")
 
 
 class HelpExamples(ProgramTest):

@@ -15,7 +15,7 @@ from ehl_test import impact_file, sweep_file
 
 OF_STUDIES = (["--scan", "0"], ["--all-scans"], ["--pressure", "5MPa"], ["--density", "0.9g/m^2"],
               ["--error-bar", "std"], ["--error-bar", "sem"])
-OF_ALL = (["--no-html"], ["--quiet"], ["-o", "elsewhere"], [])
+OF_ALL = (["--no-html"], ["--static"], ["--figures", "png,pdf"], ["--quiet"], ["-o", "elsewhere"], [])
 
 
 def parsed(path, words):

@@ -68,7 +68,7 @@ class StudyReport(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = Path(cls.temporary.name) / "study – Ö"
         synthetic_study.write(cls.folder, ODD)
-        cls.done = run(cls.folder)
+        cls.done = run(cls.folder, "--figures", "png,svg")
         cls.page = (
             (cls.folder / "report.html").read_text(encoding="utf-8") if cls.done.returncode == 0 else ""
         )
@@ -122,7 +122,8 @@ class StudyReport(unittest.TestCase):
 
     def test_every_entry_of_the_contents_leads_somewhere(self):
         for target in self.links.followed:
-            self.assertTrue(target.startswith("#") and target[1:] in self.links.ids, target)
+            is_inside = target.startswith("#") and target[1:] in self.links.ids
+            self.assertTrue(is_inside or target.startswith("data:text/csv;base64,"), target[:80])
 
     def test_names_of_the_user_appear_as_written_and_not_as_markup(self):
         self.assertIn("vor dem Gleiten – Ö/µ", self.text)
@@ -157,7 +158,7 @@ class StudyReport(unittest.TestCase):
         before = {
             path: path.read_bytes() for path in [*self.folder.glob("figures/*"), self.folder / "report.html"]
         }
-        self.assertEqual(run(self.folder).returncode, 0)
+        self.assertEqual(run(self.folder, "--figures", "png,svg").returncode, 0)
         self.assertEqual([path.name for path, data in before.items() if path.read_bytes() != data], [])
 
 
@@ -173,7 +174,7 @@ class SingleReport(unittest.TestCase):
         if change:
             with h5py.File(self.folder / "one.h5", "a") as file:
                 change(file["states/0000"])
-        done = run(self.folder / "one.h5")
+        done = run(self.folder / "one.h5", "--figures", "png")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         names = {path.stem for path in (self.folder / "one_report" / "figures").glob("*.png")}
         return names, (self.folder / "one_report" / "report.html").read_text(encoding="utf-8")
@@ -184,7 +185,9 @@ class SingleReport(unittest.TestCase):
             names,
             {
                 "topography",
-                *(f"state0000_{what}" for what in ("pressure", "contact", "gap", "film", "section")),
+                *(f"{what}_5MPa" for what in ("pressure", "contact", "gap")),
+                "film_0.9g_per_m2",
+                "section_5MPa_0.9g_per_m2",
             },
         )
         self.assertIn("one.x3p", page)
@@ -197,15 +200,15 @@ class SingleReport(unittest.TestCase):
             state.attrs.update({"friction_mixed": 0.123, "sliding_speed_m_per_s": 0.005})
 
         names, page = self.report(change=flow)
-        self.assertTrue({"state0000_fluid_pressure", "state0000_fluid_fill"} <= names)
+        self.assertTrue({f"fluid_{what}_5MPa_0.9g_per_m2_5mm_per_s" for what in ("pressure", "fill")} <= names)
         self.assertIn("Fluid pressure map: P = 5 MPa, 0.9 g/m², 5 mm/s", page)
         self.assertIn("friction while oil flows", page)
 
     def test_a_contact_is_drawn_once_per_pressure_and_a_film_once_per_density(self):
         names, page = self.report(pressures=(5e6, 10e6), densities=(0.45, 0.9))
-        contact = {f"state{state}_{what}" for state in ("0000", "0002") for what in ("pressure", "contact", "gap")}
-        films = {"state0000_film", "state0001_film"}
-        sections = {f"state{state:04d}_section" for state in range(4)}
+        contact = {f"{what}_{pressure}MPa" for pressure in (5, 10) for what in ("pressure", "contact", "gap")}
+        films = {"film_0.45g_per_m2", "film_0.9g_per_m2"}
+        sections = {f"section_{p}MPa_{d}g_per_m2" for p in (5, 10) for d in (0.45, 0.9)}
         self.assertEqual(names, {"topography", "against_pressure"} | contact | films | sections)
         self.assertIn("Film map: 0.45 g/m²", page)
 
@@ -220,7 +223,7 @@ class SingleReport(unittest.TestCase):
 
     def test_a_film_alone_is_shown_without_contact(self):
         names, _ = self.report(contact=False)
-        self.assertEqual(names, {"topography", "state0000_film", "state0000_section"})
+        self.assertEqual(names, {"topography", "film_0.9g_per_m2", "section_0.9g_per_m2"})
 
     def test_a_folder_that_cannot_be_written_ends_with_5(self):
         write_single(self.folder / "one.h5", Recipe(shape=(20, 20), pressures=(5e6,)))
@@ -228,6 +231,34 @@ class SingleReport(unittest.TestCase):
         done = run(self.folder / "one.h5", "-o", self.folder / "taken")
         self.assertEqual(done.returncode, 5)
         self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+
+    def test_the_page_comes_alone_and_figures_in_the_formats_asked_for(self):
+        write_single(self.folder / "one.h5", Recipe(shape=(20, 20), pressures=(5e6,)), film=False)
+        made = self.folder / "one_report"
+        self.assertEqual(run(self.folder / "one.h5").returncode, 0)
+        self.assertEqual([path.name for path in made.iterdir()], ["report.html"])
+        self.assertEqual(run(self.folder / "one.h5", "--figures", "pdf,png").returncode, 0)
+        self.assertEqual({path.suffix for path in (made / "figures").iterdir()}, {".pdf", ".png", ".csv"})
+        self.assertTrue((made / "figures/topography.pdf").read_bytes().startswith(b"%PDF"))
+
+    def test_an_unknown_format_of_figures_is_a_usage_error(self):
+        for words in ("jpeg", "png,", ",", ""):
+            done = run(self.folder / "one.h5", f"--figures={words}")
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), (words, done.stderr))
+            self.assertIn("png, svg, pdf", done.stderr)
+
+    def test_the_answer_stands_first_one_line_per_question_and_each_warning_once(self):
+        _, page = self.report(pressures=(5e6, 10e6), densities=(0.45, 0.9))
+        answer = page[page.index('<table class="answer">') : page.index("</table>")]
+        for words in ("5 MPa", "10 MPa", "real contact area", "friction dry", "friction, 0.45 g/m²", "friction, 0.9 g/m²"):
+            self.assertEqual(answer.count(words), 1, words)
+        self.assertLess(page.index('<table class="answer">'), page.index('<section id="figures">'))
+
+    def test_more_states_than_fit_beside_each_other_make_more_tables(self):
+        _, page = self.report(pressures=(2e6, 5e6, 10e6, 15e6), densities=(0.45, 0.9))
+        results = page[page.index('<section id="results">') : page.index('<section id="origin">')]
+        heads = [re.findall(r"<th[ >]", head) for head in re.findall(r"<thead>.*?</thead>", results, re.S)]
+        self.assertEqual([len(head) - 1 for head in heads], [6, 2])
 
     def test_no_html_makes_figures_only(self):
         write_single(self.folder / "one.h5", Recipe(shape=(20, 20), pressures=(5e6,)), film=False)

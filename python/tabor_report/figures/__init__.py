@@ -11,3 +11,4 @@ class Drawn:
     figure: object
     data: dict = field(default_factory=dict)  # {suffix of the CSV's name: its text}
     is_map: bool = False  # a raster: the page embeds the PNG, not the SVG
+    is_viewed: bool = False  # part of the interactive maps, which show it in its place

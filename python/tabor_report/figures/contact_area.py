@@ -10,8 +10,8 @@ from tabor_report.table import converged
 
 
 def draw(study):
-    groups = [(group, _states(study, group)) for group in study.groups]
-    groups = [(group, states) for group, states in groups if states]
+    groups = [(group, states_of(study, group)) for group in study.groups]
+    groups = [(group, members) for group, members in groups if members]
     if not groups:
         return None
     figure, grid = style.new_figure(3.4, width=5.6)
@@ -46,30 +46,31 @@ def means(states):
     )
 
 
-def _states(study, group):
+def states_of(study, group):
     """One entry per scan and pressure: the area does not depend on the lubricant."""
     table = study.table
     if not table:
         return []
     rows = table.where(table.equal("group", group))
-    states = {}
+    found = {}
     for row, sure in zip(rows.rows(), converged(rows)):
         key = (row["scan"], float(row["mean_pressure_Pa"]))
         if np.isfinite(row["contact_area_fraction"]):
-            states[key] = {
+            found[key] = {
                 "scan": row["scan"],
                 "group": group,
                 "pressure": key[1],
                 "area": float(row["contact_area_fraction"]),
                 "sure": bool(sure),
             }
-    return [states[key] for key in sorted(states)]
+    return [found[key] for key in sorted(found)]
 
 
 def _draw_group(axes, group, states, look):
     pressures, mean, n = means(states)
     number = number_text(n)
-    axes.plot(pressures * 1e-6, mean * 100, color=look["color"], linestyle=look["linestyle"])
+    (line,) = axes.plot(pressures * 1e-6, mean * 100, color=look["color"], linestyle=look["linestyle"])
+    style.note(line, n=n)
     axes.plot([], [], **look, label=f"{style.literal(group) or 'mean'} ({number})")
     axes.plot(
         [state["pressure"] * 1e-6 for state in states],

@@ -36,6 +36,7 @@ def draw(example, name="fig08_contact_clusters"):
         figure,
         data,
         is_map=True,
+        is_viewed=True,
     )
 
 

@@ -20,6 +20,7 @@ def draw(state, pixel, facts, scan_name, name="fig05_contact_map", suffix=""):
         figure,
         {"": view.csv(share, "contact_share")},
         is_map=True,
+        is_viewed=True,
     )
 
 

@@ -5,7 +5,6 @@ import textwrap
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from tabor_report import friction_series as series_of
 from tabor_report import style, units
@@ -17,6 +16,7 @@ from tabor_report.output import table_text
 MAX_PANELS = 6
 MAX_NAMED = 8  # pressures in the legend
 TITLE_WIDTH = 44  # characters over a panel of half the page
+DRY = "dry (same colours)"  # in the legend
 LABEL_DECADES = 0.14  # asked densities nearer to each other than this share a label
 
 
@@ -48,21 +48,6 @@ def of_single(single):
     curves = [_curve_of_single(rows, pressure, single) for _, pressure, rows in _parts(single.density_curves)]
     asked = sorted({state.density for state in single.states if state.density})
     return _draw(curves, {curve.group: asked for curve in curves}, None)
-
-
-def ticks(low, high):
-    """At least two round numbers between low and high of a logarithmic axis, but not many."""
-    for digits in ((1,), (1, 3), (1, 2, 5), tuple(range(1, 10))):
-        found = _round_numbers(digits, low, high)
-        if len(found) >= 3:
-            return found
-    return [low, high]
-
-
-def _round_numbers(digits, low, high):
-    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
-    numbers = [digit * 10.0**decade for decade in decades for digit in digits]
-    return [number for number in numbers if low * 0.999 <= number <= high * 1.001]
 
 
 def _parts(table):
@@ -128,12 +113,14 @@ def _looks(curves):
 def _draw_panel(axes, curves, looks, asked, with_n):
     for curve in sorted(curves, key=lambda curve: curve.pressure):
         colour = looks[curve.pressure]
-        axes.plot(curve.density, curve.friction, color=colour, label=units.pressure(curve.pressure))
+        (line,) = axes.plot(curve.density, curve.friction, color=colour, label=units.pressure(curve.pressure))
+        if with_n:
+            style.note(line, n=curve.n)
         axes.fill_between(
             curve.density, curve.friction - curve.spread, curve.friction + curve.spread, color=colour, alpha=0.18, lw=0
         )
         if math.isfinite(curve.dry):
-            axes.axhline(curve.dry, color=colour, linestyle=(0, (4, 3)), linewidth=0.8)
+            axes.axhline(curve.dry, color=colour, linestyle=(0, (4, 3)), linewidth=0.8).tabor_label = DRY
     axes.set_xscale("log")
     axes.grid(color="0.92", linewidth=0.6)
     _mark(axes, asked)
@@ -169,9 +156,7 @@ def _finish(figure, axes, shown, curves, looks):
     low, high = (pick(pick(curve.density) for curve in curves) for pick in (min, max))
     low, high = (low, high) if high > low else (low / 2, high * 2)
     panels[0].set_xlim(low, high)
-    panels[0].xaxis.set_major_locator(FixedLocator(ticks(low, high)))
-    panels[0].xaxis.set_minor_locator(NullLocator())
-    panels[0].xaxis.set_major_formatter(FuncFormatter(lambda value, _: units.number(value)))
+    style.log_axis(panels[0].xaxis)
     panels[0].set_ylim(0, panels[0].get_ylim()[1] * 1.02)
     for index, panel in enumerate(panels):
         panel.set_visible(index < len(shown))
@@ -191,7 +176,7 @@ def _legend_entries(panels, looks):
     grey = {"color": "0.35"}
     (dry,) = panels[0].plot([], [], linestyle=(0, (4, 3)), linewidth=0.8, **grey)
     (asked,) = panels[0].plot([], [], linestyle=":", linewidth=0.9, **grey)
-    return entries | {"dry (same colours)": dry, "asked for": asked}
+    return entries | {DRY: dry, "asked for": asked}
 
 
 def _caption(curves, error_name, n_left_out):

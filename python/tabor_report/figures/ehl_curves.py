@@ -19,6 +19,7 @@ def squeeze(source):
     left.plot(time, history["force"] * 1e-3, color=style.COLOURS[1], label="force")
     right.plot(time, history["min_film"] * 1e6, color=style.COLOURS[0], label="smallest film")
     right.set_yscale("log")
+    style.log_axis(right.yaxis)
     late = time[history["force"] > 0.01 * history["force"].max()]
     left.set_xlim(late[0] if len(late) else time[0], time[-1])
     left.set_xlabel("time (ms)")
@@ -52,7 +53,7 @@ def sweep(source):
         if name == "newton_iterations":
             continue
         values = column[()].reshape(shape)
-        if np.isfinite(values).any():
+        if np.isfinite(values).any() and values[np.isfinite(values)].any():  # a column of zeros says it in the table
             yield _drawn(node, name, keys, values)
 
 
@@ -124,11 +125,16 @@ def _draw_curves(figure, axes, node, keys, values, label):
     key = max(numeric, key=lambda key: len(node["axes"][key]))
     place, place_label = _scaled_axis(node, key)
     curves = list(curves_along(node, keys, key))
-    for (index, words), look in zip(curves, style.curve_styles(len(curves))):
+    are_ordered = all("words" not in node["axes"][other].attrs for other in keys)
+    styles = style.ordered_styles if are_ordered and len(curves) > 1 else style.curve_styles
+    for (index, words), look in zip(curves, styles(len(curves))):
         axes.plot(place, values[index], label=words or None, **look)
     finite = values[np.isfinite(values)]
     if _scale(axes.set_xscale, place) and finite.min() > 0 and finite.max() > 10 * finite.min():
         axes.set_yscale("log")
+    for side in (axes.xaxis, axes.yaxis):
+        if side.get_scale() == "log":
+            style.log_axis(side)
     axes.set_xlabel(place_label)
     axes.set_ylabel(label)
     axes.grid(color="0.92", linewidth=0.6)
@@ -143,8 +149,9 @@ def _draw_map(figure, axes, node, keys, plane, label):
         lines = axes.contour(x, y, plane, levels=8, colors="white", linewidths=0.6)
         axes.clabel(lines, fontsize=7, fmt="%.3g")
     figure.colorbar(mesh, ax=axes).set_label(label)
-    _scale(axes.set_yscale, y)
-    _scale(axes.set_xscale, x)
+    for set_scale, side, values in ((axes.set_yscale, axes.yaxis, y), (axes.set_xscale, axes.xaxis, x)):
+        if _scale(set_scale, values):
+            style.log_axis(side)
     axes.set_ylabel(y_label)
     axes.set_xlabel(x_label)
 

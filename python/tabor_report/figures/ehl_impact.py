@@ -1,6 +1,7 @@
 """Impact of a ball on a lubricated flat: force, central pressure and film against time, profiles."""
 
 import numpy as np
+from matplotlib.colors import LogNorm
 
 from tabor_report import hdf, style, units
 from tabor_report.figures import Drawn
@@ -185,12 +186,13 @@ def _film_map(source, history):
     node = source.file["profiles"]
     times, radius, film = node["time"][()], node["radius"][()], node["film"][()]
     figure, axes = _axes(height=3.6, y="radius (µm)")
-    levels = np.log10(film.clip(min=1e-12) * UM)
+    shown = film.clip(min=1e-12) * UM
     mesh = axes.pcolormesh(
-        times * US, radius * UM, levels.T, cmap="viridis", shading="nearest", rasterized=True
+        times * US, radius * UM, shown.T, norm=LogNorm(), cmap="viridis", shading="nearest", rasterized=True
     )
     bar = figure.colorbar(mesh, ax=axes)
-    bar.set_label(r"$\log_{10}$ film thickness (µm)")
+    style.log_axis(bar.ax.yaxis)
+    bar.set_label("film thickness (µm)")
     edge = history["film_radius"]
     axes.plot(history["time"] * US, edge * UM, color="white", linewidth=1.0, label="edge of the film")
     axes.set_xlim(times[0] * US, times[-1] * US)

@@ -6,7 +6,7 @@ from tabor_report import style, units
 from tabor_report.figures import Drawn
 from tabor_report.output import table_text
 
-MM, UM, NM, MPA = 1e3, 1e6, 1e9, 1e-6
+MM, UM, NM = 1e3, 1e6, 1e9
 REACH = 2.2  # half widths of the dry contact
 PROFILE = {"x": "m", "pressure": "Pa", "asperity_pressure": "Pa", "film": "m", "hertz_pressure": "Pa"}
 FILMS_SHOWN = 6  # over the film in the contact
@@ -34,14 +34,15 @@ def _reach(x, pressure, dry):
 
 def _profile(source, profile):
     x, pressure, film, dry = (profile[name] for name in ("x", "pressure", "film", "hertz_pressure"))
+    factor, unit = units.scale(max(dry.max(), pressure.max()), "Pa")
     figure, grid = style.new_figure(3.4, width=5.6)
     left = grid[0][0]
     right = left.twinx()
-    left.fill_between(x * UM, dry * MPA, color="0.88", linewidth=0, label="Hertz, dry")
-    left.plot(x * UM, pressure * MPA, color=style.COLOURS[1], label="pressure of the liquid")
+    left.fill_between(x * UM, dry * factor, color="0.88", linewidth=0, label="Hertz, dry")
+    left.plot(x * UM, pressure * factor, color=style.COLOURS[1], label="pressure of the liquid")
     solid = profile.get("asperity_pressure")
     if solid is not None and solid.any():
-        left.plot(x * UM, solid * MPA, color=style.COLOURS[3], linewidth=0.8, label="pressure of asperities")
+        left.plot(x * UM, solid * factor, color=style.COLOURS[3], linewidth=0.8, label="pressure of asperities")
     right.plot(x * UM, film * NM, color=style.COLOURS[0], label="film thickness")
     reach = _reach(x, pressure if solid is None else pressure + solid, dry)
     left.set_xlim(max(x[0], -reach) * UM, min(x[-1], reach) * UM)
@@ -49,7 +50,7 @@ def _profile(source, profile):
     inside = np.abs(x) <= 0.5 * reach
     right.set_ylim(0, min(FILMS_SHOWN * np.median(film[inside]), film.max()) * NM)
     left.set_xlabel("position along the flow (µm), inlet on the left")
-    left.set_ylabel("pressure (MPa)")
+    left.set_ylabel(f"pressure ({unit})")
     right.set_ylabel("film thickness (nm)")
     right.spines["right"].set_visible(True)
     style.legend_on_top(figure, style.entries(left, right))

@@ -92,6 +92,8 @@ class _Curve:
 def _label_stribeck(top, bottom, share, which):
     top.set_xscale("log")
     bottom.set_yscale("log")
+    for side in (bottom.xaxis, bottom.yaxis):
+        style.log_axis(side)
     top.set_ylim(bottom=0)
     highest = share.dataLim.y1
     share.set_ylim(0, max(5, 1.05 * highest) if np.isfinite(highest) else 5)

@@ -37,6 +37,7 @@ def draw(example, name="fig07_lubricant_map"):
         figure,
         data,
         is_map=True,
+        is_viewed=True,
     )
 
 

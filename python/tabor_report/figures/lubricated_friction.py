@@ -83,7 +83,8 @@ def _looks(study):
     computed = series_of.densities(study)
     measured = series_of.measured_densities(study)
     densities = computed + [density for density in measured if not np.isclose(density, computed, rtol=1e-9).any()]
-    return dict(zip(densities, style.curve_styles(len(densities))))
+    densities = sorted(densities, key=lambda density: (np.isnan(density), density))
+    return dict(zip(densities, style.ordered_styles(len(densities))))
 
 
 def _label(axes, n_panels):

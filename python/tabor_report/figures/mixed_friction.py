@@ -102,10 +102,10 @@ def _text(key, x):
 
 
 def _draw_panel(top, bottom, curves, error):
-    for curve, look in zip(curves, style.curve_styles(len(curves))):
+    for curve, look in zip(curves, style.ordered_styles(len(curves))):
         x = curve.column(curve.x) * SCALE[curve.x]
         for axes, name in ((top, "friction_mixed"), (bottom, "fluid_load_share")):
-            axes.errorbar(
+            drawn = axes.errorbar(
                 x,
                 curve.column(f"{name}_mean"),
                 yerr=curve.bar(name, error),
@@ -114,6 +114,7 @@ def _draw_panel(top, bottom, curves, error):
                 label=curve.label,
                 **look,
             )
+            style.note(drawn[0], n=curve.n)
         top.plot(x, curve.column("friction_viscous_mean"), color=look["color"], linestyle=":", linewidth=1)
         where = [row[curve.x] * SCALE[curve.x] for row in curve.loose]
         series_of.draw_loose(top, where, [row["friction_mixed"] for row in curve.loose])
@@ -136,6 +137,8 @@ def _label(grid, x, curves):
         scale = {"value": "symlog", "linthresh": moving.min()} if (values == 0).any() else {"value": "log"}
         for axes in grid.ravel():
             axes.set_xscale(**scale)
+        if scale["value"] == "log":
+            style.log_axis(grid[0][0].xaxis)
 
 
 def _caption(study, curves, x, error, n_left_out):

@@ -73,6 +73,8 @@ def _draw_panel(axes, axis, curves):
         )
     if curves:
         _draw_slope(axes, curves)
+    for side in (axes.xaxis, axes.yaxis):
+        style.log_axis(side)
     axes.set_xlabel(f"$q_{axis}$ (rad/µm)")
     axes.grid(which="major", color="0.92", linewidth=0.6)
 

@@ -69,9 +69,10 @@ def _points(members, factor):
 def _curves(key, states):
     """[(label, [(state, value)])]: the area and dry friction once, lubricated friction per density."""
     once = {state.pressure: state for state in reversed(states) if _has(state, key)}.values()
-    curves = [("dry", [(state, state.facts[key]) for state in once])]
+    first = [(state, state.facts[key]) for state in once]
     if key != DRY:
-        return curves
+        return [("real contact area", first)]
+    curves = [("dry", first)]
     densities = sorted({state.density for state in states if state.density and _has(state, LUBRICATED)})
     for density in densities:
         members = [state for state in states if state.density == density and _has(state, LUBRICATED)]

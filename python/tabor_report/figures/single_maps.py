@@ -23,6 +23,12 @@ def draw(single):
         yield from (figure for figure in figures if figure is not None)
 
 
+def draw_flow(single):
+    """Yields the maps of oil that flows alone."""
+    figures = (figure(single, state) for state in single.states for figure in (_fluid_pressure, _fluid_fill))
+    yield from (figure for figure in figures if figure is not None)
+
+
 def _pressure(single, state):
     pressure = state.map("pressure")
     if pressure is None:
@@ -44,7 +50,7 @@ def _contact(single, state):
     touching = state.state()
     if touching is None:
         return None
-    return contact_map.draw(touching, single.pixel, state.facts, single.title, f"state{state.key}_contact")
+    return contact_map.draw(touching, single.pixel, state.facts, single.title, f"contact_{in_a_name(state.pressure_label)}")
 
 
 def _gap(single, state):
@@ -81,6 +87,12 @@ def _film(single, state):
         map_axes.DRY_GROUND,
         state.density_label,
     )
+
+
+def in_a_name(label):
+    """What tells states apart, in the name of a file: 'P = 7 MPa, 0.45 g/m²' -> '7MPa_0.45g_per_m2'."""
+    words = label.replace("P = ", "").replace(", ", "_").replace("/", "_per_").replace("²", "2").replace("µ", "u")
+    return "".join(letter for letter in words if letter.isascii() and (letter.isalnum() or letter in "._-"))
 
 
 def _flow_label(state):
@@ -133,12 +145,13 @@ def _map(single, state, what, values, axis_label, colours, text, ground, label, 
     grid[0][0].set_title(label.replace("P =", "$P$ ="))
     end = "" if highest else "Colours end at the 99.5th percentile of what is drawn."
     return Drawn(
-        f"state{state.key}_{what}",
+        f"{what}_{in_a_name(label)}",
         f"{what.replace('_', ' ').capitalize()} map: {label}",
         f"{text}, at {label}. {view.note}{end}",
         figure,
         {"": view.csv(shown, axis_label.replace("µ", "u"))},
         is_map=True,
+        is_viewed=not what.startswith("fluid"),
     )
 
 
@@ -163,7 +176,12 @@ def _section(single, state):
         f"Heights are stretched {units.number(stretch, 2)} times against lengths."
     )
     return Drawn(
-        f"state{state.key}_section", f"Section: {state.label}", caption, figure, {"": section.csv(lines)}
+        f"section_{in_a_name(_flow_label(state))}",
+        f"Section: {state.label}",
+        caption,
+        figure,
+        {"": section.csv(lines)},
+        is_viewed=True,
     )
 
 

@@ -26,6 +26,7 @@ def draw(height, pixel, name, scan_name, suffix=""):
         figure,
         {"": view.csv(values, f"height_{_ascii(unit)}")},
         is_map=True,
+        is_viewed=True,
     )
 
 

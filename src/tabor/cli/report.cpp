@@ -23,19 +23,35 @@ namespace fs = std::filesystem;
 struct Request {
   std::string result;
   bool no_html = false;
+  bool is_static = false;
   bool all_scans = false;
   std::string error_bar;  ///< "" if not given
   std::optional<std::string> output;
   std::vector<std::string> passed_on;  ///< options with values, as tabor_report takes them
 };
 
-// Debian's own interpreter first: that is where apt puts numpy, h5py and matplotlib.
+/// That of a complete environment made for reports: beside an installed program, or in the build
+/// folder of the source tree (tools/check/setup.sh). It has Bokeh, which Debian has not.
+std::optional<fs::path> report_python() {
+  std::error_code error;
+  const fs::path self = fs::read_symlink("/proc/self/exe", error);
+  for (const fs::path& folder : {self.parent_path().parent_path() / "share/tabor/report",
+                                 fs::path(TABOR_SOURCE_PYTHON).parent_path() / "build/report"}) {
+    if (fs::exists(folder / "complete", error) && fs::exists(folder / "bin/python3", error)) {
+      return folder / "bin/python3";
+    }
+  }
+  return std::nullopt;
+}
+
+// Then Debian's own interpreter: that is where apt puts numpy, h5py and matplotlib.
 fs::path python() {
   if (const char* chosen = std::getenv("TABOR_PYTHON")) {
     if (fs::path(chosen).has_parent_path()) return chosen;
     if (const auto found = io::find_program(chosen)) return *found;
     throw InputError("TABOR_PYTHON", "'" + std::string(chosen) + "'", "a program in PATH", "");
   }
+  if (const auto own = report_python()) return *own;
   if (fs::exists("/usr/bin/python3")) return "/usr/bin/python3";
   if (const auto found = io::find_program("python3")) return *found;
   throw InputError("tabor report", "no python3", "Python 3.9 or newer", "apt install python3");
@@ -71,6 +87,7 @@ std::vector<std::string> python_words(const Request& request) {
   words.insert(words.end(), request.passed_on.begin(), request.passed_on.end());
   if (request.output) words.push_back("--output=" + *request.output);
   if (!request.error_bar.empty()) words.push_back("--error-bar=" + request.error_bar);
+  if (request.is_static) words.emplace_back("--static");
   if (request.no_html) words.emplace_back("--no-html");
   if (request.all_scans) words.emplace_back("--all-scans");
   return words;
@@ -146,6 +163,16 @@ std::string checked_scan(const std::string& value) {
   return fmt::format("{:.0f}", *number);
 }
 
+std::string checked_formats(const std::string& value) {
+  for (const std::string& format : split(value, ',')) {
+    if (format != "png" && format != "svg" && format != "pdf") {
+      throw UsageError(fmt::format(
+          "--figures: got '{}'; expected png, svg, pdf or several of them, as png,svg", value));
+    }
+  }
+  return value;
+}
+
 void declare_options(OptionSet& set, Request& request) {
   set.group("Report");
   set.input("RESULT", "folder of 'tabor sweep', or a file written with -o", request.result);
@@ -153,7 +180,11 @@ void declare_options(OptionSet& set, Request& request) {
       set.text("--output", "DIR", "where to write [beside the result]", request.output);
   output.short_flag = "-o";
   output.names = FileRole::folder;
-  set.toggle("--no-html", "figures and tables only", request.no_html);
+  pass_on(set, request, "--figures", "FORMATS",
+          "write figures and their tables too: png, svg, pdf or several, as png,svg",
+          checked_formats);
+  set.toggle("--static", "still figures, as where Bokeh or Pillow is absent", request.is_static);
+  set.toggle("--no-html", "figures and tables only [--figures png,svg]", request.no_html);
   set.group("Report of a study");
   pass_on(set, request, "--scan", "N", "scan that the maps show, counted from 0", checked_scan);
   set.toggle("--all-scans", "maps of every scan", request.all_scans);
@@ -172,12 +203,16 @@ void declare_options(OptionSet& set, Request& request) {
 Verb report_verb() {
   return {.name = "report",
           .arguments = "RESULT [options]",
-          .summary = "figures and one self-contained HTML page from a study or a result file",
+          .summary = "one self-contained HTML page from a study or a result file, and figures",
           .details =
+              "The page is interactive where Bokeh and Pillow are installed, as tools/quickstart "
+              "does in a "
+              "private environment, and still otherwise. "
               "Needs python3-numpy, python3-h5py, python3-matplotlib and python3-jinja2. "
               "TABOR_PYTHON chooses another interpreter, such as that of a virtual environment; "
               "PYTHONPATH, packages of the user and the current folder are not looked at.",
-          .examples = {"tabor report study_results", "tabor report contact.h5 -o contact_page"},
+          .examples = {"tabor report study_results",
+                       "tabor report contact.h5 -o contact_page --figures png,pdf"},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_options(set, *request);

@@ -1,0 +1,77 @@
+"""The page of a file of `tabor psd`."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from report_test import run
+from synthetic_file import new_file
+from study_case import rows_of
+from tabor_report import build, spectra
+from tabor_report.figures import spectra as figure
+
+SIDE, N = 1e-4, 128
+
+
+def write(path, axes=("x", "y", "radial"), power=-2.6):
+    """A spectrum q^power of a scan of N pixels over SIDE."""
+    with new_file(path) as file:
+        file.attrs["command"] = "tabor psd 'my scan.x3p' --level plane -o psd.h5"
+        q = 2 * np.pi / SIDE * np.arange(1, N // 2 + 1)
+        for axis in axes:
+            unit = spectra.UNITS[axis]
+            file[f"curves/q_{axis}_rad_per_m"], file[f"curves/psd_{axis}_{unit}"] = q, 1e-20 * (q / q[0]) ** power
+
+
+class Spectra(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.path = Path(temporary.name) / "psd.h5"
+
+    def source(self, **keywords):
+        write(self.path, **keywords)
+        source = build.open_result(self.path)
+        self.addCleanup(source.file.close)
+        return source
+
+    def test_the_range_to_be_trusted_is_four_pixels_to_a_quarter_of_the_side(self):
+        low, high = self.source().trusted
+        np.testing.assert_allclose([2 * np.pi / low, 2 * np.pi / high], [SIDE / 4, 4 * SIDE / N])
+
+    def test_what_is_drawn_is_what_the_file_holds(self):
+        source = self.source()
+        (drawn,) = figure.draw(source)
+        lines = [line for axes in drawn.figure.axes for line in axes.lines if len(line.get_xdata()) > 2]
+        for line, (q, density) in zip(lines, source.curves.values()):
+            scale = 1e24 if line.get_label() == "radial" else 1e18
+            np.testing.assert_allclose(line.get_xdata(), q * 1e-6)
+            np.testing.assert_allclose(line.get_ydata(), density * scale)
+        self.assertEqual(len(rows_of(drawn.data[""])), 3 * N // 2)
+
+    def test_one_direction_alone_is_drawn_too(self):
+        source = self.source(axes=("y",))
+        self.assertEqual(list(source.curves), ["y"])
+        self.assertEqual(len(next(figure.draw(source)).figure.axes), 1)
+
+    def test_values_that_no_logarithm_has_are_left_out(self):
+        source = self.source(power=-400)  # underflows to zero
+        self.assertTrue(all((density > 0).all() for _, density in source.curves.values()))
+
+    def test_the_page_names_the_scan_and_the_range(self):
+        self.source()
+        done = run(self.path, "-o", self.path.parent / "page")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        page = (self.path.parent / "page/report.html").read_text(encoding="utf-8")
+        for words in ("my scan.x3p", "3.125 µm to 25 µm", "wavelengths to be trusted", "Power spectral density"):
+            self.assertIn(words, page)
+
+    def test_options_of_studies_are_rejected(self):
+        self.source()
+        self.assertEqual(run(self.path, "--scan", "0").returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
