@@ -1,15 +1,21 @@
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/map.h>
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <exception>
+#include <memory>
+#include <mutex>
 #include <optional>
 
 #include "tabor/analysis/ehl_file.hpp"
 #include "tabor/analysis/ehl_surfaces.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/study/ehl_sweep.hpp"
+#include "tabor/study/ehl_warnings.hpp"
 #include "watched.hpp"
 
 namespace tabor::python {
@@ -39,25 +45,140 @@ FilmCase case_of(const std::string& program, io::Config config, const Settings& 
   return one;
 }
 
+/// The observer that a result keeps, for it may compute more when it is written. It outlives the
+/// call that solved it, so it asks whoever watches at the time.
+class Relay {
+ public:
+  Observer observer() const {
+    return [watching = watching_](const Progress& progress) {
+      return !watching->observer || watching->observer(progress);
+    };
+  }
+  /// What `work` returns, watched by this observer; one call at a time.
+  template <typename Work>
+  auto watch(const Observer& observer, Work&& work) const {
+    const std::lock_guard lock(watching_->mutex);
+    const Watching::For watched(*watching_, observer);
+    return work();
+  }
+
+ private:
+  struct Watching {
+    struct For {
+      For(Watching& of, const Observer& observer) : watching(of) { watching.observer = observer; }
+      ~For() { watching.observer = {}; }
+      For(const For&) = delete;
+      For& operator=(const For&) = delete;
+      Watching& watching;
+    };
+    std::mutex mutex = {};
+    Observer observer = {};
+  };
+  std::shared_ptr<Watching> watching_ = std::make_shared<Watching>();
+};
+
 struct Solved {
   FilmCase of;
+  Relay relay;
   ehl::CaseResult result;
 };
 
 Solved solve(const FilmCase& one, std::uint64_t seed, const nb::object& progress) {
   return watched(progress, [&](const Observer& observer) {
-    return Solved{one,
-                  ehl::solve_case(
-                      one.program, one.config,
-                      {.observer = observer, .seed = seed, .surfaces = analysis::ehl_surfaces()})};
+    const Relay relay;
+    const ehl::CaseSetting setting{
+        .observer = relay.observer(), .seed = seed, .surfaces = analysis::ehl_surfaces()};
+    return relay.watch(observer, [&] {
+      return Solved{one, relay, ehl::solve_case(one.program, one.config, setting)};
+    });
   });
 }
 
 void save(const Solved& solved, const std::filesystem::path& file) {
   std::vector<analysis::Finding> warnings(solved.result.warnings.size());
   for (std::size_t i = 0; i < warnings.size(); ++i) warnings[i].text = solved.result.warnings[i];
-  analysis::write_case(file, "tabor.save", solved.of.program, solved.of.config, solved.result,
-                       warnings);
+  watch(nb::none(), [&](const Observer& observer) {
+    solved.relay.watch(observer, [&] {
+      analysis::write_case(file, "tabor.save", solved.of.program, solved.of.config, solved.result,
+                           warnings);
+    });
+  });
+}
+
+/// What a sweep found: cases in the order asked for, and what they warn of, said once.
+struct Swept {
+  std::vector<ehl::CaseResult> cases;
+  std::vector<ehl::CaseColumn> columns;
+  std::vector<std::string> warnings;
+  std::vector<std::vector<double>> axes;  ///< SI; words are counted from 0
+  std::size_t n_computed = 0;             ///< others were in the folder
+};
+
+using Axes = std::vector<std::pair<std::string, std::vector<std::string>>>;
+
+std::vector<study::SweepAxis> axes_of(const Axes& given) {
+  std::vector<study::SweepAxis> axes;
+  axes.reserve(given.size());
+  for (const auto& [key, values] : given) axes.push_back({key, values, true});
+  return axes;
+}
+
+study::EhlOutcome run_sweep(study::EhlSeries& series,
+                            const std::optional<std::filesystem::path>& folder,
+                            const study::RunOptions& options) {
+  std::optional<study::EhlStore> store;
+  if (folder) {
+    study::give_tasks(series, options.observer);
+    store.emplace(*folder, study::Store::Use::alone);
+  }
+  study::EhlOutcome outcome = study::run_ehl(series, store ? &*store : nullptr, options);
+  if (outcome.ended_by) std::rethrow_exception(outcome.ended_by);
+  return outcome;
+}
+
+/// Each film starts from the one before; in a folder, if there is one, finished cases are kept.
+Swept sweep(const FilmCase& one, const Axes& given, std::uint64_t seed,
+            const std::optional<std::filesystem::path>& folder, int jobs, bool retry,
+            const nb::object& progress) {
+  return watched(progress, [&](const Observer& observer) {
+    const std::vector<study::SweepAxis> axes = axes_of(given);
+    study::EhlSeries series = study::ehl_sweep(one.program, one.config, axes, seed);
+    study::RunOptions options;
+    options.jobs = jobs;
+    options.retry = retry;
+    options.observer = observer;
+    const study::EhlOutcome outcome = run_sweep(series, folder, options);
+    Swept found;
+    found.cases = outcome.all();
+    found.n_computed = outcome.n_computed;
+    found.columns = study::columns_of(one.program, found.cases);
+    const study::EhlCaseNames names = study::names_of(axes, study::combinations(axes));
+    found.warnings = study::gather_warnings(found.cases, names).lines;
+    for (const study::SweepAxis& axis : axes) found.axes.push_back(axis.numbers());
+    return found;
+  });
+}
+
+/// (key, heading, unit)
+using ColumnRow = std::tuple<std::string, std::string, std::string>;
+std::vector<ColumnRow> columns_of(const Swept& swept) {
+  std::vector<ColumnRow> rows;
+  rows.reserve(swept.columns.size());
+  for (const ehl::CaseColumn& column : swept.columns) {
+    rows.emplace_back(column.key, column.heading, column.unit);
+  }
+  return rows;
+}
+
+/// (numbers as JSON, converged, warnings)
+using CaseRow = std::tuple<std::string, bool, std::vector<std::string>>;
+std::vector<CaseRow> cases_of(const Swept& swept) {
+  std::vector<CaseRow> rows;
+  rows.reserve(swept.cases.size());
+  for (const ehl::CaseResult& one : swept.cases) {
+    rows.emplace_back(io::to_text(one.scalars), one.converged, one.warnings);
+  }
+  return rows;
 }
 
 /// (key, unit, usual value, meaning)
@@ -92,6 +213,16 @@ void bind_ehl(nb::module_& module) {
       .def_prop_ro("warnings", [](const Solved& self) { return self.result.warnings; })
       .def_prop_ro("references", [](const Solved& self) { return self.of.program.methods; })
       .def("save", &save, "file"_a);
+  nb::class_<Swept>(module, "SweptCases")
+      .def_prop_ro("cases", &cases_of)
+      .def_prop_ro("columns", &columns_of)
+      .def_ro("axes", &Swept::axes)
+      .def_ro("warnings", &Swept::warnings)
+      .def_ro("n_computed", &Swept::n_computed);
+  module.def("sweep_case", &sweep, "case"_a, "axes"_a, "seed"_a, "folder"_a.none(), "jobs"_a,
+             "retry"_a, "progress"_a.none());
+  module.def(
+      "case_references", [](const FilmCase& one) { return one.program.methods; }, "case"_a);
   module.def(
       "read_case",
       [](const std::string& program, const std::filesystem::path& file, const Settings& settings) {

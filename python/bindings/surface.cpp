@@ -6,6 +6,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include "tabor/analysis/combination.hpp"
 #include "tabor/analysis/warnings.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/metrology/parameters.hpp"
@@ -140,6 +141,37 @@ nb::dict psd(const Topography& surface, metrology::PsdConvention convention,
   return all;
 }
 
+/// How two scans are put together; names are those of the command line.
+comparison::CombineOptions combine_options(const std::string& mode, const std::string& match,
+                                           bool search, const std::vector<double>& shift,
+                                           double threshold) {
+  comparison::CombineOptions options;
+  const auto known_mode = comparison::combine_mode_from(mode);
+  if (!known_mode) throw InputError("mode", "'" + mode + "'", "wear, difference or composite", "");
+  const auto known_match = comparison::level_match_from(match);
+  if (!known_match) throw InputError("match", "'" + match + "'", "none, offset or plane", "");
+  options.mode = *known_mode;
+  options.level = *known_match;
+  options.search = search;
+  options.threshold = threshold;
+  if (!shift.empty()) {
+    options.shift_x = shift.at(0);
+    options.shift_y = shift.at(1);
+  }
+  return options;
+}
+
+/// (map, numbers as JSON, reasons to doubt them)
+using CombinedRow = std::tuple<Topography, Text, Texts>;
+CombinedRow combine(const Topography& first, const Topography& second,
+                    const comparison::CombineOptions& options, const nb::object& progress) {
+  comparison::Combination found = watched(progress, [&](const Observer& observer) {
+    return comparison::combine(first, second, options, observer);
+  });
+  const Text values = io::to_text(analysis::values_of(found));
+  return {std::move(found.map), values, analysis::doubts_of(found)};
+}
+
 WarningTexts warnings_about(const Topography& surface) {
   return texts_of(analysis::of_surface(surface));
 }
@@ -195,6 +227,16 @@ void bind_surface(nb::module_& module) {
   module.def("apply", &apply, "surface"_a, "treatment"_a, "progress"_a.none());
   module.def("treatment_steps", &treatment_steps);
   module.def("require_no_holes", &require_no_holes, "surface"_a);
+  nb::class_<comparison::CombineOptions>(module, "CombineOptions")
+      .def(
+          "__init__",
+          [](comparison::CombineOptions* self, const std::string& mode, const std::string& match,
+             bool search, const std::vector<double>& shift, double threshold) {
+            new (self)
+                comparison::CombineOptions(combine_options(mode, match, search, shift, threshold));
+          },
+          "mode"_a, "match"_a, "search"_a, "shift"_a, "threshold"_a);
+  module.def("combine", &combine, "first"_a, "second"_a, "options"_a, "progress"_a.none());
   module.def("parameters", &parameters, "surface"_a, "progress"_a.none());
   module.def(
       "psd",

@@ -9,7 +9,7 @@
 
 namespace tabor::python {
 
-/// Runs `work` on a thread of its own, while this one waits for it without the interpreter's lock,
+/// Runs `work` on another thread, while this one waits for it without the interpreter's lock,
 /// looks for signals fifty times a second, and tells `progress`: None, or what is called with
 /// (stage, done share, certificate), both NaN if unknown. Ctrl-C, and whatever `progress` raises,
 /// stops the work and is raised here. `work` must not touch Python.

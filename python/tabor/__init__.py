@@ -12,12 +12,14 @@ _os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 
 from . import ehl
 from ._cite import cite
+from ._combine import Combination, Volume, combine
 from ._contact import Contact, Material, NotConverged, Solid, contact, materials
 from ._friction import (DensityCurve, Film, FluidFilm, Friction, Lubricant, Plateau, density_curve, fluid_film,
                         friction, rain)
 from ._friction_table import FrictionEntry, FrictionTable
 from ._progress import Progress
 from ._records import Warning
+from ._report import Report, report
 from ._save import save
 from ._scans import Scans
 from ._study import Results, Study
@@ -25,7 +27,9 @@ from ._surface import Format, Parameter, Parameters, Spectra, Spectrum, Surface,
 from ._tabor import set_threads
 from ._tabor import version as __version__
 
-__all__ = ["Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction", "FrictionEntry", "FrictionTable", "Lubricant", "Material", "NotConverged",
-           "Parameter", "Parameters", "Plateau", "Progress", "Results", "Scans", "Solid", "Spectra", "Spectrum", "Study",
-           "Surface", "Warning", "cite", "contact", "density_curve", "ehl", "fluid_film", "formats", "friction", "generate",
-           "materials", "rain", "read", "save", "set_threads"]
+__all__ = ["Combination", "Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction",
+           "FrictionEntry", "FrictionTable", "Lubricant", "Material", "NotConverged", "Parameter",
+           "Parameters", "Plateau", "Progress", "Report", "Results", "Scans", "Solid", "Spectra",
+           "Spectrum", "Study", "Surface", "Volume", "Warning", "cite", "combine", "contact",
+           "density_curve", "ehl", "fluid_film", "formats", "friction", "generate", "materials", "rain",
+           "read", "report", "save", "set_threads"]

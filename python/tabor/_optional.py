@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import importlib
+import importlib.util
+from collections.abc import Sequence
 from typing import Any
 
 
@@ -13,3 +15,11 @@ def needs(package: str, what: str) -> Any:
     except ImportError as error:
         root = package.partition(".")[0]
         raise ImportError(f"{what} needs {root}; pip install {root}") from error
+
+
+def needs_all(packages: Sequence[str], extra: str) -> None:
+    """Raises ImportError that names those of the packages of an extra that are missing, and how to get them."""
+    missing = [package for package in packages if importlib.util.find_spec(package) is None]
+    if missing:
+        raise ImportError(f"{extra} needs {' and '.join(missing)}; pip install tabor[{extra}], or "
+                          f"pip install {' '.join(missing)}")

@@ -43,6 +43,11 @@ def densities(values: Value | Sequence[Value] | None) -> str | None:
     return None if values is None else quantities(si_list(values, "areal_density", "density")[0], "kg/m^2")
 
 
+def speeds(values: Value | Sequence[Value] | None) -> str | None:
+    """Sliding speeds in m/s; None if there are none."""
+    return None if values is None else quantities(si_list(values, "speed", "speed")[0], "m/s")
+
+
 def table(name: str, lines: Mapping[str, str | None]) -> str:
     """A table with the keys that have a value."""
     body = "".join(f"{key} = {value}\n" for key, value in lines.items() if value is not None)

@@ -11,12 +11,23 @@ from typing import Any
 
 from . import _tabor
 from ._contact import Solid
+from ._friction import Lubricant
 from ._friction_table import FrictionTable
 from ._optional import needs
 from ._parts import run as run_parts
 from ._progress import Progress, watching
-from ._scans import Path, Scans, densities, pressures, quantity, scan_tables, table, text, texts
+from ._scans import Path, Scans, densities, pressures, quantity, scan_tables, speeds, table, text, texts
 from ._values import Value, optional_si, si
+
+
+def _flowing(oil: Lubricant | None) -> dict[str, str | None]:
+    """The keys of oil that flows."""
+    if oil is None:
+        return {}
+    coefficient, stress = oil.pressure_viscosity, oil.eyring_stress
+    return {"fluid": text("reynolds"), "viscosity": quantity(oil.viscosity, "Pa s"),
+            "pressure_viscosity": None if coefficient is None else quantity(coefficient, "1/Pa"),
+            "eyring_stress": None if stress is None else quantity(stress, "Pa")}
 
 
 class Study:
@@ -35,6 +46,7 @@ class Study:
     treatment : steps that each scan goes through, "level=plane".
     shear_strength, boundary_shear_strength : see ``friction``.
     oil_density, droplet_height, model, reading, edge, seed : see ``rain``.
+    lubricant, speed : oil that flows while the flat slides at each of these speeds [m/s]; see ``fluid_film``.
     boundary, tolerance : see ``contact``.
     title : of the study.
 
@@ -51,8 +63,11 @@ class Study:
                  treatment: Sequence[str] = (), shear_strength: Value | None = None,
                  boundary_shear_strength: Value | None = None, area: str | None = None,
                  oil_density: Value = 900.0, droplet_height: Value = 1e-7, model: str = "droplets",
-                 reading: str = "conserving", edge: str = "closed", seed: int = 1, boundary: str = "periodic",
+                 reading: str = "conserving", edge: str = "closed", seed: int = 1, lubricant: Lubricant | None = None,
+                 speed: Value | Sequence[Value] | None = None, boundary: str = "periodic",
                  tolerance: float = 1e-6, title: str = "study") -> None:
+        if (lubricant is None) != (speed is None):
+            raise ValueError("Study: oil that flows needs both a lubricant and a speed")
         strength = solid.shear_strength if shear_strength is None else shear_strength
         wet = optional_si(boundary_shear_strength, "pressure", "boundary_shear_strength")
         counter = solid.counter_youngs_modulus
@@ -68,11 +83,11 @@ class Study:
         lines += table("[treatment]", {"steps": texts(treatment) if treatment else None})
         lines += table("[contact]", {"boundary": text(boundary), "tolerance": repr(float(tolerance))})
         lines += table("[sweep]", {
-            "mean_pressure": pressures(pressure), "lubricant_density": densities(density)})
+            "mean_pressure": pressures(pressure), "lubricant_density": densities(density), "sliding_speed": speeds(speed)})
         lines += table("[lubricant]", {
             "oil_density": quantity(si(oil_density, "density", "oil_density"), "kg/m^3"), "model": text(model),
             "reading": text(reading), "edge": text(edge), "seed": str(int(seed)),
-            "droplet": quantity(si(droplet_height, "length", "droplet_height"), "m")})
+            "droplet": quantity(si(droplet_height, "length", "droplet_height"), "m"), **_flowing(lubricant)})
         self._text = lines + scan_tables(scans)
         self._study = _tabor.parse_study(self._text, "study")
         self._file: pathlib.Path | None = None

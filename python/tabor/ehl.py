@@ -13,16 +13,19 @@ from __future__ import annotations
 import json
 import os
 import pathlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple, Union
+
+import numpy as np
 
 from . import _tabor
 from ._contact import NotConverged
 from ._progress import Progress, watching
 from ._records import table_html
+from ._sweep import Sweep
 
-__all__ = ["Case", "Key", "Solution", "Template", "impact", "keys", "line", "point", "squeeze", "template"]
+__all__ = ["Case", "Key", "Solution", "Sweep", "Template", "impact", "keys", "line", "point", "squeeze", "template"]
 
 
 class Template(str):
@@ -92,9 +95,10 @@ class Case:
     """A case that can be solved, and pickled for process pools."""
 
     def __init__(self, program: str, source: Source, settings: Mapping[str, Any]) -> None:
-        overrides = [(key, _toml(value)) for key, value in _flat(settings)]
+        units = _units(program)
+        overrides = [(key, _toml(value, units.get(key, ""))) for key, value in _flat(settings)]
         if isinstance(source, Mapping):
-            overrides = [(key, _toml(value)) for key, value in _flat(source)] + overrides
+            overrides = [(key, _toml(value, units.get(key, ""))) for key, value in _flat(source)] + overrides
             self._case = _tabor.parse_case(program, "", "case", overrides)
         elif isinstance(source, Template):
             self._case = _tabor.parse_case(program, source, "case", overrides)
@@ -127,6 +131,54 @@ class Case:
             raise NotConverged(f"ehl {self.program}: the film does not converge; check=False returns it all the same", found)
         return found
 
+    def sweep(self, values: Mapping[str, Iterable[Any]], *, folder: str | os.PathLike[str] | None = None, seed: int = 1,
+              jobs: int = 0, retry: bool = False, check: bool = True, progress: Progress = None) -> Sweep:
+        """Solves it with all combinations of the values of some keys, as ``tabor ehl --set KEY=V1,V2`` does: speeds of
+        point and line contacts from the highest one down, each film starting from the one before.
+
+        Parameters
+        ----------
+        values : lists of values by key: ``{"motion.speed": np.geomspace(1e-3, 10, 9)}``.
+        folder : where finished cases are kept; the same call goes on from there when it was stopped [nowhere].
+        seed : of generated surfaces whose case names none.
+        jobs : chains at the same time [as many as there are threads and room for].
+        retry : what failed or did not converge is computed again.
+        check : raise NotConverged where a film does not converge; its ``result`` is the sweep.
+
+        Raises
+        ------
+        ValueError
+            For keys that no case has, for lists without a value, and where no case makes sense.
+        NotConverged
+            Unless ``check`` is False.
+        """
+        if jobs < 0:
+            raise ValueError(f"jobs: got {jobs}; expected zero or more")
+        given = {key: list(many) for key, many in _lists(values)}
+        units = _units(self.program)
+        axes = [(key, [_plain(_toml(one, units.get(key, ""))) for one in many]) for key, many in given.items()]
+        with watching(progress) as told:
+            swept = _tabor.sweep_case(self._case, axes, seed, None if folder is None else pathlib.Path(folder), jobs,
+                                      retry, told)
+        found = Sweep(swept, given, tuple(_tabor.case_references(self._case)))
+        if check and not found.converged:
+            bad = sum(not row["converged"] for row in found.rows)
+            raise NotConverged(f"ehl {self.program}: {bad} of {len(found.rows)} films do not converge; check=False "
+                               "returns all the same", found)
+        return found
+
+
+def _lists(values: Mapping[str, Iterable[Any]]) -> Iterator[tuple[str, list[Any]]]:
+    if not values:
+        raise ValueError("sweep: got no key; expected lists of values by key")
+    for key, many in values.items():
+        if isinstance(many, (str, bytes)) or not isinstance(many, Iterable):
+            raise ValueError(f"sweep: {key}: got {many!r}; expected a list of values")
+        found = [one.item() if isinstance(one, np.generic) else one for one in many]
+        if not found:
+            raise ValueError(f"sweep: {key}: got an empty list; expected at least one value")
+        yield key, found
+
 
 def _flat(settings: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
     for key, value in settings.items():
@@ -136,11 +188,23 @@ def _flat(settings: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, 
             yield before + key, value
 
 
-def _toml(value: Any) -> str:
-    """TOML, whose numbers, texts, switches and lists are those of JSON."""
+def _units(program: str) -> dict[str, str]:
+    """Of the keys that have one, "m/s"."""
+    return {name: unit for name, unit, *_ in _tabor.case_keys(program) if unit}
+
+
+def _toml(value: Any, unit: str) -> str:
+    """TOML, whose numbers, texts, switches and lists are those of JSON; a number of a key with a unit is SI."""
     if hasattr(value, "magnitude"):
         return json.dumps(f"{value.to_base_units():~C}".replace("**", "^"))
+    if unit and isinstance(value, (int, float)) and not isinstance(value, bool):
+        return json.dumps(f"{float(value)!r} {unit}")
     return json.dumps(os.fspath(value) if isinstance(value, os.PathLike) else value)
+
+
+def _plain(toml: str) -> str:
+    """A text without its quotes, as an axis of a sweep has it."""
+    return str(json.loads(toml)) if toml.startswith('"') else toml
 
 
 def impact(case: Source, **settings: Any) -> Case:

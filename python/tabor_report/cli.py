@@ -19,20 +19,26 @@ FORMATS = ("png", "svg", "pdf")
 def main(arguments):
     """Exit code: 0 done, 2 usage, 3 unreadable input or missing library, 5 cannot write."""
     try:
-        return _report(_parser().parse_args(arguments), arguments)
+        options = _parser().parse_args(arguments)
+        _convert(options)
+        given = {name: value for name, value in vars(options).items() if name != "quiet"}
+        for path in make(**given, command=shlex.join(["tabor", "report", *arguments])):
+            if not options.quiet:
+                print(path)
+        return 0
     except ReportError as error:
         print(f"tabor report: {printable(error)}", file=sys.stderr)
         return error.exit_code
 
 
-def _report(options, arguments):
+def make(result, output=None, *, html=True, scan=None, all_scans=False, pressure=None, density=None,
+         error_bar=None, command=""):
+    """Paths of the figures, tables and page written; pressure [Pa], density [g/m^2]; raises ReportError."""
+    dependencies.require(["numpy", "h5py", "matplotlib"] + (["jinja2"] if html else []))
+    options = argparse.Namespace(html=html, scan=scan, all_scans=all_scans, pressure=pressure, density=density,
+                                 error_bar=error_bar)
     try:
-        dependencies.require(["numpy", "h5py", "matplotlib"] + (["jinja2"] if options.html else []))
-        _convert(options)
-        for path in _run(options, arguments):
-            if not options.quiet:
-                print(path)
-        return 0
+        return _run(result, output, options, command)
     except ReportError:
         raise
     except Exception as error:
@@ -41,21 +47,20 @@ def _report(options, arguments):
             raise
         reason = " ".join(f"{type(error).__name__}: {error}".split())
         raise InputError(
-            f"{options.result}: got a file that cannot be drawn ({reason[:300]}); expected a whole result of "
+            f"{result}: got a file that cannot be drawn ({reason[:300]}); expected a whole result of "
             "tabor; compute it again (TABOR_TRACEBACK=1 says where it failed)"
         ) from None
 
 
-def _run(options, arguments):
+def _run(result, output, options, command):
     # Imported late: these modules need the libraries that were just checked.
     from tabor_report import applicable, build
 
-    source = build.open_result(options.result)
+    source = build.open_result(result)
     with source.file:
         applicable.check(source, options)
         options.error_bar = options.error_bar or "std"
-        folder = options.output or build.default_folder(source)
-        return build.build(source, folder, options, shlex.join(["tabor", "report", *arguments]))
+        return build.build(source, output or build.default_folder(source), options, command)
 
 
 def _convert(options):

@@ -44,7 +44,7 @@ def test_every_step_has_a_method_and_a_type():
         assert f"        def {name}(self, *" in source
 
 
-@pytest.mark.parametrize("name", ["_cite", "_contact", "_friction", "ehl", "_surface", "_values"])
+@pytest.mark.parametrize("name", ["_cite", "_combine", "_contact", "_friction", "ehl", "_surface", "_values"])
 def test_examples_of_docstrings_hold(name):
     assert doctest.testmod(importlib.import_module(f"tabor.{name}")).failed == 0
 

@@ -44,6 +44,12 @@ def test_a_quantity_of_pint_is_taken():
     assert found.facts == words.facts
 
 
+def test_numbers_are_si_where_a_key_has_a_unit():
+    name = next(key.name for key in tb.ehl.keys("squeeze") if key.unit == "Pa s")
+    words = tb.ehl.squeeze(tb.ehl.template("squeeze"), **{name: "0.2 Pa*s"}).solve()
+    assert tb.ehl.squeeze(tb.ehl.template("squeeze"), **{name: np.float64(0.2)}).solve().facts == words.facts
+
+
 @pytest.mark.parametrize("name", ["impact", "squeeze", "line", "point"])
 def test_a_template_is_a_case_and_so_are_its_keys(name):
     case = getattr(tb.ehl, name)(tb.ehl.template(name))
@@ -87,3 +93,90 @@ def test_an_unknown_key_names_the_nearest(file):
         tb.ehl.keys("points")
     with pytest.raises(ValueError, match="none.toml"):
         tb.ehl.point("none.toml")
+
+
+POINT = {"ball": {"radius": "1.5 mm", "load": "16.6 N"},
+         "solids": {"e_prime": "230.8 GPa", "plastic_pressure": "4 GPa"},
+         "lubricant": {"viscosity": "0.149 Pa s", "pressure_viscosity": "2.131e-8 1/Pa", "eyring_stress": "6.8 MPa"},
+         "asperities": {"friction_coefficient": 0.12}, "motion": {"speed": "0.1 m/s"}, "grid": {"nodes": 33}}
+
+
+@pytest.fixture(scope="module")
+def case():
+    return tb.ehl.point(POINT)
+
+
+def test_a_sweep_is_that_of_the_command_line(program, case, tmp_path):
+    (tmp_path / "ball.toml").write_text(case.toml, "utf-8")
+    run = subprocess.run([program, "ehl", "point", tmp_path / "ball.toml", "--set", "lubricant.viscosity=0.1Pa*s,0.2Pa*s",
+                          "--set", "motion.speed=0.1 m/s,0.3 m/s,1 m/s", "--json"], capture_output=True, text=True, check=True)
+    told = json.loads(run.stdout)["results"]
+    found = case.sweep({"lubricant.viscosity": ["0.1Pa*s", "0.2Pa*s"], "motion.speed": ["0.1 m/s", "0.3 m/s", "1 m/s"]})
+    assert found.shape == (2, 3) and found.converged and len(found.rows) == len(told) == 6
+    for row, other in zip(found.rows, told):
+        assert all(other[key] == value for key, value in row.items() if key not in ("warnings", *found.axes))
+    assert found.axes == {"lubricant.viscosity": (0.1, 0.2), "motion.speed": (0.1, 0.3, 1.0)}
+    assert (np.diff(found["central_film_m"], axis=1) > 0).all() and (np.diff(found["central_film_m"], axis=0) > 0).all()
+
+
+def test_numbers_and_words_are_axes(case):
+    found = case.sweep({"roughness.kind": ["lapped-like", "polished-like"], "motion.speed": np.geomspace(1, 10, 2)})
+    assert found.axes == {"roughness.kind": ("lapped-like", "polished-like"), "motion.speed": (1.0, 10.0)}
+    assert found.rows[1]["roughness.kind"] == "lapped-like" and found.rows[1]["motion.speed"] == 10.0
+    assert found["formulas.hamrock_dowson_central_film_m"].shape == (2, 2)
+    assert "roughness.kind  lapped-like, polished-like" in repr(found) and "<table>" in found._repr_html_()
+    with pytest.raises(KeyError, match="film"):
+        found["film"]
+    copy = pickle.loads(pickle.dumps(found))
+    assert copy.rows == found.rows and tb.cite(copy) == tb.cite(found)
+
+
+def test_a_sweep_goes_to_pandas_and_xarray(case):
+    pytest.importorskip("pandas")
+    pytest.importorskip("xarray")
+    found = case.sweep({"motion.speed": [0.5, 1.0]})
+    assert list(found.table["motion.speed"]) == [0.5, 1.0]
+    maps = found.to_xarray()
+    assert maps.central_film_m.sel({"motion.speed": 1.0}) == found["central_film_m"][1]
+    assert maps.central_film_m.attrs["units"] == "m"
+
+
+def test_a_sweep_in_a_folder_goes_on(case, tmp_path):
+    class Stop(Exception):
+        pass
+
+    seen = []
+
+    def stop_late(stage, share, certificate):
+        seen.append(stage)
+        if any(tmp_path.glob("kept/*.h5")) or any(tmp_path.glob("kept/*/*.h5")):
+            raise Stop
+
+    speeds = {"motion.speed": list(np.geomspace(0.1, 10, 8))}
+    with pytest.raises(Stop):
+        tb.ehl.point({**POINT, "grid": {"nodes": 65}}).sweep(speeds, folder=tmp_path / "kept", progress=stop_late)
+    rest = tb.ehl.point({**POINT, "grid": {"nodes": 65}}).sweep(speeds, folder=tmp_path / "kept")
+    assert 0 < rest.n_computed < 8
+    assert tb.ehl.point({**POINT, "grid": {"nodes": 65}}).sweep(speeds, folder=tmp_path / "kept").n_computed == 0
+    assert rest.rows == tb.ehl.point({**POINT, "grid": {"nodes": 65}}).sweep(speeds).rows
+
+
+@pytest.mark.parametrize("values, text", [({}, "got no key"), ({"motion.speed": "1 m/s"}, "expected a list of values"),
+                                          ({"motion.speed": []}, "got an empty list"),
+                                          ({"motion.sped": [1.0]}, "did you mean 'motion.speed'"),
+                                          ({"motion.speed": [-1.0]}, "motion.speed")])
+def test_sweeps_of_nothing_are_refused(case, values, text):
+    with pytest.raises(ValueError, match=text):
+        case.sweep(values)
+
+
+def test_a_rough_film_is_saved_after_it_was_solved(case, tmp_path):
+    h5py = pytest.importorskip("h5py")
+    found = tb.ehl.point({**POINT, "roughness": {"kind": "lapped-like"}, "motion": {"speed": "1 m/s"}}).solve()
+    for name in ("a.h5", "b.h5"):  # the film of the smooth bodies is solved for in each
+        found.save(tmp_path / name)
+    with h5py.File(tmp_path / "a.h5") as one, h5py.File(tmp_path / "b.h5") as other:
+        names = set(one["along"])
+        assert "film" in names and any("smooth" in name for name in names)
+        for name in names:
+            np.testing.assert_array_equal(one["along"][name][()], other["along"][name][()])

@@ -51,3 +51,76 @@ def test_a_surface_without_a_unit_is_refused():
     other = SimpleNamespace(heights=lambda: Z.T, physical_sizes=(1.0, 1.0), unit=None, is_periodic=False)
     with pytest.raises(ValueError, match="it has no unit"):
         tb.Surface(other)
+
+
+# The packages themselves, where they are installed
+
+def holed():
+    heights = 1e-6 * np.arange(12.0).reshape(3, 4)
+    heights[1, 2] = np.nan
+    return heights
+
+
+def test_surface_topography_itself():
+    package = pytest.importorskip("SurfaceTopography")
+    heights = holed()
+    other = package.Topography(np.ma.masked_invalid(heights.T * 1e9), (8e3, 3e3), unit="nm", periodic=True)
+    surface = tb.Surface(other)
+    np.testing.assert_allclose(surface.height, heights, rtol=1e-15)
+    assert surface.periodic and surface.pixel == pytest.approx((2e-6, 1e-6), rel=1e-12)
+    with pytest.raises(ValueError, match="it has no unit"):
+        tb.Surface(package.Topography(heights.T, (8.0, 3.0)))
+    tilted = package.Topography(1e-6 * np.arange(20.0).reshape(5, 4), (5.0, 4.0), unit="m").detrend("height")
+    np.testing.assert_array_equal(tb.Surface(tilted).height, tilted.heights().T)
+
+
+def test_surface_topography_reads_the_same_surface(scan_file):
+    package = pytest.importorskip("SurfaceTopography")
+    mine, theirs = tb.read(scan_file), tb.Surface(package.read_topography(str(scan_file)))
+    np.testing.assert_array_equal(theirs.height, mine.height)
+    assert theirs.pixel == pytest.approx(mine.pixel, rel=1e-12)
+
+
+def test_surfalize_itself(scan_file):
+    package = pytest.importorskip("surfalize")
+    heights = holed()
+    surface = tb.Surface(package.Surface(heights * 1e6, 0.5, 0.5))
+    np.testing.assert_allclose(surface.height, heights, rtol=1e-15)
+    assert surface.pixel == pytest.approx((0.5e-6, 0.5e-6), rel=1e-12)
+    mine, theirs = tb.read(scan_file), tb.Surface(package.Surface.load(str(scan_file)))
+    np.testing.assert_allclose(theirs.height, mine.height, rtol=0, atol=1e-20)
+    assert theirs.pixel == pytest.approx(mine.pixel, rel=1e-9)
+
+
+def test_gwyfile_itself(tmp_path):
+    package = pytest.importorskip("gwyfile")
+    from gwyfile.objects import GwyContainer, GwyDataField, GwySIUnit
+
+    def field(values, **units):
+        units = {axis: GwySIUnit(unitstr=text) for axis, text in units.items()}
+        return GwyDataField(values, xreal=4e-6, yreal=6e-6, **units)
+
+    heights = 1e-6 * np.arange(12.0).reshape(3, 4)
+    container = GwyContainer()
+    container["/0/data"] = field(heights, si_unit_xy="m", si_unit_z="m")
+    container.tofile(str(tmp_path / "a.gwy"))
+    loaded = package.load(str(tmp_path / "a.gwy"))["/0/data"]
+    for surface in (tb.Surface(container["/0/data"]), tb.Surface(loaded), tb.read(tmp_path / "a.gwy")):
+        np.testing.assert_array_equal(surface.height, heights)
+        assert surface.pixel == pytest.approx((1e-6, 2e-6), rel=1e-12)
+    with pytest.raises(ValueError, match="unit of z: got .*; expected 'm'"):
+        tb.Surface(field(heights, si_unit_xy="m", si_unit_z="V"))
+
+
+def test_xarray_itself():
+    package = pytest.importorskip("xarray")
+    heights = holed()
+    array = package.DataArray(heights * 1e9, {"y": 1e3 * np.arange(3.0), "x": 2e3 * np.arange(4.0)}, ("y", "x"),
+                              attrs={"units": "nm"})
+    array.x.attrs["units"] = array.y.attrs["units"] = "nm"
+    for given in (array, array.transpose("x", "y")):
+        surface = tb.Surface(given)
+        np.testing.assert_allclose(surface.height, heights, rtol=1e-15)
+        assert surface.pixel == pytest.approx((2e-6, 1e-6), rel=1e-12)
+    with pytest.raises(ValueError, match="coordinate y: expected rising values"):
+        tb.Surface(array.isel(y=slice(None, None, -1)))

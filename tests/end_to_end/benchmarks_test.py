@@ -95,6 +95,18 @@ class WholeRuns(Benchmark):
         self.assertEqual((record["rows"], record["converged"]), (56, 56))
 
 
+    @unittest.skipUnless((BUILD / "python/tabor/__init__.py").exists(), "the Python package is not built")
+    def test_python_overhead(self):
+        try:
+            import numpy  # noqa: F401  # of the interpreter that the package is built for
+        except ImportError:
+            self.skipTest("no NumPy")
+        output = self.output("python_overhead", 16, "rounds=1")
+        for call in ("level", "psd", "rain", "contact"):
+            self.assertIn(f"| {call} | 16 x 16 |", output)
+        self.assertIn("tb.contact MB", output)
+
+
 class Peers(Benchmark):
     """Those that are not installed are left out, which the run says."""
 

@@ -175,11 +175,11 @@ class Impact:
         threshold = 1e-4 * largest
         over, under = force[-2] - threshold, threshold - force[-1]
         end = time[-2] + (time[-1] - time[-2]) * over / (over + under)
-        first = next((i for i in range(1, len(central) - 1) if central[i - 1] < central[i] > central[i + 1]), None)
+        peaks = [i for i in range(1, len(central) - 1) if central[i - 1] < central[i] > central[i + 1]]
         found = {"force": largest / (MODULUS * RADIUS**2), "min_film": smallest / RADIUS,
                  "delay": (time_film - time_force) / (end - time_force), "restitution": self.velocity / self.speed}
-        if first is not None:
-            found["primary_pressure"] = peak(time, central, first)[1] / MODULUS
+        if len(peaks) > 1:  # the last one is the spike as the film closes
+            found["primary_pressure"] = peak(time, central, peaks[0])[1] / MODULUS
         return found
 
 

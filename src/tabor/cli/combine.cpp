@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "tabor/analysis/combination.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
@@ -32,31 +33,6 @@ struct Request {
   double threshold = 4;
   std::optional<std::string> output;
 };
-
-io::Json json_of(const Registration& r) {
-  return {{"shift_x_m", r.shift_x},
-          {"shift_y_m", r.shift_y},
-          {"uncertainty_x_m", r.uncertainty_x},
-          {"uncertainty_y_m", r.uncertainty_y},
-          {"correlation", r.correlation},
-          {"overlap", r.overlap},
-          {"distinction", r.distinction},
-          {"runner_up", r.runner_up},
-          {"iterations", r.iterations}};
-}
-
-io::Json json_of(const Volume& volume) {
-  return {{"volume_m3", volume.value},
-          {"uncertainty_m3", volume.uncertainty},
-          {"area_m2", volume.area}};
-}
-
-io::Json json_of(const WearVolumes& wear) {
-  return {{"worn", json_of(wear.worn)},       {"piled_up", json_of(wear.piled_up)},
-          {"net", json_of(wear.net)},         {"noise_m", wear.noise},
-          {"noise_area_m2", wear.noise_area}, {"noise_floor_m3", wear.noise_floor},
-          {"threshold_m", wear.threshold}};
-}
 
 /// The length whose cube and square all volumes and areas of a table are told in: tribologists know
 /// mm^3 and um^3 and no prefixes of m^3.
@@ -143,29 +119,6 @@ comparison::CombineOptions options_of(const Request& request) {
   return options;
 }
 
-/// A repeating texture fits at several shifts.
-void warn_of_ambiguity(const Combination& c, Context& context) {
-  constexpr double suspicious = 0.8;
-  if (c.registration && c.registration->runner_up > suspicious) {
-    context.warn(
-        fmt::format("another shift matches nearly as well ({:.0f} %): if the texture "
-                    "repeats, check the shift",
-                    100 * c.registration->runner_up));
-  }
-}
-
-/// Interpolation widens every hole by some pixels, and what lies there counts nowhere.
-void warn_of_holes(const Combination& c, Context& context) {
-  constexpr double much = 0.01;
-  const double share =
-      static_cast<double>(topography::count_holes(c.map)) / static_cast<double>(c.map.grid.size());
-  if (!c.wear || share <= much) return;
-  context.warn(fmt::format(
-      "{} of the overlap lie in or beside holes and are left out of the volumes: fill small holes "
-      "(--fill harmonic)",
-      percent(share)));
-}
-
 int show(const Request& request, Context& context) {
   const auto options = options_of(request);
   ScanRequest second = request.scan;
@@ -174,24 +127,13 @@ int show(const Request& request, Context& context) {
   const Scan b = read_scan(second, context);
   context.warn(analysis::findings_of({doubts_of(a), doubts_of(b)}));
   const Combination c = comparison::combine(a.surface, b.surface, options, context.observer());
-  warn_of_ambiguity(c, context);
-  warn_of_holes(c, context);
+  for (const std::string& doubt : analysis::doubts_of(c)) context.warn(doubt);
   io::Json object = json_head(context, a);
   object["second_scan"] = {{"path", b.path}, {"sha256", b.sha256}};
   object["second_treatment_history"] = b.surface.history;
   object["mode"] = request.mode;
-  object["shift_x_m"] = c.shift_x;
-  object["shift_y_m"] = c.shift_y;
-  object["registration"] = c.registration ? json_of(*c.registration) : io::Json();
   object["level_match"] = request.match;
-  object["nx"] = c.map.grid.nx;
-  object["ny"] = c.map.grid.ny;
-  object["common_points"] = c.n_common;
-  object["rms_height_first_m"] = c.rms_a;
-  object["rms_height_second_m"] = c.rms_b;
-  object["rms_height_m"] = c.rms_map;
-  object["correlation"] = io::number(c.correlation);
-  if (c.wear) object["wear"] = json_of(*c.wear);
+  object.update(analysis::values_of(c));
   std::string text = text_of(request, a, b, c);
   if (request.output) {
     scan::write(c.map, *request.output);

@@ -1,0 +1,137 @@
+"""Two scans put together: what wear took away, or two faces in contact."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
+from typing import Any, NamedTuple
+
+from . import _tabor
+from ._progress import Progress, watching
+from ._records import table_html
+from ._surface import Surface
+from ._values import Value, si_list
+
+
+class Volume(NamedTuple):
+    """A volume with one standard deviation, and the area it was summed over."""
+
+    volume: float  #: [m^3]
+    uncertainty: float  #: [m^3]
+    area: float  #: [m^2]
+
+    def _text(self) -> str:
+        name, cube = ("mm^3", 1e-9) if abs(self.volume) >= 1e-12 else ("um^3", 1e-18)
+        return f"{self.volume / cube:.4g} {name} (+- {self.uncertainty / cube:.2g})"
+
+
+class Combination:
+    """What ``combine`` made of two scans. It does not change."""
+
+    surface: Surface  #: the map, on the pixels of the first scan, cut to the overlap
+    values: Mapping[str, Any]  #: numbers by the names of ``tabor combine --json``, whose endings are the units
+    warnings: tuple[str, ...]  #: reasons to doubt them
+    references: tuple[str, ...]  #: what to cite
+
+    def __init__(self, surface: Surface, values: Mapping[str, Any], warnings: Sequence[str]) -> None:
+        methods = surface.metadata.get("methods", "")
+        self.__dict__.update(surface=surface, _values=dict(values), warnings=tuple(warnings),
+                             references=(methods,) if methods else ())
+
+    def __getattr__(self, name: str) -> Any:
+        if name == "values":
+            return MappingProxyType(self.__dict__["_values"])
+        raise AttributeError(f"a Combination has no {name}")
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError("a Combination does not change")
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+    @property
+    def shift(self) -> tuple[float, float]:
+        """What is at (x, y) in the first scan is at (x + shift, y + shift) in the second [m]."""
+        return float(self.values["shift_x_m"]), float(self.values["shift_y_m"])
+
+    def _volume(self, name: str) -> Volume | None:
+        wear = self.values.get("wear")
+        return wear and Volume(*(wear[name][key] for key in ("volume_m3", "uncertainty_m3", "area_m2")))
+
+    @property
+    def worn(self) -> Volume | None:
+        """Where material is gone; None unless the mode is "wear"."""
+        return self._volume("worn")
+
+    @property
+    def piled_up(self) -> Volume | None:
+        """Where there is more than before, as a positive volume; None unless the mode is "wear"."""
+        return self._volume("piled_up")
+
+    @property
+    def net(self) -> Volume | None:
+        """Worn less piled up over the whole overlap, without a threshold; None unless the mode is "wear"."""
+        return self._volume("net")
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draws the map; needs matplotlib. Returns the axes."""
+        return self.surface.plot(ax)
+
+    def _lines(self) -> list[tuple[str, str]]:
+        along = [_tabor.format_si(one, "m") for one in self.shift]
+        lines = [("shift", f"{along[0]} along x, {along[1]} along y"),
+                 ("overlap", f"{self.values['nx']} x {self.values['ny']} pixels"),
+                 ("Sq", _tabor.format_si(self.values["rms_height_m"], "m"))]
+        for name in ("worn", "piled_up", "net") if self.worn else ():
+            volume = self._volume(name)
+            if volume:
+                lines.append((name.replace("_", " "), volume._text()))
+        return lines + [("warning", text) for text in self.warnings]
+
+    def __repr__(self) -> str:
+        return "\n".join(["Combination"] + [f"  {heading:<9} {text}" for heading, text in self._lines()])
+
+    def _repr_html_(self) -> str:
+        return table_html("Combination", self._lines())
+
+
+def combine(first: Surface, second: Surface, mode: str = "wear", *, search: bool = True,
+            shift: Sequence[Value] | None = None, match: str = "plane", threshold: float = 4.0,
+            progress: Progress = None) -> Combination:
+    """Registers two scans and subtracts them, or adds two faces, as ``tabor combine`` does.
+
+    Parameters
+    ----------
+    first, second : before and after, or the two faces, treated alike and equally oriented: rotation is not
+        corrected.
+    mode : "wear", first less second with volumes; "difference", the same without; "composite", first plus second
+        turned over: the gap between two faces in contact is a constant less this map.
+    search : look for the shift between the scans; else they are taken corner on corner.
+    shift : (dx, dy) [m], not searched: what is at x in the first is at x + dx in the second.
+    match : offset or tilt between the scans that is fitted where nothing changed, and removed: "plane", "offset" or
+        "none".
+    threshold : a change counts from here on, in standard deviations of the noise.
+
+    Raises
+    ------
+    ValueError
+        Where the scans do not overlap or cannot be matched, and for unknown names.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> before = tb.generate("edt", pixels=128, seed=3)
+    >>> worn = before.height.copy()
+    >>> worn[40:60, 40:60] -= 1e-6
+    >>> found = tb.combine(before, tb.Surface(worn, pixel=before.pixel), shift=(0, 0), match="none")
+    >>> round(1e18 * found.worn.volume / (20 * 20 * 0.67**2), 3)
+    1.0
+    """
+    lengths = [] if shift is None else si_list(shift, "length", "shift")[0]
+    if len(lengths) not in (0, 2):
+        raise ValueError(f"shift: got {len(lengths)} lengths; expected two, along x and y")
+    options = _tabor.CombineOptions(mode, match, search, lengths, float(threshold))
+    with watching(progress) as told:
+        topography, values, doubts = _tabor.combine(first._topography, second._topography, options, told)
+    return Combination(Surface._of(topography), json.loads(values), doubts)

@@ -1,0 +1,97 @@
+"""Sweeps of films under load over values of their case."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from . import _tabor
+from ._optional import needs
+from ._records import table_html
+from ._surface import Array
+
+
+class Sweep:
+    """What was found out about a case with each combination of some values, the last one fastest. It does not
+    change."""
+
+    axes: Mapping[str, tuple[Any, ...]]  #: keys of the case with their values, SI; words as they are
+    rows: tuple[Mapping[str, Any], ...]  #: one for each case: its values and numbers, ``converged``, ``warnings``
+    columns: tuple[tuple[str, str, str], ...]  #: (key, heading, unit) of the numbers that say most
+    warnings: tuple[str, ...]  #: reasons to doubt them, each said once
+    references: tuple[str, ...]  #: what to cite
+    n_computed: int  #: cases; the others were in the folder
+    converged: bool  #: all of them
+
+    def __init__(self, swept: _tabor.SweptCases, given: Mapping[str, list[Any]], references: tuple[str, ...]) -> None:
+        axes = {key: tuple(values if any(_is_word(one) for one in values) else numbers)
+                for (key, values), numbers in zip(given.items(), swept.axes)}
+        cases = [(json.loads(text), converged, tuple(warnings)) for text, converged, warnings in swept.cases]
+        places = np.ndindex(*(len(values) for values in axes.values()))
+        rows = tuple({**{key: axes[key][i] for key, i in zip(axes, place)}, **values, "converged": converged,
+                      "warnings": warnings} for place, (values, converged, warnings) in zip(places, cases))
+        self.__dict__.update(axes=axes, rows=rows, columns=tuple(swept.columns), warnings=tuple(swept.warnings),
+                             references=references, n_computed=swept.n_computed,
+                             converged=all(row["converged"] for row in rows))
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError("a Sweep does not change")
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Number of values on each axis."""
+        return tuple(len(values) for values in self.axes.values())
+
+    def __getitem__(self, key: str) -> Array:
+        """One number of all cases, in the shape of the axes, NaN where a case has none; "wear.mean_depth_m" is
+        that of a table inside. Raises KeyError for what no case has."""
+        found = [_inside(row, key) for row in self.rows]
+        if all(one is None for one in found):
+            raise KeyError(key)
+        return np.array([np.nan if one is None else one for one in found], dtype=np.float64).reshape(self.shape)
+
+    @property
+    def table(self) -> Any:
+        """The rows as a DataFrame; needs pandas."""
+        return needs("pandas", "table").DataFrame(list(self.rows))
+
+    def to_xarray(self) -> Any:
+        """The columns as a Dataset over the axes; needs xarray."""
+        xarray = needs("xarray", "to_xarray()")
+        dims = tuple(self.axes)
+        return xarray.Dataset({key: (dims, self[key], {"long_name": heading, "units": unit})
+                               for key, heading, unit in self.columns},
+                              coords={key: list(values) for key, values in self.axes.items()})
+
+    def _lines(self) -> list[tuple[str, str]]:
+        good = sum(row["converged"] for row in self.rows)
+        lines = [(key, ", ".join(f"{one:g}" if isinstance(one, float) else str(one) for one in values))
+                 for key, values in self.axes.items()]
+        return [*lines, ("converged", f"{good} of {len(self.rows)}"), *(("warning", text) for text in self.warnings)]
+
+    def __repr__(self) -> str:
+        lines = self._lines()
+        width = max(len(heading) for heading, _ in lines)
+        return "\n".join(["Sweep"] + [f"  {heading:<{width}}  {text}" for heading, text in lines])
+
+    def _repr_html_(self) -> str:
+        return table_html("Sweep", self._lines())
+
+
+def _is_word(value: Any) -> bool:
+    """No number, and no text of one with its unit."""
+    return isinstance(value, str) and not value.lstrip(" +-.")[:1].isdigit()
+
+
+def _inside(row: Mapping[str, Any], key: str) -> Any:
+    if key in row:
+        return row[key]
+    table, _, rest = key.partition(".")
+    inner = row.get(table)
+    return _inside(inner, rest) if rest and isinstance(inner, Mapping) else None

@@ -1,0 +1,58 @@
+// Times of calls of the library, which tools/bench/python_overhead sets beside the same calls from
+// Python.
+//
+//   bench_calls FILE CALL COUNT            CALL: level, psd, rain or contact
+//
+// The surface is the one of the file without its plane. Prints seconds, a line for each of COUNT
+// calls.
+#include <fmt/core.h>
+
+#include <functional>
+#include <map>
+#include <string>
+
+#include "tabor/analysis/states.hpp"
+#include "tabor/core/resources.hpp"
+#include "tabor/metrology/psd.hpp"
+#include "tabor/scan/file.hpp"
+#include "tabor/topography/treatment.hpp"
+
+namespace {
+
+using namespace tabor;
+using topography::Topography;
+
+analysis::ContactSettings solid() {
+  analysis::ContactSettings settings;
+  settings.youngs_modulus = 70e9;
+  settings.poissons_ratio = 0.33;
+  settings.saturation_pressure = 240e6;
+  return settings;
+}
+
+analysis::FilmSettings oil() {
+  analysis::FilmSettings settings;
+  settings.lubricant_densities = {0.9e-3};
+  return settings;
+}
+
+const std::map<std::string, std::function<void(const Topography&)>> kCalls = {
+    {"level", [](const Topography& s) { topography::apply({"level=plane"}, s); }},
+    {"psd", [](const Topography& s) { metrology::power_spectra(s, {}); }},
+    {"rain", [](const Topography& s) { analysis::film_state(s, oil()); }},
+    {"contact", [](const Topography& s) { analysis::contact_state(s, solid(), 7e6); }}};
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 4 || !kCalls.contains(argv[2])) {
+    fmt::print(stderr, "usage: bench_calls FILE level|psd|rain|contact COUNT\n");
+    return 2;
+  }
+  const Topography surface = topography::apply({"level=plane"}, scan::read(argv[1]));
+  for (int i = std::stoi(argv[3]); i > 0; --i) {
+    const Stopwatch watch;
+    kCalls.at(argv[2])(surface);
+    fmt::print("{:.9f}\n", watch.seconds());
+  }
+}
