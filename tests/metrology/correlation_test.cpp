@@ -7,6 +7,7 @@
 #include "support/rejection.hpp"
 #include "support/sample_surfaces.hpp"
 #include "support/scans.hpp"
+#include "support/validation.hpp"
 #include "support/worst.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/metrology/height_differences.hpp"
