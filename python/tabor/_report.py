@@ -79,10 +79,10 @@ def _made(arguments: dict[str, Any]) -> list[str]:
     return files
 
 
-def report(result: Any, out: str | os.PathLike[str] | None = None, *, html: bool = True, scan: int | None = None,
-           all_scans: bool = False, pressure: Value | None = None, density: Value | None = None,
+def report(result: Any, out: str | os.PathLike[str] | None = None, *, html: bool = True, static: bool = False,
+           figures: str | None = None, scan: int | None = None, all_scans: bool = False, pressure: Value | None = None, density: Value | None = None,
            error_bar: str | None = None) -> Report:
-    """Figures and one self-contained page, as ``tabor report`` makes them; needs ``pip install tabor[report]``.
+    """One self-contained page, as ``tabor report`` makes it; needs ``pip install tabor[report]``.
 
     Parameters
     ----------
@@ -90,6 +90,8 @@ def report(result: Any, out: str | os.PathLike[str] | None = None, *, html: bool
         contacts, films, frictions or a solution of ``ehl``, which are then saved as result.h5 in ``out``.
     out : folder to write to [beside the result].
     html : write the page, not only figures and tables.
+    static : a page of still figures, as where Bokeh or Pillow is missing.
+    figures : write figures and their tables, too: "png", "svg", "pdf" or several, as "png,svg" [none with a page].
     scan, all_scans : of a study: number of the scan that the maps show, counted from 0, or maps of every scan.
     pressure, density : of a study: mean pressure [Pa] and areal density [kg/m^2] that the maps show, the nearest
         ones computed.
@@ -108,7 +110,7 @@ def report(result: Any, out: str | os.PathLike[str] | None = None, *, html: bool
     if error_bar not in (None, "std", "sem"):
         raise ValueError(f"error_bar: got {error_bar!r}; expected 'std' or 'sem'")
     shown = optional_si(density, "areal_density", "density")
-    arguments = {"html": html, "scan": scan, "all_scans": all_scans, "error_bar": error_bar,
+    arguments = {"html": html, "static": static, "figures": figures, "scan": scan, "all_scans": all_scans, "error_bar": error_bar,
                  "pressure": optional_si(pressure, "pressure", "pressure"),
                  "density": None if shown is None else 1e3 * shown}
     file = _file_of(result, out)

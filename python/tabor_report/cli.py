@@ -31,12 +31,14 @@ def main(arguments):
         return error.exit_code
 
 
-def make(result, output=None, *, html=True, scan=None, all_scans=False, pressure=None, density=None,
-         error_bar=None, command=""):
-    """Paths of the figures, tables and page written; pressure [Pa], density [g/m^2]; raises ReportError."""
+def make(result, output=None, *, html=True, static=False, figures=None, scan=None, all_scans=False, pressure=None,
+         density=None, error_bar=None, command=""):
+    """Paths of the figures, tables and page written; raises ReportError.
+
+    figures: their formats, as "png,svg" [none, without a page PNG and SVG]; pressure [Pa], density [g/m^2]."""
     dependencies.require(["numpy", "h5py", "matplotlib"] + (["jinja2"] if html else []))
-    options = argparse.Namespace(html=html, scan=scan, all_scans=all_scans, pressure=pressure, density=density,
-                                 error_bar=error_bar)
+    options = argparse.Namespace(html=html, static=static, figures=_formats(figures, html), scan=scan,
+                                 all_scans=all_scans, pressure=pressure, density=density, error_bar=error_bar)
     try:
         return _run(result, output, options, command)
     except ReportError:
@@ -66,14 +68,13 @@ def _run(result, output, options, command):
 def _convert(options):
     options.pressure = None if options.pressure is None else units.parse_pressure(options.pressure)
     options.density = None if options.density is None else units.parse_density(options.density)
-    options.figures = _formats(options)
 
 
-def _formats(options):
+def _formats(figures, html):
     """'png,svg' -> ['png', 'svg']; none where only the page is asked for."""
-    if options.figures is None:
-        return [] if options.html else ["png", "svg"]
-    formats = options.figures.split(",")
+    if figures is None:
+        return [] if html else ["png", "svg"]
+    formats = figures.split(",")
     if any(part not in FORMATS for part in formats):
         raise UsageError(f"--figures: got '{options.figures}'; expected png, svg, pdf or several of them, as png,svg")
     return list(dict.fromkeys(formats))

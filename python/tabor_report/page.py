@@ -81,7 +81,8 @@ def _subtitle(source):
         scans, cases = len(source.scans), len(source.table)
         return f"{scans} scan{'s' * (scans != 1)}, {cases} case{'s' * (cases != 1)}"
     if source.kind == "psd":
-        return "one scan"
+        scans = sum(not one.is_mean for one in source.sets)
+        return f"{scans} scans" if scans > 1 else "one scan"
     if source.kind == "params":
         return f"{len(source.scans)} scan{'s' * (len(source.scans) != 1)}"
     if source.kind == "ehl":

@@ -18,7 +18,7 @@ def pressed(rough, steel):
 
 
 def test_a_result_is_saved_beside_its_page(pressed, tmp_path):
-    found = tb.report(pressed, tmp_path / "page")
+    found = tb.report(pressed, tmp_path / "page", figures="png,svg")
     assert found.page == tmp_path / "page" / "report.html" and all(file.is_file() for file in found.files)
     assert "polonsky1999" in found.page.read_text("utf-8") and "tabor.report(" in found.page.read_text("utf-8")
     assert {file.suffix for file in found.files} == {".png", ".svg", ".csv", ".html"}

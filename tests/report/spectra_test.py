@@ -45,7 +45,7 @@ class Spectra(unittest.TestCase):
         source = self.source()
         (drawn,) = figure.draw(source)
         lines = [line for axes in drawn.figure.axes for line in axes.lines if len(line.get_xdata()) > 2]
-        for line, (q, density) in zip(lines, source.curves.values()):
+        for line, (q, density) in zip(lines, source.sets[0].curves.values()):
             scale = 1e24 if line.get_label() == "radial" else 1e18
             np.testing.assert_allclose(line.get_xdata(), q * 1e-6)
             np.testing.assert_allclose(line.get_ydata(), density * scale)
@@ -53,12 +53,12 @@ class Spectra(unittest.TestCase):
 
     def test_one_direction_alone_is_drawn_too(self):
         source = self.source(axes=("y",))
-        self.assertEqual(list(source.curves), ["y"])
+        self.assertEqual(list(source.sets[0].curves), ["y"])
         self.assertEqual(len(next(figure.draw(source)).figure.axes), 1)
 
     def test_values_that_no_logarithm_has_are_left_out(self):
         source = self.source(power=-400)  # underflows to zero
-        self.assertTrue(all((density > 0).all() for _, density in source.curves.values()))
+        self.assertTrue(all((density > 0).all() for _, density in source.sets[0].curves.values()))
 
     def test_the_page_names_the_scan_and_the_range(self):
         self.source()
@@ -66,6 +66,32 @@ class Spectra(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         page = (self.path.parent / "page/report.html").read_text(encoding="utf-8")
         for words in ("my scan.x3p", "3.125 µm to 25 µm", "wavelengths to be trusted", "Power spectral density"):
+            self.assertIn(words, page)
+
+    def test_scans_and_means_lie_over_each_other(self):
+        q = 2 * np.pi / SIDE * np.arange(1, N // 2 + 1)
+        with new_file(self.path) as file:
+            file.attrs["command"] = "tabor psd a.x3p b.x3p --group all=* -o psd.h5"
+            for i, name in enumerate(("a.x3p", "b.x3p")):
+                node = file.create_group(f"scans/{i:04}")
+                node.attrs["file"] = f"folder/{name}"
+                node["q_x_rad_per_m"], node["psd_x_m3"] = q, (i + 1) * 1e-20 * q / q[0]
+            node = file.create_group("groups/0000")
+            node.attrs["group"], node.attrs["scans"] = "all", ["a.x3p", "b.x3p"]
+            node["q_x_rad_per_m"], node["psd_x_m3_mean"] = q, 1.5e-20 * q / q[0]
+            node["psd_x_m3_std"] = 0.7e-20 * q / q[0]
+        source = build.open_result(self.path)
+        self.addCleanup(source.file.close)
+        (drawn,) = figure.draw(source)
+        (axes,) = drawn.figure.axes
+        labels = [line.get_label() for line in axes.lines]
+        self.assertEqual(labels[:3], ["a.x3p", "b.x3p", "all, mean of 2"])
+        np.testing.assert_allclose(axes.lines[2].get_ydata(), 1.5e-2 * q / q[0])
+        self.assertEqual(len(rows_of(drawn.data[""])), 3 * N // 2)
+        done = run(self.path, "-o", self.path.parent / "page")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        page = (self.path.parent / "page/report.html").read_text(encoding="utf-8")
+        for words in ("Power spectra of 2 scans", "all, mean of 2", "Of each scan and mean"):
             self.assertIn(words, page)
 
     def test_options_of_studies_are_rejected(self):
