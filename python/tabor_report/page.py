@@ -87,6 +87,8 @@ def _subtitle(source):
         return f"{len(source.scans)} scan{'s' * (len(source.scans) != 1)}"
     if source.kind == "ehl":
         return "a sweep" if source.is_sweep else "one case"
+    if not source.states:
+        return "two scans put together" if source.combination else "one surface"
     return f"{len(source.states)} state{'s' * (len(source.states) != 1)} of one scan"
 
 

@@ -7,7 +7,7 @@ from tabor_report import hdf, units
 
 def sections(single):
     return {
-        "answer": answer(single.states),
+        "answer": _combined(single.combination) if single.combination else answer(single.states),
         "highlights": _highlights(single),
         "scans": [_scan(single)],
         "treatments": [(tuple(hdf.text_list(single.surface_facts.get("treatment"))), [single.title])],
@@ -15,6 +15,36 @@ def sections(single):
         "results": _results(single.states),
         "averages": {"header": [], "rows": [], "n_text": 0},
     }
+
+
+def _combined(facts):
+    """What `tabor combine` found: volumes with their uncertainty, or the heights of both scans and of the map."""
+    rows = [
+        (name, [_volume(facts[f"{key}_volume_m3"]), _volume(facts[f"{key}_uncertainty_m3"])])
+        for key, name in (("worn", "worn"), ("piled_up", "piled up"), ("net", "net, whole overlap"))
+        if f"{key}_volume_m3" in facts
+    ]
+    heights = [
+        ("rms height of the first", ("rms_height_first_m", None)),
+        ("rms height of the second", ("rms_height_second_m", None)),
+        ("rms height of this map", ("rms_height_m", None)),
+        ("shift of the second along x", ("shift_x_m", "uncertainty_x_m")),
+        ("shift of the second along y", ("shift_y_m", "uncertainty_y_m")),
+    ]
+    rows += [(name, [_length(facts, key) for key in keys]) for name, keys in heights if keys[0] in facts]
+    correlation = facts.get("correlation")
+    note = "" if correlation is None else f"Correlation of both over the overlap: {units.number(correlation, 4)}."
+    return {"caption": "Of both scans", "header": ["value", "± (1 sigma)"], "rows": rows, "note": note}
+
+
+def _volume(value):
+    """[m^3] in mm³ from a thousandth of one on, else in µm³."""
+    factor, unit = (1e9, "mm³") if abs(value) >= 1e-12 else (1e18, "µm³")
+    return f"{units.number(value * factor, 4)} {unit}"
+
+
+def _length(facts, key):
+    return units.length(facts[key]) if key in facts else "–"
 
 
 _HIGHLIGHTS = {

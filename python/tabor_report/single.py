@@ -1,4 +1,4 @@
-"""A result file of one scan: `convert`, `contact`, `lubricate` or `friction` with -o."""
+"""A result file of one surface: `convert`, `combine`, `contact`, `lubricate` or `friction` with -o."""
 
 import math
 import tomllib
@@ -25,7 +25,14 @@ class Single:
     kind = "single"
 
     @property
+    def combination(self):
+        """Numbers of `tabor combine`; {} in other files."""
+        return hdf.attributes(self.file["combination"]) if "combination" in self.file else {}
+
+    @property
     def title(self):
+        if self.combination:
+            return _title_of_two(self.surface_facts.get("source", ""), self.combination.get("mode"))
         return readable(Path(self.surface_facts.get("source") or self.path.name).name)
 
     @property
@@ -48,6 +55,12 @@ class Single:
     def raw_height(self):
         """As stored [m], shape (ny, nx)."""
         return self.surface["height"][()]
+
+
+def _title_of_two(source, mode):
+    """'a.x3p less b.x3p' of 'folder/a.x3p - folder/b.x3p'."""
+    sign, word = ("+", "and") if mode == "composite" else ("-", "less")
+    return readable(f" {word} ".join(Path(part).name for part in source.split(f" {sign} ")))
 
 
 def load(path, file):

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/topography/surface_group.hpp"
 
 namespace tabor::analysis {
 namespace {
@@ -47,6 +49,19 @@ double share_of_holes(const Combination& c) {
          static_cast<double>(c.map.grid.size());
 }
 
+void write_numbers(io::Hdf5Writer& writer, const std::string& prefix, const io::Json& values) {
+  for (const auto& [key, value] : values.items()) {
+    const bool is_volume = value.is_object() && value.contains("volume_m3");
+    if (value.is_object()) {
+      write_numbers(writer, is_volume ? key + "_" : prefix, value);
+    } else if (value.is_number_integer()) {
+      writer.attribute("/combination", prefix + key, value.get<std::int64_t>());
+    } else if (value.is_number()) {
+      writer.attribute("/combination", prefix + key, value.get<double>());
+    }
+  }
+}
+
 }  // namespace
 
 io::Json values_of(const Combination& c) {
@@ -80,6 +95,27 @@ std::vector<std::string> doubts_of(const Combination& c) {
         percent(share)));
   }
   return doubts;
+}
+
+void write_combination(const Combination& combination, comparison::CombineMode mode,
+                       const ResultHead& head, const std::vector<Finding>& warnings,
+                       const std::filesystem::path& file) {
+  io::Hdf5Writer writer(file);
+  write_result_head(writer, head);
+  writer.attribute("/", "default", "surface");
+  topography::write_surface_group(writer, combination.map, combination.map.source);
+  writer.group("/combination");
+  writer.attribute("/combination", "mode", std::string(comparison::name_of(mode)));
+  io::Json values = values_of(combination);
+  values.erase("registration");
+  if (combination.registration) {  // its correlation is of the search, that of the overlap stays
+    io::Json found = json_of(*combination.registration);
+    found.erase("correlation");
+    values.update(found);
+  }
+  write_numbers(writer, "", values);
+  write_warnings(writer, warnings);
+  writer.commit();
 }
 
 }  // namespace tabor::analysis

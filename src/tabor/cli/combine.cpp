@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 
 #include "tabor/analysis/combination.hpp"
@@ -119,6 +120,19 @@ comparison::CombineOptions options_of(const Request& request) {
   return options;
 }
 
+void write(const Combination& c, CombineMode mode, const std::string& file,
+           const Context& context) {
+  const std::string extension = lower(std::filesystem::path(file).extension().string());
+  const std::vector<std::string>& results = hdf5_extensions();
+  if (std::find(results.begin(), results.end(), extension) == results.end()) {
+    return scan::write(c.map, file);
+  }
+  const auto methods = c.map.metadata.find("methods");
+  const std::vector<std::string> keys =
+      methods == c.map.metadata.end() ? std::vector<std::string>{} : split(methods->second, ' ');
+  analysis::write_combination(c, mode, head_of(context, "", keys), context.warnings, file);
+}
+
 int show(const Request& request, Context& context) {
   const auto options = options_of(request);
   ScanRequest second = request.scan;
@@ -136,7 +150,7 @@ int show(const Request& request, Context& context) {
   object.update(analysis::values_of(c));
   std::string text = text_of(request, a, b, c);
   if (request.output) {
-    scan::write(c.map, *request.output);
+    write(c, options.mode, *request.output, context);
     object["output"] = *request.output;
     text += "written " + *request.output + '\n';
   }

@@ -165,9 +165,7 @@ Verb convert_verb() {
           .examples = {"tabor convert surfaces/edt_before.x3p edt.gwy",
                        "tabor convert surfaces/edt_before.x3p edt.h5 --level plane --lowpass "
                        "gauss:8um",
-                       "tabor lubricate surfaces/edt_before.x3p --level plane --density 0.9g/m^2 "
-                       "--model limit -o film.h5",
-                       "tabor convert film.h5 film.vti --field all"},
+                       "tabor convert edt.h5 height.npy --field height"},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_scan(set, request->scan);
