@@ -76,7 +76,7 @@ def _formats(figures, html):
         return [] if html else ["png", "svg"]
     formats = figures.split(",")
     if any(part not in FORMATS for part in formats):
-        raise UsageError(f"--figures: got '{options.figures}'; expected png, svg, pdf or several of them, as png,svg")
+        raise UsageError(f"--figures: got '{figures}'; expected png, svg, pdf or several of them, as png,svg")
     return list(dict.fromkeys(formats))
 
 
