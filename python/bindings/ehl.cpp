@@ -140,7 +140,7 @@ study::EhlOutcome run_sweep(study::EhlSeries& series,
 Swept sweep(const FilmCase& one, const Axes& given, std::uint64_t seed,
             const std::optional<std::filesystem::path>& folder, int jobs, bool retry,
             const nb::object& progress) {
-  return watched(progress, [&](const Observer& observer) {
+  return watched_beside(progress, [&](const Observer& observer) {
     const std::vector<study::SweepAxis> axes = axes_of(given);
     study::EhlSeries series = study::ehl_sweep(one.program, one.config, axes, seed);
     study::RunOptions options;

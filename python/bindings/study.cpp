@@ -22,7 +22,7 @@ using study::Study;
 
 Outcome run(const Study& study, const std::filesystem::path& folder, int jobs, bool retry,
             const nb::object& progress) {
-  return watched(progress, [&](const Observer& observer) {
+  return watched_beside(progress, [&](const Observer& observer) {
     study::SweepOptions options;
     options.jobs = jobs;
     options.retry = retry;
@@ -36,7 +36,7 @@ Outcome run(const Study& study, const std::filesystem::path& folder, int jobs, b
 using MissingTexts = std::pair<std::vector<std::string>, std::vector<std::string>>;
 MissingTexts missing_parts(const Study& study, const std::filesystem::path& folder, bool retry,
                            const nb::object& progress) {
-  study::Missing missing = watched(progress, [&](const Observer& observer) {
+  study::Missing missing = watched_beside(progress, [&](const Observer& observer) {
     return study::missing_parts(study, folder, retry, observer);
   });
   const std::vector<Study> parts = study::parts_of(study);
@@ -50,7 +50,7 @@ MissingTexts missing_parts(const Study& study, const std::filesystem::path& fold
 std::pair<std::size_t, std::vector<std::string>> run_part(const Study& part,
                                                           const std::filesystem::path& folder,
                                                           bool retry) {
-  study::PartOutcome outcome = watched(nb::none(), [&](const Observer& observer) {
+  study::PartOutcome outcome = watched_beside(nb::none(), [&](const Observer& observer) {
     study::RunOptions options;
     options.retry = retry;
     options.observer = observer;

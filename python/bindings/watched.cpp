@@ -1,15 +1,12 @@
 #include "watched.hpp"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <deque>
 #include <exception>
 #include <limits>
-#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -20,29 +17,70 @@ namespace {
 constexpr std::chrono::milliseconds kPeriod{20};
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-/// What the work says of itself, for the thread that waits.
+/// What the work says of itself.
 struct News {
   std::string stage;
   double fraction = kUnknown;
   double certificate = kUnknown;
 };
 
-/// Work on another thread, and what the one that waits for it may ask.
-class Run {
- public:
-  explicit Run(const std::function<void(const Observer&)>& work) : work_(work) {}
+News news_of(const Progress& progress) {
+  return {.stage = std::string(progress.stage),
+          .fraction = progress.fraction,
+          .certificate =
+              progress.convergence != nullptr ? progress.convergence->certificate : kUnknown};
+}
 
-  /// On the thread that works.
-  void run() {
-    try {
-      work_([this](const Progress& progress) { return listen(progress); });
-    } catch (...) {
-      error_ = std::current_exception();
-    }
-    const std::lock_guard lock(mutex_);
-    has_ended_ = true;
-    ended_.notify_all();
+/// Raises what a signal's handler or the callable raised.
+void ask_python(const nb::object& progress, const News& news) {
+  if (PyErr_CheckSignals() != 0) throw nb::python_error();
+  if (!progress.is_none() && !news.stage.empty()) {
+    progress(news.stage.c_str(), news.fraction, news.certificate);
   }
+}
+
+/// Asks Python in the middle of the work, no more often than the period.
+class Between {
+ public:
+  explicit Between(const nb::object& progress) : progress_(progress) {}
+
+  bool listen(const Progress& progress) {
+    if (stops_ || std::this_thread::get_id() != owner_) return !stops_;
+    const auto now = Clock::now();
+    if (now < next_) return true;
+    next_ = now + kPeriod;
+    const nb::gil_scoped_acquire locked;
+    try {
+      ask_python(progress_, news_of(progress));
+    } catch (nb::python_error& found) {
+      raised_.emplace(std::move(found));
+      stops_ = true;
+    }
+    return !stops_;
+  }
+  /// With the interpreter's lock held.
+  void rethrow() {
+    if (raised_) throw std::move(*raised_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  const nb::object& progress_;
+  const std::thread::id owner_ = std::this_thread::get_id();
+  Clock::time_point next_ = Clock::now() + kPeriod;
+  std::atomic<bool> stops_ = false;
+  std::optional<nb::python_error> raised_;
+};
+
+/// Work on a thread of its own.
+class Worker {
+ public:
+  explicit Worker(const std::function<void(const Observer&)>& work)
+      : thread_([this, &work] { run(work); }) {}
+  ~Worker() { thread_.join(); }
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
 
   /// True if it ended within the period.
   bool ends() {
@@ -58,96 +96,65 @@ class Run {
   std::exception_ptr error() const { return error_; }
 
  private:
+  void run(const std::function<void(const Observer&)>& work) {
+    try {
+      work([this](const Progress& progress) { return listen(progress); });
+    } catch (...) {
+      error_ = std::current_exception();
+    }
+    const std::lock_guard lock(mutex_);
+    has_ended_ = true;
+    ended_.notify_all();
+  }
+
   bool listen(const Progress& progress) {
     const std::lock_guard lock(mutex_);
-    news_ = {.stage = std::string(progress.stage),
-             .fraction = progress.fraction,
-             .certificate =
-                 progress.convergence != nullptr ? progress.convergence->certificate : kUnknown};
+    news_ = news_of(progress);
     return !stops_;
   }
 
-  const std::function<void(const Observer&)>& work_;  ///< not used once it has ended
   std::mutex mutex_;
   std::condition_variable ended_;
   bool has_ended_ = false;
   std::atomic<bool> stops_ = false;
   News news_;
   std::exception_ptr error_;
+  std::thread thread_;  // last: it uses the others
 };
-
-/// Threads that wait for work: a new one, with the team of threads that OpenMP would make for it,
-/// takes longer than a small call.
-class Crew {
- public:
-  /// Of this process. It is never destroyed, as its threads end with the process; a fork has none
-  /// of them and gets a crew of its own.
-  static Crew& of_process() {
-    static std::mutex mutex;
-    static Crew* crew = nullptr;
-    const std::lock_guard lock(mutex);
-    if (crew == nullptr || crew->process_ != ::getpid()) crew = new Crew;
-    return *crew;
-  }
-
-  void start(std::shared_ptr<Run> run) {
-    const std::lock_guard lock(mutex_);
-    waiting_.push_back(std::move(run));
-    if (waiting_.size() > n_idle_) {
-      std::thread([this] { work(); }).detach();
-    } else {
-      wake_.notify_one();
-    }
-  }
-
- private:
-  std::shared_ptr<Run> next() {
-    std::unique_lock lock(mutex_);
-    ++n_idle_;
-    wake_.wait(lock, [this] { return !waiting_.empty(); });
-    --n_idle_;
-    std::shared_ptr<Run> run = std::move(waiting_.front());
-    waiting_.pop_front();
-    return run;
-  }
-  [[noreturn]] void work() {
-    while (true) next()->run();
-  }
-
-  pid_t process_ = ::getpid();
-  std::mutex mutex_;
-  std::condition_variable wake_;
-  std::deque<std::shared_ptr<Run>> waiting_;
-  std::size_t n_idle_ = 0;
-};
-
-/// Raises what a signal's handler or the callable raised.
-void ask_python(const nb::object& progress, Run& run) {
-  if (PyErr_CheckSignals() != 0) throw nb::python_error();
-  if (progress.is_none()) return;
-  const News news = run.news();
-  if (!news.stage.empty()) progress(news.stage.c_str(), news.fraction, news.certificate);
-}
 
 }  // namespace
 
 void watch(const nb::object& progress, const std::function<void(const Observer&)>& work) {
+  Between between(progress);
+  std::exception_ptr error;
+  {
+    const nb::gil_scoped_release unlocked;
+    try {
+      work([&](const Progress& told) { return between.listen(told); });
+    } catch (...) {
+      error = std::current_exception();
+    }
+  }
+  between.rethrow();
+  if (error) std::rethrow_exception(error);
+}
+
+void watch_beside(const nb::object& progress, const std::function<void(const Observer&)>& work) {
   std::optional<nb::python_error> raised;
   std::exception_ptr error;
   {
     const nb::gil_scoped_release unlocked;
-    const auto run = std::make_shared<Run>(work);
-    Crew::of_process().start(run);
-    while (!run->ends()) {
+    Worker worker(work);
+    while (!worker.ends()) {
       const nb::gil_scoped_acquire locked;
       try {
-        if (!raised) ask_python(progress, *run);
+        if (!raised) ask_python(progress, worker.news());
       } catch (nb::python_error& found) {
         raised.emplace(std::move(found));
-        run->stop();
+        worker.stop();
       }
     }
-    error = run->error();
+    error = worker.error();
   }
   if (raised) throw std::move(*raised);
   if (error) std::rethrow_exception(error);
