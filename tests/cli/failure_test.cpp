@@ -19,7 +19,6 @@ namespace {
 using cli::error_json;
 using testing::HasSubstr;
 using testing::StartsWith;
-using Words = std::vector<std::string>;
 
 io::Json null_if_empty(const std::string& text) {
   return text.empty() ? io::Json(nullptr) : io::Json(text);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "run_tabor.hpp"
+#include "small_ball.hpp"
 #include "support/folder.hpp"
 #include "tabor/analysis/fields_file.hpp"
 #include "tabor/cli/interrupt.hpp"
@@ -18,28 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using testing::HasSubstr;
-using Words = std::vector<std::string>;
-
-Words operator+(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
-constexpr const char* kBall = R"([ball]
-radius = "1.5 mm"
-load = "16.6 N"
-[solids]
-e_prime = "230.8 GPa"
-[lubricant]
-viscosity = "0.149 Pa s"
-viscosity_law = "roelands"
-pressure_viscosity = "2.131e-8 1/Pa"
-[motion]
-speed = "0.1 m/s"
-[grid]
-nodes_x = 33
-nodes_y = 33
-)";
 
 constexpr const char* kStudy = R"(shear_strength = "70 MPa"
 [material]

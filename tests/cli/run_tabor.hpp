@@ -10,6 +10,13 @@
 
 namespace tabor::test {
 
+using Words = std::vector<std::string>;
+
+inline Words operator+(Words words, const Words& more) {
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
 /// What one call of the program left behind.
 struct Outcome {
   int code = -1;

@@ -9,12 +9,6 @@ namespace tabor::test {
 namespace {
 
 using testing::HasSubstr;
-using Words = std::vector<std::string>;
-
-Words operator+(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
 
 class ContactVerb : public testing::Test {
  protected:

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "run_tabor.hpp"
+#include "small_ball.hpp"
 #include "support/folder.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/csv.hpp"
@@ -13,28 +14,6 @@ namespace tabor::test {
 namespace {
 
 using testing::HasSubstr;
-using Words = std::vector<std::string>;
-
-Words operator+(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
-constexpr const char* kBall = R"([ball]
-radius = "1.5 mm"
-load = "16.6 N"
-[solids]
-e_prime = "230.8 GPa"
-[lubricant]
-viscosity = "0.149 Pa s"
-viscosity_law = "roelands"
-pressure_viscosity = "2.131e-8 1/Pa"
-[motion]
-speed = "0.1 m/s"
-[grid]
-nodes_x = 33
-nodes_y = 33
-)";
 
 class Csv : public testing::Test {
  protected:

@@ -9,13 +9,6 @@
 namespace tabor::test {
 namespace {
 
-using Words = std::vector<std::string>;
-
-Words operator+(Words words, const Words& more) {
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
-}
-
 class LubricantVerbs : public testing::Test {
  protected:
   void SetUp() override {

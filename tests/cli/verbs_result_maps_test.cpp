@@ -10,7 +10,6 @@ namespace tabor::test {
 namespace {
 
 using testing::HasSubstr;
-using Words = std::vector<std::string>;
 
 constexpr const char* kStudy = R"(shear_strength = "70 MPa"
 [material]

@@ -20,7 +20,6 @@ namespace {
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
-using Words = std::vector<std::string>;
 using topography::Topography;
 
 /// How the surface is made, what is asked of it, and which warnings it must lead to.

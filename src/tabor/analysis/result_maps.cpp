@@ -56,7 +56,7 @@ void add_stored(const Hdf5Reader& reader, const std::string& group, ResultMaps& 
   if (group.empty()) return;
   std::vector<NamedMap>& maps = result.states.back().maps;
   for (const std::string& name : reader.children(group)) {
-    const std::string path = group + "/" + name;
+    const std::string path = fmt::format("{}/{}", group, name);
     const bool is_new = std::none_of(maps.begin(), maps.end(),
                                      [&](const NamedMap& one) { return one.name == name; });
     if (is_new && is_map(reader, path, name)) maps.push_back(stored(reader, result, path));
@@ -122,9 +122,16 @@ double pitch(const Hdf5Reader& reader, const fs::path& file, const std::string& 
                    "the file is damaged: compute it again");
 }
 
-std::string names_of(const std::vector<const NamedMap*>& maps) {
+std::vector<std::string> names_of(const std::vector<const NamedMap*>& maps) {
   std::vector<std::string> names;
+  names.reserve(maps.size());
   for (const NamedMap* map : maps) names.push_back(map->name);
+  return names;
+}
+
+/// Each name once, in the order of the alphabet.
+std::string list_of(const std::vector<const NamedMap*>& maps) {
+  std::vector<std::string> names = names_of(maps);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names.empty() ? "no map" : fmt::format("{}", fmt::join(names, ", "));
@@ -208,11 +215,9 @@ scan::MapSet chosen_maps(const ResultMaps& result, const MapChoice& choice) {
     }
   }
   if (!set.maps.empty()) return set;
-  std::vector<std::string> names;
-  for (const NamedMap* map : known) names.push_back(map->name);
   throw InputError(fmt::format("field of {}", result.file.string()),
-                   fmt::format("'{}'{}", choice.field, suggestion(choice.field, names)),
-                   names_of(known) + " or all", "");
+                   fmt::format("'{}'{}", choice.field, suggestion(choice.field, names_of(known))),
+                   list_of(known) + " or all", "");
 }
 
 }  // namespace tabor::analysis

@@ -92,6 +92,7 @@ Measured measure(const Request& request, const std::string& file, Context& conte
 
 void warn_of(const std::vector<Measured>& all, const Request& request, Context& context) {
   std::vector<analysis::Case> cases;
+  cases.reserve(all.size());
   for (const Measured& one : all) cases.push_back(one.doubts);
   context.warn(analysis::findings_of(cases));
   for (std::size_t i = 0; i < all.size(); ++i) {
