@@ -10,6 +10,16 @@ from markupsafe import Markup, escape
 
 from tabor_report import citations, page_ehl, page_parameters, page_single, page_spectra, page_study, style
 
+# What a kind of result does not have its page leaves out.
+_NOTHING = {
+    "answer": None,
+    "highlights": [],
+    "scans": [],
+    "treatments": [],
+    "settings": [],
+    "results": {"intro": "", "header": [], "rows": [], "n_total": 0, "n_text": 0},
+    "averages": {"header": [], "rows": [], "n_text": 0},
+}
 _PAGES = {"study": page_study, "single": page_single, "ehl": page_ehl, "psd": page_spectra, "params": page_parameters}
 LARGEST_CSV = 300_000  # bytes of a table in the page; larger ones come with --figures
 SCREEN_PIXELS_PER_INCH = 115  # letters of the figures a little larger than on paper
@@ -48,7 +58,7 @@ def render(source, figures, command, live=None):
         config=source.facts.get("config_toml", ""),
         created=source.facts.get("created", ""),
         version=source.facts.get("software_version", ""),
-        **{"answer": None, **sections},
+        **{**_NOTHING, **sections},
     )
 
 

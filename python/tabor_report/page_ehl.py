@@ -21,11 +21,8 @@ def sections(source):
     scalars = source.scalars
     return {
         "highlights": [(words(key), show(key, scalars[key])) for key in _HIGHLIGHTS if key in scalars],
-        "scans": [],
-        "treatments": [],
         "settings": list(_settings(source)),
         "results": _cases(source) if source.is_sweep else _numbers(source),
-        "averages": {"header": [], "rows": [], "n_text": 0},
     }
 
 

@@ -11,12 +11,8 @@ FIRST = ("Sa", "Sq", "Sz", "Sdq", "Sdr", "Ssk", "Sku")  # of the answer
 def sections(source):
     return {
         "answer": _answer(source),
-        "highlights": [],
-        "scans": [],
-        "treatments": [],
         "settings": [("treatment", source.treatment or "none"), ("scans", str(len(source.scans)))],
         "results": {"intro": "", "header": [], "rows": [], "tables": _tables(source), "n_total": 0, "n_text": 1},
-        "averages": {"header": [], "rows": [], "n_text": 0},
     }
 
 

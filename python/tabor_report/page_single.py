@@ -13,7 +13,6 @@ def sections(single):
         "treatments": [(tuple(hdf.text_list(single.surface_facts.get("treatment"))), [single.title])],
         "settings": _settings(single),
         "results": _results(single.states),
-        "averages": {"header": [], "rows": [], "n_text": 0},
     }
 
 

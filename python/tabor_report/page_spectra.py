@@ -5,15 +5,7 @@ from tabor_report.spectra import NAMES
 
 
 def sections(source):
-    return {
-        "answer": _answer(source),
-        "highlights": [],
-        "scans": [],
-        "treatments": [],
-        "settings": [],
-        "results": {"intro": "", "header": [], "rows": [], "n_total": 0, "n_text": 0},
-        "averages": {"header": [], "rows": [], "n_text": 0},
-    }
+    return {"answer": _answer(source)}
 
 
 def _answer(source):
