@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "tabor/core/large_pages.hpp"
+#include "tabor/core/parallel.hpp"
 #include "tabor/deposition/pool_builder.hpp"
 
 namespace tabor::deposition {
@@ -107,7 +108,12 @@ std::vector<PoolId> Pools::renumber() {
     pools.push_back(pool);
   }
   for (PoolId id = 0; id < n_before; ++id) renamed[static_cast<std::size_t>(id)] = new_number(id);
-  for (Site& site : sites_) site.home = renamed[static_cast<std::size_t>(site.home)];
+  parallel_for(static_cast<Index>(sites_.size()), kBlock, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      PoolId& home = sites_[static_cast<std::size_t>(i)].home;
+      home = renamed[static_cast<std::size_t>(home)];
+    }
+  });
   last_ = renamed[static_cast<std::size_t>(last_)];
   pools_ = std::move(pools);
   return renamed;

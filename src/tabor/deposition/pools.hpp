@@ -53,6 +53,8 @@ struct alignas(32) Pool {
 
   bool active() const { return open_children == 0; }
   bool full() const { return level == stop; }
+  /// Full and not part of another pool yet: what flows in flows out over the saddle.
+  bool spills() const { return active() && full() && parent != kNoPool; }
 
   /// Of a full pool.
   Way overflow() const { return {overflow_end, overflow_bound}; }

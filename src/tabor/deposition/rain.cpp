@@ -1,47 +1,48 @@
 #include "tabor/deposition/rain.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/random.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/deposition/catchments.hpp"
 #include "tabor/deposition/router.hpp"
-#include "tabor/deposition/scouts.hpp"
 
 namespace tabor::deposition {
 namespace {
 
-constexpr Pixel kLargestBatch = 1 << 16;     // start pixels drawn at once, on all threads
+constexpr std::int64_t kLargestBatch = 1 << 16;  // droplets drawn at once, on all threads
+constexpr std::int64_t kBlockOfDraws = 1 << 10;
 constexpr std::int64_t kRarestSettling = 2;  // droplets per pixel between two settlings of slopes
+
+// How many droplets ahead of its turn one is asked of the memory: what it meets lies anywhere.
+constexpr std::size_t kNear = 16;
+constexpr std::size_t kFar = 32;
 
 class Rain {
  public:
   Rain(Pools& pools, Height droplet, Reading reading, std::uint64_t seed)
       : pools_(pools),
         router_(pools),
-        scouts_(pools, router_.slopes()),
         random_(seed),
         droplet_(droplet),
         reading_(reading),
-        batch_size_(static_cast<std::size_t>(std::min(pools.terrain().size(), kLargestBatch))),
-        starts_(batch_size_ + Scouts::kAhead + Scouts::kBlock),
         settle_at_(pools.terrain().size() / 4 + 1) {}
 
   const RainState& state() const { return state_; }
 
   /// Droplets until `dose` is reached or the batch ends; false when the dose is reached.
   bool rain_batch(Volume dose) {
-    draw_starts();
-    auto place = static_cast<std::size_t>(state_.n_droplets) % batch_size_;
-    for (; place < batch_size_ && state_.dosed < dose; ++place) {
-      if (state_.n_droplets == settle_at_) {
-        router_.settle();
-        scouts_.start();
-        settle_at_ += std::min(settle_at_, kRarestSettling * pools_.terrain().size());
-      }
-      if (place % Scouts::kBlock == 0) scouts_.advance(&starts_[place]);
-      state_.dosed += drop(starts_[place]);
+    if (state_.n_droplets == settle_at_) {
+      router_.settle();
+      settle_at_ += std::min(settle_at_, kRarestSettling * pools_.terrain().size());
+    }
+    const std::size_t n = draw_targets(dose);
+    for (std::size_t i = 0; i < n && state_.dosed < dose; ++i) {
+      router_.prefetch(targets_[i + kFar]);
+      router_.prefetch_end(targets_[i + kNear]);
+      state_.dosed += drop(targets_[i]);
       ++state_.n_droplets;
     }
     return state_.dosed < dose;
@@ -58,39 +59,50 @@ class Rain {
   }
 
  private:
-  void draw_starts() {
-    const std::int64_t batch = state_.n_droplets / static_cast<std::int64_t>(batch_size_);
-    if (batch == drawn_) return;
-    drawn_ = batch;
-    const auto n = static_cast<std::uint64_t>(pools_.terrain().size());
-    const auto first = static_cast<std::uint64_t>(batch) * batch_size_;
-    parallel_for(static_cast<Index>(starts_.size()), 4096, [&](Index begin, Index end) {
-      for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-        starts_[i] = static_cast<Pixel>(random_.below(first + i, n));
-      }
-    });
+  /// Where the slopes under the next start pixels lead to; returns how many. Not more than until
+  /// the slopes settle, nor than `dose` needs if each droplet counts with its own volume.
+  std::size_t draw_targets(Volume dose) {
+    const Volume n_missing = (dose - state_.dosed + droplet_ - 1) / droplet_;
+    const std::int64_t n =
+        std::clamp<Volume>(std::min(n_missing, settle_at_ - state_.n_droplets), 0, kLargestBatch);
+    targets_.assign(static_cast<std::size_t>(n) + kFar, 0);
+    parallel_for(n, kBlockOfDraws, [&](Index begin, Index end) { draw_targets(begin, end); });
+    return static_cast<std::size_t>(n);
   }
 
-  Volume drop(Pixel start) {
-    PoolId pool = router_.from_pixel(start);
+  void draw_targets(Index begin, Index end) {
+    const Slopes& slopes = router_.slopes();
+    const auto first = static_cast<std::uint64_t>(state_.n_droplets);
+    const auto n_pixels = static_cast<std::uint64_t>(pools_.terrain().size());
+    std::array<Pixel, kBlockOfDraws> starts;
+    for (Index i = begin; i < end; ++i) {
+      Pixel& start = starts[static_cast<std::size_t>(i - begin)];
+      start = static_cast<Pixel>(random_.below(first + static_cast<std::uint64_t>(i), n_pixels));
+      slopes.prefetch(start);
+    }
+    for (Index i = begin; i < end; ++i) {
+      targets_[static_cast<std::size_t>(i)] =
+          slopes.from(starts[static_cast<std::size_t>(i - begin)]);
+    }
+  }
+
+  Volume drop(Slopes::Target target) {
+    PoolId pool = router_.from(target);
     if (reading_ == Reading::literal) return pools_.raise(pool, droplet_);
     for (Volume carried = pools_.pour(pool, droplet_); carried > 0;
          carried = pools_.pour(pool, carried)) {
-      pool = router_.from_full_pool(pool);
+      pool = router_.from(pool);
     }
     return droplet_;
   }
 
   Pools& pools_;
   Router router_;
-  Scouts scouts_;
   CounterRandom random_;
   Height droplet_;
   Reading reading_;
-  std::size_t batch_size_;
-  std::vector<Pixel> starts_;
-  std::int64_t drawn_ = -1;
-  std::int64_t settle_at_;  ///< droplets
+  std::vector<Slopes::Target> targets_;  ///< of the batch, and kFar more
+  std::int64_t settle_at_;               ///< droplets
   RainState state_;
 };
 

@@ -38,6 +38,19 @@ bool Router::valid(const Way& way) {
   return way.bound != kDry && pools_[pools_.owner(way.end)].level < way.bound;
 }
 
+void Router::prefetch(Target start) const {
+  if (Slopes::is_pool(start)) {
+    pools_.prefetch(start);
+  } else {
+    slopes_.prefetch_fork(start);
+  }
+}
+
+void Router::prefetch_end(Target start) const {
+  const bool stays = Slopes::is_pool(start) && !pools_[start].spills();
+  pools_.prefetch(stays ? pools_[start].owner : slopes_.way_from(pools_, start).end);
+}
+
 PoolId Router::follow(Target at) {
   while (true) {
     if (Slopes::is_pool(at)) {

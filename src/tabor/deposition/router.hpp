@@ -21,17 +21,21 @@ class Router {
  public:
   explicit Router(Pools& pools) : pools_(pools), slopes_(pools) {}
 
-  Slopes& slopes() { return slopes_; }
-  PoolId from_pixel(Pixel start) { return follow(slopes_.from(start)); }
-  PoolId from_full_pool(PoolId id) { return follow(id); }
+  using Target = Slopes::Target;
+
+  const Slopes& slopes() const { return slopes_; }
+  /// From where the slope under a pixel leads to, or from a full pool.
+  PoolId from(Target start) { return follow(start); }
+
+  /// Asks the processor to fetch what from(start) reads first, or, when that is there, next.
+  void prefetch(Target start) const;
+  void prefetch_end(Target start) const;
 
   /// Forgets what the liquid has decided for good, so that less memory is in use. Pools get new
   /// numbers.
   void settle();
 
  private:
-  using Target = Slopes::Target;
-
   struct Step {
     Target from = 0;
     Height bound = kNoRim;

@@ -4,7 +4,9 @@
 #include <unordered_set>
 
 #include "tabor/core/large_pages.hpp"
+#include "tabor/core/parallel.hpp"
 #include "tabor/core/watch.hpp"
+#include "tabor/deposition/confluences.hpp"
 
 namespace tabor::deposition {
 namespace {
@@ -193,57 +195,61 @@ class SlopeFinder {
   std::vector<Pixel> lower_;
 };
 
-namespace {
-
-/// The pool that covers all branches of a fork, or kNoPool.
-PoolId pool_over_all(std::span<const Slopes::Branch> branches, Pools& pools) {
-  const PoolId over_first = pools.owner(branches.front().home);
-  for (const Slopes::Branch& branch : branches) {
-    const PoolId pool = pools.owner(branch.home);
-    if (pool != over_first || pools[pool].level < branch.height) return kNoPool;
-  }
-  return over_first;
-}
-
-}  // namespace
-
 Slopes::Slopes(const Pools& pools) { SlopeFinder(*this, pools).find(); }
 
-void Slopes::settle(Pools& pools, const std::vector<PoolId>& renamed) {
-  const auto rename = [&](PoolId& pool) { pool = renamed[static_cast<std::size_t>(pool)]; };
-  for (std::size_t number = 0; number < forks_.size(); ++number) {
-    rename(forks_[number].way.end);
-    for (Branch& branch : branches(~static_cast<Target>(number))) rename(branch.home);
-  }
-  go_on_or_throw();
-  const std::vector<Target> now = renumber_forks(pools);
-  go_on_or_throw();
-  const auto settle = [&](Target& target) {
-    target = is_pool(target) ? renamed[static_cast<std::size_t>(target)] : now[place_of(target)];
-  };
-  for (Target& target : leads_to_) settle(target);
+/// Calls change(target) for every place that a pixel or a branch leads to.
+template <class Change>
+void Slopes::change_targets(const Change& change) {
+  parallel_for(static_cast<Index>(leads_to_.size()), kBlock, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) change(leads_to_[static_cast<std::size_t>(i)]);
+  });
   for (std::size_t number = 0; number < forks_.size(); ++number) {
     const auto all = branches(~static_cast<Target>(number));
     for (Branch& branch : all) {
-      if (all.size() > 1) settle(branch.leads_to);
+      if (all.size() > 1) change(branch.leads_to);
     }
   }
 }
 
-/// Keeps the forks that still offer a choice; returns what each old number has become.
-std::vector<Slopes::Target> Slopes::renumber_forks(Pools& pools) {
-  std::vector<Target> now(forks_.size());
-  std::vector<std::size_t> kept;
+void Slopes::rename_pools(const std::vector<PoolId>& renamed) {
+  const auto rename = [&](Target& target) {
+    if (is_pool(target)) target = renamed[static_cast<std::size_t>(target)];
+  };
+  change_targets(rename);
   for (std::size_t number = 0; number < forks_.size(); ++number) {
-    const PoolId pool = pool_over_all(branches(~static_cast<Target>(number)), pools);
-    now[number] = pool == kNoPool ? ~static_cast<Target>(kept.size()) : pool;
-    if (pool == kNoPool) kept.push_back(number);
+    rename(forks_[number].way.end);
+    for (Branch& branch : branches(~static_cast<Target>(number))) rename(branch.home);
   }
-  std::vector<Fork> forks;
-  reserve_large_pages(forks, kept.size());
-  for (const std::size_t number : kept) forks.push_back(forks_[number]);
-  forks_ = std::move(forks);
+}
+
+/// Keeps the forks where paths part; returns what each old number has become.
+std::vector<Slopes::Target> Slopes::drop_forks(const Confluences& confluences) {
+  std::vector<Target> now(forks_.size());
+  std::size_t n_kept = 0;
+  for (std::size_t number = 0; number < forks_.size(); ++number) {
+    const Target fork = ~static_cast<Target>(number);
+    if (confluences.of(fork) != fork) continue;
+    now[number] = ~static_cast<Target>(n_kept);
+    forks_[n_kept++] = forks_[number];
+  }
+  forks_.resize(n_kept);
   return now;
+}
+
+void Slopes::settle(Pools& pools, const std::vector<PoolId>& renamed) {
+  rename_pools(renamed);
+  go_on_or_throw();
+  const Confluences confluences(*this, pools);
+  const std::vector<Target> now = drop_forks(confluences);
+  change_targets([&](Target& target) {
+    const Target meeting = confluences.of(target);
+    target = is_pool(meeting) ? meeting : now[place_of(meeting)];
+  });
+  const auto n_pools = static_cast<PoolId>(pools.count());
+  for (PoolId id = 0; id < n_pools; ++id) {
+    const Target meeting = confluences.of(id);
+    if (meeting != id && is_pool(meeting)) pools.remember_overflow(id, {meeting, kNoRim});
+  }
 }
 
 }  // namespace tabor::deposition

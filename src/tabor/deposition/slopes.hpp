@@ -2,11 +2,14 @@
 
 #include <array>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "tabor/deposition/pools.hpp"
 
 namespace tabor::deposition {
+
+class Confluences;
 
 /// Where the dry surface leads a droplet, found once and true for any amount of liquid.
 ///
@@ -59,11 +62,16 @@ class Slopes {
   explicit Slopes(const Pools& pools);
 
   Target from(Pixel p) const { return leads_to_[static_cast<std::size_t>(p)]; }
-  std::span<Branch> branches(Target fork) {
-    Fork& at = forks_[place_of(fork)];
-    return at.has_two() ? std::span<Branch>(at.two)
+  std::size_t n_forks() const { return forks_.size(); }
+  std::span<const Branch> branches(Target fork) const {
+    const Fork& at = forks_[place_of(fork)];
+    return at.has_two() ? std::span<const Branch>(at.two)
                         : std::span(branches_).subspan(static_cast<std::size_t>(at.listed.first),
                                                        static_cast<std::size_t>(at.listed.n));
+  }
+  std::span<Branch> branches(Target fork) {
+    const auto all = std::as_const(*this).branches(fork);
+    return {const_cast<Branch*>(all.data()), all.size()};
   }
 
   /// The last droplet's way from a fork, or from a full pool.
@@ -72,21 +80,25 @@ class Slopes {
   }
   void remember(Target fork, const Way& way) { forks_[place_of(fork)].way = way; }
 
-  /// Follows Pools::renumber(), and forgets choices that the water has taken away: forks with all
-  /// branches in one pool give way to that pool.
+  /// Follows Pools::renumber(), and forgets choices that do not matter any more: what leads to a
+  /// fork, or to a full pool, then leads to the confluence of all paths from there.
   void settle(Pools& pools, const std::vector<PoolId>& renamed);
 
   void prefetch(Pixel p) const { __builtin_prefetch(&leads_to_[static_cast<std::size_t>(p)]); }
   void prefetch_fork(Target fork) const { __builtin_prefetch(&forks_[place_of(fork)]); }
 
- private:
-  friend class SlopeFinder;
-
   static std::size_t place_of(Target fork) {
     const Target complement = ~fork;
     return static_cast<std::size_t>(complement);
   }
-  std::vector<Target> renumber_forks(Pools& pools);
+
+ private:
+  friend class SlopeFinder;
+
+  template <class Change>
+  void change_targets(const Change& change);
+  void rename_pools(const std::vector<PoolId>& renamed);
+  std::vector<Target> drop_forks(const Confluences& confluences);
 
   std::vector<Target> leads_to_;  ///< per pixel
   std::vector<Fork> forks_;

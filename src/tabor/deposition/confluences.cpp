@@ -1,0 +1,102 @@
+#include "tabor/deposition/confluences.hpp"
+
+#include <utility>
+
+#include "tabor/core/watch.hpp"
+
+namespace tabor::deposition {
+namespace {
+
+constexpr Slopes::Target kUnknown = std::numeric_limits<Slopes::Target>::min();
+
+}  // namespace
+
+Confluences::Confluences(const Slopes& slopes, const Pools& pools)
+    : slopes_(slopes),
+      pools_(pools),
+      n_pools_(pools.count()),
+      next_(pools.count() + slopes.n_forks(), kUnknown) {
+  const auto target = [&](std::size_t i) {
+    return i < n_pools_ ? static_cast<Target>(i) : ~static_cast<Target>(i - n_pools_);
+  };
+  for (std::size_t i = 0; i < next_.size(); ++i) {
+    go_on_or_throw(i);
+    explore(target(i));
+  }
+  for (std::size_t i = 0; i < next_.size(); ++i) last(target(i));
+}
+
+/// The end of the chain of places from `at`, with path compression.
+Confluences::Target Confluences::last(Target at) {
+  Target end = at;
+  while (next(end) != end) end = next(end);
+  while (at != end) at = std::exchange(next(at), end);
+  return end;
+}
+
+/// Depth first, without recursion: paths are as long as the surface has pools.
+void Confluences::explore(Target start) {
+  if (next(start) != kUnknown) return;
+  enter(start);
+  while (!visits_.empty()) {
+    Visit& visit = visits_.back();
+    if (visit.place == successors_.size()) {
+      leave();
+    } else if (const Target ahead = successors_[visit.place++]; next(ahead) == kUnknown) {
+      enter(ahead);
+    }
+  }
+}
+
+void Confluences::enter(Target at) {
+  next(at) = at;
+  const std::size_t begin = successors_.size();
+  visits_.push_back({at, begin, begin});
+  if (Slopes::is_pool(at)) {
+    add_overflow(at);
+  } else {
+    add_branches(at);
+  }
+}
+
+/// Successors that lead back here are no choice: no droplet runs in circles.
+void Confluences::leave() {
+  const auto [at, begin, end] = visits_.back();
+  visits_.pop_back();
+  Target meeting = at;
+  for (std::size_t i = begin; i < end; ++i) {
+    const Target ahead = last(successors_[i]);
+    if (ahead == at || ahead == meeting) continue;
+    if (meeting != at) {  // two places: the paths part here
+      meeting = at;
+      break;
+    }
+    meeting = ahead;
+  }
+  next(at) = meeting;
+  successors_.resize(begin);
+}
+
+/// On a dry saddle of several pixels (Slopes::Fork) and from a pool that is full up to one there
+/// are no known successors: paths may part there.
+void Confluences::add_branches(Target fork) {
+  const auto branches = slopes_.branches(fork);
+  for (const Slopes::Branch& branch : branches) {
+    const Pool& pool = pools_[branch.home];
+    if (pool.level < branch.height) {
+      if (branches.size() > 1) successors_.push_back(branch.leads_to);
+      continue;
+    }
+    // The water of a full pool at its own saddle is as high as the saddle: nothing flows back.
+    const bool spills_here =
+        pool.spills() && pool.saddle != kSeveral && slopes_.from(pool.saddle) == fork;
+    if (!spills_here) successors_.push_back(branch.home);
+  }
+}
+
+void Confluences::add_overflow(PoolId full) {
+  const Pool& pool = pools_[full];
+  if (pool.spills() && pool.saddle != kSeveral) successors_.push_back(slopes_.from(pool.saddle));
+}
+
+}  // namespace tabor::deposition
