@@ -1,5 +1,6 @@
 #include "tabor/deposition/pool_builder.hpp"
 #include "tabor/core/large_pages.hpp"
+#include "tabor/core/parallel.hpp"
 #include "tabor/core/watch.hpp"
 
 #include <algorithm>
@@ -15,14 +16,52 @@ constexpr std::size_t kNear = 16;
 constexpr std::size_t kFar = 24;
 constexpr std::int32_t kAbsorbed = -1;  // `area` of a pool that turned out to be part of another
 
-/// Stable sort of `keys` by bits [shift, shift + 11), from `keys` to `sorted`.
+constexpr std::size_t kDigits = 2048;    // of a pass of the radix sort
+constexpr Index kBlockOfKeys = 1 << 20;  // that one thread sorts
+
+/// Stable sort of `keys` by bits [shift, shift + 11), from `keys` to `sorted`. Blocks of keys are
+/// counted, and then moved, side by side.
 void radix_pass(const std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& sorted,
                 int shift) {
-  constexpr std::uint64_t mask = 2047;
-  std::array<std::size_t, mask + 2> start{};
-  for (const std::uint64_t key : keys) ++start[((key >> shift) & mask) + 1];
-  for (std::size_t digit = 1; digit < start.size(); ++digit) start[digit] += start[digit - 1];
-  for (const std::uint64_t key : keys) sorted[start[(key >> shift) & mask]++] = key;
+  const auto n = static_cast<Index>(keys.size());
+  const auto digit = [&](Index i) {
+    return (keys[static_cast<std::size_t>(i)] >> shift) & (kDigits - 1);
+  };
+  const auto block = [](Index i) { return static_cast<std::size_t>(i / kBlockOfKeys); };
+  std::vector<std::array<std::uint32_t, kDigits>> start(block(n) + 1);
+  parallel_for(n, kBlockOfKeys, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) ++start[block(i)][digit(i)];
+  });
+  std::uint32_t total = 0;
+  for (std::size_t d = 0; d < kDigits; ++d) {
+    for (auto& of_block : start) total += std::exchange(of_block[d], total);
+  }
+  parallel_for(n, kBlockOfKeys, [&](Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      sorted[start[block(i)][digit(i)]++] = keys[static_cast<std::size_t>(i)];
+    }
+  });
+}
+
+/// Pixels without a lower neighbour, equal heights by pixel number: each begins a pool.
+std::size_t count_minima(const Terrain& terrain) {
+  const auto is_lower = [&](Pixel q, Pixel p) {
+    const Height height_q = terrain.height[static_cast<std::size_t>(q)];
+    const Height height_p = terrain.height[static_cast<std::size_t>(p)];
+    return height_q < height_p || (height_q == height_p && q < p);
+  };
+  const auto count = [&](Index begin, Index end) {
+    double n = 0;
+    for (auto p = static_cast<Pixel>(begin); p < end; ++p) {
+      bool is_minimum = true;
+      for_each_neighbour(terrain, p, [&](Pixel q) {
+        is_minimum = is_minimum && q != kOutside && !is_lower(q, p);
+      });
+      n += is_minimum ? 1 : 0;
+    }
+    return n;
+  };
+  return static_cast<std::size_t>(deterministic_sum(terrain.size(), count));
 }
 
 }  // namespace
@@ -32,10 +71,12 @@ std::vector<Pixel> ascending_pixels(const Terrain& terrain) {
   std::vector<std::uint64_t> keys;
   reserve_large_pages(keys, n);
   keys.resize(n);
-  for (std::size_t p = 0; p < n; ++p) {
-    const auto unsigned_height = static_cast<std::uint32_t>(terrain.height[p]) ^ 0x80000000U;
-    keys[p] = (std::uint64_t{unsigned_height} << 32) | p;
-  }
+  parallel_for(terrain.size(), kBlock, [&](Index begin, Index end) {
+    for (auto p = static_cast<std::size_t>(begin); p < static_cast<std::size_t>(end); ++p) {
+      const auto unsigned_height = static_cast<std::uint32_t>(terrain.height[p]) ^ 0x80000000U;
+      keys[p] = (std::uint64_t{unsigned_height} << 32) | p;
+    }
+  });
   {
     std::vector<std::uint64_t> sorted;
     reserve_large_pages(sorted, n);
@@ -58,6 +99,7 @@ void PoolBuilder::build() {
   reserve_large_pages(to_.sites_, ascending.size());
   to_.sites_.resize(ascending.size());
   for (std::size_t p = 0; p < ascending.size(); ++p) to_.sites_[p].height = terrain.height[p];
+  reserve_large_pages(to_.pools_, 2 * count_minima(terrain) + 1);  // a merger unites two at least
   if (terrain.edge == Edge::open) {
     pool(new_pool(kDry)).area = 1;  // of the ocean: a droplet raises it by its own volume
   }

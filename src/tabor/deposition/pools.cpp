@@ -88,34 +88,33 @@ std::span<const Pixel> Pools::bottom(PoolId id) const {
 std::vector<PoolId> Pools::renumber() {
   const auto n_before = static_cast<PoolId>(pools_.size());
   std::vector<PoolId> renamed(pools_.size(), kNoPool);
-  std::vector<PoolId> kept;
+  const auto new_number = [&](PoolId id) -> PoolId& {
+    return renamed[static_cast<std::size_t>(id)];
+  };
+  PoolId n_kept = 0;
   for (PoolId id = 0; id < n_before; ++id) {
-    if (owner(id) == id) {
-      renamed[static_cast<std::size_t>(id)] = static_cast<PoolId>(kept.size());
-      kept.push_back(id);
+    if (owner(id) == id) new_number(id) = n_kept++;
+  }
+  for (PoolId id = 0; id < n_before; ++id) new_number(id) = new_number(owner(id));
+  for (PoolId id = 0; id < n_before; ++id) {
+    if (const Pool& old = (*this)[id]; old.owner == id) {
+      Pool pool = old;
+      pool.owner = new_number(id);
+      pool.parent = pool.parent == kNoPool ? kNoPool : new_number(pool.parent);
+      if (pool.full()) {
+        pool.remember_overflow({new_number(pool.overflow().end), pool.overflow().bound});
+      }
+      pools_[static_cast<std::size_t>(pool.owner)] = pool;  // never behind the one it comes from
     }
   }
-  const auto new_number = [&](PoolId id) { return renamed[static_cast<std::size_t>(owner(id))]; };
-  std::vector<Pool> pools;
-  reserve_large_pages(pools, kept.size());
-  for (const PoolId id : kept) {
-    Pool pool = (*this)[id];
-    pool.owner = new_number(id);
-    pool.parent = pool.parent == kNoPool ? kNoPool : new_number(pool.parent);
-    if (pool.full()) {
-      pool.remember_overflow({new_number(pool.overflow().end), pool.overflow().bound});
-    }
-    pools.push_back(pool);
-  }
-  for (PoolId id = 0; id < n_before; ++id) renamed[static_cast<std::size_t>(id)] = new_number(id);
+  pools_.resize(static_cast<std::size_t>(n_kept));
   parallel_for(static_cast<Index>(sites_.size()), kBlock, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       PoolId& home = sites_[static_cast<std::size_t>(i)].home;
-      home = renamed[static_cast<std::size_t>(home)];
+      home = new_number(home);
     }
   });
-  last_ = renamed[static_cast<std::size_t>(last_)];
-  pools_ = std::move(pools);
+  last_ = new_number(last_);
   return renamed;
 }
 

@@ -12,7 +12,7 @@
 namespace tabor::deposition {
 namespace {
 
-constexpr std::int64_t kLargestBatch = 1 << 16;  // droplets drawn at once, on all threads
+constexpr std::int64_t kLargestBatch = 1 << 18;  // droplets drawn at once, on all threads
 constexpr std::int64_t kBlockOfDraws = 1 << 10;
 constexpr std::int64_t kRarestSettling = 2;  // droplets per pixel between two settlings of slopes
 

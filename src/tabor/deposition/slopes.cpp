@@ -5,13 +5,18 @@
 
 #include "tabor/core/large_pages.hpp"
 #include "tabor/core/parallel.hpp"
+#include "tabor/core/rows.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/deposition/confluences.hpp"
 
 namespace tabor::deposition {
 namespace {
 
+// What a pixel is known to lead to before that has been followed downhill, below all numbers of
+// forks: nothing yet, a fork still to be made, or another pixel, as kFirstStep plus its number.
 constexpr Slopes::Target kUnknown = std::numeric_limits<Slopes::Target>::min();
+constexpr Slopes::Target kFork = kUnknown + 1;
+constexpr Slopes::Target kFirstStep = kUnknown + 2;
 
 /// Which pool can become part of which: numbers in the order of a walk through the tree of pools,
 /// in which all descendants of a pool follow it directly.
@@ -73,16 +78,17 @@ class SlopeFinder {
 
   void find() {
     const Pixel n = pools_.terrain().size();
+    first_known_ = kFirstStep + n;
     reserve_large_pages(to_.leads_to_, static_cast<std::size_t>(n));
-    to_.leads_to_.assign(static_cast<std::size_t>(n), kUnknown);
+    to_.leads_to_.resize(static_cast<std::size_t>(n));
+    choose_everywhere();
     for (Pixel start = 0; start < n; ++start) {
       go_on_or_throw(static_cast<std::size_t>(start));
       path_.clear();
-      Slopes::Target target = known(start);
-      for (Pixel p = start; target == kUnknown; target = p == kOutside ? kOcean : known(p)) {
-        p = pass(p);
-      }
-      for (const Pixel p : path_) known(p) = target;
+      Pixel p = start;
+      while (p != kOutside && known(p) < first_known_) p = pass(p);
+      const Slopes::Target target = p == kOutside ? kOcean : known(p);
+      for (const Pixel passed : path_) known(passed) = target;
     }
     for (std::size_t number = 0; number < to_.forks_.size(); ++number) {
       const auto branches = to_.branches(~static_cast<Slopes::Target>(number));
@@ -90,8 +96,6 @@ class SlopeFinder {
         if (branches.size() > 1) branch.leads_to = known(branch.pixel);
       }
     }
-    move_to_large_pages(to_.forks_);
-    move_to_large_pages(to_.branches_);
   }
 
  private:
@@ -100,13 +104,37 @@ class SlopeFinder {
   Height height(Pixel p) const { return p == kOutside ? kDry : pools_.height(p); }
   PoolId home(Pixel p) const { return p == kOutside ? kOcean : pools_.home(p); }
 
+  /// Finds for each pixel with lower neighbours which one it leads to, or that it is a fork, and
+  /// makes room for the forks.
+  void choose_everywhere() {
+    const Pixel nx = pools_.terrain().nx;
+    const auto counts = sum_over_rows<2>(pools_.terrain().ny, [&](Index row) {
+      Eigen::Array2d n = Eigen::Array2d::Zero();  // forks, and branches of those that have not two
+      std::vector<Pixel> lower;
+      for (Pixel p = static_cast<Pixel>(row) * nx, end = p + nx; p < end; ++p) {
+        lower.clear();
+        add_lower_neighbours(p, lower);
+        known(p) = lower.empty() ? kUnknown : choice(lower);
+        if (known(p) != kFork) continue;
+        n += Eigen::Array2d(1, lower.size() == 2 ? 0 : static_cast<double>(lower.size()));
+      }
+      return n;
+    });
+    reserve_large_pages(to_.forks_, static_cast<std::size_t>(counts[0]));
+    reserve_large_pages(to_.branches_, static_cast<std::size_t>(counts[1]));
+  }
+
   /// Puts p on the path and returns the next pixel, or makes p known and returns it.
   Pixel pass(Pixel p) {
-    lower_.clear();
-    add_lower_neighbours(p);
-    if (!lower_.empty()) {
+    const Slopes::Target chosen = known(p);
+    if (chosen >= kFirstStep) {
       path_.push_back(p);
-      return lowest_or_fork(p);
+      return chosen - kFirstStep;
+    }
+    lower_.clear();
+    if (chosen == kFork) {
+      add_lower_neighbours(p, lower_);
+      return make_fork(p);
     }
     const PoolId pool = pools_.home(p);
     const Height here = pools_.height(p);
@@ -116,16 +144,16 @@ class SlopeFinder {
     }
     if (!pools_[pool].active() && pools_.height(pools_.bottom(pool).front()) == here) {
       lower_ = {p};
-      known(p) = add_fork();
-      return p;
+      return make_fork(p);
     }
     add_plateau(p);
-    return lowest_or_fork(p);
+    const Slopes::Target next = choice(lower_);
+    return next == kFork ? make_fork(p) : next == kOcean ? kOutside : next - kFirstStep;
   }
 
-  void add_lower_neighbours(Pixel p) {
+  void add_lower_neighbours(Pixel p, std::vector<Pixel>& lower) const {
     for_each_neighbour(pools_.terrain(), p, [&](Pixel q) {
-      if (height(q) < pools_.height(p)) lower_.push_back(q);
+      if (height(q) < pools_.height(p)) lower.push_back(q);
     });
   }
 
@@ -136,7 +164,7 @@ class SlopeFinder {
     std::unordered_set<Pixel> seen{p};
     for (std::size_t i = 0; i < plateau.size(); ++i) {
       const std::size_t n_before = lower_.size();
-      add_lower_neighbours(plateau[i]);
+      add_lower_neighbours(plateau[i], lower_);
       if (lower_.size() == n_before) path_.push_back(plateau[i]);
       for_each_neighbour(pools_.terrain(), plateau[i], [&](Pixel q) {
         if (height(q) == pools_.height(p) && seen.insert(q).second) plateau.push_back(q);
@@ -144,20 +172,16 @@ class SlopeFinder {
     }
   }
 
-  /// The lowest of the lower neighbours of p if they are nested; else p, which becomes a fork.
-  Pixel lowest_or_fork(Pixel p) {
-    std::sort(lower_.begin(), lower_.end(), [&](Pixel a, Pixel b) {
+  /// A step to the lowest of these lower neighbours if they are nested, else a fork.
+  Slopes::Target choice(std::vector<Pixel>& lower) const {
+    std::sort(lower.begin(), lower.end(), [&](Pixel a, Pixel b) {
       return height(a) < height(b) || (height(a) == height(b) && a < b);
     });
-    bool nested = true;
-    for (std::size_t i = 1; i < lower_.size() && nested; ++i) {
-      nested = is_nested(lower_[i - 1], lower_[i]);
+    if (lower.front() == kOutside) return kOcean;
+    for (std::size_t i = 1; i < lower.size(); ++i) {
+      if (!is_nested(lower[i - 1], lower[i])) return kFork;
     }
-    if (nested || lower_.front() == kOutside) return lower_.front();
-    std::sort(lower_.begin(), lower_.end());
-    lower_.erase(std::unique(lower_.begin(), lower_.end()), lower_.end());
-    known(p) = add_fork();
-    return p;
+    return kFirstStep + lower.front();
   }
 
   /// Of two pixels, ascending: true if water that reaches b covers a too. Not if b is one of
@@ -176,7 +200,11 @@ class SlopeFinder {
     return {.height = height(q), .home = home(q), .pixel = q};
   }
 
-  Slopes::Target add_fork() {
+  /// Of the lower neighbours in lower_; makes p known and returns it.
+  Pixel make_fork(Pixel p) {
+    std::sort(lower_.begin(), lower_.end());
+    lower_.erase(std::unique(lower_.begin(), lower_.end()), lower_.end());
+    known(p) = ~static_cast<Slopes::Target>(to_.forks_.size());
     Slopes::Fork& fork = to_.forks_.emplace_back();
     if (lower_.size() == 2) {
       fork.two = {branch(lower_[0]), branch(lower_[1])};
@@ -185,12 +213,13 @@ class SlopeFinder {
                      .n = static_cast<std::int32_t>(lower_.size())};
       for (const Pixel q : lower_) to_.branches_.push_back(branch(q));
     }
-    return ~static_cast<Slopes::Target>(to_.forks_.size() - 1);
+    return p;
   }
 
   Slopes& to_;
   const Pools& pools_;
   Descent descent_;
+  Slopes::Target first_known_ = 0;  ///< the least number of a fork; all below are steps
   std::vector<Pixel> path_;
   std::vector<Pixel> lower_;
 };
