@@ -63,7 +63,7 @@ Field stratified_rain(const Field& height, double film, double droplet_height) {
   }
   Field thickness(kSide, kSide);
   for (Pixel p = 0; p < terrain.size(); ++p) {
-    const Height level = pools[pools.owner(pools.home(p))].level;
+    const Height level = pools[pools.owner(pools.pool_at(p))].level;
     thickness.data()[p] = level > pools.height(p)
                               ? terrain.quantum * (static_cast<double>(level) - pools.height(p))
                               : 0;

@@ -48,7 +48,7 @@ inline std::vector<std::int64_t> levels_of(Pools& pools) {
   const Volume flood = pools.terrain().edge == Edge::open ? 0 : pools.beyond() / n;
   std::vector<std::int64_t> levels;
   for (Pixel p = 0; p < n; ++p) {
-    const Height level = pools[pools.owner(pools.home(p))].level;
+    const Height level = pools[pools.owner(pools.pool_at(p))].level;
     levels.push_back(std::max(level, pools.height(p)) + flood);
   }
   return levels;

@@ -1,4 +1,4 @@
-// Counts, times and memory of lubricant deposition on one thread.
+// Counts, times and memory of lubricant deposition, droplets also on all threads.
 //
 //   bench_deposition [SIDE...]        (default 64 256 1024)
 //
@@ -56,8 +56,9 @@ Surface low_passed(const Surface& scan) {
 }
 
 void print_head() {
-  fmt::print("{:>6} {:<11} {:<9} {:>8} {:>11} {:>8} {:>9} {:>8} {:>9} {:>6}\n", "side", "surface",
-             "engine", "film um", "droplets", "pools", "wet", "seconds", "ns/drop", "B/px");
+  fmt::print("{:>6} {:<11} {:<9} {:>7} {:>8} {:>11} {:>8} {:>9} {:>8} {:>9} {:>6}\n", "side",
+             "surface", "engine", "threads", "film um", "droplets", "pools", "wet", "seconds",
+             "ns/drop", "B/px");
 }
 
 void print_row(const Surface& surface, const std::string& engine, double film, long long droplets,
@@ -65,12 +66,13 @@ void print_row(const Surface& surface, const std::string& engine, double film, l
   const auto bytes = static_cast<double>(peak_memory_bytes() - memory_before);
   const std::string per_droplet =
       droplets > 0 ? fmt::format("{:.0f}", 1e9 * seconds / static_cast<double>(droplets)) : "";
-  fmt::print("{:>6} {:<11} {:<9} {:>8.2f} {:>11} {:>8} {:>9.6f} {:>8.2f} {:>9} {:>6.1f}\n",
-             surface.grid.nx, surface.name, engine, film * 1e6, droplets, pools, wet, seconds,
-             per_droplet, bytes / static_cast<double>(surface.height.size()));
+  fmt::print("{:>6} {:<11} {:<9} {:>7} {:>8.2f} {:>11} {:>8} {:>9.6f} {:>8.2f} {:>9} {:>6.1f}\n",
+             surface.grid.nx, surface.name, engine, thread_count(), film * 1e6, droplets, pools,
+             wet, seconds, per_droplet, bytes / static_cast<double>(surface.height.size()));
 }
 
-void time_model(const Surface& surface, deposition::Model model) {
+void time_model(const Surface& surface, deposition::Model model, int n_threads) {
+  set_thread_count(n_threads);
   const std::size_t before = peak_memory_bytes();
   deposition::Dose dose;
   dose.mean_films = {kFilm / 2, kFilm};
@@ -121,6 +123,8 @@ void in_own_process(Work work) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  set_thread_count(0);
+  const int n_threads = thread_count();
   set_thread_count(1);
   std::vector<Index> sides;
   for (int i = 1; i < argc; ++i) sides.push_back(std::atol(argv[i]));
@@ -130,8 +134,9 @@ int main(int argc, char** argv) {
     const Surface scan = as_scanned(side);
     const Surface smooth = low_passed(scan);
     for (const Surface* surface : {&scan, &smooth}) {
-      in_own_process([&] { time_model(*surface, deposition::Model::limit); });
-      in_own_process([&] { time_model(*surface, deposition::Model::droplets); });
+      in_own_process([&] { time_model(*surface, deposition::Model::limit, 1); });
+      in_own_process([&] { time_model(*surface, deposition::Model::droplets, 1); });
+      in_own_process([&] { time_model(*surface, deposition::Model::droplets, n_threads); });
     }
     if (side <= kLargestNaive) in_own_process([&] { time_naive(scan); });
   }

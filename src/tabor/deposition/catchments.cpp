@@ -40,7 +40,7 @@ void Catchments::drain_all() {
       if (leaf == kNoPool) {
         path.push_back(p);
         const Pixel next = downhill(p);
-        leaf = next == kOutside ? kOcean : next == p ? pools_.home(p) : kNoPool;
+        leaf = next == kOutside ? kOcean : next == p ? pools_.pool_at(p) : kNoPool;
         p = next;
       }
     }
@@ -62,7 +62,7 @@ void Catchments::rain(Volume film) {
   }
 }
 
-/// The first pool that is not full on the way liquid takes from `pool`, with path compression: as
+/// The first pool that is not full that liquid from `pool` comes to, with path compression: as
 /// long as a pool is full and apart, what it spills into is full and apart too, or merges with it.
 PoolId Catchments::overflow(PoolId pool) {
   passed_.clear();
@@ -82,7 +82,7 @@ PoolId Catchments::across_saddle(PoolId full) {
   Pixel lowest = saddle;
   for_each_neighbour(pools_.terrain(), saddle, [&](Pixel q) {
     if (lower(q, lowest)) {
-      const PoolId pool = q == kOutside ? kOcean : pools_.owner(pools_.home(q));
+      const PoolId pool = q == kOutside ? kOcean : pools_.owner(pools_.pool_at(q));
       const bool is_full = pools_[pool].full() && pools_[pool].parent == pools_[full].parent;
       lowest = is_full ? lowest : q;
     }

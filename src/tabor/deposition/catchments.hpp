@@ -7,7 +7,7 @@
 namespace tabor::deposition {
 
 /// The dry valleys of a surface: which lowest place each pixel drains to, and how overflow runs on.
-/// For pools with ordered ties, where a droplet's way down never meets equal heights.
+/// For pools with ordered ties, where a droplet's path down never meets equal heights.
 class Catchments {
  public:
   explicit Catchments(Pools& pools);

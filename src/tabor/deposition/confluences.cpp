@@ -82,7 +82,7 @@ void Confluences::leave() {
 void Confluences::add_branches(Target fork) {
   const auto branches = slopes_.branches(fork);
   for (const Slopes::Branch& branch : branches) {
-    const Pool& pool = pools_[branch.home];
+    const Pool& pool = pools_[branch.pool];
     if (pool.level < branch.height) {
       if (branches.size() > 1) successors_.push_back(branch.leads_to);
       continue;
@@ -90,7 +90,7 @@ void Confluences::add_branches(Target fork) {
     // The water of a full pool at its own saddle is as high as the saddle: nothing flows back.
     const bool spills_here =
         pool.spills() && pool.saddle != kSeveral && slopes_.from(pool.saddle) == fork;
-    if (!spills_here) successors_.push_back(branch.home);
+    if (!spills_here) successors_.push_back(branch.pool);
   }
 }
 

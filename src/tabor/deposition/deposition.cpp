@@ -131,7 +131,7 @@ class Deposition {
     film.thickness.resize(grid_.ny, grid_.nx);
     for (Pixel p = 0; p < terrain_.size(); ++p) {
       go_on_or_throw(static_cast<std::size_t>(p));
-      const Volume level = pools[pools.owner(pools.home(p))].level;
+      const Volume level = pools[pools.owner(pools.pool_at(p))].level;
       const auto depth = static_cast<double>(std::max<Volume>(0, level - pools.height(p)));
       film.thickness.data()[p] = (depth + flood) * terrain_.quantum;
     }
@@ -226,7 +226,7 @@ std::vector<std::size_t> first_wetting_doses(const Field& height, const Grid& gr
       go_on_or_throw(k);
       if (first[k] < i) continue;
       const auto p = static_cast<Pixel>(pixels[k]);
-      const bool is_wet = pools[pools.owner(pools.home(p))].level > pools.height(p);
+      const bool is_wet = pools[pools.owner(pools.pool_at(p))].level > pools.height(p);
       if (is_wet || is_drowned) first[k] = std::min(first[k], i);
     }
   };

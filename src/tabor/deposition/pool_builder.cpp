@@ -112,10 +112,10 @@ void PoolBuilder::build() {
       add(ascending[end++]);
     } while (ties_ == Ties::connected && end < ascending.size() &&
              to_.height(ascending[end]) == height);
-    settle_homes({&ascending[begin], end - begin});
+    settle_sites({&ascending[begin], end - begin});
     begin = end;
   }
-  to_.last_ = grown(home(0));
+  to_.last_ = grown(pool_at(0));
   forget_absorbed();
   go_on_or_throw();
   number_by_place();
@@ -162,16 +162,16 @@ void PoolBuilder::add(Pixel p) {
   const Height height = to_.height(p);
   meeting_.clear();
   for_each_neighbour(to_.terrain(), p, [&](Pixel q) {
-    const PoolId at = q == kOutside ? kOcean : home(q);
+    const PoolId at = q == kOutside ? kOcean : pool_at(q);
     const PoolId top = at == kNoPool ? kNoPool : grown(at);
     if (top != kNoPool && std::find(meeting_.begin(), meeting_.end(), top) == meeting_.end()) {
       meeting_.push_back(top);
     }
   });
   if (meeting_.empty()) {
-    home(p) = new_pool(height);
+    pool_at(p) = new_pool(height);
   } else {
-    home(p) = meeting_.size() == 1 ? meeting_.front() : merge(height);
+    pool_at(p) = meeting_.size() == 1 ? meeting_.front() : merge(height);
   }
 }
 
@@ -204,9 +204,9 @@ void PoolBuilder::join(PoolId into, PoolId id, Height base) {
 }
 
 /// Pixels at the height of a merge belong to the merged pool, even those added before it.
-void PoolBuilder::settle_homes(Group group) {
+void PoolBuilder::settle_sites(Group group) {
   if (group.size() > 1) {
-    for (const Pixel p : group) home(p) = grown(home(p));
+    for (const Pixel p : group) pool_at(p) = grown(pool_at(p));
   }
 }
 
@@ -226,9 +226,9 @@ void PoolBuilder::number_by_place() {
   PoolId count = 0;
   if (to_.terrain().edge == Edge::open) number[kOcean] = count++;
   for (auto& site : to_.sites_) {
-    PoolId& renamed = number[static_cast<std::size_t>(site.home)];
+    PoolId& renamed = number[static_cast<std::size_t>(site.pool)];
     if (renamed == kNoPool) renamed = count++;
-    site.home = renamed;
+    site.pool = renamed;
   }
   std::vector<Pool> pools;
   reserve_large_pages(pools, static_cast<std::size_t>(count));
@@ -247,7 +247,7 @@ void PoolBuilder::number_by_place() {
 }
 
 void PoolBuilder::make_arcs(const std::vector<Pixel>& ascending) {
-  for (const auto& site : to_.sites_) ++pool(site.home).next;
+  for (const auto& site : to_.sites_) ++pool(site.pool).next;
   std::int32_t begin = 0;
   for (Pool& each : to_.pools_) {
     const std::int32_t size = each.next + 1;
@@ -277,14 +277,14 @@ void PoolBuilder::fill_arcs(const std::vector<Pixel>& ascending) {
     prefetch_site(ascending, i + kNear);
     const Pixel p = ascending[i];
     const auto& site = to_.sites_[static_cast<std::size_t>(p)];
-    Pool& at = pool(site.home);
+    Pool& at = pool(site.pool);
     to_.arcs_[static_cast<std::size_t>(at.next++)] = site.height;
     if (at.open_children == 0 || at.level != site.height) continue;
     if (at.area == 0) {
       at.area = 1;
       at.lowest = p;
     } else if (ties_ == Ties::connected) {
-      several[site.home].push_back(p);
+      several[site.pool].push_back(p);
     }
   }
   for (const auto& [id, more] : several) {

@@ -26,14 +26,14 @@ class PoolBuilder {
   PoolId new_pool(Height base);
   PoolId merge(Height base);
   void join(PoolId into, PoolId id, Height base);
-  void settle_homes(Group group);
+  void settle_sites(Group group);
   void make_arcs(const std::vector<Pixel>& ascending);
   void fill_arcs(const std::vector<Pixel>& ascending);
   void forget_absorbed();
   void number_by_place();
   void start_leaves();
   Pool& pool(PoolId id) { return to_.pools_[static_cast<std::size_t>(id)]; }
-  PoolId& home(Pixel p) { return to_.sites_[static_cast<std::size_t>(p)].home; }
+  PoolId& pool_at(Pixel p) { return to_.sites_[static_cast<std::size_t>(p)].pool; }
 
   Pools& to_;
   Ties ties_;

@@ -110,8 +110,8 @@ std::vector<PoolId> Pools::renumber() {
   pools_.resize(static_cast<std::size_t>(n_kept));
   parallel_for(static_cast<Index>(sites_.size()), kBlock, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
-      PoolId& home = sites_[static_cast<std::size_t>(i)].home;
-      home = new_number(home);
+      PoolId& pool = sites_[static_cast<std::size_t>(i)].pool;
+      pool = new_number(pool);
     }
   });
   last_ = new_number(last_);

@@ -19,10 +19,10 @@ enum class Ties {
   ordered     ///< a lower pixel number counts as lower: no two heights are ever equal
 };
 
-/// The pool, not full then, in which a droplet's way ended.
-struct Way {
+/// Where the path of a droplet ended: in a pool that was not full then.
+struct FlowPath {
   PoolId end = 0;
-  Height bound = kDry;  ///< the way is the same while the level at its end is below
+  Height bound = kDry;  ///< the path is the same while the level at its end is below
 };
 
 /// One component of the sublevel sets {height <= h}. It holds liquid while it is active: from the
@@ -57,10 +57,10 @@ struct alignas(32) Pool {
   bool spills() const { return active() && full() && parent != kNoPool; }
 
   /// Of a full pool.
-  Way overflow() const { return {overflow_end, overflow_bound}; }
-  void remember_overflow(const Way& way) {
-    overflow_end = way.end;
-    overflow_bound = way.bound;
+  FlowPath overflow() const { return {overflow_end, overflow_bound}; }
+  void remember_overflow(const FlowPath& path) {
+    overflow_end = path.end;
+    overflow_bound = path.bound;
   }
 };
 
@@ -74,7 +74,8 @@ class Pools {
   const Terrain& terrain() const { return *terrain_; }
   std::size_t count() const { return pools_.size(); }
   const Pool& operator[](PoolId id) const { return pools_[static_cast<std::size_t>(id)]; }
-  PoolId home(Pixel p) const { return sites_[static_cast<std::size_t>(p)].home; }
+  /// The smallest pool that the pixel can ever be part of.
+  PoolId pool_at(Pixel p) const { return sites_[static_cast<std::size_t>(p)].pool; }
   Height height(Pixel p) const { return sites_[static_cast<std::size_t>(p)].height; }
 
   /// The pool whose liquid that of `id` is now part of; `id` itself while it is not active.
@@ -103,8 +104,8 @@ class Pools {
   /// volume.
   Volume raise(PoolId id, Height rise);
 
-  void remember_overflow(PoolId full, const Way& way) {
-    pools_[static_cast<std::size_t>(full)].remember_overflow(way);
+  void remember_overflow(PoolId full, const FlowPath& path) {
+    pools_[static_cast<std::size_t>(full)].remember_overflow(path);
   }
 
   Pixel saddle(PoolId full) const { return (*this)[full].saddle; }
@@ -130,7 +131,7 @@ class Pools {
   /// Kept together because they are read together, in no order a cache could guess.
   struct Site {
     Height height = 0;
-    PoolId home = kNoPool;  ///< the smallest pool the pixel can ever be part of
+    PoolId pool = kNoPool;
   };
 
   PoolId step_up(PoolId id) const {
@@ -146,8 +147,8 @@ class Pools {
   PoolId last_ = kNoPool;  ///< the one that holds all others
   std::vector<Pool> pools_;
   std::vector<Site> sites_;
-  std::vector<Height> arcs_;    ///< heights of the pixels of each home, ascending, and its rim
-  std::vector<bool> is_rim_;    ///< per place in arcs_
+  std::vector<Height> arcs_;  ///< heights of the pixels of each pool alone, ascending, and its rim
+  std::vector<bool> is_rim_;  ///< per place in arcs_
   std::vector<Pixel> saddles_;  ///< saddles of several pixels: their number, then the pixels
   Volume beyond_ = 0;
 };

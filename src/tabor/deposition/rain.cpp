@@ -13,7 +13,8 @@ namespace tabor::deposition {
 namespace {
 
 constexpr std::int64_t kLargestBatch = 1 << 18;  // droplets drawn at once, on all threads
-constexpr std::int64_t kBlockOfDraws = 1 << 10;
+constexpr Index kBlockOfDraws = 1 << 14;         // of them, by one thread
+constexpr Index kDrawsAtOnce = 1 << 8;           // and fetched from memory together
 constexpr std::int64_t kRarestSettling = 2;  // droplets per pixel between two settlings of slopes
 
 // How many droplets ahead of its turn one is asked of the memory: what it meets lies anywhere.
@@ -53,7 +54,7 @@ class Rain {
     const Volume each = reading_ == Reading::literal ? Volume{droplet_} * pools_.terrain().size()
                                                      : Volume{droplet_};
     const std::int64_t n = std::max<Volume>(0, (dose - state_.dosed + each - 1) / each);
-    pools_.pour(pools_.owner(pools_.home(0)), n * each);
+    pools_.pour(pools_.owner(pools_.pool_at(0)), n * each);
     state_.n_droplets += n;
     state_.dosed += n * each;
   }
@@ -66,7 +67,11 @@ class Rain {
     const std::int64_t n =
         std::clamp<Volume>(std::min(n_missing, settle_at_ - state_.n_droplets), 0, kLargestBatch);
     targets_.assign(static_cast<std::size_t>(n) + kFar, 0);
-    parallel_for(n, kBlockOfDraws, [&](Index begin, Index end) { draw_targets(begin, end); });
+    parallel_for(n, kBlockOfDraws, [&](Index begin, Index end) {
+      for (Index i = begin; i < end; i += kDrawsAtOnce) {
+        draw_targets(i, std::min(i + kDrawsAtOnce, end));
+      }
+    });
     return static_cast<std::size_t>(n);
   }
 
@@ -74,7 +79,7 @@ class Rain {
     const Slopes& slopes = router_.slopes();
     const auto first = static_cast<std::uint64_t>(state_.n_droplets);
     const auto n_pixels = static_cast<std::uint64_t>(pools_.terrain().size());
-    std::array<Pixel, kBlockOfDraws> starts;
+    std::array<Pixel, kDrawsAtOnce> starts;
     for (Index i = begin; i < end; ++i) {
       Pixel& start = starts[static_cast<std::size_t>(i - begin)];
       start = static_cast<Pixel>(random_.below(first + static_cast<std::uint64_t>(i), n_pixels));

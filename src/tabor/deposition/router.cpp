@@ -23,7 +23,7 @@ void Router::Choice::consider(const Candidate& candidate) {
 
 Router::Candidate Router::candidate(Pixel q) {
   if (q == kOutside) return {kDry, kOutside, kNoPool};
-  const PoolId pool = pools_.owner(pools_.home(q));
+  const PoolId pool = pools_.owner(pools_.pool_at(q));
   const Height level = pools_[pool].level;
   const Height solid = pools_.height(q);
   return solid <= level ? Candidate{level, q, pool} : Candidate{solid, q, kNoPool};
@@ -34,8 +34,8 @@ Router::Target Router::toward(const Candidate& candidate) const {
   return candidate.pixel == kOutside ? kOcean : slopes_.from(candidate.pixel);
 }
 
-bool Router::valid(const Way& way) {
-  return way.bound != kDry && pools_[pools_.owner(way.end)].level < way.bound;
+bool Router::valid(const FlowPath& path) {
+  return path.bound != kDry && pools_[pools_.owner(path.end)].level < path.bound;
 }
 
 void Router::prefetch(Target start) const {
@@ -48,7 +48,7 @@ void Router::prefetch(Target start) const {
 
 void Router::prefetch_end(Target start) const {
   const bool stays = Slopes::is_pool(start) && !pools_[start].spills();
-  pools_.prefetch(stays ? pools_[start].owner : slopes_.way_from(pools_, start).end);
+  pools_.prefetch(stays ? pools_[start].owner : slopes_.path_from(pools_, start).end);
 }
 
 PoolId Router::follow(Target at) {
@@ -60,9 +60,9 @@ PoolId Router::follow(Target at) {
         return at;
       }
     }
-    if (const Way way = slopes_.way_from(pools_, at); valid(way)) {
-      trail_.push_back({at, way.bound});
-      at = way.end;
+    if (const FlowPath path = slopes_.path_from(pools_, at); valid(path)) {
+      trail_.push_back({at, path.bound});
+      at = path.end;
     } else if (!Slopes::is_pool(at)) {
       at = take_branch(at);
     } else {
@@ -92,15 +92,15 @@ Router::Target Router::take_branch(Target fork) {
   const auto branches = slopes_.branches(fork);
   if (branches.size() == 1) {
     const Slopes::Branch& on = branches.front();
-    const PoolId above = pools_.owner(on.home);
+    const PoolId above = pools_.owner(on.pool);
     trail_.clear();
-    return pools_[above].level >= on.height ? above : drain_of_saddle(on.home, kNoPool, on.pixel);
+    return pools_[above].level >= on.height ? above : drain_of_saddle(on.pool, kNoPool, on.pixel);
   }
   Height lowest = kNoRim;
   Height doubt = kNoRim;
   Target target = kNoPool;
   for (Slopes::Branch& branch : branches) {
-    const PoolId pool = branch.home = pools_.owner(branch.home);
+    const PoolId pool = branch.pool = pools_.owner(branch.pool);
     const Height level = pools_[pool].level;
     const bool wet = level >= branch.height;
     const Height height = wet ? level : branch.height;

@@ -11,12 +11,12 @@ namespace tabor::deposition {
 /// the first pool that is not full. Slopes say where the dry surface leads; what is left to judge
 /// are forks, by the levels of the pools around, and full pools, which flow on from their saddle.
 ///
-/// Each of these remembers the pool its way ended in, with a certificate: the way stays the same
+/// Each of these remembers the pool its path ended in, with a certificate: the path stays the same
 /// while the level of that pool is strictly below a bound, the lowest height at which some fork on
-/// the way would prefer another branch. This one level is enough. A branch on the way is flooded
-/// only by a pool that holds the end of the way too, and a full pool on the way stands still until
-/// it merges with the pool the way ends in. Where equal heights join several pools, what joins them
-/// may grow without that level noticing: there ways are cut, and the saddle is judged anew.
+/// it would prefer another branch. This one level is enough. A branch on the path is flooded
+/// only by a pool that holds the end of the path too, and a full pool on it stands still until
+/// it merges with the pool the path ends in. Where equal heights join several pools, what joins
+/// them may grow without that level noticing: there paths are cut, and the saddle is judged anew.
 class Router {
  public:
   explicit Router(Pools& pools) : pools_(pools), slopes_(pools) {}
@@ -70,7 +70,7 @@ class Router {
   Target take_branch(Target fork);
   Target spill(PoolId full);
   void record(PoolId end);
-  bool valid(const Way& way);
+  bool valid(const FlowPath& path);
   Candidate candidate(Pixel q);
   Target toward(const Candidate& candidate) const;
   Target drain_of_saddle(PoolId above, PoolId full, Pixel on);

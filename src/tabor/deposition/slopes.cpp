@@ -102,7 +102,7 @@ class SlopeFinder {
   Slopes::Target& known(Pixel p) { return to_.leads_to_[static_cast<std::size_t>(p)]; }
 
   Height height(Pixel p) const { return p == kOutside ? kDry : pools_.height(p); }
-  PoolId home(Pixel p) const { return p == kOutside ? kOcean : pools_.home(p); }
+  PoolId pool_at(Pixel p) const { return p == kOutside ? kOcean : pools_.pool_at(p); }
 
   /// Finds for each pixel with lower neighbours which one it leads to, or that it is a fork, and
   /// makes room for the forks.
@@ -136,7 +136,7 @@ class SlopeFinder {
       add_lower_neighbours(p, lower_);
       return make_fork(p);
     }
-    const PoolId pool = pools_.home(p);
+    const PoolId pool = pools_.pool_at(p);
     const Height here = pools_.height(p);
     if (pools_[pool].active() && pools_[pool].level == here) {
       known(p) = pool;
@@ -157,8 +157,8 @@ class SlopeFinder {
     });
   }
 
-  /// A dry plateau on a slope: all its pixels without a lower neighbour of their own go the same
-  /// way, and all lower neighbours of any of its pixels are theirs.
+  /// A dry plateau on a slope: all its pixels without a lower neighbour of their own lead to
+  /// the same place, and all lower neighbours of any of its pixels are theirs.
   void add_plateau(Pixel p) {
     std::vector<Pixel> plateau{p};
     std::unordered_set<Pixel> seen{p};
@@ -188,8 +188,8 @@ class SlopeFinder {
   /// several equal pixels of a saddle: full up to there, the pool of a may be as high as b, still
   /// dry.
   bool is_nested(Pixel a, Pixel b) const {
-    const PoolId inner = home(a);
-    const PoolId outer = home(b);
+    const PoolId inner = pool_at(a);
+    const PoolId outer = pool_at(b);
     if (inner == outer) return true;
     if (!descent_.within(inner, outer)) return false;
     const auto bottom = pools_.bottom(outer);
@@ -197,7 +197,7 @@ class SlopeFinder {
   }
 
   Slopes::Branch branch(Pixel q) const {
-    return {.height = height(q), .home = home(q), .pixel = q};
+    return {.height = height(q), .pool = pool_at(q), .pixel = q};
   }
 
   /// Of the lower neighbours in lower_; makes p known and returns it.
@@ -246,8 +246,8 @@ void Slopes::rename_pools(const std::vector<PoolId>& renamed) {
   };
   change_targets(rename);
   for (std::size_t number = 0; number < forks_.size(); ++number) {
-    rename(forks_[number].way.end);
-    for (Branch& branch : branches(~static_cast<Target>(number))) rename(branch.home);
+    rename(forks_[number].path.end);
+    for (Branch& branch : branches(~static_cast<Target>(number))) rename(branch.pool);
   }
 }
 

@@ -20,8 +20,8 @@ class Confluences;
 /// lowest place (a leaf pool) or a fork: a place whose lower neighbours can fill independently, so
 /// that the levels of the day decide. About one pixel in nine of a rough surface is a fork.
 ///
-/// If a pool covers any place on such a way it covers all below; hence a start in the water ends in
-/// that pool, or at a fork whose branches are all in it.
+/// If a pool covers any place on such a path it covers all below; hence a start in the water ends
+/// in that pool, or at a fork whose branches are all in it.
 class Slopes {
  public:
   using Target = std::int32_t;  ///< a PoolId, or the complement of the number of a fork
@@ -29,24 +29,24 @@ class Slopes {
   /// A lower neighbour of a fork.
   struct Branch {
     Height height = 0;
-    PoolId home = kNoPool;  ///< the smallest pool that can cover it
+    PoolId pool = kNoPool;  ///< the smallest pool that can cover it
     union {
       Target leads_to = 0;  ///< while it is dry
-      Pixel pixel;          ///< of the only branch of a fork; of all, until the ways are known
+      Pixel pixel;  ///< of the only branch of a fork; of all, until it is known where they lead
     };
   };
 
   /// A fork has two branches or more, ascending in pixel number; or one, if it is a pixel without
-  /// lower neighbours on a saddle of several equal pixels: that pixel, with the pool above as home.
+  /// lower neighbours on a saddle of several equal pixels: that pixel, with the pool above it.
   /// Two branches, the common number, lie in the fork: half a cache line.
   struct alignas(32) Fork {
     /// Where the branches stand among branches_, unless they are two.
     struct Listed {
       std::int32_t first = 0;
-      PoolId none = kNoPool;  ///< where the home of the first of two branches is
+      PoolId none = kNoPool;  ///< where the pool of the first of two branches is
       std::int32_t n = 0;
     };
-    Way way;  ///< of the last droplet
+    FlowPath path;  ///< of the last droplet
     union {
       std::array<Branch, 2> two;
       Listed listed;
@@ -74,11 +74,11 @@ class Slopes {
     return {const_cast<Branch*>(all.data()), all.size()};
   }
 
-  /// The last droplet's way from a fork, or from a full pool.
-  Way way_from(const Pools& pools, Target at) const {
-    return is_pool(at) ? pools[at].overflow() : forks_[place_of(at)].way;
+  /// The last droplet's path from a fork, or from a full pool.
+  FlowPath path_from(const Pools& pools, Target at) const {
+    return is_pool(at) ? pools[at].overflow() : forks_[place_of(at)].path;
   }
-  void remember(Target fork, const Way& way) { forks_[place_of(fork)].way = way; }
+  void remember(Target fork, const FlowPath& path) { forks_[place_of(fork)].path = path; }
 
   /// Follows Pools::renumber(), and forgets choices that do not matter any more: what leads to a
   /// fork, or to a full pool, then leads to the confluence of all paths from there.
