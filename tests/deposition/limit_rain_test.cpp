@@ -55,10 +55,10 @@ Field stratified_rain(const Field& height, double film, double droplet_height) {
   const Index n = height.size();
   const Index stride = 40503;  // odd, so coprime with 256^2: visits every pixel once per sweep
   for (Index k = 0; k < n * n_sweeps; ++k) {
-    PoolId pool = router.from_pixel(static_cast<Pixel>(k % n * stride % n));
+    PoolId pool = router.from(router.slopes().from(static_cast<Pixel>(k % n * stride % n)));
     for (Volume carried = pools.pour(pool, droplet); carried > 0;
          carried = pools.pour(pool, carried)) {
-      pool = router.from_full_pool(pool);
+      pool = router.from(pool);
     }
   }
   Field thickness(kSide, kSide);

@@ -35,7 +35,7 @@ class Rain {
 
   /// Droplets until `dose` is reached or the batch ends; false when the dose is reached.
   bool rain_batch(Volume dose) {
-    if (state_.n_droplets == settle_at_) {
+    if (state_.n_droplets >= settle_at_) {
       router_.settle();
       settle_at_ += std::min(settle_at_, kRarestSettling * pools_.terrain().size());
     }
