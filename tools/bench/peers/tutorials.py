@@ -1,7 +1,8 @@
 """Tutorials of other packages, in them and in tabor: lines of code, seconds, agreement.
 
 Called by `run --tutorials`. Each file of tutorials/ is one: a title, what it is, and three pieces of Python, of which the first
-makes what both packages are given, and the others leave `pressures` [Pa] and `gaps` [m], one map per load.
+makes what both packages are given, or says of which tutorial that is, and the others leave `pressures` [Pa] and `gaps` [m], one map
+per load.
 """
 
 from __future__ import annotations
@@ -57,6 +58,7 @@ class Piece:
 class Tutorial:
     title: str
     text: str
+    given: str  # what both packages get, as the page says it
     surface: Piece
     theirs: Piece
     ours: Piece
@@ -68,7 +70,11 @@ def read(name: str) -> Tutorial:
     title, *text = [line.removeprefix("# ") for line in head.strip().splitlines()]
     surface, theirs, ours = (Piece(heading.removeprefix("surface: "), code.strip())
                              for heading, code in zip(pieces[::2], pieces[1::2]))
-    return Tutorial(title, "\n".join(text), surface, theirs, ours)
+    if surface.package.startswith("that of "):
+        other = read(surface.package.removeprefix("that of "))
+        return Tutorial(title, "\n".join(text), f"Both are given the surface of \"{other.title}\".", other.surface, theirs, ours)
+    given = f"Both are given, by {surface.package}:\n\n```python\n{surface.code}\n```"
+    return Tutorial(title, "\n".join(text), given, surface, theirs, ours)
 
 
 class Bench:
@@ -158,8 +164,7 @@ def side_by_side(theirs: Piece, ours: Piece) -> str:
 
 
 def section(tutorial: Tutorial) -> str:
-    return (f"## {tutorial.title}\n\n{tutorial.text}\n\nBoth are given, by {tutorial.surface.package}:\n\n"
-            f"```python\n{tutorial.surface.code}\n```\n\n{side_by_side(tutorial.theirs, tutorial.ours)}")
+    return f"## {tutorial.title}\n\n{tutorial.text}\n\n{tutorial.given}\n\n{side_by_side(tutorial.theirs, tutorial.ours)}"
 
 
 def versions() -> str:

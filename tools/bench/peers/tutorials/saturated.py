@@ -2,16 +2,7 @@
 # Tamaas has `KatoSaturated` for this, of which its documentation shows no numbers: the surface is that of the tutorial above, the cap
 # four times the load, the tolerance one that brings the pressures as near to tabor's as without a cap.
 
-# --- surface: Tamaas
-import tamaas as tm
-
-spectrum = tm.Isopowerlaw2D()
-spectrum.q0, spectrum.q1, spectrum.q2 = 4, 4, 32
-spectrum.hurst = 0.8
-generator = tm.SurfaceGeneratorFilter2D([128, 128])
-generator.spectrum = spectrum
-generator.random_seed = 0
-heights = generator.buildSurface() * (0.25 / spectrum.rmsSlopes())
+# --- surface: that of rough
 
 # --- Tamaas
 import tamaas as tm
