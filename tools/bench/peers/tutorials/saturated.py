@@ -1,6 +1,5 @@
 # The same surface, with a saturation pressure
-# Tamaas has `KatoSaturated` for this, of which its documentation shows no numbers: the surface is that of the tutorial above, the cap
-# four times the load, the tolerance one that brings the pressures as near to tabor's as without a cap.
+# Tamaas has `KatoSaturated` for this. The surface is that of the tutorial above; cap, load and tolerance are not of a tutorial, but chosen here.
 
 # --- surface: that of rough
 
