@@ -140,6 +140,8 @@ void bind_contact(nb::module_& module) {
                    })
       .def_prop_ro("warnings", [](const ContactRecord& self) { return texts_of(self.warnings); })
       .def_ro("references", &ContactRecord::references)
+      .def_prop_ro("converged",
+                   [](const ContactRecord& self) { return self.convergence.converged(); })
       .def_prop_ro("gap_limit", [](const ContactRecord& self) { return self.state.gap_limit; })
       .def_prop_ro("pressure", &map_of<&State::pressure>)
       .def_prop_ro("displacement", &map_of<&State::displacement>)

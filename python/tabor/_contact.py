@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, overload
 from . import _tabor
 from ._optional import needs
 from ._progress import Progress, watching
-from ._records import Record, warnings_of
+from ._records import Record
 from ._surface import Array, Surface, map_to_xarray, plot_map
 from ._values import Value, optional_si, si_list
 
@@ -139,7 +139,6 @@ class Contact(Record):
     _options: _Options
 
     def __init__(self, record: _tabor.ContactRecord, surface: Surface, solid: Solid, options: _Options) -> None:
-        super().__init__(record.values, warnings_of(record.warnings), tuple(record.references))
         self.__dict__.update(_record=record, surface=surface, solid=solid, _options=options)
 
     @property
@@ -181,7 +180,7 @@ class Contact(Record):
     @property
     def converged(self) -> bool:
         """The certificate is within the tolerance."""
-        return bool(self.values["converged"])
+        return self._record.converged
 
     def to_xarray(self) -> Any:
         """Pressure, displacement and gap as a Dataset with coordinates x and y [m]; needs xarray."""

@@ -12,7 +12,7 @@ from . import _tabor
 from ._contact import Contact, NotConverged
 from ._optional import needs
 from ._progress import Progress, watching
-from ._records import Record, warnings_of
+from ._records import Record
 from ._surface import Array, Surface, map_to_xarray, plot_map
 from ._values import Value, optional_si, si, si_list
 
@@ -48,7 +48,6 @@ class Film(Record):
     _options: _Rain
 
     def __init__(self, record: _tabor.FilmRecord, surface: Surface, options: _Rain) -> None:
-        super().__init__(record.values, warnings_of(record.warnings), tuple(record.references))
         self.__dict__.update(_record=record, surface=surface, _options=options)
 
     @property
@@ -154,7 +153,6 @@ class Friction(Record):
     _options: _Shear
 
     def __init__(self, record: _tabor.FrictionRecord, contact: Contact, film: Film, options: _Shear) -> None:
-        super().__init__(record.values, warnings_of(record.warnings), tuple(record.references))
         self.__dict__.update(_record=record, contact=contact, film=film, _options=options)
 
     @property

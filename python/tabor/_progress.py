@@ -2,33 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from typing import Any, Union
 
 #: True for a bar of tqdm (plain lines without tqdm); or what is called up to fifty times a second with
 #: (stage, done share 0..1, certificate), where NaN is unknown.
 Progress = Union[bool, None, Callable[[str, float, float], Any]]
+#: What the extension module calls, if anything.
+Told = Union[Callable[[str, float, float], Any], None]
 
 
-@contextmanager
-def watching(progress: Progress) -> Iterator[Callable[[str, float, float], Any] | None]:
-    """The callable that the extension module asks for; a bar is closed at the end."""
-    if progress is None or progress is False:
-        yield None
-    elif progress is not True:
-        if not callable(progress):
-            raise TypeError(f"progress: got {type(progress).__name__}; expected True, False or a callable")
-        yield progress
-    else:
-        bar = _Bar()
-        try:
-            yield bar
-        finally:
-            bar.close()
+def watching(progress: Progress) -> AbstractContextManager[Told]:
+    """What the extension module tells; a bar is closed at the end."""
+    if progress is True:
+        return _Bar()
+    if progress is False or progress is None:
+        return nullcontext(None)
+    if not callable(progress):
+        raise TypeError(f"progress: got {type(progress).__name__}; expected True, False or a callable")
+    return nullcontext(progress)
 
 
-class _Bar:
+class _Bar(AbstractContextManager[Told]):
     """A bar of tqdm, or one line per stage where tqdm is not installed."""
 
     def __init__(self) -> None:
@@ -53,6 +49,6 @@ class _Bar:
             self._bar.set_postfix_str(f"certificate {certificate:.1e}", refresh=False)
         self._bar.refresh()
 
-    def close(self) -> None:
+    def __exit__(self, *error: object) -> None:
         if self._bar is not None:
             self._bar.close()

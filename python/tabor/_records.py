@@ -25,23 +25,32 @@ def warnings_of(texts: Iterable[tuple[str, str, float]]) -> tuple[Warning, ...]:
 
 class Record:
     """A result that does not change. ``values`` has its numbers by the names that ``--json`` and
-    result files give them, whose endings are the units."""
+    result files give them, whose endings are the units.
+
+    Numbers, warnings and references stay in the record of the extension module until they are asked for: converting
+    them all takes longer than the rest of a call from Python.
+    """
 
     _facts: tuple[tuple[str, str, str], ...] = ()  #: heading, key, unit of what repr shows
-
-    def __init__(self, values: Mapping[str, Any], warnings: tuple[Warning, ...],
-                 references: tuple[str, ...]) -> None:
-        self.__dict__["_values"] = dict(values)
-        self.__dict__["warnings"] = warnings
-        self.__dict__["references"] = references
-
-    warnings: tuple[Warning, ...]  #: reasons to doubt its numbers
-    references: tuple[str, ...]  #: what to cite: keys of the bibliography of ``tabor cite``
+    _record: Any
 
     @property
     def values(self) -> Mapping[str, Any]:
         """All numbers by name."""
-        return MappingProxyType(self.__dict__["_values"])
+        found = self.__dict__.get("_values")
+        if found is None:
+            found = self.__dict__["_values"] = self._record.values
+        return MappingProxyType(found)
+
+    @property
+    def warnings(self) -> tuple[Warning, ...]:
+        """Reasons to doubt its numbers."""
+        return warnings_of(self._record.warnings)
+
+    @property
+    def references(self) -> tuple[str, ...]:
+        """What to cite: keys of the bibliography of ``tabor cite``."""
+        return tuple(self._record.references)
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"a {type(self).__name__} does not change")
@@ -58,7 +67,7 @@ class Record:
         from . import _tabor
         lines = []
         for heading, key, unit in self._facts:
-            value = self.__dict__["_values"][key]
+            value = self.values[key]
             lines.append((heading, _tabor.format_si(value, unit) if unit else f"{value:.4g}"))
         return lines + [("warning", warning.text) for warning in self.warnings]
 

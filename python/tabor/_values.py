@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any, Union
 
@@ -26,6 +27,8 @@ def si(value: Value, dimension: str, name: str) -> float:
     """
     if isinstance(value, str):
         return _tabor.parse_si(value, dimension, name)
+    if type(value) is float:  # what studies and sweeps pass: the questions below take longer than some calls
+        return _number(value, name)
     if hasattr(value, "to") and hasattr(value, "magnitude"):
         return _of_quantity(value, dimension, name)
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.number, np.ndarray)):
@@ -33,8 +36,11 @@ def si(value: Value, dimension: str, name: str) -> float:
                         "its unit or a quantity")
     if np.ndim(value) != 0:
         raise TypeError(f"{name}: got an array of shape {np.shape(value)}; expected one number")
-    number = float(value)
-    if np.isnan(number):
+    return _number(float(value), name)
+
+
+def _number(number: float, name: str) -> float:
+    if math.isnan(number):
         raise ValueError(f"{name}: got NaN; expected a number")
     return number
 

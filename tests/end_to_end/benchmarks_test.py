@@ -136,6 +136,37 @@ class Peers(Benchmark):
             self.assertLess(abs(float(row[6])), 1e-2, row)
 
 
+class Tutorials(Benchmark):
+    """Those of packages that are not installed are left out, which the run says."""
+
+    NAMES = ("rough", "saturated", "paraboloid", "waves", "sphere", "cone")
+    PYTHON = BUILD / "peers/main/bin/python"
+
+    def tutorials(self, python, *words):
+        return subprocess.run([python, BENCH / "peers/tutorials.py", "--build", BUILD, *words], cwd=self.folder, capture_output=True, text=True,
+                              check=False, timeout=240, env={**os.environ, "TMPDIR": str(self.folder)})
+
+    @unittest.skipUnless(PYTHON.is_file(), "no other packages, tools/bench/peers/run installs them")
+    @unittest.skipUnless((BUILD / "python/tabor/__init__.py").exists(), "the Python package is not built")
+    def test_both_packages_agree(self):
+        done = self.tutorials(self.PYTHON, "--repeats", "1", "sphere", "paraboloid")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        rows = [[cell.strip() for cell in line.strip("|").split("|")] for line in done.stdout.splitlines()[2:]]
+        self.assertEqual(len(rows) / 2 + done.stderr.count("skipped: "), 2, done.stderr)
+        for theirs, ours in zip(rows[::2], rows[1::2]):
+            self.assertGreater(int(theirs[2]), int(ours[2]))
+            self.assertEqual(theirs[5], "the same")
+            self.assertLess(float(theirs[8]), 1e-4)
+
+    def test_pieces_stand_alone(self):
+        for name in self.NAMES:
+            text = (BENCH / f"peers/tutorials/{name}.py").read_text("utf-8")
+            headings = re.findall(r"(?m)^# --- (.*)$", text)
+            self.assertEqual((len(headings), headings[2]), (3, "tabor"))
+            self.assertLessEqual(max(map(len, text[text.index("# ---"):].splitlines())), 70)  # two stand side by side on a page
+            compile(text, name, "exec")
+
+
 class Certify(Benchmark):
     """Pressures go in and out as they are, whatever their size, and what is no field is rejected in one line."""
 
