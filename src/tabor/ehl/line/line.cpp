@@ -51,23 +51,27 @@ void require_inlet(const LineProblem& problem, const LineFilm& film, const LineS
 }
 
 /// From Hertz' pressure and a film `first` times that of Moes.
-LineFilm::Outcome solve_from_hertz(const LineProblem& problem, const LineFilm& film, double first,
-                                   LineState& state, const Observer& observer) {
-  state = film.hertz_start(first * film_groups_of(problem).moes_min_film());
-  LineFilm::Outcome outcome = film.solve(state, {}, kMaxIterations, observer);
+LineFilm::Outcome solve_from_hertz(const LineProblem& problem, const LineFilm& film,
+                                   const LineConditions& conditions, double first, LineState& state,
+                                   const Observer& observer) {
+  state = film.hertz_start(first * film_groups_of(problem).moes_min_film(), conditions);
+  LineFilm::Outcome outcome = film.solve(state, conditions, {}, kMaxIterations, observer);
   require_inlet(problem, film, state, outcome);
   return outcome;
 }
 
-material::Viscosity with_share_of_coefficient(const material::Viscosity& viscosity, double share) {
-  return material::make_viscosity(material::law_of(viscosity),
-                                  material::ambient_viscosity(viscosity),
-                                  share * material::pressure_coefficient(viscosity));
+LineConditions with_share_of_coefficient(LineConditions conditions, double share) {
+  const material::Viscosity viscosity = conditions.lubricant.viscosity;
+  conditions.lubricant.viscosity =
+      material::make_viscosity(material::law_of(viscosity), material::ambient_viscosity(viscosity),
+                               share * material::pressure_coefficient(viscosity));
+  return conditions;
 }
 
-/// Leads a film from share 0 to share 1 of what `apply` sets, in steps that shrink when one fails.
-/// Stalled where they would be too short.
-LineFilm::Outcome ramp(LineFilm& film, LineState& state, const std::function<void(double)>& apply,
+/// Leads a film from the conditions of share 0 to those of share 1, in steps that shrink when one
+/// fails. Stalled where they would be too short.
+LineFilm::Outcome ramp(const LineFilm& film, LineState& state,
+                       const std::function<LineConditions(double)>& conditions_at,
                        const Observer& observer) {
   LineFilm::Outcome outcome;
   double share = 0;
@@ -75,59 +79,62 @@ LineFilm::Outcome ramp(LineFilm& film, LineState& state, const std::function<voi
   for (double step = kFirstStep; share < 1 && step > kSmallestStep && !convergence.stopped();) {
     LineState next = state;
     const double aim = std::min(1.0, share + step);
-    apply(aim);
-    outcome = outcome + film.solve(next, {}, kMaxIterations, observer);
+    outcome = outcome + film.solve(next, conditions_at(aim), {}, kMaxIterations, observer);
     if (convergence.converged()) {
       state = next;
       share = aim;
     }
     step *= convergence.converged() ? 1.5 : 0.5;
   }
-  apply(1);
   if (convergence.failed()) convergence.status = Status::stalled;
   return outcome;
 }
 
 /// From the pressure of Hertz; with asperities if they touch, or if that fails.
-LineFilm::Outcome solve_directly(const LineProblem& problem, const LineFilm& film, LineState& state,
+LineFilm::Outcome solve_directly(const LineProblem& problem, const LineFilm& film,
+                                 const LineConditions& conditions, LineState& state,
                                  const Observer& observer) {
   LineFilm::Outcome outcome;
   for (const double first : kFirstFilms) {
-    outcome = outcome + solve_from_hertz(problem, film, first, state, observer);
+    outcome = outcome + solve_from_hertz(problem, film, conditions, first, state, observer);
     const bool is_open = outcome.convergence.converged() &&
                          state.film.minCoeff() >= problem.asperities.boundary_film;
     if (film.has_asperities() && !is_open && !outcome.convergence.stopped()) {
-      outcome = outcome + film.solve_touching(state, observer);
+      outcome = outcome + film.solve_touching(state, conditions, observer);
     }
     if (!outcome.convergence.failed() || film.has_asperities()) break;
   }
   return outcome;
 }
 
-/// From Hertz' pressure; if that fails, from the film of smooth bodies and, if that fails too, of a
-/// viscosity that does not grow with pressure.
-LineFilm::Outcome solve_cold(const LineProblem& problem, LineFilm& film,
-                             const Eigen::ArrayXd& roughness, LineState& state,
-                             const Observer& observer) {
-  LineFilm::Outcome outcome = solve_directly(problem, film, state, observer);
+/// From Hertz' pressure; if that fails, from a viscosity that does not grow with pressure.
+LineFilm::Outcome solve_as_shaped(const LineProblem& problem, const LineFilm& film,
+                                  const LineConditions& conditions, LineState& state,
+                                  const Observer& observer) {
+  LineFilm::Outcome outcome = solve_directly(problem, film, conditions, state, observer);
   if (!outcome.convergence.failed()) return outcome;
-  if (roughness.size() > 0) {
-    const Eigen::ArrayXd rough = film.shape;
-    film.shape = rough + roughness;
-    outcome = outcome + solve_cold(problem, film, {}, state, observer);
-    if (!outcome.convergence.converged()) return outcome;
-    const auto roughen = [&](double share) { film.shape = rough + (1 - share) * roughness; };
-    return outcome + ramp(film, state, roughen, observer);
-  }
-  const material::Viscosity viscosity = film.lubricant.viscosity;
-  if (!(material::pressure_coefficient(viscosity) > 0)) return outcome;
-  film.lubricant.viscosity = with_share_of_coefficient(viscosity, 0);
-  outcome = outcome + solve_directly(problem, film, state, observer);
+  if (!(material::pressure_coefficient(conditions.lubricant.viscosity) > 0)) return outcome;
+  const auto thicken = [&](double share) { return with_share_of_coefficient(conditions, share); };
+  outcome = outcome + solve_directly(problem, film, thicken(0), state, observer);
   if (!outcome.convergence.converged()) return outcome;
-  const auto thicken = [&](double share) {
-    film.lubricant.viscosity = with_share_of_coefficient(viscosity, share);
-  };
   return outcome + ramp(film, state, thicken, observer);
+}
+
+/// Of rough bodies that fail so, from the film of smooth ones.
+LineFilm::Outcome solve_cold(const LineProblem& problem, const LineFilm& film, LineState& state,
+                             const Observer& observer) {
+  const LineConditions& asked = film.conditions();
+  if (problem.roughness.size() == 0) return solve_as_shaped(problem, film, asked, state, observer);
+  LineFilm::Outcome outcome = solve_directly(problem, film, asked, state, observer);
+  if (!outcome.convergence.failed()) return outcome;
+  const auto roughen = [&](double share) {
+    LineConditions conditions = asked;
+    conditions.shape += (1 - share) * problem.roughness;
+    return conditions;
+  };
+  outcome = outcome + solve_as_shaped(problem, film, roughen(0), state, observer);
+  if (!outcome.convergence.converged()) return outcome;
+  return outcome + ramp(film, state, roughen, observer);
 }
 
 }  // namespace
@@ -180,9 +187,9 @@ void check_line(const LineProblem& problem) {
 
 namespace {
 
-LineResult solve(const LineProblem& problem, LineFilm film, const Observer& observer) {
+LineResult solve(const LineProblem& problem, const LineFilm& film, const Observer& observer) {
   LineState state;
-  LineFilm::Outcome outcome = solve_cold(problem, film, problem.roughness, state, observer);
+  LineFilm::Outcome outcome = solve_cold(problem, film, state, observer);
   require_inlet(problem, film, state, outcome);
   LineResult result;
   result.x = film.x();
