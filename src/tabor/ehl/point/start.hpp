@@ -9,9 +9,8 @@ PointFilm::Outcome operator+(const PointFilm::Outcome& before, PointFilm::Outcom
 
 /// Solves `film`, of smooth bodies, without a state to begin with: from Hertz' pressure on a coarse
 /// grid, through grids of half the spacing each, to the grid of the film; where that fails, from
-/// thicker and thinner first films, and from a viscosity that grows less with pressure. Nothing of
-/// `film` is changed in the end.
-PointFilm::Outcome solve_cold(const PointProblem& problem, PointFilm& film, PointState& state,
+/// thicker and thinner first films, and from a viscosity that grows less with pressure.
+PointFilm::Outcome solve_cold(const PointProblem& problem, const PointFilm& film, PointState& state,
                               const Observer& observer = {});
 
 /// The state of a result, which may be of another grid.
