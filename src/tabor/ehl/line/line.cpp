@@ -10,6 +10,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/ehl/line/film.hpp"
 #include "tabor/ehl/plain.hpp"
+#include "tabor/numerics/continuation.hpp"
 
 namespace tabor::ehl {
 namespace {
@@ -19,8 +20,6 @@ constexpr double kMinNodesPerHalfWidth = 8;
 /// The film of the first guess over Moes': Newton's method comes down safely from a thick film,
 /// where the flow depends on the pressure gradient, and may jump far from a thin one.
 constexpr double kFirstFilms[] = {10, 3, 40};
-constexpr double kFirstStep = 0.5;  // of the continuation in the pressure coefficient
-constexpr double kSmallestStep = 1.0 / 64;
 
 void check_domain(const LineProblem& problem) {
   const double half_width = hertz_of(problem).half_width;
@@ -68,26 +67,13 @@ LineConditions with_share_of_coefficient(LineConditions conditions, double share
   return conditions;
 }
 
-/// Leads a film from the conditions of share 0 to those of share 1, in steps that shrink when one
-/// fails. Stalled where they would be too short.
-LineFilm::Outcome ramp(const LineFilm& film, LineState& state,
+/// Leads a film from the conditions of share 0 to those of share 1.
+LineFilm::Outcome lead(const LineFilm& film, LineState& state,
                        const std::function<LineConditions(double)>& conditions_at,
                        const Observer& observer) {
-  LineFilm::Outcome outcome;
-  double share = 0;
-  Convergence& convergence = outcome.convergence;
-  for (double step = kFirstStep; share < 1 && step > kSmallestStep && !convergence.stopped();) {
-    LineState next = state;
-    const double aim = std::min(1.0, share + step);
-    outcome = outcome + film.solve(next, conditions_at(aim), {}, kMaxIterations, observer);
-    if (convergence.converged()) {
-      state = next;
-      share = aim;
-    }
-    step *= convergence.converged() ? 1.5 : 0.5;
-  }
-  if (convergence.failed()) convergence.status = Status::stalled;
-  return outcome;
+  return numerics::follow(state, {}, [&](LineState& next, double share) {
+    return film.solve(next, conditions_at(share), {}, kMaxIterations, observer);
+  });
 }
 
 /// From the pressure of Hertz; with asperities if they touch, or if that fails.
@@ -117,7 +103,7 @@ LineFilm::Outcome solve_as_shaped(const LineProblem& problem, const LineFilm& fi
   const auto thicken = [&](double share) { return with_share_of_coefficient(conditions, share); };
   outcome = outcome + solve_directly(problem, film, thicken(0), state, observer);
   if (!outcome.convergence.converged()) return outcome;
-  return outcome + ramp(film, state, thicken, observer);
+  return outcome + lead(film, state, thicken, observer);
 }
 
 /// Of rough bodies that fail so, from the film of smooth ones.
@@ -134,7 +120,7 @@ LineFilm::Outcome solve_cold(const LineProblem& problem, const LineFilm& film, L
   };
   outcome = outcome + solve_as_shaped(problem, film, roughen(0), state, observer);
   if (!outcome.convergence.converged()) return outcome;
-  return outcome + ramp(film, state, roughen, observer);
+  return outcome + lead(film, state, roughen, observer);
 }
 
 }  // namespace

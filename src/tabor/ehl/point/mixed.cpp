@@ -13,43 +13,15 @@ namespace {
 
 using Outcome = PointFilm::Outcome;
 
-constexpr double kRoughly = 1e-2;       // tolerance where a solution is only a start
 constexpr double kClearance = 2;        // film of a smooth start, in rms heights
 constexpr double kBoundaryFilms = 5;    // ... or in boundary films
 constexpr double kFastest = 1e6;        // speed of a start over the one asked for, at most
 constexpr double kFilmExponent = 0.67;  // film ~ speed^0.67, Hamrock & Dowson 1977
 constexpr double kLogStep = 1.2;        // of the speed, at first: a factor of 3.3
-constexpr double kSmallestStep = 1.0 / 32;
+constexpr double kShortest = 1.0 / 32;  // step over the first
 /// Boundary films that count as touching in results: a boundary film that left a pressure of GPa is
 /// thicker by the ratio of densities, at most 1.35 by Dowson & Higginson.
 constexpr double kTouchingFilm = 1.5;
-
-/// A way from a state to another, by the conditions at a share 0..1 of it.
-struct Way {
-  std::function<PointConditions(double)> conditions_at;
-  double first_step = 1;
-};
-
-/// Leads `state` to the end of the way in steps that shrink where one fails; those before the last
-/// are solved roughly. Stalled where they would be too short.
-Outcome follow(const PointFilm& film, const Way& way, PointState& state, const Observer& observer) {
-  Outcome outcome;
-  double share = 0;
-  const double smallest_step = kSmallestStep * way.first_step;
-  Convergence& convergence = outcome.convergence;
-  for (double step = way.first_step; share < 1 && step > smallest_step && !convergence.stopped();) {
-    PointState next = state;
-    const double aim = std::min(1.0, share + step);
-    PointConditions conditions = way.conditions_at(aim);
-    if (aim < 1) conditions.tolerance = std::max(conditions.tolerance, kRoughly);
-    outcome = outcome + film.solve(next, conditions, {}, observer);
-    if (convergence.converged()) share = aim;
-    if (convergence.converged() || aim >= 1) state = next;
-    step *= convergence.converged() ? 1.5 : 0.5;
-  }
-  if (convergence.failed()) convergence.status = Status::stalled;
-  return outcome;
-}
 
 /// The conditions of a film at another speed; sliding goes in proportion.
 PointConditions at_speed(const PointProblem& problem, PointConditions conditions, double speed) {
@@ -58,24 +30,32 @@ PointConditions at_speed(const PointProblem& problem, PointConditions conditions
   return conditions;
 }
 
+numerics::ContinuationSteps steps_of(double first) {
+  return {.first = first, .smallest = kShortest * first, .keeps_end = true};
+}
+
 /// From one speed to that of the problem in equal factors.
-Way change_speed(const PointProblem& problem, const PointFilm& film, double from) {
+PointWay change_speed(const PointProblem& problem, const PointFilm& film, double from) {
   const double distance = std::log(problem.entrainment_speed / from);
   return {.conditions_at =
               [&problem, &film, from, distance](double share) {
                 const double speed = from * std::exp(share * distance);
                 return at_speed(problem, film.conditions(), speed);
               },
-          .first_step = std::min(1.0, kLogStep / std::max(kLogStep, std::abs(distance)))};
+          .steps = steps_of(std::min(1.0, kLogStep / std::max(kLogStep, std::abs(distance))))};
 }
 
 /// From smooth bodies to those of the problem at a speed.
-Way roughen(const PointProblem& problem, const PointFilm& film, double speed) {
-  return {.conditions_at = [&problem, &film, speed](double share) {
-    PointConditions conditions = at_speed(problem, film.conditions(), speed);
-    if (problem.roughness.size() > 0) conditions.shape += (1 - share) * problem.roughness;
-    return conditions;
-  }};
+PointWay roughen(const PointProblem& problem, const PointFilm& film, double speed) {
+  return {.conditions_at =
+              [&problem, &film, speed](double share) {
+                PointConditions conditions = at_speed(problem, film.conditions(), speed);
+                if (problem.roughness.size() > 0) {
+                  conditions.shape += (1 - share) * problem.roughness;
+                }
+                return conditions;
+              },
+          .steps = steps_of(1)};
 }
 
 /// u_m [m/s] at which the film of smooth bodies clears the roughness and the boundary film.
@@ -118,7 +98,7 @@ Outcome solve_from_smooth(const PointProblem& problem, const PointFilm& film, Po
   if (!outcome.convergence.converged()) return outcome;
   outcome = outcome + follow(film, roughen(problem, film, first_speed), state, observer);
   if (outcome.convergence.converged() && first_speed > problem.entrainment_speed) {
-    const Way slow = change_speed(problem, film, first_speed);
+    const PointWay slow = change_speed(problem, film, first_speed);
     outcome = outcome + follow(film, slow, state, observer);
   }
   return outcome;
@@ -186,7 +166,7 @@ PointResult solve_point_mixed(const PointProblem& problem, const PointResult* st
   if (start != nullptr) {
     state = mixed_state_of(problem, film, *start);
     const double from = start->entrainment_speed > 0 ? start->entrainment_speed : speed;
-    const Way way = change_speed(problem, film, from);
+    const PointWay way = change_speed(problem, film, from);
     outcome = follow(film, way, state, observer);
     speed = way.conditions_at(1).speed;
   }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 namespace tabor::ehl {
 namespace {
@@ -13,10 +12,7 @@ constexpr Index kCoarsest = 48;  // nodes along a side of a grid that is not coa
 /// The film of the first guess over that of Nijenbanning's formula: Newton's method comes down
 /// safely from a thick film, where the flow depends on the pressure gradient.
 constexpr double kFirstFilms[] = {3, 10, 1, 30};
-constexpr double kRoughly = 1e-2;  // tolerance where a solution is only a start
 constexpr double kInletLengths = 4;
-constexpr double kFirstStep = 0.5;
-constexpr double kSmallestStep = 1.0 / 64;
 
 PointFilm::Outcome solve_from_hertz(const PointFilm& film, const PointConditions& conditions,
                                     PointState& state, const Observer& observer) {
@@ -35,30 +31,6 @@ PointConditions with_share_of_coefficient(PointConditions conditions, double sha
       material::make_viscosity(material::law_of(viscosity), material::ambient_viscosity(viscosity),
                                share * material::pressure_coefficient(viscosity));
   return conditions;
-}
-
-/// Leads a film from the conditions of share 0 to those of share 1, in steps that shrink when one
-/// fails; those before the last are solved roughly. Stalled where they would be too short.
-PointFilm::Outcome ramp(const PointFilm& film, PointState& state,
-                        const std::function<PointConditions(double)>& conditions_at,
-                        const Observer& observer) {
-  PointFilm::Outcome outcome;
-  double share = 0;
-  Convergence& convergence = outcome.convergence;
-  for (double step = kFirstStep; share < 1 && step > kSmallestStep && !convergence.stopped();) {
-    PointState next = state;
-    const double aim = std::min(1.0, share + step);
-    PointConditions conditions = conditions_at(aim);
-    if (aim < 1) conditions.tolerance = std::max(conditions.tolerance, kRoughly);
-    outcome = outcome + film.solve(next, conditions, {}, observer);
-    if (convergence.converged()) {
-      state = next;
-      share = aim;
-    }
-    step *= convergence.converged() ? 1.5 : 0.5;
-  }
-  if (convergence.failed()) convergence.status = Status::stalled;
-  return outcome;
 }
 
 /// From the solution on a grid of twice the spacing, if there is one.
@@ -109,6 +81,15 @@ PointFilm::Outcome operator+(const PointFilm::Outcome& before, PointFilm::Outcom
   return now;
 }
 
+PointFilm::Outcome follow(const PointFilm& film, const PointWay& way, PointState& state,
+                          const Observer& observer) {
+  return numerics::follow(state, way.steps, [&](PointState& next, double share) {
+    PointConditions conditions = way.conditions_at(share);
+    if (share < 1) conditions.tolerance = std::max(conditions.tolerance, kRoughly);
+    return film.solve(next, conditions, {}, observer);
+  });
+}
+
 PointFilm::Outcome solve_cold(const PointProblem& problem, const PointFilm& film, PointState& state,
                               const Observer& observer) {
   const PointConditions& asked = film.conditions();
@@ -121,7 +102,7 @@ PointFilm::Outcome solve_cold(const PointProblem& problem, const PointFilm& film
   const auto thicken = [&](double share) { return with_share_of_coefficient(asked, share); };
   outcome = outcome + solve_from_hertz(film, thicken(0), state, observer);
   if (!outcome.convergence.converged()) return outcome;
-  return outcome + ramp(film, state, thicken, observer);
+  return outcome + follow(film, {.conditions_at = thicken}, state, observer);
 }
 
 PointState state_of(const PointFilm& film, const PointResult& result) {
