@@ -8,6 +8,7 @@
 
 #include "tabor/core/checks.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/ehl/film.hpp"
 #include "tabor/ehl/line/film.hpp"
 #include "tabor/ehl/plain.hpp"
 #include "tabor/numerics/continuation.hpp"
@@ -59,14 +60,6 @@ LineFilm::Outcome solve_from_hertz(const LineProblem& problem, const LineFilm& f
   return outcome;
 }
 
-LineConditions with_share_of_coefficient(LineConditions conditions, double share) {
-  const material::Viscosity viscosity = conditions.lubricant.viscosity;
-  conditions.lubricant.viscosity =
-      material::make_viscosity(material::law_of(viscosity), material::ambient_viscosity(viscosity),
-                               share * material::pressure_coefficient(viscosity));
-  return conditions;
-}
-
 /// Leads a film from the conditions of share 0 to those of share 1.
 LineFilm::Outcome lead(const LineFilm& film, LineState& state,
                        const std::function<LineConditions(double)>& conditions_at,
@@ -100,7 +93,11 @@ LineFilm::Outcome solve_as_shaped(const LineProblem& problem, const LineFilm& fi
   LineFilm::Outcome outcome = solve_directly(problem, film, conditions, state, observer);
   if (!outcome.convergence.failed()) return outcome;
   if (!(material::pressure_coefficient(conditions.lubricant.viscosity) > 0)) return outcome;
-  const auto thicken = [&](double share) { return with_share_of_coefficient(conditions, share); };
+  const auto thicken = [&](double share) {
+    LineConditions thinner = conditions;
+    thinner.lubricant = with_share_of_coefficient(conditions.lubricant, share);
+    return thinner;
+  };
   outcome = outcome + solve_directly(problem, film, thicken(0), state, observer);
   if (!outcome.convergence.converged()) return outcome;
   return outcome + lead(film, state, thicken, observer);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tabor/ehl/film.hpp"
+
 namespace tabor::ehl {
 namespace {
 
@@ -23,14 +25,6 @@ PointFilm::Outcome solve_from_hertz(const PointFilm& film, const PointConditions
     if (!outcome.convergence.failed()) break;
   }
   return outcome;
-}
-
-PointConditions with_share_of_coefficient(PointConditions conditions, double share) {
-  const material::Viscosity viscosity = conditions.lubricant.viscosity;
-  conditions.lubricant.viscosity =
-      material::make_viscosity(material::law_of(viscosity), material::ambient_viscosity(viscosity),
-                               share * material::pressure_coefficient(viscosity));
-  return conditions;
 }
 
 /// From the solution on a grid of twice the spacing, if there is one.
@@ -99,7 +93,11 @@ PointFilm::Outcome solve_cold(const PointProblem& problem, const PointFilm& film
   }
   const bool has_another_way = material::pressure_coefficient(asked.lubricant.viscosity) > 0;
   if (!outcome.convergence.failed() || !has_another_way) return outcome;
-  const auto thicken = [&](double share) { return with_share_of_coefficient(asked, share); };
+  const auto thicken = [&](double share) {
+    PointConditions thinner = asked;
+    thinner.lubricant = with_share_of_coefficient(asked.lubricant, share);
+    return thinner;
+  };
   outcome = outcome + solve_from_hertz(film, thicken(0), state, observer);
   if (!outcome.convergence.converged()) return outcome;
   return outcome + follow(film, {.conditions_at = thicken}, state, observer);
