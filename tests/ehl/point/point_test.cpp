@@ -147,6 +147,19 @@ TEST(SolvePoint, TakesAHandfulOfProductsPerStepOnAnyGrid) {
   }
 }
 
+TEST(PointFilm, IsTheSameWhereSolidsMayTouchAndDoNot) {
+  const PointProblem problem = compressible(moes_case(100, 8, 49));
+  const PointFilm apart(problem);
+  const PointFilm together(problem, {.solids_touch = true});
+  PointState expected = apart.hertz_start(3 * apart.film_scale());
+  PointState state = expected;
+  ASSERT_TRUE(apart.solve(expected, apart.conditions()).convergence.converged());
+  ASSERT_TRUE(together.solve(state, together.conditions()).convergence.converged());
+  ASSERT_GT(expected.film.minCoeff(), problem.asperities.boundary_film);
+  EXPECT_LE((state.film / expected.film - 1).abs().maxCoeff(), 10 * problem.tolerance);
+  EXPECT_FALSE(state.nodes.unaryExpr(&touches).any());
+}
+
 TEST(SolvePoint, SaysWhyItDidNotConverge) {
   PointProblem problem = moes_case(200, 10, 33);
   problem.max_iterations = 1;

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <optional>
 
 #include "tabor/ehl/point/lines.hpp"
-#include "tabor/ehl/point/multigrid.hpp"
 
 namespace tabor::ehl {
 namespace {
@@ -80,35 +78,44 @@ void PointFilm::Equations::set_contact_row(Index k, Linear& linear) const {
 
 /// Coarser grids know nothing of plastic and touching nodes, so that multigrid serves badly where
 /// there are many: factors of the local equations take its place, on large grids only where it
-/// fails. Where no solids can touch it does not fail but far from any solution.
+/// fails. Where no solids can touch it fails only far from any solution, and another start serves
+/// better.
 Eigen::VectorXd PointFilm::Equations::step() {
   nodes_before_ = state_.nodes;
   merit_before_ = merit();
-  int& n_products = outcome_.convergence.operator_applications;
-  const int before = n_products;
-  const PointLevel& finest = film_.levels_.front();
-  const auto solve = [&](const PointInverse& inverse) {
-    return solve_bordered(linear_, finest, film_.units_, inverse, n_products);
-  };
+  const int before = outcome_.convergence.operator_applications;
+  const Mask touched = touching();
+  const bool is_mixed = linear_.deep.any() || touched.any();
   std::optional<Eigen::VectorXd> step;
-  PointExceptions exceptions{.depth = linear_.deep, .contact = touching()};
-  const bool is_mixed = exceptions.depth.any() || exceptions.contact.any();
-  if (!is_mixed) exceptions = {};
-  if (!is_mixed || film_.grid_.size() > kManyNodes) {
-    const Field film = flowing_film();
-    const PointMultigrid inverse(film_.levels_, linear_.rows, linear_.held, flow_through(film),
-                                 storage_, film_.units_, exceptions);
-    if (inverse.ok()) step = solve(std::cref(inverse));
+  if (!is_mixed) {
+    step = step_by_multigrid({});
+  } else if (film_.grid_.size() > kManyNodes) {
+    step = step_by_multigrid({.depth = linear_.deep, .contact = touched});
   }
-  if (!step && film_.options_.solids_touch) {
-    const PointDirect direct(PointLocal(linear_.rows, linear_.held, finest.elastic, linear_.deep));
-    const auto inverse = [&](const Field& right) -> Field {
-      return linear_.held.select(right, direct(right));
-    };
-    if (direct.ok()) step = solve(inverse);
-  }
-  outcome_.n_linear_iterations += n_products - before;
+  if (!step && film_.options_.solids_touch) step = step_by_factors();
+  outcome_.n_linear_iterations += outcome_.convergence.operator_applications - before;
   return step.value_or(Eigen::VectorXd());
+}
+
+std::optional<Eigen::VectorXd> PointFilm::Equations::step_by_multigrid(
+    const PointExceptions& exceptions) {
+  const Field film = flowing_film();
+  const PointMultigrid inverse(film_.levels_, linear_.rows, linear_.held, flow_through(film),
+                               storage_, film_.units_, exceptions);
+  if (!inverse.ok()) return std::nullopt;
+  return solve_bordered(linear_, film_.levels_.front(), film_.units_, std::cref(inverse),
+                        outcome_.convergence.operator_applications);
+}
+
+std::optional<Eigen::VectorXd> PointFilm::Equations::step_by_factors() {
+  const PointLevel& finest = film_.levels_.front();
+  const PointDirect direct(PointLocal(linear_.rows, linear_.held, finest.elastic, linear_.deep));
+  if (!direct.ok()) return std::nullopt;
+  const auto inverse = [&](const Field& right) -> Field {
+    return linear_.held.select(right, direct(right));
+  };
+  return solve_bordered(linear_, finest, film_.units_, inverse,
+                        outcome_.convergence.operator_applications);
 }
 
 /// Norm of what is not yet balanced: of the film, of contact, and of cavity that gains liquid.

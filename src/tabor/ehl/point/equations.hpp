@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
 #include "tabor/ehl/point/bordered.hpp"
 #include "tabor/ehl/point/film.hpp"
+#include "tabor/ehl/point/multigrid.hpp"
 
 namespace tabor::ehl {
 
@@ -37,6 +39,8 @@ class PointFilm::Equations {
   Mask held() const;
   void set_contact_row(Index k, Linear& linear) const;
   double merit() const;
+  std::optional<Eigen::VectorXd> step_by_multigrid(const PointExceptions& exceptions);
+  std::optional<Eigen::VectorXd> step_by_factors();
 
   void move_node(Index k, double change);
   bool settle_node(Index k, double old_film);
