@@ -26,7 +26,7 @@ bool PointFilm::Equations::move(const PointState& old, const Eigen::VectorXd& st
   const auto range = material::computable_range(conditions_.lubricant);
   if (!range.contains(state_.pressure.maxCoeff())) return false;
   state_.film = film_.film_of(state_, conditions_.shape);
-  if (!is_open(old)) return false;
+  if (!settle_gap(old)) return false;
   linear_ = linearize();
   return merit() <= kMayGrow * merit_before_;
 }
@@ -54,19 +54,16 @@ void PointFilm::Equations::move_node(Index k, double change) {
   }
 }
 
-/// Whether a step leaves enough of the film to be believed: of the thinnest; where solids touch, of
-/// the film at every node.
-bool PointFilm::Equations::is_open(const PointState& old) {
-  if (!film_.options_.solids_touch) return state_.film.minCoeff() > kThinnest * old.film.minCoeff();
-  bool is_open = true;
-  for (Index k = 0; k < state_.film.size() && is_open; ++k) {
-    is_open = settle_node(k, old.film.data()[k]);
+/// Gives nodes the depth or the contact that their gap asks for. False where a film was lost too
+/// fast to believe.
+bool PointFilm::Equations::settle_gap(const PointState& old) {
+  for (Index k = 0; k < state_.film.size(); ++k) {
+    if (!settle_node(k, old.film.data()[k])) return false;
   }
-  return is_open;
+  return true;
 }
 
-/// Gives a node the depth or the contact that its gap asks for. False where a film was lost too
-/// fast to believe.
+/// The same for one node.
 bool PointFilm::Equations::settle_node(Index k, double old_film) {
   const double boundary = film_.boundary_film_;
   PointNode& node = state_.nodes.data()[k];

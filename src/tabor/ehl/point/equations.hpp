@@ -44,7 +44,7 @@ class PointFilm::Equations {
 
   void move_node(Index k, double change);
   bool settle_node(Index k, double old_film);
-  bool is_open(const PointState& old);
+  bool settle_gap(const PointState& old);
   bool change_nodes();
 
   const PointFilm& film_;
