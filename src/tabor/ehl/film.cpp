@@ -13,4 +13,12 @@ double smallest_film(const Eigen::ArrayXd& film) {
   return curvature > 0 ? least - slope * slope / (8 * curvature) : least;
 }
 
+material::Lubricant with_share_of_coefficient(material::Lubricant lubricant, double share) {
+  const material::Viscosity viscosity = lubricant.viscosity;
+  lubricant.viscosity =
+      material::make_viscosity(material::law_of(viscosity), material::ambient_viscosity(viscosity),
+                               share * material::pressure_coefficient(viscosity));
+  return lubricant;
+}
+
 }  // namespace tabor::ehl

@@ -2,10 +2,15 @@
 
 #include <Eigen/Core>
 
+#include "tabor/material/lubricant.hpp"
+
 /// What the films of all programs have in common.
 namespace tabor::ehl {
 
 /// The smallest film [m], by a parabola through the thinnest node and its neighbours.
 double smallest_film(const Eigen::ArrayXd& film);
+
+/// The liquid with a share of its pressure-viscosity coefficient; 0: pressure does not thicken it.
+material::Lubricant with_share_of_coefficient(material::Lubricant lubricant, double share);
 
 }  // namespace tabor::ehl

@@ -70,10 +70,11 @@ TEST(SolveLine, SaysWhyItDidNotConverge) {
   LineProblem problem = table_6();
   problem.nodes = 300;
   const LineFilm film(problem);
-  LineState state = film.hertz_start(10 * film_groups_of(problem).moes_min_film());
-  EXPECT_EQ(film.solve(state, {}, 1).convergence.status, Status::iteration_limit);
+  const LineConditions& asked = film.conditions();
+  LineState state = film.hertz_start(10 * film_groups_of(problem).moes_min_film(), asked);
+  EXPECT_EQ(film.solve(state, asked, {}, 1).convergence.status, Status::iteration_limit);
   state.pressure[150] = std::nan("");  // leads nowhere
-  EXPECT_EQ(film.solve(state, {}, 40).convergence.status, Status::stalled);
+  EXPECT_EQ(film.solve(state, asked, {}, 40).convergence.status, Status::stalled);
 }
 
 TEST(SolveLine, AgreesWithTable6) {

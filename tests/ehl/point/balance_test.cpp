@@ -153,13 +153,14 @@ TEST(PointBalance, KapitzasPressureBalancesToSecondOrder) {
 
 TEST(PointFilm, ASteadyFilmStaysWhenTimeGoesOn) {
   const PointProblem problem = compressible(moes_case(100, 8, 33));
-  PointFilm film(problem);
+  const PointFilm film(problem);
   PointState state = film.hertz_start(3 * film.film_scale());
-  ASSERT_TRUE(film.solve(state, {}).convergence.converged());
+  ASSERT_TRUE(film.solve(state, film.conditions()).convergence.converged());
   const double before = state.film(16, 24);
   const double step = film.grid().dx() / problem.entrainment_speed;
-  ASSERT_TRUE(film.solve(state, {.time_step = step, .old_mass = film.mass_of(state)})
-                  .convergence.converged());
+  ASSERT_TRUE(
+      film.solve(state, film.conditions(), {.time_step = step, .old_mass = film.mass_of(state)})
+          .convergence.converged());
   EXPECT_NEAR(state.film(16, 24) / before, 1, 1e-5);
 }
 

@@ -138,13 +138,26 @@ TEST(SolvePoint, RoughnessThatLeavesAFilmChangesPressureAndFilm) {
 TEST(SolvePoint, TakesAHandfulOfProductsPerStepOnAnyGrid) {
   for (const Index nodes : {33, 65, 97}) {
     const PointProblem problem = compressible(moes_case(200, 10, nodes));
-    PointFilm film(problem);
+    const PointFilm film(problem);
     PointState state = film.hertz_start(3 * film.film_scale());
-    const PointFilm::Outcome outcome = film.solve(state, {});
+    const PointFilm::Outcome outcome = film.solve(state, film.conditions());
     ASSERT_TRUE(outcome.convergence.converged());
     EXPECT_LE(outcome.convergence.iterations, 12);
     EXPECT_LE(outcome.n_linear_iterations, 6 * outcome.convergence.iterations);
   }
+}
+
+TEST(PointFilm, IsTheSameWhereSolidsMayTouchAndDoNot) {
+  const PointProblem problem = compressible(moes_case(100, 8, 49));
+  const PointFilm apart(problem);
+  const PointFilm together(problem, {.solids_touch = true});
+  PointState expected = apart.hertz_start(3 * apart.film_scale());
+  PointState state = expected;
+  ASSERT_TRUE(apart.solve(expected, apart.conditions()).convergence.converged());
+  ASSERT_TRUE(together.solve(state, together.conditions()).convergence.converged());
+  ASSERT_GT(expected.film.minCoeff(), problem.asperities.boundary_film);
+  EXPECT_LE((state.film / expected.film - 1).abs().maxCoeff(), 10 * problem.tolerance);
+  EXPECT_FALSE(state.nodes.unaryExpr(&touches).any());
 }
 
 TEST(SolvePoint, SaysWhyItDidNotConverge) {
@@ -153,9 +166,9 @@ TEST(SolvePoint, SaysWhyItDidNotConverge) {
   const PointResult result = solve_point(problem);
   EXPECT_EQ(result.convergence.status, Status::iteration_limit);
   EXPECT_EQ(result.film.size(), 33 * 33);
-  PointFilm film(problem);
+  const PointFilm film(problem);
   PointState overlapping = film.hertz_start(-film_unit(problem));
-  EXPECT_EQ(film.solve(overlapping, {}).convergence.status, Status::stalled);
+  EXPECT_EQ(film.solve(overlapping, film.conditions()).convergence.status, Status::stalled);
 }
 
 // From Hertz' pressure on two grids; from a film at hand; and where nothing converges, so that all

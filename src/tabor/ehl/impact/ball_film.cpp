@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "tabor/numerics/newton.hpp"
+
 namespace tabor::ehl {
 
 namespace {
@@ -12,6 +14,7 @@ namespace {
 constexpr int kMaxNewton = 25;
 constexpr double kLinearAccuracy = 1e-2;  // of each Newton correction
 constexpr int kMaxHalvings = 6;
+constexpr double kThinnest = 0.1;       // a step may leave this much of the thinnest film
 constexpr double kTinyPressure = 1e-3;  // [Pa]: less than this is no pressure
 
 /// Three bands: lower[i] multiplies x[i - 1], upper[i] multiplies x[i + 1].
@@ -246,21 +249,47 @@ struct BallStepper::Trial {
     matrix.row(n).head(n) = -force_share() * ball.pressure_scale * ball.grid.volume.matrix();
     matrix(n, n) = 1;
   }
+};
 
-  /// Applies a Newton correction, halved until the gap stays open. False if that does not help.
-  bool correct(const Eigen::VectorXd& x) {
-    if (!x.allFinite()) return false;
-    const BallState old = state;
-    const double floor = 0.1 * std::min(old.film.minCoeff(), now.film.minCoeff());
-    const material::PressureRange range = material::computable_range(ball.lubricant);
-    double share = 1;
-    for (int i = 0; i <= kMaxHalvings; ++i, share /= 2) {
-      state.pressure = old.pressure + share * ball.pressure_scale * x.head(n).array();
-      state.separation = old.separation + share * ball.length_scale * x[n];
-      state.film = film_of(ball, state.separation, state.pressure.max(0));
-      if (state.film.minCoeff() > floor && state.pressure.maxCoeff() < range.highest) return true;
-    }
-    return false;
+/// The same for Newton's method.
+struct BallStepper::Equations {
+  Trial& trial;
+  numerics::LaggedFactorisation& solver;
+  Convergence account;
+
+  BallState& state() { return trial.state; }
+  Convergence& convergence() { return account; }
+
+  Eigen::VectorXd step() {
+    return solver.solve(
+        trial.right_hand_side(), kLinearAccuracy,
+        [&](const Eigen::VectorXd& in, Eigen::VectorXd& out) { trial.multiply(in, out); },
+        [&](Eigen::MatrixXd& matrix) { trial.assemble(matrix); });
+  }
+  double largest_share(const Eigen::VectorXd&) const { return 1; }
+
+  /// False where the gap would close or a law would end.
+  bool move(const BallState& old, const Eigen::VectorXd& step, double share) {
+    const BallFilm& ball = trial.ball;
+    BallState& state = trial.state;
+    state.pressure = old.pressure + share * ball.pressure_scale * step.head(trial.n).array();
+    state.separation = old.separation + share * ball.length_scale * step[trial.n];
+    state.film = film_of(ball, state.separation, state.pressure.max(0));
+    const double floor = kThinnest * std::min(old.film.minCoeff(), trial.now.film.minCoeff());
+    return state.film.minCoeff() > floor &&
+           state.pressure.maxCoeff() < material::computable_range(ball.lubricant).highest;
+  }
+
+  bool settle() {
+    const bool grows = trial.drop_suction();
+    trial.linearize();
+    const bool shrinks = trial.refill();
+    return !grows && !shrinks;
+  }
+
+  bool measure() {
+    account.certificate = trial.error();
+    return account.certificate <= kBallTolerance;
   }
 };
 
@@ -275,27 +304,17 @@ std::optional<BallState> BallStepper::step(const BallState& now, const BallState
                                            double time_step) {
   Trial trial(ball_, now, before, time_step);
   trial.linearize();
-  for (int i = 0; i < kMaxNewton; ++i) {
-    ++newton_iterations_;
-    const Eigen::VectorXd x = solver_.solve(
-        trial.right_hand_side(), kLinearAccuracy,
-        [&](const Eigen::VectorXd& in, Eigen::VectorXd& out) { trial.multiply(in, out); },
-        [&](Eigen::MatrixXd& matrix) { trial.assemble(matrix); });
-    if (!trial.correct(x)) return std::nullopt;
-    bool changed = trial.drop_suction();
-    trial.linearize();
-    changed = trial.refill() || changed;
-    error_ = trial.error();
-    if (!changed && error_ <= kBallTolerance) {
-      prediction_error_ = (trial.state.pressure - trial.predicted_pressure).abs().maxCoeff() /
-                          std::max(trial.state.pressure.maxCoeff(), kTinyPressure);
-      BallState state = completed(ball_, std::move(trial.state));
-      state.time = now.time + time_step;
-      state.speed = 2 * (state.separation - now.separation) / time_step - now.speed;
-      return state;
-    }
-  }
-  return std::nullopt;
+  Equations equations{trial, solver_, {.certificate = error_, .tolerance = kBallTolerance}};
+  numerics::newton(equations, {.max_iterations = kMaxNewton, .max_halvings = kMaxHalvings});
+  newton_iterations_ += equations.account.iterations;
+  error_ = equations.account.certificate;
+  if (!equations.account.converged()) return std::nullopt;
+  prediction_error_ = (trial.state.pressure - trial.predicted_pressure).abs().maxCoeff() /
+                      std::max(trial.state.pressure.maxCoeff(), kTinyPressure);
+  BallState state = completed(ball_, std::move(trial.state));
+  state.time = now.time + time_step;
+  state.speed = 2 * (state.separation - now.separation) / time_step - now.speed;
+  return state;
 }
 
 }  // namespace tabor::ehl

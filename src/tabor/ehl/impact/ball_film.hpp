@@ -68,6 +68,7 @@ class BallStepper {
 
  private:
   struct Trial;
+  struct Equations;
   const BallFilm& ball_;
   numerics::LaggedFactorisation solver_;
   int newton_iterations_ = 0;

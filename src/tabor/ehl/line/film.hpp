@@ -32,21 +32,19 @@ struct LineStorage {
 /// y at a place x, by straight lines between equal nodes; the outer ones go on.
 double value_between_nodes(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, double at);
 
-/// Balances and load of a state, in units of u_m times the unit of film, and their derivatives by
-/// the unknowns. Balances of the cavity say what its nodes lack to stay full.
-struct LineLinear {
-  LineSystem system;
-  Eigen::VectorXd residual;  ///< as the right side of the system
-
-  double& load_residual() { return residual[residual.size() - 1]; }
-};
-
 /// Whether the inlet of this film [m] exists on the grid. Where it does not, a film a thousand
 /// times too thin can balance as well, and Newton's method may come to it. Where solids touch, they
 /// set its thickness.
 bool sees_inlet(const LineProblem& problem, const Eigen::ArrayXd& x, const Eigen::ArrayXd& film);
 
-/// The equations of a line contact at its nodes and their solution by Newton's method.
+/// What a film is found under: all that changes on the way to a solution, and in time.
+struct LineConditions {
+  Eigen::ArrayXd shape;  ///< gap of the undeformed bodies [m]: x^2/(2 R) - s, and wear
+  material::Lubricant lubricant;
+  double speed = 0;  ///< u_m [m/s], of either sign
+};
+
+/// A line contact at its nodes and its solution by Newton's method (numerics/newton.hpp).
 class LineFilm {
  public:
   /// `full_matrix`: factorized in each iteration, instead of products with it.
@@ -54,17 +52,12 @@ class LineFilm {
 
   Index n() const { return n_; }
   const Eigen::ArrayXd& x() const { return x_; }
-  const LineUnits& units() const { return units_; }
-  /// Gap of the undeformed bodies [m]: x^2/(2 R) - s, and wear.
-  Eigen::ArrayXd shape;
-  material::Lubricant lubricant;
-  double load = 0;   ///< [N/m]
-  double speed = 0;  ///< u_m [m/s], of either sign
+  const LineConditions& conditions() const { return conditions_; }  ///< of the problem
+  bool has_asperities() const { return problem_.asperities.boundary_film > 0; }
 
   /// Hertz' pressure, spread wider where the bodies are so stiff that the film is wider than their
   /// contact, and h0 such that the film is `min_film` [m] where it is thinnest.
-  LineState hertz_start(double min_film) const;
-  bool has_asperities() const { return problem_.asperities.boundary_film > 0; }
+  LineState hertz_start(double min_film, const LineConditions& conditions) const;
   Eigen::ArrayXd mass_of(const LineState& state) const;  ///< rho/rho0 h [m]
   /// P [Pa] without the traces that the method leaves where nothing touches.
   Eigen::ArrayXd touching_pressure(const LineState& state) const;
@@ -76,27 +69,17 @@ class LineFilm {
     double contact_error = 0;
   };
   /// Advances `state` to a solution; leaves it where Newton's method ended if there is none.
-  Outcome solve(LineState& state, const LineStorage& storage, int max_iterations,
-                const Observer& observer = {}) const;
+  Outcome solve(LineState& state, const LineConditions& conditions, const LineStorage& storage,
+                int max_iterations, const Observer& observer = {}) const;
   /// The same with asperities that touch. `state` need not hold anything.
-  Outcome solve_touching(LineState& state, const Observer& observer = {}) const;
+  Outcome solve_touching(LineState& state, const LineConditions& conditions,
+                         const Observer& observer = {}) const;
 
  private:
-  LineState asperity_start() const;
-  LineLinear linearize(const LineState& state, const LineStorage& storage) const;
-  void add_touch(const LineState& state, LineLinear& linear) const;
-  void update_film(LineState& state) const;
+  class Equations;  // line/equations.hpp
+  LineState asperity_start(const LineConditions& conditions) const;
   Eigen::ArrayXd deflection(const Eigen::ArrayXd& pressure) const;
-  double mass_error(const LineLinear& linear, const LineState& state) const;
-  bool is_balanced(const LineState& state, const Outcome& outcome) const;
-  Eigen::ArrayXd overlap_products(const LineState& state) const;
-  Eigen::VectorXd newton_step(LineLinear linear, const LineState& state, int& n_products) const;
-  bool correct(const Eigen::VectorXd& step, LineState& state) const;
-  void move(const LineState& old, const Eigen::VectorXd& step, double share,
-            LineState& state) const;
-  double share_before_touch(const LineState& old, const Eigen::VectorXd& step) const;
-  bool is_open(const LineState& state, double floor) const;
-  bool refill(const LineLinear& linear, LineState& state, Index reach) const;
+  Eigen::ArrayXd film_of(const LineState& state, const Eigen::ArrayXd& shape) const;
 
   LineProblem problem_;
   bool full_matrix_;
@@ -104,6 +87,7 @@ class LineFilm {
   Eigen::ArrayXd x_;
   double spacing_;
   elastic::LineHalfSpace elastic_;
+  LineConditions conditions_;
   LineUnits units_;
   double pressed_width_;  // [m], half of it
   double film_scale_;     // [m], of the film in the contact: residuals are compared with it

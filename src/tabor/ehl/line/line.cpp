@@ -8,8 +8,10 @@
 
 #include "tabor/core/checks.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/ehl/film.hpp"
 #include "tabor/ehl/line/film.hpp"
 #include "tabor/ehl/plain.hpp"
+#include "tabor/numerics/continuation.hpp"
 
 namespace tabor::ehl {
 namespace {
@@ -19,8 +21,6 @@ constexpr double kMinNodesPerHalfWidth = 8;
 /// The film of the first guess over Moes': Newton's method comes down safely from a thick film,
 /// where the flow depends on the pressure gradient, and may jump far from a thin one.
 constexpr double kFirstFilms[] = {10, 3, 40};
-constexpr double kFirstStep = 0.5;  // of the continuation in the pressure coefficient
-constexpr double kSmallestStep = 1.0 / 64;
 
 void check_domain(const LineProblem& problem) {
   const double half_width = hertz_of(problem).half_width;
@@ -51,83 +51,73 @@ void require_inlet(const LineProblem& problem, const LineFilm& film, const LineS
 }
 
 /// From Hertz' pressure and a film `first` times that of Moes.
-LineFilm::Outcome solve_from_hertz(const LineProblem& problem, const LineFilm& film, double first,
-                                   LineState& state, const Observer& observer) {
-  state = film.hertz_start(first * film_groups_of(problem).moes_min_film());
-  LineFilm::Outcome outcome = film.solve(state, {}, kMaxIterations, observer);
+LineFilm::Outcome solve_from_hertz(const LineProblem& problem, const LineFilm& film,
+                                   const LineConditions& conditions, double first, LineState& state,
+                                   const Observer& observer) {
+  state = film.hertz_start(first * film_groups_of(problem).moes_min_film(), conditions);
+  LineFilm::Outcome outcome = film.solve(state, conditions, {}, kMaxIterations, observer);
   require_inlet(problem, film, state, outcome);
   return outcome;
 }
 
-material::Viscosity with_share_of_coefficient(const material::Viscosity& viscosity, double share) {
-  return material::make_viscosity(material::law_of(viscosity),
-                                  material::ambient_viscosity(viscosity),
-                                  share * material::pressure_coefficient(viscosity));
-}
-
-/// Leads a film from share 0 to share 1 of what `apply` sets, in steps that shrink when one fails.
-/// Stalled where they would be too short.
-LineFilm::Outcome ramp(LineFilm& film, LineState& state, const std::function<void(double)>& apply,
+/// Leads a film from the conditions of share 0 to those of share 1.
+LineFilm::Outcome lead(const LineFilm& film, LineState& state,
+                       const std::function<LineConditions(double)>& conditions_at,
                        const Observer& observer) {
-  LineFilm::Outcome outcome;
-  double share = 0;
-  Convergence& convergence = outcome.convergence;
-  for (double step = kFirstStep; share < 1 && step > kSmallestStep && !convergence.stopped();) {
-    LineState next = state;
-    const double aim = std::min(1.0, share + step);
-    apply(aim);
-    outcome = outcome + film.solve(next, {}, kMaxIterations, observer);
-    if (convergence.converged()) {
-      state = next;
-      share = aim;
-    }
-    step *= convergence.converged() ? 1.5 : 0.5;
-  }
-  apply(1);
-  if (convergence.failed()) convergence.status = Status::stalled;
-  return outcome;
+  return numerics::follow(state, {}, [&](LineState& next, double share) {
+    return film.solve(next, conditions_at(share), {}, kMaxIterations, observer);
+  });
 }
 
 /// From the pressure of Hertz; with asperities if they touch, or if that fails.
-LineFilm::Outcome solve_directly(const LineProblem& problem, const LineFilm& film, LineState& state,
+LineFilm::Outcome solve_directly(const LineProblem& problem, const LineFilm& film,
+                                 const LineConditions& conditions, LineState& state,
                                  const Observer& observer) {
   LineFilm::Outcome outcome;
   for (const double first : kFirstFilms) {
-    outcome = outcome + solve_from_hertz(problem, film, first, state, observer);
+    outcome = outcome + solve_from_hertz(problem, film, conditions, first, state, observer);
     const bool is_open = outcome.convergence.converged() &&
                          state.film.minCoeff() >= problem.asperities.boundary_film;
     if (film.has_asperities() && !is_open && !outcome.convergence.stopped()) {
-      outcome = outcome + film.solve_touching(state, observer);
+      outcome = outcome + film.solve_touching(state, conditions, observer);
     }
     if (!outcome.convergence.failed() || film.has_asperities()) break;
   }
   return outcome;
 }
 
-/// From Hertz' pressure; if that fails, from the film of smooth bodies and, if that fails too, of a
-/// viscosity that does not grow with pressure.
-LineFilm::Outcome solve_cold(const LineProblem& problem, LineFilm& film,
-                             const Eigen::ArrayXd& roughness, LineState& state,
-                             const Observer& observer) {
-  LineFilm::Outcome outcome = solve_directly(problem, film, state, observer);
+/// From Hertz' pressure; if that fails, from a viscosity that does not grow with pressure.
+LineFilm::Outcome solve_as_shaped(const LineProblem& problem, const LineFilm& film,
+                                  const LineConditions& conditions, LineState& state,
+                                  const Observer& observer) {
+  LineFilm::Outcome outcome = solve_directly(problem, film, conditions, state, observer);
   if (!outcome.convergence.failed()) return outcome;
-  if (roughness.size() > 0) {
-    const Eigen::ArrayXd rough = film.shape;
-    film.shape = rough + roughness;
-    outcome = outcome + solve_cold(problem, film, {}, state, observer);
-    if (!outcome.convergence.converged()) return outcome;
-    const auto roughen = [&](double share) { film.shape = rough + (1 - share) * roughness; };
-    return outcome + ramp(film, state, roughen, observer);
-  }
-  const material::Viscosity viscosity = film.lubricant.viscosity;
-  if (!(material::pressure_coefficient(viscosity) > 0)) return outcome;
-  film.lubricant.viscosity = with_share_of_coefficient(viscosity, 0);
-  outcome = outcome + solve_directly(problem, film, state, observer);
-  if (!outcome.convergence.converged()) return outcome;
+  if (!(material::pressure_coefficient(conditions.lubricant.viscosity) > 0)) return outcome;
   const auto thicken = [&](double share) {
-    film.lubricant.viscosity = with_share_of_coefficient(viscosity, share);
+    LineConditions thinner = conditions;
+    thinner.lubricant = with_share_of_coefficient(conditions.lubricant, share);
+    return thinner;
   };
-  return outcome + ramp(film, state, thicken, observer);
+  outcome = outcome + solve_directly(problem, film, thicken(0), state, observer);
+  if (!outcome.convergence.converged()) return outcome;
+  return outcome + lead(film, state, thicken, observer);
+}
+
+/// Of rough bodies that fail so, from the film of smooth ones.
+LineFilm::Outcome solve_cold(const LineProblem& problem, const LineFilm& film, LineState& state,
+                             const Observer& observer) {
+  const LineConditions& asked = film.conditions();
+  if (problem.roughness.size() == 0) return solve_as_shaped(problem, film, asked, state, observer);
+  LineFilm::Outcome outcome = solve_directly(problem, film, asked, state, observer);
+  if (!outcome.convergence.failed()) return outcome;
+  const auto roughen = [&](double share) {
+    LineConditions conditions = asked;
+    conditions.shape += (1 - share) * problem.roughness;
+    return conditions;
+  };
+  outcome = outcome + solve_as_shaped(problem, film, roughen(0), state, observer);
+  if (!outcome.convergence.converged()) return outcome;
+  return outcome + lead(film, state, roughen, observer);
 }
 
 }  // namespace
@@ -180,9 +170,9 @@ void check_line(const LineProblem& problem) {
 
 namespace {
 
-LineResult solve(const LineProblem& problem, LineFilm film, const Observer& observer) {
+LineResult solve(const LineProblem& problem, const LineFilm& film, const Observer& observer) {
   LineState state;
-  LineFilm::Outcome outcome = solve_cold(problem, film, problem.roughness, state, observer);
+  LineFilm::Outcome outcome = solve_cold(problem, film, state, observer);
   require_inlet(problem, film, state, outcome);
   LineResult result;
   result.x = film.x();

@@ -167,7 +167,8 @@ class Wearing {
   explicit Wearing(const WearProblem& problem)
       : problem_(problem),
         film_(problem.contact),
-        smooth_(film_.shape),
+        smooth_(film_.conditions().shape),
+        conditions_(film_.conditions()),
         spacing_(film_.x()[1] - film_.x()[0]),
         track_(problem, spacing_),
         motion_(problem, track_.size(), spacing_) {}
@@ -196,7 +197,7 @@ class Wearing {
   void start(const Observer& observer) {
     lay_track(0);
     LineProblem rough = problem_.contact;
-    rough.roughness = smooth_ - film_.shape;
+    rough.roughness = smooth_ - conditions_.shape;
     const LineResult steady = solve_line(rough, observer);
     state_.pressure = steady.pressure;
     state_.separation = steady.separation;
@@ -215,8 +216,8 @@ class Wearing {
     const LineStorage storage{.time_step = end - begin, .old_mass = film_.mass_of(state_)};
     const LineState old = state_;
     lay_track(end);
-    film_.speed = share * problem_.contact.entrainment_speed;
-    const LineFilm::Outcome outcome = film_.solve(state_, storage, kMaxIterations);
+    conditions_.speed = share * problem_.contact.entrainment_speed;
+    const LineFilm::Outcome outcome = film_.solve(state_, conditions_, storage, kMaxIterations);
     result_.convergence = after(result_.convergence, outcome.convergence);
     if (!outcome.convergence.converged()) {
       if (n_halvings == kMaxHalvings) {
@@ -238,7 +239,7 @@ class Wearing {
 
   void lay_track(double time) {
     track_.move_to(motion_.node(time));
-    for (Index i = 0; i < film_.n(); ++i) film_.shape[i] = smooth_[i] - track_.height(i);
+    for (Index i = 0; i < film_.n(); ++i) conditions_.shape[i] = smooth_[i] - track_.height(i);
   }
 
   void record(double slid, double speed) {
@@ -262,7 +263,8 @@ class Wearing {
 
   const WearProblem& problem_;
   LineFilm film_;
-  Eigen::ArrayXd smooth_;  // gap of the undeformed bodies without the track's heights [m]
+  Eigen::ArrayXd smooth_;      // gap of the undeformed bodies without the track's heights [m]
+  LineConditions conditions_;  // where the track is now
   double spacing_;
   Track track_;
   Motion motion_;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "tabor/ehl/point/mixed_film.hpp"
+#include "tabor/ehl/point/film.hpp"
 #include "tabor/ehl/point/start.hpp"
 #include "tabor/numerics/field_statistics.hpp"
 
@@ -13,50 +13,49 @@ namespace {
 
 using Outcome = PointFilm::Outcome;
 
-constexpr double kRoughly = 1e-2;       // tolerance where a solution is only a start
 constexpr double kClearance = 2;        // film of a smooth start, in rms heights
 constexpr double kBoundaryFilms = 5;    // ... or in boundary films
 constexpr double kFastest = 1e6;        // speed of a start over the one asked for, at most
 constexpr double kFilmExponent = 0.67;  // film ~ speed^0.67, Hamrock & Dowson 1977
 constexpr double kLogStep = 1.2;        // of the speed, at first: a factor of 3.3
-constexpr double kSmallestStep = 1.0 / 32;
+constexpr double kShortest = 1.0 / 32;  // step over the first
+/// Boundary films that count as touching in results: a boundary film that left a pressure of GPa is
+/// thicker by the ratio of densities, at most 1.35 by Dowson & Higginson.
+constexpr double kTouchingFilm = 1.5;
 
-/// A way from a state to another: apply(share) sets the film up for a share 0..1 of it.
-struct Way {
-  std::function<void(double)> apply;
-  double first_step = 1;
-};
-
-/// Leads `state` to the end of the way in steps that shrink where one fails; those before the last
-/// are solved roughly. Stalled where they would be too short.
-Outcome follow(MixedFilm& film, const Way& way, MixedState& state, const Observer& observer) {
-  Outcome outcome;
-  const double tolerance = film.tolerance;
-  double share = 0;
-  const double smallest_step = kSmallestStep * way.first_step;
-  Convergence& convergence = outcome.convergence;
-  for (double step = way.first_step; share < 1 && step > smallest_step && !convergence.stopped();) {
-    MixedState next = state;
-    const double aim = std::min(1.0, share + step);
-    way.apply(aim);
-    film.tolerance = aim < 1 ? std::max(tolerance, kRoughly) : tolerance;
-    outcome = outcome + film.solve(next, observer);
-    if (convergence.converged()) share = aim;
-    if (convergence.converged() || aim >= 1) state = next;
-    step *= convergence.converged() ? 1.5 : 0.5;
-  }
-  way.apply(1);
-  film.tolerance = tolerance;
-  if (convergence.failed()) convergence.status = Status::stalled;
-  return outcome;
+/// The conditions of a film at another speed; sliding goes in proportion.
+PointConditions at_speed(const PointProblem& problem, PointConditions conditions, double speed) {
+  conditions.speed = speed;
+  conditions.sliding_speed = problem.sliding_speed * speed / problem.entrainment_speed;
+  return conditions;
 }
 
-/// From one speed to another in equal factors.
-Way change_speed(MixedFilm& film, double from, double to) {
-  const double distance = std::log(to / from);
-  return {.apply = [&film, from,
-                    distance](double share) { film.set_speed(from * std::exp(share * distance)); },
-          .first_step = std::min(1.0, kLogStep / std::max(kLogStep, std::abs(distance)))};
+numerics::ContinuationSteps steps_of(double first) {
+  return {.first = first, .smallest = kShortest * first, .keeps_end = true};
+}
+
+/// From one speed to that of the problem in equal factors.
+PointWay change_speed(const PointProblem& problem, const PointFilm& film, double from) {
+  const double distance = std::log(problem.entrainment_speed / from);
+  return {.conditions_at =
+              [&problem, &film, from, distance](double share) {
+                const double speed = from * std::exp(share * distance);
+                return at_speed(problem, film.conditions(), speed);
+              },
+          .steps = steps_of(std::min(1.0, kLogStep / std::max(kLogStep, std::abs(distance))))};
+}
+
+/// From smooth bodies to those of the problem at a speed.
+PointWay roughen(const PointProblem& problem, const PointFilm& film, double speed) {
+  return {.conditions_at =
+              [&problem, &film, speed](double share) {
+                PointConditions conditions = at_speed(problem, film.conditions(), speed);
+                if (problem.roughness.size() > 0) {
+                  conditions.shape += (1 - share) * problem.roughness;
+                }
+                return conditions;
+              },
+          .steps = steps_of(1)};
 }
 
 /// u_m [m/s] at which the film of smooth bodies clears the roughness and the boundary film.
@@ -82,23 +81,77 @@ Outcome solve_smooth(const PointProblem& problem, double speed, PointState& stat
   return solve_cold(smooth, film, state, observer);
 }
 
-Outcome solve_from_smooth(const PointProblem& problem, MixedFilm& film, MixedState& state,
+/// A film of bodies that knew neither contact nor a cap on the pressure.
+PointState capped(const PointProblem& problem, const PointFilm& film, PointState state) {
+  state.pressure = state.pressure.min(problem.plastic_pressure);
+  for (Index k = 0; k < state.nodes.size(); ++k) {
+    if (!film.in_domain(k)) state.nodes.data()[k] = PointNode::cavity;
+  }
+  return state;
+}
+
+Outcome solve_from_smooth(const PointProblem& problem, const PointFilm& film, PointState& state,
                           const Observer& observer) {
   const double first_speed = clear_speed(problem);
-  PointState smooth;
-  Outcome outcome = solve_smooth(problem, first_speed, smooth, observer);
-  film.share_of_roughness = 0;
-  film.set_speed(first_speed);
-  state = film.state_from(smooth);
-  const Way roughen{.apply = [&film](double share) { film.share_of_roughness = share; }};
-  if (outcome.convergence.converged()) outcome = outcome + follow(film, roughen, state, observer);
+  Outcome outcome = solve_smooth(problem, first_speed, state, observer);
+  state = capped(problem, film, state);
+  if (!outcome.convergence.converged()) return outcome;
+  outcome = outcome + follow(film, roughen(problem, film, first_speed), state, observer);
   if (outcome.convergence.converged() && first_speed > problem.entrainment_speed) {
-    const Way slow = change_speed(film, first_speed, problem.entrainment_speed);
+    const PointWay slow = change_speed(problem, film, first_speed);
     outcome = outcome + follow(film, slow, state, observer);
   }
-  film.share_of_roughness = 1;
-  film.set_speed(problem.entrainment_speed);
   return outcome;
+}
+
+PointNode node_of(double pressure, double film, double plastic_depth) {
+  if (pressure <= 0) return PointNode::cavity;
+  if (plastic_depth > 0) return film <= 0 ? PointNode::plastic_touching : PointNode::plastic;
+  return film <= 0 ? PointNode::touching : PointNode::liquid;
+}
+
+/// The state of a result, which may be of another grid.
+PointState mixed_state_of(const PointProblem& problem, const PointFilm& film,
+                          const PointResult& result) {
+  PointState state{.pressure = result.pressure,
+                   .plastic_depth = Field::Zero(film.grid().ny, film.grid().nx),
+                   .separation = result.separation,
+                   .film = {},
+                   .nodes = {}};
+  if (result.contact_pressure.size() > 0) state.pressure += result.contact_pressure;
+  const bool same_grid = result.grid == film.grid();
+  if (!same_grid) {
+    state.pressure = numerics::NodeTransfer(film.grid(), result.grid).to_fine(state.pressure);
+  }
+  state.nodes = nodes_of(state.pressure <= 0);
+  state = capped(problem, film, state);
+  if (!same_grid) return state;
+  if (result.plastic_depth.size() > 0) state.plastic_depth = result.plastic_depth;
+  for (Index k = 0; k < state.nodes.size(); ++k) {
+    if (!film.in_domain(k)) continue;
+    state.nodes.data()[k] =
+        node_of(state.pressure.data()[k], result.film.data()[k], state.plastic_depth.data()[k]);
+  }
+  return state;
+}
+
+/// With what solids carry apart from the liquid.
+PointResult mixed_result_of(const PointProblem& problem, const PointFilm& film,
+                            const PointState& state, double speed, const Outcome& outcome) {
+  const Mask touching = state.nodes != PointNode::cavity &&
+                        state.film < kTouchingFilm * problem.asperities.boundary_film;
+  const PointState liquid{.pressure = touching.select(0, state.pressure),
+                          .plastic_depth = {},
+                          .separation = state.separation,
+                          .film = touching.select(0, state.film),
+                          .nodes = {}};
+  PointResult result = result_of(problem, film, liquid, outcome);
+  const Mask solid = touching || state.plastic_depth > 0;
+  if (solid.any()) result.contact_pressure = solid.select(state.pressure, 0);
+  result.pressure = solid.select(0, result.pressure);
+  if (std::isfinite(problem.plastic_pressure)) result.plastic_depth = state.plastic_depth;
+  result.entrainment_speed = speed;
+  return result;
 }
 
 }  // namespace
@@ -106,20 +159,22 @@ Outcome solve_from_smooth(const PointProblem& problem, MixedFilm& film, MixedSta
 PointResult solve_point_mixed(const PointProblem& problem, const PointResult* start,
                               const Observer& observer) {
   check_point(problem);
-  MixedFilm film(problem);
-  MixedState state;
+  const PointFilm film(problem, {.solids_touch = true});
+  PointState state;
   Outcome outcome;
+  double speed = problem.entrainment_speed;
   if (start != nullptr) {
-    state = film.state_from(*start);
-    const double from =
-        start->entrainment_speed > 0 ? start->entrainment_speed : problem.entrainment_speed;
-    const Way way = change_speed(film, from, problem.entrainment_speed);
+    state = mixed_state_of(problem, film, *start);
+    const double from = start->entrainment_speed > 0 ? start->entrainment_speed : speed;
+    const PointWay way = change_speed(problem, film, from);
     outcome = follow(film, way, state, observer);
+    speed = way.conditions_at(1).speed;
   }
   if (outcome.convergence.failed()) {
     outcome = outcome + solve_from_smooth(problem, film, state, observer);
+    speed = problem.entrainment_speed;
   }
-  return film.result_of(state, outcome);
+  return mixed_result_of(problem, film, state, speed, outcome);
 }
 
 }  // namespace tabor::ehl

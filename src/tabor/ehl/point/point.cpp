@@ -115,7 +115,7 @@ void check_point(const PointProblem& problem) {
 
 PointResult solve_point_plainly(const PointProblem& problem) {
   check_point(problem);
-  PointFilm film(problem, false);
+  const PointFilm film(problem, {.coarsens = false});
   PointState state;
   const PointFilm::Outcome outcome = solve_cold(problem, film, state, {});
   return result_of(problem, film, state, outcome);
@@ -127,12 +127,12 @@ PointResult solve_point(const PointProblem& problem, const PointResult* start,
   if (problem.roughness.size() > 0 || std::isfinite(problem.plastic_pressure)) {
     return solve_point_mixed(problem, start, observer);
   }
-  PointFilm film(problem);
+  const PointFilm film(problem);
   PointState state;
   PointFilm::Outcome outcome;
   if (start != nullptr) {
     state = state_of(film, *start);
-    outcome = film.solve(state, {}, observer);
+    outcome = film.solve(state, film.conditions(), {}, observer);
   }
   if (outcome.convergence.failed()) outcome = outcome + solve_cold(problem, film, state, observer);
   PointResult smooth = result_of(problem, film, state, outcome);

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
+
+#include "tabor/ehl/film.hpp"
 
 namespace tabor::ehl {
 namespace {
@@ -13,68 +14,32 @@ constexpr Index kCoarsest = 48;  // nodes along a side of a grid that is not coa
 /// The film of the first guess over that of Nijenbanning's formula: Newton's method comes down
 /// safely from a thick film, where the flow depends on the pressure gradient.
 constexpr double kFirstFilms[] = {3, 10, 1, 30};
-constexpr double kRoughly = 1e-2;  // tolerance where a solution is only a start
 constexpr double kInletLengths = 4;
-constexpr double kFirstStep = 0.5;
-constexpr double kSmallestStep = 1.0 / 64;
 
-PointFilm::Outcome solve_from_hertz(const PointProblem& problem, PointFilm& film, PointState& state,
-                                    const Observer& observer) {
-  const double scale = film_groups_of(problem).nijenbanning_central();
+PointFilm::Outcome solve_from_hertz(const PointFilm& film, const PointConditions& conditions,
+                                    PointState& state, const Observer& observer) {
   PointFilm::Outcome outcome;
   for (const double first : kFirstFilms) {
-    state = film.hertz_start(first * scale);
-    outcome = outcome + film.solve(state, {}, observer);
+    state = film.hertz_start(first * film.film_scale());
+    outcome = outcome + film.solve(state, conditions, {}, observer);
     if (!outcome.convergence.failed()) break;
   }
   return outcome;
 }
 
-material::Viscosity with_share_of_coefficient(const material::Viscosity& viscosity, double share) {
-  return material::make_viscosity(material::law_of(viscosity),
-                                  material::ambient_viscosity(viscosity),
-                                  share * material::pressure_coefficient(viscosity));
-}
-
-/// Leads a film from share 0 to share 1 of what `apply` sets, in steps that shrink when one fails;
-/// those before the last are solved roughly. Stalled where they would be too short.
-PointFilm::Outcome ramp(PointFilm& film, PointState& state,
-                        const std::function<void(double)>& apply, const Observer& observer) {
-  PointFilm::Outcome outcome;
-  const double tolerance = film.tolerance;
-  double share = 0;
-  Convergence& convergence = outcome.convergence;
-  for (double step = kFirstStep; share < 1 && step > kSmallestStep && !convergence.stopped();) {
-    PointState next = state;
-    const double aim = std::min(1.0, share + step);
-    apply(aim);
-    film.tolerance = aim < 1 ? std::max(tolerance, kRoughly) : tolerance;
-    outcome = outcome + film.solve(next, {}, observer);
-    if (convergence.converged()) {
-      state = next;
-      share = aim;
-    }
-    step *= convergence.converged() ? 1.5 : 0.5;
-  }
-  apply(1);
-  film.tolerance = tolerance;
-  if (convergence.failed()) convergence.status = Status::stalled;
-  return outcome;
-}
-
 /// From the solution on a grid of twice the spacing, if there is one.
-PointFilm::Outcome solve_nested(const PointProblem& problem, PointFilm& film, PointState& state,
-                                const Observer& observer) {
+PointFilm::Outcome solve_nested(const PointProblem& problem, const PointFilm& film,
+                                PointState& state, const Observer& observer) {
   PointProblem coarse = problem;
   coarse.nodes_x = (problem.nodes_x + 1) / 2;
   coarse.nodes_y = (problem.nodes_y + 1) / 2;
+  coarse.tolerance = std::max(problem.tolerance, kRoughly);
   if (std::min(coarse.nodes_x, coarse.nodes_y) < kCoarsest) return {};
-  PointFilm coarse_film(coarse, film.coarsens());
-  coarse_film.lubricant = film.lubricant;
-  coarse_film.tolerance = std::max(film.tolerance, kRoughly);
+  const PointFilm coarse_film(coarse, film.options());
   const PointFilm::Outcome before = solve_cold(coarse, coarse_film, state, observer);
   state = film.resampled(state, coarse_film.grid());
-  return before.convergence.converged() ? before + film.solve(state, {}, observer) : before;
+  if (!before.convergence.converged()) return before;
+  return before + film.solve(state, film.conditions(), {}, observer);
 }
 
 Index centre_column(const PointProblem& problem) {
@@ -110,30 +75,40 @@ PointFilm::Outcome operator+(const PointFilm::Outcome& before, PointFilm::Outcom
   return now;
 }
 
-PointFilm::Outcome solve_cold(const PointProblem& problem, PointFilm& film, PointState& state,
+PointFilm::Outcome follow(const PointFilm& film, const PointWay& way, PointState& state,
+                          const Observer& observer) {
+  return numerics::follow(state, way.steps, [&](PointState& next, double share) {
+    PointConditions conditions = way.conditions_at(share);
+    if (share < 1) conditions.tolerance = std::max(conditions.tolerance, kRoughly);
+    return film.solve(next, conditions, {}, observer);
+  });
+}
+
+PointFilm::Outcome solve_cold(const PointProblem& problem, const PointFilm& film, PointState& state,
                               const Observer& observer) {
+  const PointConditions& asked = film.conditions();
   PointFilm::Outcome outcome = solve_nested(problem, film, state, observer);
   if (outcome.convergence.failed()) {
-    outcome = outcome + solve_from_hertz(problem, film, state, observer);
+    outcome = outcome + solve_from_hertz(film, asked, state, observer);
   }
-  const material::Viscosity viscosity = film.lubricant.viscosity;
-  const bool has_another_way = material::pressure_coefficient(viscosity) > 0;
+  const bool has_another_way = material::pressure_coefficient(asked.lubricant.viscosity) > 0;
   if (!outcome.convergence.failed() || !has_another_way) return outcome;
-  film.lubricant.viscosity = with_share_of_coefficient(viscosity, 0);
-  outcome = outcome + solve_from_hertz(problem, film, state, observer);
   const auto thicken = [&](double share) {
-    film.lubricant.viscosity = with_share_of_coefficient(viscosity, share);
+    PointConditions thinner = asked;
+    thinner.lubricant = with_share_of_coefficient(asked.lubricant, share);
+    return thinner;
   };
-  if (outcome.convergence.converged()) return outcome + ramp(film, state, thicken, observer);
-  thicken(1);
-  return outcome;
+  outcome = outcome + solve_from_hertz(film, thicken(0), state, observer);
+  if (!outcome.convergence.converged()) return outcome;
+  return outcome + follow(film, {.conditions_at = thicken}, state, observer);
 }
 
 PointState state_of(const PointFilm& film, const PointResult& result) {
   return film.resampled({.pressure = result.pressure,
+                         .plastic_depth = {},
                          .separation = result.separation,
                          .film = result.film,
-                         .cavity = result.pressure <= 0},
+                         .nodes = nodes_of(result.pressure <= 0)},
                         result.grid);
 }
 

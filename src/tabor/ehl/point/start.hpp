@@ -1,17 +1,31 @@
 #pragma once
 
+#include <functional>
+
 #include "tabor/ehl/point/film.hpp"
+#include "tabor/numerics/continuation.hpp"
 
 namespace tabor::ehl {
 
 /// The work of both, and what the second found.
 PointFilm::Outcome operator+(const PointFilm::Outcome& before, PointFilm::Outcome now);
 
+inline constexpr double kRoughly = 1e-2;  ///< tolerance where a solution is only a start
+
+/// A way from the conditions of a film at hand, share 0, to those asked for, share 1.
+struct PointWay {
+  std::function<PointConditions(double share)> conditions_at;
+  numerics::ContinuationSteps steps = {};
+};
+
+/// Leads `state` to the end of the way; the films before the last are solved roughly.
+PointFilm::Outcome follow(const PointFilm& film, const PointWay& way, PointState& state,
+                          const Observer& observer = {});
+
 /// Solves `film`, of smooth bodies, without a state to begin with: from Hertz' pressure on a coarse
 /// grid, through grids of half the spacing each, to the grid of the film; where that fails, from
-/// thicker and thinner first films, and from a viscosity that grows less with pressure. Nothing of
-/// `film` is changed in the end.
-PointFilm::Outcome solve_cold(const PointProblem& problem, PointFilm& film, PointState& state,
+/// thicker and thinner first films, and from a viscosity that grows less with pressure.
+PointFilm::Outcome solve_cold(const PointProblem& problem, const PointFilm& film, PointState& state,
                               const Observer& observer = {});
 
 /// The state of a result, which may be of another grid.

@@ -54,25 +54,26 @@ PointMoment moment_of(const PointFilm& film, const PointState& state, double tim
 TransientPointResult solve_point_transient(const TransientPointProblem& problem,
                                            const Observer& observer) {
   check(problem);
-  PointFilm film(problem.contact);
-  const Field smooth = film.shape;
+  const PointFilm film(problem.contact);
+  const Field& smooth = film.conditions().shape;
+  PointConditions now = film.conditions();
   TransientPointResult result;
   PointState state;
   PointFilm::Outcome outcome = solve_cold(problem.contact, film, state, observer);
-  film.shape = shape_at(problem, smooth, 0);
-  if (outcome.convergence.converged()) outcome = outcome + film.solve(state, {}, observer);
+  now.shape = shape_at(problem, smooth, 0);
+  if (outcome.convergence.converged()) outcome = outcome + film.solve(state, now, {}, observer);
   if (!outcome.convergence.converged()) {
     result.history.push_back(moment_of(film, state, 0));
     result.last = result_of(problem.contact, film, state, outcome);
   }
   for (int step = 0; outcome.convergence.converged(); ++step) {
-    const double now = step * problem.time_step;
-    result.history.push_back(moment_of(film, state, now));
+    const double time = step * problem.time_step;
+    result.history.push_back(moment_of(film, state, time));
     result.last = result_of(problem.contact, film, state, outcome);
     if (step == problem.steps) break;
     const PointStorage storage{.time_step = problem.time_step, .old_mass = film.mass_of(state)};
-    film.shape = shape_at(problem, smooth, now + problem.time_step);
-    outcome = outcome + film.solve(state, storage, observer);
+    now.shape = shape_at(problem, smooth, time + problem.time_step);
+    outcome = outcome + film.solve(state, now, storage, observer);
   }
   result.convergence = outcome.convergence;
   return result;
