@@ -22,6 +22,7 @@ from tabor_report.figures import (
     single_maps,
     topography,
 )
+from tabor_report.figures import parameters as groups
 from tabor_report.figures import spectra as spectrum
 
 
@@ -71,7 +72,7 @@ def _drawings(source, options, with_maps):
     if source.kind == "study":
         return study_figures(source, options, with_maps)
     if source.kind == "params":
-        return []
+        return groups.draw(source)
     if source.kind == "psd":
         return spectrum.draw(source)
     return ehl_figures(source) if source.kind == "ehl" else single_figures(source, with_maps)

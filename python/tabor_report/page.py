@@ -94,7 +94,8 @@ def _subtitle(source):
         scans = sum(not one.is_mean for one in source.sets)
         return f"{scans} scans" if scans > 1 else "one scan"
     if source.kind == "params":
-        return f"{len(source.scans)} scan{'s' * (len(source.scans) != 1)}"
+        groups = f", {len(source.groups)} group{'s' * (len(source.groups) != 1)}" if source.is_grouped else ""
+        return f"{len(source.scans)} scan{'s' * (len(source.scans) != 1)}{groups}"
     if source.kind == "ehl":
         return "a sweep" if source.is_sweep else "one case"
     if not source.states:
