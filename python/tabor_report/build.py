@@ -146,7 +146,7 @@ def _save(folder, drawn, formats):
     """Writes the figure in each format, and its tables; nothing without a format."""
     files = {f"{drawn.name}.{form}": style.picture(drawn.figure, form) for form in formats}
     if formats:
-        files.update({f"{drawn.name}{suffix}.csv": text for suffix, text in drawn.data.items()})
+        files.update({name: text() if callable(text) else text for name, text in drawn.tables().items()})
     for name, content in files.items():
         output.write(folder / name, content)
     return [folder / name for name in files]

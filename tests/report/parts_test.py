@@ -2,6 +2,7 @@
 
 import contextlib
 import io
+import re
 import stat
 import tempfile
 import unittest
@@ -10,9 +11,9 @@ from unittest import mock
 
 import numpy as np
 
-from tabor_report import cli, dependencies, errors, maps, output, section, units
+from tabor_report import cli, dependencies, errors, maps, output, page, section, still, style, units
 from tabor_report.example import richest_window
-from tabor_report.figures import psd
+from tabor_report.figures import Drawn, psd
 from tabor_report.map_axes import round_length
 from tabor_report.page_single import show, words
 from tabor_report.table import Table, converged
@@ -102,6 +103,58 @@ class Maps(unittest.TestCase):
 
     def test_a_map_smaller_than_a_window_is_shown_whole(self):
         self.assertEqual(richest_window(np.ones((5, 9), dtype=bool)).shape, (5, 5))
+
+
+class StillPictures(unittest.TestCase):
+    """Figures of noise, whose pictures no format packs well."""
+
+    def setUp(self):
+        style.apply()
+        self.noise = np.random.default_rng(3).random((300, 400))
+
+    def shown(self, name, is_map, is_viewed=True):
+        figure, grid = style.new_figure(2.0, width=3.0)
+        grid[0][0].imshow(self.noise) if is_map else grid[0][0].plot(self.noise.ravel()[:2000])
+        shown = page.Shown.of(Drawn(name, name, "", figure, is_map=is_map, is_viewed=is_viewed), None)
+        style.close(figure)
+        return shown
+
+    def sizes(self, figures):
+        return sum(4 * len(shown.picture) / 3 for shown in figures)
+
+    def require_webp(self):
+        from PIL import features
+
+        if not features.check("webp"):
+            self.skipTest("Pillow writes no WebP")
+
+    def test_maps_lose_quality_before_anything_is_left_out(self):
+        self.require_webp()
+        fine, left_out = still.fitted([self.shown("map", True), self.shown("curve", False)], 1e9)
+        room = 0.7 * self.sizes(fine)
+        coarse, nothing = still.fitted([self.shown("map", True), self.shown("curve", False)], room)
+        self.assertEqual((left_out, nothing), ([], []))
+        self.assertLessEqual(self.sizes(coarse), room)
+        self.assertEqual(still.kind(coarse[0].picture), ("image/webp", "webp"))
+        self.assertEqual(coarse[1].picture, fine[1].picture)
+
+    def test_sections_go_before_maps_and_curves_stay(self):
+        self.require_webp()
+        figures = [self.shown("map", True), self.shown("section", False), self.shown("curve", False, is_viewed=False)]
+        room = 4 / 3 * len(figures[2].picture) + 1
+        kept, left_out = still.fitted(figures, room)
+        self.assertEqual(([shown.drawn.name for shown in kept], left_out), (["curve"], ["map", "section"]))
+        worst = 4 / 3 * len(figures[0].picture)
+        _, left_out = still.fitted([self.shown("map", True), figures[1], figures[2]], room + worst)
+        self.assertEqual(left_out, ["section"])
+
+    def test_curves_are_rounded_to_a_hundredth_of_a_point(self):
+        figure, grid = style.new_figure(2.0)
+        grid[0][0].plot([0, 1 / 3, 1], [0, 2 / 3, 1])
+        paths = re.findall(rb' d="([^"]*)"', style.svg(figure))
+        style.close(figure)
+        self.assertGreater(len(paths), 5)
+        self.assertFalse([path for path in paths if re.search(rb"\.\d\d\d", path)])
 
 
 class Section(unittest.TestCase):
