@@ -59,6 +59,7 @@ def render(source, figures, command, live=None):
         warnings=source.warnings,
         figures=[_figure(number, shown) for number, shown in enumerate(figures, 1)],
         left_out=left_out,
+        has_pictures=any(shown.drawn.is_map for shown in figures),
         maps=maps,
         scripts=scripts,
         bibtex=citations.bibtex(source.facts),

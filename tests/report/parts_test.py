@@ -1,6 +1,7 @@
 """The small pieces: units, reduction of maps, choice of the window, tables, files, command line."""
 
 import contextlib
+import importlib.util
 import io
 import re
 import stat
@@ -24,6 +25,7 @@ class Units(unittest.TestCase):
         self.assertEqual(units.number(0.291666), "0.2917")
         self.assertEqual(units.number(-2.0), "−2")
         self.assertEqual(units.number(4e-9, 2), "4×10⁻⁹")
+        self.assertEqual(units.number(-4e-9, 2), "−4×10⁻⁹")
         self.assertEqual(units.number(float("nan")), "–")
 
     def test_pressures_and_lengths_take_the_prefix_that_suits_them(self):
@@ -101,6 +103,10 @@ class Maps(unittest.TestCase):
         self.assertEqual(window.of(interest).sum(), 900)
         self.assertEqual(window.shape, (100, 100))
 
+    def test_the_window_of_nothing_marked_is_next_to_the_middle(self):
+        window = richest_window(np.zeros((500, 700), dtype=bool))
+        self.assertEqual((window.y0, window.x0), (200, 300))
+
     def test_a_map_smaller_than_a_window_is_shown_whole(self):
         self.assertEqual(richest_window(np.ones((5, 9), dtype=bool)).shape, (5, 5))
 
@@ -155,6 +161,23 @@ class StillPictures(unittest.TestCase):
         style.close(figure)
         self.assertGreater(len(paths), 5)
         self.assertFalse([path for path in paths if re.search(rb"\.\d\d\d", path)])
+
+
+@unittest.skipIf(importlib.util.find_spec("bokeh") is None, "needs Bokeh (PyPI)")
+class LiveCurves(unittest.TestCase):
+    def test_a_second_axis_is_linear_beside_a_logarithmic_one(self):
+        from bokeh.models import LinearScale, LogScale
+
+        from tabor_report import bokeh_curves
+
+        style.apply()
+        figure, grid = style.new_figure(2.0)
+        grid[0][0].loglog([1, 10, 100], [1, 10, 100])
+        grid[0][0].twinx().plot([1, 10, 100], [0, 50, 90])
+        ((plot,),), _ = bokeh_curves.convert(figure, "both")
+        style.close(figure)
+        self.assertIsInstance(plot.y_scale, LogScale)
+        self.assertIsInstance(plot.extra_y_scales["right1"], LinearScale)
 
 
 class Section(unittest.TestCase):

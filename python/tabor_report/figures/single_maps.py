@@ -5,7 +5,7 @@ from functools import cached_property
 import numpy as np
 
 from tabor_report import hdf, map_axes, maps, section, style, units
-from tabor_report.example import richest_window
+from tabor_report.example import richest_window, shores
 from tabor_report.figures import Drawn, contact_map
 
 
@@ -182,7 +182,7 @@ class _Sections:
     def _place(self, state):
         """Row and columns of the section: where most of the (wet) contact is, else the middle."""
         touching, wet = self._touching(state), self._wet(state)
-        interest = touching if touching is not None else _shores(wet)
+        interest = touching if touching is not None else shores(wet)
         if touching is not None and wet is not None and (touching & wet).any():
             interest = touching & wet
         window = richest_window(interest)
@@ -223,8 +223,3 @@ def _section(state, lines, y):
         {"": section.csv(lines)},
         is_viewed=True,
     )
-
-
-def _shores(wet):
-    """Wet pixels whose right neighbour is dry: where pools end there is most to see."""
-    return wet & ~np.roll(wet, -1, axis=1)
