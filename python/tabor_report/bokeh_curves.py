@@ -10,6 +10,7 @@ from bokeh.models import (
     FixedTicker,
     HoverTool,
     LinearAxis,
+    LinearScale,
     LogAxis,
     LogScale,
     LogTicker,
@@ -126,8 +127,7 @@ class _Converter:
         name = f"right{number}"
         plot.extra_y_ranges[name] = self._range(axes, "y")
         log = axes.get_yscale() == "log"
-        if log:
-            plot.extra_y_scales[name] = LogScale()
+        plot.extra_y_scales[name] = LogScale() if log else LinearScale()  # not that of the first axis
         axis = (LogAxis if log else LinearAxis)(y_range_name=name, axis_label=plain(axes.get_ylabel()))
         plot.add_layout(axis, "right")
         _dress_axis(axis, axes, "y")
@@ -150,7 +150,7 @@ class _Converter:
         bars = [item for item in axes.containers if isinstance(item, ErrorbarContainer)]
         parts = {part for item in bars for part in item.lines[1]}
         errors = {item.lines[0]: item for item in bars if item.lines[0] is not None}
-        for line in axes.lines:
+        for line in sorted(axes.lines, key=lambda line: line.get_zorder()):
             if line not in parts and line.get_visible():
                 self._line(plot, axes, line, errors.get(line))
         for columns, renderers in self.readings.items():

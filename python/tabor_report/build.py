@@ -22,6 +22,7 @@ from tabor_report.figures import (
     single_maps,
     topography,
 )
+from tabor_report.figures import parameters as groups
 from tabor_report.figures import spectra as spectrum
 
 
@@ -71,7 +72,7 @@ def _drawings(source, options, with_maps):
     if source.kind == "study":
         return study_figures(source, options, with_maps)
     if source.kind == "params":
-        return []
+        return groups.draw(source)
     if source.kind == "psd":
         return spectrum.draw(source)
     return ehl_figures(source) if source.kind == "ehl" else single_figures(source, with_maps)
@@ -145,7 +146,7 @@ def _save(folder, drawn, formats):
     """Writes the figure in each format, and its tables; nothing without a format."""
     files = {f"{drawn.name}.{form}": style.picture(drawn.figure, form) for form in formats}
     if formats:
-        files.update({f"{drawn.name}{suffix}.csv": text for suffix, text in drawn.data.items()})
+        files.update({name: text() if callable(text) else text for name, text in drawn.tables().items()})
     for name, content in files.items():
         output.write(folder / name, content)
     return [folder / name for name in files]

@@ -7,6 +7,8 @@ import zlib
 import numpy as np
 from PIL import Image
 
+from tabor_report.still import uri
+
 HOLE_CODE = 65535  # of a coarse array: no value
 STEPS = HOLE_CODE - 1
 LARGEST_SIDE = 8192  # pixels of a picture; a larger map is thinned
@@ -15,10 +17,6 @@ LARGEST_SIDE = 8192  # pixels of a picture; a larger map is thinned
 WET_COLOURS = ((232, 134, 46), (0, 0, 0))  # dry, wet
 VEILS = (255, 0, 110)  # opacity of white over: no contact, saturated contact, contact below saturation
 BELOW_SATURATION = (240, 176, 116), (90, 90, 90)  # the two colours under that veil
-
-
-def uri(kind, data):
-    return f"data:{kind};base64,{base64.b64encode(data).decode('ascii')}"
 
 
 def thinning(shape):

@@ -91,14 +91,23 @@ def examples(study, options):
 
 
 def richest_window(interest):
-    """The window with the most marked pixels among overlapping ones half a side apart."""
+    """The window with the most marked pixels among overlapping ones half a side apart; of several the one next to the middle."""
     rows, columns = interest.shape
     side = min(max(min(rows, columns) // 5, MIN_WINDOW), MAX_WINDOW, rows, columns)
     step = max(1, side // 2)
     counts = np.pad(np.cumsum(np.cumsum(interest, axis=0, dtype=np.int64), axis=1), ((1, 0), (1, 0)))
     starts = [(y, x) for y in _starts(rows, side, step) for x in _starts(columns, side, step)]
-    y, x = max(starts, key=lambda start: (_inside(counts, start, side), -start[0], -start[1]))
+    y, x = max(starts, key=lambda start: (_inside(counts, start, side), -_from_middle(start, side, interest.shape), -start[0], -start[1]))
     return Window(y, y + side, x, x + side)
+
+
+def shores(wet):
+    """Wet pixels whose right neighbour is dry: where pools end there is most to see."""
+    return wet & ~np.roll(wet, -1, axis=1)
+
+
+def _from_middle(start, side, shape):
+    return max(abs(2 * begin + side - length) for begin, length in zip(start, shape))
 
 
 def _starts(length, side, step):

@@ -42,6 +42,7 @@ class Live:
         return {
             "name": maps.name,
             "title": maps.title,
+            "has_gap": any("gap" in choice.load for choice in maps.contacts),
             "panels": [_panel(panel, data) for panel in figures if panel != "section"],
             "contacts": [choice.label for choice in maps.contacts],
             "films": [choice.label for choice in maps.films],

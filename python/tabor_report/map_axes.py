@@ -6,7 +6,7 @@ from matplotlib.colors import LinearSegmentedColormap, ListedColormap
 from matplotlib.transforms import offset_copy
 
 from tabor_report import maps, units
-from tabor_report.output import matrix_text
+from tabor_report.output import map_table
 
 HEIGHT_COLOURS = "viridis"  # perceptually uniform
 PRESSURE_COLOURS = "inferno_r"
@@ -39,7 +39,7 @@ class MapView:
         """The printed map as a matrix; what names the quantity and its unit."""
         x = maps.tile_centres(self.window.x0, self.window.x1, self.block, self.pixel[0], self.factor)
         y = maps.tile_centres(self.window.y0, self.window.y1, self.block, self.pixel[1], self.factor)
-        return matrix_text(f"{what} (row: y_{self.unit}; column: x_{self.unit})", x, y, values)
+        return map_table(f"{what} (row: y_{self.unit}; column: x_{self.unit})", x, y, values)
 
     def label(self, axes, y_label=True):
         axes.set_xlabel(f"$x$ ({self.unit})")

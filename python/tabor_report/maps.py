@@ -37,8 +37,9 @@ def block_mean(field, block):
     if block == 1:
         return np.asarray(field, dtype=float)
     valid = ~np.isnan(field)
-    total = _tile_sum(np.where(valid, field, 0), block)
-    count = _tile_sum(valid, block)
+    if valid.all():
+        return _tile_sum(field, block) / np.outer(*(_tile_sides(length, block) for length in field.shape))
+    total, count = _tile_sum(np.where(valid, field, 0), block), _tile_sum(valid, block)
     return np.divide(total, count, out=np.full(total.shape, np.nan), where=count > 0)
 
 
@@ -62,6 +63,10 @@ def tile_centres(start, stop, block, pixel, factor):
     return (edges[:-1] + edges[1:]) / 2 * pixel * factor
 
 
+def _tile_sides(length, block):
+    return np.diff(np.append(np.arange(0, length, block), length))
+
+
 def _tile_sum(field, block):
-    rows = np.add.reduceat(field.astype(float), np.arange(0, field.shape[0], block), axis=0)
+    rows = np.add.reduceat(field, np.arange(0, field.shape[0], block), axis=0, dtype=float)
     return np.add.reduceat(rows, np.arange(0, field.shape[1], block), axis=1)

@@ -4,9 +4,12 @@ import csv
 import io
 import os
 import tempfile
+from functools import partial
 from pathlib import Path
 
 from tabor_report.errors import OutputError
+
+LARGEST_IN_PAGE = 300_000  # bytes of a table in a page; larger ones come with --figures
 
 
 def make_folder(path):
@@ -40,6 +43,12 @@ def table_text(columns):
     writer.writerow(_harmless(name) for name in columns)
     writer.writerows([_cell(value) for value in row] for row in zip(*columns.values()))
     return stream.getvalue()
+
+
+def map_table(corner, x, y, values):
+    """The same as matrix_text(), made when it is called for where it is too large for a page."""
+    make = partial(matrix_text, corner, x, y, values)
+    return make if 2 * values.size > LARGEST_IN_PAGE else make()
 
 
 def matrix_text(corner, x, y, values, digits=6):

@@ -1,6 +1,5 @@
 """The self-contained HTML page: what the template needs, and nothing that is fetched from elsewhere."""
 
-import base64
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,7 +7,8 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup, escape
 
-from tabor_report import citations, page_ehl, page_parameters, page_single, page_spectra, page_study, style
+from tabor_report import citations, page_ehl, page_parameters, page_single, page_spectra, page_study, still, style
+from tabor_report.output import LARGEST_IN_PAGE
 
 # What a kind of result does not have its page leaves out.
 _NOTHING = {
@@ -21,7 +21,7 @@ _NOTHING = {
     "averages": {"header": [], "rows": [], "n_text": 0},
 }
 _PAGES = {"study": page_study, "single": page_single, "ehl": page_ehl, "psd": page_spectra, "params": page_parameters}
-LARGEST_CSV = 300_000  # bytes of a table in the page; larger ones come with --figures
+LARGEST = 9.8e6  # bytes of a page, without what its texts and tables take
 SCREEN_PIXELS_PER_INCH = 115  # letters of the figures a little larger than on paper
 
 
@@ -32,26 +32,36 @@ class Shown:
     drawn: object
     picture: bytes  # PNG of a map, SVG of curves
     live: dict
+    width: float  # inches
+    tables: dict  # {file name: text} of those that the page holds
+    large_tables: list  # names of those that come with --figures
 
     @staticmethod
     def of(drawn, live):
         # A map as SVG is a raster in a wrapper; as an <img> an SVG's ids cannot clash with another's.
-        picture = style.png(drawn.figure) if drawn.is_map else style.svg(drawn.figure)
-        return Shown(drawn, picture, live.curves(drawn) if live else None)
+        picture = style.quick_png(drawn.figure) if drawn.is_map else style.svg(drawn.figure)
+        tables = drawn.tables()
+        small = {name: text for name, text in tables.items() if not callable(text) and len(text) <= LARGEST_IN_PAGE}
+        large = [name for name in tables if name not in small]
+        return Shown(drawn, picture, live.curves(drawn) if live else None, still.width_in_inches(picture), small, large)
 
 
 def render(source, figures, command, live=None):
     """HTML text. figures: [Shown]; live: a live_page.Live, None for a page of still figures."""
     sections = _PAGES[source.kind].sections(source)
     maps = live.maps if live else []
+    scripts = live.scripts() if live and live.document else None
+    figures, left_out = still.fitted(figures, LARGEST - _size(figures, maps, scripts or {}))
     return _template().render(
         title=source.title,
         subtitle=_subtitle(source),
         answers=_answers(source),
         warnings=source.warnings,
         figures=[_figure(number, shown) for number, shown in enumerate(figures, 1)],
+        left_out=left_out,
+        has_pictures=any(shown.drawn.is_map for shown in figures),
         maps=maps,
-        scripts=live.scripts() if live and live.document else None,
+        scripts=scripts,
         bibtex=citations.bibtex(source.facts),
         command=source.facts.get("command", ""),
         report_command=command,
@@ -60,6 +70,12 @@ def render(source, figures, command, live=None):
         version=source.facts.get("software_version", ""),
         **{**_NOTHING, **sections},
     )
+
+
+def _size(figures, maps, scripts):
+    """Bytes of the page beside its still pictures."""
+    tables = sum(4 * len(text) / 3 for shown in figures for text in shown.tables.values())
+    return tables + sum(map(len, scripts.values())) + sum(len(item["data"]) + sum(map(len, item["pictures"].values())) for item in maps)
 
 
 def _answers(source):
@@ -94,7 +110,8 @@ def _subtitle(source):
         scans = sum(not one.is_mean for one in source.sets)
         return f"{scans} scans" if scans > 1 else "one scan"
     if source.kind == "params":
-        return f"{len(source.scans)} scan{'s' * (len(source.scans) != 1)}"
+        groups = f", {len(source.groups)} group{'s' * (len(source.groups) != 1)}" if source.is_grouped else ""
+        return f"{len(source.scans)} scan{'s' * (len(source.scans) != 1)}{groups}"
     if source.kind == "ehl":
         return "a sweep" if source.is_sweep else "one case"
     if not source.states:
@@ -104,21 +121,16 @@ def _subtitle(source):
 
 def _figure(number, shown):
     drawn = shown.drawn
-    kind = "image/png" if drawn.is_map else "image/svg+xml"
-    tables = {f"{drawn.name}{suffix}.csv": text for suffix, text in drawn.data.items()}
+    kind, ending = still.kind(shown.picture)
     return {
         "number": number,
-        "width": round(SCREEN_PIXELS_PER_INCH * style.width_in_inches(shown.picture)),
+        "width": round(SCREEN_PIXELS_PER_INCH * shown.width),
         "name": drawn.name,
         "title": drawn.title,
         "caption": drawn.caption,
-        "uri": _uri(kind, shown.picture),
-        "ending": "png" if drawn.is_map else "svg",
-        "csv": {name: _uri("text/csv", text.encode()) for name, text in tables.items() if len(text) <= LARGEST_CSV},
-        "large_csv": [name for name, text in tables.items() if len(text) > LARGEST_CSV],
+        "uri": still.uri(kind, shown.picture),
+        "ending": ending,
+        "csv": {name: still.uri("text/csv", text.encode()) for name, text in shown.tables.items()},
+        "large_csv": shown.large_tables,
         "live": shown.live,
     }
-
-
-def _uri(kind, data):
-    return f"data:{kind};base64,{base64.b64encode(data).decode('ascii')}"

@@ -1,5 +1,7 @@
 """Facts and tables of a result of `tabor ehl` for the page."""
 
+import re
+
 import numpy as np
 
 from tabor_report import hdf, units
@@ -74,7 +76,13 @@ def _settings(source):
     """(dotted key, text) of every value of a case, and of what a sweep takes instead."""
     settings = dict(_flat(source.settings))
     settings.update({key: _range(axis) for key, axis in source.axes.items()})
-    return sorted(settings.items())
+    return [(key, _readable(text)) for key, text in sorted(settings.items())]
+
+
+def _readable(text):
+    """A quantity as it stands in a case, with the signs of print: '2.8e-15 m²/N', '20 µm'."""
+    text = re.sub(r"(?<=[A-Za-z)])\^([23])", lambda power: {"2": "²", "3": "³"}[power[1]], text)
+    return re.sub(r"(?<=[0-9 ])u(?=[mNsg])", "µ", text)
 
 
 def _flat(values, path=""):

@@ -1,6 +1,5 @@
 """Facts and tables of a single-scan result for the page."""
 
-from pathlib import Path
 
 from tabor_report import hdf, units
 
@@ -142,7 +141,7 @@ def _scan(single):
     ]
     sha256 = hdf.text_list(single.facts.get("input_sha256"))
     return {
-        "file": Path(facts.get("source") or single.title).name,
+        "file": single.title,
         "group": "",
         "sha256": sha256[0] if sha256 else "",
         "rows": [(name, text) for name, text in rows if text],
@@ -164,6 +163,7 @@ def _results(states):
     keys = [key for key in dict.fromkeys(key for state in states for key in state.scalars) if key != "converged"]
     parts = [states[start : start + MOST_STATES] for start in range(0, len(states), MOST_STATES)]
     return {
+        **({} if "certificate" in keys else {"intro": ""}),
         "header": [],
         "rows": [],
         "tables": [_table(part, keys) for part in parts],

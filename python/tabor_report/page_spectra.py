@@ -15,7 +15,7 @@ def _answer(source):
         return None
     if len(source.sets) > 1:
         header = ["points", "wavelengths to be trusted"]
-        rows = [(_heading(one), [_points(one), "-" if one.is_mean else _range(one)]) for one in scans]
+        rows = [(_heading(one), [_points(one), "\N{EN DASH}" if one.is_mean else _range(one)]) for one in scans]
         return {"caption": "Of each scan and mean", "header": header, "rows": rows, "note": ""}
     (only,) = scans
     rows = [

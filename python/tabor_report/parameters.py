@@ -11,6 +11,23 @@ from tabor_report.errors import InputError, readable
 
 LARGEST = 16_000_000  # bytes of a table that is read
 _HEAD = ("scan", "treatment", "failure")
+_GROUP_HEAD = ("group", "parameter", "unit", "n", "mean", "std", "sem")
+
+
+@dataclass
+class Mean:
+    """Of one parameter over the scans that have a number; the deviation is NaN for fewer than two."""
+
+    n: int
+    mean: float
+    deviation: float
+
+
+@dataclass
+class Group:
+    name: str  # "" for all scans of a table without groups
+    places: list  # of its scans
+    means: dict = field(default_factory=dict)  # {parameter: Mean}
 
 
 @dataclass
@@ -20,6 +37,7 @@ class Parameters:
     treatment: str
     units: dict  # {parameter: unit}, in the order of the file
     values: dict  # {parameter: [number or NaN of each scan]}
+    groups: list  # of Group
     warnings: list = field(default_factory=list)
 
     kind = "params"
@@ -30,31 +48,66 @@ class Parameters:
     def title(self):
         return f"Roughness parameters: {readable(self.path.stem)}"
 
-    def mean_and_deviation(self, name):
-        """Over the scans that have a number; the deviation is NaN for fewer than two."""
-        known = [value for value in self.values[name] if math.isfinite(value)]
-        if not known:
-            return math.nan, math.nan
-        mean = math.fsum(known) / len(known)
-        squares = math.fsum((value - mean) ** 2 for value in known)
-        return mean, math.sqrt(squares / (len(known) - 1)) if len(known) > 1 else math.nan
+    @property
+    def is_grouped(self):
+        return any(group.name for group in self.groups)
+
+    @property
+    def has_means(self):
+        return len(self.scans) > 1 or self.is_grouped
 
 
 def load(path):
     """Raises InputError in one line if it is no such table."""
     rows = _rows(path)
-    if not rows or tuple(rows[0][:3]) != _HEAD or any(len(row) != len(rows[0]) for row in rows):
-        raise InputError(f"{path}: got a table that begins otherwise; expected one of 'tabor params --csv'")
+    if rows and all(len(row) == len(rows[0]) for row in rows):
+        if tuple(rows[0][:3]) == _HEAD:
+            return _of_scans(path, rows)
+        if tuple(rows[0][: len(_GROUP_HEAD)]) == _GROUP_HEAD:
+            return _of_groups(path, rows)
+    raise InputError(f"{path}: got a table that begins otherwise; expected one of 'tabor params --csv'")
+
+
+def _of_scans(path, rows):
     measured = [row for row in rows[1:] if not row[2]]
     units = dict(map(_name_and_unit, rows[0][3:]))
+    values = {name: [_number(path, row[place]) for row in measured] for place, name in enumerate(units, 3)}
+    everything = Group("", list(range(len(measured))), {name: _mean(numbers) for name, numbers in values.items()})
     return Parameters(
         path,
         [readable(Path(_without_apostrophe(row[0])).name) for row in measured],
         _common([row[1] for row in measured]),
         units,
-        {name: [_number(path, row[place]) for row in measured] for place, name in enumerate(units, 3)},
+        values,
+        [everything],
         [f"Not measured: {readable(row[2])}" for row in rows[1:] if row[2]],
     )
+
+
+def _of_groups(path, rows):
+    """A row per group and parameter: the mean, then a column per scan, empty for one of another group."""
+    first = len(_GROUP_HEAD)
+    scans = [readable(_without_apostrophe(name)) for name in rows[0][first:]]
+    units = {row[1]: row[2] for row in rows[1:]}
+    values = {name: [math.nan] * len(scans) for name in units}
+    groups = {}
+    for row in rows[1:]:
+        group = groups.setdefault(row[0], Group(readable(_without_apostrophe(row[0])), []))
+        group.means[row[1]] = Mean(_count(path, row[3]), _number(path, row[4]), _number(path, row[5]))
+        for place, cell in enumerate(row[first:]):
+            if cell:
+                values[row[1]][place] = _number(path, cell)
+                group.places = sorted({*group.places, place})
+    return Parameters(path, scans, "", units, values, list(groups.values()))
+
+
+def _mean(numbers):
+    known = [value for value in numbers if math.isfinite(value)]
+    if not known:
+        return Mean(0, math.nan, math.nan)
+    mean = math.fsum(known) / len(known)
+    squares = math.fsum((value - mean) ** 2 for value in known)
+    return Mean(len(known), mean, math.sqrt(squares / (len(known) - 1)) if len(known) > 1 else math.nan)
 
 
 def _rows(path):
@@ -83,6 +136,12 @@ def _number(path, text):
     except ValueError:
         shown = readable(text)[:40]
         raise InputError(f"{path}: got '{shown}' for a number; expected a table of 'tabor params --csv'") from None
+
+
+def _count(path, text):
+    if text.isascii() and text.isdigit():
+        return int(text)
+    raise InputError(f"{path}: got '{readable(text)[:40]}' for a number of scans; expected a table of 'tabor params --csv'")
 
 
 def _common(texts):

@@ -6,10 +6,13 @@ from tabor_report import style
 from tabor_report.output import table_text
 
 
-def cut(row, columns, pixel_x, height, film=None, gap=None):
-    """Lines along x of one row, all [m]: pixel centres, solid, liquid level, counterface; NaN if unknown."""
+def cut(row, columns, pixel_x, height, film=None, gap=None, level=0.0):
+    """Lines along x of one row, all [m]: pixel centres, solid above `level`, liquid level, counterface; NaN if unknown.
+
+    Maps are arrays or datasets of a file, of which the row alone is read.
+    """
     start, stop = columns
-    solid = np.asarray(height[row, start:stop], dtype=float)
+    solid = np.asarray(height[row, start:stop], dtype=float) - level
     nothing = np.full(solid.shape, np.nan)
     thickness = np.nan_to_num(np.asarray(film[row, start:stop], dtype=float)) if film is not None else None
     return {

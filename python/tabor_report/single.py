@@ -76,10 +76,19 @@ def load(path, file):
     states = [
         SingleState(key, node, _saturation_pressure(settings, hdf.attributes(node))) for key, node in nodes
     ]
+    for state in states:
+        _add_speed(state, settings)
     single = Single(path, file, facts, settings, file["surface"], states)
     single.density_curves = density_curves.load(file, "density_curves", ("friction_lubricated",), single.warnings)
     single.warnings.extend(dict.fromkeys(_warnings_about(single)))
     return single
+
+
+def _add_speed(state, settings):
+    """Oil that flows at one speed has it among the settings."""
+    speed = settings.get("sliding_speed_m_per_s")
+    if "fluid_load_share" in state.facts and isinstance(speed, float):
+        state.facts.setdefault("sliding_speed_m_per_s", speed)
 
 
 def _settings(file):

@@ -185,12 +185,19 @@ def literal(text, longest=60):
     return text.replace("$", r"\$")
 
 
+def quick_png(figure):
+    """The same picture as that of png(), packed less."""
+    return _bytes(figure, format="png", dpi=DPI, metadata={"Software": None}, pil_kwargs={"compress_level": 1})
+
+
 def png(figure):
     return _bytes(figure, format="png", dpi=DPI, metadata={"Software": None})
 
 
 def svg(figure):
-    return _bytes(figure, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
+    """Curves are rounded to 0.01 pt, 3.5 µm on paper, which makes them a quarter smaller."""
+    text = _bytes(figure, format="svg", dpi=DPI, metadata={"Date": None, "Creator": None})
+    return re.sub(rb' d="[^"]*"', lambda path: re.sub(rb"(\.\d\d)\d+", rb"\1", path[0]), text)
 
 
 def picture(figure, form):
@@ -200,13 +207,6 @@ def picture(figure, form):
 
 def pdf(figure):
     return _bytes(figure, format="pdf", metadata={"CreationDate": None, "Creator": None, "Producer": None})
-
-
-def width_in_inches(picture):
-    """Of a PNG made here, whose IHDR chunk holds the width in bytes 16 to 19, or of an SVG, which has it in points."""
-    if picture.startswith(b"\x89PNG"):
-        return int.from_bytes(picture[16:20], "big") / DPI
-    return float(re.search(rb'<svg[^>]* width="([0-9.]+)pt"', picture).group(1)) / 72
 
 
 def close(figure):

@@ -22,6 +22,7 @@ def number(value, digits=4):
     shown = f"{value:.{digits}g}"
     if "e" in shown:
         mantissa, exponent = shown.split("e")
+        mantissa = mantissa.replace("-", "\N{MINUS SIGN}")
         return f"{mantissa}\N{MULTIPLICATION SIGN}10{_superscript(int(exponent))}"
     return shown.replace("-", "\N{MINUS SIGN}")
 

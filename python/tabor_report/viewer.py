@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tabor_report import encoding, map_axes, units
-from tabor_report.example import richest_window
+from tabor_report.example import richest_window, shores
 
 BUDGET = 7.6e6  # bytes of the maps of a page of at most 10 MB
 QUALITIES = {92: 2.0, 80: 1.0, 60: 0.68, 40: 0.52}  # of WebP, with the size of a picture by that of the second
@@ -198,9 +198,11 @@ class _Encoder:
         return (low, high) if high > low else (low, low + 1e-9)
 
     def _line(self, touching):
-        """Ends of the first section, in pixels: along x through the most wet contact of the richest window."""
+        """Ends of the first section, in pixels: along x through the most wet contact, without contact the most shores, of the richest window."""
         wet = touching & (self.films[self.maps.first[1]] > 0) if self.films else touching
         interest = wet if wet.any() else touching
+        if self.films and not interest.any():
+            interest = shores(self.films[self.maps.first[1]] > 0)
         window = richest_window(interest)
         counts = window.of(interest).sum(axis=1)
         row = window.y0 + (int(np.argmax(counts)) if counts.max() > 0 else len(counts) // 2)

@@ -52,6 +52,18 @@ class Csv : public testing::Test {
     }
   }
 
+  /// Of a table of groups; as many rows as there are where it has none.
+  static std::size_t row_of(const io::CsvTable& table, const std::string& group,
+                            const std::string& parameter) {
+    std::size_t row = 0;
+    while (row < table.rows.size() &&
+           !(table.text(row, "group") == group && table.text(row, "parameter") == parameter)) {
+      ++row;
+    }
+    EXPECT_LT(row, table.rows.size()) << group << ' ' << parameter;
+    return row;
+  }
+
   static void expect_one_line(const Words& words, int code, const std::string& part) {
     const Outcome outcome = run_tabor(words);
     EXPECT_EQ(outcome.code, code) << outcome.err;
@@ -140,7 +152,8 @@ TEST_F(Csv, HasMeansOfParametersPerGroup) {
   const Words words = Words{"params"} + both() +
                       Words{"--set", "height", "--group", "a=a_*", "--group", "b=b_?.h5"};
   const io::CsvTable table = csv_of(words);
-  EXPECT_EQ(table.columns, (Words{"group", "parameter", "unit", "n", "mean", "std", "sem"}));
+  EXPECT_EQ(table.columns, (Words{"group", "parameter", "unit", "n", "mean", "std", "sem", "a_1.h5",
+                                  "a_2.h5", "b_1.h5"}));
   const io::Json object = json_of(words);
   const io::Json& sq = object.at("groups").at(0).at("parameters").at("Sq");
   EXPECT_EQ(sq.at("n"), 2);
@@ -148,6 +161,11 @@ TEST_F(Csv, HasMeansOfParametersPerGroup) {
   EXPECT_NEAR(sq.at("std").get<double>(), 0.2e-6 / std::sqrt(2.0), 1e-9);
   EXPECT_TRUE(object.at("groups").at(1).at("parameters").at("Sq").at("std").is_null());
   EXPECT_EQ(table.text(0, "group"), "a");
+  const std::size_t row = row_of(table, "a", "Sq");
+  EXPECT_NEAR(table.number(row, "a_1.h5"), 0.2e-6, 1e-9);
+  EXPECT_NEAR(table.number(row, "a_2.h5"), 2 * table.number(row, "a_1.h5"), 1e-12);
+  EXPECT_EQ(table.text(row, "b_1.h5"), "");
+  EXPECT_EQ(table.text(row_of(table, "b", "Sq"), "a_2.h5"), "");
   EXPECT_THAT(run_tabor(words).out, HasSubstr("standard deviation"));
 }
 

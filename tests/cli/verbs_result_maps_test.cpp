@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "run_tabor.hpp"
+#include "small_ball.hpp"
 #include "support/folder.hpp"
 #include "tabor/io/csv.hpp"
 #include "tabor/io/hdf5.hpp"
@@ -117,6 +118,38 @@ TEST_F(ResultMapsVerb, RejectWhatAResultDoesNotHave) {
   put_bytes(folder_ / "scan.txt", "1 2\n3 4\n");
   expect_one_line({"convert", file("scan.txt"), out, "--field", "gap"}, 3, "no HDF5 file");
   EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(ResultMapsVerb, OfAPointContactLieAboutItsCentre) {
+  put_bytes(folder_ / "ball.toml", kBall);
+  run({"ehl", "point", file("ball.toml"), "-o", file("ball.h5")});
+  run({"convert", file("ball.h5"), file("all.csv"), "--field", "all"});
+  run({"convert", file("ball.h5"), file("film.npy"), "--field", "film_thickness"});
+  const io::CsvTable all = io::read_csv(file("all.csv"));
+  EXPECT_EQ(all.columns, (Words{"x_m", "y_m", "film_thickness_m", "pressure_Pa"}));
+  const io::Hdf5Reader reader(file("ball.h5"));
+  const Field film = reader.field("/contact/film");
+  const std::vector<double> x = reader.numbers("/contact/x"), y = reader.numbers("/contact/y");
+  ASSERT_EQ(all.rows.size(), x.size() * y.size());
+  ASSERT_LT(x.front(), 0);
+  for (std::size_t i = 0; i < all.rows.size(); i += 7) {
+    const std::size_t row = i / x.size(), column = i % x.size();
+    EXPECT_NEAR(all.number(i, "x_m"), x[column], 1e-12 * (x[1] - x[0]) + 1e-15 * x.back());
+    EXPECT_NEAR(all.number(i, "y_m"), y[row], 1e-12 * (y[1] - y[0]) + 1e-15 * y.back());
+    EXPECT_EQ(all.number(i, "film_thickness_m"),
+              film(static_cast<Index>(row), static_cast<Index>(column)));
+  }
+  expect_one_line({"convert", file("ball.h5"), file("a.vti"), "--field", "gap"}, 3,
+                  "film_thickness, pressure or all");
+  expect_one_line({"convert", file("ball.h5"), file("a.vti"), "--field", "all", "--state", "1"}, 3,
+                  "0 (steady)");
+}
+
+TEST_F(ResultMapsVerb, ThatAResultOfCurvesLacksAreSaidWithWhatItHas) {
+  run({"psd", file("a.h5"), "-o", file("psd.h5")});
+  expect_one_line({"convert", file("psd.h5"), file("a.vti"), "--field", "all"}, 3,
+                  "/curves/psd_radial_m4");
+  expect_one_line({"convert", file("psd.h5"), file("a.vti"), "--field", "all"}, 3, "--no-html");
 }
 
 TEST_F(ResultMapsVerb, AreTakenAsTheyAreWhateverTheDefaultsOfScans) {

@@ -38,6 +38,8 @@ class Combination(unittest.TestCase):
         done = run(self.path, "-o", self.path.parent / "page")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         page = (self.path.parent / "page/report.html").read_text(encoding="utf-8")
+        self.assertIn("<h3>a.x3p less b.x3p</h3>", page)
+        self.assertNotIn("counterface", page)
         for words in ("two scans put together", "3800 µm³", "17 µm³", "0.0025 mm³", "200 nm", "0.9982"):
             self.assertIn(words, page)
 

@@ -11,7 +11,7 @@ import h5py
 import numpy as np
 
 from synthetic_file import new_file
-from tabor_report import build, page, style
+from tabor_report import build, page, page_ehl, style
 from tabor_report.figures import ehl_curves, ehl_impact, ehl_point, ehl_stribeck
 
 
@@ -294,6 +294,14 @@ class Ehl(unittest.TestCase):
         self.assertEqual([row["lapped converged"] for row in rows], ["0", "1", "1"])
         self.assertEqual(float(rows[0]["polished friction_solid"]), 0)
 
+    def test_a_stribeck_curve_names_the_shares_of_the_contact(self):
+        figure = self.drawings(stribeck_file)["stribeck"].figure
+        self.assertLessEqual({"lapped: touching", "polished: touching"}, set(style.entries(*figure.axes)))
+
+    def test_quantities_of_a_case_have_the_signs_of_print(self):
+        for text, shown in (("20 um", "20 µm"), ("2.8e-15 m^2/N", "2.8e-15 m²/N"), ("950 kg/m^3", "950 kg/m³"), ("barus", "barus")):
+            self.assertEqual(page_ehl._readable(text), shown)
+
     def test_words_make_curves_not_maps(self):
         axes = self.drawings(stribeck_file)["sweep_central_film_m"].figure.axes[0]
         self.assertEqual(set(style.entries(axes)), {"lapped", "polished"})
@@ -301,7 +309,7 @@ class Ehl(unittest.TestCase):
     def test_the_page_of_a_point_contact_shows_tables_in_tables(self):
         text = self.page(point_file)
         self.assertIn("roughness.bump.height", text)
-        self.assertIn("1 um, 2 um", text)
+        self.assertIn("1 µm, 2 µm", text)
         self.assertIn("dry: friction coefficient 0.125", text)
         self.assertIn("nodes are far apart", text)
 
@@ -335,15 +343,18 @@ class Ehl(unittest.TestCase):
                 file["contact/film"][...] = film * (1 + (np.indices(film.shape).sum(axis=0) % 2))
 
         def lines(make):
-            return len(self.drawings(make)["point_film"].figure.axes[0].collections)
+            drawing = self.drawings(make)["point_film"]
+            return len(drawing.figure.axes[0].collections), "equal film" in drawing.caption
 
         def smooth_file(path):
             point_file(path)
             with h5py.File(path, "a") as file:
                 file["contact/film"][...] = np.maximum(file["contact/film"][()], 5e-8)
 
-        self.assertGreater(lines(smooth_file), 0)
-        self.assertEqual(lines(rough_file), 0)
+        n_lines, are_said = lines(smooth_file)
+        self.assertGreater(n_lines, 0)
+        self.assertTrue(are_said)
+        self.assertEqual(lines(rough_file), (0, False))
 
     def test_a_mixed_line_contact_shows_what_asperities_carry(self):
         def mixed_file(path):

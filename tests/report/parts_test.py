@@ -1,7 +1,9 @@
 """The small pieces: units, reduction of maps, choice of the window, tables, files, command line."""
 
 import contextlib
+import importlib.util
 import io
+import re
 import stat
 import tempfile
 import unittest
@@ -10,9 +12,9 @@ from unittest import mock
 
 import numpy as np
 
-from tabor_report import cli, dependencies, errors, maps, output, section, units
+from tabor_report import cli, dependencies, errors, maps, output, page, section, still, style, units
 from tabor_report.example import richest_window
-from tabor_report.figures import psd
+from tabor_report.figures import Drawn, psd
 from tabor_report.map_axes import round_length
 from tabor_report.page_single import show, words
 from tabor_report.table import Table, converged
@@ -23,6 +25,7 @@ class Units(unittest.TestCase):
         self.assertEqual(units.number(0.291666), "0.2917")
         self.assertEqual(units.number(-2.0), "−2")
         self.assertEqual(units.number(4e-9, 2), "4×10⁻⁹")
+        self.assertEqual(units.number(-4e-9, 2), "−4×10⁻⁹")
         self.assertEqual(units.number(float("nan")), "–")
 
     def test_pressures_and_lengths_take_the_prefix_that_suits_them(self):
@@ -100,8 +103,81 @@ class Maps(unittest.TestCase):
         self.assertEqual(window.of(interest).sum(), 900)
         self.assertEqual(window.shape, (100, 100))
 
+    def test_the_window_of_nothing_marked_is_next_to_the_middle(self):
+        window = richest_window(np.zeros((500, 700), dtype=bool))
+        self.assertEqual((window.y0, window.x0), (200, 300))
+
     def test_a_map_smaller_than_a_window_is_shown_whole(self):
         self.assertEqual(richest_window(np.ones((5, 9), dtype=bool)).shape, (5, 5))
+
+
+class StillPictures(unittest.TestCase):
+    """Figures of noise, whose pictures no format packs well."""
+
+    def setUp(self):
+        style.apply()
+        self.noise = np.random.default_rng(3).random((300, 400))
+
+    def shown(self, name, is_map, is_viewed=True):
+        figure, grid = style.new_figure(2.0, width=3.0)
+        grid[0][0].imshow(self.noise) if is_map else grid[0][0].plot(self.noise.ravel()[:2000])
+        shown = page.Shown.of(Drawn(name, name, "", figure, is_map=is_map, is_viewed=is_viewed), None)
+        style.close(figure)
+        return shown
+
+    def sizes(self, figures):
+        return sum(4 * len(shown.picture) / 3 for shown in figures)
+
+    def require_webp(self):
+        from PIL import features
+
+        if not features.check("webp"):
+            self.skipTest("Pillow writes no WebP")
+
+    def test_maps_lose_quality_before_anything_is_left_out(self):
+        self.require_webp()
+        fine, left_out = still.fitted([self.shown("map", True), self.shown("curve", False)], 1e9)
+        room = 0.7 * self.sizes(fine)
+        coarse, nothing = still.fitted([self.shown("map", True), self.shown("curve", False)], room)
+        self.assertEqual((left_out, nothing), ([], []))
+        self.assertLessEqual(self.sizes(coarse), room)
+        self.assertEqual(still.kind(coarse[0].picture), ("image/webp", "webp"))
+        self.assertEqual(coarse[1].picture, fine[1].picture)
+
+    def test_sections_go_before_maps_and_curves_stay(self):
+        self.require_webp()
+        figures = [self.shown("map", True), self.shown("section", False), self.shown("curve", False, is_viewed=False)]
+        room = 4 / 3 * len(figures[2].picture) + 1
+        kept, left_out = still.fitted(figures, room)
+        self.assertEqual(([shown.drawn.name for shown in kept], left_out), (["curve"], ["map", "section"]))
+        worst = 4 / 3 * len(figures[0].picture)
+        _, left_out = still.fitted([self.shown("map", True), figures[1], figures[2]], room + worst)
+        self.assertEqual(left_out, ["section"])
+
+    def test_curves_are_rounded_to_a_hundredth_of_a_point(self):
+        figure, grid = style.new_figure(2.0)
+        grid[0][0].plot([0, 1 / 3, 1], [0, 2 / 3, 1])
+        paths = re.findall(rb' d="([^"]*)"', style.svg(figure))
+        style.close(figure)
+        self.assertGreater(len(paths), 5)
+        self.assertFalse([path for path in paths if re.search(rb"\.\d\d\d", path)])
+
+
+@unittest.skipIf(importlib.util.find_spec("bokeh") is None, "needs Bokeh (PyPI)")
+class LiveCurves(unittest.TestCase):
+    def test_a_second_axis_is_linear_beside_a_logarithmic_one(self):
+        from bokeh.models import LinearScale, LogScale
+
+        from tabor_report import bokeh_curves
+
+        style.apply()
+        figure, grid = style.new_figure(2.0)
+        grid[0][0].loglog([1, 10, 100], [1, 10, 100])
+        grid[0][0].twinx().plot([1, 10, 100], [0, 50, 90])
+        ((plot,),), _ = bokeh_curves.convert(figure, "both")
+        style.close(figure)
+        self.assertIsInstance(plot.y_scale, LogScale)
+        self.assertIsInstance(plot.extra_y_scales["right1"], LinearScale)
 
 
 class Section(unittest.TestCase):

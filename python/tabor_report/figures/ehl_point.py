@@ -202,7 +202,8 @@ def _film_maps(contact):
     factor, unit = units.length_scale(highest)
     shown = contact.show(left, film * factor, cmap="viridis", vmin=0, vmax=highest * factor)
     levels = np.linspace(0, highest * factor, 9)[1:-1]
-    if _is_smooth(film[contact.inside()], levels[0] / factor):
+    has_lines = _is_smooth(film[contact.inside()], levels[0] / factor)
+    if has_lines:
         left.contour(contact.x * UM, contact.y * UM, film * factor, levels=levels, colors="white", linewidths=0.4)
     bar = figure.colorbar(shown, cax=left.inset_axes([1.03, 0, 0.05, 1]), extend="max")
     bar.set_label(f"film thickness ({unit})")
@@ -213,7 +214,7 @@ def _film_maps(contact):
     return Drawn(
         "point_film",
         "Film",
-        "Dashed: the edge of the dry contact. Right: colours of interference for a film of refractive index "
+        f"Dashed: the edge of the dry contact.{' White: lines of equal film.' * has_lines} Right: colours of interference for a film of refractive index "
         f"{REFRACTION} between a dark and a clear body; they fade beyond {COHERENCE * UM:g} µm.",
         figure,
         contact.csv(film * NM, "film_nm"),

@@ -28,7 +28,7 @@ def draw(source):
     for curve, look in zip(curves, style.curve_styles(len(curves))):
         curve.draw(top, bottom, share, look["color"], look["marker"])
     _label_stribeck(top, bottom, share, "sliding" if key == SPEEDS[0] else "entrainment")
-    style.legend_on_top(figure, style.entries(top))
+    style.legend_on_top(figure, style.entries(top, share))
     warning = "" if all(curve.sure.all() for curve in curves) else " Red crosses: not converged."
     if any(np.isnan(curve.values["friction_coefficient"]).any() for curve in curves):
         warning += " Gaps: no friction is known there; the warnings say why."
@@ -84,9 +84,9 @@ class _Curve:
         film = self.values["central_film_m"] * NM
         shown = np.where(film > 0, film, np.nan)  # no film has no place on a logarithmic axis
         bottom.plot(self.speed, shown, color=colour, marker=marker, markersize=4)
-        for name, line in (("plastic_fraction", "-."), ("solid_contact_fraction", ":")):
+        for name, text, line in (("plastic_fraction", "plastic", "-."), ("solid_contact_fraction", "touching", (0, (1, 3)))):
             if name in self.values:
-                share.plot(self.speed, 100 * self.values[name], color=colour, linestyle=line, linewidth=1)
+                share.plot(self.speed, 100 * self.values[name], color=colour, linestyle=line, linewidth=1, label=prefix + text)
 
 
 def _label_stribeck(top, bottom, share, which):
@@ -101,6 +101,6 @@ def _label_stribeck(top, bottom, share, which):
         axes.grid(color="0.92", linewidth=0.6)
     top.set_ylabel("friction coefficient")
     bottom.set_ylabel("central film (nm)")
-    share.set_ylabel("touching (dotted),\nplastic (dash-dotted) (%)")
+    share.set_ylabel("share of the contact (%)")
     share.spines["right"].set_visible(True)
     bottom.set_xlabel(f"{which} speed (m/s)")

@@ -1,16 +1,18 @@
 """Pressure, gap, film and section of one state of a single-scan result."""
 
+from functools import cached_property
+
 import numpy as np
 
-from tabor_report import map_axes, maps, section, style, units
-from tabor_report.example import richest_window
+from tabor_report import hdf, map_axes, maps, section, style, units
+from tabor_report.example import richest_window, shores
 from tabor_report.figures import Drawn, contact_map
 
 
 def draw(single):
     """Yields all figures that the maps allow, state by state: contact does not know the lubricant nor
     a film the pressure, so that each is drawn for the first state that shows it."""
-    drawn = set()
+    drawn, sections = set(), _Sections(single)
     for state in single.states:
         figures = []
         if ("contact", state.pressure) not in drawn:
@@ -19,7 +21,7 @@ def draw(single):
             figures.append(_film(single, state))
         figures += [_fluid_pressure(single, state), _fluid_fill(single, state)]
         drawn.update({("contact", state.pressure), ("film", state.density)})
-        figures.append(_section(single, state))
+        figures.append(sections.draw(state))
         yield from (figure for figure in figures if figure is not None)
 
 
@@ -155,23 +157,61 @@ def _map(single, state, what, values, axis_label, colours, text, ground, label, 
     )
 
 
-def _section(single, state):
-    gap, film = state.map("gap"), state.map("film_thickness")
-    if gap is None and film is None:
-        return None
-    height = single.height()
-    height = height - np.nanmean(height)
-    row, columns = _place(state, film, height)
-    lines = section.cut(row, columns, single.pixel[0], height, film, gap)
-    length, length_unit = units.length_scale((columns[1] - columns[0]) * single.pixel[0])
+class _Sections:
+    """Draws sections of states; what states share is read once."""
+
+    def __init__(self, single):
+        self.single = single
+        self.touching = None, None  # of the last pressure: (its label, mask)
+        self.wet = {}  # {density: mask}
+
+    @cached_property
+    def mean_height(self):
+        return np.nanmean(self.single.raw_height(), dtype=float)
+
+    def draw(self, state):
+        """None for a state without gap and film."""
+        gap, film = hdf.child(state.node, "gap"), hdf.child(state.node, "film_thickness")
+        if gap is None and film is None:
+            return None
+        row, columns = self._place(state)
+        pixel = self.single.pixel
+        return _section(state, section.cut(row, columns, pixel[0], self.single.surface["height"], film, gap, self.mean_height),
+                        (row + 0.5) * pixel[1])  # fmt: skip
+
+    def _place(self, state):
+        """Row and columns of the section: where most of the (wet) contact is, else the middle."""
+        touching, wet = self._touching(state), self._wet(state)
+        interest = touching if touching is not None else shores(wet)
+        if touching is not None and wet is not None and (touching & wet).any():
+            interest = touching & wet
+        window = richest_window(interest)
+        counts = window.of(interest).sum(axis=1)
+        row = int(np.argmax(counts)) if counts.max() > 0 else len(counts) // 2
+        return window.y0 + row, (window.x0, window.x1)
+
+    def _touching(self, state):
+        if self.touching[0] != state.pressure_label:
+            found = state.state()
+            self.touching = state.pressure_label, None if found is None else found > 0
+        return self.touching[1]
+
+    def _wet(self, state):
+        if state.density_label not in self.wet:
+            film = state.raw("film_thickness")
+            self.wet[state.density_label] = None if film is None else film > 0
+        return self.wet[state.density_label]
+
+
+def _section(state, lines, y):
+    length, length_unit = units.length_scale(lines["x_m"][-1] - lines["x_m"][0])
     factor, unit = map_axes.height_unit(lines["solid_m"])
     figure, grid = style.new_figure(3.0)
     section.draw(grid[0][0], lines, length, length_unit, factor, unit)
     style.legend_above(grid[0][0], 3)
     stretch = section.exaggeration(grid[0][0], length, factor)
-    where = units.number((row + 0.5) * single.pixel[1] * length)
     caption = (
-        f"Section along x at y = {where} {length_unit}, {state.label}: solid (grey), lubricant before the "
+        f"Section along x at y = {units.number(y * length)} {length_unit}, {state.label}: solid (grey), lubricant before the "
         "surfaces close (blue), counterface (red) as undeformed solid plus gap (solid above it is flattened), whichever the file holds. "
         f"Heights are stretched {units.number(stretch, 2)} times against lengths."
     )
@@ -183,21 +223,3 @@ def _section(single, state):
         {"": section.csv(lines)},
         is_viewed=True,
     )
-
-
-def _shores(film):
-    """Wet pixels whose right neighbour is dry: where pools end there is most to see."""
-    wet = film > 0
-    return wet & ~np.roll(wet, -1, axis=1)
-
-
-def _place(state, film, height):
-    """Row and columns of the section: where most of the (wet) contact is, else the middle."""
-    touching = state.state()
-    interest = touching > 0 if touching is not None else _shores(film)
-    if touching is not None and film is not None and (interest & (film > 0)).any():
-        interest = interest & (film > 0)
-    window = richest_window(interest)
-    counts = window.of(interest).sum(axis=1)
-    row = int(np.argmax(counts)) if counts.max() > 0 else len(counts) // 2
-    return window.y0 + row, (window.x0, window.x1)

@@ -55,7 +55,7 @@ def _draw_panel(axes, source, lines):
     for label, look, axis, one in lines:
         q, density = one.curves[axis]
         shown, scale = density > FLOOR * density.max(), _SCALES[UNITS[axis]]
-        axes.loglog(q[shown] * 1e-6, density[shown] * scale, label=label, **look)
+        axes.loglog(q[shown] * 1e-6, density[shown] * scale, label=label, zorder=1.9 if one.is_mean else 2, **look)  # scans on top
         if one.is_mean:
             _draw_band(axes, q[shown], density[shown] * scale, one.deviations[axis][shown] * scale, look["color"])
     for place, label in zip(source.trusted or (), ("range to be trusted", None)):

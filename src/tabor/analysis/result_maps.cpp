@@ -148,6 +148,63 @@ std::size_t first_state(const ResultMaps& result, const MapChoice& choice) {
                    fmt::format("{}", *choice.state), states + " or all", "");
 }
 
+struct Axis {
+  double begin = 0;  ///< edge of the first pixel [m]
+  double pixel = 0;
+};
+
+Axis axis_of(const Hdf5Reader& reader, const fs::path& file, const std::string& path) {
+  const std::vector<double> places = reader.numbers(path);
+  const double pixel = places.size() > 1 ? places[1] - places[0] : 0;
+  if (pixel > 0) return {places[0] - pixel / 2, pixel};
+  throw InputError(fmt::format("{}: {}", file.string(), path), "places that do not rise",
+                   "two or more, rising", "the file is damaged: compute it again");
+}
+
+/// The maps of `ehl point`, about the centre of the contact.
+ResultMaps maps_of_point(const Hdf5Reader& reader, const fs::path& file) {
+  const auto [ny, nx] = reader.map_shape("/contact/film");
+  const Axis x = axis_of(reader, file, "/contact/x"), y = axis_of(reader, file, "/contact/y");
+  ResultMaps result{.file = file,
+                    .grid = {.nx = nx,
+                             .ny = ny,
+                             .lx = static_cast<double>(nx) * x.pixel,
+                             .ly = static_cast<double>(ny) * y.pixel},
+                    .surface = {},
+                    .states = {{reader.exists("/history") ? "at the end" : "steady", {}}},
+                    .left = x.begin,
+                    .top = y.begin};
+  add_stored(reader, "/contact", result);
+  for (NamedMap& map : result.states.back().maps) {
+    if (map.name == "film") map.name = "film_thickness";
+  }
+  return result;
+}
+
+/// "/profile/film, /profile/pressure": all data below a group.
+void list_data(const Hdf5Reader& reader, const std::string& group,
+               std::vector<std::string>& names) {
+  for (const std::string& name : reader.children(group)) {
+    const std::string path = fmt::format("{}/{}", group == "/" ? "" : group, name);
+    if (!reader.exists(path)) continue;
+    reader.is_dataset(path) ? names.push_back(path) : list_data(reader, path, names);
+  }
+}
+
+InputError without_maps(const Hdf5Reader& reader, const fs::path& file) {
+  constexpr const char* kExpected =
+      "a result of contact, lubricate, friction, sweep or ehl point with its maps";
+  std::vector<std::string> names;
+  list_data(reader, "/", names);
+  if (reader.exists("/states") || names.empty()) {
+    return {file.string(), "a file without maps", kExpected,
+            "write it with --fields contact or --fields all"};
+  }
+  return {
+      file.string(), fmt::format("a file without maps, with {}", fmt::join(names, ", ")), kExpected,
+      fmt::format("'tabor report {} --no-html' writes curves as figures and CSV", file.string())};
+}
+
 }  // namespace
 
 ResultMaps maps_on(const Hdf5Reader& reader, const fs::path& file, const std::string& surface) {
@@ -175,11 +232,8 @@ void add_state(const Hdf5Reader& reader, const StateGroups& groups, ResultMaps& 
 }
 
 ResultMaps read_result_maps(const Hdf5Reader& reader, const fs::path& file) {
-  if (!reader.exists("/surface/height")) {
-    throw InputError(file.string(), "a file without maps",
-                     "a result of contact, lubricate, friction or sweep with its maps",
-                     "write it with --fields contact or --fields all");
-  }
+  if (reader.exists("/contact/film")) return maps_of_point(reader, file);
+  if (!reader.exists("/surface/height")) throw without_maps(reader, file);
   ResultMaps result = maps_on(reader, file, "/surface");
   if (!reader.exists("/states")) return result;
   const bool has_path = has_load_path(reader);
@@ -200,7 +254,11 @@ scan::MapSet chosen_maps(const ResultMaps& result, const MapChoice& choice) {
   const std::size_t end =
       choice.state ? std::min(begin + 1, result.states.size()) : result.states.size();
   const bool is_numbered = end - begin > 1;
-  scan::MapSet set{.grid = result.grid, .maps = {}, .metadata = {{"Source", result.file.string()}}};
+  scan::MapSet set{.grid = result.grid,
+                   .maps = {},
+                   .metadata = {{"Source", result.file.string()}},
+                   .left = result.left,
+                   .top = result.top};
   std::vector<const NamedMap*> known;
   const auto take = [&](const NamedMap& map, const std::string& name) {
     known.push_back(&map);

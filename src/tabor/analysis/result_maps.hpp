@@ -24,6 +24,7 @@ struct ResultMaps {
   Grid grid;
   std::vector<scan::NamedMap> surface;  ///< of every state: the height
   std::vector<ResultState> states;
+  double left = 0, top = 0;  ///< where the grid begins [m]
 };
 
 /// What the groups of one state hold, for add_state(). Paths are in the file; "": none.
@@ -41,7 +42,9 @@ ResultMaps maps_on(const io::Hdf5Reader& reader, const std::filesystem::path& fi
 /// `displacement` (of the surface, into the body: gap + height - separation) [m].
 void add_state(const io::Hdf5Reader& reader, const StateGroups& groups, ResultMaps& result);
 
-/// The maps of a file of contact, lubricate or friction. Nothing is loaded yet.
+/// The maps of a file of contact, lubricate, friction or `ehl point`, whose film is called
+/// film_thickness as in the others. Nothing is loaded yet. Throws InputError for a file without
+/// maps, with the names of what it has.
 ResultMaps read_result_maps(const io::Hdf5Reader& reader, const std::filesystem::path& file);
 
 /// Which maps of a result.

@@ -130,9 +130,9 @@ void declare_maps(OptionSet& set, Request& request) {
   constexpr const char* kField = "--field";
   set.group("Maps of a result");
   set.text(kField, "NAME|all",
-           "take this map of a result of contact, lubricate, friction or sweep: height, pressure, "
-           "gap, film_thickness, displacement, contact (1 where solids touch), fluid_pressure, "
-           "...; .vti .gwy .csv hold any number, .xyz .npy .txt one",
+           "take this map of a result of contact, lubricate, friction, sweep or ehl point: height, "
+           "pressure, gap, film_thickness, displacement, contact (1 where solids touch), "
+           "fluid_pressure, ...; .vti .gwy .csv hold any number, .xyz .npy .txt one",
            request.field);
   set.add({.flag = "--state",
            .placeholder = "N|all",
@@ -165,7 +165,9 @@ Verb convert_verb() {
           .examples = {"tabor convert surfaces/edt_before.x3p edt.gwy",
                        "tabor convert surfaces/edt_before.x3p edt.h5 --level plane --lowpass "
                        "gauss:8um",
-                       "tabor convert edt.h5 height.npy --field height"},
+                       "tabor convert edt.h5 height.npy --field height",
+                       "tabor ehl point examples/12_stribeck/ball.toml -o ball.h5",
+                       "tabor convert ball.h5 film.vti --field film_thickness"},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_scan(set, request->scan);

@@ -209,10 +209,10 @@ std::vector<GroupParameters> means_of(const std::vector<GroupMembers>& groups,
   return means;
 }
 
-/// Groups take the place of their scans in a CSV.
+/// With groups the scans stand behind their means in a CSV.
 std::string csv_of(const std::vector<ScanParameters>& rows,
                    const std::vector<GroupParameters>& groups) {
-  return groups.empty() ? csv_table(rows) : csv_table(groups);
+  return groups.empty() ? csv_table(rows) : csv_table(groups, rows);
 }
 
 int show_many(const Request& request, Context& context) {
@@ -312,7 +312,7 @@ Verb params_verb() {
       .details =
           "Several scans stand side by side, each treated in the same way. A scan that cannot "
           "be read is named, the others are measured all the same, and the exit code is 3. With "
-          "--group the CSV has a row per group and parameter.",
+          "--group the CSV has a row per group and parameter: its mean, then the scans.",
       .examples = {"tabor params surfaces/edt_before.x3p --level plane",
                    "tabor params surfaces/edt_before.x3p --level plane --lowpass gauss:8um "
                    "--set height,function --json",

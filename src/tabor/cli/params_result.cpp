@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "tabor/cli/scan_groups.hpp"
@@ -148,6 +149,35 @@ const Columns<GroupRow>& group_columns() {
   return all;
 }
 
+bool is_member(const GroupParameters& group, const ScanParameters& scan) {
+  return std::find(group.scans.begin(), group.scans.end(), scan.path) != group.scans.end();
+}
+
+/// Those of any group.
+std::vector<ScanParameters> scans_in(const std::vector<GroupParameters>& groups,
+                                     const std::vector<ScanParameters>& scans) {
+  std::vector<ScanParameters> members;
+  std::copy_if(scans.begin(), scans.end(), std::back_inserter(members), [&](const auto& scan) {
+    return std::any_of(groups.begin(), groups.end(),
+                       [&](const auto& group) { return is_member(group, scan); });
+  });
+  return members;
+}
+
+/// The means, then what each scan of the group has.
+std::vector<Cell> cells_of_row(const GroupParameters& group, const metrology::ParameterMean& mean,
+                               const std::vector<ScanParameters>& scans) {
+  std::vector<Cell> cells;
+  for (const Column<GroupRow>& column : group_columns()) {
+    cells.push_back(column.value({group.name, mean}));
+  }
+  for (const ScanParameters& scan : scans) {
+    const Parameter* parameter = is_member(group, scan) ? find(scan, mean.symbol) : nullptr;
+    cells.emplace_back(parameter ? parameter->value : std::numeric_limits<double>::quiet_NaN());
+  }
+  return cells;
+}
+
 }  // namespace
 
 ReadableUnit readable_unit(const std::string& si_unit, double largest) {
@@ -227,12 +257,19 @@ std::string group_table(const GroupParameters& group) {
   return table.text();
 }
 
-std::string csv_table(const std::vector<GroupParameters>& groups) {
-  std::vector<GroupRow> rows;
+std::string csv_table(const std::vector<GroupParameters>& groups,
+                      const std::vector<ScanParameters>& scans) {
+  const std::vector<ScanParameters> shown = scans_in(groups, scans);
+  std::vector<std::string> header;
+  for (const Column<GroupRow>& column : group_columns()) header.push_back(column.key);
+  for (const std::string& name : headings(paths_of(shown))) header.push_back(name);
+  std::string text = io::csv_line(header);
   for (const GroupParameters& group : groups) {
-    for (const metrology::ParameterMean& mean : group.means) rows.push_back({group.name, mean});
+    for (const metrology::ParameterMean& mean : group.means) {
+      text += io::csv_line_of(cells_of_row(group, mean, shown));
+    }
   }
-  return io::csv_of(group_columns(), rows);
+  return text;
 }
 
 io::Json json_of(const GroupParameters& group) {

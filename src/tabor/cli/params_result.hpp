@@ -46,8 +46,10 @@ struct GroupParameters {
 
 /// One row per parameter: mean, standard deviation and number of scans.
 std::string group_table(const GroupParameters& group);
-/// One row per group and parameter, SI.
-std::string csv_table(const std::vector<GroupParameters>& groups);
+/// One row per group and parameter, SI: the means, then a column per scan of any group, empty for
+/// one of another group.
+std::string csv_table(const std::vector<GroupParameters>& groups,
+                      const std::vector<ScanParameters>& scans);
 /// {"group", "scans", "parameters": {"Sq": {"mean", "std", "sem", "n", "unit"}, ...}}
 io::Json json_of(const GroupParameters& group);
 

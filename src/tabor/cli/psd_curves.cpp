@@ -14,6 +14,21 @@ namespace tabor::cli {
 
 namespace {
 
+/// NXdata of a density against its wavevector, the radial one where there is one.
+void make_plot(const CurveSet& set, io::Hdf5Writer& writer) {
+  std::string density;
+  for (const Curve& curve : set.curves) {
+    const bool is_radial = curve.name.starts_with("psd_radial");
+    if (is_radial || (density.empty() && curve.name.starts_with("psd_"))) density = curve.name;
+    if (is_radial) break;
+  }
+  if (density.empty()) return;
+  const std::string axis = density.substr(4, density.find('_', 4) - 4);
+  writer.nxdata(set.place, density, {"q_" + axis + "_rad_per_m"});
+  writer.attribute(set.place, "SILX_style",
+                   R"({"axes_scale_types": ["log"], "signal_scale_type": "log"})");
+}
+
 void write_set(const CurveSet& set, io::Hdf5Writer& writer) {
   writer.group(set.place);
   for (const auto& [name, texts] : set.attributes) {
@@ -28,6 +43,14 @@ void write_set(const CurveSet& set, io::Hdf5Writer& writer) {
     writer.write(path, curve.values);
     writer.describe(path, curve.unit, curve.long_name);
   }
+  make_plot(set, writer);
+}
+
+/// What NeXus programs show of a file at once: the group of the first set.
+void make_default(const CurveSet& set, io::Hdf5Writer& writer) {
+  const std::size_t end = set.place.rfind('/');
+  if (end > 0) writer.attribute(set.place.substr(0, end), "default", set.place.substr(end + 1));
+  writer.attribute("/", "default", set.place.substr(1, end > 0 ? end - 1 : std::string::npos));
 }
 
 }  // namespace
@@ -63,6 +86,7 @@ void write_curves(const std::vector<CurveSet>& sets, const std::filesystem::path
   io::Hdf5Writer writer(file);
   analysis::write_result_head(writer, head_of(context, "", methods));
   for (const CurveSet& set : sets) write_set(set, writer);
+  if (!sets.empty()) make_default(sets.front(), writer);
   analysis::write_warnings(writer, context.warnings);
   writer.commit();
 }

@@ -74,8 +74,9 @@ class Hdf5Writer {
   void axes(const std::string& group, const Grid& grid, double left = 0, double top = 0);
   /// Attaches the scales `y`, `x` of the map's own group.
   void attach_axes(const std::string& map);
-  /// Makes the group NeXus NXdata with this default signal over (y, x).
-  void nxdata(const std::string& group, const std::string& signal);
+  /// Makes the group NeXus NXdata with this default signal over `axes`, datasets of the group.
+  void nxdata(const std::string& group, const std::string& signal,
+              const std::vector<std::string>& axes = {"y", "x"});
 
   /// A second name for what is at `target` already.
   void link(const std::string& path, const std::string& target);

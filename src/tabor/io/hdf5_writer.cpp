@@ -295,10 +295,11 @@ void Hdf5Writer::attach_axes(const std::string& map) {
   }
 }
 
-void Hdf5Writer::nxdata(const std::string& group, const std::string& signal) {
+void Hdf5Writer::nxdata(const std::string& group, const std::string& signal,
+                        const std::vector<std::string>& axes) {
   attribute(group, "NX_class", "NXdata");
   attribute(group, "signal", signal);
-  attribute(group, "axes", std::vector<std::string>{"y", "x"});
+  attribute(group, "axes", axes);
 }
 
 void Hdf5Writer::link(const std::string& path, const std::string& target) {

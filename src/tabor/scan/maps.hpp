@@ -25,6 +25,8 @@ struct MapSet {
   Grid grid;
   std::vector<NamedMap> maps;
   std::map<std::string, std::string> metadata = {};  ///< GWY alone keeps it
+  /// Where the grid begins [m]: of .vti, .gwy, .csv and .xyz.
+  double left = 0, top = 0;
 };
 
 /// Of the files that write() makes: ".vti", ...

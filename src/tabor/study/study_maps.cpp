@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 using analysis::ResultMaps;
 using io::Hdf5Reader;
 
-constexpr const char* kResult = "a result of contact, lubricate, friction or sweep";
+constexpr const char* kResult = "a result of contact, lubricate, friction, sweep or ehl point";
 
 /// "0 (before_1.x3p), 1 (before_2.x3p)"
 std::string listed(const Hdf5Reader& reader, const std::vector<std::string>& scans) {

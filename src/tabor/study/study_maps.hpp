@@ -7,10 +7,10 @@
 
 namespace tabor::study {
 
-/// The maps of a result file of contact, lubricate or friction, or of one scan of a study: its
-/// folder or its results.h5, whose states are the rows of the scan in results.csv. `scan` counts
-/// from 0 and may be left out where there is one. Throws InputError with the scans to choose from,
-/// and for a file that is no result.
+/// The maps of a result file of contact, lubricate, friction or ehl point, or of one scan of a
+/// study: its folder or its results.h5, whose states are the rows of the scan in results.csv.
+/// `scan` counts from 0 and may be left out where there is one. Throws InputError with the scans to
+/// choose from, and for a file that is no result.
 analysis::ResultMaps read_maps(const std::filesystem::path& result,
                                std::optional<std::size_t> scan = {});
 

@@ -210,6 +210,8 @@ CaseResult solve(const io::Config& config, const CaseSetting& setting) {
   if (!result.reason.empty()) answer.warnings.push_back(result.reason);
   answer.write = [problem, dry, result = std::move(result)](io::Hdf5Writer& writer) {
     io::write_curves(writer, "/history", history_columns(), result.history);
+    writer.nxdata("/history", "force", {"time"});
+    writer.attribute("/", "default", "history");
     write_profiles(writer, problem, result);
     writer.group("/dry");
     io::write_members(writer, "/dry", dry_json(dry));

@@ -135,6 +135,8 @@ CaseResult solve(const io::Config& config, const CaseSetting& setting) {
   if (!result.reason.empty()) answer.warnings.push_back(result.reason);
   answer.write = [result = std::move(result)](io::Hdf5Writer& writer) {
     io::write_curves(writer, "/history", history_columns(), result.history);
+    writer.nxdata("/history", "force", {"time"});
+    writer.attribute("/", "default", "history");
   };
   return answer;
 }

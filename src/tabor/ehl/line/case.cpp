@@ -233,6 +233,8 @@ void write_profile(io::Hdf5Writer& writer, const LineProblem& problem, const Lin
     writer.write(curve.path, std::vector<double>(begin, begin + curve.values.size()));
     writer.describe(curve.path, curve.unit, curve.long_name);
   }
+  writer.nxdata("/profile", "film", {"x"});
+  writer.attribute("/", "default", "profile");
 }
 
 /// Takes away the friction that nobody can know, and says why.

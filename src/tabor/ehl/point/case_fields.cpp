@@ -47,6 +47,7 @@ void write_maps(io::Hdf5Writer& writer, const PointProblem& problem, const Point
     writer.attach_axes(path);
   }
   writer.nxdata(group, "film");
+  writer.attribute("/", "default", "contact");
 }
 
 /// One row or column of every map.

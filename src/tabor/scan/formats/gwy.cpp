@@ -140,12 +140,15 @@ GwyBuilder unit(const std::string& text) {
   return builder;
 }
 
-GwyBuilder data_field(const Grid& grid, const Field& values, const std::string& z_unit) {
+GwyBuilder data_field(const MapSet& set, const Field& values, const std::string& z_unit) {
+  const Grid& grid = set.grid;
   GwyBuilder builder("GwyDataField");
   builder.add("xres", static_cast<std::int32_t>(grid.nx));
   builder.add("yres", static_cast<std::int32_t>(grid.ny));
   builder.add("xreal", grid.lx);
   builder.add("yreal", grid.ly);
+  builder.add("xoff", set.left);
+  builder.add("yoff", set.top);
   builder.add("si_unit_xy", unit("m"));
   builder.add("si_unit_z", unit(z_unit));
   builder.add("data", values);
@@ -162,7 +165,7 @@ void require_countable(const Grid& grid, std::size_t n_fields, const std::filesy
 }
 
 /// Adds one channel; returns the number of its fields: values, and a mask where it has holes.
-std::size_t add_channel(std::size_t id, const NamedMap& map, const Grid& grid, GwyBuilder& root) {
+std::size_t add_channel(std::size_t id, const NamedMap& map, const MapSet& set, GwyBuilder& root) {
   const std::string prefix = fmt::format("/{}/", id);
   const Field values = map.load();
   const Mask hole = values.isNaN();
@@ -170,10 +173,10 @@ std::size_t add_channel(std::size_t id, const NamedMap& map, const Grid& grid, G
   const double n_valid = static_cast<double>(hole.size() - hole.count());
   const double mean = hole.select(0, values).sum() / std::max(1.0, n_valid);
   const std::string unit_of_values = map.unit == "1" ? "" : map.unit;
-  root.add(prefix + "data", data_field(grid, hole.select(mean, values), unit_of_values));
+  root.add(prefix + "data", data_field(set, hole.select(mean, values), unit_of_values));
   root.add(prefix + "data/title", map.name);
   if (!hole.any()) return 1;
-  root.add(prefix + "mask", data_field(grid, hole.cast<double>(), ""));
+  root.add(prefix + "mask", data_field(set, hole.cast<double>(), ""));
   return 2;
 }
 
@@ -184,7 +187,7 @@ void write_gwy_maps(const MapSet& maps, const std::filesystem::path& file) {
   GwyBuilder root("GwyContainer");
   std::size_t n_fields = 0;
   for (std::size_t id = 0; id < maps.maps.size(); ++id) {
-    n_fields += add_channel(id, maps.maps[id], maps.grid, root);
+    n_fields += add_channel(id, maps.maps[id], maps, root);
     require_countable(maps.grid, n_fields, file);
   }
   GwyBuilder meta("GwyContainer");

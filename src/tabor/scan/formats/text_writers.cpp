@@ -22,8 +22,12 @@ void put_number(double value, io::Precision precision, std::string& text) {
   }
 }
 
-double x_of(const Grid& grid, Index x) { return (static_cast<double>(x) + 0.5) * grid.dx(); }
-double y_of(const Grid& grid, Index y) { return (static_cast<double>(y) + 0.5) * grid.dy(); }
+double x_of(const MapSet& maps, Index x) {
+  return maps.left + (static_cast<double>(x) + 0.5) * maps.grid.dx();
+}
+double y_of(const MapSet& maps, Index y) {
+  return maps.top + (static_cast<double>(y) + 0.5) * maps.grid.dy();
+}
 
 /// "pressure_Pa"
 std::string column_of(const NamedMap& map) {
@@ -42,7 +46,7 @@ std::string csv_header(const MapSet& maps) {
 std::string csv_row(const MapSet& maps, const std::vector<Field>& values, Index y) {
   std::string text;
   for (Index x = 0; x < maps.grid.nx; ++x) {
-    fmt::format_to(std::back_inserter(text), "{},{}", x_of(maps.grid, x), y_of(maps.grid, y));
+    fmt::format_to(std::back_inserter(text), "{},{}", x_of(maps, x), y_of(maps, y));
     for (std::size_t i = 0; i < values.size(); ++i) {
       text += ',';
       const double value = values[i](y, x);
@@ -82,7 +86,7 @@ void write_xyz_map(const MapSet& maps, const std::filesystem::path& file) {
   std::string text = fmt::format("# x [m] y [m] {} [{}]\n", map.name, map.unit);
   for (Index y = 0; y < maps.grid.ny; ++y) {
     for (Index x = 0; x < maps.grid.nx; ++x) {
-      fmt::format_to(std::back_inserter(text), "{} {} ", x_of(maps.grid, x), y_of(maps.grid, y));
+      fmt::format_to(std::back_inserter(text), "{} {} ", x_of(maps, x), y_of(maps, y));
       put_number(values(y, x), map.precision, text);
       text += '\n';
     }

@@ -32,8 +32,8 @@ std::string header_of(const MapSet& set) {
       "header_type=\"UInt64\">\n"
       "  <ImageData WholeExtent=\"{0}\" Origin=\"{1} {2} 0\" Spacing=\"{3} {4} 1\">\n"
       "    <Piece Extent=\"{0}\">\n      <PointData Scalars=\"{5}\">\n",
-      fmt::format("0 {} 0 {} 0 0", grid.nx - 1, grid.ny - 1), grid.dx() / 2, grid.dy() / 2,
-      grid.dx(), grid.dy(), set.maps.front().name);
+      fmt::format("0 {} 0 {} 0 0", grid.nx - 1, grid.ny - 1), set.left + grid.dx() / 2,
+      set.top + grid.dy() / 2, grid.dx(), grid.dy(), set.maps.front().name);
   std::uint64_t offset = 0;
   for (const NamedMap& map : set.maps) {
     text += array_of(map, offset);
@@ -46,7 +46,7 @@ std::string header_of(const MapSet& set) {
 std::string bytes_of(const NamedMap& map, const Grid& grid) {
   std::string bytes;
   put(bytes, size_of(map, grid));
-  // VTK's y axis points up, the rows of a scan run down.
+  // VTK's y axis points up, the rows of a scan run down: they are mirrored about the map's middle.
   const Field rows = map.load().colwise().reverse();
   is_single(map) ? put_field_f32(bytes, rows) : put_field(bytes, rows);
   return bytes;
