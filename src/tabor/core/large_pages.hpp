@@ -53,4 +53,10 @@ void move_to_large_pages(std::vector<T>& vector) {
   vector = std::move(moved);
 }
 
+/// Gives back what a vector that has shrunk to less than a half of its room does not use.
+template <class T>
+void give_back_unused(std::vector<T>& vector) {
+  if (vector.size() < vector.capacity() / 2) move_to_large_pages(vector);
+}
+
 }  // namespace tabor

@@ -108,6 +108,7 @@ std::vector<PoolId> Pools::renumber() {
     }
   }
   pools_.resize(static_cast<std::size_t>(n_kept));
+  give_back_unused(pools_);
   parallel_for(static_cast<Index>(sites_.size()), kBlock, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       PoolId& pool = sites_[static_cast<std::size_t>(i)].pool;

@@ -262,6 +262,7 @@ std::vector<Slopes::Target> Slopes::drop_forks(const Confluences& confluences) {
     forks_[n_kept++] = forks_[number];
   }
   forks_.resize(n_kept);
+  give_back_unused(forks_);
   return now;
 }
 
