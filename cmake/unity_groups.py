@@ -19,12 +19,14 @@ OWN = re.compile(r"^namespace \{$(.*?)^\}  // namespace$", re.M | re.S)
 # As .clang-format lays it out, a declaration begins its line.
 TYPE = re.compile(r"^(?:template <.*> )?(?:struct|class|enum class|enum|union|using) (\w+)(?: |;|$)", re.M)
 VALUE = re.compile(r"^(?!using |namespace |TEST|INSTANTIATE)[A-Za-z][^=({;\n]*?\b(\w+)(?:\[[^\n]*\])?(?: =|\(|\{|;|$)", re.M)
-VARIABLE = re.compile(r"^(?!using |namespace )[A-Za-z][^=({;\n]*? ([a-z]\w*)(?: =|\{|;)", re.M)
+VARIABLE = re.compile(r"^(?!using |namespace )[A-Za-z][^=({;\n]*? ((?!k[A-Z])[a-z]\w*)(?: =|\{|;)", re.M)
 MACRO = re.compile(r"^#define (\w+)", re.M)
 NAME = re.compile(r"\b(?:k[A-Z]|[A-Z])\w*")  # of a type or a constant
 WORD = re.compile(r"\w+")
 CALL = re.compile(r"(?<![.>:\w])(\w+)\(")
 DECLARED = re.compile(r"\b(?:struct|enum class|class|enum|using|typename) (\w+)")
+NAMESPACE = re.compile(r"^namespace (\w[\w:]*) \{", re.M)
+QUALIFIER = re.compile(r"(?<![:\w])(\w+)::")
 INCLUDE = re.compile(r'^#include "(.+)"$', re.M)
 
 
@@ -66,10 +68,19 @@ class File:
         """Those of its own that a variable of a function in another source would hide."""
         return set(VARIABLE.findall("\n".join(OWN.findall(self.code))))
 
+    def mentions(self, variables):
+        """Whether any of these words is in its code or in a header it includes."""
+        return bool(variables) and any(variables & set(WORD.findall(file.code)) for file in (self, *self.headers.values()))
+
     @functools.cached_property
     def seen(self):
         """Its own words, and the types and constants of the headers it includes."""
         return self.words.union(*(header.names for header in self.headers.values()))
+
+    @functools.cached_property
+    def namespaces(self):
+        """Those that it or a header it includes opens."""
+        return set(NAMESPACE.findall(self.code)).union(*(NAMESPACE.findall(header.code) for header in self.headers.values()))
 
     @functools.cached_property
     def unexplained(self):
@@ -88,7 +99,10 @@ class File:
         used, so that an include which it lacks is still found to be lacking."""
         if self.own & other.seen or other.own & self.seen:
             return False
-        if self.variables & set(WORD.findall(other.code)) or other.variables & set(WORD.findall(self.code)):
+        if other.mentions(self.variables) or self.mentions(other.variables):
+            return False
+        hiding = {name.split("::")[-1] for name in other.namespaces - self.namespaces}  # tabor::scan::test the outer test
+        if hiding & set(QUALIFIER.findall(self.code)):
             return False
         return not any(self.unexplained & header.words for path, header in other.headers.items() if path not in self.headers)
 

@@ -44,6 +44,11 @@ class Groups(unittest.TestCase):
         self.assertEqual(self.groups({"a": own("std::atomic<bool> flag{false};"), "b": "void f(int flag);"}), [["a"], ["b"]])
         self.assertEqual(self.groups({"a": "void f(int flag);", "b": own("bool flag = false;")}), [["a"], ["b"]])
 
+    def test_part_two_namespaces_of_one_name(self):
+        inner = "namespace tabor::scan::test {\n}  // namespace tabor::scan::test\n"
+        self.assertEqual(self.groups({"a": inner, "b": "test::Folder folder;"}), [["a"], ["b"]])
+        self.assertEqual(self.groups({"a": inner, "b": inner + "test::Folder folder;"}), [["a", "b"]])
+
     def test_part_a_source_that_forgot_an_include_from_one_that_has_it(self):
         header = {"h1.hpp": "struct Row {};\nRow first();\n", "h2.hpp": '#include "h1.hpp"\n'}
         with_it = '#include "h2.hpp"\n'
