@@ -120,6 +120,12 @@ WettingDoses wetting_doses(const topography::Topography& surface, const FilmSett
   return doses;
 }
 
+WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
+                           const Observer& observer) {
+  const Mask everywhere = Mask::Constant(surface.grid.ny, surface.grid.nx, true);
+  return wetting_doses(surface, settings, everywhere, observer);
+}
+
 std::vector<double> lubricated_shares(const WettingDoses& doses, const Mask& contact) {
   std::vector<double> shares(doses.lubricant_densities.size(), 0);
   double n_touching = 0;
@@ -164,8 +170,14 @@ std::optional<Plateau> plateau_of(const DensityCurve& curve) {
 std::vector<DensityCurve> density_curves(const topography::Topography& surface,
                                          const std::vector<Touching>& contacts,
                                          const CaseSettings& settings, const Observer& observer) {
-  const WettingDoses doses =
-      wetting_doses(surface, settings.film, touched_by(contacts, surface), observer);
+  return density_curves(
+      wetting_doses(surface, settings.film, touched_by(contacts, surface), observer), contacts,
+      settings);
+}
+
+std::vector<DensityCurve> density_curves(const WettingDoses& doses,
+                                         const std::vector<Touching>& contacts,
+                                         const CaseSettings& settings) {
   std::vector<DensityCurve> curves;
   if (doses.lubricant_densities.empty()) return curves;
   curves.reserve(contacts.size());

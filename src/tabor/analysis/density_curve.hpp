@@ -44,6 +44,10 @@ bool has_density_curve(const CaseSettings& settings);
 WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
                            const Mask& where, const Observer& observer = {});
 
+/// Of all pixels: needs no contact, and serves any.
+WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
+                           const Observer& observer = {});
+
 /// The share of a contact that each of the doses wets; 0 where nothing touches.
 std::vector<double> lubricated_shares(const WettingDoses& doses, const Mask& contact);
 
@@ -68,6 +72,10 @@ std::vector<DensityCurve> density_curves(const topography::Topography& surface,
                                          const std::vector<Touching>& contacts,
                                          const CaseSettings& settings,
                                          const Observer& observer = {});
+/// The same where it is known which dose wets which pixel.
+std::vector<DensityCurve> density_curves(const WettingDoses& doses,
+                                         const std::vector<Touching>& contacts,
+                                         const CaseSettings& settings);
 
 /// In one sentence, what the curve says of the densities [kg/m^2] that were asked for: "the pockets
 /// under the contacts are full from 0.05 g/m^2 (16 % of the contact is wet); ...".

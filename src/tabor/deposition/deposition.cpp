@@ -220,15 +220,22 @@ std::vector<std::size_t> first_wetting_doses(const Field& height, const Grid& gr
                      "rising doses of droplets or their limit", "");
   }
   std::vector<std::size_t> first(pixels.size(), dose.mean_films.size());
+  std::vector<std::int32_t> dry(pixels.size());  // places of those that no dose has wet yet
+  std::iota(dry.begin(), dry.end(), 0);
   const auto look = [&](std::size_t i, const RainState&, Pools& pools) {
     const bool is_drowned = dose.edge != Edge::open && pools.beyond() > 0;
-    for (std::size_t k = 0; k < pixels.size(); ++k) {
-      go_on_or_throw(k);
-      if (first[k] < i) continue;
-      const auto p = static_cast<Pixel>(pixels[k]);
+    std::size_t n_dry = 0;
+    for (const std::int32_t k : dry) {
+      go_on_or_throw(static_cast<std::size_t>(k));
+      const auto p = static_cast<Pixel>(pixels[static_cast<std::size_t>(k)]);
       const bool is_wet = pools[pools.owner(pools.pool_at(p))].level > pools.height(p);
-      if (is_wet || is_drowned) first[k] = std::min(first[k], i);
+      if (is_wet || is_drowned) {
+        first[static_cast<std::size_t>(k)] = i;
+      } else {
+        dry[n_dry++] = k;
+      }
     }
+    dry.resize(n_dry);
   };
   const FilmSink no_films;
   Deposition(height, grid, dose, no_films).rain(look, observer);

@@ -120,13 +120,6 @@ void compute_fluid(const Store& store, const Study& study, const topography::Top
                {"sliding_speed_m_per_s", record.sliding_speed}});
 }
 
-analysis::WettingDoses all_wetting_doses(const Study& study,
-                                         const topography::Topography& topography,
-                                         const Observer& observer) {
-  const Mask everywhere = Mask::Constant(topography.grid.ny, topography.grid.nx, true);
-  return analysis::wetting_doses(topography, study.settings.film, everywhere, observer);
-}
-
 void compute_wet_shares(const Store& store, const Task& task, const Task& contact,
                         const analysis::WettingDoses& doses) {
   const Mask touching = read_contact_mask(store, contact);

@@ -39,11 +39,6 @@ void compute_fluid(const Store& store, const Study& study, const topography::Top
                    const contact::State& dry, const ScanTasks& tasks, std::size_t pressure,
                    std::size_t condition, const Observer& observer);
 
-/// Which density is the first to wet each pixel, whether something touches there or not.
-analysis::WettingDoses all_wetting_doses(const Study& study,
-                                         const topography::Topography& topography,
-                                         const Observer& observer);
-
 /// The wet shares of one stored contact.
 void compute_wet_shares(const Store& store, const Task& task, const Task& contact,
                         const analysis::WettingDoses& doses);

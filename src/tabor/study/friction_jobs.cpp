@@ -84,7 +84,8 @@ Job doses_job(const SharedScan& scan) {
   job.stage = stage_name("wetting doses", scan->scan);
   job.is_serial = true;
   job.compute = [scan](const Monitor& monitor) {
-    scan->doses = all_wetting_doses(scan->study, *scan->surface(monitor), monitor.own);
+    scan->doses =
+        analysis::wetting_doses(*scan->surface(monitor), scan->study.settings.film, monitor.own);
   };
   return job;
 }

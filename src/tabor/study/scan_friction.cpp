@@ -84,12 +84,14 @@ class ScanFriction {
         pressures_(settings.mean_pressures.size()),
         touching_(settings.mean_pressures.size()) {}
 
-  /// The rain first, and with each contact what waits for it: among the jobs that are ready the
-  /// engine takes the first.
+  /// What rains first, as it runs on one thread, and with each contact what waits for it: among the
+  /// jobs that are ready the engine takes the first.
   std::vector<Job> jobs() {
     std::vector<Job> jobs = {film_job()};
+    const bool has_curve = analysis::has_density_curve(settings_);
+    if (has_curve) jobs.push_back(doses_job());
     for (std::size_t i = 0; i < pressures_.size(); ++i) add_pressure(i, jobs);
-    if (analysis::has_density_curve(settings_)) jobs.push_back(curves_job());
+    if (has_curve) jobs.push_back(curves_job());
     return jobs;
   }
 
@@ -109,12 +111,22 @@ class ScanFriction {
     return job;
   }
 
+  Job doses_job() {
+    Job job = job_of("wetting doses");
+    job.is_serial = true;
+    job.compute = [this](const Monitor& monitor) {
+      doses_ = analysis::wetting_doses(surface_, settings_.film, monitor.own);
+    };
+    return job;
+  }
+
   Job curves_job() {
     Job job = job_of("density curve");
-    job.is_serial = true;
+    job.is_brief = true;
     job.needs = contacts_;
-    job.compute = [this](const Monitor& monitor) {
-      curves_ = analysis::density_curves(surface_, touching_, settings_, monitor.own);
+    job.needs.push_back(kDoses);
+    job.compute = [this](const Monitor&) {
+      curves_ = analysis::density_curves(doses_, touching_, settings_);
     };
     return job;
   }
@@ -211,7 +223,8 @@ class ScanFriction {
     return pressure.fluids[density] ? &*pressure.fluids[density] : nullptr;
   }
 
-  static constexpr std::size_t kFilm = 0;  // its place among the jobs
+  static constexpr std::size_t kFilm = 0;  // places among the jobs
+  static constexpr std::size_t kDoses = 1;
 
   const topography::Topography& surface_;
   const analysis::CaseSettings& settings_;
@@ -223,6 +236,7 @@ class ScanFriction {
   std::vector<analysis::FilmRecord> films_;
   std::vector<Pressure> pressures_;
   std::vector<analysis::Touching> touching_;
+  analysis::WettingDoses doses_;
   std::vector<analysis::DensityCurve> curves_;
   std::vector<std::size_t> contacts_;  // places of their jobs
   std::vector<std::size_t> results_;
