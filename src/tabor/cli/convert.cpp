@@ -161,13 +161,13 @@ Verb convert_verb() {
           .summary = "write a scan, or maps of a result, in another format",
           .details =
               "The format follows the extension of OUT: .h5 .gwy .gsf .sdf .asdf .x3p .npy "
-              ".txt .xyz .vti. With --field the maps of a result are written instead.",
+              ".txt .xyz .vti. With --field the maps of a result are written instead, of contact, "
+              "lubricate, "
+              "friction, a study or ehl point: --field film_thickness.",
           .examples = {"tabor convert surfaces/edt_before.x3p edt.gwy",
                        "tabor convert surfaces/edt_before.x3p edt.h5 --level plane --lowpass "
                        "gauss:8um",
-                       "tabor convert edt.h5 height.npy --field height",
-                       "tabor ehl point examples/12_stribeck/ball.toml -o ball.h5",
-                       "tabor convert ball.h5 film.vti --field film_thickness"},
+                       "tabor convert edt.h5 height.npy --field height"},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_scan(set, request->scan);
