@@ -55,7 +55,7 @@ struct Job {
   /// Memory that it takes while it runs [bytes]. An InputError means that nobody knows.
   std::function<std::size_t(const Monitor&)> memory;
 
-  bool is_serial = false;  ///< runs on one thread whatever it is given
+  bool is_serial = false;  ///< is given one thread: most of it would leave others idle
   /// Takes next to no time: it is neither estimated, locked nor interrupted.
   bool is_brief = false;
   bool restarts = false;  ///< iterates anew many times: its residual does not tell how far it is

@@ -84,7 +84,7 @@ class ScanFriction {
         pressures_(settings.mean_pressures.size()),
         touching_(settings.mean_pressures.size()) {}
 
-  /// What rains first, as it runs on one thread, and with each contact what waits for it: among the
+  /// What rains first, as most of it is serial, and with each contact what waits for it: among the
   /// jobs that are ready the engine takes the first.
   std::vector<Job> jobs() {
     std::vector<Job> jobs = {film_job()};
