@@ -172,6 +172,8 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
       -Wno-array-bounds -Wno-stringop-overflow -Wno-stringop-overread -Wno-uninitialized)
   endif()
   if(TABOR_UNITY)
+    # Collecting its garbage below 600 MB takes a tenth of its time.
+    add_compile_options("SHELL:--param ggc-min-heapsize=600000")
     # It takes a source that another file includes for a header, whose types no other source may hold.
     list(APPEND TABOR_COMPILE_OPTIONS -Wno-subobject-linkage)
   endif()

@@ -11,8 +11,9 @@ namespace {
 
 class LubricantVerbs : public testing::Test {
  protected:
-  void SetUp() override {
-    const Outcome made = run_tabor({"generate", "edt", "-o", scan(), "--pixels", "64", "--pixel",
+  void SetUp() override { make_scan("64"); }
+  void make_scan(const std::string& pixels) {
+    const Outcome made = run_tabor({"generate", "edt", "-o", scan(), "--pixels", pixels, "--pixel",
                                     "2um", "--noise", "0nm", "--plateau-roughness", "80nm"});
     ASSERT_EQ(made.code, 0) << made.err;
   }
@@ -200,6 +201,7 @@ TEST_F(LubricantVerbs, MapsNeedAFileAndAKnownChoice) {
 }
 
 TEST_F(LubricantVerbs, FlowingOilCarriesLoadAndAddsViscousFriction) {
+  make_scan("32");
   const Words oil = {"--fluid", "reynolds", "--viscosity", "0.2Pa*s"};
   const io::Json without = json_of(friction("7MPa", "0.9g/m^2")).at("states").at(0);
   EXPECT_FALSE(without.contains("fluid_load_share"));
@@ -247,6 +249,7 @@ TEST_F(LubricantVerbs, FlowingOilNeedsSpeedViscosityAndAPatchThatRepeats) {
 }
 
 TEST_F(LubricantVerbs, FrictionKeepsTheFlowingFilm) {
+  make_scan("24");
   const Words words = friction("7MPa", "0.9g/m^2") + Words{"--fluid",
                                                            "reynolds",
                                                            "--speed",
@@ -262,7 +265,7 @@ TEST_F(LubricantVerbs, FrictionKeepsTheFlowingFilm) {
   ASSERT_EQ(run_tabor(words).code, 0);
   const io::Hdf5Reader result(file("out.h5"));
   for (const char* map : {"fluid_pressure", "fluid_fill", "fluid_gap", "fluid_solid_pressure"}) {
-    EXPECT_EQ(result.shape(std::string("/states/0000/") + map), (std::vector<Index>{64, 64}));
+    EXPECT_EQ(result.shape(std::string("/states/0000/") + map), (std::vector<Index>{24, 24}));
   }
   EXPECT_TRUE(json_of({"cite", file("out.h5")}).at("bibtex").contains("elrod1981"));
 }

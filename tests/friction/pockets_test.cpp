@@ -102,7 +102,7 @@ void expect_small(const std::string& name, const WetState& error, const WetState
                 "(1 - wet share) tau_y / p_sat in closed form", error.friction, tolerance.friction);
 }
 
-TEST(Pockets, WithCurvedShoresHaveTheSharesOfTheirClosedForms) {
+TEST(Pockets, WithCurvedShoresHaveTheSharesOfTheirClosedForms) {  // slow
   for (const Pocket& pocket : {test::spherical_pit(), test::tilted_groove()}) {
     const WetState coarse = errors(pocket, 64);
     const WetState fine = errors(pocket, 512);
@@ -112,7 +112,7 @@ TEST(Pockets, WithCurvedShoresHaveTheSharesOfTheirClosedForms) {
   }
 }
 
-TEST(Pockets, WithStraightShoresHaveThemWithinAFewRowsOfPixels) {
+TEST(Pockets, WithStraightShoresHaveThemWithinAFewRowsOfPixels) {  // slow
   // Along the pixels a shore moves by whole rows: each of the four of a groove by half a one.
   for (const Pocket& pocket :
        {test::v_groove(), test::cylindrical_groove(), test::sinusoidal_pocket()}) {

@@ -127,7 +127,7 @@ TEST_F(Hdf5Guard, ACopyThatWaitsForEverIsARejection) {
   EXPECT_THROW(survives(wait_in_copy), InputError);
 }
 
-TEST_F(Hdf5Guard, SoIsAMapWhoseCopyWaitsForEver) {
+TEST_F(Hdf5Guard, SoIsAMapWhoseCopyWaitsForEver) {  // slow
   const pid_t original = ::getpid();
   const SendRows never_ends = [&](const Rows& send) {
     send(kMap);

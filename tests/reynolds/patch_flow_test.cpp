@@ -43,8 +43,8 @@ double load_of(const PatchProblem& problem, const PatchFilm& film) {
 }
 
 TEST(PatchFilm, StopsAtAnyQuestion) {
-  const PatchProblem problem = rough_patch(64, 0.5e-6);
-  const Field oil = Field::Constant(64, 64, 0.2e-6);
+  const PatchProblem problem = rough_patch(32, 0.5e-6);
+  const Field oil = Field::Constant(32, 32, 0.2e-6);
   test::expect_to_stop_at_once(
       [&](const Observer& observer) { return steady_film(problem, oil, observer).convergence; });
 }

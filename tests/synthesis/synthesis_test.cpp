@@ -139,7 +139,7 @@ TEST(EdtSurface, HasTheSaOfTheSheet) {  // slow
   EXPECT_NEAR(parameter(edt(edt_recipe()), "Sa") / 0.9e-6, 1, 1e-12);
 }
 
-TEST(EdtSurface, FallsAsAPowerLawWithHBetween7And8Tenths) {
+TEST(EdtSurface, FallsAsAPowerLawWithHBetween7And8Tenths) {  // slow
   // So few craters fit on 512 pixels that one sheet scatters by 0.06 about the mean.
   constexpr int kSeeds = 12;
   double along_x = 0, along_y = 0;

@@ -76,6 +76,11 @@ build() {
       fail "the build failed (build/$preset/build.log)"; }
 }
 
+# One more than there are cores: some tests wait for what they stopped, or for a disk.
+n_tests_at_once() {
+  echo $(($(nproc) + 1))
+}
+
 # python_environment: build/venv with all that the Python package is built and tested with, from PyPI. Fails where PyPI
 # cannot be reached: then the package is neither built nor tested, and a line says so.
 python_environment() {

@@ -106,7 +106,7 @@ class Refinement {
       }
     }
     constexpr double n = kBlocks * kBlocks;
-    const Matrix inverse = topography::pseudo_inverse(derivative());
+    const Matrix inverse = numerics::pseudo_inverse(derivative());
     const Matrix covariance = inverse * scatter * inverse.transpose() * (n / (n - 5));
     return covariance.diagonal().head<2>().array();
   }

@@ -4,7 +4,7 @@
 
 #include "tabor/comparison/registration.hpp"
 #include "tabor/core/rows.hpp"
-#include "tabor/topography/small_matrices.hpp"
+#include "tabor/numerics/small_matrices.hpp"
 
 namespace tabor::comparison {
 
@@ -21,7 +21,7 @@ struct NormalEquations {
 
   /// Zero along directions that the points do not determine.
   Eigen::Matrix<double, N, 1> solution() const {
-    return topography::determined_inverse(matrix) * right_side;
+    return numerics::determined_inverse(matrix) * right_side;
   }
 };
 

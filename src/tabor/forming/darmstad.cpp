@@ -1,9 +1,11 @@
 #include "tabor/forming/darmstad.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "tabor/numerics/small_matrices.hpp"
 
 namespace tabor::forming {
 namespace {
@@ -71,7 +73,7 @@ Linear solve(const Points& points, const Decays& decays) {
   terms.col(2) = points.pressure.array() * decayed(decays[1]);
   if (decays[2] > 0) terms.col(3) = decayed(decays[2]);  // otherwise another constant
   Linear linear;
-  linear.factors = terms.completeOrthogonalDecomposition().solve(points.friction);
+  linear.factors = numerics::shortest_least_squares(terms, points.friction);
   linear.squares = (terms * linear.factors - points.friction).squaredNorm();
   return linear;
 }

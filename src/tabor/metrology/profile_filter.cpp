@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "tabor/numerics/small_matrices.hpp"
 #include "tabor/topography/filters.hpp"
-#include "tabor/topography/small_matrices.hpp"
 
 namespace tabor::metrology {
 namespace {
@@ -43,7 +43,7 @@ Eigen::ArrayXd without_form(const Eigen::ArrayXd& z, int degree) {
     return Eigen::ArrayXd::Constant(z.size(), std::numeric_limits<double>::quiet_NaN());
   }
   const Eigen::VectorXd form =
-      topography::least_squares(valid.topRows(n_valid), heights.head(n_valid));
+      numerics::least_squares(valid.topRows(n_valid), heights.head(n_valid));
   return z - (all * form).array();
 }
 

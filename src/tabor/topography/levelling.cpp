@@ -13,7 +13,7 @@
 #include "tabor/core/rows.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/numerics/field_statistics.hpp"
-#include "tabor/topography/small_matrices.hpp"
+#include "tabor/numerics/small_matrices.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -179,7 +179,7 @@ NormalEquations normal_equations(const Field& height, const FormFit& removed) {
 /// Rejects a fit that the valid points leave undetermined: too few, or all on one curve.
 void check_determined(const NormalEquations& equations, int degree) {
   constexpr double smallest_ratio = 1e-12;
-  const Eigen::VectorXd values = symmetric_eigenvalues(equations.matrix);
+  const Eigen::VectorXd values = numerics::symmetric_eigenvalues(equations.matrix);
   if (equations.n_valid == 0 || values[0] <= smallest_ratio * values[values.size() - 1]) {
     throw InputError(
         fmt::format("levelling by a polynomial of degree {}", degree),
@@ -217,7 +217,7 @@ FormFit fit_form(const Field& height, int degree) {
   for (int pass = 0; pass < 2; ++pass) {
     const auto equations = normal_equations(height, fit);
     check_determined(equations, degree);
-    const Vector correction = solve_symmetric(equations.matrix, equations.right);
+    const Vector correction = numerics::solve_symmetric(equations.matrix, equations.right);
     for (Index t = 0; t < correction.size(); ++t) {
       fit.coefficients[static_cast<std::size_t>(t)] += correction[t];
     }

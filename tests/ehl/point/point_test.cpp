@@ -181,7 +181,7 @@ TEST(SolvePoint, StopsAtAnyQuestion) {
       return result.convergence;
     });
   };
-  const PointProblem problem = moes_case(200, 10, 97);
+  const PointProblem problem = moes_case(200, 10, 49);
   const PointResult found = solve_point(problem);
   expect_to_stop(problem, nullptr);
   PointProblem slower = problem;

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace tabor::topography {
+namespace tabor::numerics {
 
 // Decompositions of the small matrices of fits. They are compiled here once: each place that takes
 // them from Eigen's templates itself builds for half a minute.
@@ -23,4 +23,7 @@ Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& matrix, const Eigen::Vect
 /// x that makes |matrix x - right| least; columns of `matrix` are independent.
 Eigen::VectorXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
 
-}  // namespace tabor::topography
+/// The shortest x of all that make |matrix x - right| least, whatever the columns of `matrix`.
+Eigen::VectorXd shortest_least_squares(const Eigen::MatrixXd& matrix, const Eigen::VectorXd& right);
+
+}  // namespace tabor::numerics

@@ -1,11 +1,11 @@
-#include "tabor/topography/small_matrices.hpp"
+#include "tabor/numerics/small_matrices.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <cmath>
 
-namespace tabor::topography {
+namespace tabor::numerics {
 namespace {
 
 using Eigen::MatrixXd;
@@ -68,5 +68,13 @@ TEST(LeastSquares, FitsTheMeanAndTheSlope) {
   EXPECT_NEAR(fit[1], 1.5, 1e-14);
 }
 
+TEST(LeastSquares, TheShortestSharesWhatTwoEqualColumnsCannotTellApart) {
+  MatrixXd twice(3, 2);
+  twice << 1, 1, 2, 2, 3, 3;
+  const VectorXd fit = shortest_least_squares(twice, (VectorXd(3) << 4, 8, 12).finished());
+  EXPECT_NEAR(fit[0], 2, 1e-14);
+  EXPECT_NEAR(fit[1], 2, 1e-14);
+}
+
 }  // namespace
-}  // namespace tabor::topography
+}  // namespace tabor::numerics

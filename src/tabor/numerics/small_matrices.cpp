@@ -1,11 +1,11 @@
-#include "tabor/topography/small_matrices.hpp"
+#include "tabor/numerics/small_matrices.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <cmath>
 
-namespace tabor::topography {
+namespace tabor::numerics {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -37,4 +37,8 @@ VectorXd least_squares(const MatrixXd& matrix, const VectorXd& right) {
   return matrix.householderQr().solve(right);
 }
 
-}  // namespace tabor::topography
+VectorXd shortest_least_squares(const MatrixXd& matrix, const VectorXd& right) {
+  return matrix.completeOrthogonalDecomposition().solve(right);
+}
+
+}  // namespace tabor::numerics
