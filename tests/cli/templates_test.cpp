@@ -65,7 +65,7 @@ TEST_F(Templates, OfAStudyHasEveryKeyWithAValueThatIsTaken) {
   }
 }
 
-TEST_F(Templates, OfEveryProgramRun) {  // slow
+TEST_F(Templates, OfEveryProgramRun) {
   for (const ehl::Program& program : ehl::programs()) {
     const Outcome printed = run_tabor({"ehl", program.name, "--template"});
     ASSERT_EQ(printed.code, 0) << printed.err;

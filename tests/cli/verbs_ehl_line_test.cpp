@@ -254,7 +254,7 @@ TEST(EhlLine, SharesTheLoadWithAsperities) {
   EXPECT_FALSE(json_of(quick()).contains("asperity_load_share"));
 }
 
-TEST(EhlLine, GivesNoFrictionOfSolidsThatTheCaseSaysNothingOf) {  // slow
+TEST(EhlLine, GivesNoFrictionOfSolidsThatTheCaseSaysNothingOf) {
   const test::Folder folder;
   const std::string file = folder / "bare.toml";
   std::string text = io::read_text(TABOR_SOURCE_DIR "/examples/11_hdpe_glycerol/mixed.toml");
@@ -272,7 +272,7 @@ TEST(EhlLine, GivesNoFrictionOfSolidsThatTheCaseSaysNothingOf) {  // slow
   EXPECT_THAT(run_tabor(bare).out, HasSubstr("friction coefficient  -"));
 }
 
-TEST(EhlLine, GivesNoFrictionThatNoOilHas) {  // slow
+TEST(EhlLine, GivesNoFrictionThatNoOilHas) {
   const std::vector<std::string> steel =
       quick({"--set", "solids.youngs_modulus=200GPa", "--set", "cylinder.load_per_length=100 kN/m",
              "--set", "lubricant.pressure_viscosity=2e-8 1/Pa", "--set", "grid.nodes=1200"});

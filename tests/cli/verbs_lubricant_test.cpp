@@ -201,7 +201,6 @@ TEST_F(LubricantVerbs, MapsNeedAFileAndAKnownChoice) {
 }
 
 TEST_F(LubricantVerbs, FlowingOilCarriesLoadAndAddsViscousFriction) {
-  make_scan("32");
   const Words oil = {"--fluid", "reynolds", "--viscosity", "0.2Pa*s"};
   const io::Json without = json_of(friction("7MPa", "0.9g/m^2")).at("states").at(0);
   EXPECT_FALSE(without.contains("fluid_load_share"));
