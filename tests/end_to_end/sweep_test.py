@@ -29,8 +29,6 @@ N_CASES = 2 * 8 * 2
 
 
 class SweepTest(ProgramTest):
-    undisturbed = ""
-
     def setUp(self):
         super().setUp()
         for seed, name in enumerate(["a.h5", "b.h5"], start=1):
@@ -49,18 +47,12 @@ class SweepTest(ProgramTest):
         return self.stop_when(
             lambda: self.count("contact-*.h5") >= n_contacts and self.count("case-*.json") >= n_cases, stop, process)
 
-    def sweep(self, directory):
-        """The table of one undisturbed sweep."""
-        done = self.tabor("sweep", "study.toml", "-o", directory)
+    def reference(self):
+        done = self.tabor("sweep", "study.toml", "-o", "reference")
         self.assertEqual(done.returncode, 0, done.stderr)
-        table = self.table(directory)
+        table = self.table("reference")
         self.assertEqual(len(table.splitlines()), 1 + N_CASES)
         return table
-
-    def reference(self):
-        """That table, computed for the first test that asks."""
-        SweepTest.undisturbed = SweepTest.undisturbed or self.sweep("reference")
-        return SweepTest.undisturbed
 
 
 class Killed(SweepTest):
@@ -171,7 +163,7 @@ def report_libraries_are_installed():
 class Report(SweepTest):
     @unittest.skipUnless(report_libraries_are_installed(), "the Python libraries of the report are not installed")
     def test_of_a_study_and_of_a_result_file_is_one_page(self):
-        self.sweep("reference")
+        self.reference()
         files = self.json("report", "reference")["files"]
         self.assertTrue(any(name.endswith("report.html") for name in files), files)
         self.assertTrue((self.folder / "reference/report.html").exists())

@@ -1,5 +1,7 @@
 """Whole runs of `python3 -m tabor_report`: the files, their sizes, the page."""
 
+import contextlib
+import io
 import os
 import re
 import subprocess
@@ -15,6 +17,7 @@ import h5py
 import synthetic_study
 from synthetic_single import write_single
 from synthetic_study import Recipe
+from tabor_report import cli
 
 PACKAGE = Path(__file__).resolve().parents[2] / "python"
 ODD = Recipe(
@@ -28,6 +31,15 @@ ODD = Recipe(
 
 
 def run(*arguments):
+    """What the program does, in this process: starting Python and its libraries takes longer than most pages."""
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        code = cli.main([*map(str, arguments)])
+    return subprocess.CompletedProcess(arguments, code, out.getvalue(), err.getvalue())
+
+
+def run_alone(*arguments):
+    """The program itself."""
     return subprocess.run(
         [sys.executable, "-m", "tabor_report", *map(str, arguments)],
         capture_output=True,
@@ -68,7 +80,7 @@ class StudyReport(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = Path(cls.temporary.name) / "study – Ö"
         synthetic_study.write(cls.folder, ODD)
-        cls.done = run(cls.folder, "--figures", "png,svg")
+        cls.done = run_alone(cls.folder, "--figures", "png,svg")
         cls.page = (
             (cls.folder / "report.html").read_text(encoding="utf-8") if cls.done.returncode == 0 else ""
         )
@@ -158,7 +170,7 @@ class StudyReport(unittest.TestCase):
         before = {
             path: path.read_bytes() for path in [*self.folder.glob("figures/*"), self.folder / "report.html"]
         }
-        self.assertEqual(run(self.folder, "--figures", "png,svg").returncode, 0)
+        self.assertEqual(run_alone(self.folder, "--figures", "png,svg").returncode, 0)
         self.assertEqual([path.name for path, data in before.items() if path.read_bytes() != data], [])
 
 

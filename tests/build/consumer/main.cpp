@@ -3,10 +3,7 @@
 #include <cstdio>
 #include <numbers>
 
-#include "tabor/contact/contact.hpp"
-#include "tabor/elastic/half_space.hpp"
-#include "tabor/material/solid.hpp"
-#include "tabor/reference/waves.hpp"
+#include "tabor/tabor.hpp"
 
 int main() {
   const double length = 1e-3;
