@@ -47,7 +47,6 @@ analysis::CaseSettings along_a_load_path() {
 analysis::CaseSettings flowing() {
   analysis::CaseSettings flow = settings();
   flow.mean_pressures = {7e6};
-  flow.film.lubricant_densities = {9e-4};
   flow.fluid = {.fluid = analysis::Fluid::reynolds, .sliding_speed = 0.01, .viscosity = 0.2};
   return flow;
 }
