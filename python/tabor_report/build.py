@@ -57,9 +57,10 @@ def build(source, folder, options, command):
     output.make_folder(folder / "figures" if options.figures else folder)
     shown, paths = [], []
     for drawn in _drawings(source, options, with_maps=bool(options.figures) or live is None):
-        paths.extend(_save(folder / "figures", drawn, options.figures))
+        pictures = {form: style.picture(drawn.figure, form) for form in options.figures}
+        paths.extend(_save(folder / "figures", drawn, pictures))
         if options.html and not (live and drawn.is_viewed):
-            shown.append(page.Shown.of(drawn, live))
+            shown.append(page.Shown.of(drawn, live, pictures))
         style.close(drawn.figure)
         drawn.figure = None
     if options.html:
@@ -142,10 +143,10 @@ def _present(drawn):
         yield drawn
 
 
-def _save(folder, drawn, formats):
+def _save(folder, drawn, pictures):
     """Writes the figure in each format, and its tables; nothing without a format."""
-    files = {f"{drawn.name}.{form}": style.picture(drawn.figure, form) for form in formats}
-    if formats:
+    files = {f"{drawn.name}.{form}": picture for form, picture in pictures.items()}
+    if pictures:
         files.update({name: text() if callable(text) else text for name, text in drawn.tables().items()})
     for name, content in files.items():
         output.write(folder / name, content)

@@ -1,6 +1,5 @@
 """Files of others are tried before they are read: the HDF5 library crashes over damaged ones, or never returns."""
 
-import functools
 import os
 import resource
 import signal
@@ -25,45 +24,71 @@ class _Rejection(Exception):
     pass
 
 
-@functools.lru_cache(maxsize=None)
+_found = {}  # path: what problem() says of it
+
+
 def problem(path):
     """Why the file is not to be read; "" if a copy of this process has read all of it."""
+    if path not in _found:
+        _found[path] = _refusal(path) or _ending([path])
+    return _found[path]
+
+
+def try_together(paths):
+    """Tries many files in one copy of this process. Where it does not end well, problem() tries each in one of its own."""
+    sound = [path for path in dict.fromkeys(paths) if path not in _found and not _refusal(path)]
+    if len(sound) > 1 and not _ending(sound):
+        _found.update(dict.fromkeys(sound, ""))
+
+
+def forget():
+    """Files are tried again."""
+    _found.clear()
+
+
+def _refusal(path):
+    """What can be said without the HDF5 library."""
     try:
-        status = os.stat(path)
+        if not stat.S_ISREG(os.stat(path).st_mode):
+            return "a folder, device or pipe"
+        return "bytes that are not those that were written" if seal.is_broken(path) else ""
     except OSError as error:
         return error.strerror.lower()
-    if not stat.S_ISREG(status.st_mode):
-        return "a folder, device or pipe"
-    try:
-        if seal.is_broken(path):
-            return "bytes that are not those that were written"
-    except OSError as error:
-        return error.strerror.lower()
+
+
+def _ending(paths):
+    """What became of a copy of this process that read these files."""
     try:
         child = os.fork()
     except OSError as error:
         return f"no process to try it in ({error.strerror.lower()})"
     if child == 0:
-        _try_and_exit(path, status.st_size)
+        _try_and_exit(paths)
     _, ending = os.waitpid(child, 0)
     code = os.waitstatus_to_exitcode(ending)
     return "" if code == 0 else _REJECTIONS.get(code, "a damaged file")
 
 
-def _try_and_exit(path, size):
+def _try_and_exit(paths):
     code = _DAMAGED
     try:
-        _limit(size)
-        try:
-            file = h5py.File(path, "r")
-        except OSError:
-            os._exit(0)  # what is wrong is said where it is opened
-        _read_all(file)
+        _limit(sum(os.path.getsize(path) for path in paths))
+        for path in paths:
+            _try(path)
         code = 0
     except _Rejection as rejection:
         code = next(code for code, text in _REJECTIONS.items() if text == str(rejection))
     finally:
         os._exit(code)
+
+
+def _try(path):
+    try:
+        file = h5py.File(path, "r")
+    except OSError:
+        return  # what is wrong is said where it is opened
+    with file:
+        _read_all(file)
 
 
 def _limit(size):

@@ -65,11 +65,21 @@ def child(group, name):
     try:
         link = group.get(name, getlink=True)
         if isinstance(link, h5py.ExternalLink):
-            if guard.problem(str(Path(group.file.filename).parent / link.filename)):
+            if guard.problem(_target(group, link)):
                 return None
         return group[name]
     except (KeyError, OSError):
         return None
+
+
+def linked_files(group):
+    """The files that external links in the group lead to."""
+    links = (group.get(name, getlink=True) for name in group)
+    return [_target(group, link) for link in links if isinstance(link, h5py.ExternalLink)]
+
+
+def _target(group, link):
+    return str(Path(group.file.filename).parent / link.filename)
 
 
 def link_target(group, name):

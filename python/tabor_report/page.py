@@ -37,9 +37,11 @@ class Shown:
     large_tables: list  # names of those that come with --figures
 
     @staticmethod
-    def of(drawn, live):
+    def of(drawn, live, pictures):
+        """pictures: {format: bytes} that are drawn already."""
         # A map as SVG is a raster in a wrapper; as an <img> an SVG's ids cannot clash with another's.
-        picture = style.quick_png(drawn.figure) if drawn.is_map else style.svg(drawn.figure)
+        form, draw = ("png", style.quick_png) if drawn.is_map else ("svg", style.svg)
+        picture = pictures.get(form) or draw(drawn.figure)
         tables = drawn.tables()
         small = {name: text for name, text in tables.items() if not callable(text) and len(text) <= LARGEST_IN_PAGE}
         large = [name for name in tables if name not in small]

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tabor_report import density_curves, hdf
+from tabor_report import density_curves, guard, hdf
 from tabor_report.errors import InputError, readable
 from tabor_report.states import Film, Flow, StudyContact
 from tabor_report.table import Table
@@ -76,11 +76,10 @@ class Scan:
 
     def _linked_members(self, name):
         folder = hdf.child(self.node, name)
-        members = (
-            []
-            if folder is None or not self.is_treated
-            else [self._linked(folder, key) for key in sorted(folder)]
-        )
+        if folder is None or not self.is_treated:
+            return []
+        guard.try_together(hdf.linked_files(folder))
+        members = [self._linked(folder, key) for key in sorted(folder)]
         return [member for member in members if member is not None]
 
     def _linked(self, group, name):
@@ -160,12 +159,10 @@ def _table(path, file, name):
 
 
 def _scans(path, file, warnings):
-    folder = file["scans"] if "scans" in file else {}
-    scans = [
-        Scan(folder[key], index, hdf.attributes(folder[key]), warnings)
-        for index, key in enumerate(sorted(folder))
-    ]
-    return scans
+    if "scans" not in file:
+        return []
+    folder = file["scans"]
+    return [Scan(folder[key], index, hdf.attributes(folder[key]), warnings) for index, key in enumerate(sorted(folder))]
 
 
 def _experiment(file):

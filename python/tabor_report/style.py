@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.colors import to_hex
 from matplotlib.lines import Line2D
-from matplotlib.ticker import FuncFormatter, Locator, NullLocator
+from matplotlib.ticker import FuncFormatter, Locator, NullLocator, ScalarFormatter
 
 from tabor_report import units
 from tabor_report.errors import readable
@@ -34,13 +34,13 @@ _SETTINGS = {
     "axes.linewidth": 0.7,
     "axes.spines.top": False,
     "axes.spines.right": False,
-    "axes.formatter.use_mathtext": True,
     "legend.fontsize": 8,
     "legend.frameon": False,
     "lines.linewidth": 1.4,
     "lines.markersize": 5,
     "xtick.labelsize": 8,
     "ytick.labelsize": 8,
+    "figure.dpi": DPI,
     "figure.constrained_layout.use": True,
     # Without these two an SVG differs from run to run.
     "svg.hashsalt": "tabor",
@@ -215,6 +215,39 @@ def close(figure):
 
 def _bytes(figure, **keywords):
     stream = io.BytesIO()
-    # Tight: the layout engine does not see legends of the figure, nor labels beside axes of fixed aspect.
-    figure.savefig(stream, bbox_inches="tight", pad_inches=0.08, **keywords)
+    with matplotlib.rc_context({"figure.constrained_layout.use": False}):
+        figure.savefig(stream, bbox_inches=_frame(figure), **keywords)
     return stream.getvalue()
+
+
+def _frame(figure):
+    """The paper that holds all of a figure, in inches. What it holds keeps its place: every picture is of one layout."""
+    if not hasattr(figure, "tabor_frame"):
+        _write_plain_numbers(figure)
+        figure.draw_without_rendering()
+        # Tight: the layout engine does not see legends of the figure, nor labels beside axes of fixed aspect.
+        figure.tabor_frame = figure.get_tightbbox(figure.canvas.get_renderer()).padded(0.08)
+        with matplotlib.rc_context({"figure.constrained_layout.use": False}):
+            figure.set_layout_engine(None)
+    return figure.tabor_frame
+
+
+class _PlainNumbers(ScalarFormatter):
+    """Mathematics only for the power of ten beside an axis: to set every label in it takes most of the time of a figure."""
+
+    def __init__(self):
+        super().__init__(useMathText=False)
+
+    def get_offset(self):
+        self.set_useMathText(True)
+        power = super().get_offset()
+        self.set_useMathText(False)
+        return power
+
+
+def _write_plain_numbers(figure):
+    for axes in figure.axes:
+        for panel in (axes, *axes.child_axes):
+            for axis in (panel.xaxis, panel.yaxis):
+                if type(axis.get_major_formatter()) is ScalarFormatter:
+                    axis.set_major_formatter(_PlainNumbers())

@@ -95,16 +95,37 @@ class Guard(StudyCase):
             resource.setrlimit(resource.RLIMIT_CPU, (1, 1))
 
         for ending in (os.abort, work_for_ever):
-            guard.problem.cache_clear()
+            guard.forget()
             with mock.patch.multiple(guard, _read_all=lambda file: ending(), _limit=one_second):
                 self.assertEqual(guard.problem(path), "a damaged file")
 
+    def test_files_tried_together_take_one_copy(self):
+        paths = [str(self.file(lambda file: None, f"{name}.h5")) for name in "abc"]
+        with mock.patch("os.fork", side_effect=os.fork) as fork:
+            guard.try_together([*paths, paths[0]])
+            self.assertEqual([guard.problem(path) for path in paths], ["", "", ""])
+        self.assertEqual(fork.call_count, 1)
+
+    def test_of_files_tried_together_the_damaged_one_alone_is_rejected(self):
+        paths = [str(self.file(lambda file: None, name)) for name in ("a.h5", "bad.h5", "c.h5")]
+        pipe = os.path.join(self.temporary_folder(), "pipe")
+        os.mkfifo(pipe)
+
+        def abort_over_one(file):
+            if file.filename.endswith("bad.h5"):
+                os.abort()
+
+        with mock.patch.multiple(guard, _read_all=abort_over_one):
+            guard.try_together([*paths, pipe])
+            found = [guard.problem(path) for path in (*paths, pipe)]
+        self.assertEqual(found, ["", "a damaged file", "", "a folder, device or pipe"])
+
     def test_no_process_is_a_rejection(self):
         path = str(self.file(lambda file: None))
-        guard.problem.cache_clear()
+        guard.forget()
         with mock.patch("os.fork", side_effect=OSError(11, "Resource temporarily unavailable")):
             self.assertIn("no process", guard.problem(path))
-        guard.problem.cache_clear()
+        guard.forget()
 
     def test_a_bit_that_turned_over_in_a_sealed_file_is_found(self):
         path = self.file(lambda file: file.attrs.update({"scalar": 0.125}))
@@ -115,12 +136,12 @@ class Guard(StudyCase):
             if bit is not None:
                 changed[bit // 8] ^= 1 << bit % 8
             path.write_bytes(changed)
-            guard.problem.cache_clear()
+            guard.forget()
             # Without its first word the line is no seal, and the bytes before it are as they were.
             is_sealed = changed[len(content):].startswith(b"tabor-sha256 ")
             found = "not those that were written" in guard.problem(str(path))
             self.assertEqual(found, bit is not None and is_sealed, bit)
-        guard.problem.cache_clear()
+        guard.forget()
 
     def test_a_damaged_store_file_is_left_out_and_named(self):
         def damage(folder):

@@ -121,7 +121,7 @@ class StillPictures(unittest.TestCase):
     def shown(self, name, is_map, is_viewed=True):
         figure, grid = style.new_figure(2.0, width=3.0)
         grid[0][0].imshow(self.noise) if is_map else grid[0][0].plot(self.noise.ravel()[:2000])
-        shown = page.Shown.of(Drawn(name, name, "", figure, is_map=is_map, is_viewed=is_viewed), None)
+        shown = page.Shown.of(Drawn(name, name, "", figure, is_map=is_map, is_viewed=is_viewed), None, {})
         style.close(figure)
         return shown
 

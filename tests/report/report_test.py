@@ -174,6 +174,42 @@ class StudyReport(unittest.TestCase):
         self.assertEqual([path.name for path, data in before.items() if path.read_bytes() != data], [])
 
 
+class TwoPressuresAndDensities(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = Path(temporary)
+            write_single(folder / "one.h5", Recipe(shape=(70, 90), pressures=(5e6, 10e6), densities=(0.45, 0.9)))
+            cls.done = run(folder / "one.h5", "--figures", "png")
+            figures = folder / "one_report" / "figures"
+            cls.names = {path.stem for path in figures.glob("*.png")}
+            cls.curves = (figures / "against_pressure.csv").read_text(encoding="utf-8").splitlines()
+            cls.page = (folder / "one_report" / "report.html").read_text(encoding="utf-8")
+
+    def test_it_ends_well_and_silently(self):
+        self.assertEqual((self.done.returncode, self.done.stderr), (0, ""))
+
+    def test_a_contact_is_drawn_once_per_pressure_and_a_film_once_per_density(self):
+        contact = {f"{what}_{pressure}MPa" for pressure in (5, 10) for what in ("pressure", "contact", "gap")}
+        films = {"film_0.45g_per_m2", "film_0.9g_per_m2"}
+        sections = {f"section_{p}MPa_{d}g_per_m2" for p in (5, 10) for d in (0.45, 0.9)}
+        self.assertEqual(self.names, {"topography", "against_pressure"} | contact | films | sections)
+        self.assertIn("Film map: 0.45 g/m²", self.page)
+
+    def test_the_curves_are_the_states(self):
+        with_text = [row.split(",") for row in self.curves if not row.startswith("#")]
+        column = with_text[0].index("friction_lubricated")
+        values = [float(row[column]) for row in with_text[1:]]
+        expected = [0.3 - 1e-8 * p * d for p in (5e6, 10e6) for d in (0.45, 0.9)]
+        self.assertEqual(values, expected)
+
+    def test_the_answer_stands_first_one_line_per_question_and_each_warning_once(self):
+        answer = self.page[self.page.index('<table class="answer">') : self.page.index("</table>")]
+        for words in ("5 MPa", "10 MPa", "real contact area", "friction dry", "friction, 0.45 g/m²", "friction, 0.9 g/m²"):
+            self.assertEqual(answer.count(words), 1, words)
+        self.assertLess(self.page.index('<table class="answer">'), self.page.index('<section id="figures">'))
+
+
 class SingleReport(unittest.TestCase):
     def setUp(self):
         temporary = tempfile.TemporaryDirectory()
@@ -229,23 +265,6 @@ class SingleReport(unittest.TestCase):
         _, page = self.report(contact=False)
         self.assertNotIn("The certificate is", page)
 
-    def test_a_contact_is_drawn_once_per_pressure_and_a_film_once_per_density(self):
-        names, page = self.report(pressures=(5e6, 10e6), densities=(0.45, 0.9))
-        contact = {f"{what}_{pressure}MPa" for pressure in (5, 10) for what in ("pressure", "contact", "gap")}
-        films = {"film_0.45g_per_m2", "film_0.9g_per_m2"}
-        sections = {f"section_{p}MPa_{d}g_per_m2" for p in (5, 10) for d in (0.45, 0.9)}
-        self.assertEqual(names, {"topography", "against_pressure"} | contact | films | sections)
-        self.assertIn("Film map: 0.45 g/m²", page)
-
-    def test_the_curves_are_the_states(self):
-        self.report(pressures=(5e6, 10e6), densities=(0.45, 0.9))
-        rows = (self.folder / "one_report/figures/against_pressure.csv").read_text(encoding="utf-8").splitlines()
-        with_text = [row.split(",") for row in rows if not row.startswith("#")]
-        column = with_text[0].index("friction_lubricated")
-        values = [float(row[column]) for row in with_text[1:]]
-        expected = [0.3 - 1e-8 * p * d for p in (5e6, 10e6) for d in (0.45, 0.9)]
-        self.assertEqual(values, expected)
-
     def test_a_film_alone_is_shown_without_contact(self):
         names, _ = self.report(contact=False)
         self.assertEqual(names, {"topography", "film_0.9g_per_m2", "section_0.9g_per_m2"})
@@ -271,13 +290,6 @@ class SingleReport(unittest.TestCase):
             done = run(self.folder / "one.h5", f"--figures={words}")
             self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), (words, done.stderr))
             self.assertIn("png, svg, pdf", done.stderr)
-
-    def test_the_answer_stands_first_one_line_per_question_and_each_warning_once(self):
-        _, page = self.report(pressures=(5e6, 10e6), densities=(0.45, 0.9))
-        answer = page[page.index('<table class="answer">') : page.index("</table>")]
-        for words in ("5 MPa", "10 MPa", "real contact area", "friction dry", "friction, 0.45 g/m²", "friction, 0.9 g/m²"):
-            self.assertEqual(answer.count(words), 1, words)
-        self.assertLess(page.index('<table class="answer">'), page.index('<section id="figures">'))
 
     def test_more_states_than_fit_beside_each_other_make_more_tables(self):
         _, page = self.report(pressures=(2e6, 5e6, 10e6, 15e6), densities=(0.45, 0.9))
