@@ -55,7 +55,7 @@ def convert(drawing, name):
     panels = [axes for axes in drawing.axes if axes.get_visible()]
     if not panels or any(_is_picture(axes) for axes in panels):
         return None
-    drawing.canvas.draw()  # limits and places are settled
+    drawing.draw_without_rendering()  # limits and places are settled
     return _Converter(panels, name).run()
 
 

@@ -53,7 +53,7 @@ def draw(axes, lines, length_factor, length_unit, height_factor, height_unit):
 
 def exaggeration(axes, length_factor, height_factor):
     """How many times heights are stretched against lengths on paper; ask after the layout is done."""
-    axes.figure.canvas.draw()
+    axes.figure.draw_without_rendering()
     box = axes.get_window_extent()
     low, high = axes.get_ylim()
     left, right = axes.get_xlim()

@@ -51,7 +51,7 @@ class Solvers(Benchmark):
         self.assertLessEqual({"limit", "droplets", "naive"}, {word for row in rows for word in row})
 
     def test_report_page(self):
-        rows = self.rows("--static", "report_page", BUILD / "tools/tabor", 32, "turns=1", f"json={self.folder / 'rows.json'}")
+        rows = self.rows("--static", "report_page", BUILD / "tools/tabor", 32, "turns=1", "pressures=5MPa", f"json={self.folder / 'rows.json'}")
         self.assertEqual((len(rows), rows[0][-1]), (1, "1"))  # a page alone
         found = json.loads((self.folder / "rows.json").read_text("utf-8"))
         self.assertEqual([row["page"] for row in found], ["interactive", "--static"])
