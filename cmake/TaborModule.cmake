@@ -1,11 +1,12 @@
-# tabor_module(<name> SOURCES ... [DEPENDS modules...] [PUBLIC targets...] [PRIVATE targets...]
+# tabor_module(<name> [RUNS_SHORTLY] SOURCES ... [DEPENDS modules...] [PUBLIC targets...] [PRIVATE targets...]
 #              [PUBLIC_HEADERS headers...])
 #
+# RUNS_SHORTLY: not optimised with sanitizers, which make that take longer than all runs of the tests.
 # One static library per folder of src/tabor. A module links the modules it names and nothing else,
 # so that the layer table of docs/architecture.md also holds at link time. Public headers are
 # installed; all others are for this tree alone.
 function(tabor_module name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PUBLIC;PRIVATE;PUBLIC_HEADERS" ${ARGN})
+  cmake_parse_arguments(ARG "RUNS_SHORTLY" "" "SOURCES;DEPENDS;PUBLIC;PRIVATE;PUBLIC_HEADERS" ${ARGN})
   set(target tabor_${name})
   if(ARG_SOURCES)
     add_library(${target} STATIC ${ARG_SOURCES})
@@ -25,7 +26,10 @@ function(tabor_module name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  if(TABOR_PRECOMPILED AND ARG_SOURCES AND "core" IN_LIST ARG_DEPENDS)
+  if(TABOR_FUZZ AND ARG_RUNS_SHORTLY)
+    target_compile_options(${target} PRIVATE -O0)
+    target_precompile_headers(${target} PRIVATE ${TABOR_MODULE_HEADERS})  # the others are optimised
+  elseif(TABOR_PRECOMPILED AND ARG_SOURCES AND "core" IN_LIST ARG_DEPENDS)
     target_precompile_headers(${target} REUSE_FROM tabor_module_headers)
   endif()
   list(TRANSFORM ARG_DEPENDS PREPEND tabor::)
@@ -84,9 +88,9 @@ function(tabor_umbrella name comment includes)
   set_property(GLOBAL APPEND PROPERTY TABOR_UMBRELLAS tabor/${name}.hpp)
 endfunction()
 
-# Links all of the named modules, and of those below them, before a program's own objects. The linker keeps
-# the first copy of an inline function it meets: behind tests that are not optimised, the modules would run
-# the tests' slow copies (of Eigen, four times as long).
+# Links all of the named modules before a program's own objects, and before each module those below it. The
+# linker keeps the first copy of an inline function it meets: behind tests or a module that are not optimised,
+# the others would run their slow copies (of Eigen, four times as long).
 function(tabor_link_modules_first program)
   set(files)
   while(ARGN)
@@ -95,7 +99,7 @@ function(tabor_link_modules_first program)
     if("$<TARGET_FILE:${module}>" IN_LIST files OR NOT type STREQUAL "STATIC_LIBRARY")
       continue()
     endif()
-    list(APPEND files $<TARGET_FILE:${module}>)
+    list(PREPEND files $<TARGET_FILE:${module}>)
     get_target_property(links ${module} INTERFACE_LINK_LIBRARIES)
     list(FILTER links INCLUDE REGEX "^tabor::")
     list(APPEND ARGN ${links})

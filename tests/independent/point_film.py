@@ -6,6 +6,7 @@ contact (Venner & Lubrecht 2000, chapter 6). The largest pressure is left out: n
 -4.5 and 1.5 half axes. `limit` is Richardson's limit of second order of the two finest grids."""
 
 import numpy as np
+import scipy.sparse
 
 M, L, ALPHA, Z, ROELANDS_PRESSURE = 20.0, 10.0, 2.2e-8, 0.6, 5.1e-9
 INLET, OUTLET, HALF_WIDTH = 4.5, 1.5, 3.0
@@ -106,12 +107,12 @@ def equations(grid, pressure, offset, bowl, kernel, inner, duration, before):
               (inner - np.where(first, 1, 2), np.where(first, 0, 0.5))]
     outflow, total = squeezed + sum(step * weight * mass[node] for node, weight in upwind), np.zeros(inner.size)
     jacobian, column = np.zeros((inner.size, pressure.size)), np.zeros(inner.size)
-    rows = np.arange(inner.size)
+    rows, films = np.arange(inner.size), []
 
     def depends(node, by_height, by_pressure):
         """The outflow's derivatives by film and pressure at a node."""
-        nonlocal jacobian, column
-        jacobian += by_height[:, None] * kernel[node]
+        nonlocal column
+        films.append((by_height, (rows, node)))
         jacobian[rows, node] += by_pressure
         column += by_height
 
@@ -125,6 +126,7 @@ def equations(grid, pressure, offset, bowl, kernel, inner, duration, before):
         for node, sign in ((inner, 1), (neighbour, -1)):
             by_law = drop / 2 * (eps * (rho_slope / rho - eta_slope))[node]
             depends(node, drop * 1.5 * (eps / height)[node], by_law + sign * between)
+    jacobian += sum(scipy.sparse.csr_array(film, shape=jacobian.shape) for film in films) @ kernel
     torn = (pressure[inner] <= 0) & (outflow > 0)
     jacobian = jacobian[:, inner]
     jacobian[torn] = np.eye(inner.size)[torn]

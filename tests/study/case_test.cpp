@@ -10,10 +10,15 @@ namespace {
 
 using test::ExampleStudy;
 
+/// The same files for all keys of a test: written twice they hold two dates.
+Study example() {
+  static const ExampleStudy files;
+  return files.read();
+}
+
 /// All keys of the example's first scan, after a change to the study.
 ScanTasks tasks_after(const std::function<void(Study&)>& change) {
-  static const ExampleStudy example;
-  Study study = example.read();
+  Study study = example();
   change(study);
   return tasks_of(study).front();
 }
@@ -151,8 +156,7 @@ TEST(Tasks, ASettingChangesOnlyWhatDependsOnIt) {
 }
 
 TEST(Tasks, SettingsOfAScanAreAsGoodAsThoseOfItsStudy) {
-  const ExampleStudy example;
-  Study own = example.read();
+  Study own = example();
   own.scans[0].own = {.mean_pressures = {{7e6}},
                       .lubricant_densities = {{9e-4}},
                       .treatment = topography::Treatment{"level=plane"},
@@ -168,7 +172,7 @@ TEST(Tasks, SettingsOfAScanAreAsGoodAsThoseOfItsStudy) {
   const std::vector<ScanTasks> all = tasks_of(own);
   EXPECT_EQ(all[0].cases.at(0).at(0).key, theirs.cases.at(0).at(0).key);
   EXPECT_EQ(all[0].cases.size(), 1u);
-  EXPECT_EQ(all[1].cases.at(0).at(0).key, tasks_of(ExampleStudy().read())[1].cases.at(0).at(0).key);
+  EXPECT_EQ(all[1].cases.at(0).at(0).key, tasks_of(example())[1].cases.at(0).at(0).key);
 }
 
 TEST(Tasks, WetSharesDependOnTheContactAndTheOilButOnNoDensityOrStrength) {

