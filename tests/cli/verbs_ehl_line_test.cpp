@@ -272,7 +272,7 @@ TEST(EhlLine, GivesNoFrictionOfSolidsThatTheCaseSaysNothingOf) {
   EXPECT_THAT(run_tabor(bare).out, HasSubstr("friction coefficient  -"));
 }
 
-TEST(EhlLine, GivesNoFrictionThatNoOilHas) {
+TEST(EhlLine, GivesNoFrictionThatNoOilHas) {  // slow
   const std::vector<std::string> steel =
       quick({"--set", "solids.youngs_modulus=200GPa", "--set", "cylinder.load_per_length=100 kN/m",
              "--set", "lubricant.pressure_viscosity=2e-8 1/Pa", "--set", "grid.nodes=1200"});

@@ -112,7 +112,7 @@ TEST(SolveSqueeze, TurnsWithTheFilmStillClosing) {
                 "Larsson's thesis, paper C: 0.06", std::abs(result.lag * 1e3 - 0.06), 0.005);
 }
 
-TEST(SolveSqueeze, CarriesLessOnAThickerFilmWhenItSlides) {
+TEST(SolveSqueeze, CarriesLessOnAThickerFilmWhenItSlides) {  // slow
   double force = std::numeric_limits<double>::infinity();
   double film = 0;
   for (const double speed : {0.0, 5.0, 10.0, 20.0}) {
