@@ -1,12 +1,12 @@
-# tabor_module(<name> [RUNS_SHORTLY] SOURCES ... [DEPENDS modules...] [PUBLIC targets...] [PRIVATE targets...]
+# tabor_module(<name> [NO_HOT_LOOPS] SOURCES ... [DEPENDS modules...] [PUBLIC targets...] [PRIVATE targets...]
 #              [PUBLIC_HEADERS headers...])
 #
-# RUNS_SHORTLY: not optimised with sanitizers, which make that take longer than all runs of the tests.
 # One static library per folder of src/tabor. A module links the modules it names and nothing else,
 # so that the layer table of docs/architecture.md also holds at link time. Public headers are
-# installed; all others are for this tree alone.
+# installed; all others are for this tree alone. One with NO_HOT_LOOPS is not optimised with sanitizers: that
+# would take longer than all runs of the tests.
 function(tabor_module name)
-  cmake_parse_arguments(ARG "RUNS_SHORTLY" "" "SOURCES;DEPENDS;PUBLIC;PRIVATE;PUBLIC_HEADERS" ${ARGN})
+  cmake_parse_arguments(ARG "NO_HOT_LOOPS" "" "SOURCES;DEPENDS;PUBLIC;PRIVATE;PUBLIC_HEADERS" ${ARGN})
   set(target tabor_${name})
   if(ARG_SOURCES)
     add_library(${target} STATIC ${ARG_SOURCES})
@@ -26,9 +26,11 @@ function(tabor_module name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/generated>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
-  if(TABOR_FUZZ AND ARG_RUNS_SHORTLY)
+  if(TABOR_FUZZ AND ARG_NO_HOT_LOOPS)
     target_compile_options(${target} PRIVATE -O0)
-    target_precompile_headers(${target} PRIVATE ${TABOR_MODULE_HEADERS})  # the others are optimised
+    if(TABOR_PRECOMPILED)
+      target_precompile_headers(${target} PRIVATE ${TABOR_MODULE_HEADERS})  # the others' are optimised
+    endif()
   elseif(TABOR_PRECOMPILED AND ARG_SOURCES AND "core" IN_LIST ARG_DEPENDS)
     target_precompile_headers(${target} REUSE_FROM tabor_module_headers)
   endif()

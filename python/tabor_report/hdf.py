@@ -65,7 +65,7 @@ def child(group, name):
     try:
         link = group.get(name, getlink=True)
         if isinstance(link, h5py.ExternalLink):
-            if guard.problem(_target(group, link)):
+            if guard.problem(_linked_file(group, link)):
                 return None
         return group[name]
     except (KeyError, OSError):
@@ -75,10 +75,10 @@ def child(group, name):
 def linked_files(group):
     """The files that external links in the group lead to."""
     links = (group.get(name, getlink=True) for name in group)
-    return [_target(group, link) for link in links if isinstance(link, h5py.ExternalLink)]
+    return [_linked_file(group, link) for link in links if isinstance(link, h5py.ExternalLink)]
 
 
-def _target(group, link):
+def _linked_file(group, link):
     return str(Path(group.file.filename).parent / link.filename)
 
 

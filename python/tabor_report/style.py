@@ -215,7 +215,7 @@ def close(figure):
 
 def _bytes(figure, **keywords):
     stream = io.BytesIO()
-    with matplotlib.rc_context({"figure.constrained_layout.use": False}):
+    with matplotlib.rc_context({"figure.constrained_layout.use": False}):  # laid out once, by _frame
         figure.savefig(stream, bbox_inches=_frame(figure), **keywords)
     return stream.getvalue()
 
@@ -227,8 +227,7 @@ def _frame(figure):
         figure.draw_without_rendering()
         # Tight: the layout engine does not see legends of the figure, nor labels beside axes of fixed aspect.
         figure.tabor_frame = figure.get_tightbbox(figure.canvas.get_renderer()).padded(0.08)
-        with matplotlib.rc_context({"figure.constrained_layout.use": False}):
-            figure.set_layout_engine(None)
+        figure.set_layout_engine(None)
     return figure.tabor_frame
 
 
