@@ -97,15 +97,15 @@ python_environment() {
   touch "$venv/complete"
 }
 
-# report_environment: build/report with what `tabor report` makes interactive pages with, from PyPI. Where PyPI cannot be
-# reached pages are still, and a line says so.
+# report_environment: build/report with what `tabor report` makes interactive pages with, from PyPI. Fails where PyPI
+# cannot be reached: then pages are still, drawn with Debian's packages, and a line says so.
 report_environment() {
   local venv=$root/build/report
   [ -e "$venv/complete" ] && return
   mkdir -p build
   { python3 -m venv --clear "$venv" &&
-    "$venv/bin/pip" install --quiet --disable-pip-version-check \
+    "$venv/bin/pip" install --quiet --disable-pip-version-check --no-compile \
       'bokeh>=3.9,<4' pillow numpy h5py matplotlib jinja2; } >build/report.log 2>&1 ||
-    { echo "Pages are not interactive: Bokeh cannot be had from PyPI (build/report.log)"; return 0; }
+    { echo "Pages are not interactive: Bokeh cannot be had from PyPI (build/report.log)"; return 1; }
   touch "$venv/complete"
 }
