@@ -14,7 +14,9 @@
 #include "tabor/analysis/ehl_file.hpp"
 #include "tabor/analysis/ehl_surfaces.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/io/atomic_file.hpp"
 #include "tabor/study/ehl_sweep.hpp"
+#include "tabor/study/ehl_tables.hpp"
 #include "tabor/study/ehl_warnings.hpp"
 #include "watched.hpp"
 
@@ -94,25 +96,55 @@ Solved solve(const FilmCase& one, std::uint64_t seed, const nb::object& progress
   });
 }
 
+/// As files keep them.
+std::vector<analysis::Finding> findings_of(const std::vector<std::string>& texts) {
+  std::vector<analysis::Finding> found(texts.size());
+  for (std::size_t i = 0; i < found.size(); ++i) found[i].text = texts[i];
+  return found;
+}
+
 void save(const Solved& solved, const std::filesystem::path& file) {
-  std::vector<analysis::Finding> warnings(solved.result.warnings.size());
-  for (std::size_t i = 0; i < warnings.size(); ++i) warnings[i].text = solved.result.warnings[i];
   watch(nb::none(), [&](const Observer& observer) {
     solved.relay.watch(observer, [&] {
       analysis::write_case(file, "tabor.save", solved.of.program, solved.of.config, solved.result,
-                           warnings);
+                           findings_of(solved.result.warnings));
     });
   });
 }
 
 /// What a sweep found: cases in the order asked for, and what they warn of, said once.
 struct Swept {
-  std::vector<ehl::CaseResult> cases;
-  std::vector<ehl::CaseColumn> columns;
-  std::vector<std::string> warnings;
-  std::vector<std::vector<double>> axes;  ///< SI; words are counted from 0
-  std::size_t n_computed = 0;             ///< others were in the folder
+  FilmCase of;
+  std::vector<study::SweepAxis> axes;
+  std::vector<ehl::CaseResult> cases = {};
+  std::vector<ehl::CaseColumn> columns = {};
+  study::EhlWarnings warnings = {};
+  std::vector<numerics::GridLimit> limits = {};  ///< of each column, where grids were varied
+  std::size_t n_computed = 0;                    ///< others were in the folder
 };
+
+/// What is made of the results; `limited`: the study that has limits at these values, if there is
+/// one.
+void take_results(Swept& found, std::vector<ehl::CaseResult> results, const ehl::CaseStudy* limited,
+                  const std::vector<double>& values) {
+  found.cases = std::move(results);
+  found.columns = study::columns_of(found.of.program, found.cases);
+  const study::EhlCaseNames names = study::names_of(found.axes, study::combinations(found.axes));
+  found.warnings = study::gather_warnings(found.cases, names);
+  if (limited) found.limits = study::limits_of(found.columns, *limited, values, found.cases);
+}
+
+/// As a table, or with axes and warnings.
+void save_sweep(const Swept& swept, const std::filesystem::path& file) {
+  const Program& program = swept.of.program;
+  if (file.extension() == ".csv") {
+    io::write_file(file, study::csv_of(program, study::rows_of(swept.axes), swept.cases));
+    return;
+  }
+  study::write_sweep(file, {"tabor.save", swept.of.config.to_text(), program.methods},
+                     {program, swept.axes, swept.cases, swept.warnings.marks},
+                     findings_of(swept.warnings.lines));
+}
 
 using Axes = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
@@ -141,22 +173,53 @@ Swept sweep(const FilmCase& one, const Axes& given, std::uint64_t seed,
             const std::optional<std::filesystem::path>& folder, int jobs, bool retry,
             const nb::object& progress) {
   return watched_beside(progress, [&](const Observer& observer) {
-    const std::vector<study::SweepAxis> axes = axes_of(given);
-    study::EhlSeries series = study::ehl_sweep(one.program, one.config, axes, seed);
+    Swept found{.of = one, .axes = axes_of(given)};
+    study::EhlSeries series = study::ehl_sweep(one.program, one.config, found.axes, seed);
     study::RunOptions options;
     options.jobs = jobs;
     options.retry = retry;
     options.observer = observer;
     const study::EhlOutcome outcome = run_sweep(series, folder, options);
-    Swept found;
-    found.cases = outcome.all();
     found.n_computed = outcome.n_computed;
-    found.columns = study::columns_of(one.program, found.cases);
-    const study::EhlCaseNames names = study::names_of(axes, study::combinations(axes));
-    found.warnings = study::gather_warnings(found.cases, names).lines;
-    for (const study::SweepAxis& axis : axes) found.axes.push_back(axis.numbers());
+    take_results(found, outcome.all(), study::study_of(one.program, found.axes),
+                 found.axes.front().numbers());
     return found;
   });
+}
+
+/// One key varied around the value in force.
+Swept vary(const FilmCase& one, const std::string& name, std::uint64_t seed, int jobs,
+           const nb::object& progress) {
+  return watched_beside(progress, [&](const Observer& observer) {
+    const ehl::CaseStudy& study = study::find_study(one.program, name);
+    study::RunOptions options;
+    options.jobs = jobs;
+    options.observer = observer;
+    auto [values, texts, results] =
+        study::run_ehl_study(one.program, one.config, study, seed, options);
+    Swept found{.of = one, .axes = {{study.key, texts, true}}};
+    found.n_computed = results.size();
+    take_results(found, std::move(results), study.has_limit ? &study : nullptr, values);
+    return found;
+  });
+}
+
+/// (value, order) of each column.
+std::vector<std::pair<double, double>> limits_of(const Swept& swept) {
+  std::vector<std::pair<double, double>> limits;
+  limits.reserve(swept.limits.size());
+  for (const numerics::GridLimit& limit : swept.limits) {
+    limits.emplace_back(limit.value, limit.order);
+  }
+  return limits;
+}
+
+/// The values of each axis behind its key, SI; words are counted from 0.
+std::vector<std::pair<std::string, std::vector<double>>> numbers_of(const Swept& swept) {
+  std::vector<std::pair<std::string, std::vector<double>>> numbers;
+  numbers.reserve(swept.axes.size());
+  for (const study::SweepAxis& axis : swept.axes) numbers.emplace_back(axis.key, axis.numbers());
+  return numbers;
 }
 
 /// (key, heading, unit)
@@ -216,11 +279,14 @@ void bind_ehl(nb::module_& module) {
   nb::class_<Swept>(module, "SweptCases")
       .def_prop_ro("cases", &cases_of)
       .def_prop_ro("columns", &columns_of)
-      .def_ro("axes", &Swept::axes)
-      .def_ro("warnings", &Swept::warnings)
-      .def_ro("n_computed", &Swept::n_computed);
+      .def_prop_ro("axes", &numbers_of)
+      .def_prop_ro("warnings", [](const Swept& self) { return self.warnings.lines; })
+      .def_prop_ro("limits", &limits_of)
+      .def_ro("n_computed", &Swept::n_computed)
+      .def("save", &save_sweep, "file"_a);
   module.def("sweep_case", &sweep, "case"_a, "axes"_a, "seed"_a, "folder"_a.none(), "jobs"_a,
              "retry"_a, "progress"_a.none());
+  module.def("vary_case", &vary, "case"_a, "study"_a, "seed"_a, "jobs"_a, "progress"_a.none());
   module.def(
       "case_references", [](const FilmCase& one) { return one.program.methods; }, "case"_a);
   module.def(

@@ -119,25 +119,35 @@ std::vector<ParameterRow> parameters(const Topography& surface, const nb::object
   return rows;
 }
 
-/// (q, density, unit, Hurst exponent)
-using SpectrumRow = std::tuple<std::vector<double>, std::vector<double>, Text, double>;
+/// (q, density, unit, Hurst exponent, its standard error)
+using SpectrumRow = std::tuple<std::vector<double>, std::vector<double>, Text, double, double>;
 SpectrumRow row_of(const metrology::Spectrum& one) {
-  return {one.q, one.density, one.unit, one.hurst.hurst};
+  return {one.q, one.density, one.unit, one.hurst.hurst, one.hurst.standard_error};
 }
 
-nb::dict psd(const Topography& surface, metrology::PsdConvention convention,
-             std::optional<metrology::PsdWindow> window, const nb::object& progress) {
-  const auto spectra = watched(progress, [&](const Observer&) {
-    metrology::PsdOptions options;
-    options.convention = convention;
-    options.window = window;
-    return metrology::power_spectra(surface, options);
-  });
+metrology::PsdOptions psd_options(const std::string& convention,
+                                  const std::optional<std::string>& window,
+                                  const std::optional<double>& fit_min,
+                                  const std::optional<double>& fit_max) {
+  const auto known = metrology::psd_convention_from(convention);
+  if (!known) throw InputError("convention", convention, "jacobs, persson or gwyddion", "");
+  metrology::PsdOptions options{
+      .convention = *known, .window = {}, .fit_q_min = fit_min, .fit_q_max = fit_max};
+  if (window) options.window = metrology::psd_window_from(*window);
+  if (window && !options.window) throw InputError("window", *window, "none or hann", "");
+  return options;
+}
+
+nb::dict psd(const Topography& surface, const metrology::PsdOptions& options,
+             const nb::object& progress) {
+  const auto spectra = watched(
+      progress, [&](const Observer&) { return metrology::power_spectra(surface, options); });
   nb::dict all;
   all["x"] = row_of(spectra.x);
   all["y"] = row_of(spectra.y);
   all["radial"] = row_of(spectra.radial);
   all["window"] = std::string(metrology::name_of(spectra.window));
+  all["warnings"] = texts_of(analysis::of_spectra(spectra));
   return all;
 }
 
@@ -241,15 +251,12 @@ void bind_surface(nb::module_& module) {
   module.def(
       "psd",
       [](const Topography& surface, const std::string& convention,
-         const std::optional<std::string>& window, const nb::object& progress) {
-        const auto known = metrology::psd_convention_from(convention);
-        if (!known) throw InputError("convention", convention, "jacobs, persson or gwyddion", "");
-        std::optional<metrology::PsdWindow> taper;
-        if (window) taper = metrology::psd_window_from(*window);
-        if (window && !taper) throw InputError("window", *window, "none or hann", "");
-        return psd(surface, *known, taper, progress);
+         const std::optional<std::string>& window, const std::optional<double>& fit_min,
+         const std::optional<double>& fit_max, const nb::object& progress) {
+        return psd(surface, psd_options(convention, window, fit_min, fit_max), progress);
       },
-      "surface"_a, "convention"_a, "window"_a.none(), "progress"_a.none());
+      "surface"_a, "convention"_a, "window"_a.none(), "fit_min"_a.none(), "fit_max"_a.none(),
+      "progress"_a.none());
 }
 
 }  // namespace tabor::python

@@ -15,6 +15,7 @@ from ._optional import needs_all
 from ._records import Record
 from ._save import save
 from ._study import Results
+from ._sweep import Sweep
 from ._values import Value, optional_si
 from .ehl import Solution
 
@@ -53,13 +54,13 @@ def _file_of(result: Any, out: str | os.PathLike[str] | None) -> pathlib.Path:
         return result.folder
     if isinstance(result, (str, os.PathLike)):
         return pathlib.Path(result)
-    if not isinstance(result, (Record, Solution, Sequence)):
+    if not isinstance(result, (Record, Solution, Sweep, Sequence)):
         raise TypeError(f"report: got {type(result).__name__}; expected results, or a file or folder of them")
     if out is None:
         raise ValueError("report: the result is in no file; give out, the folder to write to")
     file = pathlib.Path(out, "result.h5")
     file.parent.mkdir(parents=True, exist_ok=True)
-    if isinstance(result, Solution):
+    if isinstance(result, (Solution, Sweep)):
         result.save(file)
     else:
         save(file, result)
@@ -87,7 +88,7 @@ def report(result: Any, out: str | os.PathLike[str] | None = None, *, html: bool
     Parameters
     ----------
     result : folder of ``Study.run`` or ``tabor sweep``, ``Results``, a file of ``save`` or of the command line; or
-        contacts, films, frictions or a solution of ``ehl``, which are then saved as result.h5 in ``out``.
+        contacts, films, frictions, a solution or a sweep of ``ehl``, which are then saved as result.h5 in ``out``.
     out : folder to write to [beside the result].
     html : write the page, not only figures and tables.
     static : a page of still figures, as where Bokeh or Pillow is missing.

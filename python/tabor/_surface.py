@@ -60,6 +60,7 @@ class Spectrum(NamedTuple):
     density: Array  #: in ``unit``
     unit: str  #: "m^3" or "m^4"
     hurst: float  #: fitted exponent; NaN where there is none
+    hurst_standard_error: float  #: of it, from the scatter about the line
 
     def plot(self, ax: Any = None, **style: Any) -> Any:
         """Draws it with logarithmic axes; needs matplotlib. Returns the axes."""
@@ -77,6 +78,7 @@ class Spectra(NamedTuple):
     y: Spectrum
     radial: Spectrum
     window: str  #: the taper that was used
+    warnings: tuple[Warning, ...]  #: reasons to doubt the exponents
 
     def plot(self, ax: Any = None) -> Any:
         """Draws the radial one; needs matplotlib. Returns the axes."""
@@ -250,16 +252,25 @@ class Surface:
                 raise ValueError(f"parameters: got {symbol!r}; expected some of {', '.join(known)}")
         return Parameters(known[symbol] for symbol in wanted)
 
-    def psd(self, convention: str = "jacobs", window: str | None = None, *,
-            progress: Progress = None) -> Spectra:
-        """Power spectra along x, along y and radial (docs/filters_and_spectra.md). ``convention``: jacobs,
-        persson or gwyddion; ``window``: none or hann [none if periodic, else hann]. Raises ValueError
-        where there are holes."""
+    def psd(self, convention: str = "jacobs", window: str | None = None, *, fit_min: Value | None = None,
+            fit_max: Value | None = None, progress: Progress = None) -> Spectra:
+        """Power spectra along x, along y and radial (docs/filters_and_spectra.md).
+
+        Parameters
+        ----------
+        convention : "jacobs", "persson" or "gwyddion".
+        window : "none" or "hann" ["none" if periodic, else "hann"].
+        fit_min, fit_max : wavevectors 2 pi / wavelength between which the Hurst exponents are fitted [rad/m], "0.1/um"
+            [the longest straight range].
+
+        Raises ValueError where there are holes, for unknown words, and for a range that ends before it begins.
+        """
         with watching(progress) as told:
-            found = _tabor.psd(self._topography, convention, window, told)
-        curves = [Spectrum(np.array(q), np.array(density), unit, hurst)
-                  for q, density, unit, hurst in (found[axis] for axis in ("x", "y", "radial"))]
-        return Spectra(curves[0], curves[1], curves[2], found["window"])
+            found = _tabor.psd(self._topography, convention, window, optional_si(fit_min, "wavevector", "fit_min"),
+                               optional_si(fit_max, "wavevector", "fit_max"), told)
+        x, y, radial = (Spectrum(np.array(q), np.array(density), *rest)
+                        for q, density, *rest in (found[axis] for axis in ("x", "y", "radial")))
+        return Spectra(x, y, radial, found["window"], warnings_of(found["warnings"]))
 
     def write(self, file: str | os.PathLike[str]) -> None:
         """Writes a scan file by its extension (docs/formats.md). Raises ValueError for an extension that

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
+import pathlib
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -14,6 +16,13 @@ from ._records import table_html
 from ._surface import Array
 
 
+class Limit(NamedTuple):
+    """What a number tends to on ever finer grids, by the three finest (Richardson); NaN where they show no limit."""
+
+    value: float
+    order: float  #: p of the error ~ spacing^p that they show
+
+
 class Sweep:
     """What was found out about a case with each combination of some values, the last one fastest. It does not
     change."""
@@ -21,27 +30,43 @@ class Sweep:
     axes: Mapping[str, tuple[Any, ...]]  #: keys of the case with their values, SI; words as they are
     rows: tuple[Mapping[str, Any], ...]  #: one for each case: its values and numbers, ``converged``, ``warnings``
     columns: tuple[tuple[str, str, str], ...]  #: (key, heading, unit) of the numbers that say most
+    limits: Mapping[str, Limit]  #: of the columns, where one key was varied that refines the grid
     warnings: tuple[str, ...]  #: reasons to doubt them, each said once
     references: tuple[str, ...]  #: what to cite
     n_computed: int  #: cases; the others were in the folder
     converged: bool  #: all of them
 
     def __init__(self, swept: _tabor.SweptCases, given: Mapping[str, list[Any]], references: tuple[str, ...]) -> None:
-        axes = {key: tuple(values if any(_is_word(one) for one in values) else numbers)
-                for (key, values), numbers in zip(given.items(), swept.axes)}
+        axes = {key: tuple(given[key] if any(map(_is_word, given.get(key, ()))) else numbers)
+                for key, numbers in swept.axes}
         cases = [(json.loads(text), converged, tuple(warnings)) for text, converged, warnings in swept.cases]
         places = np.ndindex(*(len(values) for values in axes.values()))
         rows = tuple({**{key: axes[key][i] for key, i in zip(axes, place)}, **values, "converged": converged,
                       "warnings": warnings} for place, (values, converged, warnings) in zip(places, cases))
-        self.__dict__.update(axes=axes, rows=rows, columns=tuple(swept.columns), warnings=tuple(swept.warnings),
-                             references=references, n_computed=swept.n_computed,
+        limits = {key: Limit(*limit) for (key, _, _), limit in zip(swept.columns, swept.limits)}
+        self.__dict__.update(axes=axes, rows=rows, columns=tuple(swept.columns), limits=limits, warnings=tuple(swept.warnings),
+                             references=references, n_computed=swept.n_computed, _swept=swept,
                              converged=all(row["converged"] for row in rows))
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError("a Sweep does not change")
 
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_swept": None}
+
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
+
+    def save(self, file: str | os.PathLike[str]) -> None:
+        """Writes what ``tabor ehl`` writes of a sweep: the file of ``-o``, which ends with .h5 and which ``report``
+        draws curves of, or the table of ``--csv``, which ends with .csv. Raises OSError, and ValueError for other
+        endings and for a sweep that came out of a pickle, which has its numbers alone."""
+        path = pathlib.Path(file)
+        if path.suffix not in (".h5", ".hdf5", ".csv"):
+            raise ValueError(f"{path}: expected a name that ends with .h5, .hdf5 or .csv")
+        if self.__dict__["_swept"] is None:
+            raise ValueError("save: what a file is made of does not travel with a pickle; save it where it is swept")
+        self.__dict__["_swept"].save(path)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -73,6 +98,9 @@ class Sweep:
         good = sum(row["converged"] for row in self.rows)
         lines = [(key, ", ".join(f"{one:g}" if isinstance(one, float) else str(one) for one in values))
                  for key, values in self.axes.items()]
+        heading = {key: text for key, text, _ in self.columns}
+        lines += [(f"limit of {heading[key]}", f"{limit.value:.6g} (order {limit.order:.2g})")
+                  for key, limit in self.limits.items() if np.isfinite(limit.order)]
         return [*lines, ("converged", f"{good} of {len(self.rows)}"), *(("warning", text) for text in self.warnings)]
 
     def __repr__(self) -> str:

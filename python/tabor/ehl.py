@@ -23,9 +23,9 @@ from . import _tabor
 from ._contact import NotConverged
 from ._progress import Progress, watching
 from ._records import table_html
-from ._sweep import Sweep
+from ._sweep import Limit, Sweep
 
-__all__ = ["Case", "Key", "Solution", "Sweep", "Template", "impact", "keys", "line", "point", "squeeze", "template"]
+__all__ = ["Case", "Key", "Limit", "Solution", "Sweep", "Template", "impact", "keys", "line", "point", "squeeze", "template"]
 
 
 class Template(str):
@@ -160,6 +160,32 @@ class Case:
         with watching(progress) as told:
             swept = _tabor.sweep_case(self._case, axes, seed, None if folder is None else pathlib.Path(folder), jobs,
                                       retry, told)
+        return self._swept(swept, given, check)
+
+    def study(self, name: str = "grid", *, seed: int = 1, jobs: int = 0, check: bool = True,
+              progress: Progress = None) -> Sweep:
+        """How far the result depends on the grid, as ``tabor ehl --study`` does: the case with coarser and finer ones
+        around its own, each solved by itself; ``limits`` are what the numbers tend to.
+
+        Parameters
+        ----------
+        name : "grid"; some programs have "domain" or "time-step" as well.
+        seed, jobs, check, progress : as those of ``sweep``.
+
+        Raises
+        ------
+        ValueError
+            For a study that the program does not have, and for a case that makes no sense.
+        NotConverged
+            Unless ``check`` is False.
+        """
+        if jobs < 0:
+            raise ValueError(f"jobs: got {jobs}; expected zero or more")
+        with watching(progress) as told:
+            swept = _tabor.vary_case(self._case, name, seed, jobs, told)
+        return self._swept(swept, {}, check)
+
+    def _swept(self, swept: _tabor.SweptCases, given: Mapping[str, list[Any]], check: bool) -> Sweep:
         found = Sweep(swept, given, tuple(_tabor.case_references(self._case)))
         if check and not found.converged:
             bad = sum(not row["converged"] for row in found.rows)

@@ -131,6 +131,64 @@ def test_numbers_and_words_are_axes(case):
     assert copy.rows == found.rows and tb.cite(copy) == tb.cite(found)
 
 
+def without_heads(file):
+    """Everything in a file but its command and date: {path: (attributes, values)}."""
+    h5py = pytest.importorskip("h5py")
+    found = {}
+    with h5py.File(file) as opened:
+        opened.visititems(lambda name, node: found.update({name: (
+            {key: repr(value) for key, value in node.attrs.items() if "LIST" not in key},
+            node[()].tolist() if isinstance(node, h5py.Dataset) else None)}))
+        return found, opened.attrs["kind"], opened.attrs["config_toml"]
+
+
+def test_a_sweep_is_saved_as_on_the_command_line(program, case, tmp_path):
+    (tmp_path / "ball.toml").write_text(case.toml, "utf-8")
+    subprocess.run([program, "ehl", "point", tmp_path / "ball.toml", "--set", "motion.speed=0.3 m/s,1 m/s",
+                    "-o", tmp_path / "told.h5", "--csv", tmp_path / "told.csv"], capture_output=True, check=True)
+    found = case.sweep({"motion.speed": ["0.3 m/s", "1 m/s"]})
+    found.save(tmp_path / "found.h5")
+    found.save(tmp_path / "found.csv")
+    assert (tmp_path / "found.csv").read_bytes() == (tmp_path / "told.csv").read_bytes()
+    assert without_heads(tmp_path / "found.h5") == without_heads(tmp_path / "told.h5")
+    with pytest.raises(ValueError, match=r"expected a name that ends with \.h5, \.hdf5 or \.csv"):
+        found.save(tmp_path / "found.txt")
+    with pytest.raises(ValueError, match="does not travel with a pickle"):
+        pickle.loads(pickle.dumps(found)).save(tmp_path / "copy.h5")
+    with pytest.raises(OSError):
+        found.save(tmp_path / "no" / "folder.h5")
+
+
+@pytest.fixture(scope="module")
+def fine():
+    return tb.ehl.point(tb.ehl.template("point"), **{"grid.nodes": 65})
+
+
+def test_a_study_of_grids_is_that_of_the_command_line(program, fine, tmp_path):
+    (tmp_path / "ball.toml").write_text(fine.toml, "utf-8")
+    run = subprocess.run([program, "ehl", "point", tmp_path / "ball.toml", "--study", "grid", "--json"],
+                         capture_output=True, text=True, check=True)
+    told = json.loads(run.stdout)
+    found = fine.study("grid")
+    assert list(found.axes) == ["grid.nodes"] and found.axes["grid.nodes"] == tuple(sorted(found.axes["grid.nodes"]))
+    for row, other in zip(found.rows, told["results"], strict=True):
+        assert all(other[key] == value for key, value in row.items() if key not in ("warnings", "grid.nodes"))
+    assert told["limits"].keys() == found.limits.keys()
+    for key, limit in found.limits.items():
+        for value, other in ((limit.value, told["limits"][key]), (limit.order, told["orders"][key])):
+            assert value == other or (np.isnan(value) and other is None)
+    assert np.isfinite(found.limits["min_film_m"].order) and "limit of smallest film" in repr(found)
+    with pytest.raises(ValueError, match="did you mean 'grid'"):
+        fine.study("gird")
+
+
+def test_a_sweep_of_grids_has_limits_others_have_none(case, fine):
+    grids = fine.sweep({"grid.nodes": [29, 45, 65]})
+    films = grids["min_film_m"]
+    assert 0 < abs(grids.limits["min_film_m"].value - films[2]) < abs(films[0] - films[2])
+    assert case.sweep({"motion.speed": [0.5, 1.0]}).limits == {}
+
+
 def test_a_sweep_goes_to_pandas_and_xarray(case):
     pytest.importorskip("pandas")
     pytest.importorskip("xarray")

@@ -55,6 +55,12 @@ def test_a_film_under_load(tmp_path):
     assert "squeeze" in found.page.read_text("utf-8")
 
 
+def test_films_swept(tmp_path):
+    swept = tb.ehl.squeeze(tb.ehl.template("squeeze")).sweep({"roller.speed": ["0.2 m/s", "0.25 m/s"]})
+    found = tb.report(swept, tmp_path)
+    assert "sweep" in found.page.read_text("utf-8") and (tmp_path / "result.h5").is_file()
+
+
 def test_figures_of_the_user_stay_as_they_are(pressed, tmp_path):
     before = dict(matplotlib.rcParams), matplotlib.get_backend()
     tb.report(pressed, tmp_path)

@@ -163,6 +163,18 @@ def test_a_spectrum_has_the_power_of_its_wave():
         surface.psd("other")
 
 
+def test_a_spectrum_of_no_self_affine_surface_says_so():
+    rough = tb.generate("self-affine", pixels=128, pixel="1 um", rms_slope=0.1)
+    found = rough.psd()
+    assert found.warnings == () and 0 < found.radial.hurst_standard_error < found.radial.hurst < 1
+    steep = rough.lowpass("gauss:20um").psd(fit_min="0.3/um", fit_max=6e5)
+    assert [warning.code for warning in steep.warnings] == ["hurst"] and steep.radial.hurst > 1
+    with pytest.raises(ValueError, match="fit_min"):
+        rough.psd(fit_min="0.6/um", fit_max="0.3/um")
+    with pytest.raises(ValueError, match="unit"):
+        rough.psd(fit_min="1 kg")
+
+
 def test_a_scan_is_read_and_shown(scan_file):
     surface = tb.read(scan_file)
     assert surface.format == "x3p" and surface.shape == (512, 512)

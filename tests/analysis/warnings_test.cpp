@@ -224,6 +224,31 @@ TEST(WarningsOfFriction, AnAreaAtItsBoundIsAClamp) {
   }
 }
 
+TEST(WarningsOfSpectra, NameExponentsThatNoSelfAffineSurfaceHas) {
+  metrology::PowerSpectra spectra;
+  spectra.x.hurst = {.hurst = 1.05, .standard_error = 0.1};
+  spectra.y.hurst = {.hurst = std::nan("")};
+  spectra.radial.hurst = {.hurst = 0, .standard_error = 0.1};
+  EXPECT_THAT(of_spectra(spectra), testing::IsEmpty());
+  spectra.x.hurst.hurst = 1.2;
+  spectra.radial.hurst.hurst = -0.3;
+  const Warnings found = of_spectra(spectra);
+  ASSERT_THAT(codes_of(found), testing::ElementsAre("hurst"));
+  EXPECT_THAT(found[0].text, HasSubstr("(C1D along x 1.2, C2D radial -0.3)"));
+}
+
+TEST(WarningsOfStiffness, SayHowFarItIsFromItsTolerance) {
+  contact::Stiffness stiffness{
+      .value = 1e12,
+      .convergence = {.certificate = 1e-9, .tolerance = 1e-8, .status = Status::converged}};
+  EXPECT_THAT(of_stiffness(stiffness), testing::IsEmpty());
+  stiffness.convergence = {
+      .certificate = 2e-3, .tolerance = 1e-8, .status = Status::iteration_limit};
+  const Warnings found = of_stiffness(stiffness);
+  ASSERT_THAT(codes_of(found), testing::ElementsAre("stiffness"));
+  EXPECT_THAT(found[0].text, HasSubstr("NOT CONVERGED, residual 2.0e-03"));
+}
+
 TEST(WarningsOfFlow, KeepTheWarningsAndLookAtTheMixedFriction) {
   EXPECT_THAT(codes_of(of_flow({"film NOT CONVERGED"})), testing::ElementsAre("fluid-film"));
   EXPECT_THAT(codes_of(of_mixed_friction({.friction_mixed = 2.1})),

@@ -260,6 +260,13 @@ TEST(PowerSpectra, RejectHoles) {
   }
 }
 
+TEST(PowerSpectra, RejectAFitThatEndsBeforeItBegins) {
+  const auto rough = noise({16, 16, 1e-3, 1e-3});
+  EXPECT_THROW(power_spectra(rough, {.window = {}, .fit_q_min = 2e4, .fit_q_max = 1e4}),
+               InputError);
+  EXPECT_NO_THROW(power_spectra(rough, {.window = {}, .fit_q_min = 1e4, .fit_q_max = 2e4}));
+}
+
 TEST(PowerSpectra, GiveTheSameBitsOnAnyNumberOfThreads) {
   const auto rough = noise({300, 200, 1e-3, 1e-3});
   expect_same_bits_on_any_threads([&] {

@@ -48,7 +48,10 @@ ContactRecord state_of(elastic::ElasticOperator& elasticity, const topography::T
   record.warnings = of_surface(surface);
   record.references = references_of(settings);
   add(of_contact(surface, settings, record.state, record.summary), record.warnings);
-  if (settings.statistics) record.statistics = statistics_of(elasticity, record.state, settings);
+  if (settings.statistics) {
+    record.statistics = statistics_of(elasticity, record.state, settings);
+    add(of_stiffness(record.statistics->stiffness), record.warnings);
+  }
   return record;
 }
 

@@ -7,9 +7,11 @@
 #include "tabor/analysis/settings.hpp"
 #include "tabor/analysis/warning.hpp"
 #include "tabor/contact/contact.hpp"
+#include "tabor/contact/stiffness.hpp"
 #include "tabor/deposition/deposition.hpp"
 #include "tabor/friction/bowden_tabor.hpp"
 #include "tabor/friction/mixed_friction.hpp"
+#include "tabor/metrology/psd.hpp"
 #include "tabor/topography/topography.hpp"
 
 // What a user must be told about each number. Verbs and studies ask the same functions, so that a
@@ -22,9 +24,15 @@ std::optional<Warning> not_levelled(const topography::Topography& surface);
 /// Warnings about a treated surface, whatever is computed with it.
 Warnings of_surface(const topography::Topography& surface);
 
+/// Of exponents more than their error outside 0 to 1.
+Warnings of_spectra(const metrology::PowerSpectra& spectra);
+
 /// Of one solved contact on the treated surface.
 Warnings of_contact(const topography::Topography& surface, const ContactSettings& settings,
                     const contact::State& state, const contact::Summary& summary);
+
+/// Of its stiffness.
+Warnings of_stiffness(const contact::Stiffness& stiffness);
 
 /// Of one film as it was laid down on a treated surface.
 Warnings of_film(const topography::Topography& surface, const deposition::Film& film);

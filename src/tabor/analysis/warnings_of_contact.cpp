@@ -134,4 +134,12 @@ Warnings of_contact(const topography::Topography& surface, const ContactSettings
   return list;
 }
 
+Warnings of_stiffness(const contact::Stiffness& stiffness) {
+  if (stiffness.convergence.converged()) return {};
+  return {{"stiffness",
+           fmt::format("contact stiffness: NOT CONVERGED, residual {:.1e}; do not use it",
+                       stiffness.convergence.certificate),
+           stiffness.convergence.certificate}};
+}
+
 }  // namespace tabor::analysis

@@ -49,4 +49,21 @@ Warnings of_surface(const topography::Topography& surface) {
   return list;
 }
 
+Warnings of_spectra(const metrology::PowerSpectra& spectra) {
+  std::string strange;
+  const auto look_at = [&strange](const std::string& name, const metrology::HurstFit& fit) {
+    if (!(fit.hurst - fit.standard_error > 1) && !(fit.hurst + fit.standard_error < 0)) return;
+    strange += fmt::format("{}{} {}", strange.empty() ? "" : ", ", name, plain(fit.hurst, 3));
+  };
+  look_at("C1D along x", spectra.x.hurst);
+  look_at("C1D along y", spectra.y.hurst);
+  look_at("C2D radial", spectra.radial.hurst);
+  if (strange.empty()) return {};
+  return {{"hurst",
+           fmt::format("no self-affine surface has a Hurst exponent outside 0 to 1 ({}): these "
+                       "heights are noise, smooth, curved or filtered; look at the curve, choose "
+                       "with --fit-min and --fit-max",
+                       strange)}};
+}
+
 }  // namespace tabor::analysis

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <memory>
 #include <optional>
 
@@ -25,13 +23,9 @@ io::Json histogram_json(const contact::Histogram& histogram, const std::string& 
 }
 
 /// Contact stiffness and histograms, where --statistics asks for them.
-io::Json statistics_json(const analysis::ContactRecord& record, Context& context) {
+io::Json statistics_json(const analysis::ContactRecord& record) {
   if (!record.statistics) return io::Json::object();
   const analysis::ContactStatistics& statistics = *record.statistics;
-  if (!statistics.stiffness.convergence.converged()) {
-    context.warn(fmt::format("contact stiffness: NOT CONVERGED, residual {:.1e}",
-                             statistics.stiffness.convergence.certificate));
-  }
   return {{"contact_stiffness_Pa_per_m", io::number(statistics.stiffness.value)},
           {"pressure_histogram", histogram_json(statistics.pressure, "edge_Pa")},
           {"gap_histogram", histogram_json(statistics.gap, "edge_m")},
@@ -69,7 +63,7 @@ int show(const Request& request, Context& context) {
         cells_of(analysis::contact_columns(), record, analysis::media::kObject);
     if (file) file->add_state(object["states"].size(), cells, analysis::fields_of(record));
     object["states"].push_back(io::json_of(cells));
-    object["states"].back().update(statistics_json(record, context));
+    object["states"].back().update(statistics_json(record));
     cases.push_back(analysis::case_of(record));
     if (!record.convergence.converged()) code = kNotConverged;
     record.state = {};

@@ -14,6 +14,7 @@
 #include "tabor/core/printable.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/io/columns.hpp"
+#include "tabor/study/ehl_tables.hpp"
 #include "tabor/study/ehl_warnings.hpp"
 
 namespace tabor::cli {
@@ -106,88 +107,15 @@ io::Json result_of(io::Json set, const ehl::CaseResult& result) {
 }
 
 int finish_many(const FilmSweep& sweep, const CaseTable& table, const io::Json& object,
-                const CaseRows& rows, const Results& results, Context& context) {
+                const study::EhlRows& rows, const Results& results, Context& context) {
   const bool converged = all_converged(results);
   io::Json whole = json_head(context);
   whole["case"] = sweep.file;
   whole.update(object);
   whole["converged"] = converged;
-  const std::string csv = sweep.csv.is_asked() ? csv_of(sweep.program, rows, results) : "";
+  const std::string csv = sweep.csv.is_asked() ? study::csv_of(sweep.program, rows, results) : "";
   return finish(context, whole, write_csv(sweep.csv, csv, table.text()),
                 converged ? kDone : kNotConverged);
-}
-
-std::string with_unit(const std::string& key, const std::string& unit) {
-  return unit.empty() ? key : fmt::format("{} [{}]", key, unit);
-}
-
-/// The values of all combinations, in SI where they are no words.
-CaseRows rows_of(const std::vector<SweepAxis>& axes) {
-  CaseRows rows;
-  for (const SweepAxis& axis : axes) rows.keys.push_back(with_unit(axis.key, axis.unit()));
-  for (const study::Places& places : combinations(axes)) {
-    std::vector<Cell>& cells = rows.values.emplace_back();
-    for (std::size_t a = 0; a < axes.size(); ++a) {
-      const bool is_word = axes[a].has_words();
-      cells.push_back(is_word ? Cell(axes[a].values[places[a]])
-                              : Cell(axes[a].numbers()[places[a]]));
-    }
-  }
-  return rows;
-}
-
-/// The axes, in their order: the last one is the fastest.
-void write_axes(io::Hdf5Writer& writer, const std::vector<SweepAxis>& axes) {
-  writer.group("/sweep/axes");
-  std::vector<std::string> keys;
-  std::vector<std::int64_t> shape;
-  for (const SweepAxis& axis : axes) {
-    const std::string path = "/sweep/axes/" + axis.key;
-    keys.push_back(axis.key);
-    shape.push_back(static_cast<std::int64_t>(axis.values.size()));
-    writer.write(path, axis.numbers());
-    writer.describe(path, axis.unit(), axis.key);
-    if (axis.has_words()) writer.attribute(path, "words", axis.values);
-  }
-  writer.attribute("/sweep", "axes", keys);
-  writer.write("/sweep/shape", shape);
-}
-
-/// An array per column.
-void write_columns(io::Hdf5Writer& writer, const CaseColumns& columns, const Results& results) {
-  std::vector<double> values(results.size());
-  const auto write = [&](const std::string& name, const std::string& unit,
-                         const std::string& heading) {
-    writer.write("/sweep/" + name, values);
-    writer.describe("/sweep/" + name, unit, heading);
-  };
-  for (const ehl::CaseColumn& column : columns) {
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      values[i] = study::number_of(results[i].scalars, column.key);
-    }
-    write(column.key, column.unit, column.heading);
-  }
-  for (std::size_t i = 0; i < results.size(); ++i) values[i] = results[i].converged ? 1 : 0;
-  write("converged", "", "converged");
-}
-
-void write_sweep(const FilmSweep& sweep, const Results& results,
-                 const std::vector<std::string>& marks, const Context& context) {
-  io::Hdf5Writer writer(*sweep.output);
-  analysis::write_result_head(writer,
-                              head_of(context, sweep.config.to_text(), sweep.program.methods));
-  writer.attribute("/", "kind", "ehl " + sweep.program.name + " sweep");
-  write_axes(writer, sweep.axes);
-  write_columns(writer, study::columns_of(sweep.program, results), results);
-  std::vector<std::string> warnings;
-  warnings.reserve(results.size());
-  for (const ehl::CaseResult& result : results) {
-    warnings.push_back(fmt::format("{}", fmt::join(result.warnings, "\n")));
-  }
-  writer.write("/sweep/warnings", warnings);
-  writer.write("/sweep/warning_marks", marks);
-  analysis::write_warnings(writer, context.warnings);
-  writer.commit();
 }
 
 /// The table, or the JSON object.
@@ -197,7 +125,7 @@ int show_results(const FilmSweep& sweep, const Results& results,
   for (const SweepAxis& axis : sweep.axes) keys.push_back(axis.key);
   const CaseColumns columns = study::columns_of(sweep.program, results);
   CaseTable table(keys, columns, {"converged"}, marks);
-  CaseRows rows = rows_of(sweep.axes);
+  const study::EhlRows rows = rows_of(sweep.axes);
   io::Json shown = io::Json::array();
   const std::vector<study::Places> all = combinations(sweep.axes);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -279,25 +207,6 @@ int end_early(const FilmSweep& sweep, const study::EhlOutcome& outcome, Context&
 
 }  // namespace
 
-std::string csv_of(const ehl::Program& program, const CaseRows& rows, const Results& results) {
-  const CaseColumns columns = study::columns_of(program, results);
-  std::vector<Cell> cells(rows.keys.begin(), rows.keys.end());
-  for (const ehl::CaseColumn& column : columns) cells.emplace_back(column.key);
-  cells.emplace_back("converged");
-  cells.emplace_back("warnings");
-  std::string csv = io::csv_line_of(cells);
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    cells = rows.values[i];
-    for (const ehl::CaseColumn& column : columns) {
-      cells.emplace_back(study::number_of(results[i].scalars, column.key));
-    }
-    cells.emplace_back(results[i].converged);
-    cells.emplace_back(fmt::format("{}", fmt::join(results[i].warnings, "; ")));
-    csv += io::csv_line_of(cells);
-  }
-  return csv;
-}
-
 int show_sweep(const FilmSweep& sweep, study::EhlSeries& series, Context& context) {
   const study::RunOptions options = run_options(sweep.run, context);
   std::optional<study::EhlStore> store;
@@ -316,7 +225,9 @@ int show_sweep(const FilmSweep& sweep, study::EhlSeries& series, Context& contex
   const std::vector<std::string> marks =
       warn_of_many(results, names_of(sweep.axes, combinations(sweep.axes)), context);
   if (store) {
-    write_sweep(sweep, results, marks, context);
+    study::write_sweep(*sweep.output,
+                       head_of(context, sweep.config.to_text(), sweep.program.methods),
+                       {sweep.program, sweep.axes, results, marks}, context.warnings);
     store->finish();
   }
   return show_results(sweep, results, marks, context);
@@ -331,7 +242,7 @@ int show_study(const FilmSweep& sweep, const std::string& name, Context& context
       warn_of_many(results, {.key = study.key, .values = texts}, context);
   const CaseColumns columns = study::columns_of(sweep.program, results);
   CaseTable table({study.key}, columns, {}, marks);
-  CaseRows rows{{with_unit(study.key, study.unit)}, {}};
+  study::EhlRows rows{{study::with_unit(study.key, study.unit)}, {}};
   io::Json shown = io::Json::array();
   for (std::size_t i = 0; i < results.size(); ++i) {
     rows.values.push_back({values[i]});

@@ -31,15 +31,6 @@ struct FilmSweep {
 /// limits where three grids were swept. Returns the exit code.
 int show_sweep(const FilmSweep& sweep, study::EhlSeries& series, Context& context);
 
-/// What tells cases apart: keys with their units, and their values in each case.
-struct CaseRows {
-  std::vector<std::string> keys;
-  std::vector<std::vector<Cell>> values;
-};
-/// A row of numbers per case behind those, as CSV.
-std::string csv_of(const ehl::Program& program, const CaseRows& rows,
-                   const std::vector<ehl::CaseResult>& results);
-
 /// The case repeated with other values of one key, and the limit they tend to. Throws UsageError
 /// for a study that the program does not know.
 int show_study(const FilmSweep& sweep, const std::string& name, Context& context);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "tabor/analysis/warnings.hpp"
 #include "tabor/cli/csv_output.hpp"
 #include "tabor/cli/psd_result.hpp"
 #include "tabor/cli/result.hpp"
@@ -85,22 +86,19 @@ Measured measure(const Request& request, const std::string& file, Context& conte
                     .object = json_head(context, scan),
                     .text = {},
                     .doubts = doubts_of(scan)};
+  if (measured.curves.spectra) {
+    analysis::add(analysis::of_spectra(*measured.curves.spectra), measured.doubts.warnings);
+  }
   add_curves(measured.object, measured.curves);
   measured.text = text_of(scan, measured.curves);
   return measured;
 }
 
-void warn_of(const std::vector<Measured>& all, const Request& request, Context& context) {
+void warn_of(const std::vector<Measured>& all, Context& context) {
   std::vector<analysis::Case> cases;
   cases.reserve(all.size());
   for (const Measured& one : all) cases.push_back(one.doubts);
   context.warn(analysis::findings_of(cases));
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!all[i].curves.spectra) continue;
-    const std::string warning = warning_about_exponents(*all[i].curves.spectra);
-    if (warning.empty()) continue;
-    context.warn(all.size() > 1 ? request.files[i] + ": " + warning : warning);
-  }
 }
 
 std::vector<GroupSpectra> means_of(const std::vector<GroupMembers>& groups, const Request& request,
@@ -161,7 +159,7 @@ int show(const Request& request, Context& context) {
     all.push_back(measure(request, file, context));
     text += (text.empty() ? "" : "\n") + all.back().text;
   }
-  warn_of(all, request, context);
+  warn_of(all, context);
   const std::vector<GroupSpectra> groups = means_of(members, request, all);
   io::Json object = is_one(request) ? all.front().object : json_of(all, groups, context);
   if (!groups.empty()) text += '\n' + text_of(groups);

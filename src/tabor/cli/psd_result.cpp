@@ -208,22 +208,6 @@ std::string text_of(const Scan& scan, const PsdCurves& curves) {
   return facts.text() + (curves.spectra || curves.hdf ? '\n' + table.text() : "");
 }
 
-std::string warning_about_exponents(const PowerSpectra& spectra) {
-  std::string strange;
-  const auto look_at = [&strange](const std::string& name, const metrology::HurstFit& fit) {
-    if (!(fit.hurst - fit.standard_error > 1) && !(fit.hurst + fit.standard_error < 0)) return;
-    strange += fmt::format("{}{} {}", strange.empty() ? "" : ", ", name, plain(fit.hurst, 3));
-  };
-  look_at("C1D along x", spectra.x.hurst);
-  look_at("C1D along y", spectra.y.hurst);
-  look_at("C2D radial", spectra.radial.hurst);
-  if (strange.empty()) return "";
-  return fmt::format(
-      "no self-affine surface has a Hurst exponent outside 0 to 1 ({}): these heights are noise, "
-      "smooth, curved or filtered; look at the curve, choose with --fit-min and --fit-max",
-      strange);
-}
-
 std::vector<Curve> columns_of(const PsdCurves& curves) {
   std::vector<Curve> columns;
   if (curves.spectra) {

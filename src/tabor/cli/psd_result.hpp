@@ -28,9 +28,6 @@ struct PsdCurves {
 /// Adds all curves with their numbers to the JSON object of the verb.
 void add_curves(io::Json& object, const PsdCurves& curves);
 
-/// Names exponents more than their error outside 0 to 1, in one sentence; "" if there are none.
-std::string warning_about_exponents(const metrology::PowerSpectra& spectra);
-
 /// Facts and a table for people.
 std::string text_of(const Scan& scan, const PsdCurves& curves);
 

@@ -98,6 +98,10 @@ std::string_view name_of(PsdWindow window) { return kWindows.of(window); }
 
 PowerSpectra power_spectra(const topography::Topography& topography, const PsdOptions& options) {
   check_complete(topography);
+  if (options.fit_q_min && options.fit_q_max && !(*options.fit_q_min < *options.fit_q_max)) {
+    throw InputError("fit_min", fmt::format("{:g} rad/m", *options.fit_q_min),
+                     fmt::format("less than fit_max, {:g} rad/m", *options.fit_q_max), "");
+  }
   PowerSpectra spectra;
   spectra.window = options.window.value_or(topography.periodic ? PsdWindow::none : PsdWindow::hann);
   add_lines(topography, spectra);

@@ -66,7 +66,8 @@ struct PowerSpectra {
 };
 
 /// Spectra of the heights about their mean. Level before (the window does not replace it). Throws
-/// InputError when there are holes, naming `--fill harmonic`, and for a single height.
+/// InputError when there are holes, naming `--fill harmonic`, for a single height, and for a range
+/// of the fit that ends before it begins.
 PowerSpectra power_spectra(const topography::Topography& topography,
                            const PsdOptions& options = {});
 

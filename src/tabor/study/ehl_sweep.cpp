@@ -113,7 +113,7 @@ const ehl::CaseStudy& find_study(const ehl::Program& program, const std::string&
     if (study.name == name) return study;
     names.push_back(study.name);
   }
-  throw UsageError(fmt::format("--study '{}'{}; 'tabor ehl {}' knows {}", name,
+  throw UsageError(fmt::format("study '{}'{}; 'tabor ehl {}' knows {}", name,
                                suggestion(name, names), program.name,
                                names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "))));
 }

@@ -1,0 +1,86 @@
+#include "tabor/study/ehl_tables.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/folder.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/io/hdf5.hpp"
+
+// The numbers of a sweep of two cases as a table and as a result file.
+namespace tabor::study {
+namespace {
+
+using testing::ElementsAre;
+
+ehl::Program program() {
+  return {.name = "drop",
+          .summary = "",
+          .keys = {},
+          .columns = {{"film_m", "film", "m"}, {"wear.depth_m", "depth", "m", true}},
+          .studies = {},
+          .methods = {},
+          .solve = {}};
+}
+
+std::vector<ehl::CaseResult> two_results() {
+  return {{.scalars = {{"film_m", 2e-7}}, .converged = true},
+          {.scalars = {{"film_m", nullptr}}, .warnings = {"thin", "a \"hot\" film"}}};
+}
+
+std::vector<SweepAxis> axes() {
+  return {{.key = "kind", .values = {"ground"}, .is_range = true},
+          {.key = "speed", .values = {"50 mm/s", "0.2 m/s"}, .is_range = true}};
+}
+
+TEST(EhlTables, HaveWhatTellsCasesApartBeforeTheirNumbers) {
+  EXPECT_EQ(csv_of(program(), rows_of(axes()), two_results()),
+            "kind,speed [m/s],film_m,converged,warnings\n"
+            "ground,0.05,2e-07,true,\n"
+            "ground,0.2,,false,\"thin; a \"\"hot\"\" film\"\n");
+}
+
+TEST(EhlTables, HaveOneRowForACaseAlone) {
+  EXPECT_EQ(csv_of(program(), {.keys = {}, .values = {{}}}, {two_results().front()}),
+            "film_m,converged,warnings\n2e-07,true,\n");
+}
+
+TEST(EhlTables, AreKeptWithAxesAndWarnings) {
+  const test::Folder folder;
+  const ehl::Program drop = program();
+  const std::vector<SweepAxis> along = axes();
+  const std::vector<ehl::CaseResult> results = two_results();
+  const std::vector<std::string> marks = {"", "a b"};
+  analysis::Finding thin;
+  thin.text = "[a] thin";
+  write_sweep(folder / "sweep.h5", {"tabor ehl drop", "load = \"1 N\"", {}},
+              {drop, along, results, marks}, {thin});
+
+  const io::Hdf5Reader reader(folder / "sweep.h5");
+  EXPECT_EQ(reader.text("/", "kind"), "ehl drop sweep");
+  EXPECT_THAT(reader.attribute_texts("/sweep", "axes"), ElementsAre("kind", "speed"));
+  EXPECT_THAT(reader.attribute_texts("/sweep/axes/kind", "words"), ElementsAre("ground"));
+  EXPECT_THAT(reader.numbers("/sweep/axes/speed"), ElementsAre(0.05, 0.2));
+  EXPECT_EQ(reader.text("/sweep/axes/speed", "units"), "m/s");
+  const std::vector<double> films = reader.numbers("/sweep/film_m");
+  EXPECT_EQ(films.at(0), 2e-7);
+  EXPECT_TRUE(std::isnan(films.at(1)));
+  EXPECT_FALSE(reader.exists("/sweep/wear.depth_m"));
+  EXPECT_THAT(reader.numbers("/sweep/converged"), ElementsAre(1, 0));
+  EXPECT_THAT(reader.texts("/sweep/warnings"), ElementsAre("", "thin\na \"hot\" film"));
+  EXPECT_THAT(reader.texts("/sweep/warning_marks"), ElementsAre("", "a b"));
+}
+
+TEST(EhlTables, AreNotWrittenIntoAFolderThatIsNotThere) {
+  const test::Folder folder;
+  const ehl::Program drop = program();
+  const std::vector<SweepAxis> along = axes();
+  const std::vector<ehl::CaseResult> results = two_results();
+  EXPECT_THROW(write_sweep(folder / "none" / "sweep.h5", {}, {drop, along, results, {}}, {}),
+               OutputError);
+}
+
+}  // namespace
+}  // namespace tabor::study
