@@ -236,6 +236,7 @@ namespace {
 std::optional<metrology::MeanSpectrum> mean_over(const std::vector<const PsdCurves*>& curves,
                                                  Spectrum PowerSpectra::*which) {
   std::vector<Spectrum> spectra;
+  spectra.reserve(curves.size());
   for (const PsdCurves* one : curves) spectra.push_back(*one->spectra.*which);
   const bool is_absent = std::all_of(spectra.begin(), spectra.end(),
                                      [](const Spectrum& one) { return one.q.empty(); });

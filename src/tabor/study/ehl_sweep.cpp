@@ -61,6 +61,7 @@ void read_kept(const EhlSeries& series, const Store& store, EhlOutcome& outcome)
 std::vector<double> numbers_of(const std::vector<ehl::CaseResult>& results,
                                const std::string& key) {
   std::vector<double> numbers;
+  numbers.reserve(results.size());
   for (const ehl::CaseResult& result : results) numbers.push_back(number_of(result.scalars, key));
   return numbers;
 }
@@ -178,6 +179,7 @@ std::vector<numerics::GridLimit> limits_of(const std::vector<ehl::CaseColumn>& c
     for (double& value : spacing) value = 1 / (value - study.end_nodes);
   }
   std::vector<numerics::GridLimit> limits;
+  limits.reserve(columns.size());
   for (const ehl::CaseColumn& column : columns) {
     limits.push_back(column.has_limit ? numerics::limit_of(spacing, numbers_of(results, column.key))
                                       : numerics::GridLimit{kNone, kNone});
