@@ -17,7 +17,6 @@
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/study/ehl_sweep.hpp"
 #include "tabor/study/ehl_tables.hpp"
-#include "tabor/study/ehl_warnings.hpp"
 #include "watched.hpp"
 
 namespace tabor::python {
@@ -112,38 +111,23 @@ void save(const Solved& solved, const std::filesystem::path& file) {
   });
 }
 
-/// What a sweep found: cases in the order asked for, and what they warn of, said once.
+/// A sweep, and the case that was varied.
 struct Swept {
   FilmCase of;
-  std::vector<study::SweepAxis> axes;
-  std::vector<ehl::CaseResult> cases = {};
-  std::vector<ehl::CaseColumn> columns = {};
-  study::EhlWarnings warnings = {};
-  std::vector<numerics::GridLimit> limits = {};  ///< of each column, where grids were varied
-  std::size_t n_computed = 0;                    ///< others were in the folder
+  study::EhlSweep sweep;
+  std::size_t n_computed = 0;  ///< other cases were in the folder
 };
-
-/// What is made of the results; `limited`: the study that has limits at these values, if there is
-/// one.
-void take_results(Swept& found, std::vector<ehl::CaseResult> results, const ehl::CaseStudy* limited,
-                  const std::vector<double>& values) {
-  found.cases = std::move(results);
-  found.columns = study::columns_of(found.of.program, found.cases);
-  const study::EhlCaseNames names = study::names_of(found.axes, study::combinations(found.axes));
-  found.warnings = study::gather_warnings(found.cases, names);
-  if (limited) found.limits = study::limits_of(found.columns, *limited, values, found.cases);
-}
 
 /// As a table, or with axes and warnings.
 void save_sweep(const Swept& swept, const std::filesystem::path& file) {
-  const Program& program = swept.of.program;
-  if (file.extension() == ".csv") {
-    io::write_file(file, study::csv_of(program, study::rows_of(swept.axes), swept.cases));
-    return;
-  }
-  study::write_sweep(file, {"tabor.save", swept.of.config.to_text(), program.methods},
-                     {program, swept.axes, swept.cases, swept.warnings.marks},
-                     findings_of(swept.warnings.lines));
+  watch(nb::none(), [&](const Observer&) {
+    if (file.extension() == ".csv") {
+      io::write_file(file, study::csv_of(swept.sweep));
+      return;
+    }
+    study::write_sweep(file, {"tabor.save", swept.of.config.to_text(), swept.of.program.methods},
+                       swept.sweep, findings_of(swept.sweep.warnings.lines));
+  });
 }
 
 using Axes = std::vector<std::pair<std::string, std::vector<std::string>>>;
@@ -173,17 +157,15 @@ Swept sweep(const FilmCase& one, const Axes& given, std::uint64_t seed,
             const std::optional<std::filesystem::path>& folder, int jobs, bool retry,
             const nb::object& progress) {
   return watched_beside(progress, [&](const Observer& observer) {
-    Swept found{.of = one, .axes = axes_of(given)};
-    study::EhlSeries series = study::ehl_sweep(one.program, one.config, found.axes, seed);
+    std::vector<study::SweepAxis> axes = axes_of(given);
+    study::EhlSeries series = study::ehl_sweep(one.program, one.config, axes, seed);
     study::RunOptions options;
     options.jobs = jobs;
     options.retry = retry;
     options.observer = observer;
     const study::EhlOutcome outcome = run_sweep(series, folder, options);
-    found.n_computed = outcome.n_computed;
-    take_results(found, outcome.all(), study::study_of(one.program, found.axes),
-                 found.axes.front().numbers());
-    return found;
+    return Swept{one, study::sweep_of(one.program, std::move(axes), outcome.all()),
+                 outcome.n_computed};
   });
 }
 
@@ -191,24 +173,24 @@ Swept sweep(const FilmCase& one, const Axes& given, std::uint64_t seed,
 Swept vary(const FilmCase& one, const std::string& name, std::uint64_t seed, int jobs,
            const nb::object& progress) {
   return watched_beside(progress, [&](const Observer& observer) {
-    const ehl::CaseStudy& study = study::find_study(one.program, name);
     study::RunOptions options;
     options.jobs = jobs;
     options.observer = observer;
-    auto [values, texts, results] =
+    const ehl::CaseStudy& study = study::find_study(one.program, name);
+    study::EhlStudyOutcome outcome =
         study::run_ehl_study(one.program, one.config, study, seed, options);
-    Swept found{.of = one, .axes = {{study.key, texts, true}}};
-    found.n_computed = results.size();
-    take_results(found, std::move(results), study.has_limit ? &study : nullptr, values);
-    return found;
+    const std::size_t n_computed = outcome.results.size();
+    return Swept{
+        one, study::sweep_of(one.program, {std::move(outcome.axis)}, std::move(outcome.results)),
+        n_computed};
   });
 }
 
 /// (value, order) of each column.
 std::vector<std::pair<double, double>> limits_of(const Swept& swept) {
   std::vector<std::pair<double, double>> limits;
-  limits.reserve(swept.limits.size());
-  for (const numerics::GridLimit& limit : swept.limits) {
+  limits.reserve(swept.sweep.limits.size());
+  for (const numerics::GridLimit& limit : swept.sweep.limits) {
     limits.emplace_back(limit.value, limit.order);
   }
   return limits;
@@ -217,8 +199,10 @@ std::vector<std::pair<double, double>> limits_of(const Swept& swept) {
 /// The values of each axis behind its key, SI; words are counted from 0.
 std::vector<std::pair<std::string, std::vector<double>>> numbers_of(const Swept& swept) {
   std::vector<std::pair<std::string, std::vector<double>>> numbers;
-  numbers.reserve(swept.axes.size());
-  for (const study::SweepAxis& axis : swept.axes) numbers.emplace_back(axis.key, axis.numbers());
+  numbers.reserve(swept.sweep.axes.size());
+  for (const study::SweepAxis& axis : swept.sweep.axes) {
+    numbers.emplace_back(axis.key, axis.numbers());
+  }
   return numbers;
 }
 
@@ -226,8 +210,8 @@ std::vector<std::pair<std::string, std::vector<double>>> numbers_of(const Swept&
 using ColumnRow = std::tuple<std::string, std::string, std::string>;
 std::vector<ColumnRow> columns_of(const Swept& swept) {
   std::vector<ColumnRow> rows;
-  rows.reserve(swept.columns.size());
-  for (const ehl::CaseColumn& column : swept.columns) {
+  rows.reserve(swept.sweep.columns.size());
+  for (const ehl::CaseColumn& column : swept.sweep.columns) {
     rows.emplace_back(column.key, column.heading, column.unit);
   }
   return rows;
@@ -237,8 +221,8 @@ std::vector<ColumnRow> columns_of(const Swept& swept) {
 using CaseRow = std::tuple<std::string, bool, std::vector<std::string>>;
 std::vector<CaseRow> cases_of(const Swept& swept) {
   std::vector<CaseRow> rows;
-  rows.reserve(swept.cases.size());
-  for (const ehl::CaseResult& one : swept.cases) {
+  rows.reserve(swept.sweep.results.size());
+  for (const ehl::CaseResult& one : swept.sweep.results) {
     rows.emplace_back(io::to_text(one.scalars), one.converged, one.warnings);
   }
   return rows;
@@ -280,7 +264,7 @@ void bind_ehl(nb::module_& module) {
       .def_prop_ro("cases", &cases_of)
       .def_prop_ro("columns", &columns_of)
       .def_prop_ro("axes", &numbers_of)
-      .def_prop_ro("warnings", [](const Swept& self) { return self.warnings.lines; })
+      .def_prop_ro("warnings", [](const Swept& self) { return self.sweep.warnings.lines; })
       .def_prop_ro("limits", &limits_of)
       .def_ro("n_computed", &Swept::n_computed)
       .def("save", &save_sweep, "file"_a);

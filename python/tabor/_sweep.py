@@ -20,7 +20,7 @@ class Limit(NamedTuple):
     """What a number tends to on ever finer grids, by the three finest (Richardson); NaN where they show no limit."""
 
     value: float
-    order: float  #: p of the error ~ spacing^p that they show
+    order: float  #: p of the error ~ spacing^p that they show; NaN where the number does not depend on the grid
 
 
 class Sweep:
@@ -59,7 +59,7 @@ class Sweep:
 
     def save(self, file: str | os.PathLike[str]) -> None:
         """Writes what ``tabor ehl`` writes of a sweep: the file of ``-o``, which ends with .h5 and which ``report``
-        draws curves of, or the table of ``--csv``, which ends with .csv. Raises OSError, and ValueError for other
+        draws curves of, without limits, or the table of ``--csv``, which ends with .csv. Raises OSError, and ValueError for other
         endings and for a sweep that came out of a pickle, which has its numbers alone."""
         path = pathlib.Path(file)
         if path.suffix not in (".h5", ".hdf5", ".csv"):
@@ -99,8 +99,8 @@ class Sweep:
         lines = [(key, ", ".join(f"{one:g}" if isinstance(one, float) else str(one) for one in values))
                  for key, values in self.axes.items()]
         heading = {key: text for key, text, _ in self.columns}
-        lines += [(f"limit of {heading[key]}", f"{limit.value:.6g} (order {limit.order:.2g})")
-                  for key, limit in self.limits.items() if np.isfinite(limit.order)]
+        lines += [(f"limit of {heading[key]}", f"{limit.value:.6g}" + (f" (order {limit.order:.2g})" if np.isfinite(limit.order) else ""))
+                  for key, limit in self.limits.items() if np.isfinite(limit.value)]
         return [*lines, ("converged", f"{good} of {len(self.rows)}"), *(("warning", text) for text in self.warnings)]
 
     def __repr__(self) -> str:

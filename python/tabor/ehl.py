@@ -169,7 +169,7 @@ class Case:
 
         Parameters
         ----------
-        name : "grid"; some programs have "domain" or "time-step" as well.
+        name : "grid"; some programs have "domain" or "time-step" as well, "squeeze" has none.
         seed, jobs, check, progress : as those of ``sweep``.
 
         Raises

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -234,6 +235,7 @@ TEST(WarningsOfSpectra, NameExponentsThatNoSelfAffineSurfaceHas) {
   spectra.radial.hurst.hurst = -0.3;
   const Warnings found = of_spectra(spectra);
   ASSERT_THAT(codes_of(found), testing::ElementsAre("hurst"));
+  EXPECT_NEAR(found[0].weight, 0.3, 1e-12);
   EXPECT_THAT(found[0].text, HasSubstr("(C1D along x 1.2, C2D radial -0.3)"));
 }
 

@@ -421,8 +421,8 @@ TEST(EhlStudy, FindsLimitAndOrderOfEachColumn) {
   const io::Config config = io::Config::parse("", "case.toml");
   const ehl::CaseStudy& study = find_study(program, "grid");
   const EhlStudyOutcome outcome = run_ehl_study(program, config, study, 1, {});
-  EXPECT_THAT(outcome.texts, ElementsAre("32", "64", "128"));
-  const auto limits = limits_of(program.columns, study, outcome.values, outcome.results);
+  EXPECT_THAT(outcome.axis.values, ElementsAre("32", "64", "128"));
+  const auto limits = limits_of(program.columns, study, outcome.axis.numbers(), outcome.results);
   EXPECT_NEAR(limits[0].value, 3, 1e-9);
   EXPECT_NEAR(limits[0].order, 1, 1e-6);
   EXPECT_TRUE(std::isnan(limits[1].value));

@@ -36,27 +36,26 @@ std::vector<SweepAxis> axes() {
 }
 
 TEST(EhlTables, HaveWhatTellsCasesApartBeforeTheirNumbers) {
-  EXPECT_EQ(csv_of(program(), rows_of(axes()), two_results()),
+  const ehl::Program drop = program();
+  EXPECT_EQ(csv_of(sweep_of(drop, axes(), two_results())),
             "kind,speed [m/s],film_m,converged,warnings\n"
             "ground,0.05,2e-07,true,\n"
             "ground,0.2,,false,\"thin; a \"\"hot\"\" film\"\n");
 }
 
 TEST(EhlTables, HaveOneRowForACaseAlone) {
-  EXPECT_EQ(csv_of(program(), {.keys = {}, .values = {{}}}, {two_results().front()}),
+  const ehl::Program drop = program();
+  EXPECT_EQ(csv_of(sweep_of(drop, {}, {two_results().front()})),
             "film_m,converged,warnings\n2e-07,true,\n");
 }
 
 TEST(EhlTables, AreKeptWithAxesAndWarnings) {
   const test::Folder folder;
   const ehl::Program drop = program();
-  const std::vector<SweepAxis> along = axes();
-  const std::vector<ehl::CaseResult> results = two_results();
-  const std::vector<std::string> marks = {"", "a b"};
   analysis::Finding thin;
   thin.text = "[a] thin";
   write_sweep(folder / "sweep.h5", {"tabor ehl drop", "load = \"1 N\"", {}},
-              {drop, along, results, marks}, {thin});
+              sweep_of(drop, axes(), two_results()), {thin});
 
   const io::Hdf5Reader reader(folder / "sweep.h5");
   EXPECT_EQ(reader.text("/", "kind"), "ehl drop sweep");
@@ -76,10 +75,9 @@ TEST(EhlTables, AreKeptWithAxesAndWarnings) {
 TEST(EhlTables, AreNotWrittenIntoAFolderThatIsNotThere) {
   const test::Folder folder;
   const ehl::Program drop = program();
-  const std::vector<SweepAxis> along = axes();
-  const std::vector<ehl::CaseResult> results = two_results();
-  EXPECT_THROW(write_sweep(folder / "none" / "sweep.h5", {}, {drop, along, results, {}}, {}),
-               OutputError);
+  EXPECT_THROW(
+      write_sweep(folder / "none" / "sweep.h5", {}, sweep_of(drop, axes(), two_results()), {}),
+      OutputError);
 }
 
 }  // namespace

@@ -9,8 +9,8 @@ cd "$root" || exit 1
 export PATH=/usr/bin:/bin:$PATH
 # Idle threads sleep instead of taking a core from the tests beside them.
 export OMP_WAIT_POLICY=${OMP_WAIT_POLICY:-passive}
-# Ninja's own choice, two compilers more than cores, takes a fifth longer: they push each other out of the caches.
-export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}
+# Ninja's own choice, one or two compilers more than cores, takes an eighth longer and more: they push each other out of the caches.
+export CMAKE_BUILD_PARALLEL_LEVEL=${CMAKE_BUILD_PARALLEL_LEVEL:-$(env -u OMP_NUM_THREADS -u OMP_THREAD_LIMIT nproc)}
 
 fail() {
   printf '%s: %s\n' "$(basename "$0")" "$1" >&2
@@ -100,7 +100,7 @@ python_environment() {
 }
 
 # report_environment: build/report with what `tabor report` makes interactive pages with, from PyPI. Fails where PyPI
-# cannot be reached: then pages are still, drawn with Debian's packages, and a line says so.
+# cannot be reached: then pages are drawn with Debian's packages, are not interactive, and a line says so.
 report_environment() {
   local venv=$root/build/report
   [ -e "$venv/complete" ] && return

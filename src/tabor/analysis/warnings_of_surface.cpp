@@ -51,9 +51,11 @@ Warnings of_surface(const topography::Topography& surface) {
 
 Warnings of_spectra(const metrology::PowerSpectra& spectra) {
   std::string strange;
-  const auto look_at = [&strange](const std::string& name, const metrology::HurstFit& fit) {
+  double farthest = 0;
+  const auto look_at = [&](const std::string& name, const metrology::HurstFit& fit) {
     if (!(fit.hurst - fit.standard_error > 1) && !(fit.hurst + fit.standard_error < 0)) return;
     strange += fmt::format("{}{} {}", strange.empty() ? "" : ", ", name, plain(fit.hurst, 3));
+    farthest = std::max({farthest, fit.hurst - 1, -fit.hurst});
   };
   look_at("C1D along x", spectra.x.hurst);
   look_at("C1D along y", spectra.y.hurst);
@@ -63,7 +65,8 @@ Warnings of_spectra(const metrology::PowerSpectra& spectra) {
            fmt::format("no self-affine surface has a Hurst exponent outside 0 to 1 ({}): these "
                        "heights are noise, smooth, curved or filtered; look at the curve, choose "
                        "with --fit-min and --fit-max",
-                       strange)}};
+                       strange),
+           farthest}};
 }
 
 }  // namespace tabor::analysis

@@ -69,7 +69,7 @@ int show_one(const ehl::Program& program, const io::Config& config, const Reques
   object["case"] = request.file;
   object.update(result.scalars);
   const std::string csv =
-      request.csv.is_asked() ? study::csv_of(program, {.keys = {}, .values = {{}}}, {result}) : "";
+      request.csv.is_asked() ? csv_of(study::sweep_of(program, {}, {result})) : "";
   return finish(context, object, write_csv(request.csv, csv, text_of(result.facts)),
                 result.converged ? kDone : kNotConverged);
 }

@@ -1,7 +1,6 @@
 #include "tabor/cli/film_sweep.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>
@@ -13,9 +12,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/printable.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/io/columns.hpp"
 #include "tabor/study/ehl_tables.hpp"
-#include "tabor/study/ehl_warnings.hpp"
 
 namespace tabor::cli {
 
@@ -25,12 +22,9 @@ using Results = std::vector<ehl::CaseResult>;
 using CaseColumns = std::vector<ehl::CaseColumn>;
 using study::SweepAxis;
 
-/// Says once what the cases warn of; returns the marks of each.
-std::vector<std::string> warn_of_many(const Results& results, const study::EhlCaseNames& names,
-                                      Context& context) {
-  study::EhlWarnings warnings = gather_warnings(results, names);
-  for (const std::string& line : warnings.lines) context.warn(line);
-  return std::move(warnings.marks);
+/// Says once what the cases warn of.
+void warn_of_many(const study::EhlSweep& found, Context& context) {
+  for (const std::string& line : found.warnings.lines) context.warn(line);
 }
 
 std::string number_text(double value, const ehl::CaseColumn& column) {
@@ -106,44 +100,37 @@ io::Json result_of(io::Json set, const ehl::CaseResult& result) {
   return object;
 }
 
-int finish_many(const FilmSweep& sweep, const CaseTable& table, const io::Json& object,
-                const study::EhlRows& rows, const Results& results, Context& context) {
-  const bool converged = all_converged(results);
+int finish_many(const FilmSweep& sweep, const study::EhlSweep& found, CaseTable& table,
+                io::Json object, Context& context) {
+  if (!found.limits.empty()) table.add_limits(found.limits, object);
+  const bool converged = all_converged(found.results);
   io::Json whole = json_head(context);
   whole["case"] = sweep.file;
   whole.update(object);
   whole["converged"] = converged;
-  const std::string csv = sweep.csv.is_asked() ? study::csv_of(sweep.program, rows, results) : "";
+  const std::string csv = sweep.csv.is_asked() ? csv_of(found) : "";
   return finish(context, whole, write_csv(sweep.csv, csv, table.text()),
                 converged ? kDone : kNotConverged);
 }
 
 /// The table, or the JSON object.
-int show_results(const FilmSweep& sweep, const Results& results,
-                 const std::vector<std::string>& marks, Context& context) {
+int show_results(const FilmSweep& sweep, const study::EhlSweep& found, Context& context) {
   std::vector<std::string> keys;
-  for (const SweepAxis& axis : sweep.axes) keys.push_back(axis.key);
-  const CaseColumns columns = study::columns_of(sweep.program, results);
-  CaseTable table(keys, columns, {"converged"}, marks);
-  const study::EhlRows rows = rows_of(sweep.axes);
+  for (const SweepAxis& axis : found.axes) keys.push_back(axis.key);
+  CaseTable table(keys, found.columns, {"converged"}, found.warnings.marks);
   io::Json shown = io::Json::array();
-  const std::vector<study::Places> all = combinations(sweep.axes);
+  const std::vector<study::Places> all = combinations(found.axes);
   for (std::size_t i = 0; i < all.size(); ++i) {
     io::Json set = io::Json::object();
     std::vector<std::string> cells;
     for (std::size_t a = 0; a < keys.size(); ++a) {
-      cells.push_back(sweep.axes[a].values[all[i][a]]);
+      cells.push_back(found.axes[a].values[all[i][a]]);
       set[keys[a]] = cells.back();
     }
-    table.add(cells, results[i], {yes_no(results[i].converged)});
-    shown.push_back(result_of(std::move(set), results[i]));
+    table.add(cells, found.results[i], {yes_no(found.results[i].converged)});
+    shown.push_back(result_of(std::move(set), found.results[i]));
   }
-  io::Json object = {{"results", shown}};
-  if (const ehl::CaseStudy* study = study_of(sweep.program, sweep.axes)) {
-    table.add_limits(study::limits_of(columns, *study, sweep.axes.front().numbers(), results),
-                     object);
-  }
-  return finish_many(sweep, table, object, rows, results, context);
+  return finish_many(sweep, found, table, {{"results", shown}}, context);
 }
 
 void say(const std::string& text, Context& context) {
@@ -221,37 +208,34 @@ int show_sweep(const FilmSweep& sweep, study::EhlSeries& series, Context& contex
       });
   if (outcome.ended_by) return end_early(sweep, outcome, context);
   if (options.shard) return show_shard(sweep, outcome, context);
-  const Results results = outcome.all();
-  const std::vector<std::string> marks =
-      warn_of_many(results, names_of(sweep.axes, combinations(sweep.axes)), context);
+  const study::EhlSweep found = sweep_of(sweep.program, sweep.axes, outcome.all());
+  warn_of_many(found, context);
   if (store) {
-    study::write_sweep(*sweep.output,
-                       head_of(context, sweep.config.to_text(), sweep.program.methods),
-                       {sweep.program, sweep.axes, results, marks}, context.warnings);
+    write_sweep(*sweep.output, head_of(context, sweep.config.to_text(), sweep.program.methods),
+                found, context.warnings);
     store->finish();
   }
-  return show_results(sweep, results, marks, context);
+  return show_results(sweep, found, context);
 }
 
 int show_study(const FilmSweep& sweep, const std::string& name, Context& context) {
   const ehl::CaseStudy& study = study::find_study(sweep.program, name);
-  const auto [values, texts, results] =
+  study::EhlStudyOutcome outcome =
       run_ehl_study(sweep.program, sweep.config, study, context.seed_or_default(),
                     run_options(sweep.run, context));
-  const std::vector<std::string> marks =
-      warn_of_many(results, {.key = study.key, .values = texts}, context);
-  const CaseColumns columns = study::columns_of(sweep.program, results);
-  CaseTable table({study.key}, columns, {}, marks);
-  study::EhlRows rows{{study::with_unit(study.key, study.unit)}, {}};
+  const study::EhlSweep found =
+      study::sweep_of(sweep.program, {std::move(outcome.axis)}, std::move(outcome.results));
+  warn_of_many(found, context);
+  const SweepAxis& axis = found.axes.front();
+  const std::vector<double> values = axis.numbers();
+  CaseTable table({axis.key}, found.columns, {}, found.warnings.marks);
   io::Json shown = io::Json::array();
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    rows.values.push_back({values[i]});
-    table.add({study.unit.empty() ? texts[i] : si(values[i], study.unit)}, results[i], {});
-    shown.push_back(result_of({{study.key, texts[i]}}, results[i]));
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    table.add({study.unit.empty() ? axis.values[i] : si(values[i], study.unit)}, found.results[i],
+              {});
+    shown.push_back(result_of({{axis.key, axis.values[i]}}, found.results[i]));
   }
-  io::Json object = {{"study", study.name}, {"results", shown}};
-  if (study.has_limit) table.add_limits(study::limits_of(columns, study, values, results), object);
-  return finish_many(sweep, table, object, rows, results, context);
+  return finish_many(sweep, found, table, {{"study", study.name}, {"results", shown}}, context);
 }
 
 }  // namespace tabor::cli

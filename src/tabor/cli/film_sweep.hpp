@@ -7,7 +7,6 @@
 
 #include "tabor/cli/csv_output.hpp"
 #include "tabor/cli/run_options.hpp"
-#include "tabor/core/column.hpp"
 #include "tabor/study/ehl_sweep.hpp"
 
 // Many cases of `tabor ehl` as tables, JSON objects and files.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -36,9 +37,11 @@ struct PsdOptions {
 
 /// Least-squares slope of log density against log q, over logarithmically spaced bins.
 struct HurstFit {
-  double hurst = 0;           ///< H of C1D ~ q^-(1+2H), C2D ~ q^-(2+2H); NaN if fewer than 3 bins
-  double standard_error = 0;  ///< of hurst, from the scatter about the line
-  double q_min = 0;           ///< [rad/m], range used
+  /// H of C1D ~ q^-(1+2H), C2D ~ q^-(2+2H); NaN if fewer than 3 bins, or if there is no spectrum
+  double hurst = std::numeric_limits<double>::quiet_NaN();
+  /// Of hurst, from the scatter about the line.
+  double standard_error = std::numeric_limits<double>::quiet_NaN();
+  double q_min = 0;  ///< [rad/m], range used
   double q_max = 0;
   int n_bins = 0;
 };

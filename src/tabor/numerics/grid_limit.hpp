@@ -7,7 +7,8 @@ namespace tabor::numerics {
 /// What values tend to as the spacing goes to zero.
 struct GridLimit {
   double value = 0;  ///< NaN where the values show no limit
-  double order = 0;  ///< p of the error ~ spacing^p that they show; NaN with it
+  double order = 0;  ///< p of the error ~ spacing^p that they show; NaN with it, and of values that
+                     ///< are all the same
 };
 
 /// Richardson's extrapolation from the three finest of at least three values: the order is the one

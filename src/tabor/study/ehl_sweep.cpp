@@ -136,17 +136,15 @@ EhlStudyOutcome run_ehl_study(const ehl::Program& program, const io::Config& con
   const auto usual = solve_all(ehl_sweep(alone, config, {}, seed), options);
   const double value = number_of(usual.front().scalars, study.scalar);
   if (!std::isfinite(value)) {
-    throw InputError("--study " + study.name, "a case that has no " + study.key, "", "");
+    throw InputError("study " + study.name, "a case that has no " + study.key, "", "");
   }
-  EhlStudyOutcome outcome;
+  SweepAxis axis{.key = study.key, .values = {}, .is_range = true};
   for (const double factor : study.factors) {
-    outcome.values.push_back(value_at(study, value, factor));
-    outcome.texts.push_back(fmt::format("{:.12g}{}", outcome.values.back(),
-                                        study.unit.empty() ? "" : " " + study.unit));
+    axis.values.push_back(fmt::format("{:.12g}{}", value_at(study, value, factor),
+                                      study.unit.empty() ? "" : " " + study.unit));
   }
-  outcome.results =
-      solve_all(ehl_variants(program, config, study.key, outcome.texts, seed), options);
-  return outcome;
+  auto results = solve_all(ehl_variants(program, config, study.key, axis.values, seed), options);
+  return {std::move(axis), std::move(results)};
 }
 
 double number_of(const io::Json& scalars, const std::string& key) {

@@ -48,8 +48,7 @@ const ehl::CaseStudy* study_of(const ehl::Program& program, const std::vector<Sw
 
 /// A case with other values of one key, each solved by itself.
 struct EhlStudyOutcome {
-  std::vector<double> values;      ///< SI
-  std::vector<std::string> texts;  ///< as TOML
+  SweepAxis axis;
   std::vector<ehl::CaseResult> results;
 };
 

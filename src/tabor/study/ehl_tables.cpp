@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <cstdint>
+#include <utility>
 
 #include "tabor/io/columns.hpp"
 #include "tabor/study/ehl_sweep.hpp"
@@ -50,40 +51,55 @@ void write_columns(io::Hdf5Writer& writer, const std::vector<ehl::CaseColumn>& c
   write("converged", "", "converged");
 }
 
+std::string with_unit(const SweepAxis& axis) {
+  const std::string unit = axis.unit();
+  return unit.empty() ? axis.key : fmt::format("{} [{}]", axis.key, unit);
+}
+
+/// A cell per axis.
+std::vector<Cell> values_at(const std::vector<SweepAxis>& axes, const Places& places) {
+  std::vector<Cell> cells;
+  for (std::size_t a = 0; a < axes.size(); ++a) {
+    cells.push_back(axes[a].has_words() ? Cell(axes[a].values[places[a]])
+                                        : Cell(axes[a].numbers()[places[a]]));
+  }
+  return cells;
+}
+
 }  // namespace
 
-std::string with_unit(const std::string& key, const std::string& unit) {
-  return unit.empty() ? key : fmt::format("{} [{}]", key, unit);
-}
-
-EhlRows rows_of(const std::vector<SweepAxis>& axes) {
-  EhlRows rows;
-  for (const SweepAxis& axis : axes) rows.keys.push_back(with_unit(axis.key, axis.unit()));
-  for (const Places& places : combinations(axes)) {
-    std::vector<Cell>& cells = rows.values.emplace_back();
-    for (std::size_t a = 0; a < axes.size(); ++a) {
-      const bool is_word = axes[a].has_words();
-      cells.push_back(is_word ? Cell(axes[a].values[places[a]])
-                              : Cell(axes[a].numbers()[places[a]]));
-    }
+EhlSweep sweep_of(const ehl::Program& program, std::vector<SweepAxis> axes, Results results) {
+  const ehl::CaseStudy* study = study_of(program, axes);
+  EhlSweep sweep{.program = program,
+                 .axes = std::move(axes),
+                 .results = std::move(results),
+                 .columns = {},
+                 .warnings = {},
+                 .limits = {}};
+  sweep.columns = columns_of(program, sweep.results);
+  sweep.warnings = gather_warnings(sweep.results, names_of(sweep.axes, combinations(sweep.axes)));
+  if (study) {
+    sweep.limits = limits_of(sweep.columns, *study, sweep.axes.front().numbers(), sweep.results);
   }
-  return rows;
+  return sweep;
 }
 
-std::string csv_of(const ehl::Program& program, const EhlRows& rows, const Results& results) {
-  const std::vector<ehl::CaseColumn> columns = columns_of(program, results);
-  std::vector<Cell> cells(rows.keys.begin(), rows.keys.end());
-  for (const ehl::CaseColumn& column : columns) cells.emplace_back(column.key);
+std::string csv_of(const EhlSweep& sweep) {
+  std::vector<Cell> cells;
+  for (const SweepAxis& axis : sweep.axes) cells.emplace_back(with_unit(axis));
+  for (const ehl::CaseColumn& column : sweep.columns) cells.emplace_back(column.key);
   cells.emplace_back("converged");
   cells.emplace_back("warnings");
   std::string csv = io::csv_line_of(cells);
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    cells = rows.values[i];
-    for (const ehl::CaseColumn& column : columns) {
-      cells.emplace_back(number_of(results[i].scalars, column.key));
+  const std::vector<Places> all = combinations(sweep.axes);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const ehl::CaseResult& result = sweep.results[i];
+    cells = values_at(sweep.axes, all[i]);
+    for (const ehl::CaseColumn& column : sweep.columns) {
+      cells.emplace_back(number_of(result.scalars, column.key));
     }
-    cells.emplace_back(results[i].converged);
-    cells.emplace_back(fmt::format("{}", fmt::join(results[i].warnings, "; ")));
+    cells.emplace_back(result.converged);
+    cells.emplace_back(fmt::format("{}", fmt::join(result.warnings, "; ")));
     csv += io::csv_line_of(cells);
   }
   return csv;
@@ -95,14 +111,14 @@ void write_sweep(const std::filesystem::path& file, const analysis::ResultHead& 
   analysis::write_result_head(writer, head);
   writer.attribute("/", "kind", "ehl " + sweep.program.name + " sweep");
   write_axes(writer, sweep.axes);
-  write_columns(writer, columns_of(sweep.program, sweep.results), sweep.results);
+  write_columns(writer, sweep.columns, sweep.results);
   std::vector<std::string> of_cases;
   of_cases.reserve(sweep.results.size());
   for (const ehl::CaseResult& result : sweep.results) {
     of_cases.push_back(fmt::format("{}", fmt::join(result.warnings, "\n")));
   }
   writer.write("/sweep/warnings", of_cases);
-  writer.write("/sweep/warning_marks", sweep.marks);
+  writer.write("/sweep/warning_marks", sweep.warnings.marks);
   analysis::write_warnings(writer, warnings);
   writer.commit();
 }

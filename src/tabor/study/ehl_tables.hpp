@@ -5,39 +5,34 @@
 #include <vector>
 
 #include "tabor/analysis/fields_file.hpp"
-#include "tabor/core/column.hpp"
 #include "tabor/ehl/program.hpp"
+#include "tabor/numerics/grid_limit.hpp"
 #include "tabor/study/axis.hpp"
+#include "tabor/study/ehl_warnings.hpp"
 
 // The numbers of many elastohydrodynamic cases as files.
 namespace tabor::study {
 
-/// What tells cases apart: keys with their units, and their values in each case.
-struct EhlRows {
-  std::vector<std::string> keys;
-  std::vector<std::vector<Cell>> values;
-};
-
-/// The values of all combinations, in SI where they are no words.
-EhlRows rows_of(const std::vector<SweepAxis>& axes);
-
-/// "motion.speed [m/s]"
-std::string with_unit(const std::string& key, const std::string& unit);
-
-/// A row of numbers per case behind what tells it apart, as CSV.
-std::string csv_of(const ehl::Program& program, const EhlRows& rows,
-                   const std::vector<ehl::CaseResult>& results);
-
-/// A finished sweep.
+/// Many cases of one program, and what is made of them.
 struct EhlSweep {
   const ehl::Program& program;
-  const std::vector<SweepAxis>& axes;
-  const std::vector<ehl::CaseResult>& results;  ///< of all combinations, the last axis fastest
-  const std::vector<std::string>& marks;        ///< EhlWarnings::marks
+  std::vector<SweepAxis> axes;
+  std::vector<ehl::CaseResult> results;  ///< of all combinations, the last axis fastest
+  std::vector<ehl::CaseColumn> columns;
+  EhlWarnings warnings;
+  std::vector<numerics::GridLimit>
+      limits;  ///< of each column, where one grid was varied; else empty
 };
 
-/// Its result file (docs/ehl.md): the head, /sweep with the axes and an array per column, and the
-/// warnings. Throws OutputError.
+/// A sweep without an axis is a case alone.
+EhlSweep sweep_of(const ehl::Program& program, std::vector<SweepAxis> axes,
+                  std::vector<ehl::CaseResult> results);
+
+/// A row per case as CSV: its values on the axes, SI where they are no words, and its numbers.
+std::string csv_of(const EhlSweep& sweep);
+
+/// The result file of a sweep (docs/ehl.md): the head, /sweep with the axes and an array per
+/// column, and the warnings. Throws OutputError.
 void write_sweep(const std::filesystem::path& file, const analysis::ResultHead& head,
                  const EhlSweep& sweep, const std::vector<analysis::Finding>& warnings);
 
