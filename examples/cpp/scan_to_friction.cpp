@@ -10,7 +10,7 @@
 namespace {
 
 /// Sheet and oil of examples/05_scan_to_friction.
-tabor::analysis::CaseSettings sheet_with_oil() {
+tabor::cases::CaseSettings sheet_with_oil() {
   return {.mean_pressures = {2e6, 10e6},  // [Pa]
           .contact = {.youngs_modulus = 70e9, .poissons_ratio = 0.33, .saturation_pressure = 240e6},
           .film = {.lubricant_densities = {0.45e-3, 0.9e-3}},  // [kg/m^2]
@@ -24,12 +24,12 @@ int run(const char* file) {
   int code = 0;
   std::set<std::string> reasons;  // to doubt the numbers
   const auto show = [&](const tabor::study::FrictionState& state) {
-    const tabor::analysis::FrictionRecord& one = state.friction;
+    const tabor::cases::FrictionRecord& one = state.friction;
     std::printf(
         "%g MPa, %g g/m^2: contact %.3g %%, wet share %.3g %%, friction dry %.4f, wet %.4f\n",
         1e-6 * one.mean_pressure, 1e3 * one.lubricant_density, 100 * one.contact_area_fraction,
         100 * one.lubricated_share, one.friction_dry, one.friction_lubricated);
-    for (const tabor::analysis::Warning& warning : one.warnings) reasons.insert(warning.text);
+    for (const tabor::Warning& warning : one.warnings) reasons.insert(warning.text);
     if (!one.converged) code = 4;
   };
   tabor::study::friction_of(surface, sheet_with_oil(), show, tabor::study::ContactMaps::dropped);

@@ -8,6 +8,7 @@ namespace tabor::python {
 
 namespace nb = nanobind;
 
+void bind_interpreter(nb::module_& module);
 void bind_values(nb::module_& module);
 void bind_surface(nb::module_& module);
 void bind_contact(nb::module_& module);
@@ -17,5 +18,6 @@ void bind_ehl(nb::module_& module);
 void bind_save(nb::module_& module);
 void bind_synthesis(nb::module_& module);
 void bind_study(nb::module_& module);
+void bind_setting_tables(nb::module_& module);
 
 }  // namespace tabor::python

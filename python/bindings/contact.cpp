@@ -5,8 +5,9 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include "parameters.hpp"
 #include "records.hpp"
-#include "tabor/analysis/states.hpp"
+#include "tabor/cases/states.hpp"
 #include "tabor/material/library.hpp"
 #include "tabor/topography/topography.hpp"
 #include "watched.hpp"
@@ -14,8 +15,8 @@
 namespace tabor::python {
 namespace {
 
-using analysis::ContactRecord;
-using analysis::ContactSettings;
+using cases::ContactRecord;
+using cases::ContactSettings;
 using contact::State;
 
 /// (name, description, E [Pa], nu, saturation pressure [Pa], shear strength [Pa], source of E)
@@ -44,7 +45,7 @@ std::vector<MaterialRow> materials() {
 }
 
 void check_contact(const ContactSettings& settings, const std::vector<double>& mean_pressures) {
-  check(analysis::objection(settings, mean_pressures, argument_of));
+  check(cases::objection(settings, mean_pressures, argument_of));
 }
 
 std::vector<ContactRecord> contacts(const topography::Topography& surface,
@@ -55,15 +56,15 @@ std::vector<ContactRecord> contacts(const topography::Topography& surface,
   return watched(progress, [&](const Observer& observer) {
     std::vector<ContactRecord> records;
     records.reserve(mean_pressures.size());
-    const auto elasticity = analysis::make_operator(settings, surface.grid);
-    analysis::contact_states(
+    const auto elasticity = cases::make_operator(settings, surface.grid);
+    cases::contact_states(
         *elasticity, surface, settings, mean_pressures,
         [&records](ContactRecord&& record) { records.push_back(std::move(record)); }, observer);
     return records;
   });
 }
 
-using Scalars = std::tuple<int, double, double, double, int>;
+using Scalars = std::tuple<int, double, double, double, int, std::uint64_t>;
 using ContactState = std::tuple<nb::dict, Scalars, WarningTexts, std::vector<std::string>,
                                 MapArgument, MapArgument, MapArgument>;
 
@@ -71,20 +72,20 @@ nb::object saved_contact(nb::handle_t<ContactRecord> self) {
   const auto& one = nb::cast<const ContactRecord&>(self);
   const State& state = one.state;
   return nb::cast(
-      std::make_tuple(saved(analysis::contact_columns(), one),
+      std::make_tuple(saved(cases::contact_columns(), one),
                       Scalars{static_cast<int>(one.convergence.status), one.convergence.fft_pairs,
-                              state.gap_error, state.gap_limit, state.compact_steps},
-                      texts_of(one.warnings), one.references, view_of(state.pressure, self),
+                              state.gap_error, state.gap_limit, state.compact_steps, one.surface},
+                      python::texts_of(one.warnings), one.references, view_of(state.pressure, self),
                       view_of(state.displacement, self), view_of(state.gap, self)));
 }
 
 void restore_contact(ContactRecord& self, const ContactState& saved) {
   auto& one = *new (&self) ContactRecord();
-  restore(analysis::contact_columns(), std::get<0>(saved), one);
+  restore(cases::contact_columns(), std::get<0>(saved), one);
   int status = 0;
   State& state = one.state;
-  std::tie(status, one.convergence.fft_pairs, state.gap_error, state.gap_limit,
-           state.compact_steps) = std::get<1>(saved);
+  std::tie(status, one.convergence.fft_pairs, state.gap_error, state.gap_limit, state.compact_steps,
+           one.surface) = std::get<1>(saved);
   one.convergence.status = static_cast<Status>(status);
   one.warnings = warnings_of(std::get<2>(saved));
   one.references = std::get<3>(saved);
@@ -101,29 +102,23 @@ MapView map_of(nb::handle_t<ContactRecord> self) {
   return view_of(nb::cast<const ContactRecord&>(self).state.*map, self);
 }
 
+/// Takes the boundary from what is said about the edges of the surface; both must agree.
+void take_edges(ContactSettings& settings, const topography::Topography& surface) {
+  const auto same = [](std::string_view setting) { return std::string(setting); };
+  if (const auto found = cases::objection(settings, surface.edges, same)) {
+    throw InputError(found->remedy);
+  }
+  settings.take_edges(surface.edges);
+}
+
 void bind_settings(nb::module_& module) {
-  nb::class_<ContactSettings>(module, "ContactSettings")
-      .def(nb::init<>())
+  using namespace nb::literals;
+  nb::class_<ContactSettings> settings(module, "ContactSettings");
+  settings.def(nb::init<>())
       .def_rw("material", &ContactSettings::material)
-      .def_rw("youngs_modulus", &ContactSettings::youngs_modulus)
-      .def_rw("poissons_ratio", &ContactSettings::poissons_ratio)
-      .def_rw("counter_youngs_modulus", &ContactSettings::counter_youngs_modulus)
-      .def_rw("counter_poissons_ratio", &ContactSettings::counter_poissons_ratio)
-      .def_rw("saturation_pressure", &ContactSettings::saturation_pressure)
-      .def_rw("tolerance", &ContactSettings::tolerance)
-      .def_rw("load_path", &ContactSettings::load_path)
       .def_prop_ro("effective_modulus", &ContactSettings::effective_modulus)
-      .def_prop_rw(
-          "boundary",
-          [](const ContactSettings& self) { return analysis::kBoundaries.of(self.boundary); },
-          [](ContactSettings& self, const std::string& name) {
-            self.boundary = analysis::kBoundaries.parse(name, "boundary");
-          })
-      .def_prop_rw(
-          "solver", [](const ContactSettings& self) { return analysis::kSolvers.of(self.solver); },
-          [](ContactSettings& self, const std::string& name) {
-            self.solver = analysis::kSolvers.parse(name, "solver");
-          });
+      .def("take_edges", &take_edges, "surface"_a);
+  bind_parameters(settings, cases::contact_parameters());
 }
 
 }  // namespace
@@ -136,10 +131,11 @@ void bind_contact(nb::module_& module) {
       .def("__setstate__", &restore_contact)
       .def_prop_ro("values",
                    [](const ContactRecord& self) {
-                     return dict_of(cells_of(analysis::contact_columns(), self));
+                     return dict_of(cells_of(cases::contact_columns(), self));
                    })
-      .def_prop_ro("warnings", [](const ContactRecord& self) { return texts_of(self.warnings); })
+      .def_prop_ro("warnings", [](const ContactRecord& self) { return shown(self.warnings); })
       .def_ro("references", &ContactRecord::references)
+      .def_ro("surface", &ContactRecord::surface)
       .def_prop_ro("converged",
                    [](const ContactRecord& self) { return self.convergence.converged(); })
       .def_prop_ro("gap_limit", [](const ContactRecord& self) { return self.state.gap_limit; })

@@ -11,12 +11,14 @@
 #include <mutex>
 #include <optional>
 
-#include "tabor/analysis/ehl_file.hpp"
-#include "tabor/analysis/ehl_surfaces.hpp"
+#include "tabor/cases/ehl_surfaces.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/io/atomic_file.hpp"
+#include "tabor/io/columns.hpp"
+#include "tabor/results/ehl_file.hpp"
 #include "tabor/study/ehl_sweep.hpp"
 #include "tabor/study/ehl_tables.hpp"
+#include "values.hpp"
 #include "watched.hpp"
 
 namespace tabor::python {
@@ -42,7 +44,7 @@ using Settings = std::vector<std::pair<std::string, std::string>>;
 FilmCase case_of(const std::string& program, io::Config config, const Settings& settings) {
   for (const auto& [key, value] : settings) config = config.with(key, value);
   FilmCase one{program_of(program), std::move(config)};
-  ehl::reject_unknown_keys(one.program, one.config);
+  ehl::check_case(one.program, one.config);
   return one;
 }
 
@@ -88,25 +90,18 @@ Solved solve(const FilmCase& one, std::uint64_t seed, const nb::object& progress
   return watched(progress, [&](const Observer& observer) {
     const Relay relay;
     const ehl::CaseSetting setting{
-        .observer = relay.observer(), .seed = seed, .surfaces = analysis::ehl_surfaces()};
+        .observer = relay.observer(), .seed = seed, .surfaces = cases::ehl_surfaces()};
     return relay.watch(observer, [&] {
       return Solved{one, relay, ehl::solve_case(one.program, one.config, setting)};
     });
   });
 }
 
-/// As files keep them.
-std::vector<analysis::Finding> findings_of(const std::vector<std::string>& texts) {
-  std::vector<analysis::Finding> found(texts.size());
-  for (std::size_t i = 0; i < found.size(); ++i) found[i].text = texts[i];
-  return found;
-}
-
 void save(const Solved& solved, const std::filesystem::path& file) {
   watch(nb::none(), [&](const Observer& observer) {
     solved.relay.watch(observer, [&] {
-      analysis::write_case(file, "tabor.save", solved.of.program, solved.of.config, solved.result,
-                           findings_of(solved.result.warnings));
+      results::write_case(file, "tabor.save", solved.of.program, solved.of.config, solved.result,
+                          results::findings_of({{.warnings = solved.result.warnings}}));
     });
   });
 }
@@ -126,7 +121,7 @@ void save_sweep(const Swept& swept, const std::filesystem::path& file) {
       return;
     }
     study::write_sweep(file, {"tabor.save", swept.of.config.to_text(), swept.of.program.methods},
-                       swept.sweep, findings_of(swept.sweep.warnings.lines));
+                       swept.sweep, swept.sweep.warnings);
   });
 }
 
@@ -141,11 +136,11 @@ std::vector<study::SweepAxis> axes_of(const Axes& given) {
 
 study::EhlOutcome run_sweep(study::EhlSeries& series,
                             const std::optional<std::filesystem::path>& folder,
-                            const study::RunOptions& options) {
+                            const engine::RunOptions& options) {
   std::optional<study::EhlStore> store;
   if (folder) {
     study::give_tasks(series, options.observer);
-    store.emplace(*folder, study::Store::Use::alone);
+    store.emplace(*folder, engine::Store::Use::alone);
   }
   study::EhlOutcome outcome = study::run_ehl(series, store ? &*store : nullptr, options);
   if (outcome.ended_by) std::rethrow_exception(outcome.ended_by);
@@ -159,7 +154,7 @@ Swept sweep(const FilmCase& one, const Axes& given, std::uint64_t seed,
   return watched_beside(progress, [&](const Observer& observer) {
     std::vector<study::SweepAxis> axes = axes_of(given);
     study::EhlSeries series = study::ehl_sweep(one.program, one.config, axes, seed);
-    study::RunOptions options;
+    engine::RunOptions options;
     options.jobs = jobs;
     options.retry = retry;
     options.observer = observer;
@@ -173,7 +168,7 @@ Swept sweep(const FilmCase& one, const Axes& given, std::uint64_t seed,
 Swept vary(const FilmCase& one, const std::string& name, std::uint64_t seed, int jobs,
            const nb::object& progress) {
   return watched_beside(progress, [&](const Observer& observer) {
-    study::RunOptions options;
+    engine::RunOptions options;
     options.jobs = jobs;
     options.observer = observer;
     const ehl::CaseStudy& study = study::find_study(one.program, name);
@@ -211,29 +206,38 @@ using ColumnRow = std::tuple<std::string, std::string, std::string>;
 std::vector<ColumnRow> columns_of(const Swept& swept) {
   std::vector<ColumnRow> rows;
   rows.reserve(swept.sweep.columns.size());
-  for (const ehl::CaseColumn& column : swept.sweep.columns) {
+  for (const ColumnHead& column : swept.sweep.columns) {
     rows.emplace_back(column.key, column.heading, column.unit);
   }
   return rows;
 }
 
 /// (numbers as JSON, converged, warnings)
-using CaseRow = std::tuple<std::string, bool, std::vector<std::string>>;
+using CaseRow = std::tuple<std::string, bool, ShownWarnings>;
 std::vector<CaseRow> cases_of(const Swept& swept) {
   std::vector<CaseRow> rows;
   rows.reserve(swept.sweep.results.size());
   for (const ehl::CaseResult& one : swept.sweep.results) {
-    rows.emplace_back(io::to_text(one.scalars), one.converged, one.warnings);
+    rows.emplace_back(io::to_text(io::json_of(one.numbers)), one.converged(), shown(one.warnings));
   }
   return rows;
+}
+
+/// Each kind of warning once: its code, the text of its line, its class.
+ShownWarnings sweep_warnings(const Swept& swept) {
+  ShownWarnings list;
+  for (const results::Finding& one : swept.sweep.warnings) {
+    list.emplace_back(one.code, statement_of(one), cases::name_of(one.kind()));
+  }
+  return list;
 }
 
 /// (key, unit, usual value, meaning)
 using KeyRow = std::tuple<std::string, std::string, std::string, std::string>;
 std::vector<KeyRow> keys_of(const std::string& program) {
   std::vector<KeyRow> rows;
-  for (const ehl::CaseKey& key : program_of(program).keys) {
-    rows.emplace_back(key.name, key.unit, key.usual, key.meaning);
+  for (const ParameterHead& key : program_of(program).keys) {
+    rows.emplace_back(key.name, key.shown_unit(), key.when_absent(), key.meaning());
   }
   return rows;
 }
@@ -254,17 +258,18 @@ void bind_ehl(nb::module_& module) {
     return self.config.to_text();
   });
   nb::class_<Solved>(module, "SolvedCase")
-      .def_prop_ro("json", [](const Solved& self) { return io::to_text(self.result.scalars); })
+      .def_prop_ro("json",
+                   [](const Solved& self) { return io::to_text(io::json_of(self.result.numbers)); })
       .def_prop_ro("facts", &facts_of)
-      .def_prop_ro("converged", [](const Solved& self) { return self.result.converged; })
-      .def_prop_ro("warnings", [](const Solved& self) { return self.result.warnings; })
+      .def_prop_ro("converged", [](const Solved& self) { return self.result.converged(); })
+      .def_prop_ro("warnings", [](const Solved& self) { return shown(self.result.warnings); })
       .def_prop_ro("references", [](const Solved& self) { return self.of.program.methods; })
       .def("save", &save, "file"_a);
   nb::class_<Swept>(module, "SweptCases")
       .def_prop_ro("cases", &cases_of)
       .def_prop_ro("columns", &columns_of)
       .def_prop_ro("axes", &numbers_of)
-      .def_prop_ro("warnings", [](const Swept& self) { return self.sweep.warnings.lines; })
+      .def_prop_ro("warnings", &sweep_warnings)
       .def_prop_ro("limits", &limits_of)
       .def_ro("n_computed", &Swept::n_computed)
       .def("save", &save_sweep, "file"_a);

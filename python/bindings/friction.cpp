@@ -5,24 +5,26 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include "parameters.hpp"
 #include "records.hpp"
-#include "tabor/analysis/density_curve.hpp"
-#include "tabor/analysis/states.hpp"
-#include "tabor/core/error.hpp"
+#include "tabor/cases/belonging.hpp"
+#include "tabor/cases/density_curve.hpp"
+#include "tabor/cases/states.hpp"
+#include "tabor/results/density_answer.hpp"
 #include "tabor/topography/topography.hpp"
 #include "watched.hpp"
 
 namespace tabor::python {
 namespace {
 
-using analysis::ContactRecord;
-using analysis::ContactSettings;
-using analysis::DensityCurve;
-using analysis::FilmRecord;
-using analysis::FluidRecord;
-using analysis::FluidSettings;
-using analysis::FrictionRecord;
-using analysis::FrictionSettings;
+using cases::ContactRecord;
+using cases::ContactSettings;
+using cases::DensityCurve;
+using cases::FilmRecord;
+using cases::FluidRecord;
+using cases::FluidSettings;
+using cases::FrictionRecord;
+using cases::FrictionSettings;
 using topography::Topography;
 
 /// What a friction is computed from.
@@ -32,22 +34,11 @@ struct Pair {
   const FilmRecord& film;
 };
 
-void require_one_shape(const Pair& pair) {
-  const Field& film = pair.film.film.thickness;
-  const Field& gap = pair.contact.state.gap;
-  if (film.rows() == gap.rows() && film.cols() == gap.cols()) return;
-  const auto shape = [](const Field& map) {
-    return "(" + std::to_string(map.rows()) + ", " + std::to_string(map.cols()) + ")";
-  };
-  throw InputError("film", "shape " + shape(film), "that of the contact, " + shape(gap),
-                   "rain on the surface of the contact");
-}
-
 FrictionRecord friction_of(const Pair& pair, const FluidRecord* fluid,
                            const ContactSettings& contact, const FrictionSettings& settings) {
   const Mask mask = contact::contact_mask(pair.contact.state);
-  return analysis::friction_state(pair.contact, {mask, pair.contact.state.gap, pair.surface.grid},
-                                  pair.film, fluid, contact, settings);
+  return cases::friction_state(pair.contact, {mask, pair.contact.state.gap, pair.surface.grid},
+                               pair.film, fluid, contact, settings);
 }
 
 /// (numbers, whether oil flows, area, warnings, references)
@@ -56,39 +47,42 @@ using FrictionState =
 
 FrictionState saved_friction(const FrictionRecord& one) {
   const bool flows = one.fluid.has_value();
-  return {saved(analysis::friction_columns(flows), one), flows,
-          std::string(tabor::friction::kAreas.of(one.area)), texts_of(one.warnings),
+  return {saved(cases::friction_columns(flows), one), flows,
+          std::string(tabor::friction::kAreas.of(one.area)), python::texts_of(one.warnings),
           one.references};
 }
 
 void restore_friction(FrictionRecord& self, const FrictionState& saved) {
   auto& one = *new (&self) FrictionRecord();
   if (std::get<1>(saved)) one.fluid.emplace();
-  restore(analysis::friction_columns(std::get<1>(saved)), std::get<0>(saved), one);
+  restore(cases::friction_columns(std::get<1>(saved)), std::get<0>(saved), one);
   one.area = tabor::friction::kAreas.parse(std::get<2>(saved), "area");
   one.warnings = warnings_of(std::get<3>(saved));
   one.references = std::get<4>(saved);
 }
 
-/// (numbers, speed [m/s], status, warnings, references, maps)
-using FluidState = std::tuple<nb::dict, double, int, WarningTexts, std::vector<std::string>,
-                              MapArgument, MapArgument, MapArgument, MapArgument>;
+/// (numbers, speed [m/s], (status, digest of the surface), warnings, references, maps)
+using FluidState =
+    std::tuple<nb::dict, double, std::pair<int, std::uint64_t>, WarningTexts,
+               std::vector<std::string>, MapArgument, MapArgument, MapArgument, MapArgument>;
 
 nb::object saved_fluid(nb::handle_t<FluidRecord> self) {
   const auto& one = nb::cast<const FluidRecord&>(self);
   const tabor::friction::FluidFilmState& state = one.state;
-  return nb::cast(std::make_tuple(
-      saved(analysis::fluid_columns(), one), one.sliding_speed,
-      static_cast<int>(one.summary.convergence.status), texts_of(one.warnings), one.references,
-      view_of(state.film.pressure, self), view_of(state.film.fill, self),
-      view_of(state.contact.gap, self), view_of(state.contact.pressure, self)));
+  return nb::cast(
+      std::make_tuple(saved(cases::fluid_columns(), one), one.sliding_speed,
+                      std::make_pair(static_cast<int>(one.summary.convergence.status), one.surface),
+                      python::texts_of(one.warnings), one.references,
+                      view_of(state.film.pressure, self), view_of(state.film.fill, self),
+                      view_of(state.contact.gap, self), view_of(state.contact.pressure, self)));
 }
 
 void restore_fluid(FluidRecord& self, const FluidState& saved) {
   auto& one = *new (&self) FluidRecord();
-  restore(analysis::fluid_columns(), std::get<0>(saved), one);
+  restore(cases::fluid_columns(), std::get<0>(saved), one);
   one.sliding_speed = std::get<1>(saved);
-  one.summary.convergence.status = static_cast<Status>(std::get<2>(saved));
+  one.summary.convergence.status = static_cast<Status>(std::get<2>(saved).first);
+  one.surface = std::get<2>(saved).second;
   one.warnings = warnings_of(std::get<3>(saved));
   one.references = std::get<4>(saved);
   one.state.film.pressure = field_of(std::get<5>(saved));
@@ -100,9 +94,10 @@ void restore_fluid(FluidRecord& self, const FluidState& saved) {
 FrictionRecord friction(const Topography& surface, const ContactRecord& contact,
                         const FilmRecord& film, const ContactSettings& contact_settings,
                         const FrictionSettings& settings) {
-  check(analysis::objection(settings, argument_of));
+  check(cases::objection(settings, argument_of, contact_settings.material));
   const Pair pair{surface, contact, film};
-  require_one_shape(pair);
+  cases::require_contact_of(surface, contact.surface);
+  cases::require_one_surface(contact, film);
   return watched(nb::none(), [&](const Observer&) {
     return friction_of(pair, nullptr, contact_settings, settings);
   });
@@ -113,15 +108,15 @@ std::pair<FluidRecord, FrictionRecord> fluid_film(
     const Topography& surface, const ContactRecord& contact, const FilmRecord& film,
     const ContactSettings& contact_settings, const FluidSettings& fluid_settings,
     const FrictionSettings& settings, const nb::object& progress) {
-  check(analysis::objection(fluid_settings, contact_settings, argument_of));
-  check(analysis::objection(settings, argument_of));
+  check(cases::objection(fluid_settings, contact_settings, argument_of));
+  check(cases::objection(settings, argument_of, contact_settings.material));
   const Pair pair{surface, contact, film};
-  require_one_shape(pair);
+  cases::require_contact_of(surface, contact.surface);
+  cases::require_one_surface(contact, film);
   return watched(progress, [&](const Observer& observer) {
-    const auto elasticity = analysis::make_operator(contact_settings, surface.grid);
-    FluidRecord flowing = analysis::fluid_state(*elasticity, surface.height, contact.state,
-                                                contact.summary.mean_pressure, film.film.thickness,
-                                                contact_settings, fluid_settings, observer);
+    const auto elasticity = cases::make_operator(contact_settings, surface.grid);
+    FluidRecord flowing = cases::fluid_state(*elasticity, surface, contact, film, contact_settings,
+                                             fluid_settings, observer);
     FrictionRecord record = friction_of(pair, &flowing, contact_settings, settings);
     return std::make_pair(std::move(flowing), std::move(record));
   });
@@ -129,12 +124,15 @@ std::pair<FluidRecord, FrictionRecord> fluid_film(
 
 using Numbers = std::vector<double>;
 /// (pressure [Pa], dry friction, densities [kg/m^2], wet shares, friction, plateau)
-using CurveRow = std::tuple<double, double, Numbers, Numbers, Numbers,
-                            std::optional<std::tuple<double, double, double>>>;
+/// Of the plateau: its ends, its dry share, and the densities beside it that the curve has.
+using PlateauRow = std::tuple<double, double, double, std::optional<double>, std::optional<double>>;
+using CurveRow = std::tuple<double, double, Numbers, Numbers, Numbers, std::optional<PlateauRow>>;
 CurveRow row_of(const DensityCurve& curve) {
-  std::optional<std::tuple<double, double, double>> plateau;
+  std::optional<PlateauRow> plateau;
   if (curve.plateau) {
-    plateau.emplace(curve.plateau->first, curve.plateau->last, curve.plateau->value);
+    const results::BesidePlateau beside = results::beside_plateau(curve);
+    plateau.emplace(curve.plateau->first, curve.plateau->last, curve.plateau->value, beside.below,
+                    beside.beyond);
   }
   return {curve.mean_pressure,     curve.friction_dry,        curve.lubricant_densities,
           curve.lubricated_shares, curve.friction_lubricated, plateau};
@@ -145,7 +143,8 @@ DensityCurve curve_of(const CurveRow& row) {
   std::tie(curve.mean_pressure, curve.friction_dry, curve.lubricant_densities,
            curve.lubricated_shares, curve.friction_lubricated, std::ignore) = row;
   if (const auto& plateau = std::get<5>(row)) {
-    curve.plateau = std::make_from_tuple<analysis::Plateau>(*plateau);
+    curve.plateau =
+        cases::Plateau{std::get<0>(*plateau), std::get<1>(*plateau), std::get<2>(*plateau)};
   }
   return curve;
 }
@@ -154,18 +153,16 @@ DensityCurve curve_of(const CurveRow& row) {
 std::vector<CurveRow> density_curves(const Topography& surface,
                                      const std::vector<const ContactRecord*>& contacts,
                                      const ContactSettings& contact,
-                                     const analysis::FilmSettings& film,
+                                     const cases::FilmSettings& film,
                                      const FrictionSettings& friction, const nb::object& progress) {
-  check(analysis::objection(film));
-  check(analysis::objection(friction, argument_of));
+  check(cases::objection(film));
+  check(cases::objection(friction, argument_of, contact.material));
   const auto curves = watched(progress, [&](const Observer& observer) {
-    std::vector<analysis::Touching> touching;
+    std::vector<cases::Touching> touching;
     touching.reserve(contacts.size());
-    for (const ContactRecord* one : contacts) {
-      touching.push_back({one->summary, contact::contact_mask(one->state)});
-    }
-    const analysis::CaseSettings settings{.contact = contact, .film = film, .friction = friction};
-    return analysis::density_curves(surface, touching, settings, observer);
+    for (const ContactRecord* one : contacts) touching.push_back(cases::touching_of(*one));
+    const cases::CaseSettings settings{.contact = contact, .film = film, .friction = friction};
+    return cases::density_curves(surface, touching, settings, observer);
   });
   std::vector<CurveRow> rows;
   rows.reserve(curves.size());
@@ -173,34 +170,34 @@ std::vector<CurveRow> density_curves(const Topography& surface,
   return rows;
 }
 
-std::string sentence(const CurveRow& curve, const Numbers& asked) {
-  return analysis::sentence_of(curve_of(curve), asked);
+/// Throws InputError for an oil that does not exist.
+void check_lubricant(const FluidSettings& settings) {
+  check(objection_to_bounds(cases::fluid_parameters(), settings));
+  tabor::friction::lubricant_of(settings.oil());
+}
+
+/// Of densities [kg/m^2] with wet shares, or those of the curve.
+std::string sentence(const CurveRow& row,
+                     const std::vector<std::pair<double, std::optional<double>>>& densities) {
+  const DensityCurve curve = curve_of(row);
+  std::vector<results::AskedDensity> asked;
+  for (const auto& [density, share] : densities) {
+    if (density > 0) {
+      asked.push_back({density, share ? *share : results::lubricated_share_at(curve, density)});
+    }
+  }
+  return results::sentence_of(curve, asked);
 }
 
 void bind_settings(nb::module_& module) {
-  nb::class_<FrictionSettings>(module, "FrictionSettings")
-      .def(nb::init<>())
-      .def_rw("shear_strength", &FrictionSettings::shear_strength)
-      .def_rw("boundary_shear_strength", &FrictionSettings::boundary_shear_strength)
-      .def_rw("boundary_shear_share", &FrictionSettings::boundary_shear_share)
-      .def_prop_rw(
-          "area",
-          [](const FrictionSettings& self) {
-            return self.area ? std::optional(tabor::friction::kAreas.of(*self.area)) : std::nullopt;
-          },
-          [](FrictionSettings& self, const std::optional<std::string>& name) {
-            self.area.reset();
-            if (name) self.area = tabor::friction::kAreas.parse(*name, "area");
-          },
-          nb::for_setter(nb::arg("name").none()));
-  nb::class_<FluidSettings>(module, "FluidSettings")
-      .def(
-          "__init__",
-          [](FluidSettings* self) { new (self) FluidSettings{.fluid = analysis::Fluid::reynolds}; })
-      .def_rw("sliding_speed", &FluidSettings::sliding_speed)
-      .def_rw("viscosity", &FluidSettings::viscosity)
-      .def_rw("pressure_viscosity", &FluidSettings::pressure_viscosity)
-      .def_rw("eyring_stress", &FluidSettings::eyring_stress);
+  nb::class_<FrictionSettings> friction_settings(module, "FrictionSettings");
+  friction_settings.def(nb::init<>());
+  bind_parameters(friction_settings, cases::friction_parameters());
+  nb::class_<FluidSettings> fluid_settings(module, "FluidSettings");
+  fluid_settings.def("__init__", [](FluidSettings* self) {
+    new (self) FluidSettings{.fluid = cases::Fluid::reynolds};
+  });
+  bind_parameters(fluid_settings, cases::fluid_parameters());
 }
 
 /// Access to a map of a flowing film as a property.
@@ -222,9 +219,9 @@ void bind_friction(nb::module_& module) {
       .def("__setstate__", &restore_friction)
       .def_prop_ro("values",
                    [](const FrictionRecord& self) {
-                     return dict_of(cells_of(analysis::friction_columns(), self));
+                     return dict_of(cells_of(cases::friction_columns(), self));
                    })
-      .def_prop_ro("warnings", [](const FrictionRecord& self) { return texts_of(self.warnings); })
+      .def_prop_ro("warnings", [](const FrictionRecord& self) { return shown(self.warnings); })
       .def_ro("references", &FrictionRecord::references);
   nb::class_<FluidRecord>(module, "FluidRecord")
       .def("__getstate__", &saved_fluid)
@@ -238,6 +235,7 @@ void bind_friction(nb::module_& module) {
              "settings"_a);
   module.def("density_curves", &density_curves, "surface"_a, "contacts"_a, "contact_settings"_a,
              "film_settings"_a, "settings"_a, "progress"_a.none());
+  module.def("check_lubricant", &check_lubricant, "settings"_a);
   module.def("density_sentence", &sentence, "curve"_a, "densities"_a);
   module.def("fluid_film", &fluid_film, "surface"_a, "contact"_a, "film"_a, "contact_settings"_a,
              "fluid_settings"_a, "settings"_a, "progress"_a.none());

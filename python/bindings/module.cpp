@@ -27,6 +27,7 @@ void translate(const std::exception_ptr& thrown, void*) {
 NB_MODULE(_tabor, module) {
   using namespace tabor::python;
   nanobind::register_exception_translator(translate);
+  bind_interpreter(module);
   bind_values(module);
   bind_surface(module);
   bind_contact(module);
@@ -36,4 +37,5 @@ NB_MODULE(_tabor, module) {
   bind_save(module);
   bind_synthesis(module);
   bind_study(module);
+  bind_setting_tables(module);
 }

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "tabor/analysis/fields_file.hpp"
-#include "tabor/analysis/states.hpp"
-#include "tabor/analysis/warnings.hpp"
+#include "tabor/cases/states.hpp"
+#include "tabor/cases/warnings.hpp"
+#include "tabor/results/fields_file.hpp"
 #include "tabor/study/curves_file.hpp"
 #include "values.hpp"
 #include "watched.hpp"
@@ -14,31 +14,32 @@
 namespace tabor::python {
 namespace {
 
-using analysis::CaseSettings;
-using analysis::ContactRecord;
-using analysis::FieldsFile;
-using analysis::FilmRecord;
-using analysis::FluidRecord;
-using analysis::FrictionRecord;
+using cases::CaseSettings;
+using cases::ContactRecord;
+using cases::FilmRecord;
+using cases::FluidRecord;
+using cases::FrictionRecord;
+using results::FieldsFile;
 using topography::Topography;
 
 /// The file, and what was saved into it.
 struct Target {
   std::filesystem::path file;
-  analysis::FieldsOptions options;
+  results::FieldsOptions options;
   std::string sha256;  ///< of the scan file
 };
 
 FieldsFile open(const Target& target, const Topography& surface, const io::Json& settings,
                 const std::vector<std::string>& methods) {
   return FieldsFile(target.file, target.options,
-                    {"tabor.save", analysis::toml_of(settings), methods}, surface,
+                    {"tabor.save", results::toml_of(settings), methods}, surface,
                     {surface.source, target.sha256});
 }
 
 /// Without the maps, which need not be copied.
 ContactRecord numbers_of(const ContactRecord& record) {
-  return {.summary = record.summary,
+  return {.surface = record.surface,
+          .summary = record.summary,
           .convergence = record.convergence,
           .fft_seconds = record.fft_seconds,
           .seconds = record.seconds,
@@ -54,28 +55,30 @@ const FrictionRecord& numbers_of(const FrictionRecord& record) { return record; 
 /// Adds the states of records that lie one beside the other, and their warnings.
 template <typename Record, typename Fields>
 void add_states(const std::vector<const Record*>& records, const Columns<Record>& columns,
-                const Fields& fields_at, const analysis::Warnings& more, FieldsFile& file) {
-  std::vector<analysis::Case> cases;
+                const Fields& fields_at, const Warnings& more, FieldsFile& file) {
+  std::vector<results::Case> cases;
   cases.reserve(records.size());
   for (std::size_t i = 0; i < records.size(); ++i) {
     Record shown = numbers_of(*records[i]);
-    analysis::Warnings warnings = more;
-    analysis::add(shown.warnings, warnings);
+    Warnings warnings = more;
+    add(shown.warnings, warnings);
     shown.warnings = std::move(warnings);
-    file.add_state(i, cells_of(columns, shown, analysis::media::kObject), fields_at(i));
-    cases.push_back(analysis::case_of(shown));
+    file.add_state(i, cells_of(columns, shown, cases::media::kObject), fields_at(i));
+    cases.push_back(results::case_of(shown));
   }
-  file.commit(analysis::findings_of(cases));
+  std::vector<results::Finding> findings = results::findings_of(cases);
+  results::spell(spelled, findings);
+  file.commit(findings);
 }
 
 void save_contacts(const Target& target, const Topography& surface, const CaseSettings& settings,
                    const std::vector<const ContactRecord*>& contacts) {
   watched(nb::none(), [&](const Observer&) {
-    FieldsFile file = open(target, surface, analysis::settings_json(settings.contact),
-                           analysis::references_of(settings.contact));
+    FieldsFile file = open(target, surface, results::settings_json(settings.contact),
+                           cases::references_of(settings.contact));
     add_states(
-        contacts, analysis::contact_columns(),
-        [&](std::size_t i) { return analysis::fields_of(*contacts[i]); }, {}, file);
+        contacts, cases::contact_columns(),
+        [&](std::size_t i) { return results::fields_of(*contacts[i]); }, {}, file);
     return true;
   });
 }
@@ -83,30 +86,33 @@ void save_contacts(const Target& target, const Topography& surface, const CaseSe
 void save_films(const Target& target, const Topography& surface, const CaseSettings& settings,
                 const std::vector<const FilmRecord*>& films) {
   watched(nb::none(), [&](const Observer&) {
-    FieldsFile file = open(target, surface, analysis::settings_json(settings.film),
-                           analysis::references_of(settings.film));
+    FieldsFile file = open(target, surface, results::settings_json(settings.film),
+                           cases::references_of(settings.film));
     add_states(
-        films, analysis::film_columns(),
-        [&](std::size_t i) { return analysis::fields_of(*films[i]); },
-        analysis::of_surface(surface), file);
+        films, cases::film_columns(), [&](std::size_t i) { return results::fields_of(*films[i]); },
+        cases::of_surface(surface), file);
     return true;
   });
 }
 
 /// Friction against density of each contact, once.
 void add_curves(const Topography& surface, const CaseSettings& settings,
+                const std::vector<const FrictionRecord*>& frictions,
                 const std::vector<const ContactRecord*>& contacts, const Observer& observer,
                 FieldsFile& file) {
-  if (!analysis::has_density_curve(settings)) return;
+  if (!cases::has_density_curve(settings)) return;
   std::vector<const ContactRecord*> seen;
-  std::vector<analysis::Touching> touching;
+  std::vector<cases::Touching> touching;
   for (const ContactRecord* one : contacts) {
     if (std::find(seen.begin(), seen.end(), one) != seen.end()) continue;
     seen.push_back(one);
-    touching.push_back({one->summary, contact::contact_mask(one->state)});
+    touching.push_back(cases::touching_of(*one));
   }
-  study::write_curves(analysis::density_curves(surface, touching, settings, observer),
-                      surface.source, settings.film.lubricant_densities, file);
+  std::vector<FrictionRecord> records;
+  records.reserve(frictions.size());
+  for (const FrictionRecord* one : frictions) records.push_back(*one);
+  study::write_curves(cases::density_curves(surface, touching, settings, observer), surface.source,
+                      records, file);
 }
 
 /// Lists of one length; `fluids` may be empty.
@@ -117,12 +123,12 @@ void save_frictions(const Target& target, const Topography& surface, const CaseS
                     const std::vector<const FluidRecord*>& fluids, const nb::object& progress) {
   watched(progress, [&](const Observer& observer) {
     FieldsFile file =
-        open(target, surface, analysis::settings_json(settings), analysis::references_of(settings));
-    add_curves(surface, settings, contacts, observer, file);
+        open(target, surface, results::settings_json(settings), cases::references_of(settings));
+    add_curves(surface, settings, frictions, contacts, observer, file);
     const auto fields_at = [&](std::size_t i) {
-      return analysis::fields_of(*contacts[i], *films[i], fluids.empty() ? nullptr : fluids[i]);
+      return results::fields_of(*contacts[i], *films[i], fluids.empty() ? nullptr : fluids[i]);
     };
-    add_states(frictions, analysis::friction_columns(), fields_at, {}, file);
+    add_states(frictions, cases::friction_columns(), fields_at, {}, file);
     return true;
   });
 }
@@ -136,7 +142,7 @@ void bind_save(nb::module_& module) {
           "__init__",
           [](Target* self, const std::filesystem::path& file, const std::string& fields,
              bool doubles, const std::string& sha256) {
-            new (self) Target{file, {analysis::kFields.parse(fields, "fields"), doubles}, sha256};
+            new (self) Target{file, {results::kFields.parse(fields, "fields"), doubles}, sha256};
           },
           "file"_a, "fields"_a, "doubles"_a, "sha256"_a);
   nb::class_<CaseSettings>(module, "CaseSettings")

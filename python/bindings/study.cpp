@@ -6,12 +6,13 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.hpp"
-#include "tabor/analysis/citations.hpp"
 #include "tabor/forming/deck.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/hdf5_guard.hpp"
+#include "tabor/results/citations.hpp"
 #include "tabor/study/friction_table.hpp"
 #include "tabor/study/sweep.hpp"
+#include "tabor/study/tables.hpp"
 #include "watched.hpp"
 
 namespace tabor::python {
@@ -51,7 +52,7 @@ std::pair<std::size_t, std::vector<std::string>> run_part(const Study& part,
                                                           const std::filesystem::path& folder,
                                                           bool retry) {
   study::PartOutcome outcome = watched_beside(nb::none(), [&](const Observer& observer) {
-    study::RunOptions options;
+    engine::RunOptions options;
     options.retry = retry;
     options.observer = observer;
     return study::run_part(part, folder, options);
@@ -100,17 +101,24 @@ void write_file(const std::filesystem::path& file, const nb::bytes& bytes) {
 /// BibTeX of what results of these keys and these result files rest on.
 std::string bibtex(const std::vector<std::string>& keys,
                    const std::vector<std::filesystem::path>& files) {
-  analysis::ReferenceKeys wanted = analysis::with_software({keys.begin(), keys.end()});
-  for (const std::filesystem::path& file : files) wanted.merge(analysis::references_in(file));
-  return analysis::bibtex_of(analysis::citations(wanted));
+  results::ReferenceKeys wanted = results::with_software({keys.begin(), keys.end()});
+  for (const std::filesystem::path& file : files) wanted.merge(results::references_in(file));
+  return results::bibtex_of(results::citations(wanted));
 }
 
-std::vector<std::string> warnings_of(const Outcome& outcome) {
+std::vector<std::string> study_warnings(const Outcome& outcome) {
   std::vector<std::string> lines = outcome.warnings;
-  for (const analysis::Finding& finding : outcome.findings) {
-    lines.push_back(analysis::line_of(finding));
+  for (const results::Finding& finding : outcome.findings) {
+    lines.push_back(results::line_of(finding));
   }
   return lines;
+}
+
+/// (warnings, failures) as results.h5 tells them.
+std::pair<std::vector<std::string>, std::vector<std::string>> remarks(
+    const std::filesystem::path& results) {
+  study::Remarks found = study::remarks_in(results);
+  return {std::move(found.warnings), std::move(found.failures)};
 }
 
 /// Texts that a root attribute of a result file holds; none without it.
@@ -155,15 +163,18 @@ void bind_study(nb::module_& module) {
       .def_ro("n_not_converged", &Outcome::n_not_converged)
       .def_ro("n_contacts", &Outcome::n_contacts)
       .def_ro("failures", &Outcome::failures)
-      .def_prop_ro("warnings", &warnings_of);
-  module.def("read_study", &study::read_study, "file"_a);
+      .def_prop_ro("warnings", &study_warnings);
+  module.def(
+      "read_study", [](const std::filesystem::path& file) { return study::read_study(file); },
+      "file"_a);
   module.def("parse_study", &study::parse_study, "text"_a, "file"_a);
   module.def("missing_parts", &missing_parts, "study"_a, "folder"_a, "retry"_a,
              "progress"_a.none());
   module.def("run_part", &run_part, "part"_a, "folder"_a, "retry"_a);
   module.def("write_file", &write_file, "file"_a, "bytes"_a);
   module.def("bibtex", &bibtex, "keys"_a, "files"_a);
-  module.def("whole_bibtex", [] { return analysis::bibtex_of(analysis::citations()); });
+  module.def("whole_bibtex", [] { return results::bibtex_of(results::citations()); });
+  module.def("result_remarks", &remarks, "file"_a);
   module.def("result_texts", &result_texts, "file"_a, "name"_a);
   module.def("run_study", &run, "study"_a, "folder"_a, "jobs"_a, "retry"_a, "progress"_a.none());
 }

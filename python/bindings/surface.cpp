@@ -6,12 +6,16 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
-#include "tabor/analysis/combination.hpp"
-#include "tabor/analysis/warnings.hpp"
+#include "parameters.hpp"
+#include "tabor/cases/warnings.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/metrology/parameters.hpp"
 #include "tabor/metrology/psd.hpp"
+#include "tabor/results/combination.hpp"
 #include "tabor/scan/file.hpp"
+#include "tabor/scan/read_parameters.hpp"
+#include "tabor/topography/digest.hpp"
+#include "tabor/topography/edges.hpp"
 #include "tabor/topography/treatment.hpp"
 #include "tabor/topography/warnings.hpp"
 #include "values.hpp"
@@ -24,25 +28,27 @@ using topography::Topography;
 
 using Text = std::string;
 using Texts = std::vector<std::string>;
-using WarningState = std::tuple<Text, int, Text>;
-using TopographyState = std::tuple<double, double, bool, double, std::tuple<Text, Text, Text, Text>,
-                                   std::map<Text, Text>, Texts, std::vector<WarningState>>;
+using WarningState = std::pair<Text, Text>;  // code, text
+using EdgesState = std::pair<std::optional<int>, bool>;
+using TopographyState =
+    std::tuple<double, double, bool, double, std::tuple<Text, Text, Text, Text>,
+               std::map<Text, Text>, Texts, std::vector<WarningState>, EdgesState>;
 
 /// All but the heights.
 TopographyState state_of(const Topography& one) {
   std::vector<WarningState> warnings;
   warnings.reserve(one.warnings.size());
-  for (const topography::Warning& warning : one.warnings) {
-    warnings.emplace_back(warning.text, static_cast<int>(warning.about), warning.code);
-  }
-  return {one.grid.lx,
-          one.grid.ly,
-          one.periodic,
-          one.tiles,
-          {one.source, one.format, one.instrument, one.channel},
-          one.metadata,
-          one.history,
-          warnings};
+  for (const Warning& warning : one.warnings) warnings.emplace_back(warning.code, warning.text);
+  return {
+      one.grid.lx,
+      one.grid.ly,
+      one.periodic,
+      one.tiles,
+      {one.source, one.format, one.instrument, one.channel},
+      one.metadata,
+      one.history,
+      warnings,
+      {one.edges ? std::optional(static_cast<int>(*one.edges)) : std::nullopt, one.edges_match}};
 }
 
 Topography topography_of(const MapArgument& height, const TopographyState& state) {
@@ -54,9 +60,10 @@ Topography topography_of(const MapArgument& height, const TopographyState& state
   std::tie(one.source, one.format, one.instrument, one.channel) = std::get<4>(state);
   one.metadata = std::get<5>(state);
   one.history = std::get<6>(state);
-  for (const auto& [text, about, code] : std::get<7>(state)) {
-    one.warnings.push_back({text, static_cast<topography::Warning::About>(about), code});
-  }
+  for (const auto& [code, text] : std::get<7>(state)) one.warnings.push_back({code, text});
+  const auto& [edges, edges_match] = std::get<8>(state);
+  if (edges) one.edges = static_cast<topography::Edges>(*edges);
+  one.edges_match = edges_match;
   return one;
 }
 
@@ -72,7 +79,7 @@ Topography make_surface(const MapArgument& height, double dx, double dy, bool pe
     one.periodic = periodic;
     one.source = source;
     one.format = "array";
-    one.warnings = topography::warnings(one);
+    topography::look_at(one);
     return one;
   });
 }
@@ -147,7 +154,7 @@ nb::dict psd(const Topography& surface, const metrology::PsdOptions& options,
   all["y"] = row_of(spectra.y);
   all["radial"] = row_of(spectra.radial);
   all["window"] = std::string(metrology::name_of(spectra.window));
-  all["warnings"] = texts_of(analysis::of_spectra(spectra));
+  all["warnings"] = shown(cases::of_spectra(spectra));
   return all;
 }
 
@@ -178,12 +185,12 @@ CombinedRow combine(const Topography& first, const Topography& second,
   comparison::Combination found = watched(progress, [&](const Observer& observer) {
     return comparison::combine(first, second, options, observer);
   });
-  const Text values = io::to_text(analysis::values_of(found));
-  return {std::move(found.map), values, analysis::doubts_of(found)};
+  const Text values = io::to_text(results::values_of(found));
+  return {std::move(found.map), values, results::doubts_of(found)};
 }
 
-WarningTexts warnings_about(const Topography& surface) {
-  return texts_of(analysis::of_surface(surface));
+ShownWarnings warnings_about(const Topography& surface) {
+  return shown(cases::of_surface(surface));
 }
 
 void require_no_holes(const Topography& surface) {
@@ -209,7 +216,7 @@ void bind_topography(nb::module_& module) {
       .def_prop_ro("ly", [](const Topography& self) { return self.grid.ly; })
       .def_prop_ro("n_holes", &topography::count_holes)
       .def_prop_ro("warnings", &warnings_about)
-      .def_ro("periodic", &Topography::periodic)
+      .def_prop_ro("periodic", &topography::repeats)
       .def_ro("source", &Topography::source)
       .def_ro("format", &Topography::format)
       .def_ro("instrument", &Topography::instrument)
@@ -223,19 +230,20 @@ void bind_topography(nb::module_& module) {
 void bind_surface(nb::module_& module) {
   using namespace nb::literals;
   bind_topography(module);
-  nb::class_<scan::ReadOptions>(module, "ReadOptions")
-      .def(nb::init<>())
-      .def_rw("channel", &scan::ReadOptions::channel)
+  nb::class_<scan::ReadOptions> options(module, "ReadOptions");
+  options.def(nb::init<>())
       .def_rw("pixel_x", &scan::ReadOptions::pixel_x)
-      .def_rw("pixel_y", &scan::ReadOptions::pixel_y)
-      .def_rw("unit", &scan::ReadOptions::unit)
-      .def_rw("z_scale", &scan::ReadOptions::z_scale)
-      .def_rw("override_unit", &scan::ReadOptions::override_unit);
+      .def_rw("pixel_y", &scan::ReadOptions::pixel_y);
+  bind_parameters(options, scan::read_parameters());
   module.def("make_surface", &make_surface, "height"_a, "dx"_a, "dy"_a, "periodic"_a, "source"_a);
   module.def("read", &read, "file"_a, "options"_a, "progress"_a.none());
   module.def("write", &scan::write, "surface"_a, "file"_a);
   module.def("apply", &apply, "surface"_a, "treatment"_a, "progress"_a.none());
   module.def("treatment_steps", &treatment_steps);
+  module.def(
+      "digest_of",
+      [](const Topography& one) { return topography::digest_of(one.height, one.grid); },
+      "surface"_a);
   module.def("require_no_holes", &require_no_holes, "surface"_a);
   nb::class_<comparison::CombineOptions>(module, "CombineOptions")
       .def(

@@ -15,25 +15,15 @@ namespace {
 
 using synthesis::Request;
 
+std::string same(std::string_view name) { return std::string(name); }
+
 topography::Topography generate(const Request& request) {
   return watched(nb::none(), [&](const Observer&) {
-    topography::Topography surface =
-        synthesis::generate(request, [](std::string_view name) { return std::string(name); });
+    topography::Topography surface = synthesis::generate(request, same);
     surface.format = "generated";
     surface.warnings = topography::warnings(surface);
     return surface;
   });
-}
-
-/// (name, dimension, help)
-using NumberRow = std::tuple<std::string, std::string, std::string>;
-std::vector<NumberRow> numbers() {
-  std::vector<NumberRow> rows;
-  rows.reserve(synthesis::recipe_numbers().size());
-  for (const synthesis::RecipeNumber& one : synthesis::recipe_numbers()) {
-    rows.emplace_back(one.name, name_of(one.dimension), one.help);
-  }
-  return rows;
 }
 
 /// (name, description, extensions, reads, writes, through gwyddion)
@@ -48,11 +38,16 @@ std::vector<FormatRow> formats() {
   return rows;
 }
 
-void set_stage(Request& request, const std::string& stage) {
-  if (stage != "before" && stage != "after") {
-    throw InputError("stage", "'" + stage + "'", "before or after", "");
+/// A value of a recipe: a number, a switch or a word.
+void set(Request& request, const std::string& name, nb::handle value) {
+  Cell& cell = request.settings[name];
+  if (nb::isinstance<nb::bool_>(value)) {
+    cell = nb::cast<bool>(value);
+  } else if (nb::isinstance<nb::str>(value)) {
+    cell = nb::cast<std::string>(value);
+  } else {
+    cell = nb::cast<double>(value);
   }
-  request.stage = stage == "after" ? synthesis::EdtStage::after : synthesis::EdtStage::before;
 }
 
 }  // namespace
@@ -62,20 +57,16 @@ void bind_synthesis(nb::module_& module) {
   nb::class_<Request>(module, "GenerateRequest")
       .def(nb::init<>())
       .def_rw("kind", &Request::kind)
-      .def_rw("numbers", &Request::numbers)
-      .def_rw("periodic", &Request::periodic)
-      .def_rw("random_amplitudes", &Request::random_amplitudes)
       .def_rw("seed", &Request::seed)
-      .def("set_stage", &set_stage, "stage"_a)
+      .def("set", &set, "name"_a, "value"_a)
       .def(
           "set_grid",
-          [](Request& self, Index nx, Index ny, double dx, double dy) {
-            self.grid = {nx, ny, static_cast<double>(nx) * dx, static_cast<double>(ny) * dy};
+          [](Request& self, const std::vector<double>& pixels, const std::vector<double>& pixel) {
+            self.grid = synthesis::grid_of({.pixels = pixels, .pixel = pixel}, same);
           },
-          "nx"_a, "ny"_a, "dx"_a, "dy"_a);
+          "pixels"_a, "pixel"_a);
   module.def("generate", &generate, "request"_a);
-  module.def("recipe_numbers", &numbers);
-  module.def("recipe_kinds", &synthesis::recipe_kinds);
+  module.def("recipe_kinds", [] { return synthesis::recipe_kinds(); });
   module.def("formats", &formats);
 }
 

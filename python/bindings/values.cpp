@@ -4,17 +4,25 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
+#include <set>
 #include <type_traits>
 #include <variant>
 
+#include "parameters.hpp"
 #include "records.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
+#include "tabor/core/text.hpp"
 #include "tabor/core/version.hpp"
 #include "tabor/io/protection.hpp"
+#include "tabor/topography/treatment.hpp"
 
 namespace tabor::python {
 namespace {
@@ -66,6 +74,11 @@ Field field_of(const MapArgument& array) {
                                  static_cast<Index>(array.shape(1)));
 }
 
+nb::object given_value(const Cell& cell) {
+  const auto* number = std::get_if<double>(&cell);
+  return number != nullptr && std::isnan(*number) ? nb::none() : object_of(cell);
+}
+
 nb::dict dict_of(const NamedCells& cells) {
   nb::dict dict;
   for (const NamedCell& one : cells) dict[one.head.key.c_str()] = object_of(one.cell);
@@ -85,31 +98,52 @@ Cell cell_of(nb::handle value, const Cell& kind) {
       kind);
 }
 
-WarningTexts texts_of(const analysis::Warnings& warnings) {
+WarningTexts texts_of(const Warnings& warnings) {
   WarningTexts texts;
   texts.reserve(warnings.size());
   for (const auto& [code, text, weight] : warnings) texts.emplace_back(code, text, weight);
   return texts;
 }
 
-analysis::Warnings warnings_of(const WarningTexts& texts) {
-  analysis::Warnings warnings;
+ShownWarnings shown(Warnings warnings) {
+  std::stable_sort(warnings.begin(), warnings.end(), [](const auto& a, const auto& b) {
+    return cases::class_of(a.code) < cases::class_of(b.code);
+  });
+  ShownWarnings list;
+  list.reserve(warnings.size());
+  for (const Warning& one : warnings) {
+    list.emplace_back(one.code, advised(one.text, spelled),
+                      cases::name_of(cases::class_of(one.code)));
+  }
+  return list;
+}
+
+std::string spelled(const Advice& advice) {
+  static const std::set<std::string_view> others = {"edges", "fit_max", "fit_min"};
+  for (const topography::StepDescription& step : topography::treatment_steps()) {
+    if (step.name != advice.setting) continue;
+    const std::string value = advice.value.empty() ? "..." : advice.value;
+    return "treat('" + step.name + (step.argument.empty() ? "" : "=" + value) + "')";
+  }
+  const bool is_known = cases::find_parameter(advice.setting) != nullptr;
+  if (!is_known && !others.contains(advice.setting)) return "";
+  const std::string name = argument_of(advice.setting) + "=";
+  return advice.value.empty() ? name : name + "'" + advice.value + "'";
+}
+
+Warnings warnings_of(const WarningTexts& texts) {
+  Warnings warnings;
   warnings.reserve(texts.size());
   for (const auto& [code, text, weight] : texts) warnings.push_back({code, text, weight});
   return warnings;
 }
 
 std::string argument_of(std::string_view setting) {
-  static const std::map<std::string_view, std::string_view> others = {
-      {"mean_pressure", "pressure"},
-      {"lubricant_density", "density"},
-      {"sliding_speed", "speed"},
-      {"droplet", "droplet_height"}};
-  const auto found = others.find(setting);
-  return std::string(found == others.end() ? setting : found->second);
+  const ParameterHead* const found = cases::find_parameter(setting);
+  return found != nullptr ? found->python_argument() : std::string(setting);
 }
 
-void check(const std::optional<analysis::Objection>& objection) {
+void check(const std::optional<cases::Objection>& objection) {
   if (!objection) return;
   if (objection->got.empty()) throw InputError(objection->remedy);
   throw InputError(argument_of(objection->setting), objection->got, objection->expected,
@@ -118,11 +152,19 @@ void check(const std::optional<analysis::Objection>& objection) {
 
 void bind_values(nb::module_& module) {
   io::isolate_hdf5_reading(true);  // a damaged file must not end the session
+  module.def(
+      "advised", [](const std::string& text) { return advised(text, spelled); }, nb::arg("text"));
   module.attr("version") = std::string(kVersion);
   module.def(
       "parse_si",
       [](const std::string& text, const std::string& dimension, const std::string& name) {
         return parse_si(text, dimensions().at(dimension), name);
+      },
+      nb::arg("text"), nb::arg("dimension"), nb::arg("name"));
+  module.def(
+      "parse_si_list",
+      [](const std::string& text, const std::string& dimension, const std::string& name) {
+        return parse_si_list(text, dimensions().at(dimension), name);
       },
       nb::arg("text"), nb::arg("dimension"), nb::arg("name"));
   module.def(

@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "bindings.hpp"
-#include "tabor/analysis/settings.hpp"
-#include "tabor/analysis/warning.hpp"
+#include "tabor/cases/settings.hpp"
+#include "tabor/cases/warning.hpp"
+#include "tabor/core/advice.hpp"
 #include "tabor/core/column.hpp"
 #include "tabor/core/types.hpp"
 #include "tabor/core/units.hpp"
@@ -30,8 +31,13 @@ nb::dict dict_of(const NamedCells& cells);
 
 /// (code, text, weight) of each.
 using WarningTexts = std::vector<std::tuple<std::string, std::string, double>>;
-WarningTexts texts_of(const analysis::Warnings& warnings);
-analysis::Warnings warnings_of(const WarningTexts& texts);
+WarningTexts texts_of(const Warnings& warnings);
+/// What a user reads, doubts first: (code, text, class), what it advises spelled as arguments.
+using ShownWarnings = std::vector<std::tuple<std::string, std::string, std::string>>;
+ShownWarnings shown(Warnings warnings);
+/// How Python writes what a warning advises: treat("level=plane"), boundary='free'.
+std::string spelled(const Advice& advice);
+Warnings warnings_of(const WarningTexts& texts);
 
 /// "length", as parse_si of the module takes it.
 std::string name_of(const Dimension& dimension);
@@ -39,6 +45,6 @@ std::string name_of(const Dimension& dimension);
 /// How the package calls what analysis calls by this name.
 std::string argument_of(std::string_view setting);
 /// Throws what analysis objects to.
-void check(const std::optional<analysis::Objection>& objection);
+void check(const std::optional<cases::Objection>& objection);
 
 }  // namespace tabor::python

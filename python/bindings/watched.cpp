@@ -11,6 +11,9 @@
 #include <thread>
 #include <utility>
 
+#include "interpreter.hpp"
+#include "tabor/core/watch.hpp"
+
 namespace tabor::python {
 namespace {
 
@@ -45,11 +48,13 @@ class Between {
   explicit Between(const nb::object& progress) : progress_(progress) {}
 
   bool listen(const Progress& progress) {
+    if (interpreter_ends()) stops_ = true;
     if (stops_ || std::this_thread::get_id() != owner_) return !stops_;
     const auto now = Clock::now();
     if (now < next_) return true;
     next_ = now + kPeriod;
-    const nb::gil_scoped_acquire locked;
+    const WithLock locked;
+    if (!locked) return false;
     try {
       ask_python(progress_, news_of(progress));
     } catch (nb::python_error& found) {
@@ -72,6 +77,12 @@ class Between {
   std::atomic<bool> stops_ = false;
   std::optional<nb::python_error> raised_;
 };
+
+/// Works under a watch of its own, so that work that does not know the observer asks it, too.
+void work_under(const Observer& observer, const std::function<void(const Observer&)>& work) {
+  const Watch watch(observer, "");
+  work(observer);
+}
 
 /// Work on a thread of its own.
 class Worker {
@@ -98,7 +109,7 @@ class Worker {
  private:
   void run(const std::function<void(const Observer&)>& work) {
     try {
-      work([this](const Progress& progress) { return listen(progress); });
+      work_under([this](const Progress& progress) { return listen(progress); }, work);
     } catch (...) {
       error_ = std::current_exception();
     }
@@ -128,9 +139,9 @@ void watch(const nb::object& progress, const std::function<void(const Observer&)
   Between between(progress);
   std::exception_ptr error;
   {
-    const nb::gil_scoped_release unlocked;
+    const WithoutLock unlocked;
     try {
-      work([&](const Progress& told) { return between.listen(told); });
+      work_under([&](const Progress& told) { return between.listen(told); }, work);
     } catch (...) {
       error = std::current_exception();
     }
@@ -143,10 +154,14 @@ void watch_beside(const nb::object& progress, const std::function<void(const Obs
   std::optional<nb::python_error> raised;
   std::exception_ptr error;
   {
-    const nb::gil_scoped_release unlocked;
+    const WithoutLock unlocked;
     Worker worker(work);
     while (!worker.ends()) {
-      const nb::gil_scoped_acquire locked;
+      const WithLock locked;
+      if (!locked) {
+        worker.stop();
+        continue;
+      }
       try {
         if (!raised) ask_python(progress, worker.news());
       } catch (nb::python_error& found) {

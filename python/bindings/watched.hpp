@@ -13,6 +13,8 @@ namespace tabor::python {
 /// `progress`: None, or what is called with (stage, done share, certificate), both NaN if unknown.
 /// Ctrl-C, and whatever `progress` raises, stops the work and is raised here. `work` must not
 /// touch Python, and asks its observer on the thread that it is called on.
+/// When the interpreter ends before a daemon thread's work, the work is stopped, and the thread
+/// sleeps until the process is gone.
 void watch(const nb::object& progress, const std::function<void(const Observer&)>& work);
 
 /// The same for work that waits for threads of its own, which ask the observer in its place: it

@@ -17,14 +17,14 @@ from ._contact import Contact, Material, NotConverged, Solid, contact, materials
 from ._friction import (DensityCurve, Film, FluidFilm, Friction, Lubricant, Plateau, density_curve, fluid_film,
                         friction, rain)
 from ._friction_table import FrictionEntry, FrictionTable
-from ._progress import Progress
+from ._generate import Format, formats, generate
+from ._progress import Progress, set_threads
 from ._records import Warning
 from ._report import Report, report
 from ._save import save
 from ._scans import Scans
 from ._study import Results, Study
-from ._surface import Format, Parameter, Parameters, Spectra, Spectrum, Surface, formats, generate, read
-from ._tabor import set_threads
+from ._surface import Parameter, Parameters, Spectra, Spectrum, Surface, read
 from ._tabor import version as __version__
 
 __all__ = ["Combination", "Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction",

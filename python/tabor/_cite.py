@@ -6,6 +6,7 @@ import os
 from typing import Any
 
 from . import _tabor
+from ._arguments import path, wrong
 from ._study import Results
 
 
@@ -37,9 +38,9 @@ def cite(*results: Any) -> str:
         if isinstance(one, Results):
             files.append(os.fspath(one.folder / "results.h5"))
         elif isinstance(one, (str, os.PathLike)):
-            files.append(os.fspath(one))
+            files.append(os.fspath(path(one, "results")))
         elif hasattr(one, "references"):
             keys += one.references
         else:
-            raise TypeError(f"cite: got {type(one).__name__}; expected results or files of results")
+            raise wrong("results", one, "results or files of results")
     return _tabor.bibtex(keys, files)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from . import _tabor
+from ._arguments import Axes, typed
 from ._progress import Progress, watching
 from ._records import table_html
 from ._surface import Surface
@@ -74,7 +75,8 @@ class Combination:
         """Worn less piled up over the whole overlap, without a threshold; None unless the mode is "wear"."""
         return self._volume("net")
 
-    def plot(self, ax: Any = None) -> Any:
+    @typed
+    def plot(self, ax: Axes = None) -> Any:
         """Draws the map; needs matplotlib. Returns the axes."""
         return self.surface.plot(ax)
 
@@ -96,8 +98,9 @@ class Combination:
         return table_html("Combination", self._lines())
 
 
+@typed
 def combine(first: Surface, second: Surface, mode: str = "wear", *, search: bool = True,
-            shift: Sequence[Value] | None = None, match: str = "plane", threshold: float = 4.0,
+            shift: Iterable[Value] | None = None, match: str = "plane", threshold: float = 4.0,
             progress: Progress = None) -> Combination:
     """Registers two scans and subtracts them, or adds two faces, as ``tabor combine`` does.
 

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple, overload
+from typing import Any, NamedTuple, Unpack, overload
 
 from . import _tabor
+from ._arguments import Axes, typed
 from ._optional import needs
 from ._progress import Progress, watching
-from ._records import Record
+from ._records import Record, attributes
+from ._setting_types import ContactSettings, SolidSettings, SolidValues
+from ._settings import CONTACT, SOLID, complete, documented, filled, takes
 from ._surface import Array, Surface, map_to_xarray, plot_map
-from ._values import Value, optional_si, si_list
+from ._values import Value, si_list
 
 
 class NotConverged(RuntimeError):
@@ -42,8 +45,9 @@ def materials() -> tuple[Material, ...]:
     return tuple(Material(*row) for row in _tabor.materials())
 
 
+@documented(SOLID)
 @dataclass(frozen=True, init=False)
-class Solid:
+class Solid(SolidValues):
     """The rough body, and what it is pressed on: rigid unless a counter body is given.
 
     Parameters
@@ -51,14 +55,7 @@ class Solid:
     material : str, optional
         Name in the library (``materials()``), or "aluminium" for "aluminium-6016" as long as there is one
         alone: what is not given is taken from there.
-    youngs_modulus, poissons_ratio : value
-        E [Pa] and nu of the rough body.
-    saturation_pressure : value, optional
-        Cap on the contact pressure [Pa], for metals that yield; "none" is elastic whatever the library says.
-    shear_strength : value, optional
-        Of its dry contacts [Pa]; friction takes it where it is not given one.
-    counter_youngs_modulus, counter_poissons_ratio : value, optional
-        Of the counter body.
+    **settings
 
     Raises
     ------
@@ -72,34 +69,19 @@ class Solid:
     78554595443.83347
     """
 
-    youngs_modulus: float
-    poissons_ratio: float
-    saturation_pressure: float | None
-    shear_strength: float | None
-    counter_youngs_modulus: float | None
-    counter_poissons_ratio: float | None
     material: str
 
-    def __init__(self, material: str | None = None, *, youngs_modulus: Value | None = None,
-                 poissons_ratio: Value | None = None, saturation_pressure: Value | None = None,
-                 shear_strength: Value | None = None, counter_youngs_modulus: Value | None = None,
-                 counter_poissons_ratio: Value | None = None) -> None:
+    @takes(SOLID)
+    def __init__(self, material: str | None = None, **settings: Unpack[SolidSettings]) -> None:
+        given: Mapping[str, Any] = settings
         known = Material(*_tabor.material(material)) if material is not None else None
-        if known is None and (youngs_modulus is None or poissons_ratio is None):
+        if known is None and (given.get("youngs_modulus") is None or given.get("poissons_ratio") is None):
             raise ValueError("Solid: give youngs_modulus and poissons_ratio, or the name of a material")
-        given = {"youngs_modulus": optional_si(youngs_modulus, "pressure", "youngs_modulus"),
-                 "poissons_ratio": optional_si(poissons_ratio, "none", "poissons_ratio"),
-                 "saturation_pressure": None if saturation_pressure == "none" else
-                 optional_si(saturation_pressure, "pressure", "saturation_pressure"),
-                 "shear_strength": optional_si(shear_strength, "pressure", "shear_strength")}
-        for name, value in given.items():
-            if value is None and known is not None and not (name == "saturation_pressure" and saturation_pressure):
-                value = getattr(known, name)
-            object.__setattr__(self, name, value)
-        object.__setattr__(self, "counter_youngs_modulus",
-                           optional_si(counter_youngs_modulus, "pressure", "counter_youngs_modulus"))
-        object.__setattr__(self, "counter_poissons_ratio",
-                           optional_si(counter_poissons_ratio, "none", "counter_poissons_ratio"))
+        for one in SOLID:
+            value = given.get(one.argument)
+            is_none = isinstance(value, str) and value == one.none != ""
+            plain = getattr(known, one.name, None) if value is None else None if is_none else one.taken(value)
+            object.__setattr__(self, one.name, plain)
         object.__setattr__(self, "material", known.name if known is not None else "")
         _tabor.check_contact(self._settings(), [])
 
@@ -111,34 +93,21 @@ class Solid:
     def _settings(self) -> _tabor.ContactSettings:
         settings = _tabor.ContactSettings()
         settings.material = self.material
-        settings.youngs_modulus = self.youngs_modulus
-        settings.poissons_ratio = self.poissons_ratio
-        settings.saturation_pressure = self.saturation_pressure
-        settings.counter_youngs_modulus = self.counter_youngs_modulus
-        settings.counter_poissons_ratio = self.counter_poissons_ratio
-        return settings
-
-
-@dataclass(frozen=True)
-class _Options:
-    boundary: str
-    solver: str
-    tolerance: float
-    load_path: bool
+        return filled(settings, {one.name: getattr(self, one.name) for one in SOLID if one.table == "contact"})
 
 
 class Contact(Record):
     """One solved contact. Maps are read-only views of shape (ny, nx)."""
 
-    _facts = (("pressure", "mean_pressure_Pa", "Pa"), ("area", "contact_area_fraction", ""),
+    _facts = (("pressure", "mean_pressure_Pa", "Pa"), ("contact area", "contact_area_fraction", ""),
               ("mean gap", "mean_gap_m", "m"), ("certificate", "certificate", ""))
 
     surface: Surface  #: that was pressed on
     solid: Solid  #: what it is of
     _record: _tabor.ContactRecord
-    _options: _Options
+    _options: dict[str, Any]
 
-    def __init__(self, record: _tabor.ContactRecord, surface: Surface, solid: Solid, options: _Options) -> None:
+    def __init__(self, record: _tabor.ContactRecord, surface: Surface, solid: Solid, options: dict[str, Any]) -> None:
         self.__dict__.update(_record=record, surface=surface, solid=solid, _options=options)
 
     @property
@@ -164,7 +133,7 @@ class Contact(Record):
 
     @property
     def area_fraction(self) -> float:
-        """Real over nominal contact area, perimeter-corrected (Yastrebov, Anciaux & Molinari 2017)."""
+        """Contact area: real over nominal, perimeter-corrected (Yastrebov, Anciaux & Molinari 2017)."""
         return float(self.values["contact_area_fraction"])
 
     @property
@@ -183,14 +152,15 @@ class Contact(Record):
         return self._record.converged
 
     def to_xarray(self) -> Any:
-        """Pressure, displacement and gap as a Dataset with coordinates x and y [m]; needs xarray."""
+        """Pressure, displacement and gap as a Dataset with coordinates x and y [m], numbers and warnings as its
+        attributes, to be written as NetCDF; needs xarray."""
         xarray = needs("xarray", "to_xarray()")
         maps = {"pressure": (self.pressure, "Pa"), "displacement": (self.displacement, "m"), "gap": (self.gap, "m")}
-        numbers = {key: value for key, value in self.values.items() if isinstance(value, (int, float))}
         return xarray.Dataset({name: map_to_xarray(self.surface, values, name, unit)
-                               for name, (values, unit) in maps.items()}, attrs=numbers)
+                               for name, (values, unit) in maps.items()}, attrs=attributes(self))
 
-    def plot(self, ax: Any = None) -> Any:
+    @typed
+    def plot(self, ax: Axes = None) -> Any:
         """Draws the pressure; needs matplotlib. Returns the axes."""
         return plot_map(self.surface, self.pressure * 1e-6, "pressure [MPa]", ax)
 
@@ -198,37 +168,34 @@ class Contact(Record):
         return _settings(self.solid, self._options)
 
 
-def _settings(solid: Solid, options: _Options) -> _tabor.ContactSettings:
-    settings = solid._settings()
-    settings.boundary = options.boundary
-    settings.solver = options.solver
-    settings.tolerance = options.tolerance
-    settings.load_path = options.load_path
-    return settings
+def solid_of(solid: Solid | str) -> Solid:
+    """A solid, or that of a name in the library."""
+    return Solid(solid) if isinstance(solid, str) else solid
+
+
+def _settings(solid: Solid, options: Mapping[str, Any]) -> _tabor.ContactSettings:
+    return filled(solid._settings(), options)
 
 
 @overload
-def contact(surface: Surface, pressure: Value, solid: Solid, *, boundary: str = ..., tolerance: float = ...,
-            solver: str = ..., load_path: bool = ..., check: bool = ...,
-            progress: Progress = ...) -> Contact: ...
+def contact(surface: Surface, pressure: Value, solid: Solid | str, *, edges: str | None = ..., check: bool = ...,
+            progress: Progress = ..., **settings: Unpack[ContactSettings]) -> Contact: ...
 @overload
-def contact(surface: Surface, pressure: Sequence[Value], solid: Solid, *, boundary: str = ...,
-            tolerance: float = ..., solver: str = ..., load_path: bool = ..., check: bool = ...,
-            progress: Progress = ...) -> list[Contact]: ...
-def contact(surface: Surface, pressure: Any, solid: Solid, *, boundary: str = "periodic",
-            tolerance: float = 1e-6, solver: str = "fast", load_path: bool = False, check: bool = True,
-            progress: Progress = None) -> Any:
+def contact(surface: Surface, pressure: Iterable[Value], solid: Solid | str, *, edges: str | None = ..., check: bool = ...,
+            progress: Progress = ..., **settings: Unpack[ContactSettings]) -> list[Contact]: ...
+@takes(CONTACT)
+def contact(surface: Surface, pressure: Any, solid: Solid | str, *, edges: str | None = None, check: bool = True,
+            progress: Progress = None, **settings: Unpack[ContactSettings]) -> Any:
     """Presses a rigid flat on a rough surface (docs/theory.md).
 
     Parameters
     ----------
     surface : Surface without holes.
     pressure : mean pressure [Pa], load over nominal area; several give a list of contacts.
-    solid : Solid that the surface is of.
-    boundary : "periodic", the scan repeats; "free", it is loaded alone.
-    tolerance : certificate to reach, 1e-12 to 1e-4.
-    solver : "fast", or "polonsky-keer", the textbook baseline.
-    load_path : the plastic indentation that a pressure leaves is kept for the next.
+    solid : Solid that the surface is of, or the name of a material, "aluminium-6016".
+    **settings
+    edges : what the boundary is in other words: "tile", the surface repeats; "cut", it is a cut-out of a larger one, and its mirror
+        images continue it (the contact is that of the mirrored surface, its ``surface``); "end", the body ends there.
     check : raise NotConverged where the tolerance is not reached; its ``result`` is what was.
     progress : see ``tabor.Progress``.
 
@@ -240,15 +207,20 @@ def contact(surface: Surface, pressure: Any, solid: Solid, *, boundary: str = "p
         Unless ``check`` is False.
     """
     pressures, single = si_list(pressure, "pressure", "pressure")
-    options = _Options(boundary, solver, float(tolerance), load_path)
-    settings = _settings(solid, options)
+    solid = solid_of(solid)
+    options = complete(CONTACT, settings)
+    asked = _settings(solid, options)
+    if edges is not None:
+        surface = surface.treat(f"edges={edges}", progress=progress)
+    asked.take_edges(surface._topography)
+    options["boundary"] = asked.boundary
     _tabor.require_no_holes(surface._topography)
     with watching(progress) as told:
-        records = _tabor.contacts(surface._topography, settings, pressures, told)
+        records = _tabor.contacts(surface._topography, asked, pressures, told)
     found = [Contact(record, surface, solid, options) for record in records]
     for one in found if check else []:
         if not one.converged:
             raise NotConverged(f"contact at {_tabor.format_si(one.mean_pressure, 'Pa')}: {one.values['status']} at "
-                               f"certificate {one.certificate:.2g}, asked for {tolerance:g}; check=False returns "
+                               f"certificate {one.certificate:.2g}, asked for {options['tolerance']:g}; check=False returns "
                                "it all the same", found[0] if single else found)
     return found[0] if single else found

@@ -1,4 +1,4 @@
-"""Surfaces of other packages, known by what they have and not by their type."""
+"""Surfaces and arrays of other packages, known by what they have and not by their type."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from . import _tabor
+from ._values import in_si, is_labelled, is_quantity
 
 
 class Foreign(NamedTuple):
@@ -45,17 +46,62 @@ def _of_gwyfile(other: Any) -> Foreign:
     return Foreign(other.data, (other.xreal / nx, other.yreal / ny), "m", False)
 
 
+class Carried(NamedTuple):
+    """Heights that say themselves what they are in."""
+
+    heights: Any  #: shape (ny, nx)
+    metres: float | None  #: per unit; None where they do not say it
+    unit: str  #: as they say it
+    is_si: bool  #: they are in metres already
+
+
+def _metres_of_quantity(quantity: Any) -> float:
+    """One of its unit; NaN where that is no unit of length."""
+    unit = getattr(quantity, "units", getattr(quantity, "unit", None))
+    try:
+        return float(in_si(type(quantity)(1.0, unit), "length", "heights"))
+    except Exception:
+        return float("nan")
+
+
+def carried(z: Any) -> Carried:
+    """What an array says of its unit: a quantity, or an array of xarray, whose columns become the rows where its
+    dimensions are x and y."""
+    if is_labelled(z):
+        ordered = z.transpose("y", "x") if set(z.dims) == {"x", "y"} else z
+        if is_quantity(ordered.data):
+            return carried(ordered.data)
+        unit = ordered.attrs.get("units")
+        return Carried(ordered.values, _metres(unit, "units of the heights") if unit else None, str(unit), False)
+    if is_quantity(z):
+        unit = str(getattr(z, "units", getattr(z, "unit", "")))
+        return Carried(in_si(z, "length", "heights"), _metres_of_quantity(z), unit, True)
+    return Carried(z, None, "", False)
+
+
+def spacing(array: Any, axis: str) -> float | None:
+    """Distance of the coordinates of an array of xarray [m]; None where it says none."""
+    if axis not in array.coords or not array[axis].attrs.get("units"):
+        return None
+    steps = np.diff(np.asarray(in_si(array[axis], "length", f"coordinate {axis}"), dtype=np.float64))
+    if steps.size == 0:
+        return None
+    if not np.allclose(steps, steps[0], rtol=1e-6, atol=0) or steps[0] <= 0:
+        raise ValueError(f"coordinate {axis}: expected rising values at equal distances")
+    return float(steps.mean())
+
+
 def _of_xarray(other: Any) -> Foreign:
-    ordered = other.transpose("y", "x")
-    pixel = []
+    sides = []
     for axis in ("x", "y"):
-        steps = np.diff(np.asarray(ordered[axis].values, dtype=np.float64))
-        if steps.size == 0 or not np.allclose(steps, steps[0], rtol=1e-6, atol=0) or steps[0] <= 0:
-            raise ValueError(f"coordinate {axis}: expected rising values at equal distances")
-        pixel.append(float(steps.mean()) * _metres(ordered[axis].attrs.get("units"), f"units of {axis}"))
-    unit = ordered.attrs.get("units")
-    _metres(unit, "units of the heights")
-    return Foreign(ordered.values, (pixel[0], pixel[1]), unit, False)
+        side = spacing(other, axis)
+        if side is None:
+            raise ValueError(f"coordinate {axis}: got none with units and two values; give tabor.Surface the pixel")
+        sides.append(side)
+    heights = carried(other)
+    if heights.metres is None:
+        raise ValueError("units of the heights: it has no unit; give tabor.Surface its heights and pixel")
+    return Foreign(heights.heights, (sides[0], sides[1]), "m" if heights.is_si else heights.unit, False)
 
 
 _KNOWN = ((("heights", "physical_sizes", "unit", "is_periodic"), _of_surface_topography),

@@ -2,39 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, overload
+from typing import Any, NamedTuple, Unpack, overload
 
 import numpy as np
 
 from . import _tabor
+from ._arguments import Axes, typed, wrong
 from ._contact import Contact, NotConverged
 from ._optional import needs
 from ._progress import Progress, watching
-from ._records import Record
+from ._records import Record, attributes
+from ._setting_types import CurveSettings, FrictionSettings, LubricantSettings, LubricantValues, RainSettings
+from ._settings import CURVE, OIL, RAIN, SHEAR, complete, documented, filled, takes
 from ._surface import Array, Surface, map_to_xarray, plot_map
-from ._values import Value, optional_si, si, si_list
+from ._values import Value, si, si_list
 
 
-@dataclass(frozen=True)
-class _Rain:
-    """How oil is laid down, in SI."""
-
-    oil_density: float
-    droplet_height: float
-    model: str
-    reading: str
-    edge: str
-    seed: int
-
-    def settings(self, densities: Sequence[float]) -> _tabor.FilmSettings:
-        settings = _tabor.FilmSettings()
-        settings.lubricant_densities = list(densities)
-        settings.oil_density, settings.droplet_height = self.oil_density, self.droplet_height
-        settings.model, settings.reading, settings.edge = self.model, self.reading, self.edge
-        settings.seed = self.seed
-        return settings
+def film_settings(options: Mapping[str, Any], densities: Sequence[float]) -> _tabor.FilmSettings:
+    """How oil is laid down until areal densities [kg/m^2] are reached."""
+    settings = filled(_tabor.FilmSettings(), options)
+    settings.lubricant_densities = list(densities)
+    return settings
 
 
 class Film(Record):
@@ -45,9 +35,9 @@ class Film(Record):
 
     surface: Surface  #: that it lies on
     _record: _tabor.FilmRecord
-    _options: _Rain
+    _options: dict[str, Any]
 
-    def __init__(self, record: _tabor.FilmRecord, surface: Surface, options: _Rain) -> None:
+    def __init__(self, record: _tabor.FilmRecord, surface: Surface, options: dict[str, Any]) -> None:
         self.__dict__.update(_record=record, surface=surface, _options=options)
 
     @property
@@ -66,79 +56,57 @@ class Film(Record):
         return float(self.values["wet_fraction"])
 
     def to_xarray(self) -> Any:
-        """The thickness as a DataArray with coordinates x and y [m]; needs xarray."""
-        return map_to_xarray(self.surface, self.thickness, "film_thickness", "m")
+        """The thickness as a DataArray with coordinates x and y [m], numbers and warnings as its attributes, to be
+        written as NetCDF; needs xarray."""
+        return map_to_xarray(self.surface, self.thickness, "film_thickness", "m", attributes(self))
 
-    def plot(self, ax: Any = None) -> Any:
+    @typed
+    def plot(self, ax: Axes = None) -> Any:
         """Draws the thickness; needs matplotlib. Returns the axes."""
         return plot_map(self.surface, self.thickness, "film thickness [m]", ax)
 
 
 @overload
-def rain(surface: Surface, density: Value, *, oil_density: Value = ..., droplet_height: Value = ...,
-         model: str = ..., reading: str = ..., edge: str = ..., seed: int = ...,
-         progress: Progress = ...) -> Film: ...
+def rain(surface: Surface, density: Value, *, progress: Progress = ..., **settings: Unpack[RainSettings]) -> Film: ...
 @overload
-def rain(surface: Surface, density: Sequence[Value], *, oil_density: Value = ..., droplet_height: Value = ...,
-         model: str = ..., reading: str = ..., edge: str = ..., seed: int = ...,
-         progress: Progress = ...) -> list[Film]: ...
-def rain(surface: Surface, density: Any, *, oil_density: Value = 900.0, droplet_height: Value = 1e-7,
-         model: str = "droplets", reading: str = "conserving", edge: str = "closed", seed: int = 1,
-         progress: Progress = None) -> Any:
+def rain(surface: Surface, density: Iterable[Value], *, progress: Progress = ...,
+         **settings: Unpack[RainSettings]) -> list[Film]: ...
+@takes(RAIN)
+def rain(surface: Surface, density: Any, *, progress: Progress = None, **settings: Unpack[RainSettings]) -> Any:
     """Rains oil on a surface until areal densities are reached (docs/lubrication.md).
 
     Parameters
     ----------
     surface : Surface without holes.
     density : areal density as dosed [kg/m^2], "0.45 g/m^2"; several give a list of films of one rain.
-    oil_density : of the liquid [kg/m^3].
-    droplet_height : droplet volume over pixel area [m].
-    model : "droplets" run downhill, "limit" of vanishing droplets, "bottom-fill", "uniform".
-    reading : what a full pit does with the rest of a droplet: "conserving" or "literal".
-    edge : what the border of the scan is: "closed", "periodic" or "open".
-    seed : chooses where droplets fall; the same seed gives the same film.
+    **settings
 
     Raises
     ------
     ValueError
         For holes, negative densities, unknown names.
     """
-    if seed < 0:
-        raise ValueError(f"seed: got {seed}; expected zero or more")
     densities, single = si_list(density, "areal_density", "density")
-    options = _Rain(si(oil_density, "density", "oil_density"), si(droplet_height, "length", "droplet_height"), model,
-                    reading, edge, seed)
-    settings = options.settings(densities)
+    options = complete(RAIN, settings)
     _tabor.require_no_holes(surface._topography)
     with watching(progress) as told:
-        films = [Film(record, surface, options) for record in _tabor.rain(surface._topography, settings, told)]
+        films = [Film(record, surface, options) for record in _tabor.rain(surface._topography, film_settings(options, densities), told)]
     return films[0] if single else films
 
 
-@dataclass(frozen=True)
-class _Shear:
-    """What turns contact into friction, in SI."""
-
-    strength: float
-    boundary_strength: float | None
-    boundary_share: float | None
-    area: str | None
-
-    def settings(self) -> _tabor.FrictionSettings:
-        settings = _tabor.FrictionSettings()
-        settings.shear_strength = self.strength
-        settings.boundary_shear_strength = self.boundary_strength
-        settings.boundary_shear_share = self.boundary_share
-        settings.area = self.area
-        return settings
+def shear_settings(options: Mapping[str, Any]) -> _tabor.FrictionSettings:
+    """What turns contact into friction."""
+    return filled(_tabor.FrictionSettings(), options)
 
 
-def _shear(contact: Contact, strength: Value | None, boundary_strength: Value | None, boundary_share: float | None,
-           area: str | None) -> _Shear:
-    strength = contact.solid.shear_strength if strength is None else strength
-    return _Shear(0.0 if strength is None else si(strength, "pressure", "shear_strength"),
-                  optional_si(boundary_strength, "pressure", "boundary_shear_strength"),
-                  optional_si(boundary_share, "none", "boundary_shear_share"), area)
+def _shear(contact: Contact, settings: Mapping[str, Any]) -> dict[str, Any]:
+    """The settings, with the shear strength of the solid unless one is given."""
+    options = complete(SHEAR, settings)
+    if options["shear_strength"] is None:
+        options["shear_strength"] = contact.solid.shear_strength
+    if options["shear_strength"] is None and not contact.solid.material:  # of a named one, the library says what it lacks
+        raise ValueError("the solid of the contact has no shear strength; give shear_strength, such as '70 MPa'")
+    return options
 
 
 class Friction(Record):
@@ -150,9 +118,9 @@ class Friction(Record):
     contact: Contact
     film: Film
     _record: _tabor.FrictionRecord
-    _options: _Shear
+    _options: dict[str, Any]
 
-    def __init__(self, record: _tabor.FrictionRecord, contact: Contact, film: Film, options: _Shear) -> None:
+    def __init__(self, record: _tabor.FrictionRecord, contact: Contact, film: Film, options: dict[str, Any]) -> None:
         self.__dict__.update(_record=record, contact=contact, film=film, _options=options)
 
     @property
@@ -171,40 +139,39 @@ class Friction(Record):
         return float(self.values["lubricated_share"])
 
 
-def friction(contact: Contact, film: Film, *, shear_strength: Value | None = None,
-             boundary_shear_strength: Value | None = None, boundary_shear_share: float | None = None,
-             area: str | None = None) -> Friction:
+@takes(SHEAR)
+def friction(contact: Contact, film: Film, **settings: Unpack[FrictionSettings]) -> Friction:
     """Friction is the real contact area times the shear strength over the load; contact that stands in oil
     carries none, or that of a boundary film (Bowden & Tabor; docs/theory.md).
 
     Parameters
     ----------
-    shear_strength : tau_y [Pa] of dry contact [that of the solid].
-    boundary_shear_strength : of wet contact [Pa], at most tau_y [0]; or boundary_shear_share, over tau_y.
-    area : "corrected" or "pixels", how contact is counted [pixels where the solid has a saturation pressure,
-        else corrected].
+    **settings
 
     Raises
     ------
     ValueError
-        Without a shear strength, for one out of range, for a film of another shape.
+        Without a shear strength, for one out of range, for a film on another surface.
     """
-    options = _shear(contact, shear_strength, boundary_shear_strength, boundary_shear_share, area)
+    options = _shear(contact, settings)
     return Friction(_tabor.friction(contact.surface._topography, contact._record, film._record, contact._settings(),
-                                    options.settings()), contact, film, options)
+                                    shear_settings(options)), contact, film, options)
 
 
 class Plateau(NamedTuple):
     """Densities of the oil over which friction hardly changes: from the one that fills the pockets under the
-    contacts to the one whose level reaches the contacts from the valleys."""
+    contacts to the one whose level reaches the contacts."""
 
     first: float  #: [kg/m^2]
     last: float  #: [kg/m^2]
     dry_share: float  #: mean share of the contact that stays dry
+    below: float | None = None  #: [kg/m^2] next density of the curve before it: the lower edge lies between
+    beyond: float | None = None  #: [kg/m^2] next density behind it: the upper edge lies between
 
 
 class DensityCurve(NamedTuple):
-    """Friction of one contact against the areal density of the oil, ten densities a decade."""
+    """Friction of one contact against the areal density of the oil, in steps of at most 5 %, for vanishing
+    droplets."""
 
     mean_pressure: float  #: [Pa]
     friction_dry: float
@@ -213,14 +180,23 @@ class DensityCurve(NamedTuple):
     friction_lubricated: Array
     plateau: Plateau | None  #: None where friction changes throughout
 
-    def says(self, density: Value | Sequence[Value] = ()) -> str:
-        """The curve in one sentence, and where densities [kg/m^2] lie on it."""
-        asked = si_list(density, "areal_density", "density")[0] if np.size(density) else []
+    def says(self, density: Value | Friction | Iterable[Value | Friction] = ()) -> str:
+        """The curve in one sentence, and where densities [kg/m^2] lie on it, by the wet share that it has there; of
+        frictions, by theirs."""
+        is_one = isinstance(density, (str, Friction)) or not isinstance(density, Iterable)
+        given: Any = [density] if is_one else density
+        several = list(given)
+        asked: list[tuple[float, float | None]] = []
+        if any(isinstance(one, Friction) for one in several):
+            asked = [(one.film.lubricant_density, one.lubricated_share) for one in several]
+        elif several:
+            asked = [(one, None) for one in si_list(several, "areal_density", "density")[0]]
         return _tabor.density_sentence((self.mean_pressure, self.friction_dry, self.lubricant_density.tolist(),
                                         self.lubricated_share.tolist(), self.friction_lubricated.tolist(),
                                         self.plateau), asked)
 
-    def plot(self, ax: Any = None, **style: Any) -> Any:
+    @typed
+    def plot(self, ax: Axes = None, **style: Any) -> Any:
         """Draws friction over the density; needs matplotlib. Returns the axes."""
         ax = ax or needs("matplotlib.pyplot", "plot()").gca()
         ax.semilogx(self.lubricant_density * 1e3, self.friction_lubricated, **style)
@@ -229,25 +205,37 @@ class DensityCurve(NamedTuple):
         return ax
 
 
+def _contacts(contact: Any) -> list[Contact]:
+    if isinstance(contact, Contact):
+        return [contact]
+    expected = "a Contact, as tabor.contact returns it, or a list of them"
+    if not isinstance(contact, Iterable):
+        raise wrong("contact", contact, expected)
+    contacts = list(contact)
+    for one in contacts:
+        if not isinstance(one, Contact):
+            raise wrong("contact", contacts, expected)
+    if not contacts:
+        raise ValueError("contact: got an empty list; expected at least one contact")
+    return contacts
+
+
 @overload
-def density_curve(contact: Contact, *, shear_strength: Value | None = ..., boundary_shear_strength: Value | None = ...,
-                  boundary_shear_share: float | None = ..., area: str | None = ..., oil_density: Value = ...,
-                  reading: str = ..., edge: str = ..., progress: Progress = ...) -> DensityCurve: ...
+def density_curve(contact: Contact, *, density: Value | Iterable[Value] = ..., progress: Progress = ...,
+                  **settings: Unpack[CurveSettings]) -> DensityCurve: ...
 @overload
-def density_curve(contact: Sequence[Contact], *, shear_strength: Value | None = ...,
-                  boundary_shear_strength: Value | None = ..., boundary_shear_share: float | None = ...,
-                  area: str | None = ..., oil_density: Value = ..., reading: str = ..., edge: str = ...,
-                  progress: Progress = ...) -> list[DensityCurve]: ...
-def density_curve(contact: Any, *, shear_strength: Value | None = None, boundary_shear_strength: Value | None = None,
-                  boundary_shear_share: float | None = None, area: str | None = None, oil_density: Value = 900.0,
-                  reading: str = "conserving", edge: str = "closed", progress: Progress = None) -> Any:
+def density_curve(contact: Iterable[Contact], *, density: Value | Iterable[Value] = ..., progress: Progress = ...,
+                  **settings: Unpack[CurveSettings]) -> list[DensityCurve]: ...
+@takes(CURVE)
+def density_curve(contact: Any, *, density: Value | Iterable[Value] = (), progress: Progress = None,
+                  **settings: Unpack[CurveSettings]) -> Any:
     """Friction against the density of the oil, from one pass of vanishing droplets (docs/lubrication.md).
 
     Parameters
     ----------
     contact : Contact, or a list of contacts of one surface and solid, which gives a list.
-    shear_strength, boundary_shear_strength, boundary_shear_share, area : see ``friction``.
-    oil_density, reading, edge : see ``rain``.
+    density : densities [kg/m^2] that become points of the curve beside its round ones.
+    **settings
 
     Raises
     ------
@@ -255,17 +243,18 @@ def density_curve(contact: Any, *, shear_strength: Value | None = None, boundary
         As ``friction`` and ``rain`` do; for a surface without heights, and for contacts that differ in more
         than the pressure.
     """
-    contacts: list[Contact] = [contact] if isinstance(contact, Contact) else list(contact)
-    if not contacts:
-        raise ValueError("contact: got an empty list; expected at least one contact")
+    contacts = _contacts(contact)
     first = contacts[0]
-    if any(one.surface is not first.surface or one.solid != first.solid for one in contacts):
+    if any(one._record.surface != first._record.surface or one.solid != first.solid for one in contacts):
         raise ValueError("contact: got contacts of several surfaces or solids; expected those of one")
-    film = _Rain(si(oil_density, "density", "oil_density"), 1e-7, "limit", reading, edge, 1).settings([])
-    settings = _shear(first, shear_strength, boundary_shear_strength, boundary_shear_share, area).settings()
+    given: Any = density
+    asked = complete(CURVE, settings)
+    film = film_settings({"model": "limit", **{one.name: asked[one.name] for one in CURVE if one.table == "film"}},
+                         si_list(given, "areal_density", "density")[0] if np.size(given) else [])
+    shear = shear_settings(_shear(first, settings))
     with watching(progress) as told:
         rows = _tabor.density_curves(first.surface._topography, [one._record for one in contacts], first._settings(),
-                                     film, settings, told)
+                                     film, shear, told)
     if not rows:
         raise ValueError("surface: got one without heights; expected a rough one, on which oil runs downhill")
     curves = [DensityCurve(pressure, dry, np.array(density), np.array(share), np.array(wet),
@@ -274,29 +263,30 @@ def density_curve(contact: Any, *, shear_strength: Value | None = None, boundary
     return curves[0] if isinstance(contact, Contact) else curves
 
 
+@documented(OIL)
 @dataclass(frozen=True, init=False)
-class Lubricant:
-    """Oil that flows: its viscosity [Pa s], that grows with pressure by Roelands' law where the coefficient
-    [1/Pa] is given, and thins by shear where a Ree-Eyring stress [Pa] is given."""
+class Lubricant(LubricantValues):
+    """Oil that flows: its viscosity grows with pressure by Roelands' law where the coefficient is given, and thins by
+    shear where a Ree-Eyring stress is given.
 
-    viscosity: float
-    pressure_viscosity: float | None
-    eyring_stress: float | None
+    Parameters
+    ----------
+    **settings
 
-    def __init__(self, viscosity: Value, pressure_viscosity: Value | None = None,
-                 eyring_stress: Value | None = None) -> None:
-        object.__setattr__(self, "viscosity", si(viscosity, "viscosity", "viscosity"))
-        object.__setattr__(self, "pressure_viscosity",
-                           optional_si(pressure_viscosity, "per_pressure", "pressure_viscosity"))
-        object.__setattr__(self, "eyring_stress", optional_si(eyring_stress, "pressure", "eyring_stress"))
+    Raises
+    ------
+    ValueError
+        For values that no oil has.
+    """
+
+    @takes(OIL)
+    def __init__(self, viscosity: Value, *more: Value | None, **settings: Unpack[LubricantSettings]) -> None:
+        for name, value in complete(OIL, {**settings, "viscosity": viscosity}).items():
+            object.__setattr__(self, name, value)
+        _tabor.check_lubricant(self._settings(0.0))
 
     def _settings(self, speed: float) -> _tabor.FluidSettings:
-        settings = _tabor.FluidSettings()
-        settings.sliding_speed = speed
-        settings.viscosity = self.viscosity
-        settings.pressure_viscosity = self.pressure_viscosity
-        settings.eyring_stress = self.eyring_stress
-        return settings
+        return filled(_tabor.FluidSettings(), {"sliding_speed": speed, **{one.name: getattr(self, one.name) for one in OIL}})
 
 
 class FluidFilm(Friction):
@@ -308,7 +298,7 @@ class FluidFilm(Friction):
     speed: float  #: of sliding [m/s]
     _fluid: _tabor.FluidRecord
 
-    def __init__(self, record: _tabor.FrictionRecord, contact: Contact, film: Film, options: _Shear,
+    def __init__(self, record: _tabor.FrictionRecord, contact: Contact, film: Film, options: dict[str, Any],
                  fluid: _tabor.FluidRecord, lubricant: Lubricant, speed: float) -> None:
         super().__init__(record, contact, film, options)
         self.__dict__.update(_fluid=fluid, lubricant=lubricant, speed=speed)
@@ -349,21 +339,34 @@ class FluidFilm(Friction):
         return bool(self.values["converged"])
 
 
-def fluid_film(contact: Contact, film: Film, lubricant: Lubricant, speed: Value, *,
-               shear_strength: Value | None = None, boundary_shear_strength: Value | None = None,
-               boundary_shear_share: float | None = None, area: str | None = None, check: bool = True,
-               progress: Progress = None) -> FluidFilm:
+@takes(SHEAR)
+def fluid_film(contact: Contact, film: Film, lubricant: Lubricant, speed: Value, *, check: bool = True,
+               progress: Progress = None, **settings: Unpack[FrictionSettings]) -> FluidFilm:
     """Lets the oil flow while the flat slides along +x (docs/fluid_film.md).
 
-    ``speed`` is in m/s; the others are those of ``friction``. The contact must be periodic. Raises
-    ValueError as ``friction`` does, and NotConverged unless ``check`` is False.
+    Parameters
+    ----------
+    contact : that repeats (is periodic).
+    film : the oil on its surface.
+    lubricant : what flows, Lubricant("0.1 Pa s").
+    speed : of sliding [m/s], "5 mm/s".
+    **settings
+    check : raise NotConverged where film and load do not balance; its ``result`` is what was reached.
+    progress : see ``tabor.Progress``.
+
+    Raises
+    ------
+    ValueError
+        As ``friction`` does.
+    NotConverged
+        Unless ``check`` is False.
     """
-    options = _shear(contact, shear_strength, boundary_shear_strength, boundary_shear_share, area)
+    options = _shear(contact, settings)
     metres_per_second = si(speed, "speed", "speed")
     with watching(progress) as told:
         fluid, record = _tabor.fluid_film(contact.surface._topography, contact._record, film._record,
                                           contact._settings(), lubricant._settings(metres_per_second),
-                                          options.settings(), told)
+                                          shear_settings(options), told)
     found = FluidFilm(record, contact, film, options, fluid, lubricant, metres_per_second)
     if check and not found.converged:
         raise NotConverged("fluid film: film and load do not balance; check=False returns it all the same", found)

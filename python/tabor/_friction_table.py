@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 import pathlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from . import _tabor
+from ._arguments import Count, Path, typed, whole
 from ._values import Value, si_list
 
 
@@ -38,39 +39,47 @@ class FrictionTable:
         For what is no such result, a group or a density that is not there, and where nothing remains.
     """
 
-    def __init__(self, results: str | os.PathLike[str], *, group: str | None = None,
-                 density: Value | Sequence[Value] | None = None, keep: Sequence[str] = ()) -> None:
+    @typed
+    def __init__(self, results: Path, *, group: str | None = None,
+                 density: Value | Iterable[Value] | None = None, keep: Sequence[str] = ()) -> None:
         densities = [] if density is None else si_list(density, "areal_density", "density")[0]
         self._results = os.fspath(results)
         self._choice = _tabor.FrictionTableChoice(group, densities, list(keep))
         rows, self.left_out = _tabor.friction_table(self._results, self._choice)
         self.entries: tuple[FrictionEntry, ...] = tuple(FrictionEntry(*row) for row in rows)
 
-    def deck(self, program: str, units: str, first_id: int = 1) -> str:
+    @typed
+    def deck(self, program: str, units: str, first_id: Count = 1) -> str:
         """The text of a deck for "abaqus", "lsdyna", "ansys", "openradioss" or "csv", with the numbers in the
         units that follow from a length, a time and a mass or a force: "mm,s,t"."""
-        return _tabor.deck(self._results, self._choice, program, units, first_id)
+        number = whole(first_id, "first_id", 1, 99_999_999)
+        return _tabor.deck(self._results, self._choice, program, units, number)
 
-    def _write(self, file: str | os.PathLike[str], program: str, units: str, first_id: int = 1) -> None:
+    def _write(self, file: Path, program: str, units: str, first_id: Count = 1) -> None:
         _tabor.write_file(pathlib.Path(file), self.deck(program, units, first_id).encode())
 
-    def to_abaqus(self, file: str | os.PathLike[str], *, units: str) -> None:
+    @typed
+    def to_abaqus(self, file: Path, *, units: str) -> None:
         """Writes *FRICTION."""
         self._write(file, "abaqus", units)
 
-    def to_lsdyna(self, file: str | os.PathLike[str], *, units: str, first_id: int = 1) -> None:
+    @typed
+    def to_lsdyna(self, file: Path, *, units: str, first_id: Count = 1) -> None:
         """Writes *DEFINE_TABLE and *DEFINE_CURVE."""
         self._write(file, "lsdyna", units, first_id)
 
-    def to_ansys(self, file: str | os.PathLike[str], *, units: str, first_id: int = 1) -> None:
+    @typed
+    def to_ansys(self, file: Path, *, units: str, first_id: Count = 1) -> None:
         """Writes TB,FRIC."""
         self._write(file, "ansys", units, first_id)
 
-    def to_openradioss(self, file: str | os.PathLike[str], *, units: str, first_id: int = 1) -> None:
+    @typed
+    def to_openradioss(self, file: Path, *, units: str, first_id: Count = 1) -> None:
         """Writes /FRICTION."""
         self._write(file, "openradioss", units, first_id)
 
-    def to_csv(self, file: str | os.PathLike[str], *, units: str = "m,s,kg") -> None:
+    @typed
+    def to_csv(self, file: Path, *, units: str = "m,s,kg") -> None:
         """Writes a line per number."""
         self._write(file, "csv", units)
 

@@ -6,11 +6,20 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from typing import Any, Union
 
+from . import _tabor
+from ._arguments import Count, typed
+
 #: True for a bar of tqdm (plain lines without tqdm); or what is called up to fifty times a second with
 #: (stage, done share 0..1, certificate), where NaN is unknown.
 Progress = Union[bool, None, Callable[[str, float, float], Any]]
 #: What the extension module calls, if anything.
 Told = Union[Callable[[str, float, float], Any], None]
+
+
+@typed
+def set_threads(n: Count) -> None:
+    """How many threads computations use; 0, as many as there are processors. Results do not depend on it."""
+    _tabor.set_threads(n)
 
 
 def watching(progress: Progress) -> AbstractContextManager[Told]:

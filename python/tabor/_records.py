@@ -7,20 +7,47 @@ from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
+from ._arguments import Path, typed
+
 
 class Warning(NamedTuple):
-    """One reason to doubt a number; docs/warnings.md says what to do."""
+    """One reason to doubt a number, or information about what was done; docs/warnings.md says more."""
 
     code: str
     text: str
+    kind: str = "doubt"  #: or "information"
 
     def __str__(self) -> str:
         return self.text
 
 
-def warnings_of(texts: Iterable[tuple[str, str, float]]) -> tuple[Warning, ...]:
-    """Warnings as a result keeps them."""
-    return tuple(Warning(code, text) for code, text, _ in texts)
+def warnings_of(texts: Iterable[tuple[str, str, str]]) -> tuple[Warning, ...]:
+    """Warnings as a result shows them: doubts before information."""
+    return tuple(Warning(*one) for one in texts)
+
+
+def attributes(record: Any) -> dict[str, Any]:
+    """Numbers, warnings and references of a record as attributes that every file of NetCDF takes: switches as 0 and
+    1, lists as lines of a text."""
+    found: dict[str, Any] = {}
+    for key, value in record.values.items():
+        if isinstance(value, bool):
+            found[key] = int(value)
+        elif isinstance(value, int):
+            found[key] = value if abs(value) < 2**31 else float(value)
+        elif isinstance(value, (float, str)):
+            found[key] = value
+    return {**found, **said(record.warnings, record.references)}
+
+
+def said(warnings: Iterable[Any], references: Iterable[str]) -> dict[str, str]:
+    """Warnings and references alone; what is empty is left out."""
+    lines = {"warnings": "\n".join(map(_with_code, warnings)), "references": "\n".join(references)}
+    return {key: text for key, text in lines.items() if text}
+
+
+def _with_code(warning: Any) -> str:
+    return f"{warning.text} [{warning.code}]" if isinstance(warning, Warning) else str(warning)
 
 
 class Record:
@@ -58,7 +85,8 @@ class Record:
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
 
-    def save(self, file: Any, *, fields: str = "all", double: bool = False) -> None:
+    @typed
+    def save(self, file: Path, *, fields: str = "all", double: bool = False) -> None:
         """Writes it as ``tabor.save`` does."""
         from ._save import save
         save(file, self, fields=fields, double=double)

@@ -8,9 +8,9 @@ import os
 import pathlib
 import subprocess
 import sys
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
+from ._arguments import Count, Path, path, typed, wrong
 from ._optional import needs_all
 from ._records import Record
 from ._save import save
@@ -48,16 +48,16 @@ class Report(NamedTuple):
         return f"<a href='{target}'>{target}</a>"
 
 
-def _file_of(result: Any, out: str | os.PathLike[str] | None) -> pathlib.Path:
+def _file_of(result: Any, out: Path | None) -> pathlib.Path:
     """Where the result lies; one that lies in no file is saved beside its report."""
     if isinstance(result, Results):
         return result.folder
     if isinstance(result, (str, os.PathLike)):
-        return pathlib.Path(result)
-    if not isinstance(result, (Record, Solution, Sweep, Sequence)):
-        raise TypeError(f"report: got {type(result).__name__}; expected results, or a file or folder of them")
+        return pathlib.Path(path(result, "result"))
+    if not isinstance(result, (Record, Solution, Sweep, list, tuple)):
+        raise wrong("result", result, "results, or a file or folder of them")
     if out is None:
-        raise ValueError("report: the result is in no file; give out, the folder to write to")
+        raise ValueError("result: it is in no file; give out, the folder to write to")
     file = pathlib.Path(out, "result.h5")
     file.parent.mkdir(parents=True, exist_ok=True)
     if isinstance(result, (Solution, Sweep)):
@@ -80,8 +80,9 @@ def _made(arguments: dict[str, Any]) -> list[str]:
     return files
 
 
-def report(result: Any, out: str | os.PathLike[str] | None = None, *, html: bool = True, static: bool = False,
-           figures: str | None = None, scan: int | None = None, all_scans: bool = False, pressure: Value | None = None, density: Value | None = None,
+@typed
+def report(result: Any, out: Path | None = None, *, html: bool = True, static: bool = False,
+           figures: str | None = None, scan: Count | None = None, all_scans: bool = False, pressure: Value | None = None, density: Value | None = None,
            error_bar: str | None = None) -> Report:
     """One self-contained page, as ``tabor report`` makes it; needs ``pip install tabor[report]``.
 

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import os
 import pathlib
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from . import _tabor
+from ._arguments import Path, typed, wrong
 from ._contact import Contact
-from ._friction import Film, FluidFilm, Friction
+from ._friction import Film, FluidFilm, Friction, film_settings, shear_settings
 from ._progress import Progress, watching
 from ._records import Record
 from ._surface import Surface
 
 
-def _target(file: str | os.PathLike[str], surface: Surface, fields: str, double: bool) -> _tabor.Target:
+def _target(file: Path, surface: Surface, fields: str, double: bool) -> _tabor.Target:
     path = pathlib.Path(file)
     if path.suffix not in (".h5", ".hdf5", ".vti"):
         raise ValueError(f"{path}: expected a name that ends with .h5, .hdf5 or .vti")
@@ -39,8 +40,8 @@ def _save_frictions(target: _tabor.Target, surface: Surface, results: Sequence[F
     settings = _tabor.CaseSettings()
     settings.contact = results[0].contact._settings()
     densities = list(dict.fromkeys(one.film.lubricant_density for one in results))
-    settings.film = _shared(results, "rains", "film", "_options").settings(densities)
-    settings.friction = _shared(results, "shear strengths", "_options").settings()
+    settings.film = film_settings(_shared(results, "rains", "film", "_options"), densities)
+    settings.friction = shear_settings(_shared(results, "shear strengths", "_options"))
     fluids = [one for one in results if isinstance(one, FluidFilm)]
     if fluids:
         _shared(fluids, "speeds", "speed")
@@ -50,7 +51,33 @@ def _save_frictions(target: _tabor.Target, surface: Surface, results: Sequence[F
                           [one._fluid for one in fluids], told)
 
 
-def save(file: str | os.PathLike[str], results: Record | Sequence[Record], *, fields: str = "all",
+def _records(results: Any) -> Sequence[Any]:
+    """Records of one kind."""
+    expected = "a Contact, Film, Friction or FluidFilm, or a list of one kind"
+    if isinstance(results, Surface):
+        raise wrong("results", results, f"{expected}; Surface.write writes a surface")
+    if not isinstance(results, (Record, Iterable)) or isinstance(results, (str, bytes, Mapping)):
+        raise wrong("results", results, expected)
+    several = [results] if isinstance(results, Record) else list(results)
+    for one in several:
+        if not isinstance(one, (Contact, Film, Friction)):
+            raise wrong("results", several, expected)
+    if len({type(one) for one in several}) != 1:
+        raise ValueError("results: expected contacts, films or frictions, of one kind")
+    return several
+
+
+def _surface(results: Sequence[Any]) -> Surface:
+    """The one that all are of, by its heights."""
+    pressed = [one.contact if isinstance(one, Friction) else one for one in results]
+    if any(one._record.surface != pressed[0]._record.surface for one in pressed):
+        raise ValueError("save: got results of several surfaces; a file holds those of one")
+    found: Surface = pressed[0].surface
+    return found
+
+
+@typed
+def save(file: Path, results: Record | Iterable[Record], *, fields: str = "all",
          double: bool = False, progress: Progress = None) -> None:
     """Writes the file that the command line writes with ``-o`` (docs/results.md): ``tabor report`` and
     ``tabor cite`` read it, and ``read`` its surface.
@@ -70,13 +97,9 @@ def save(file: str | os.PathLike[str], results: Record | Sequence[Record], *, fi
     OSError
         Where it cannot be written; a file that is there stays as it is.
     """
-    several: Sequence[Any] = [results] if isinstance(results, Record) else list(results)
-    kinds = {type(one) for one in several}
-    if len(kinds) != 1 or not isinstance(several[0], (Contact, Film, Friction)):
-        raise ValueError("save: expected contacts, films or frictions, of one kind")
+    several = _records(results)
     first = several[0]
-    of_contact = isinstance(first, Friction)
-    surface: Surface = _shared(several, "surfaces", *(["contact", "surface"] if of_contact else ["surface"]))
+    surface = _surface(several)
     target = _target(file, surface, fields, double)
     settings = _tabor.CaseSettings()
     if isinstance(first, Contact):
@@ -84,7 +107,7 @@ def save(file: str | os.PathLike[str], results: Record | Sequence[Record], *, fi
         settings.contact = first._settings()
         _tabor.save_contacts(target, surface._topography, settings, [one._record for one in several])
     elif isinstance(first, Film):
-        settings.film = _shared(several, "rains", "_options").settings([one.lubricant_density for one in several])
+        settings.film = film_settings(_shared(several, "rains", "_options"), [one.lubricant_density for one in several])
         _tabor.save_films(target, surface._topography, settings, [one._record for one in several])
     else:
         with watching(progress) as told:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import glob
 import json
 import os
-from collections.abc import Mapping, Sequence
-from typing import Any, Union
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Unpack
 
-from ._values import Value, si, si_list
-
-Path = Union[str, "os.PathLike[str]"]
+from ._arguments import Path, mapping, path, wrong
+from ._setting_types import ScanSettings
+from ._settings import OF_SCANS, Setting, complete, documented, takes
+from ._values import Value, si_list
 
 
 def text(value: str) -> str:
@@ -28,22 +29,31 @@ def quantity(value: float, unit: str) -> str:
     return text(f"{value!r} {unit}".strip())
 
 
+def line(setting: Setting, value: Any) -> str:
+    """A plain value of a setting as a study file has it."""
+    if isinstance(value, str):
+        return text(value)
+    if isinstance(value, list):
+        return quantities(value, setting.unit) if len(value) > 1 else quantity(value[0], setting.unit)
+    return quantity(value, setting.unit) if setting.unit else repr(value)
+
+
 def quantities(values: Sequence[float], unit: str) -> str:
     """The same of a list."""
     return "[" + ", ".join(quantity(value, unit) for value in values) + "]"
 
 
-def pressures(values: Value | Sequence[Value] | None) -> str | None:
+def pressures(values: Value | Iterable[Value] | None) -> str | None:
     """Mean pressures in Pa; None if there are none."""
     return None if values is None else quantities(si_list(values, "pressure", "pressure")[0], "Pa")
 
 
-def densities(values: Value | Sequence[Value] | None) -> str | None:
+def densities(values: Value | Iterable[Value] | None) -> str | None:
     """Areal densities in kg/m^2; None if there are none."""
     return None if values is None else quantities(si_list(values, "areal_density", "density")[0], "kg/m^2")
 
 
-def speeds(values: Value | Sequence[Value] | None) -> str | None:
+def speeds(values: Value | Iterable[Value] | None) -> str | None:
     """Sliding speeds in m/s; None if there are none."""
     return None if values is None else quantities(si_list(values, "speed", "speed")[0], "m/s")
 
@@ -61,6 +71,7 @@ def _files(pattern: Path) -> list[str]:
     return [os.path.abspath(file) for file in found]
 
 
+@documented(OF_SCANS)
 class Scans:
     """Scan files of a study with settings of their own, in place of those of the study.
 
@@ -72,7 +83,7 @@ class Scans:
     treatment : steps, "level=plane".
     contact : "elastic", whatever the solid's saturation pressure, or "saturated".
     reading : "conserving" or "literal"; see ``rain``.
-    channel, pixel, unit : see ``read``.
+    **settings
 
     Raises
     ------
@@ -80,19 +91,22 @@ class Scans:
         For values that are none; the study says the rest.
     """
 
-    def __init__(self, files: Path | Sequence[Path], *, pressure: Value | Sequence[Value] | None = None,
-                 density: Value | Sequence[Value] | None = None, treatment: Sequence[str] | None = None,
+    @takes(OF_SCANS)
+    def __init__(self, files: Path | Sequence[Path], *, pressure: Value | Iterable[Value] | None = None,
+                 density: Value | Iterable[Value] | None = None, treatment: Sequence[str] | None = None,
                  contact: str | None = None, reading: str | None = None, channel: str | int | None = None,
-                 pixel: Value | None = None, unit: str | None = None) -> None:
-        self.files: tuple[Path, ...] = (files,) if isinstance(files, (str, os.PathLike)) else tuple(files)
+                 **settings: Unpack[ScanSettings]) -> None:
+        if not isinstance(files, (str, os.PathLike)) and (not isinstance(files, Iterable) or isinstance(files, bytes)):
+            raise wrong("files", files, "the name of a file, a pattern, or a list of them")
+        several = (files,) if isinstance(files, (str, os.PathLike)) else tuple(files)
+        self.files: tuple[Path, ...] = tuple(path(one, "files") for one in several)
+        values = complete(OF_SCANS, {**settings, "channel": None if channel is None else str(channel)})
         self._lines: dict[str, str | None] = {
             "pressure": pressures(pressure), "density": densities(density),
             "treatment": None if treatment is None else texts(treatment),
             "contact": None if contact is None else text(contact),
             "reading": None if reading is None else text(reading),
-            "channel": None if channel is None else text(str(channel)),
-            "pixel": None if pixel is None else quantity(si(pixel, "length", "pixel"), "m"),
-            "unit": None if unit is None else text(unit)}
+            **{one.study_name: None if values[one.name] is None else line(one, values[one.name]) for one in OF_SCANS}}
 
     def __repr__(self) -> str:
         own = "".join(f", {key}={value}" for key, value in self._lines.items() if value is not None)
@@ -105,8 +119,21 @@ class Scans:
 
 def scan_tables(scans: Mapping[str, Any]) -> str:
     """The [[scan]] tables of groups with a file, a pattern, ``Scans``, or a list of them each."""
+    if not isinstance(scans, Mapping):
+        more = "; tabor.Study.read takes a study file" if isinstance(scans, (str, os.PathLike)) else ""
+        raise wrong("scans", scans, f'groups with their files, {{"before": "before_*.x3p"}}{more}')
     tables = ""
-    for group, members in scans.items():
-        for one in [members] if isinstance(members, (str, os.PathLike, Scans)) else members:
+    for group, members in mapping(scans, "scans").items():
+        for one in _members(members, group):
             tables += (one if isinstance(one, Scans) else Scans(one))._tables(group)
     return tables
+
+
+def _members(members: Any, group: str) -> list[Path | Scans]:
+    single = isinstance(members, (str, os.PathLike, Scans))
+    several = [members] if single or not isinstance(members, (list, tuple)) else list(members)
+    for one in several:
+        if not isinstance(one, (str, os.PathLike, Scans)):
+            raise wrong("scans", one, f"a file, a pattern or tabor.Scans in group {group!r}, or a list of them; a study "
+                                      "reads its scans itself")
+    return several

@@ -5,31 +5,34 @@ from __future__ import annotations
 import csv
 import os
 import pathlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
-from typing import Any
+from typing import Any, Unpack
 
 from . import _tabor
-from ._contact import Solid
+from ._arguments import Count, Path, typed
+from ._contact import Solid, solid_of
 from ._friction import Lubricant
 from ._friction_table import FrictionTable
 from ._optional import needs
 from ._parts import run as run_parts
 from ._progress import Progress, watching
-from ._scans import Path, Scans, densities, pressures, quantity, scan_tables, speeds, table, text, texts
-from ._values import Value, optional_si, si
+from ._scans import Scans, densities, line, pressures, scan_tables, speeds, table, text, texts
+from ._setting_types import StudySettings
+from ._settings import OF_STUDIES, OIL, SOLID, STUDY, complete, documented, takes
+from ._values import Value
 
 
-def _flowing(oil: Lubricant | None) -> dict[str, str | None]:
-    """The keys of oil that flows."""
-    if oil is None:
-        return {}
-    coefficient, stress = oil.pressure_viscosity, oil.eyring_stress
-    return {"fluid": text("reynolds"), "viscosity": quantity(oil.viscosity, "Pa s"),
-            "pressure_viscosity": None if coefficient is None else quantity(coefficient, "1/Pa"),
-            "eyring_stress": None if stress is None else quantity(stress, "Pa")}
+def _tables(values: Mapping[str, Any]) -> dict[str, dict[str, str | None]]:
+    """Tables of a study file with the settings that have a value, each at the key that it has there."""
+    tables: dict[str, dict[str, str | None]] = {"": {}, "material": {}, "treatment": {}, "contact": {}, "sweep": {}, "lubricant": {}}
+    for one in OF_STUDIES:
+        if values.get(one.name) is not None:
+            tables.setdefault(one.study_table, {})[one.study_name] = line(one, values[one.name])
+    return tables
 
 
+@documented(STUDY)
 class Study:
     """Friction of many scans under many pressures with many densities of oil; the same as a study file
     of ``tabor sweep``.
@@ -40,14 +43,13 @@ class Study:
         Groups with a file, a pattern, ``Scans`` with settings of their own, or a list of them each;
         averages are taken over a group.
     solid : Solid
-        That the surfaces are of.
+        That the surfaces are of, or the name of a material.
     pressure : mean pressures [Pa]; needed unless all scans have their own.
     density : areal densities of the oil [kg/m^2]; without any, dry friction alone.
     treatment : steps that each scan goes through, "level=plane".
-    shear_strength, boundary_shear_strength : see ``friction``.
-    oil_density, droplet_height, model, reading, edge, seed : see ``rain``.
+    **settings
     lubricant, speed : oil that flows while the flat slides at each of these speeds [m/s]; see ``fluid_film``.
-    boundary, tolerance : see ``contact``.
+    edges : see ``contact``.
     title : of the study.
 
     Raises
@@ -58,41 +60,34 @@ class Study:
 
     _study: _tabor.Study
 
-    def __init__(self, scans: Mapping[str, Path | Scans | Sequence[Path | Scans]], solid: Solid, *,
-                 pressure: Value | Sequence[Value] | None = None, density: Value | Sequence[Value] = 0.0,
-                 treatment: Sequence[str] = (), shear_strength: Value | None = None,
-                 boundary_shear_strength: Value | None = None, area: str | None = None,
-                 oil_density: Value = 900.0, droplet_height: Value = 1e-7, model: str = "droplets",
-                 reading: str = "conserving", edge: str = "closed", seed: int = 1, lubricant: Lubricant | None = None,
-                 speed: Value | Sequence[Value] | None = None, boundary: str = "periodic",
-                 tolerance: float = 1e-6, title: str = "study") -> None:
+    @takes(STUDY)
+    def __init__(self, scans: Mapping[str, Path | Scans | Sequence[Path | Scans]], solid: Solid | str, *,
+                 pressure: Value | Iterable[Value] | None = None, density: Value | Iterable[Value] = 0.0,
+                 treatment: Sequence[str] = (), lubricant: Lubricant | None = None,
+                 speed: Value | Iterable[Value] | None = None, edges: str | None = None, title: str = "study",
+                 **settings: Unpack[StudySettings]) -> None:
         if (lubricant is None) != (speed is None):
             raise ValueError("Study: oil that flows needs both a lubricant and a speed")
-        strength = solid.shear_strength if shear_strength is None else shear_strength
-        wet = optional_si(boundary_shear_strength, "pressure", "boundary_shear_strength")
-        counter = solid.counter_youngs_modulus
-        lines = table("", {
-            "title": text(title), "area": None if area is None else text(area),
-            "shear_strength": None if strength is None else quantity(si(strength, "pressure", "shear_strength"), "Pa"),
-            "boundary_shear_strength": None if wet is None else quantity(wet, "Pa")})
-        lines += table("[material]", {
-            "youngs_modulus": quantity(solid.youngs_modulus, "Pa"), "poissons_ratio": repr(float(solid.poissons_ratio)),
-            "saturation_pressure": None if solid.saturation_pressure is None else quantity(solid.saturation_pressure, "Pa"),
-            "counter_youngs_modulus": None if counter is None else quantity(counter, "Pa"),
-            "counter_poissons_ratio": None if counter is None else repr(float(solid.counter_poissons_ratio or 0))})
-        lines += table("[treatment]", {"steps": texts(treatment) if treatment else None})
-        lines += table("[contact]", {"boundary": text(boundary), "tolerance": repr(float(tolerance))})
-        lines += table("[sweep]", {
-            "mean_pressure": pressures(pressure), "lubricant_density": densities(density), "sliding_speed": speeds(speed)})
-        lines += table("[lubricant]", {
-            "oil_density": quantity(si(oil_density, "density", "oil_density"), "kg/m^3"), "model": text(model),
-            "reading": text(reading), "edge": text(edge), "seed": str(int(seed)),
-            "droplet": quantity(si(droplet_height, "length", "droplet_height"), "m"), **_flowing(lubricant)})
-        self._text = lines + scan_tables(scans)
+        tables = scan_tables(scans)
+        solid = solid_of(solid)
+        values = complete(STUDY, settings)
+        for one in SOLID:
+            if values.get(one.name) is None:
+                values[one.name] = getattr(solid, one.name)
+        if lubricant is not None:
+            values.update({"fluid": "reynolds"}, **{one.name: getattr(lubricant, one.name) for one in OIL})
+        found = _tables(values)
+        found[""]["title"] = text(title)
+        found["treatment"]["steps"] = texts(treatment) if treatment else None
+        found["contact"]["edges"] = None if edges is None else text(edges)
+        found["sweep"].update(mean_pressure=pressures(pressure), lubricant_density=densities(density), sliding_speed=speeds(speed))
+        lines = "".join(table(f"[{name}]" if name else "", keys) for name, keys in found.items())
+        self._text = lines + tables
         self._study = _tabor.parse_study(self._text, "study")
         self._file: pathlib.Path | None = None
 
     @classmethod
+    @typed
     def read(cls, file: Path) -> Study:
         """A study file of ``tabor sweep``. Raises ValueError with file, line and key."""
         study = cls.__new__(cls)
@@ -112,8 +107,9 @@ class Study:
     def __repr__(self) -> str:
         return f"Study {self._study.title}: {self._study.n_scans} scans, {self.n_cases} cases"
 
-    def run(self, folder: Path, *, jobs: int = 0, retry: bool = False, executor: Executor | None = None,
-            threads: int = 1, store: str = "shared", progress: Progress = None) -> Results:
+    @typed
+    def run(self, folder: Path, *, jobs: Count = 0, retry: bool = False, executor: Executor | None = None,
+            threads: Count = 1, store: str = "shared", progress: Progress = None) -> Results:
         """Computes what the store in the folder does not hold yet. Ctrl-C keeps what is finished; the same
         call, or ``tabor sweep FOLDER/study.toml -o FOLDER``, continues.
 
@@ -137,8 +133,6 @@ class Study:
 
         What a worker raises is raised when all others are done; their results are kept.
         """
-        if jobs < 0 or threads < 0:
-            raise ValueError(f"jobs, threads: got {jobs}, {threads}; expected zero or more")
         if store not in ("shared", "return"):
             raise ValueError(f"store: got {store!r}; expected 'shared' or 'return'")
         path = os.path.abspath(folder)
@@ -166,17 +160,24 @@ def _number(cell: str) -> float | bool | str:
 
 
 class Results:
-    """The tables in a folder of ``Study.run`` or ``tabor sweep``. ``warnings`` and ``failures`` are those of
-    the run that made it."""
+    """The tables in a folder of ``Study.run`` or ``tabor sweep``. ``warnings`` are reasons to doubt their numbers,
+    ``failures`` the cases without; where ``run`` made it, what it met on the way is among them."""
 
+    @typed
     def __init__(self, folder: Path, outcome: _tabor.Outcome | None = None, n_contacts: int = 0,
                  warnings: tuple[str, ...] = ()) -> None:
         self.folder = pathlib.Path(folder)
         if not (self.folder / "results.csv").is_file():
             raise ValueError(f"{self.folder}: no results.csv; expected a folder of Study.run or tabor sweep")
-        self.warnings: tuple[str, ...] = warnings + (tuple(outcome.warnings) if outcome else ())
-        self.failures: tuple[str, ...] = tuple(outcome.failures) if outcome else ()
+        told, failures = (outcome.warnings, outcome.failures) if outcome else self._remarks()
+        self.warnings: tuple[str, ...] = (*warnings, *told)
+        self.failures: tuple[str, ...] = tuple(failures)
         self.n_contacts = n_contacts + (outcome.n_contacts if outcome else 0)  #: that the run computed
+
+    def _remarks(self) -> tuple[list[str], list[str]]:
+        """Warnings and failures that the folder keeps."""
+        file = self.folder / "results.h5"
+        return _tabor.result_remarks(file) if file.is_file() else ([], [])
 
     def _rows(self, name: str) -> list[dict[str, float | bool | str]]:
         with open(self.folder / name, newline="", encoding="utf-8") as file:
@@ -203,7 +204,8 @@ class Results:
         """What the mean curves say, one sentence for each group and pressure."""
         return tuple(_tabor.result_texts(os.fspath(self.folder / "results.h5"), "answers"))
 
-    def friction_table(self, *, group: str | None = None, density: Value | Sequence[Value] | None = None,
+    @typed
+    def friction_table(self, *, group: str | None = None, density: Value | Iterable[Value] | None = None,
                        keep: Sequence[str] = ()) -> FrictionTable:
         """Friction for forming codes; see ``FrictionTable``."""
         return FrictionTable(self.folder, group=group, density=density, keep=keep)

@@ -5,19 +5,24 @@ from __future__ import annotations
 import base64
 import os
 import struct
+import sys
 import zlib
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from types import MappingProxyType
+from typing import Any, NamedTuple, Unpack
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _tabor
-from ._foreign import foreign
+from ._arguments import Axes, Path, texts, typed, wrong
+from ._foreign import Carried, Foreign, carried, foreign, spacing
 from ._optional import needs
 from ._progress import Progress, watching
-from ._records import Warning, table_html, warnings_of
-from ._values import Value, optional_si, si
+from ._records import Warning, said, table_html, warnings_of
+from ._setting_types import ReadSettings, TreatmentSteps
+from ._settings import READ, complete, filled, takes
+from ._values import Value, in_si, is_labelled, is_quantity, optional_si, si, si_list
 
 Array = npt.NDArray[np.float64]
 _STEPS = {name: (argument, text) for name, argument, text in _tabor.treatment_steps()}
@@ -60,9 +65,10 @@ class Spectrum(NamedTuple):
     density: Array  #: in ``unit``
     unit: str  #: "m^3" or "m^4"
     hurst: float  #: fitted exponent; NaN where there is none
-    hurst_standard_error: float  #: of it, from the scatter about the line
+    hurst_standard_error: float  #: of it, between surfaces of one random kind
 
-    def plot(self, ax: Any = None, **style: Any) -> Any:
+    @typed
+    def plot(self, ax: Axes = None, **style: Any) -> Any:
         """Draws it with logarithmic axes; needs matplotlib. Returns the axes."""
         ax = ax or needs("matplotlib.pyplot", "plot()").gca()
         ax.loglog(self.q, self.density, **style)
@@ -80,26 +86,58 @@ class Spectra(NamedTuple):
     window: str  #: the taper that was used
     warnings: tuple[Warning, ...]  #: reasons to doubt the exponents
 
-    def plot(self, ax: Any = None) -> Any:
+    @typed
+    def plot(self, ax: Axes = None) -> Any:
         """Draws the radial one; needs matplotlib. Returns the axes."""
         return self.radial.plot(ax)
 
 
-def _pixels(pixel: Any) -> tuple[float, float]:
-    sides = list(pixel) if isinstance(pixel, (tuple, list)) else [pixel, pixel]
-    if len(sides) != 2:
-        raise ValueError(f"pixel: got {len(sides)} lengths; expected one, or two for x and y")
-    lengths = [si(side, "length", "pixel") for side in sides]
+def pixel_sides(pixel: Any) -> tuple[float, float]:
+    """Sides of a pixel along x and y [m], of one value or two."""
+    lengths, _ = si_list(pixel, "length", "pixel")
+    if len(lengths) > 2:
+        raise ValueError(f"pixel: got {len(lengths)} lengths; expected one, or two for x and y")
     for length in lengths:
         if not 0 < length < np.inf:
             raise ValueError(f"pixel: got {length:g} m; expected a length above zero")
-    return lengths[0], lengths[1]
+    return lengths[0], lengths[-1]
+
+
+def _in_metres(z: Any, unit: str | None) -> Any:
+    """Heights in metres, by their own unit or the one that is given; ValueError where these contradict each other."""
+    z, own, name, is_si = Carried(z.height, 1.0, "m", True) if isinstance(z, Surface) else carried(z)
+    given = None if unit is None else _tabor.parse_si(f"1 {unit}", "length", "unit")
+    if given is not None and own is not None and not abs(given - own) <= 1e-9 * given:
+        raise ValueError(f"unit: got {unit!r} for heights that say they are in {name!r}; leave it out")
+    factor = 1.0 if is_si else own if own is not None else given
+    heights = _heights(z)
+    return heights if factor is None or factor == 1.0 else heights * factor
+
+
+def _require_spacing(z: Any, pixel: tuple[float, float]) -> None:
+    """ValueError where an array of xarray has other coordinates."""
+    for axis, side in zip("xy", pixel) if is_labelled(z) else ():
+        own = spacing(z, axis)
+        if own is not None and abs(own - side) > 1e-6 * side:
+            raise ValueError(f"pixel: got {side:g} m along {axis} for an array whose coordinates are {own:g} m apart; "
+                             "leave it out")
+
+
+def _is_masked(z: Any) -> bool:
+    """Asked without loading numpy.ma, which takes a while and locks that a copy of the process may find taken."""
+    masked = getattr(sys.modules.get("numpy.ma"), "MaskedArray", None)
+    return masked is not None and isinstance(z, masked)
 
 
 def _heights(z: Any) -> Array:
-    if isinstance(z, np.ma.MaskedArray):
+    if _is_masked(z):
+        if z.dtype.kind not in "fiu":
+            raise TypeError(f"heights: got an array of {z.dtype}; expected real numbers")
         z = np.ma.filled(z.astype(np.float64), np.nan)
-    heights = np.asarray(z)
+    try:
+        heights = np.asarray(z)
+    except Exception as error:
+        raise TypeError(f"heights: got {type(z).__name__} that is no array; expected real numbers") from error
     if heights.dtype.kind not in "fiu":
         raise TypeError(f"heights: got an array of {heights.dtype}; expected real numbers")
     if heights.ndim != 2 or heights.size == 0:
@@ -110,19 +148,20 @@ def _heights(z: Any) -> Array:
     return heights
 
 
-class Surface:
+class Surface(TreatmentSteps):
     """A height map that does not change; treatments return new ones.
 
     Parameters
     ----------
     z : array_like, shape (ny, nx)
         Heights [m], row 0 on top, asperities up, NaN or masked where there is none. C-ordered float64
-        is copied once, anything else is converted first. Without ``pixel``: a surface of SurfaceTopography,
-        surfalize or gwyfile, or an array of xarray with coordinates x and y and units.
+        is copied once, anything else is converted first. A quantity of pint, astropy or unyt, or an array of
+        xarray with the attribute ``units``, is taken in its own unit. Without ``pixel``: a surface of
+        SurfaceTopography, surfalize or gwyfile, or an array of xarray with coordinates x and y and units.
     pixel : value or (value, value)
         Side of a pixel [m], or those along x and y.
     unit : str, optional
-        Unit of the heights if it is not metres: "um".
+        Unit of the heights if it is not metres: "um". Heights that carry their unit need none.
     periodic : bool
         The map tiles without a seam.
     name : str
@@ -131,7 +170,8 @@ class Surface:
     Raises
     ------
     ValueError
-        For another shape, no pixel, infinite heights.
+        For another shape, no pixel, infinite heights; where ``unit`` or ``pixel`` contradicts what the heights
+        say themselves.
     TypeError
         For arrays of anything but real numbers.
 
@@ -147,17 +187,20 @@ class Surface:
     _topography: _tabor.Topography
     _sha256: str  #: of the file it was read from, "" if there is none
 
-    def __init__(self, z: Any, *, pixel: Value | tuple[Value, Value] | None = None, unit: str = "m",
+    @typed
+    def __init__(self, z: Any, *, pixel: Value | tuple[Value, Value] | None = None, unit: str | None = None,
                  periodic: bool = False, name: str = "array") -> None:
         if pixel is None:
-            other = foreign(z)
+            other = Foreign(z.height, z.pixel, "m", z.periodic) if isinstance(z, Surface) else foreign(z)
             if other is None:
                 raise TypeError('Surface: give the side of a pixel, pixel="0.67 um"')
-            z, pixel, unit, periodic = other
-        dx, dy = _pixels(pixel)
-        heights = _heights(z)
-        if unit != "m":
-            heights = heights * _tabor.parse_si(f"1 {unit}", "length", "unit")
+            if unit is not None and _tabor.parse_si(f"1 {unit}", "length", "unit") != \
+                    _tabor.parse_si(f"1 {other.unit}", "length", "unit"):
+                raise ValueError(f"unit: got {unit!r} for heights that say they are in {other.unit!r}; leave it out")
+            z, pixel, unit, periodic = *other[:3], periodic or other.periodic
+        dx, dy = pixel_sides(pixel)
+        _require_spacing(z, (dx, dy))
+        heights = _in_metres(z, unit)
         self.__dict__.update(_topography=_tabor.make_surface(heights, dx, dy, periodic, name), _sha256="")
 
     @classmethod
@@ -199,7 +242,7 @@ class Surface:
 
     @property
     def periodic(self) -> bool:
-        """It tiles without a seam."""
+        """It repeats: it was made or said to, or its opposite edges match."""
         return self._topography.periodic
 
     @property
@@ -235,9 +278,11 @@ class Surface:
     def treat(self, *steps: str, progress: Progress = None) -> Surface:
         """Applies steps in the order given, as a study file writes them: ``treat("level=plane",
         "fill=harmonic")``. Raises ValueError that names the nearest step."""
+        steps = tuple(step for given in steps for step in texts(given, "steps"))
         with watching(progress) as told:
             return Surface._of(_tabor.apply(self._topography, list(steps), told), self._sha256)
 
+    @typed
     def parameters(self, symbols: Iterable[str] | None = None, *, progress: Progress = None) -> Parameters:
         """Roughness parameters of the surface as it is (ISO 25178-2 and others, docs/parameters.md), all
         or those named. Level before. Raises ValueError for an unknown symbol."""
@@ -245,13 +290,14 @@ class Surface:
             every = Parameters(Parameter(*row) for row in _tabor.parameters(self._topography, told))
         if symbols is None:
             return every
-        wanted = [symbols] if isinstance(symbols, str) else list(symbols)
+        wanted = texts(symbols, "symbols")
         known = {one.symbol: one for one in every}
         for symbol in wanted:
             if symbol not in known:
-                raise ValueError(f"parameters: got {symbol!r}; expected some of {', '.join(known)}")
+                raise ValueError(f"symbols: got {symbol!r}; expected some of {', '.join(known)}")
         return Parameters(known[symbol] for symbol in wanted)
 
+    @typed
     def psd(self, convention: str = "jacobs", window: str | None = None, *, fit_min: Value | None = None,
             fit_max: Value | None = None, progress: Progress = None) -> Spectra:
         """Power spectra along x, along y and radial (docs/filters_and_spectra.md).
@@ -259,7 +305,7 @@ class Surface:
         Parameters
         ----------
         convention : "jacobs", "persson" or "gwyddion".
-        window : "none" or "hann" ["none" if periodic, else "hann"].
+        window : "none" or "hann" ["none" where opposite edges match, else "hann"].
         fit_min, fit_max : wavevectors 2 pi / wavelength between which the Hurst exponents are fitted [rad/m], "0.1/um"
             [the longest straight range].
 
@@ -272,31 +318,21 @@ class Surface:
                         for q, density, *rest in (found[axis] for axis in ("x", "y", "radial")))
         return Spectra(x, y, radial, found["window"], warnings_of(found["warnings"]))
 
-    def write(self, file: str | os.PathLike[str]) -> None:
+    @typed
+    def write(self, file: Path) -> None:
         """Writes a scan file by its extension (docs/formats.md). Raises ValueError for an extension that
         no format has, OSError where it cannot be written."""
         _tabor.write(self._topography, os.fspath(file))
 
     def to_xarray(self) -> Any:
-        """The heights as a DataArray with coordinates x and y [m]; needs xarray."""
-        return map_to_xarray(self, self.height, "height", "m")
+        """The heights as a DataArray with coordinates x and y [m], warnings as its attribute, to be written as
+        NetCDF; needs xarray."""
+        return map_to_xarray(self, self.height, "height", "m", {"source": self.source, **said(self.warnings, ())})
 
-    def plot(self, ax: Any = None) -> Any:
+    @typed
+    def plot(self, ax: Axes = None) -> Any:
         """Draws the heights; needs matplotlib. Returns the axes."""
         return plot_map(self, self.height, "height [m]", ax)
-
-    if TYPE_CHECKING:  # made below of the table of steps
-
-        def crop(self, *values: Any, progress: Progress = None) -> Surface: ...
-        def trim(self, *values: Any, progress: Progress = None) -> Surface: ...
-        def despike(self, *values: Any, progress: Progress = None) -> Surface: ...
-        def level(self, *values: Any, progress: Progress = None) -> Surface: ...
-        def fill(self, *values: Any, progress: Progress = None) -> Surface: ...
-        def lowpass(self, *values: Any, progress: Progress = None) -> Surface: ...
-        def highpass(self, *values: Any, progress: Progress = None) -> Surface: ...
-        def resample(self, *values: Any, progress: Progress = None) -> Surface: ...
-        def mirror(self, *, progress: Progress = None) -> Surface: ...
-        def flip(self, *values: Any, progress: Progress = None) -> Surface: ...
 
     def _lines(self) -> list[tuple[str, str]]:
         ny, nx = self.shape
@@ -314,9 +350,21 @@ class Surface:
         return table_html("Surface", self._lines(), base64.b64encode(thumbnail(self.height)).decode())
 
 
+def _step_text(value: Any, step: str) -> str:
+    """One part of the argument of a step; a quantity is a length."""
+    if isinstance(value, str):
+        return value
+    if is_quantity(value):
+        return f"{float(in_si(value, 'length', step))!r} m"
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise wrong(step, value, f"its argument, {_STEPS[step][0]}")
+    return str(value)
+
+
 def _add_step(name: str, argument: str, text: str) -> None:
     def with_argument(self: Surface, *values: Any, progress: Progress = None) -> Surface:
-        return self.treat("=".join([name, *filter(None, [",".join(map(str, values))])]), progress=progress)
+        words = ",".join(_step_text(value, name) for value in values)
+        return self.treat(f"{name}={words}" if words else name, progress=progress)
 
     def plain(self: Surface, *, progress: Progress = None) -> Surface:
         return self.treat(name, progress=progress)
@@ -333,18 +381,15 @@ for _name, (_argument, _text) in _STEPS.items():
     _add_step(_name, _argument, _text)
 
 
-def read(file: str | os.PathLike[str], *, channel: str | int | None = None,
-         pixel: Value | tuple[Value, Value] | None = None, unit: str | None = None,
-         z_scale: Value | None = None, override_unit: bool = False, progress: Progress = None) -> Surface:
+@takes(READ)
+def read(file: Path, *, channel: str | int | None = None, progress: Progress = None, **settings: Unpack[ReadSettings]) -> Surface:
     """Reads a scan file, recognised by its content (docs/formats.md).
 
     Parameters
     ----------
-    channel : name or number of the height channel, where there are several.
-    pixel : side of a pixel, where the file has none.
-    unit : of the heights, where the file has none.
-    z_scale : height of one count of integer images.
-    override_unit : ``pixel`` and ``unit`` win over what the file says.
+    file : its name.
+    **settings
+    progress : see ``tabor.Progress``.
 
     Raises
     ------
@@ -352,76 +397,13 @@ def read(file: str | os.PathLike[str], *, channel: str | int | None = None,
         What is wrong with the file, or which of these it leaves open. A file that does not exist, too.
     """
     options = _tabor.ReadOptions()
-    options.channel = None if channel is None else str(channel)
+    values = complete(READ, {**settings, "channel": None if channel is None else str(channel)})
+    pixel = values.pop("pixel")
     if pixel is not None:
-        options.pixel_x, options.pixel_y = _pixels(pixel)
-    options.unit = unit
-    options.z_scale = optional_si(z_scale, "length", "z_scale")
-    options.override_unit = override_unit
+        options.pixel_x, options.pixel_y = pixel_sides(pixel)
+    filled(options, values)
     with watching(progress) as told:
         return Surface._of(*_tabor.read(os.fspath(file), options, told))
-
-
-def generate(kind: str, *, pixels: int | tuple[int, int] = 512, pixel: Value | tuple[Value, Value] = 0.67e-6,
-             seed: int = 1, stage: str = "before", periodic: bool = True, random_amplitudes: bool = False,
-             **numbers: Value) -> Surface:
-    """Makes a surface; the same arguments give the same bits, on any number of threads.
-
-    Parameters
-    ----------
-    kind : "self-affine", "edt", "ground", "sinusoid", "sphere" or "bump".
-    pixels : number of pixels along x and y, or one for both.
-    pixel : side of a pixel [m], or those along x and y.
-    seed : of random numbers.
-    stage : edt: "before" or "after" sliding.
-    periodic : edt: a tile, or a cut-out.
-    random_amplitudes : self-affine: Gaussian amplitudes, not random phases only.
-
-    Raises
-    ------
-    ValueError
-        For an unknown kind, and for numbers that do not belong to it, are missing or out of range.
-
-    Examples
-    --------
-    >>> import tabor as tb
-    >>> tb.generate("sinusoid", pixels=64, pixel="1 um", amplitude="1 um", wavelength_x="16 um").periodic
-    True
-
-    Further numbers, with the kinds that take them and [their usual values]:
-
-    """
-    request = _tabor.GenerateRequest()
-    nx, ny = (pixels, pixels) if isinstance(pixels, int) else pixels
-    request.set_grid(nx, ny, *_pixels(pixel))
-    request.kind, request.periodic, request.random_amplitudes = kind, periodic, random_amplitudes
-    request.set_stage(stage)
-    if seed < 0:
-        raise ValueError(f"seed: got {seed}; expected zero or more")
-    request.seed = seed
-    request.numbers = {name: si(value, _NUMBERS.get(name, "none"), name) for name, value in numbers.items()}
-    return Surface._of(_tabor.generate(request))
-
-
-_NUMBERS = {name: dimension for name, dimension, _ in _tabor.recipe_numbers()}
-generate.__doc__ = (generate.__doc__ or "").rstrip() + "\n\n" + "\n".join(
-    f"    {name} : {text}" for name, _, text in _tabor.recipe_numbers()) + "\n"
-
-
-class Format(NamedTuple):
-    """A format of scan files."""
-
-    name: str
-    description: str
-    extensions: tuple[str, ...]
-    reads: bool
-    writes: bool
-    via_gwyddion: bool  #: only where Gwyddion is installed
-
-
-def formats() -> tuple[Format, ...]:
-    """The formats that ``read`` and ``Surface.write`` know, as ``tabor formats`` lists them."""
-    return tuple(Format(name, text, tuple(extensions), *can) for name, text, extensions, *can in _tabor.formats())
 
 
 def coordinates(surface: Surface) -> tuple[Array, Array]:
@@ -430,11 +412,12 @@ def coordinates(surface: Surface) -> tuple[Array, Array]:
     return (np.arange(nx, dtype=np.float64) + 0.5) * dx, (np.arange(ny, dtype=np.float64) + 0.5) * dy
 
 
-def map_to_xarray(surface: Surface, values: Array, name: str, unit: str) -> Any:
+def map_to_xarray(surface: Surface, values: Array, name: str, unit: str,
+                  attributes: Mapping[str, Any] = MappingProxyType({})) -> Any:
     """A map as a DataArray."""
     xarray = needs("xarray", "to_xarray()")
     x, y = coordinates(surface)
-    found = xarray.DataArray(values, {"y": y, "x": x}, ("y", "x"), name, {"units": unit})
+    found = xarray.DataArray(values, {"y": y, "x": x}, ("y", "x"), name, {"units": unit, **attributes})
     found.x.attrs["units"] = found.y.attrs["units"] = "m"
     return found
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import pathlib
 from collections.abc import Mapping
 from typing import Any, NamedTuple
@@ -12,7 +11,8 @@ import numpy as np
 
 from . import _tabor
 from ._optional import needs
-from ._records import table_html
+from ._arguments import Path, typed
+from ._records import Warning, said, table_html, warnings_of
 from ._surface import Array
 
 
@@ -31,7 +31,7 @@ class Sweep:
     rows: tuple[Mapping[str, Any], ...]  #: one for each case: its values and numbers, ``converged``, ``warnings``
     columns: tuple[tuple[str, str, str], ...]  #: (key, heading, unit) of the numbers that say most
     limits: Mapping[str, Limit]  #: of the columns, where one key was varied that refines the grid
-    warnings: tuple[str, ...]  #: reasons to doubt them, each said once
+    warnings: tuple[Warning, ...]  #: reasons to doubt them, each said once
     references: tuple[str, ...]  #: what to cite
     n_computed: int  #: cases; the others were in the folder
     converged: bool  #: all of them
@@ -39,12 +39,12 @@ class Sweep:
     def __init__(self, swept: _tabor.SweptCases, given: Mapping[str, list[Any]], references: tuple[str, ...]) -> None:
         axes = {key: tuple(given[key] if any(map(_is_word, given.get(key, ()))) else numbers)
                 for key, numbers in swept.axes}
-        cases = [(json.loads(text), converged, tuple(warnings)) for text, converged, warnings in swept.cases]
+        cases = [(json.loads(text), converged, warnings_of(warnings)) for text, converged, warnings in swept.cases]
         places = np.ndindex(*(len(values) for values in axes.values()))
         rows = tuple({**{key: axes[key][i] for key, i in zip(axes, place)}, **values, "converged": converged,
                       "warnings": warnings} for place, (values, converged, warnings) in zip(places, cases))
         limits = {key: Limit(*limit) for (key, _, _), limit in zip(swept.columns, swept.limits)}
-        self.__dict__.update(axes=axes, rows=rows, columns=tuple(swept.columns), limits=limits, warnings=tuple(swept.warnings),
+        self.__dict__.update(axes=axes, rows=rows, columns=tuple(swept.columns), limits=limits, warnings=warnings_of(swept.warnings),
                              references=references, n_computed=swept.n_computed, _swept=swept,
                              converged=all(row["converged"] for row in rows))
 
@@ -57,7 +57,8 @@ class Sweep:
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
 
-    def save(self, file: str | os.PathLike[str]) -> None:
+    @typed
+    def save(self, file: Path) -> None:
         """Writes what ``tabor ehl`` writes of a sweep: the file of ``-o``, which ends with .h5 and which ``report``
         draws curves of, without limits, or the table of ``--csv``, which ends with .csv. Raises OSError, and ValueError for other
         endings and for a sweep that came out of a pickle, which has its numbers alone."""
@@ -87,12 +88,15 @@ class Sweep:
         return needs("pandas", "table").DataFrame(list(self.rows))
 
     def to_xarray(self) -> Any:
-        """The columns as a Dataset over the axes; needs xarray."""
+        """The columns and whether films converged as a Dataset over the axes, warnings as its attribute, to be
+        written as NetCDF; needs xarray."""
         xarray = needs("xarray", "to_xarray()")
         dims = tuple(self.axes)
-        return xarray.Dataset({key: (dims, self[key], {"long_name": heading, "units": unit})
-                               for key, heading, unit in self.columns},
-                              coords={key: list(values) for key, values in self.axes.items()})
+        columns: dict[str, Any] = {key: (dims, self[key], {"long_name": heading, "units": unit})
+                                   for key, heading, unit in self.columns}
+        columns["converged"] = (dims, self["converged"].astype(np.int8))
+        return xarray.Dataset(columns, coords={key: _coordinate(values) for key, values in self.axes.items()},
+                              attrs=said(self.warnings, self.references))
 
     def _lines(self) -> list[tuple[str, str]]:
         good = sum(row["converged"] for row in self.rows)
@@ -101,7 +105,7 @@ class Sweep:
         heading = {key: text for key, text, _ in self.columns}
         lines += [(f"limit of {heading[key]}", f"{limit.value:.6g}" + (f" (order {limit.order:.2g})" if np.isfinite(limit.order) else ""))
                   for key, limit in self.limits.items() if np.isfinite(limit.value)]
-        return [*lines, ("converged", f"{good} of {len(self.rows)}"), *(("warning", text) for text in self.warnings)]
+        return [*lines, ("converged", f"{good} of {len(self.rows)}"), *(("warning", warning.text) for warning in self.warnings)]
 
     def __repr__(self) -> str:
         lines = self._lines()
@@ -110,6 +114,11 @@ class Sweep:
 
     def _repr_html_(self) -> str:
         return table_html("Sweep", self._lines())
+
+
+def _coordinate(values: tuple[Any, ...]) -> list[Any]:
+    """Of one type: words, where there is one."""
+    return [str(one) for one in values] if any(isinstance(one, str) for one in values) else list(values)
 
 
 def _is_word(value: Any) -> bool:

@@ -11,6 +11,7 @@ True
 from __future__ import annotations
 
 import json
+import math
 import os
 import pathlib
 from collections.abc import Iterable, Iterator, Mapping
@@ -20,10 +21,12 @@ from typing import Any, NamedTuple, Union
 import numpy as np
 
 from . import _tabor
+from ._arguments import Count, Path, Seed, mapping, path, typed, wrong
 from ._contact import NotConverged
 from ._progress import Progress, watching
-from ._records import table_html
+from ._records import Warning, table_html, warnings_of
 from ._sweep import Limit, Sweep
+from ._values import in_unit, is_labelled
 
 __all__ = ["Case", "Key", "Limit", "Solution", "Sweep", "Template", "impact", "keys", "line", "point", "squeeze", "template"]
 
@@ -50,12 +53,12 @@ class Solution:
 
     values: Mapping[str, Any]  #: numbers by the names of ``--json``, whose endings are the units; tables as dicts
     facts: tuple[tuple[str, str], ...]  #: the same for people
-    warnings: tuple[str, ...]  #: reasons to doubt them
+    warnings: tuple[Warning, ...]  #: reasons to doubt them
     references: tuple[str, ...]  #: what to cite
     converged: bool
 
     def __init__(self, solved: _tabor.SolvedCase, program: str) -> None:
-        self.__dict__.update(_solved=solved, program=program, _values=json.loads(solved.json), warnings=tuple(solved.warnings),
+        self.__dict__.update(_solved=solved, program=program, _values=json.loads(solved.json), warnings=warnings_of(solved.warnings),
                              facts=tuple(solved.facts), references=tuple(solved.references), converged=solved.converged)
 
     def __getattr__(self, name: str) -> Any:
@@ -72,7 +75,8 @@ class Solution:
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
 
-    def save(self, file: str | os.PathLike[str]) -> None:
+    @typed
+    def save(self, file: Path) -> None:
         """Writes the file of ``tabor ehl -o``, with histories and profiles. Raises OSError, and ValueError for
         a solution that came out of a pickle, which has its numbers alone."""
         if self._solved is None:
@@ -80,7 +84,7 @@ class Solution:
         self._solved.save(pathlib.Path(file))
 
     def _lines(self) -> list[tuple[str, str]]:
-        return [*self.facts, *(("warning", text) for text in self.warnings)]
+        return [*self.facts, *(("warning", warning.text) for warning in self.warnings)]
 
     def __repr__(self) -> str:
         lines = self._lines()
@@ -92,18 +96,22 @@ class Solution:
 
 
 class Case:
-    """A case that can be solved, and pickled for process pools."""
+    """A case that can be solved, and pickled for process pools. Raises ValueError for one that makes no sense: keys that
+    are unknown or missing, values out of range or of another dimension."""
 
+    @typed
     def __init__(self, program: str, source: Source, settings: Mapping[str, Any]) -> None:
+        if not isinstance(source, (str, os.PathLike, Mapping)):
+            raise wrong("case", source, "a case file, its keys as a mapping, or tabor.ehl.template(...)")
         units = _units(program)
-        overrides = [(key, _toml(value, units.get(key, ""))) for key, value in _flat(settings)]
+        overrides = [(key, _toml(value, units.get(key), key)) for key, value in _flat(mapping(settings, "settings"))]
         if isinstance(source, Mapping):
-            overrides = [(key, _toml(value, units.get(key, ""))) for key, value in _flat(source)] + overrides
+            overrides = [(key, _toml(value, units.get(key), key)) for key, value in _flat(mapping(source, "case"))] + overrides
             self._case = _tabor.parse_case(program, "", "case", overrides)
         elif isinstance(source, Template):
             self._case = _tabor.parse_case(program, source, "case", overrides)
         else:
-            self._case = _tabor.read_case(program, os.fspath(source), overrides)
+            self._case = _tabor.read_case(program, os.fspath(path(source, "case")), overrides)
         self.program = program
         self._name = "case" if isinstance(source, (Mapping, Template)) else os.path.abspath(source)
 
@@ -122,7 +130,8 @@ class Case:
     def __repr__(self) -> str:
         return f"Case of ehl {self.program}\n{self.toml}"
 
-    def solve(self, *, seed: int = 1, check: bool = True, progress: Progress = None) -> Solution:
+    @typed
+    def solve(self, *, seed: Seed = 1, check: bool = True, progress: Progress = None) -> Solution:
         """Solves it. ``seed`` is that of generated surfaces whose case names none. Raises ValueError for values
         out of range, NotConverged unless ``check`` is False."""
         with watching(progress) as told:
@@ -131,8 +140,9 @@ class Case:
             raise NotConverged(f"ehl {self.program}: the film does not converge; check=False returns it all the same", found)
         return found
 
-    def sweep(self, values: Mapping[str, Iterable[Any]], *, folder: str | os.PathLike[str] | None = None, seed: int = 1,
-              jobs: int = 0, retry: bool = False, check: bool = True, progress: Progress = None) -> Sweep:
+    @typed
+    def sweep(self, values: Mapping[str, Iterable[Any]], *, folder: Path | None = None, seed: Seed = 1,
+              jobs: Count = 0, retry: bool = False, check: bool = True, progress: Progress = None) -> Sweep:
         """Solves it with all combinations of the values of some keys, as ``tabor ehl --set KEY=V1,V2`` does: speeds of
         point and line contacts from the highest one down, each film starting from the one before.
 
@@ -152,17 +162,16 @@ class Case:
         NotConverged
             Unless ``check`` is False.
         """
-        if jobs < 0:
-            raise ValueError(f"jobs: got {jobs}; expected zero or more")
         given = {key: list(many) for key, many in _lists(values)}
         units = _units(self.program)
-        axes = [(key, [_plain(_toml(one, units.get(key, ""))) for one in many]) for key, many in given.items()]
+        axes = [(key, [_plain(_toml(one, units.get(key), key)) for one in many]) for key, many in given.items()]
         with watching(progress) as told:
             swept = _tabor.sweep_case(self._case, axes, seed, None if folder is None else pathlib.Path(folder), jobs,
                                       retry, told)
         return self._swept(swept, given, check)
 
-    def study(self, name: str = "grid", *, seed: int = 1, jobs: int = 0, check: bool = True,
+    @typed
+    def study(self, name: str = "grid", *, seed: Seed = 1, jobs: Count = 0, check: bool = True,
               progress: Progress = None) -> Sweep:
         """How far the result depends on the grid, as ``tabor ehl --study`` does: the case with coarser and finer ones
         around its own, each solved by itself; ``limits`` are what the numbers tend to.
@@ -179,8 +188,6 @@ class Case:
         NotConverged
             Unless ``check`` is False.
         """
-        if jobs < 0:
-            raise ValueError(f"jobs: got {jobs}; expected zero or more")
         with watching(progress) as told:
             swept = _tabor.vary_case(self._case, name, seed, jobs, told)
         return self._swept(swept, {}, check)
@@ -195,36 +202,47 @@ class Case:
 
 
 def _lists(values: Mapping[str, Iterable[Any]]) -> Iterator[tuple[str, list[Any]]]:
-    if not values:
-        raise ValueError("sweep: got no key; expected lists of values by key")
+    if not mapping(values, "values"):
+        raise ValueError("values: got no key; expected lists of values by key")
     for key, many in values.items():
-        if isinstance(many, (str, bytes)) or not isinstance(many, Iterable):
-            raise ValueError(f"sweep: {key}: got {many!r}; expected a list of values")
+        if isinstance(many, (str, bytes, Mapping)) or not isinstance(many, Iterable) or np.ndim(getattr(many, "magnitude", ())) == 0:
+            raise ValueError(f"values: {key}: got {many!r}; expected a list of values")
         found = [one.item() if isinstance(one, np.generic) else one for one in many]
         if not found:
-            raise ValueError(f"sweep: {key}: got an empty list; expected at least one value")
+            raise ValueError(f"values: {key}: got an empty list; expected at least one value")
         yield key, found
 
 
 def _flat(settings: Mapping[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
     for key, value in settings.items():
         if isinstance(value, Mapping):
-            yield from _flat(value, f"{before}{key}.")
+            yield from _flat(mapping(value, f"{before}{key}"), f"{before}{key}.")
         else:
             yield before + key, value
 
 
 def _units(program: str) -> dict[str, str]:
-    """Of the keys that have one, "m/s"."""
-    return {name: unit for name, unit, *_ in _tabor.case_keys(program) if unit}
+    """Of each key, "m/s"; "" for plain numbers and words."""
+    return {name: unit for name, unit, *_ in _tabor.case_keys(program)}
 
 
-def _toml(value: Any, unit: str) -> str:
-    """TOML, whose numbers, texts, switches and lists are those of JSON; a number of a key with a unit is SI."""
-    if hasattr(value, "magnitude"):
-        return json.dumps(f"{value.to_base_units():~C}".replace("**", "^"))
+def _toml(value: Any, unit: str | None, key: str) -> str:
+    """TOML, whose numbers, texts, switches and lists are those of JSON; a number of a key with a unit is SI, and a
+    quantity is taken in that unit. No case has a key whose unit is None."""
+    if unit is None:
+        return json.dumps(str(value))
+    if isinstance(value, (list, tuple)):
+        return f"[{', '.join(_toml(one, unit, key) for one in value)}]"
+    if is_labelled(value) and value.attrs.get("units"):
+        return json.dumps(f"{float(value)!r} {value.attrs['units']}")
+    value = in_unit(value, unit, key)
+    value = value.item() if isinstance(value, (np.generic, np.ndarray)) and np.ndim(value) == 0 else value
+    if isinstance(value, float) and not math.isfinite(value):
+        raise ValueError(f"{key}: got {value}; expected a finite number")
     if unit and isinstance(value, (int, float)) and not isinstance(value, bool):
         return json.dumps(f"{float(value)!r} {unit}")
+    if not isinstance(value, (str, int, float, os.PathLike)):
+        raise wrong(key, value, "a number, a text with its unit or a quantity" if unit else "a number, a text or a switch")
     return json.dumps(os.fspath(value) if isinstance(value, os.PathLike) else value)
 
 
@@ -253,11 +271,13 @@ def point(case: Source, **settings: Any) -> Case:
     return Case("point", case, settings)
 
 
+@typed
 def keys(program: str) -> tuple[Key, ...]:
     """All keys of the cases of a program: "impact", "squeeze", "line" or "point"."""
     return tuple(Key(*row) for row in _tabor.case_keys(program))
 
 
+@typed
 def template(program: str) -> Template:
     """A case to start from, with every key there is."""
     return Template(_tabor.case_template(program))

@@ -31,10 +31,20 @@ from tabor_report import style
 
 PIXELS_PER_INCH = 106
 SCREEN_WIDTH = 900  # of all panels of a row
+LEFT_BORDER = 68  # for an axis with its label and four digits
+LOW_PANEL = 2.2  # inches, in which six labels of an axis stand on each other
+DOT = 0.5  # of the size of a mark: as Matplotlib draws a '.'
 _DASHES = {"-": "solid", "--": "dashed", ":": "dotted", "-.": "dashdot"}
 _MARKERS = {
     "o": "circle", "s": "square", "^": "triangle", "D": "diamond", "d": "diamond", "v": "inverted_triangle",
     "P": "plus", "X": "x", "x": "x", ".": "dot", "p": "hex", "h": "hex", "*": "star", "<": "triangle", ">": "triangle", "8": "hex",
+}  # fmt: skip
+# Paths of the marks in a legend's picture of 28 x 12 pixels.
+_SHAPES = {
+    "circle": "M10 6a4 4 0 1 0 8 0a4 4 0 1 0-8 0z", "dot": "M12.5 6a1.5 1.5 0 1 0 3 0a1.5 1.5 0 1 0-3 0z", "square": "M10.3 2.3h7.4v7.4h-7.4z",
+    "triangle": "M14 1.5l4.5 8h-9z", "inverted_triangle": "M14 10.5l-4.5-8h9z", "diamond": "M14 .8l3.8 5.2l-3.8 5.2l-3.8-5.2z",
+    "plus": "M12.6 1.8h2.8v2.8h2.8v2.8h-2.8v2.8h-2.8v-2.8h-2.8v-2.8h2.8z", "x": "M10.5 2.5l7 7M10.5 9.5l7-7", "hex": "M14 1.8l3.7 2.1v4.2l-3.7 2.1l-3.7-2.1v-4.2z",
+    "star": "M14 1l1.5 3.3l3.5.4l-2.6 2.4l.7 3.6l-3.1-1.8l-3.1 1.8l.7-3.6l-2.6-2.4l3.5-.4z",
 }  # fmt: skip
 _LOG_LABELS = """
 if (tick >= 0.001 && tick < 10000) return String(Number(tick.toPrecision(6)))
@@ -50,7 +60,7 @@ _LOWERED = dict(zip("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈�
 def convert(drawing, name):
     """(rows of Bokeh figures, legend) of a Matplotlib figure; None where it holds what only Matplotlib draws.
 
-    legend: [{"label", "colour", "dash", "marker"}]; what a label names has the tag `label` of the page's figure `name`.
+    legend: [{"label", "colour", "dash", "marker", "shape", "face", "edge"}], the marks as they are plotted; what a label names has the tag `label` of the page's figure `name`.
     """
     panels = [axes for axes in drawing.axes if axes.get_visible()]
     if not panels or any(_is_picture(axes) for axes in panels):
@@ -203,16 +213,17 @@ class _Converter:
         marker = _MARKERS.get(line.get_marker())
         if marker is None:
             return []
-        face, edge = line.get_markerfacecolor(), line.get_markeredgecolor()
+        face, edge = _mark_colours(line)
+        size = 1.45 * line.get_markersize() * (DOT if marker == "dot" else 1)
         return [
             plot.scatter(
                 "x",
                 "y",
                 source=source,
-                marker=marker,
-                size=1.45 * line.get_markersize(),
-                fill_color=None if face == "none" else to_hex(face),
-                line_color=to_hex(edge),
+                marker="circle" if marker == "dot" else marker,  # Bokeh's own dot is hardly to be seen
+                size=size,
+                fill_color=face,
+                line_color=edge,
                 line_width=line.get_markeredgewidth(),
                 alpha=line.get_alpha() or 1.0,
                 **self.keywords,
@@ -284,14 +295,23 @@ class _Labels:
             is_line = hasattr(artist, "get_linestyle") and not isinstance(artist, PolyCollection)
             marker = _MARKERS.get(artist.get_marker(), "") if is_line and hasattr(artist, "get_marker") else "area"
             stroke = _stroke_of(artist)["line_dash"] if is_line and artist.get_linestyle() not in ("None", "") else ""
-            found.append({"label": label, "colour": _look(artist)[0], "dash": stroke, "marker": marker})
+            entry = {"label": label, "colour": _look(artist)[0], "dash": stroke, "marker": marker}
+            if marker in _SHAPES:
+                face, edge = _mark_colours(artist)
+                entry.update(shape=_SHAPES[marker], face=face or "none", edge=edge)
+            found.append(entry)
         return found
+
+
+def _handles_of(legend):
+    """Matplotlib 3.6, Debian's, has another name for them."""
+    return legend.legend_handles if hasattr(legend, "legend_handles") else legend.legendHandles
 
 
 def _figure_legends(drawing):
     """[(handles, labels)] of the legends above a figure, which name more than their panels do."""
     texts = [[text.get_text() for text in legend.get_texts()] for legend in drawing.legends]
-    return [(legend.legend_handles, labels) for legend, labels in zip(drawing.legends, texts)]
+    return [(_handles_of(legend), labels) for legend, labels in zip(drawing.legends, texts)]
 
 
 def _look(artist):
@@ -301,6 +321,12 @@ def _look(artist):
     if artist.get_linestyle() in ("None", "none", "") and artist.get_marker() not in ("None", "", None):
         return to_hex(artist.get_markeredgecolor()), "none"
     return to_hex(artist.get_color()), str(_dash(artist))
+
+
+def _mark_colours(line):
+    """(face or None, edge)"""
+    face = line.get_markerfacecolor()
+    return None if isinstance(face, str) and face == "none" else to_hex(face), to_hex(line.get_markeredgecolor())
 
 
 def _stroke_of(line):
@@ -328,6 +354,7 @@ def _dress(plot, axes):
     plot.toolbar.autohide = False
     plot.outline_line_color = None
     plot.min_border = 8
+    plot.min_border_left = LEFT_BORDER  # axes of panels on top of each other begin at one place
     plot.title.text_font_size = "13px"
     plot.grid.grid_line_color = "#e8e8e8"
     for axis, which in ((plot.xaxis[0], "x"), (plot.yaxis[0], "y")):
@@ -341,7 +368,8 @@ def _dress_axis(axis, axes, which):
     axis.major_label_text_font_size = "12px"
     axis.minor_tick_line_color = None
     if (axes.get_xscale() if which == "x" else axes.get_yscale()) == "log":
-        axis.ticker = LogTicker(mantissas=[1, 2, 5], desired_num_ticks=6)
+        is_low = which == "y" and axes.get_position().height * axes.figure.get_figheight() < LOW_PANEL
+        axis.ticker = LogTicker(mantissas=[1, 2, 5], desired_num_ticks=4 if is_low else 6)
         axis.formatter = CustomJSTickFormatter(code=_LOG_LABELS)
     elif names := getattr(axes, f"tabor_{which}_names", None):
         axis.ticker = FixedTicker(ticks=[float(place) for place in names])

@@ -14,6 +14,7 @@ from tabor_report.figures import (
     ehl_line,
     ehl_point,
     ehl_stribeck,
+    heights,
     lubricant_map,
     lubricated_friction,
     mixed_friction,
@@ -94,7 +95,8 @@ def ehl_figures(source):
 def sweep_figures(source):
     if ehl_stribeck.is_one(source):
         yield from ehl_stribeck.draw(source)
-    yield from ehl_curves.sweep(source)
+    else:
+        yield from ehl_curves.sweep(source)
 
 
 def study_figures(source, options, with_maps=True):
@@ -119,8 +121,10 @@ def study_figures(source, options, with_maps=True):
 def single_figures(source, with_maps=True):
     yield from _present(single_curves.draw(source))
     yield from _present(density_friction.of_single(source))
+    yield from _present(heights.draw(source))
     if with_maps:
-        yield topography.draw(source.height(), source.pixel, "topography", source.title)
+        heading = source.heading_of_heights if source.is_difference else None
+        yield topography.draw(source.height(), source.pixel, "topography", source.title, zero=heading)
         yield from single_maps.draw(source)
     else:
         yield from single_maps.draw_flow(source)
@@ -128,13 +132,13 @@ def single_figures(source, with_maps=True):
 
 def _surface(item):
     if item.height is not None:
-        yield topography.draw(item.height, item.scan.pixel, "fig03_topography", item.scan.file, item.suffix)
+        yield topography.draw(item.height, item.scan.pixel, "topography", item.scan.name, item.suffix)
 
 
 def _contact(item):
     if item.contact is not None:
         yield contact_map.draw(
-            item.state, item.scan.pixel, item.contact.facts, item.scan.file, suffix=item.suffix
+            item.state, item.scan.pixel, item.contact.facts, item.scan.name, suffix=item.suffix
         )
 
 

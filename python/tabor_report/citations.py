@@ -7,7 +7,7 @@ from tabor_report.errors import InputError
 
 _HERE = Path(__file__).resolve().parent
 # Beside the installed package, or where the source tree keeps it.
-_PLACES = (_HERE / "references.bib", _HERE.parents[1] / "src/tabor/analysis/references.bib")
+_PLACES = (_HERE / "references.bib", _HERE.parents[1] / "src/tabor/results/references.bib")
 
 _STUDY = ("polonsky1999", "stanley1997", "bowden1950", "costagliola2021", "barnes2021", "jacobs2017")
 
@@ -16,7 +16,7 @@ def bibtex(facts):
     """Entry of tabor itself, then those of the methods the root attributes name, as one text."""
     entries = references()
     found = [entries[key] for key in entries if key in _used(facts)]
-    return "\n\n".join([_own(facts.get("software_version", "unknown")), *found])
+    return "\n\n".join([_own(facts.get("software_version")), *found])
 
 
 def references():
@@ -35,7 +35,5 @@ def _used(facts):
 
 
 def _own(version):
-    return (
-        "@software{tabor,\n  title   = {tabor: real contact area, lubricant and friction of scanned rough surfaces},\n"
-        f"  version = {{{version}}}\n}}"
-    )
+    line = f",\n  version = {{{version}}}" if version else ""
+    return "@software{tabor,\n  title   = {tabor: real contact area, lubricant and friction of scanned rough surfaces}" + line + "\n}"

@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from tabor_report import hdf
+from tabor_report import hdf, remarks
 from tabor_report.errors import readable
 
 
-_NO_COLUMNS = ("axes", "shape", "converged", "warnings", "warning_marks")
+_NO_COLUMNS = ("axes", "shape", "converged", "warnings", "warning_codes", "warning_marks")
 
 
 @dataclass
@@ -59,11 +59,10 @@ class Ehl:
         return {name: node[name] for name in node if name not in _NO_COLUMNS}
 
     @property
-    def marks(self):
-        """Of a sweep, which of the warnings each case has: 'a b'; [] where none has any."""
-        node = self.file["sweep"]
-        marks = [hdf.text(mark) for mark in node["warning_marks"][()]] if "warning_marks" in node else []
-        return marks if any(marks) else []
+    def codes(self):
+        """Of a sweep, the codes of the warnings of each case: 'coarse-grid short-inlet'; [] where none has any."""
+        codes = codes_of(self.file["sweep"])
+        return codes if any(codes) else []
 
     @property
     def axes(self):
@@ -79,6 +78,12 @@ class Ehl:
         return {name: node[name][()] for name in node if node[name].ndim == 1} if node else {}
 
 
+def codes_of(sweep):
+    """The codes of the warnings of each case of a group /sweep; marks in files of version 1 to 3, [] in older ones."""
+    name = next((name for name in ("warning_codes", "warning_marks") if name in sweep), None)
+    return [hdf.text(codes) for codes in sweep[name][()]] if name else []
+
+
 def is_ehl(file):
     return hdf.text(file.attrs.get("kind", "")).startswith("ehl ")
 
@@ -91,14 +96,14 @@ def load(path, file):
             source.warnings.append(f"{(~converged).sum()} of {converged.size} cases did not converge: red in the table.")
     if not source.scalars.get("converged", True):
         source.warnings.append("The computation did not converge; its numbers are those of where it ended.")
-    source.warnings += hdf.text_list(source.facts.get("warnings"))
+    source.warnings += remarks.of_file(source.facts)
     source.warnings += _warnings_of_cases(file)
     return source
 
 
 def _warnings_of_cases(file):
     """Each warning once, with the number of its cases, where a sweep's file does not say so itself."""
-    if "sweep/warning_marks" in file:
+    if "sweep" in file and codes_of(file["sweep"]):
         return []
     cases = [hdf.text(text).splitlines() for text in file["sweep/warnings"][()]] if "sweep/warnings" in file else []
     counts = collections.Counter(warning for texts in cases for warning in set(texts))

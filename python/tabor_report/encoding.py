@@ -1,7 +1,8 @@
-"""Maps as small texts for a page: pictures of full resolution, and coarse arrays of the numbers themselves."""
+"""Maps as small texts for a page: the numbers of one grid of pixels, and pictures of every pixel where the grid has fewer."""
 
 import base64
 import io
+import math
 import zlib
 
 import numpy as np
@@ -9,19 +10,21 @@ from PIL import Image
 
 from tabor_report.still import uri
 
-HOLE_CODE = 65535  # of a coarse array: no value
-STEPS = HOLE_CODE - 1
+LARGEST_GRID = 1024  # pixels along a side of which all are kept
 LARGEST_SIDE = 8192  # pixels of a picture; a larger map is thinned
+LARGEST_CODE = 2**26  # of a map's range: sums of a few stay within 32 bits
+DIGITS = 5  # a step is at most 10^-5 of the range of nearly all values
 
 # A contact picture is two layers: where film is, in the colours of contact, and on it what hides all that is no contact.
 WET_COLOURS = ((232, 134, 46), (0, 0, 0))  # dry, wet
-VEILS = (255, 0, 110)  # opacity of white over: no contact, saturated contact, contact below saturation
-BELOW_SATURATION = (240, 176, 116), (90, 90, 90)  # the two colours under that veil
+VEILS = (255, 110, 0)  # opacity of white over: no contact, contact below saturation, saturated contact
+ELASTIC_COLOURS = ((240, 176, 116), (90, 90, 90))  # the two colours under that veil
+CLASS_COLOURS = ((255, 255, 255), ELASTIC_COLOURS[0], WET_COLOURS[0], ELASTIC_COLOURS[1], WET_COLOURS[1])
 
 
-def thinning(shape):
-    """Every how many pixels of a map a picture has one."""
-    return max(1, -(-max(shape) // LARGEST_SIDE))
+def thinning(shape, largest=LARGEST_SIDE):
+    """Every how many pixels of a map are kept, so that no side has more than `largest`."""
+    return max(1, math.ceil(max(shape) / largest))
 
 
 def coloured(values, limits, colours, ground, quality):
@@ -36,14 +39,9 @@ def coloured(values, limits, colours, ground, quality):
     return _webp(table[_steps(values[::step, ::step], *limits)], quality)
 
 
-def contact_layer(state, is_saturating):
-    """A data: URI of a PNG that hides what does not touch; state: 0 none, 1 contact, 2 saturated.
-
-    Where nothing saturates, all contact is drawn in full.
-    """
-    veils = VEILS if is_saturating else (VEILS[0], VEILS[1], VEILS[1])
-    picture = _palette(state, ((255, 255, 255),) * 3)
-    return _png(picture, 2, transparency=bytes([veils[0], veils[2], veils[1]]))
+def contact_layer(state):
+    """A data: URI of a PNG that hides what does not touch, and half hides what is elastic; state: 0 none, 1 elastic, 2 saturated."""
+    return _png(_palette(state, ((255, 255, 255),) * 3), 2, transparency=bytes(VEILS))
 
 
 def wet_layer(wet):
@@ -64,30 +62,61 @@ def _png(picture, bits, **keywords):
     return uri("image/png", stream.getvalue())
 
 
-def sampled(length, most):
-    """The places, at most `most` and evenly spread, at which a side of `length` pixels is sampled."""
-    count = min(length, most)
-    return ((np.arange(count) + 0.5) * length / count).astype(int)
+def power_of(usual, span=0.0):
+    """The exponent of the decimal step in which a map is kept.
 
-
-def coarse(values, most):
-    """{"rows", "columns", "low", "step", "data"}: samples of a map as 16-bit steps.
-
-    A value is low + step * code; the codes are packed as differences along a row, high bytes before low ones, deflated.
-    The largest error is half a step.
+    usual: the range of nearly all values, of which the step is at most 10^-DIGITS; span: of all values, at most LARGEST_CODE steps.
     """
-    picked = np.asarray(values[np.ix_(sampled(values.shape[0], most), sampled(values.shape[1], most))], dtype=float)
-    finite = picked[np.isfinite(picked)]
-    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
-    step = (high - low) / STEPS or 1.0
-    codes = np.where(np.isfinite(picked), np.rint((np.nan_to_num(picked) - low) / step), HOLE_CODE).astype(np.uint16)
-    return {"rows": picked.shape[0], "columns": picked.shape[1], "low": low, "step": step, "data": _packed(codes)}
+    fine = math.floor(math.log10(usual)) - DIGITS if usual > 0 else -300
+    coarsest = math.ceil(math.log10(span / LARGEST_CODE)) if span > 0 else fine
+    return max(fine, coarsest)
 
 
-def _packed(codes):
-    differences = np.diff(codes, axis=1, prepend=np.uint16(0))
-    planes = np.concatenate([(differences >> 8).astype(np.uint8).ravel(), differences.astype(np.uint8).ravel()])
-    return base64.b64encode(zlib.compress(planes.tobytes(), 6)).decode("ascii")
+def codes_of(values, power):
+    """(int64 (ny, nx): values rounded to whole steps 10^power, the code of holes or None)."""
+    known = np.isfinite(values)
+    values = np.asarray(values, dtype=float)
+    steps = values * 10.0**-power if power <= 0 else values / 10.0**power
+    if known.all():
+        return np.rint(steps).astype(np.int64), None
+    codes = np.rint(np.where(known, steps, 0)).astype(np.int64)
+    hole = int(codes[known].min() if known.any() else 0) - 1
+    return np.where(known, codes, hole), hole
+
+
+def packed(codes, height=None, is_level=False):
+    """{"data", "planes", "on_height", "is_level"}: integers without loss, as what a guess from pixels before lacks; viewer.js unpacks them.
+
+    height: codes on which those of a gap or of a film stand: their sum is what is smooth. Of a map the guess goes on with the plane through three
+    neighbours, of a film with the level beside or above. What is lacking is folded to 0, -1, 1, -2 ..., and its bytes are stored low ones first,
+    a plane each.
+    """
+    lacking = codes - (_level(codes, height) if is_level else _plane(codes, height))
+    folded = ((lacking << 1) ^ (lacking >> 63)).astype(np.uint32)
+    planes = max(1, (int(folded.max(initial=0)).bit_length() + 7) // 8)
+    # Runs and frequencies are all there is to find; longer matches cost time and bring nothing.
+    packer = zlib.compressobj(1, zlib.DEFLATED, 15, 9, zlib.Z_RLE)
+    parts = [packer.compress((folded >> np.uint32(8 * plane)).astype(np.uint8).tobytes()) for plane in range(planes)]
+    data = base64.b64encode(b"".join([*parts, packer.flush()])).decode("ascii")
+    return {"data": data, "planes": planes, "on_height": height is not None, "is_level": is_level}
+
+
+def _plane(codes, height):
+    total = codes if height is None else codes + height
+    guess = np.zeros_like(total)
+    guess[:, 1:] = total[:, :-1]
+    guess[1:, :] += total[:-1, :]
+    guess[1:, 1:] -= total[:-1, :-1]
+    return guess if height is None else guess - height
+
+
+def _level(codes, height):
+    """The level of the liquid to the left, else of that above; zero where neither is or the ground is higher."""
+    guess = np.zeros_like(codes)
+    above, beside = codes[:-1], codes[:, :-1]
+    guess[1:] = np.where(above > 0, above + height[:-1] - height[1:], 0)
+    guess[:, 1:] = np.where(beside > 0, beside + height[:, :-1] - height[:, 1:], guess[:, 1:])
+    return np.maximum(guess, 0)
 
 
 def _steps(values, low, high):

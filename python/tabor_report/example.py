@@ -5,6 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
+from tabor_report import names
 from tabor_report.errors import InputError
 from tabor_report.maps import Window
 
@@ -80,14 +81,24 @@ def check(study, options):
 def examples(study, options):
     """One example per scan asked for: the first that has maps, all, or a given one."""
     if options.all_scans:
-        return [
-            choose(scan, options.pressure, options.density, f"_scan{scan.index:04d}") for scan in study.scans
-        ]
+        called = names.in_files([scan.name for scan in study.scans])
+        return [choose(scan, options.pressure, options.density, f"_{name}") for scan, name in zip(study.scans, called)]
     if options.scan is not None:
         return [choose(study.scans[options.scan], options.pressure, options.density)]
     candidates = (choose(scan, options.pressure, options.density) for scan in study.scans)
     found = next((item for item in candidates if item.contact and item.height is not None), None)
     return [found] if found else [choose(scan) for scan in study.scans[:1]]
+
+
+def others(study, options, shown):
+    """Yields examples of further scans, which a page without choice of a scan has room for."""
+    if options.all_scans or options.scan is not None:
+        return
+    for scan in study.scans:
+        if all(scan is not item.scan for item in shown):
+            item = choose(scan, options.pressure, options.density)
+            if item.height is not None:
+                yield item
 
 
 def richest_window(interest):

@@ -24,6 +24,7 @@ class Series:
     n: np.ndarray  # converged scans behind the mean
     loose_pressure: np.ndarray  # [Pa] of the cases that did not converge; no mean holds them
     loose_friction: np.ndarray
+    rows: list  # of the averages
 
     def bar(self, kind):
         """Half length of the error bar; NaN (none) where one scan gives no spread."""
@@ -178,6 +179,7 @@ def _series(study, group, density, rows, name):
         column("n"),
         np.array([pressure for pressure, _ in loose], dtype=float),
         np.array([friction for _, friction in loose], dtype=float),
+        rows,
     )
 
 

@@ -21,6 +21,8 @@ def open_file(path):
         raise InputError(f"{path}: no such file; give the folder or the .h5 file that tabor wrote")
     if rejection:
         raise InputError(f"{path}: got {rejection}; expected a result of tabor; compute it again")
+    if not _begins_as_hdf5(path):
+        raise _no_result(path)
     try:
         file = h5py.File(path, "r")
     except OSError as error:
@@ -28,8 +30,20 @@ def open_file(path):
         raise InputError(f"{path}: cannot be read as HDF5 ({reason})") from None
     if text(file.attrs.get("format", "")) != "tabor":
         file.close()
-        raise InputError(f"{path}: root attribute 'format' is not 'tabor'; expected a file written by tabor")
+        raise _no_result(path)
     return file
+
+
+def _begins_as_hdf5(path):
+    with open(path, "rb") as file:
+        return file.read(8) == b"\x89HDF\r\n\x1a\n"
+
+
+def _no_result(path):
+    return InputError(
+        f"{path}: got a file that is no result of tabor; expected the folder of a 'tabor sweep' or a file written with -o; "
+        f"of a scan, 'tabor friction {Path(path).name} ... -o result.h5' makes one"
+    )
 
 
 def text(value):

@@ -7,6 +7,7 @@ from pathlib import Path
 JS_FILES = ("bokeh.min.js",)
 MAP_SIDE = 370  # pixels of a map's longer side on the screen
 TALLEST = 620
+NOT_ON_PAPER = "@media print { :host { display: none !important; } }"  # the page's own styles do not reach into a figure
 
 
 def is_possible():
@@ -25,10 +26,10 @@ class Document:
         from bokeh.document import Document as BokehDocument
 
         self._document = BokehDocument()
-        self._roots = {}
+        self._models, self._roots = [], {}
 
     def add(self, model, element):
-        self._document.add_root(model)
+        self._models.append(model)
         self._roots[model.id] = element
 
     def __bool__(self):
@@ -36,6 +37,10 @@ class Document:
 
     def texts(self):
         """{"library", "documents", "places"}: script and JSON, the same for the same figures."""
+        with self._document.models.freeze():  # each root would have Bokeh follow the references of all before it
+            for model in self._models:
+                self._document.add_root(model)
+        self._models = []
         items = [{"docid": "page", "roots": self._roots, "root_ids": list(self._roots)}]
         return {
             "library": _library(),
@@ -86,6 +91,7 @@ class _MapFigures:
         """Names of the maps there are."""
         found = ["height"]
         found += ["state"] if self.data["contacts"] else []
+        found += ["pressure"] if any("pressure" in contact for contact in self.data["contacts"]) else []
         found += ["gap"] if any(contact and "gap" in contact for contact in self.data["contacts"]) else []
         return found + (["film"] if self.data["films"] else [])
 
@@ -107,9 +113,9 @@ class _MapFigures:
             background_fill_color="#bfbfbf",
             toolbar_location="above",
         )
-        for layer in ("state_wet", "state") if panel == "state" else (panel,):
-            source = ColumnDataSource({"url": [""]}, name=f"{self.name}_{layer}")
-            plot.image_url("url", x=0, y=0, w=self.sides[0], h=self.sides[1], anchor="top_left", source=source)
+        for layer in layers(panel, self.data):
+            source = ColumnDataSource({"url": [""], "w": [self.sides[0]], "h": [self.sides[1]]}, name=f"{self.name}_{layer}")
+            plot.image_url("url", x=0, y=0, w="w", h="h", anchor="top_left", source=source)
         plot.line("x", "y", source=self.line, line_color="white", line_width=4, line_alpha=0.8)
         plot.line("x", "y", source=self.line, line_color="#c1121f", line_width=2)
         plot.scatter("x", "y", source=self.line, size=12, fill_color="white", line_color="#c1121f", line_width=2)
@@ -131,7 +137,7 @@ class _MapFigures:
 
         from tabor_report import style
 
-        empty = {key: [0, 1] for key in ("s", "bottom", "solid", "level", "counter")}
+        empty = {key: [0, 1] for key in ("s", "bottom", "solid", "level", "counter", "flattened")}
         source = ColumnDataSource(empty, name=f"{self.name}_section")
         plot = figure(
             name=f"{self.name}_section_plot",
@@ -142,12 +148,19 @@ class _MapFigures:
             tools="pan,box_zoom,wheel_zoom,reset,save",
             active_scroll=None,
         )
+        plot.toolbar.stylesheets = [NOT_ON_PAPER]
         plot.varea("s", "bottom", "solid", source=source, fill_color=style.SOLID)
         plot.varea("s", "solid", "level", source=source, fill_color=style.LIQUID)
+        plot.varea("s", "flattened", "solid", source=source, fill_color=style.FLATTENED)
         plot.line("s", "solid", source=source, line_color="#4d4d4d")
         plot.line("s", "counter", source=source, line_color=style.WARNING, line_width=1.6)
         _dress(plot, f"along the line ({self.unit})", "z")
         return plot
+
+
+def layers(panel, data):
+    """Names of the pictures of a panel, the lowest first: one, and of a contact that has a picture of every pixel two."""
+    return ("state_wet", "state") if panel == "state" and data["step"] > 1 else (panel,)
 
 
 def _dress(plot, x_label, y_label):

@@ -7,7 +7,7 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup, escape
 
-from tabor_report import citations, page_ehl, page_parameters, page_single, page_spectra, page_study, still, style
+from tabor_report import citations, page_ehl, page_parameters, page_single, page_spectra, page_study, remarks, still, style
 from tabor_report.output import LARGEST_IN_PAGE
 
 # What a kind of result does not have its page leaves out.
@@ -17,11 +17,22 @@ _NOTHING = {
     "scans": [],
     "treatments": [],
     "settings": [],
+    "settings_title": "Material and settings",
     "results": {"intro": "", "header": [], "rows": [], "n_total": 0, "n_text": 0},
     "averages": {"header": [], "rows": [], "n_text": 0},
 }
 _PAGES = {"study": page_study, "single": page_single, "ehl": page_ehl, "psd": page_spectra, "params": page_parameters}
 LARGEST = 9.8e6  # bytes of a page, without what its texts and tables take
+# A folder or file that is so called keeps its name.
+_LOWERED = re.compile(r"(?<![\w.-])(A|p|τ|tau)_(real|lub|sat|y)(?![\w-])(?!\.\w)(?!/(?!P\b|p_sat\b|A₀))")
+_RAISED = re.compile(r"(?<![\w/.-])(C)([12]D)(?![\w-])(?!\.\w)")
+_SPOKEN = {
+    ("A", "real"): "contact area",
+    ("A", "lub"): "lubricated contact area",
+    ("p", "sat"): "saturation pressure",
+    ("τ", "y"): "shear strength",
+    ("tau", "y"): "shear strength",
+}
 SCREEN_PIXELS_PER_INCH = 115  # letters of the figures a little larger than on paper
 
 
@@ -53,16 +64,20 @@ def render(source, figures, command, live=None):
     sections = _PAGES[source.kind].sections(source)
     maps = live.maps if live else []
     scripts = live.scripts() if live and live.document else None
+    doubts, information = remarks.parted(source.warnings)
     figures, left_out = still.fitted(figures, LARGEST - _size(figures, maps, scripts or {}))
     return _template().render(
         title=source.title,
         subtitle=_subtitle(source),
         answers=_answers(source),
-        warnings=source.warnings,
+        places=getattr(source, "places", None),
+        warnings=doubts,
+        information=information,
         figures=[_figure(number, shown) for number, shown in enumerate(figures, 1)],
         left_out=left_out,
         has_pictures=any(shown.drawn.is_map for shown in figures),
         maps=maps,
+        other_scans=live.n_other_scans if live else 0,
         scripts=scripts,
         bibtex=citations.bibtex(source.facts),
         command=source.facts.get("command", ""),
@@ -96,12 +111,23 @@ def _template():
         lstrip_blocks=True,
     )
     environment.filters["symbols"] = symbols
+    environment.filters["spoken"] = spoken
     return environment.get_template("report.html")
 
 
 def symbols(text):
-    """p_sat and its like with a real subscript; everything else is escaped."""
-    return Markup(re.sub(r"\b(A|p|τ)_(real|lub|sat|y)\b", r"\1<sub>\2</sub>", str(escape(text))))
+    """p_sat and its like with a real subscript, C1D with a superscript; everything else is escaped, and files keep their names."""
+    text = _LOWERED.sub(_lowered, str(escape(text)))
+    return Markup(_RAISED.sub(r"\1<sup>\2</sup>", text))
+
+
+def spoken(text):
+    """The same for a text that is read aloud: what the figures call it in place of a symbol with an index."""
+    return _LOWERED.sub(lambda found: _SPOKEN.get((found[1], found[2]), found[0]), text)
+
+
+def _lowered(found):
+    return f"{'τ' if found[1] == 'tau' else found[1]}<sub>{found[2]}</sub>"
 
 
 def _subtitle(source):

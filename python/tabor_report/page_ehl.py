@@ -19,10 +19,25 @@ _HIGHLIGHTS = (
 )
 
 
+# What a reader looks for stands first in the table of a sweep, what the solver did last.
+_FIRST = (
+    "friction_coefficient", "friction_fluid", "friction_solid", "central_film_m", "min_film_m", "lambda_ratio", "max_pressure_Pa",
+    "solid_contact_fraction", "plastic_fraction",
+)  # fmt: skip
+_LAST = ("Hc", "Hm", "newton_iterations")
+# As the program prints them.
+_PRINTED = {
+    "max": "largest", "min": "smallest", "hertz": "Hertz", "moes": "Moes", "nijenbanning": "Nijenbanning", "hamrock dowson": "Hamrock\N{EN DASH}Dowson",
+    "friction fluid": "fluid friction", "friction solid": "solid friction", "n products": "products of the operator", "n steps": "steps",
+    "newton iterations": "iterations",
+}  # fmt: skip
+_TO_PRINT = re.compile(rf"\b({'|'.join(_PRINTED)})\b")
+
+
 def sections(source):
     scalars = source.scalars
     return {
-        "highlights": [(words(key), show(key, scalars[key])) for key in _HIGHLIGHTS if key in scalars],
+        "highlights": [(_name(key), show(key, scalars[key])) for key in _HIGHLIGHTS if key in scalars],
         "settings": list(_settings(source)),
         "results": _cases(source) if source.is_sweep else _numbers(source),
     }
@@ -30,27 +45,40 @@ def sections(source):
 
 def _numbers(source):
     """One row per number of a case, those of its parts behind its own."""
-    cells = [[words(key), show(key, value)] for key, value in sorted(source.scalars.items())]
+    cells = _rows(source.scalars)
     for name, scalars in source.parts.items():
-        cells += [[f"{words(name)}: {words(key)}", show(key, value)] for key, value in sorted(scalars.items())]
+        cells += [[f"{words(name)}: {key}", value] for key, value in _rows(scalars)]
     rows = [{"sure": True, "cells": row} for row in cells]
     return {"intro": "", "header": ["", "value"], "rows": rows, "n_total": len(rows), "n_text": 1}
+
+
+def _rows(scalars):
+    rows = [[_name(key), show(key, value)] for key, value in scalars.items()]
+    return sorted(rows, key=lambda row: row[0].casefold())
+
+
+def _name(key):
+    return _TO_PRINT.sub(lambda found: _PRINTED[found[0]], words(key))
+
+
+def _in_order(columns):
+    known = {**{name: place - len(_FIRST) for place, name in enumerate(_FIRST)}, **{name: 1 + place for place, name in enumerate(_LAST)}}
+    return [columns[name] for name in sorted(columns, key=lambda name: known.get(name, 0))]
 
 
 def _cases(source):
     """One row per case of a sweep."""
     node, axes = source.file["sweep"], source.axes
-    columns = source.columns
+    columns = _in_order(source.columns)
     sure = node["converged"][()] > 0 if "converged" in node else np.ones(node["shape"][()].prod(), dtype=bool)
     rows = []
     for number, place in enumerate(np.ndindex(*node["shape"][()])):
         values = [_at(axis, index) for axis, index in zip(axes.values(), place)]
-        cells = [_shown(column[number], column.attrs["units"]) for column in columns.values()]
-        rows.append({"sure": bool(sure[number]), "cells": values + cells + source.marks[number : number + 1]})
-    header = [*axes, *(hdf.text(column.attrs["long_name"]) for column in columns.values())]
-    header += ["warnings"] if source.marks else []
+        cells = [_shown(column[number], column.attrs["units"]) for column in columns]
+        rows.append({"sure": bool(sure[number]), "cells": values + source.codes[number : number + 1] + cells})
+    header = [*axes, *["warnings"] * bool(source.codes), *(hdf.text(column.attrs["long_name"]) for column in columns)]
     intro = "" if sure.all() else "Rows in red did not converge."
-    return {"intro": intro, "header": header, "rows": rows, "n_total": len(rows), "n_text": len(axes)}
+    return {"intro": intro, "header": header, "rows": rows, "n_total": len(rows), "n_text": len(axes) + bool(source.codes)}
 
 
 def _shown(value, unit):

@@ -14,9 +14,11 @@ def sections(source):
     settings = [("scans", str(len(source.scans)))]
     if source.treatment:
         settings.insert(0, ("treatment", source.treatment))
+    settings += [(name, file) for name, file in zip(source.scans, source.files) if name != file]
     return {
         "answer": _answer(source),
         "settings": settings,
+        "settings_title": "Scans",
         "results": {"intro": "", "header": [], "rows": [], "tables": _tables(source), "n_total": 0, "n_text": 1},
     }
 
@@ -56,7 +58,7 @@ def _answer(source):
         return None
     means = [("mean", group) for group in source.groups[:MOST_SCANS] if source.has_means]
     scans = [] if source.is_grouped else [("scan", place) for place in range(len(source.scans))][:MOST_SCANS]
-    shown = scans + means
+    shown = scans + means + [("change", None)] * (source.has_change and bool(scans))
     left_out = len(source.groups) - len(means) if source.is_grouped else len(source.scans) - len(scans)
     what = "groups stand in the results" if source.is_grouped else "scans stand in the results and count in the mean"
     return {
@@ -79,7 +81,7 @@ def _columns(source):
     for group in source.groups:
         columns += [("scan", place) for place in group.places]
         columns += [("mean", group)] * source.has_means
-    return columns
+    return columns + [("change", None)] * source.has_change
 
 
 def _tables(source):
@@ -95,14 +97,31 @@ def _tables(source):
 
 def _heading(source, column):
     kind, which = column
-    return source.scans[which] if kind == "scan" else heading(which)
+    return {"scan": lambda: source.scans[which], "mean": lambda: heading(which), "change": lambda: "change"}[kind]()
 
 
 def _row(source, name, columns):
     """The name with its unit, then numbers."""
     factor, unit = scale(source, name)
-    cells = [_cell(source.values[name][which] if kind == "scan" else which.means.get(name), factor) for kind, which in columns]
+    cells = [_cell_of(source, name, column, factor) for column in columns]
     return [f"{name} ({unit})" if unit else name, *cells]
+
+
+def _cell_of(source, name, column, factor):
+    kind, which = column
+    if kind == "change":
+        return _change(*source.values[name], source.units[name], factor)
+    return _cell(source.values[name][which] if kind == "scan" else which.means.get(name), factor)
+
+
+def _change(first, second, unit, factor):
+    """From the first scan to the second, as `tabor params` prints it: a factor, or a difference where a factor says nothing."""
+    if not (math.isfinite(first) and math.isfinite(second)):
+        return "\N{EN DASH}"
+    if unit not in ("%", "deg") and first > 0 and second > 0:
+        return f"\N{MULTIPLICATION SIGN} {units.number(second / first, 4)}"
+    difference = (second - first) * factor
+    return f"{'+' if difference >= 0 else ''}{_number(difference)}"
 
 
 def _cell(found, factor):

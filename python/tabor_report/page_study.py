@@ -3,7 +3,7 @@
 import numpy as np
 
 from tabor_report import friction_series as series_of
-from tabor_report import units
+from tabor_report import areas, refusals, units
 from tabor_report.figures import contact_area
 from tabor_report.page_single import MOST_COLUMNS, evenly
 from tabor_report.table import converged
@@ -12,50 +12,80 @@ MAX_ROWS = 400  # of the results table; results.csv holds all
 
 
 def sections(study):
+    marks = _Marks(study.table)
     return {
-        "answer": answer(study),
+        "answer": answer(study, marks),
         "highlights": _highlights(study),
         "scans": [_scan(scan, _own_settings(study.scans)) for scan in study.scans],
         "treatments": _treatments(study.scans),
         "settings": _settings(study.facts, _own_settings(study.scans)),
-        "results": _results(study.table),
-        "averages": _averages(study.averages),
+        "results": _results(study.table, study.names, marks),
+        "averages": _averages(study.averages, marks),
     }
+
+
+class _Marks:
+    """Signs behind the frictions, and their means, that `tabor table` leaves out."""
+
+    def __init__(self, table):
+        rows = table.rows()
+        self._of_rows, self._of_means = refusals.of_rows(rows), refusals.of_means(rows)
+        self._signs = refusals.Signs([*self._of_rows, *self._of_means.values()])
+
+    def of_row(self, index, key, text, met):
+        return self._signs.mark(text, self._of_rows[index].get(key), met)
+
+    def of_mean(self, row, key, text, met):
+        """row: group, pressure, density and speed of the mean."""
+        return self._signs.mark(text, self._of_means.get(refusals.place_of_mean(row), {}).get(key), met)
+
+    def notes(self, met):
+        return self._signs.notes(met)
 
 
 MOST_LINES = 24  # of the answer
 
 
-def answer(study):
+def answer(study, marks=None):
     """One line per question and group, one column per pressure: the mean, with the deviation of n > 1 scans."""
     pressures = study.averages.distinct("mean_pressure_Pa")
     shown = [pressures[place] for place in evenly(len(pressures), MOST_COLUMNS)]
     lines = [line for group in study.groups for line in _lines(study, group, shown)]
     if not shown or not lines:
         return None
+    marks, met = marks or _Marks(study.table), set()
+    rows = [(question, [_marked(marks, *cell, met) for cell in cells]) for question, cells in lines[:MOST_LINES]]
     left_out = [f"{len(pressures) - len(shown)} more pressures"] * (len(pressures) > len(shown))
     left_out += [f"{len(lines) - MOST_LINES} more lines"] * (len(lines) > MOST_LINES)
     return {
-        "caption": "Means over the scans of a group, with the standard deviation, at the mean pressure",
+        "caption": "Means over the scans of a group, with the standard deviation, at the mean pressure; "
+        f"{areas.MEANINGS[areas.of_study(study)]}",
         "header": [units.pressure(pressure) for pressure in shown],
-        "rows": lines[:MOST_LINES],
+        "rows": rows,
+        "left_out": marks.notes(met),
         "note": f"{' and '.join(left_out)} stand in the averages and results." if left_out else "",
     }
 
 
 def _lines(study, group, pressures):
-    """(question, answers) of a group, as far as it has them."""
+    """(question, [(text, key, row of averages that it stands for or None)]) of a group, as far as it has them."""
     name = f" ({group})" if len(study.groups) > 1 else ""
     known, area, _ = contact_area.means(contact_area.states_of(study, group))
-    found = [(f"real contact area{name}", known, [f"{units.number(100 * value, 3)} %" for value in area])]
-    curves = {"friction dry": series_of.dry(study, group)}
+    shares = [(areas.share(value), "", None) for value in area]
+    found = [(f"{areas.NAMES[areas.of_study(study)]}{name}", known, shares)]
+    curves = {"friction dry": (refusals.DRY, series_of.dry(study, group))}
     for density in series_of.densities(study):
-        curves[f"friction, {units.density(density)}"] = series_of.lubricated(study, group, density)
-    for question, series in curves.items():
-        shown = [_with_spread(*numbers) for numbers in zip(series.mean, series.bar("std"))]
-        found.append((f"{question}{name}", series.pressure, shown))
+        curves[f"friction, {units.density(density)}"] = refusals.LUBRICATED, series_of.lubricated(study, group, density)
+    for question, (key, series) in curves.items():
+        texts = [_with_spread(*numbers) for numbers in zip(series.mean, series.bar("std"))]
+        cells = [(text, key, row) for text, row in zip(texts, series.rows)]
+        found.append((f"{question}{name}", series.pressure, cells))
     found = [parts for parts in found if len(parts[1])]
-    return [(question, [_at(known, texts, place) for place in pressures]) for question, known, texts in found]
+    return [(question, [_at(known, cells, place) for place in pressures]) for question, known, cells in found]
+
+
+def _marked(marks, text, key, row, met):
+    return text if row is None else marks.of_mean(row, key, text, met)
 
 
 def _with_spread(mean, spread):
@@ -63,18 +93,18 @@ def _with_spread(mean, spread):
     return text if not np.isfinite(spread) else f"{text} ± {units.number(float(spread), 2)}"
 
 
-def _at(known, texts, pressure):
+def _at(known, cells, pressure):
     places = np.flatnonzero(np.isclose(known, pressure, rtol=1e-9))
-    return texts[places[0]] if places.size else "\N{EN DASH}"
+    return cells[places[0]] if places.size else ("\N{EN DASH}", "", None)
 
 
 def _highlights(study):
     """What a reader wants first: pressures, densities, range of friction, how much to trust."""
-    table = study.table
+    table, area = study.table, areas.of_study(study)
     found = [
         ("mean pressures", _range(table, "mean_pressure_Pa", units.pressure)),
         ("lubricant densities", _range(table, "lubricant_density_g_per_m2", units.density)),
-        ("real contact area", _range(table, "contact_area_fraction", lambda value: f"{value:.2%}")),
+        (areas.NAMES[area], _range(table, area, areas.share)),
         ("dry friction", _range(table, "friction_dry", lambda value: units.number(value, 3))),
         ("lubricated friction", _range(table, "friction_lubricated", lambda value: units.number(value, 3))),
         ("sliding speeds", _range(table, "sliding_speed_m_per_s", lambda value: f"{units.number(value)} m/s")),
@@ -101,10 +131,11 @@ def _own_settings(scans):
 
 def _scan(scan, own):
     facts = scan.facts
-    rows = _surface_rows(scan) if scan.is_treated else [("surface", "not treated yet")]
+    rows = [("file", scan.file)] * (scan.name != scan.file)
+    rows += _surface_rows(scan) if scan.is_treated else [("surface", "not treated yet")]
     rows += [(_SETTINGS_OF_SCANS[name], facts[name]) for name in own if name in facts]
     return {
-        "file": scan.file,
+        "file": scan.name,
         "group": scan.group,
         "sha256": facts.get("input_sha256", ""),
         "rows": rows,
@@ -142,11 +173,11 @@ def _treatments(scans):
     for scan in scans:
         chains.setdefault(tuple(scan.steps), []).append(scan)
     if len(scans) == 1:
-        return [(tuple(scans[0].treatment), [scans[0].file])]
+        return [(tuple(scans[0].treatment), [scans[0].name])]
     groups = [group for members in chains.values() for group in {scan.group for scan in members}]
     by_group = len(set(groups)) == len(groups)
     return [
-        (steps, list(dict.fromkeys(scan.group if by_group else scan.file for scan in members)))
+        (steps, list(dict.fromkeys(scan.group if by_group else scan.name for scan in members)))
         for steps, members in chains.items()
     ]
 
@@ -184,34 +215,41 @@ _RESULT_COLUMNS = (
     ("μ flowing", "friction_mixed", units.number),
     ("of oil", "friction_viscous", units.number),
     ("load on oil", "fluid_load_share", units.number),
-    ("A/A₀", "contact_area_fraction", units.number),
+    ("contact area A/A₀", areas.CORRECTED, units.number),
     ("wet share", "lubricated_share", units.number),
     ("certificate", "certificate", lambda value: units.number(value, 2)),
     ("converged", None, lambda sure: "yes" if sure else "NO"),
-    ("A/A₀ (pixels)", "contact_area_fraction_pixels", units.number),
+    ("counted contact A/A₀", areas.PIXELS, units.number),
     ("saturated A/A₀", "saturated_area_fraction", units.number),
     ("mean gap (µm)", "mean_gap_m", lambda value: units.number(value * 1e6)),
     ("spill-over", "spill_over_fraction", units.number),
 )
 
 
-def _results(table):
+def _results(table, names, marks):
     columns = [column for column in _RESULT_COLUMNS if column[1] is None or column[1] in table]
     sure = converged(table)
+
+    def value(index, name):
+        found = _value((table[name] if name else sure)[index])
+        return names.get(found, found) if name == "scan" else found
+
     order = list(range(len(table)))
     if len(order) > MAX_ROWS:
         loose = [index for index in order if not sure[index]]
         order = sorted(set(loose + order[:MAX_ROWS]))
+    met = set()
     rows = [
         {
             "sure": bool(sure[index]),
-            "cells": [show(_value((table[name] if name else sure)[index])) for _, name, show in columns],
+            "cells": [marks.of_row(index, name, show(value(index, name)), met) for _, name, show in columns],
         }
         for index in order
     ]
     return {
         "header": [title for title, _, _ in columns],
         "rows": rows,
+        "left_out": marks.notes(met),
         "n_total": len(table),
         "n_text": sum(name in ("scan", "group") for _, name, _ in columns),
     }
@@ -224,7 +262,7 @@ _STATISTICS = (
 )
 
 
-def _averages(table):
+def _averages(table, marks):
     columns = [
         (title, name, show)
         for title, name, show in (
@@ -249,8 +287,12 @@ def _averages(table):
             for part, suffix, show in _STATISTICS
             if f"{kind}{suffix}" in table
         ]
-    rows = [[show(_value(table[name][index])) for _, name, show in columns] for index in range(len(table))]
-    return {"header": [title for title, _, _ in columns], "rows": rows, "n_text": 1}
+    met = set()
+    rows = [
+        [marks.of_mean(row, name.removesuffix("_mean"), show(_value(row[name])), met) for _, name, show in columns]
+        for row in table.rows()
+    ]
+    return {"header": [title for title, _, _ in columns], "rows": rows, "n_text": 1, "left_out": marks.notes(met)}
 
 
 def _value(value):

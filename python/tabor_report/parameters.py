@@ -7,6 +7,7 @@ import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from tabor_report import names
 from tabor_report.errors import InputError, readable
 
 LARGEST = 16_000_000  # bytes of a table that is read
@@ -34,6 +35,7 @@ class Group:
 class Parameters:
     path: Path
     scans: list  # names, as many as columns of `values`
+    files: list  # of the scans, as the table has them
     treatment: str
     units: dict  # {parameter: unit}, in the order of the file
     values: dict  # {parameter: [number or NaN of each scan]}
@@ -51,6 +53,11 @@ class Parameters:
     @property
     def is_grouped(self):
         return any(group.name for group in self.groups)
+
+    @property
+    def has_change(self):
+        """Whether a column compares the second scan with the first, as `tabor params` does of two."""
+        return len(self.scans) == 2 and not self.is_grouped
 
     @property
     def has_means(self):
@@ -73,9 +80,11 @@ def _of_scans(path, rows):
     units = dict(map(_name_and_unit, rows[0][3:]))
     values = {name: [_number(path, row[place]) for row in measured] for place, name in enumerate(units, 3)}
     everything = Group("", list(range(len(measured))), {name: _mean(numbers) for name, numbers in values.items()})
+    files = [readable(_without_apostrophe(row[0])) for row in measured]
     return Parameters(
         path,
-        [readable(Path(_without_apostrophe(row[0])).name) for row in measured],
+        _short(files),
+        files,
         _common([row[1] for row in measured]),
         units,
         values,
@@ -87,9 +96,9 @@ def _of_scans(path, rows):
 def _of_groups(path, rows):
     """A row per group and parameter: the mean, then a column per scan, empty for one of another group."""
     first = len(_GROUP_HEAD)
-    scans = [readable(_without_apostrophe(name)) for name in rows[0][first:]]
+    files = [readable(_without_apostrophe(name)) for name in rows[0][first:]]
     units = {row[1]: row[2] for row in rows[1:]}
-    values = {name: [math.nan] * len(scans) for name in units}
+    values = {name: [math.nan] * len(files) for name in units}
     groups = {}
     for row in rows[1:]:
         group = groups.setdefault(row[0], Group(readable(_without_apostrophe(row[0])), []))
@@ -98,7 +107,13 @@ def _of_groups(path, rows):
             if cell:
                 values[row[1]][place] = _number(path, cell)
                 group.places = sorted({*group.places, place})
-    return Parameters(path, scans, "", units, values, list(groups.values()))
+    return Parameters(path, _short(files), files, "", units, values, list(groups.values()))
+
+
+def _short(files):
+    """Scans are called as on the page of a study."""
+    short = names.short(files)
+    return [short[file] for file in files]
 
 
 def _mean(numbers):

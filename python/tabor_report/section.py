@@ -31,24 +31,27 @@ def draw(axes, lines, length_factor, length_unit, height_factor, height_unit):
     bottom = _bottom(solid, level, counter)
     # Neither liquid nor metal floats over a hole of the scan.
     axes.fill_between(x, bottom, solid, color=style.SOLID, linewidth=0, step="mid", label="solid")
+    _draw_flattened(axes, x, solid, counter)
     axes.plot(x, solid, color="0.3", linewidth=0.7, drawstyle="steps-mid")
     if np.isfinite(level).any():
-        axes.fill_between(
-            x,
-            solid,
-            level,
-            where=np.isfinite(level),
-            color=style.LIQUID,
-            linewidth=0,
-            step="mid",
-            label="lubricant before closing",
-        )
+        _fill(axes, x, solid, np.fmax(level, solid), style.LIQUID, "lubricant before closing")
     if np.isfinite(counter).any():
-        axes.plot(x, counter, color=style.WARNING, linewidth=1.1, label="counterface (solid + gap)")
+        axes.plot(x, counter, color=style.WARNING, linewidth=1.1, label="counterface: solid + gap")
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(bottom=bottom)
     axes.set_xlabel(f"$x$ ({length_unit})")
     axes.set_ylabel(f"$z$ ({height_unit})")
+
+
+def _draw_flattened(axes, x, solid, counter):
+    """Shades solid that stands above the counterface, where it cannot be any more: it has been pressed flat."""
+    if (solid > counter).any():
+        _fill(axes, x, np.fmin(counter, solid), solid, style.FLATTENED, "flattened")
+
+
+def _fill(axes, x, low, high, colour, label):
+    """Whole pixels: with `where` Matplotlib would leave out half of each at the end of a run."""
+    axes.fill_between(x, low, high, color=colour, linewidth=0, step="mid", label=label)
 
 
 def exaggeration(axes, length_factor, height_factor):

@@ -5,9 +5,10 @@ import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tabor_report import density_curves, hdf
+from tabor_report import density_curves, hdf, remarks
+from tabor_report.density_curves import Places
 from tabor_report.errors import InputError, readable
-from tabor_report.states import SingleState
+from tabor_report.states import SingleState, count_visits
 from tabor_report.table import Table
 
 
@@ -21,6 +22,7 @@ class Single:
     states: list
     warnings: list = field(default_factory=list)
     density_curves: Table = field(default_factory=lambda: Table({}))  # empty where a file has none
+    density_places: Places = field(default_factory=Places)
 
     kind = "single"
 
@@ -28,6 +30,17 @@ class Single:
     def combination(self):
         """Numbers of `tabor combine`; {} in other files."""
         return hdf.attributes(self.file["combination"]) if "combination" in self.file else {}
+
+    @property
+    def is_difference(self):
+        """Whether zero means that both scans agree: heights are shown as they are, not about their mean."""
+        return bool(self.combination) and self.combination.get("mode") != "composite"
+
+    @property
+    def heading_of_heights(self):
+        if not self.is_difference:
+            return "Height about the mean"
+        return "A \N{MINUS SIGN} B: above zero is worn" if self.combination.get("mode") == "wear" else "A \N{MINUS SIGN} B"
 
     @property
     def title(self):
@@ -39,6 +52,11 @@ class Single:
     def answers(self):
         """(short, all): what friction against density says."""
         return density_curves.answers(self.facts, self.density_curves)
+
+    @property
+    def places(self):
+        """The table of where densities lie on these curves; None in older files."""
+        return density_curves.places_table(self.density_places, group_names=False)
 
     @property
     def surface_facts(self):
@@ -58,9 +76,9 @@ class Single:
 
 
 def _title_of_two(source, mode):
-    """'a.x3p less b.x3p' of 'folder/a.x3p - folder/b.x3p'."""
-    sign, word = ("+", "and") if mode == "composite" else ("-", "less")
-    return readable(f" {word} ".join(Path(part).name for part in source.split(f" {sign} ")))
+    """'a.x3p − b.x3p' of 'folder/a.x3p - folder/b.x3p'."""
+    sign, shown = ("+", "+") if mode == "composite" else ("-", "\N{MINUS SIGN}")
+    return readable(f" {shown} ".join(Path(part).name for part in source.split(f" {sign} ")))
 
 
 def load(path, file):
@@ -78,8 +96,10 @@ def load(path, file):
     ]
     for state in states:
         _add_speed(state, settings)
+    count_visits(states)
     single = Single(path, file, facts, settings, file["surface"], states)
     single.density_curves = density_curves.load(file, "density_curves", ("friction_lubricated",), single.warnings)
+    single.density_places = density_curves.load_places(file, single.warnings)
     single.warnings.extend(dict.fromkeys(_warnings_about(single)))
     return single
 
@@ -110,7 +130,7 @@ def _spacing(surface, name):
 
 
 def _warnings_about(single):
-    lines = hdf.text_list(single.facts.get("warnings"))
+    lines = remarks.of_file(single.facts)
     for warning in hdf.text_list(single.surface_facts.get("doubts")):
         if not any(warning in line for line in lines):  # said there with its code
             yield warning

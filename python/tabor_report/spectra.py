@@ -7,7 +7,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from tabor_report import hdf
+from tabor_report import hdf, names, remarks
 from tabor_report.errors import readable
 
 NAMES = {"x": "along x", "y": "along y", "radial": "radial"}
@@ -21,7 +21,9 @@ class Curves:
     name: str
     curves: dict  # {"x", "y" or "radial": (q [rad/m], density [m^3 or m^4])}
     deviations: dict = field(default_factory=dict)  # {axis: standard deviation at each q}, of a group alone
+    exponents: dict = field(default_factory=dict)  # {axis: (H, its standard error)}, of a scan alone
     n_scans: int = 1
+    file: str = ""  # of a scan
 
     @property
     def is_mean(self):
@@ -46,10 +48,10 @@ class Spectra:
 
     @property
     def title(self):
-        names = [one.name for one in self.sets if not one.is_mean]
-        if len(names) > 1:
-            return f"Power spectra of {len(names)} scans"
-        return f"Power spectra: {readable((names and names[0]) or self.path.stem)}"
+        found = [one.name for one in self.sets if not one.is_mean]
+        if len(found) > 1:
+            return f"Power spectra of {len(found)} scans"
+        return f"Power spectra: {readable((found and found[0]) or self.path.stem)}"
 
     @property
     def axes(self):
@@ -71,11 +73,23 @@ def is_one(file):
 def load(path, file):
     facts = hdf.attributes(file)
     if "curves" in file:
-        sets = [Curves(_scan(facts.get("command", "")), *_read(file["curves"]))]
+        sets = [_of_scan(_scan(facts.get("command", "")), file["curves"])]
     else:
-        sets = [Curves(_name(node, "file"), *_read(node)) for node in _members(file, "scans")]
-        sets += [_mean(node) for node in _members(file, "groups")]
-    return Spectra(path, file, facts, sets, hdf.text_list(facts.get("warnings")))
+        nodes = _members(file, "scans")
+        sets = [_of_scan(_text(node, "file"), node) for node in nodes] + [_mean(node) for node in _members(file, "groups")]
+    _shorten(sets)
+    return Spectra(path, file, facts, sets, remarks.of_file(facts))
+
+
+def _of_scan(scan, node):
+    return Curves(scan, *_read(node), _exponents(node), file=scan)
+
+
+def _shorten(sets):
+    """Scans are called as on the page of a study."""
+    short = names.short(one.file for one in sets if one.file)
+    for one in sets:
+        one.name = short.get(one.file, one.name)
 
 
 def _members(file, name):
@@ -89,11 +103,12 @@ def _has_curves(node):
 
 def _mean(node):
     curves, deviations = _read(node, "_mean")
-    return Curves(_name(node, "group"), curves, deviations, len(hdf.text_list(hdf.attributes(node).get("scans"))))
+    scans = hdf.text_list(hdf.attributes(node).get("scans"))
+    return Curves(_text(node, "group"), curves, deviations, n_scans=len(scans))
 
 
-def _name(node, attribute):
-    return readable(Path(str(hdf.attributes(node).get(attribute, node.name))).name)
+def _text(node, attribute):
+    return readable(hdf.attributes(node).get(attribute, node.name))
 
 
 def _read(node, ending=""):
@@ -112,10 +127,21 @@ def _read(node, ending=""):
     return curves, deviations
 
 
+def _exponents(node):
+    """{axis: (H, its standard error)} of the spectra that have one."""
+    found = {}
+    for axis, unit in UNITS.items():
+        facts = hdf.attributes(node[key]) if (key := f"psd_{axis}_{unit}") in node else {}
+        hurst = facts.get("hurst")
+        if isinstance(hurst, float) and np.isfinite(hurst):
+            found[axis] = hurst, facts.get("hurst_standard_error", float("nan"))
+    return found
+
+
 def _scan(command):
     """The scan that a command 'tabor psd SCAN ...' names."""
     try:
         words = shlex.split(command)
     except ValueError:
         return ""
-    return Path(words[2]).name if len(words) > 2 and words[1] == "psd" and not words[2].startswith("-") else ""
+    return readable(words[2]) if len(words) > 2 and words[1] == "psd" and not words[2].startswith("-") else ""

@@ -1,5 +1,7 @@
 """Maps of one contact state or one film, whatever kind of file they come from."""
 
+import collections
+
 import numpy as np
 
 from tabor_report import hdf, units
@@ -63,6 +65,7 @@ class SingleState:
         self.saturation_pressure = saturation_pressure
         self.pressure = self.facts.get("mean_pressure_Pa")
         self.density = self.facts.get("lubricant_density_g_per_m2")
+        self.visit = 0  # how many states before it have its pressure, density and speed: those of a path of loads
 
     @property
     def label(self):
@@ -75,14 +78,19 @@ class SingleState:
     def name(self):
         """'7 MPa, 0.45 g/m²', with the speed where the oil flows: what tells it from the others of its file."""
         speed = self.facts.get("sliding_speed_m_per_s")
-        parts = [units.pressure(self.pressure)] if self.pressure is not None else []
+        parts = [self.pressure_text] if self.pressure is not None else []
         parts += [units.density(self.density)] if self.density is not None else []
         parts += [units.si(speed, "m/s")] if speed else []
         return ", ".join(parts) or f"state {self.key}"
 
     @property
+    def pressure_text(self):
+        """'7 MPa', or '7 MPa (2nd)' where a path of loads comes back to it."""
+        return units.pressure(self.pressure) + (f" ({units.nth(self.visit + 1)})" if self.visit else "")
+
+    @property
     def pressure_label(self):
-        return f"P = {units.pressure(self.pressure)}" if self.pressure is not None else f"state {self.key}"
+        return f"P = {self.pressure_text}" if self.pressure is not None else f"state {self.key}"
 
     @property
     def density_label(self):
@@ -108,15 +116,28 @@ class SingleState:
         return None if values is None else values.astype(np.float64, copy=False)
 
     def state(self):
-        """uint8, shape (ny, nx): 0 none, 1 contact, 2 saturated; None without pressures."""
+        """uint8, shape (ny, nx): 0 none, 1 elastic, 2 saturated; None without pressures."""
+        return self.contact()[0]
+
+    def contact(self):
+        """(state, pressure as stored [Pa]), both None without pressures; nothing saturates without a saturation pressure."""
         pressure = self.raw("pressure")
         if pressure is None:
-            return None
+            return None, None
         state = np.where(pressure > 0, CONTACT, NO_CONTACT).astype(np.uint8)
         if self.saturation_pressure:
             # The solver clips at the cap, so only rounding to float32 separates a saturated pixel from it.
             state[pressure >= self.saturation_pressure * (1 - PRESSURE_ROUNDING)] = SATURATED
-        return state
+        return state, pressure
+
+
+def count_visits(states):
+    """Tells states apart that a path of loads brings to the same pressure, density and speed."""
+    met = collections.Counter()
+    for state in states:
+        place = state.pressure, state.density, state.facts.get("sliding_speed_m_per_s")
+        state.visit = met[place] if state.pressure is not None else 0
+        met[place] += 1
 
 
 def _is_file_matter(key, value):

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tabor_report import density_curves, guard, hdf
+from tabor_report import density_curves, guard, hdf, names, remarks
 from tabor_report.errors import InputError, readable
 from tabor_report.states import Film, Flow, StudyContact
 from tabor_report.table import Table
@@ -20,6 +20,7 @@ class Scan:
     index: int
     facts: dict
     warnings: list
+    name: str = ""  # short, on the page
 
     @property
     def file(self):
@@ -106,6 +107,7 @@ class Study:
     scans: list
     experiment: Table
     density_averages: Table  # empty where a study has none
+    density_places: density_curves.Places
     warnings: list = field(default_factory=list)
 
     kind = "study"
@@ -115,14 +117,24 @@ class Study:
         return readable(self.facts.get("title") or self.path.parent.resolve().name)
 
     @property
+    def names(self):
+        """{file of a scan: its short name}"""
+        return names.short([scan.file for scan in self.scans] + list(self.table.get("scan", [])))
+
+    @property
     def saturation_pressure(self):
         """[Pa], None if elastic."""
         return self.facts.get("saturation_pressure_Pa")
 
     @property
     def answers(self):
-        """(short, all): what friction against density says."""
-        return density_curves.answers(self.facts, self.density_averages)
+        """(short, all): what friction against density says; nothing where a table says it of each pressure."""
+        return ([], []) if self.places else density_curves.answers(self.facts, self.density_averages)
+
+    @property
+    def places(self):
+        """The table of where densities lie on the mean curves; None in older files."""
+        return density_curves.places_table(self.density_places, group_names=len(self.groups) > 1)
 
     @property
     def groups(self):
@@ -144,6 +156,7 @@ def load(path, file):
         scans=_scans(path, file, warnings),
         experiment=_experiment(file),
         density_averages=density_curves.load(file, "density_averages", _DENSITY_COLUMNS, warnings),
+        density_places=density_curves.load_places(file, warnings),
         warnings=warnings,
     )
     study.warnings.extend(list(_warnings_about(study)))
@@ -162,7 +175,17 @@ def _scans(path, file, warnings):
     if "scans" not in file:
         return []
     folder = file["scans"]
-    return [Scan(folder[key], index, hdf.attributes(folder[key]), warnings) for index, key in enumerate(sorted(folder))]
+    scans = [Scan(folder[key], index, hdf.attributes(folder[key]), warnings) for index, key in enumerate(sorted(folder))]
+    _name(scans)
+    return scans
+
+
+def _name(scans):
+    """Of a scan that is there twice the group tells which."""
+    files, short = [scan.file for scan in scans], names.short(scan.file for scan in scans)
+    for scan in scans:
+        is_twice = files.count(scan.file) > 1 and scan.group
+        scan.name = readable(f"{short[scan.file]} ({scan.group})" if is_twice else short[scan.file])
 
 
 def _experiment(file):
@@ -182,7 +205,7 @@ def _warnings_about(study):
     for message in dict.fromkeys(text for text in study.table.get("error", ()) if text):
         yield f"Failed: {message}"
     if "warnings" in study.facts:  # each once, with its cases
-        yield from hdf.text_list(study.facts["warnings"])
+        yield from remarks.of_file(study.facts)
         return
     for scan in study.scans:
         for warning in dict.fromkeys(scan.surface_warnings + _warnings_of_states(scan)):

@@ -25,6 +25,7 @@ WIDTH = 7.2  # inches, a full text column pair
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#444444")
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 DRY, WET, LIQUID, SOLID, WARNING = "#E8862E", "#000000", "#3A86C8", "#B9B2A8", "#C1121F"
+FLATTENED = "#EBA39B"
 
 _SETTINGS = {
     "font.size": 9,

@@ -46,7 +46,7 @@ def length_scale(largest):
 def length(value):
     if value is None or math.isnan(value):
         return "\N{EN DASH}"
-    factor, unit = length_scale(abs(value))
+    factor, unit = length_scale(abs(value)) if abs(value) < 1 else (1.0, "m")
     return f"{number(value * factor)} {unit}"
 
 
@@ -74,6 +74,12 @@ def span(values, show):
     """'2 MPa to 15 MPa', or '2 MPa' where all are alike."""
     low, high = show(min(values)), show(max(values))
     return low if low == high else f"{low} to {high}"
+
+
+def nth(place):
+    """2 -> '2nd'"""
+    endings = {1: "st", 2: "nd", 3: "rd"}
+    return f"{place}{endings.get(place % 10, 'th') if place % 100 not in (11, 12, 13) else 'th'}"
 
 
 def density(value):

@@ -5,22 +5,27 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tabor_report import encoding, map_axes, units
+from tabor_report import encoding, map_axes, names, units
 from tabor_report.example import richest_window, shores
 
 BUDGET = 7.6e6  # bytes of the maps of a page of at most 10 MB
 QUALITIES = {92: 2.0, 80: 1.0, 60: 0.68, 40: 0.52}  # of WebP, with the size of a picture by that of the second
-LARGEST_COARSE = 850  # samples along a side
-FOR_SAMPLES = 0.4  # of the budget
-BYTES_A_SAMPLE = 2.17  # packed
+SMALLEST_GRID = 128  # pixels along a side, where several scans share a page
 LOW, HIGH = 0.5, 99.5  # percentiles at which colours end
 
-GROUND = {"hole": (191, 191, 191), "dry": (244, 240, 230)}
+COLOURS = {
+    "height": map_axes.HEIGHT_COLOURS,
+    "pressure": map_axes.PRESSURE_COLOURS,
+    "gap": map_axes.GAP_COLOURS,
+    "film": map_axes.FILM_COLOURS,
+}
+HOLE, DRY = (191, 191, 191), (244, 240, 230)
+GROUNDS = {"height": HOLE, "pressure": (255, 255, 255), "gap": HOLE, "film": DRY}
 
 
 @dataclass
 class Choice:
-    """One contact (state and gap) or one film: `load` reads its maps, by name."""
+    """One contact (`contact`: (state, pressure or None), and `gap`) or one film: `load` reads its maps, by name."""
 
     label: str
     load: dict
@@ -32,11 +37,15 @@ class Maps:
 
     name: str
     title: str
+    file: str  # in names of files
     pixel: tuple
     height: np.ndarray
     contacts: list = field(default_factory=list)
     films: list = field(default_factory=list)
     first: tuple = (0, 0)  # contact and film shown at first
+    is_difference: bool = False  # heights about zero, not about their mean
+    heading: str = "Height about the mean"
+    group: str = ""  # of the scan of a study, where its title does not say it
 
 
 def of_single(single):
@@ -44,17 +53,20 @@ def of_single(single):
     for state in single.states:
         if state.has("pressure") and state.pressure_label not in contacts:
             gap = {"gap": (lambda state=state: state.raw("gap"))} if state.has("gap") else {}
-            contacts[state.pressure_label] = Choice(state.pressure_label, {"state": state.state, **gap})
+            contacts[state.pressure_label] = Choice(state.pressure_label, {"contact": state.contact, **gap})
         if state.has("film_thickness") and state.density_label not in films:
             films[state.density_label] = Choice(
                 state.density_label, {"film": lambda state=state: state.raw("film_thickness")}
             )
     height = single.raw_height()
     chosen = len(contacts) // 2, 0
-    return Maps("maps", single.title, single.pixel, height, [*contacts.values()], [*films.values()], chosen)
+    file = names.in_a_file(single.title if single.combination else names.short([single.title])[single.title])
+    maps = Maps("maps", single.title, file, single.pixel, height, [*contacts.values()], [*films.values()], chosen)
+    maps.is_difference, maps.heading = single.is_difference, single.heading_of_heights
+    return maps
 
 
-def of_example(example):
+def of_example(example, name="maps"):
     """All states of the scan that a study's example shows, the example's own at first."""
     scan = example.scan
     contacts, films = scan.contacts(), [film for film in scan.films() if film.density > 0]
@@ -63,94 +75,184 @@ def of_example(example):
         for states, shown in ((contacts, example.contact), (films, example.film))
     ]
     return Maps(
-        f"maps{example.suffix}",
-        scan.file,
+        name,
+        scan.name,
+        names.in_a_file(scan.name),
         scan.pixel,
         example.height,
-        [Choice(f"P = {units.pressure(item.pressure)}", {"state": item.state, "gap": item.gap}) for item in contacts],
+        [
+            Choice(f"P = {units.pressure(item.pressure)}", {"contact": (lambda item=item: (item.state(), None)), "gap": item.gap})
+            for item in contacts
+        ],
         [Choice(units.density(item.density), {"film": item.thickness}) for item in films],
         tuple(chosen),
+        group="" if scan.name.endswith(f"({scan.group})") else scan.group,
     )
 
 
-def encoded(maps, budget=BUDGET):
-    """The JSON object that templates/viewer.js reads, and the pictures by their ids: ({...}, {id: data URI})."""
-    return _Encoder(maps, budget).run()
+def encoded(maps, share=1.0, budget=None):
+    """The JSON object that templates/viewer.js reads, and the pictures by their ids: ({...}, {id: data URI}).
+
+    share: of a page that several scans share; budget: bytes, where they are not that share of BUDGET.
+    """
+    return _Encoder(maps, share, share * BUDGET if budget is None else budget).run()
 
 
 class _Encoder:
-    """First what must be there, then quality, then as many gaps as fit."""
+    """One grid of numbers, from which a page draws, reads and saves; where it has not every pixel, pictures that have.
 
-    def __init__(self, maps, budget):
+    First what must be there, then the quality of pictures, then as many gaps as fit.
+    """
+
+    def __init__(self, maps, share, budget):
         self.maps, self.left = maps, budget
         self.pictures = {}
         self.last = -1, None
         self.with_gap = [place for place, choice in enumerate(maps.contacts) if "gap" in choice.load]
-        arrays = 1 + len(maps.films) + len(self.with_gap)
-        self.side = int(min(LARGEST_COARSE, max(2, math.sqrt(FOR_SAMPLES * budget / arrays / BYTES_A_SAMPLE))))
+        self.step = encoding.thinning(maps.height.shape, max(SMALLEST_GRID, int(encoding.LARGEST_GRID * math.sqrt(share))))
 
     def run(self):
         height = self.maps.height
-        self.height = height - np.float32(np.nanmean(height)) if np.isfinite(height).any() else height
+        has_mean = np.isfinite(height).any() and not self.maps.is_difference
+        self.mean = float(np.nanmean(height, dtype=float)) if has_mean else 0.0
         self.films = [np.asarray(choice.load["film"]()) for choice in self.maps.films]
-        contacts, wets, line = self._contacts()
-        self.quality = self._plan()
+        self._choose_steps()
+        contacts, line = self._contacts()
+        films = [self._film(place) for place in range(len(self.films))]
+        height_part = self._height()
+        self._paint(height_part, films)
         rows, columns = height.shape
         return {
             "name": self.maps.name,
+            "file": self.maps.file,
+            "heading": self.maps.heading,
             "size": [columns, rows],
             "pixel": list(self.maps.pixel),
-            "thinning": encoding.thinning(height.shape),
-            "height": self._part("height", *self._of_height()),
-            "films": [self._film(place, wet) for place, wet in enumerate(wets)],
+            "step": self.step,
+            "grid": list(self._on_grid(height).shape[::-1]),
+            "saturates": self.saturates,
+            "classes": [_hex(colour) for colour in encoding.CLASS_COLOURS],
+            "colours": {panel: _panel_colours(panel) for panel in COLOURS},
+            "height": height_part,
+            "films": films,
             "contacts": contacts,
             "first": list(self.maps.first),
             "line": line,
             "left_out": self._add_gaps(contacts),
         }, self.pictures
 
+    def _on_grid(self, values):
+        return values[:: self.step, :: self.step]
+
+    @property
+    def _is_thinned(self):
+        return self.step > 1
+
+    def _choose_steps(self):
+        """One decimal step for heights, gaps and films, which stand on another: fine enough for each; self.codes are those of the heights."""
+        sample = self._on_grid(self.maps.height)
+        heights = np.asarray(sample, dtype=float) - self.mean
+        self.height_limits = self._limits(heights)
+        usual = [self.height_limits[1] - self.height_limits[0]]
+        usual += [10 * top for film in self.films if (top := self._limits(film[film > 0])[1]) > 0 and (film > 0).any()]
+        finite = heights[np.isfinite(heights)]
+        self.power = encoding.power_of(min(usual), float(np.ptp(finite)) if finite.size else 0.0)
+        self.codes, self.height_hole = encoding.codes_of(heights, self.power)
+
+    def _height(self):
+        return self._part(self.height_limits, self._kept(encoding.packed(self.codes), self.height_hole))
+
     def _contacts(self):
-        """([{"label", "picture"}], ids of the pictures of what is wet, the ends of the first section)."""
-        contacts, line = [], None
+        """([{"label", "state", "pressure", "picture"}], the ends of the first section)."""
+        contacts, line, self.saturates = [], None, False
         touched = np.zeros(self.maps.height.shape, dtype=bool)
         for place, choice in enumerate(self.maps.contacts):
-            state = choice.load["state"]()
-            picture = encoding.contact_layer(state, (state > 1).any())
-            contacts.append({"label": choice.label, "picture": self._keep(f"contact{place}", picture)})
+            state, pressure = choice.load["contact"]()
+            contact = {"label": choice.label, "file": names.of_state(choice.label), "state": self._classes(state)}
+            if pressure is not None:
+                contact["pressure"] = self._pressure(pressure)
+            if self._is_thinned:
+                contact["picture"] = self._keep(f"contact{place}", encoding.contact_layer(state))
+            contacts.append(contact)
             touched |= state > 0
+            self.saturates = self.saturates or bool((state > 1).any())
             if place == self.maps.first[0]:
                 line = self._line(state > 0)
-        layers = (encoding.wet_layer(touched & (film > 0)) for film in self.films)
-        wets = [self._keep(f"wet{place}", layer) for place, layer in enumerate(layers)]
-        if contacts and not wets:
-            self._keep("wet", encoding.wet_layer(np.zeros((1, 1))))
-        return contacts, wets, line or self._line(touched)
+        self.touched = touched
+        return contacts, line or self._line(touched)
 
-    def _plan(self):
-        """The best quality with which all pictures fit, else the least."""
+    def _classes(self, classes):
+        return self._kept(encoding.packed(self._on_grid(classes).astype(np.int64)), None)
+
+    def _pressure(self, pressure):
+        """In a step of its own [Pa]."""
+        values = np.asarray(self._on_grid(pressure), dtype=float)
+        limits = 0.0, self._limits(values[values > 0])[1] if (values > 0).any() else 1.0
+        power = encoding.power_of(limits[1], float(values.max(initial=0.0)))
+        codes, hole = encoding.codes_of(values, power)
+        return self._part(limits, self._kept(encoding.packed(codes), hole), power, units.scale(limits[1], "Pa"))
+
+    def _film(self, place):
+        """Thickness, and where there is any, however thin."""
+        film = self.films[place]
+        codes, hole = encoding.codes_of(self._on_grid(film), self.power)
+        limits = 0.0, self._limits(film[film > 0])[1]
+        part = self._part(limits, self._kept(encoding.packed(codes, self.codes, is_level=True), hole))
+        label = self.maps.films[place].label
+        return {"label": label, "file": names.of_state(label), "wet": self._classes(film > 0), **part}
+
+    def _part(self, limits, array, power=None, scale=None):
+        """Numbers with the ends of their colours and their unit."""
+        factor, unit = scale or units.length_scale(max(map(abs, limits)))
+        return {"limits": list(limits), "unit": [factor, unit], "power": self.power if power is None else power, "array": array}
+
+    def _paint(self, height, films):
+        """Pictures of all pixels, where the grid has not all, of the best quality with which everything fits, else of the least."""
+        if not self._is_thinned:
+            return
+        shown = (self.maps.height - np.float32(self.mean)).astype(np.float32, copy=False)
+        if self.maps.contacts and not films:
+            self._keep("wet", encoding.wet_layer(np.zeros((1, 1))))
+        for place, (part, film) in enumerate(zip(films, self.films)):
+            part["wet_picture"] = self._keep(f"wet{place}", encoding.wet_layer(self.touched & (film > 0)))
+        self.quality = self._quality(shown, height)
+        height["picture"] = self._picture("height", "height", shown, height)
+
+    def _quality(self, shown, height):
         second = 80
-        samples = [(1, self._of_height())]
-        if self.films:
-            samples.append((len(self.films), self._of_film(0)))
-        if self.with_gap:
-            samples.append((len(self.with_gap), self._of_gap(self.with_gap[0])))
-        pictures = sum(count * len(_picture(*sample, second)) for count, sample in samples)
-        arrays = sum(count for count, _ in samples) * len(encoding.coarse(self.height, self.side)["data"])
+        pictures, arrays, count = len(_picture("height", shown, height["limits"], second)), 0, len(self.with_gap)
+        if count:
+            gap, array = self._gap_array(self.with_gap[0])
+            pictures += count * len(_picture("gap", gap, self._gap_limits(gap), second))
+            arrays = count * len(array["data"])
         fitting = [quality for quality, size in QUALITIES.items() if size * pictures + arrays <= self.left]
         return max(fitting, default=min(QUALITIES))
 
-    def _film(self, place, wet):
-        return {"label": self.maps.films[place].label, "wet": wet, **self._part(f"film{place}", *self._of_film(place))}
+    def _gap_array(self, place):
+        """(gap, its array); the gap is read once: it is asked for twice in a row."""
+        if self.last[0] != place:
+            gap = np.asarray(self.maps.contacts[place].load["gap"]())
+            codes, hole = encoding.codes_of(self._on_grid(gap), self.power)
+            self.last = place, (gap, {**encoding.packed(codes, self.codes), "hole": hole})
+        return self.last[1]
+
+    def _gap_limits(self, gap):
+        return 0.0, self._limits(gap)[1]
 
     def _add_gaps(self, contacts):
-        """The gap shown first, then those that fit; labels of the contacts whose gap does not."""
+        """The gap shown first, whatever its size, then those that fit; labels of the contacts whose gap does not."""
         cost, left_out = 0, []
         for place in self._order(self.with_gap):
-            if self.left < cost:
+            if cost and self.left < cost:
                 left_out.append(place)
                 continue
             before = self.left
-            contacts[place]["gap"] = self._part(f"gap{place}", *self._of_gap(place))
+            gap, array = self._gap_array(place)
+            part = self._part(self._gap_limits(gap), array)
+            self.left -= len(array["data"])
+            if self._is_thinned:
+                part["picture"] = self._picture(f"gap{place}", "gap", gap, part)
+            contacts[place]["gap"] = part
             cost = before - self.left
         return [contacts[place]["label"] for place in sorted(left_out)]
 
@@ -159,28 +261,12 @@ class _Encoder:
         preferred = [self.maps.first[0], *places[:1], *places[-1:], *places]
         return [place for place in dict.fromkeys(preferred) if place in places]
 
-    def _of_height(self):
-        """(values, limits, colours, ground)"""
-        return self.height, self._limits(self.height), map_axes.HEIGHT_COLOURS, "hole"
+    def _picture(self, name, panel, values, part):
+        return self._keep(name, _picture(panel, values, part["limits"], self.quality))
 
-    def _of_film(self, place):
-        film = self.films[place]
-        shown = np.where(film > 0, film, np.float32(np.nan))
-        return shown, (0.0, self._limits(film[film > 0])[1]), map_axes.FILM_COLOURS, "dry"
-
-    def _of_gap(self, place):
-        """The gap is read once: it is asked for twice in a row."""
-        if self.last[0] != place:
-            self.last = place, np.asarray(self.maps.contacts[place].load["gap"]())
-        return self.last[1], (0.0, self._limits(self.last[1])[1]), map_axes.GAP_COLOURS, "hole"
-
-    def _part(self, name, values, limits, colours, ground):
-        """A picture, its colours' ends, their unit, and the samples; a film's dry ground is zero in these."""
-        factor, unit = units.length_scale(max(map(abs, limits)))
-        array = encoding.coarse(np.nan_to_num(values) if ground == "dry" else values, self.side)
+    def _kept(self, array, hole):
         self.left -= len(array["data"])
-        picture = self._keep(name, _picture(values, limits, colours, ground, self.quality))
-        return {"picture": picture, "limits": list(limits), "unit": [factor, unit], "array": array}
+        return {**array, "hole": hole}
 
     def _keep(self, name, picture):
         self.left -= len(picture)
@@ -209,8 +295,8 @@ class _Encoder:
         return [[window.x0, row], [window.x1 - 1, row]]
 
 
-def _picture(values, limits, colours, ground, quality):
-    return encoding.coloured(values, limits, _table(colours), GROUND[ground], quality)
+def _picture(panel, values, limits, quality):
+    return encoding.coloured(values, limits, _table(COLOURS[panel]), HOLE, quality)
 
 
 def _table(colours):
@@ -219,6 +305,17 @@ def _table(colours):
 
     colour_map = colormaps[colours] if isinstance(colours, str) else colours
     return np.rint(255 * colour_map(np.linspace(0, 1, 256))[:, :3]).astype(np.uint8)
+
+
+def _panel_colours(panel):
+    """What viewer.js paints with: 256 colours, of which the first is that of what has no value."""
+    table = _table(COLOURS[panel])
+    table[0] = GROUNDS[panel]
+    return table.tobytes().hex()
+
+
+def _hex(colour):
+    return "#" + bytes(colour).hex()
 
 
 def css_gradient(colours):

@@ -1,5 +1,6 @@
 """Contacts: closed forms, refusals, certificates, and what stops them."""
 
+import inspect
 import pickle
 import signal
 import threading
@@ -10,6 +11,8 @@ import pytest
 
 import tabor as tb
 from conftest import heights
+from tabor import _tabor
+from tabor._surface import _STEPS
 
 
 def wave(n=64, amplitude=1e-6, wavelength=64e-6):
@@ -52,6 +55,34 @@ def test_several_pressures_give_a_list_of_the_same_contacts(rough, steel):
     np.testing.assert_array_equal(many[1].pressure, tb.contact(rough, 5e7, steel).pressure)
 
 
+def test_edges_are_the_boundary_and_the_mirror_in_one_word(levelled, steel):
+    part = levelled.crop(0, 0, 24, 20)
+    for edges, surface, boundary in (("tile", part, "periodic"), ("cut", part.mirror(), "periodic"), ("end", part, "free")):
+        expected = tb.contact(surface, "50 MPa", steel, boundary=boundary)
+        for found in (tb.contact(part, "50 MPa", steel, edges=edges), tb.contact(part.edges(edges), "50 MPa", steel)):
+            np.testing.assert_array_equal(found.pressure, expected.pressure)
+            assert "not-periodic" not in [warning.code for warning in found.warnings]
+            assert found.surface.shape == surface.shape
+    assert "not-periodic" in [warning.code for warning in tb.contact(part, "50 MPa", steel).warnings]
+    film = tb.rain(part.mirror(), "0.1 g/m^2")
+    assert tb.friction(tb.contact(part, "50 MPa", steel, edges="cut"), film, shear_strength="70 MPa").dry > 0
+
+
+@pytest.mark.parametrize("options", [{"edges": "cut", "boundary": "free"}, {"edges": "tile", "boundary": "free"},
+                                     {"edges": "end", "boundary": "periodic"}, {"edges": "ends"}])
+def test_edges_that_contradict_each_other_are_refused(rough, steel, options):
+    with pytest.raises(ValueError, match="edges"):
+        tb.contact(rough, "50 MPa", steel, **options)
+    with pytest.raises(ValueError, match="edges"):
+        tb.contact(rough.edges("end"), "50 MPa", steel, edges="tile")
+
+
+def test_pickled_surfaces_keep_what_is_said_of_their_edges(rough):
+    assert rough.edges("end").periodic is False
+    assert pickle.loads(pickle.dumps(rough.edges("end"))).periodic is False
+    assert pickle.loads(pickle.dumps(rough.crop(0, 0, 24, 20).edges("tile"))).periodic is True
+
+
 def test_a_load_path_keeps_plastic_indentation(rough):
     soft = tb.Solid(youngs_modulus="210 GPa", poissons_ratio=0.3, saturation_pressure="400 MPa")
     fresh = tb.contact(rough, [2e8, 5e7], soft)
@@ -64,6 +95,31 @@ def test_warnings_have_a_code_and_a_text(levelled):
     found = tb.contact(levelled, "7 MPa", tb.Solid("aluminium-6016"))
     assert found.warnings and all(one.code and one.text for one in found.warnings)
     assert found.references and found.warnings[0].text in repr(found) and "certificate" in found._repr_html_()
+
+
+def test_warnings_advise_what_python_has(levelled):
+    """Every setting that a warning may name: as an argument of a function, or a step that can be treated with."""
+    names = ("area boundary boundary_shear_strength droplet_height edge fit_max fit_min model reading "
+             "saturation_pressure").split()
+    arguments = {name for call in (tb.Solid, tb.contact, tb.rain, tb.friction, tb.Surface.psd)
+                 for name in inspect.signature(call).parameters}
+    for name in names:
+        said = _tabor.advised(f"x; <{name}=a>")
+        assert said.removeprefix("x; ").partition("=")[0] in arguments, said
+    for name, (argument, _) in _STEPS.items():
+        said = _tabor.advised(f"x; <{name}=a>")
+        assert said == f"x; treat('{name}=a')" if argument else said == f"x; treat('{name}')"
+    assert _tabor.advised("x; <lowpass_scan> tells; <resolution_scan> tells") == "x"
+    texts = [one.text for one in tb.contact(levelled, "7 MPa", tb.Solid("aluminium-6016")).warnings]
+    assert any("treat('edges=cut')" in text for text in texts) and not any("--" in text or "<" in text for text in texts)
+
+
+def test_doubts_come_before_information():
+    z = np.random.default_rng(1).normal(0, 1e-7, (40, 50))
+    z[20, 20] = 1e-3
+    surface = tb.Surface(z, pixel=("1 um", "1.2 um")).despike("auto")
+    kinds = [warning.kind for warning in surface.warnings]
+    assert kinds == sorted(kinds) and {"doubt", "information"} == set(kinds)
 
 
 def test_a_result_does_not_change(rough, steel):

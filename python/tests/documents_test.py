@@ -38,13 +38,13 @@ def test_types_hold():
 
 
 def test_every_step_has_a_method_and_a_type():
-    source = (ROOT / "python" / "tabor" / "_surface.py").read_text("utf-8")
+    types = (pathlib.Path(tb.__file__).parent / "_setting_types.py").read_text("utf-8")
     for name, _, text in tb._tabor.treatment_steps():
         assert text[1:] in getattr(tb.Surface, name).__doc__
-        assert f"        def {name}(self, *" in source
+        assert f"        def {name}(self, *" in types
 
 
-@pytest.mark.parametrize("name", ["_cite", "_combine", "_contact", "_friction", "ehl", "_surface", "_values"])
+@pytest.mark.parametrize("name", ["_cite", "_combine", "_contact", "_friction", "_generate", "ehl", "_surface", "_values"])
 def test_examples_of_docstrings_hold(name):
     assert doctest.testmod(importlib.import_module(f"tabor.{name}")).failed == 0
 

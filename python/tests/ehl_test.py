@@ -95,6 +95,30 @@ def test_an_unknown_key_names_the_nearest(file):
         tb.ehl.point("none.toml")
 
 
+@pytest.mark.parametrize("name", ["impact", "squeeze", "line", "point"])
+def test_a_case_that_makes_no_sense_is_refused_when_it_is_made(name):
+    make = getattr(tb.ehl, name)
+    whole = tb.ehl.template(name)
+    first = next(key for key in tb.ehl.keys(name) if key.usual == "required" or key.name == "ball.load")
+    with pytest.raises(ValueError, match="missing|expected|given|give"):
+        make({})
+    for value in ("5 K", "-1 " + first.unit, "fast", float("nan"), object()):
+        with pytest.raises((ValueError, TypeError), match=first.name.replace(".", r"\.")):
+            make(whole, **{first.name: value})
+
+
+def test_a_quantity_of_another_dimension_is_refused_when_the_case_is_made():
+    pint = pytest.importorskip("pint")
+    unit = pint.UnitRegistry()
+    with pytest.raises(ValueError, match=r"lubricant\.viscosity: got 5 meter; expected a quantity in Pa s"):
+        tb.ehl.squeeze(tb.ehl.template("squeeze"), **{"lubricant.viscosity": 5 * unit.m})
+    with pytest.raises(ValueError, match="did you mean"):
+        tb.ehl.squeeze(tb.ehl.template("squeeze"), **{"lubricant.viscocity": 5 * unit.Pa * unit.s})
+    case = tb.ehl.squeeze(tb.ehl.template("squeeze"))
+    found = case.sweep({"lubricant.viscosity": np.array([400, 500]) * unit.mPa * unit.s})
+    assert found.axes == {"lubricant.viscosity": (0.4, 0.5)}
+
+
 POINT = {"ball": {"radius": "1.5 mm", "load": "16.6 N"},
          "solids": {"e_prime": "230.8 GPa", "plastic_pressure": "4 GPa"},
          "lubricant": {"viscosity": "0.149 Pa s", "pressure_viscosity": "2.131e-8 1/Pa", "eyring_stress": "6.8 MPa"},

@@ -124,3 +124,60 @@ def test_xarray_itself():
         assert surface.pixel == pytest.approx((2e-6, 1e-6), rel=1e-12)
     with pytest.raises(ValueError, match="coordinate y: expected rising values"):
         tb.Surface(array.isel(y=slice(None, None, -1)))
+
+
+# Heights that carry their unit
+
+def test_a_quantity_of_pint_is_taken_in_its_unit():
+    pint = pytest.importorskip("pint")
+    unit = pint.UnitRegistry()
+    for given in (Z * unit.um, Z * 1e3 * unit.nm, Z * 1e-6 * unit.m):
+        surface = tb.Surface(given, pixel=0.5 * unit.um)
+        np.testing.assert_allclose(surface.height, Z * 1e-6, rtol=1e-14)
+        assert surface.pixel == pytest.approx((0.5e-6, 0.5e-6), rel=1e-15)
+    np.testing.assert_allclose(tb.Surface(Z * unit.um, pixel=np.array([1.0, 2.0]) * unit.um, unit="um").height, Z * 1e-6, rtol=1e-14)
+    masked = tb.Surface(unit.Quantity(np.ma.masked_equal(Z, 5.0), "um"), pixel=1e-6)
+    assert masked.n_holes == 1 and masked.height[2, 3] == pytest.approx(11e-6, rel=1e-14)
+    with pytest.raises(ValueError, match="heights: got an array in megapascal; expected a quantity in m"):
+        tb.Surface(Z * unit.MPa, pixel=1e-6)
+
+
+def test_a_unit_that_contradicts_the_heights_is_refused():
+    pint = pytest.importorskip("pint")
+    for unit in ("m", "nm"):
+        with pytest.raises(ValueError, match=f"unit: got '{unit}' for heights that say they are in 'micrometer'; leave it out"):
+            tb.Surface(Z * pint.UnitRegistry().um, pixel=1e-6, unit=unit)
+    with pytest.raises(ValueError, match="unit: got 'um' for heights that say they are in 'm'"):
+        tb.Surface(tb.Surface(Z, pixel=1e-6), pixel=1e-6, unit="um")
+    with pytest.raises(ValueError, match="unit: got 'm' for heights that say they are in 'um'"):
+        tb.Surface(SimpleNamespace(data=Z, step_x=0.5, step_y=0.25), unit="m")
+
+
+@pytest.mark.parametrize("arguments", [{"pixel": "2 um"}, {"pixel": ("2 um", "2 um"), "unit": "um"}, {"pixel": 2e-6, "unit": "µm"}])
+def test_an_array_of_xarray_is_taken_in_its_unit_when_the_pixel_is_given(arguments):
+    xarray = pytest.importorskip("xarray")
+    array = xarray.DataArray(Z, dims=("y", "x"), attrs={"units": "um"})
+    for given in (array, array.transpose("x", "y"), array.rename(x="across", y="down")):
+        np.testing.assert_allclose(tb.Surface(given, **arguments).height, Z * 1e-6, rtol=1e-15)
+    with pytest.raises(ValueError, match="unit: got 'm' for heights that say they are in 'um'"):
+        tb.Surface(array, pixel="2 um", unit="m")
+    bare = xarray.DataArray(Z, dims=("y", "x"))
+    np.testing.assert_array_equal(tb.Surface(bare, pixel=1e-6).height, Z)
+    np.testing.assert_allclose(tb.Surface(bare, pixel=1e-6, unit="um").height, Z * 1e-6, rtol=1e-15)
+    with pytest.raises(ValueError, match="units of the heights"):
+        tb.Surface(array.assign_attrs(units="MPa"), pixel=1e-6)
+
+
+def test_a_pixel_that_contradicts_the_coordinates_is_refused():
+    xarray = pytest.importorskip("xarray")
+    array = tb.Surface(Z * 1e-6, pixel=("1 um", "2 um")).to_xarray()
+    assert tb.Surface(array, pixel=("1 um", "2 um")).pixel == pytest.approx((1e-6, 2e-6), rel=1e-12)
+    with pytest.raises(ValueError, match="pixel: got 1e-06 m along y for an array whose coordinates are 2e-06 m apart"):
+        tb.Surface(array, pixel="1 um")
+    assert isinstance(array, xarray.DataArray)
+
+
+def test_what_is_periodic_stays_so():
+    surface = tb.Surface(Z * 1e-6, pixel="1 um", periodic=True)
+    assert tb.Surface(surface).periodic and tb.Surface(surface).pixel == surface.pixel
+    assert tb.Surface(SimpleNamespace(data=Z, step_x=0.5, step_y=0.25), periodic=True).periodic

@@ -3,6 +3,7 @@
 import json
 import pickle
 import subprocess
+import time
 
 import numpy as np
 import pytest
@@ -177,8 +178,22 @@ def test_a_density_curve_is_that_of_the_command_line(program, scan_file):
         assert one["friction_lubricated"] == curve.friction_lubricated.tolist()
         assert one["lubricated_share"] == curve.lubricated_share.tolist()
         assert one["plateau_from_g_per_m2"] == pytest.approx(curve.plateau.first * 1e3, rel=1e-14)
+        assert one["plateau_to_g_per_m2"] == pytest.approx(curve.plateau.last * 1e3, rel=1e-14)
+        assert one["beyond_plateau_g_per_m2"] == pytest.approx(curve.plateau.beyond * 1e3, rel=1e-14)
     text = subprocess.run([*run.args[:-1]], capture_output=True, text=True, check=True).stdout
-    assert found[1].says(["0.45 g/m^2", 0.9e-3]) in " ".join(text.split())
+    films = tb.rain(surface, ["0.45 g/m^2", 0.9e-3])
+    pressed = tb.contact(surface, "7 MPa", tb.Solid("aluminium-6016"))
+    assert found[1].says([tb.friction(pressed, film) for film in films]) in " ".join(text.split())
+
+
+def test_a_density_that_is_asked_for_is_a_point_of_the_curve_with_the_wet_share_of_its_film(rough, steel):
+    pressed = tb.contact(rough, "50 MPa", steel)
+    curve = tb.density_curve(pressed, density=["0.1234 g/m^2", 0.00777])
+    film = tb.rain(rough, "0.1234 g/m^2", model="limit")
+    place = list(curve.lubricant_density).index(film.lubricant_density)
+    assert curve.lubricated_share[place] == tb.friction(pressed, film).lubricated_share
+    assert 0.00777 in curve.lubricant_density
+    assert curve.says("0.1234 g/m^2") == curve.says(tb.friction(pressed, film))
 
 
 def test_a_density_curve_falls_from_dry_friction(rough, steel):
@@ -201,3 +216,49 @@ def test_what_has_no_density_curve_is_refused(rough, levelled, steel):
     flat = tb.Surface(np.zeros((16, 16)), pixel=1e-6, periodic=True)
     with pytest.raises(ValueError, match="without heights"):
         tb.density_curve(tb.contact(flat, 5e7, steel))
+
+
+def others(surface):
+    """Surfaces that could be taken for this one: shape and name are the same."""
+    pixel = surface.pixel[0]
+    return {"other heights": tb.Surface(heights(seed=2), pixel=pixel, periodic=True),
+            "shifted": tb.Surface(surface.height + 1e-12, pixel=pixel, periodic=True),
+            "wider": tb.Surface(surface.height, pixel=2 * pixel, periodic=True), "turned": surface.flip("x"),
+            "treated": surface.lowpass("gauss:4um")}
+
+
+@pytest.mark.parametrize("name", ["other heights", "shifted", "wider", "turned", "treated"])
+def test_a_film_or_a_contact_of_another_surface_is_refused(rough, steel, name):
+    other = others(rough)[name]
+    dry, film = tb.contact(rough, 5e7, steel), tb.rain(rough, "0.45 g/m^2")
+    for contact, oil in ((dry, tb.rain(other, "0.45 g/m^2")), (tb.contact(other, 5e7, steel), film)):
+        for call in (lambda: tb.friction(contact, oil), lambda: tb.fluid_film(contact, oil, tb.Lubricant(0.1), 1e-3)):
+            with pytest.raises(ValueError, match="film: got a film on another surface, or on this one treated in another way"):
+                call()
+        copies = pickle.loads(pickle.dumps((contact, oil)))
+        with pytest.raises(ValueError, match="another surface"):
+            tb.friction(*copies)
+    with pytest.raises(ValueError, match="several surfaces"):
+        tb.density_curve([dry, tb.contact(other, 5e7, steel)])
+
+
+def test_records_of_equal_surfaces_belong_together(rough, steel, tmp_path):
+    copy = tb.Surface(rough.height.copy(), pixel=rough.pixel, periodic=False, name="copy")
+    dry, film = tb.contact(rough, 5e7, steel), tb.rain(copy, "0.45 g/m^2")
+    found = tb.friction(dry, film)
+    assert found.lubricated == tb.friction(dry, tb.rain(rough, "0.45 g/m^2")).lubricated
+    again = pickle.loads(pickle.dumps(dry))
+    assert tb.friction(again, film).lubricated == found.lubricated
+    curves = tb.density_curve([dry, again, tb.contact(copy, 2e7, steel)])
+    assert len(curves) == 3 and (curves[0].friction_lubricated == curves[1].friction_lubricated).all()
+    tb.save(tmp_path / "a.h5", [dry, pickle.loads(pickle.dumps(tb.contact(rough, 2e7, steel)))])
+
+
+def test_the_digest_of_a_surface_takes_milliseconds():
+    surface = tb.Surface(heights(1024), pixel=1e-6)
+    seconds = []
+    for _ in range(5):
+        begin = time.perf_counter()
+        tb._tabor.digest_of(surface._topography)
+        seconds.append(time.perf_counter() - begin)
+    assert min(seconds) < 0.05  # 1 to 2 ms of one processor

@@ -31,8 +31,10 @@ def test_a_wave_is_its_closed_form():
 @pytest.mark.parametrize("kind, arguments, text", [
     ("sinusiod", {}, "did you mean 'sinusoid'"), ("bump", {"height": 1e-6}, "radius is missing"),
     ("sphere", {"radius": "1 mm", "noise": 0}, "noise does not belong"),
-    ("edt", {"noize": 0}, "did you mean 'noise'"), ("edt", {"stage": "later"}, "stage: got 'later'"),
-    ("edt", {"noise": "1 MPa"}, "noise"), ("edt", {"pixels": 0}, "pixel"), ("edt", {"seed": -1}, "seed: got -1")])
+    ("edt", {"stage": "later"}, "stage: got 'later'"),
+    ("edt", {"noise": "1 MPa"}, "noise"), ("edt", {"pixels": 0}, "pixel"), ("edt", {"pixel": 1.5}, "craters of 50"),
+    ("ground", {"pixel": 1.5}, "groove spacing"), ("sphere", {"pixel": 1.5, "radius": 1e-3}, "two pixels"),
+    ("bump", {"height": float("inf"), "radius": 1e-4}, "height: got inf"), ("edt", {"seed": -1}, "seed: got -1")])
 def test_what_no_surface_can_be_is_refused(kind, arguments, text):
     with pytest.raises(ValueError, match=text):
         tb.generate(kind, **arguments)
@@ -40,6 +42,11 @@ def test_what_no_surface_can_be_is_refused(kind, arguments, text):
 
 def test_numbers_are_explained():
     assert "plateau_share : edt: share of the area" in tb.generate.__doc__
+
+
+def test_a_setting_that_no_surface_has_is_refused_with_the_nearest():
+    with pytest.raises(TypeError, match="generate.* unexpected keyword argument 'noize'; did you mean 'noise'"):
+        tb.generate("edt", noize=0)
 
 
 def test_formats_are_those_of_the_command_line(program):
@@ -65,7 +72,7 @@ def test_results_are_cited_with_the_software_below_them(rough, steel):
     for key in dry.references:
         assert f"{{{key}," in text
     assert "{hdf5," not in text and "{salmon2011," not in tb.cite(dry)
-    with pytest.raises(TypeError, match="cite: got int"):
+    with pytest.raises(TypeError, match="results: got int"):
         tb.cite(1)
 
 

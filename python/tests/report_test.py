@@ -72,7 +72,7 @@ def test_what_cannot_be_reported_is_refused(pressed, tmp_path):
         tb.report(pressed)
     with pytest.raises(ValueError, match="no such file"):
         tb.report(tmp_path / "none.h5")
-    with pytest.raises(TypeError, match="report: got int"):
+    with pytest.raises(TypeError, match="result: got int"):
         tb.report(7)
     with pytest.raises(ValueError, match="error_bar: got 'all'"):
         tb.report(pressed, tmp_path, error_bar="all")

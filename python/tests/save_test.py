@@ -1,6 +1,7 @@
 """What is saved is the file that the command line writes, to the last number of each map and attribute."""
 
 import pickle
+import re
 import subprocess
 
 import numpy as np
@@ -17,6 +18,11 @@ CONTACT = ["--pressure", "2MPa,7MPa", "--material", "aluminium-6016"]
 DENSITY = ["--density", "0.9g/m^2,0.45g/m^2"]
 
 
+def without_advice(warning):
+    """What a warning says; its advice names options there and arguments here."""
+    return re.sub(r"; .*?(?= \(\d+ of | \[)", "", warning)
+
+
 def content(file):
     """Of a result file: {path: values}, {path: {name: attribute}}, without what belongs to the run."""
     maps, attributes = {}, {}
@@ -27,6 +33,8 @@ def content(file):
             if name == "/":  # how many threads there were is of the run, too
                 lines = attributes[name]["config_toml"].splitlines()
                 attributes[name]["config_toml"] = [line for line in lines if not line.startswith("threads =")]
+            if "warnings" in attributes[name]:
+                attributes[name]["warnings"] = [without_advice(one) for one in attributes[name]["warnings"]]
             if isinstance(thing, h5py.Dataset):
                 maps[name] = thing[()]
         visit("/", opened)

@@ -39,6 +39,14 @@ def test_rows_are_those_of_single_calls_to_the_last_bit(folder, tmp_path):
     assert row[0]["friction_lubricated"] == one.lubricated and row[0]["friction_dry"] == one.dry
 
 
+def test_edges_are_those_of_single_calls(folder, tmp_path):
+    found = study_of(folder, edges="cut", density=0.0, pressure=7e6).run(tmp_path / "r", jobs=2)
+    surface = tb.read(folder / "before_1.h5").level("plane")
+    one = tb.friction(tb.contact(surface, 7e6, tb.Solid("aluminium-6016"), edges="cut"), tb.rain(surface.mirror(), 0.0))
+    row = [row for row in found.rows if str(row["scan"]).endswith("before_1.h5")]
+    assert len(row) == 1 and row[0]["friction_dry"] == one.dry
+
+
 def test_a_finished_study_is_not_computed_again(folder, tmp_path):
     study = study_of(folder)
     assert study.run(tmp_path / "r").n_contacts == 4
@@ -81,11 +89,13 @@ def test_scans_have_settings_of_their_own(folder, tmp_path):
 def test_curves_and_what_they_say_are_those_of_single_calls(folder, tmp_path):
     found = study_of(folder).run(tmp_path / "r")
     surface = tb.read(folder / "after_1.h5").level("plane")
-    curve = tb.density_curve(tb.contact(surface, 7e6, tb.Solid("aluminium-6016")))
+    pressed = tb.contact(surface, 7e6, tb.Solid("aluminium-6016"))
+    curve = tb.density_curve(pressed)
     rows = [row for row in found.density_curves if row["group"] == "after" and row["mean_pressure_Pa"] == 7e6]
     assert [row["friction_lubricated"] for row in rows] == curve.friction_lubricated.tolist()
     assert len(found.answers) == 4
-    assert f"after at 7 MPa: {curve.says([0.45e-3, 0.9e-3])}" in found.answers
+    frictions = [tb.friction(pressed, film) for film in tb.rain(surface, [0.45e-3, 0.9e-3])]
+    assert f"after at 7 MPa: {curve.says(frictions)}" in found.answers
     dry = study_of(folder, density=0).run(tmp_path / "dry")
     assert dry.density_curves == [] and dry.answers == ()
 
@@ -106,6 +116,7 @@ def test_ctrl_c_keeps_what_is_finished(tmp_path, scan_file):
     ({"density": "-1 g/m^2"}, "lubricant_density"),
     ({"treatment": ["levle=plane"]}, "did you mean 'level'"),
     ({"pressure": None}, "sweep.mean_pressure is missing"),
+    ({"edges": "cut", "boundary": "free"}, "contact.edges cut .* contradict"),
     ({"model": "droplet"}, "did you mean 'droplets'")])
 def test_what_no_study_can_be_is_refused(folder, changes, text):
     with pytest.raises(ValueError, match=text):
@@ -189,7 +200,28 @@ def test_oil_flows_in_a_study_as_in_that_of_the_command_line(program, folder, tm
 @pytest.mark.parametrize("changes, text", [({"speed": "1 m/s"}, "both a lubricant and a speed"),
                                            ({"lubricant": tb.Lubricant(0.1)}, "both a lubricant and a speed"),
                                            ({"lubricant": tb.Lubricant(0.1), "speed": "1 MPa"}, "speed"),
-                                           ({"lubricant": tb.Lubricant(0.1), "speed": 1, "boundary": "free"}, "periodic")])
+                                           ({"lubricant": tb.Lubricant(0.1), "speed": 1, "boundary": "free"}, "periodic"),
+                                           ({"lubricant": tb.Lubricant(0.1), "speed": 1, "edges": "end"}, "repeats")])
 def test_oil_that_cannot_flow_is_refused(folder, changes, text):
     with pytest.raises(ValueError, match=text):
         study_of(folder, **changes)
+
+
+def test_a_folder_tells_the_warnings_and_failures_of_its_run(folder, tmp_path):
+    """Of the numbers, of scans that are there twice, and of what failed."""
+    twice = tmp_path / "before_2.h5"
+    twice.write_bytes((folder / "before_1.h5").read_bytes())
+    study = tb.Study({"before": [folder / "before_1.h5", twice], "small": tb.Scans(folder / "after_1.h5", treatment=["crop=0,0,500,500"])},
+                     tb.Solid("aluminium-6016"), pressure=["2 MPa", "7 MPa"], density="0.45 g/m^2", treatment=["level=plane"])
+    ran = study.run(tmp_path / "r")
+    assert len(ran.warnings) > 2 and any("hold the same bytes" in one for one in ran.warnings) and len(ran.failures) == 2
+    read = tb.Results(tmp_path / "r")
+    assert read.warnings == ran.warnings and read.failures == ran.failures
+    assert study.run(tmp_path / "r").warnings == ran.warnings
+
+
+def test_a_folder_of_the_command_line_does_too(program, folder, tmp_path):
+    study_of(folder)._write(tmp_path / "study.toml")
+    subprocess.run([program, "sweep", tmp_path / "study.toml", "-o", tmp_path / "r"], capture_output=True, check=True)
+    told = tb.Results(tmp_path / "r").warnings
+    assert told == tb.Study.read(tmp_path / "study.toml").run(tmp_path / "r").warnings != ()

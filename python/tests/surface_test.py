@@ -234,3 +234,22 @@ def test_xarray_has_coordinates_in_metres(rough):
     np.testing.assert_array_equal(array.values, rough.height)
     assert array.dims == ("y", "x") and float(array.x[0]) == pytest.approx(0.5e-6, rel=1e-12)
     assert array.attrs["units"] == array.x.attrs["units"] == "m"
+
+
+def test_rows_are_levelled_and_warned_about():
+    x = np.linspace(0, 6 * np.pi, 128, endpoint=False)
+    clean = np.tile(1e-6 * np.sin(x), (64, 1))
+    offsets = 2e-6 * np.random.default_rng(1).normal(size=(64, 1))
+    scan = tb.Surface(clean + offsets, pixel="1 um")
+    assert "row-jumps" in [warning.code for warning in scan.warnings]
+    level = scan.level("rows")
+    assert np.ptp(level.height - clean) < 1e-18
+    assert "row-jumps" not in [warning.code for warning in level.warnings]
+
+
+def test_edges_are_looked_at():
+    x = np.linspace(0, 6 * np.pi, 64, endpoint=False)
+    waves = tb.Surface(np.tile(1e-6 * np.sin(x), (32, 1)), pixel="1 um")
+    assert waves.periodic and waves.psd().window == "none"
+    assert not waves.crop(0, 0, 40, 32).periodic and waves.crop(0, 0, 40, 32).psd().window == "hann"
+    assert not waves.edges("end").periodic and waves.edges("end").psd().window == "hann"

@@ -72,6 +72,38 @@ TEST_F(Defaults, AreNamedInTheResultAndOnStandardError) {
   EXPECT_THAT(run("contact", text, {"--quiet"}).err, Not(HasSubstr("mine.toml")));
 }
 
+TEST_F(Defaults, CannotSilenceTheLineThatNamesThem) {
+  const std::string text = "quiet = true\npressure = \"7 MPa\"\nmaterial = \"glass\"\n";
+  const std::string table = "pressure = \"7 MPa\"\n[contact]\nmaterial = \"glass\"\nquiet = true\n";
+  for (const std::string& each : {text, table}) {
+    EXPECT_THAT(run("contact", each).err, AllOf(HasSubstr("mine.toml: "), HasSubstr("--quiet"),
+                                                HasSubstr("--material=glass")));
+    EXPECT_THAT(run("contact", each, {"--quiet"}).err, Not(HasSubstr("mine.toml")));
+  }
+  EXPECT_EQ(run("contact", "quiet = false\n" + table).code, 0);
+}
+
+TEST_F(Defaults, ThatOverrideTheFileOfAScanAreNamedWhereItIsSaid) {
+  const auto said = [&](const std::string& text, const std::vector<std::string>& more = {}) {
+    std::string all;
+    const io::Json object = json("params", "set = \"height\"\n" + text, more);
+    for (const io::Json& warning : object["warnings"]) all += io::to_text(warning);
+    return all;
+  };
+  const std::string all_three = "pixel = \"2um\"\nunit = \"nm\"\noverride_unit = true\n";
+  EXPECT_THAT(said(all_three), AllOf(HasSubstr("2 um instead of the file's 1 um (--pixel and "
+                                               "--override-unit stand in "),
+                                     HasSubstr("mine.toml)")));
+  EXPECT_THAT(said("pixel = \"2um\"\n", {"--override-unit"}), HasSubstr("(--pixel stands in "));
+  EXPECT_THAT(said("override_unit = true\n", {"--pixel", "2um"}),
+              HasSubstr("(--override-unit stands in "));
+  EXPECT_THAT(said("unit = \"nm\"\n", {"--override-unit"}),
+              AllOf(HasSubstr("nm instead of the file's"), HasSubstr("(--unit stands in ")));
+  EXPECT_THAT(
+      said("", {"--pixel", "2um", "--override-unit"}),
+      AllOf(HasSubstr("2 um instead"), Not(HasSubstr("in tabor")), Not(HasSubstr("stands"))));
+}
+
 TEST_F(Defaults, GiveWayToWhatIsTyped) {
   const std::string text = "material = \"glass\"\npressure = \"7 MPa\"\n";
   EXPECT_EQ(json("contact", text, {"--pressure", "2MPa"})["states"][0]["mean_pressure_Pa"], 2e6);
@@ -123,6 +155,20 @@ TEST_F(Defaults, LieInTheWorkingFolder) {
   EXPECT_THAT(found.err, HasSubstr("defaults of tabor.toml"));
   EXPECT_EQ(none.code, 2);
   EXPECT_THAT(none.err, HasSubstr("--pressure"));
+}
+
+TEST_F(Defaults, BehindALinkThatLeadsNowhereAreRejectedInOneLine) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_ / "");
+  for (const auto& [target, problem] :
+       {std::pair("tabor.toml", "a link that leads to itself"), {"gone.toml", "no such file"}}) {
+    std::filesystem::create_symlink(target, "tabor.toml");
+    const Outcome outcome = run_tabor({"info", file("scan.h5")});
+    std::filesystem::remove("tabor.toml");
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_EQ(outcome.err, std::string("tabor: tabor.toml: ") + problem + "\n");
+  }
+  std::filesystem::current_path(before);
 }
 
 TEST_F(Defaults, ThatAreNoneAreRejected) {

@@ -1,4 +1,4 @@
-#include "tabor/ehl/program.hpp"
+#include "tabor/cases/ehl/program.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -11,9 +11,9 @@
 
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
+#include "tabor/cases/ehl/program.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/ehl/program.hpp"
 
 namespace tabor::cli {
 namespace {
@@ -137,8 +137,8 @@ bool fits(const std::string& unit, const std::string& message) {
 }
 
 TEST_P(EhlKeyTable, EveryKeyIsReadInItsUnit) {
-  for (const ehl::CaseKey& key : program().keys) {
-    const std::string wrong = key.unit == "K" ? "1 kg" : "1 K";
+  for (const ParameterHead& key : program().keys) {
+    const std::string wrong = key.shown_unit() == "K" ? "1 kg" : "1 K";
     Texts changes = beside(GetParam(), key.name);
     changes.push_back(key.name + "=" + wrong);
     std::string said;
@@ -150,8 +150,8 @@ TEST_P(EhlKeyTable, EveryKeyIsReadInItsUnit) {
       };
       const std::string name = key.name.substr(key.name.rfind('.') + 1);
       bool is_it = outcome.code == 3 && has(wrong) && (has(name) || name == "file");
-      if (!key.unit.empty()) {
-        is_it = is_it && has("whose unit does not fit") && fits(key.unit, outcome.err);
+      if (!key.shown_unit().empty()) {
+        is_it = is_it && has("whose unit does not fit") && fits(key.shown_unit(), outcome.err);
       }
       is_rejected = is_rejected || is_it;
       said += outcome.err + '\n';
@@ -192,12 +192,12 @@ TEST_P(EhlKeyTable, GivingADefaultChangesNothing) {
   int n_tried = 0;
   const std::string& text = cases().at(GetParam()).front();
   std::map<Texts, Outcome> without_keys;  // by what stands beside them: mostly nothing
-  for (const ehl::CaseKey& key : program().keys) {
-    if (!is_value(key.usual) || key.name.starts_with("grid.nodes")) continue;
+  for (const ParameterHead& key : program().keys) {
+    if (!is_value(key.when_absent()) || key.name.starts_with("grid.nodes")) continue;
     Texts changes = beside(GetParam(), key.name);
     if (!without_keys.contains(changes)) without_keys[changes] = run(text, GetParam(), changes);
     const Outcome& without = without_keys.at(changes);
-    changes.push_back(key.name + "=" + key.usual);
+    changes.push_back(key.name + "=" + key.when_absent());
     const Outcome with = run(text, GetParam(), changes);
     ASSERT_EQ(without.code, 0) << key.name << ": " << without.err;
     const auto numbers = [](const Outcome& outcome) {
@@ -215,9 +215,9 @@ TEST_P(EhlKeyTable, GivingADefaultChangesNothing) {
 TEST_P(EhlKeyTable, HelpListsEveryKey) {
   const Outcome outcome = run_tabor({"ehl", GetParam(), "--help"});
   EXPECT_EQ(outcome.code, 0);
-  for (const ehl::CaseKey& key : program().keys) {
+  for (const ParameterHead& key : program().keys) {
     EXPECT_THAT(outcome.out, HasSubstr("\n  " + key.name + " "));
-    EXPECT_FALSE(key.meaning.empty()) << key.name;
+    EXPECT_FALSE(key.meaning().empty()) << key.name;
   }
   for (const ehl::Program& other : ehl::programs()) {
     const std::string title = "Keys of a case of 'tabor ehl " + other.name;

@@ -6,11 +6,11 @@
 #include <sstream>
 
 #include "run_tabor.hpp"
+#include "tabor/cases/ehl/program.hpp"
 #include "tabor/cli/verb.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/likely_unit.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/ehl/program.hpp"
 #include "tabor/io/toml.hpp"
 
 namespace tabor::test {
@@ -149,9 +149,9 @@ const std::map<std::string, Plausible>& plausible_keys() {
       {"ball.speed", kMotion},
       {"ball.load", {dimension::force, 1e-6, 1e6}},
       {"cylinder.radius", kBody},
-      {"cylinder.load_per_length", {{0, 1, -2, 0}, 1e-2, 1e9}},
+      {"cylinder.load_per_length", {dimension::force_per_length, 1e-2, 1e9}},
       {"roller.effective_radius", kBody},
-      {"roller.mass_per_length", {{-1, 1, 0, 0}, 1e-6, 1e5}},
+      {"roller.mass_per_length", {dimension::mass_per_length, 1e-6, 1e5}},
       {"roller.spring", {dimension::pressure, 1e6, 1e13}},
       {"roller.damping", {dimension::viscosity, 1e-3, 1e9}},
       {"roller.speed", kMotion},
@@ -219,8 +219,8 @@ TEST(MissingUnit, IsKnownOfEveryKeyOfACase) {
   // Lengths of a surface or a grid, for which the usual unit of lengths does.
   const std::regex no_table("(roughness|grid|film|groups)\\..*|wear\\.wave_amplitude");
   for (const ehl::Program& program : ehl::programs()) {
-    for (const ehl::CaseKey& key : program.keys) {
-      EXPECT_TRUE(key.unit.empty() || plausible_keys().count(key.name) == 1 ||
+    for (const ParameterHead& key : program.keys) {
+      EXPECT_TRUE(key.shown_unit().empty() || plausible_keys().count(key.name) == 1 ||
                   std::regex_match(key.name, no_table))
           << "what is an ordinary value of " << key.name << "? See core/likely_unit.cpp";
     }

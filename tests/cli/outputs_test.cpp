@@ -8,9 +8,9 @@
 #include "run_tabor.hpp"
 #include "small_ball.hpp"
 #include "support/folder.hpp"
-#include "tabor/analysis/fields_file.hpp"
 #include "tabor/cli/interrupt.hpp"
 #include "tabor/cli/verb.hpp"
+#include "tabor/results/fields_file.hpp"
 #include "tabor/scan/file.hpp"
 
 namespace tabor::test {
@@ -294,7 +294,7 @@ TEST_F(Outputs, InterruptedBeforeTheFirstStateAreNotMade) {
 TEST_F(Outputs, WithoutAStateAreNotMade) {
   const topography::Topography surface = scan::read(file("in.h5"));
   for (const bool has_state : {false, true}) {
-    analysis::FieldsFile fields(file("out.h5"), {}, {}, surface, {});
+    results::FieldsFile fields(file("out.h5"), {}, {}, surface, {});
     if (has_state) fields.add_state(0, {}, {{"gap", "m", "gap", surface.height}});
     fields.commit({});
     EXPECT_EQ(fs::exists(file("out.h5")), has_state);

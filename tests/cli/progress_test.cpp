@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tabor/cli/interrupt.hpp"
-#include "tabor/study/work_share.hpp"
+#include "tabor/engine/work_share.hpp"
 
 namespace tabor::cli {
 namespace {
@@ -132,7 +132,7 @@ struct SimulatedSweep {
       jobs.insert(jobs.end(), 6, "contact");
     }
     double now = 0;
-    study::WorkShare work(jobs, [&] { return now; });
+    engine::WorkShare work(jobs, [&] { return now; });
     work.set_workers(n_workers);
     std::vector<std::pair<std::size_t, double>> running;  // job, when it began
     for (std::size_t next = 0; next < jobs.size() || !running.empty(); now += 0.1) {

@@ -3,8 +3,8 @@
 
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
+#include "tabor/cases/ehl/program.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/ehl/program.hpp"
 #include "tabor/study/study.hpp"
 
 namespace tabor::test {
@@ -85,7 +85,7 @@ TEST_F(Templates, OfEveryProgramHaveEveryKey) {
       if (bare.starts_with('[')) section = bare.substr(1, bare.size() - 2);
       keys += '<' + section + '.' + bare.substr(0, bare.find(" =")) + '>';
     }
-    for (const ehl::CaseKey& key : program.keys) {
+    for (const ParameterHead& key : program.keys) {
       EXPECT_THAT(keys, HasSubstr('<' + key.name + '>')) << program.name;
     }
   }

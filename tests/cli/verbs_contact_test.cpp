@@ -54,6 +54,26 @@ TEST_F(ContactVerb, AreaGrowsWithPressureAndReachesTheTolerance) {
   }
 }
 
+TEST_F(ContactVerb, TakesARangeOfPressures) {
+  const io::Json ranged = json_of(contact("20MPa..80MPa:log:3")).at("states");
+  ASSERT_EQ(ranged.size(), 3u);
+  const io::Json listed = json_of(contact("20MPa,40MPa,80MPa")).at("states");
+  for (std::size_t i = 0; i < ranged.size(); ++i) {
+    for (const char* key : {"mean_pressure_Pa", "contact_area_fraction"}) {
+      EXPECT_EQ(ranged.at(i).at(key), listed.at(i).at(key)) << key;
+    }
+  }
+}
+
+TEST_F(ContactVerb, RangesThatCannotBeAreUsageErrors) {
+  for (const char* pressure : {"20MPa..80mm:3", "0MPa..80MPa:log:3", "20MPa..80MPa:many"}) {
+    const Outcome outcome = run_tabor(contact(pressure));
+    EXPECT_EQ(outcome.code, 2) << pressure;
+    EXPECT_THAT(outcome.err, HasSubstr("--pressure: ")) << pressure;
+    EXPECT_THAT(outcome.err, HasSubstr("write a range like")) << pressure;
+  }
+}
+
 TEST_F(ContactVerb, StatisticsAddStiffnessAndHistograms) {
   EXPECT_FALSE(json_of(contact("20MPa")).at("states").at(0).contains("contact_stiffness_Pa_per_m"));
   const io::Json state = json_of(contact("20MPa") + Words{"--statistics"}).at("states").at(0);
@@ -220,6 +240,62 @@ TEST_F(ContactVerb, TableShowsCertificateAndConvergence) {
   const Outcome outcome = run_tabor(contact("20MPa"));
   EXPECT_THAT(outcome.out, testing::AllOf(HasSubstr("20 MPa"), HasSubstr("certificate"),
                                           HasSubstr("converged"), HasSubstr("yes")));
+}
+
+TEST_F(ContactVerb, EdgesAreTheBoundaryAndTheMirrorInOneWord) {
+  const auto states = [&](const Words& more) {
+    io::Json all = json_of(contact("20MPa") + more);
+    io::Json numbers = {all.at("nx"), all.at("boundary")};
+    for (const char* key : {"contact_area_fraction", "mean_gap_m", "max_pressure_Pa"}) {
+      numbers.push_back(all.at("states").at(0).at(key));
+    }
+    return numbers;
+  };
+  const Words crop = {"--crop", "0,0,48,40"};
+  EXPECT_EQ(states(crop + Words{"--edges", "tile"}),
+            states(crop + Words{"--boundary", "periodic"}));
+  EXPECT_EQ(states(crop + Words{"--edges", "cut"}), states(crop + Words{"--mirror"}));
+  EXPECT_EQ(states(crop + Words{"--edges", "end"}), states(crop + Words{"--boundary", "free"}));
+  EXPECT_EQ(states({"--boundary", "free", "--edges", "end"}), states({"--edges", "end"}));
+}
+
+TEST_F(ContactVerb, EdgesAreWarnedAboutUntilTheyAreSaid) {
+  const auto warns = [&](const Words& more) {
+    return run_tabor(contact("20MPa") + more).err.find("[not-periodic]") != std::string::npos;
+  };
+  const Words crop = {"--crop", "0,0,48,40"};
+  EXPECT_FALSE(warns({}));
+  EXPECT_TRUE(warns(crop));
+  for (const char* edges : {"tile", "cut", "end"}) {
+    EXPECT_FALSE(warns(crop + Words{"--edges", edges})) << edges;
+  }
+}
+
+TEST_F(ContactVerb, EdgesOfAFileAreThoseItWasWrittenWith) {
+  const std::string ends = file("ends.h5");
+  ASSERT_EQ(run_tabor({"convert", scan(), ends, "--crop", "0,0,48,40", "--edges", "end"}).code, 0);
+  Words words = contact("20MPa");
+  words[1] = ends;
+  EXPECT_EQ(json_of(words).at("boundary"), "free");
+  const Outcome contradiction = run_tabor(words + Words{"--boundary", "periodic"});
+  EXPECT_EQ(contradiction.code, 2);
+  EXPECT_THAT(contradiction.err, HasSubstr("contradict each other"));
+}
+
+TEST_F(ContactVerb, RejectsEdgesThatContradictEachOther) {
+  for (const Words& wrong : {Words{"--edges", "cut", "--boundary", "free"},
+                             {"--edges", "tile", "--boundary", "free"},
+                             {"--boundary", "periodic", "--edges", "end"},
+                             {"--edges", "tile", "--edges", "cut"},
+                             {"--edges", "end", "--mirror"},
+                             {"--mirror", "--edges", "tile"},
+                             {"--edges", "endless"}}) {
+    const Outcome outcome = run_tabor(contact("20MPa") + wrong);
+    EXPECT_EQ(outcome.code, 2) << wrong[1] << wrong.back();
+    EXPECT_THAT(outcome.err, HasSubstr("edges"));
+  }
+  const Outcome psd = run_tabor({"psd", scan(), "--edges", "end", "--mirror"});
+  EXPECT_EQ(psd.code, 2) << psd.err;
 }
 
 }  // namespace

@@ -225,7 +225,7 @@ TEST(EhlLine, WarningsAStrokeInTooFewSteps) {
         json_of(quick({"--set", "wear.coefficient=2.8e-15 m^2/N", "--set", "wear.stroke=1 mm",
                        "--set", "wear.steps=" + steps}))["warnings"]);
   };
-  EXPECT_THAT(warnings("40"), HasSubstr("steps per cycle or more"));
+  EXPECT_THAT(warnings("40"), HasSubstr("steps per cycle"));
   EXPECT_THAT(warnings("120"), testing::Not(HasSubstr("steps per cycle")));
 }
 
@@ -280,7 +280,7 @@ TEST(EhlLine, GivesNoFrictionThatNoOilHas) {  // slow
   EXPECT_EQ(json["converged"], true);
   EXPECT_TRUE(json["friction_coefficient"].is_null());
   EXPECT_TRUE(json["max_shear_stress_Pa"].is_null());
-  EXPECT_THAT(io::to_text(json["warnings"]), HasSubstr("oils give way"));
+  EXPECT_THAT(io::to_text(json["warnings"]), HasSubstr("a Newtonian film would be sheared"));
 }
 
 TEST(EhlLine, RejectsAsperitiesThatMakeNoSense) {
@@ -293,7 +293,7 @@ TEST(EhlLine, RejectsAsperitiesThatMakeNoSense) {
   };
   rejected(mixed(), "asperities.boundary_film=0 nm", "above zero");
   rejected(mixed(), "asperities.shear_strength=1 MPa", "one of the two");
-  rejected(mixed(), "asperities.friction_coefficient=-0.1", "friction coefficient");
+  rejected(mixed(), "asperities.friction_coefficient=-0.1", "friction_coefficient");
   rejected(mixed(), "motion.sliding_speed=1 mm/s", "one of the two");
   rejected(quick(), "asperities.friction_coefficient=0.1", "boundary_film");
   rejected(quick({"--set", "asperities.boundary_film=30 nm", "--set", "wear.track_length=16 mm"}),

@@ -185,23 +185,27 @@ TEST_F(EhlPoint, ASweepSaysOnceWhatVoidsTheNumbersOfItsRows) {
       words(file, {"motion.sliding_speed=0m/s,1m/s,2m/s"}, {"-o", out});
   const Outcome table = run_tabor(sweep);
   EXPECT_EQ(table.code, 0) << table.err;
-  const std::string which = "2 of 3 cases (motion.sliding_speed = 1m/s, 2m/s), the first: ";
-  EXPECT_THAT(table.err, HasSubstr(which + "a Newtonian film would be sheared"));
-  EXPECT_THAT(table.err, HasSubstr("all 3 cases: the pressure reaches"));
+  const std::string which = " (2 of 3 cases) [newtonian-shear]";
+  EXPECT_THAT(table.err, HasSubstr("a Newtonian film would be sheared"));
+  EXPECT_THAT(table.err, HasSubstr(which));
+  EXPECT_THAT(table.err, HasSubstr("(all 3 cases"));
   EXPECT_THAT(table.err, Not(HasSubstr("--json")));
   EXPECT_THAT(table.out, HasSubstr("warnings\n"));
   const io::Json json = json_of(sweep);
-  EXPECT_THAT(io::to_text(json["warnings"]), HasSubstr(which));
+  EXPECT_EQ(json["warnings"][2]["code"], "newtonian-shear");
+  EXPECT_EQ(json["warnings"][2]["n_cases"], 2);
+  EXPECT_EQ(json["results"][1]["warning_codes"][2], "newtonian-shear");
   EXPECT_EQ(json["results"][0]["friction_coefficient"], 0);
   EXPECT_TRUE(json["results"][1]["friction_coefficient"].is_null());
   EXPECT_TRUE(json["results"][2]["friction_coefficient"].is_null());
   const io::Hdf5Reader reader(out);
   EXPECT_TRUE(std::isnan(reader.numbers("/sweep/friction_coefficient")[1]));
   EXPECT_THAT(reader.attribute_texts("/", "warnings"), testing::Contains(HasSubstr(which)));
-  const std::vector<std::string> marks = reader.texts("/sweep/warning_marks");
-  ASSERT_EQ(marks.size(), 3u);
-  EXPECT_EQ(marks[1], marks[2]);
-  EXPECT_GT(marks[1].size(), marks[0].size());
+  const std::vector<std::string> codes = reader.texts("/sweep/warning_codes");
+  ASSERT_EQ(codes.size(), 3u);
+  EXPECT_THAT(codes[0], Not(HasSubstr("newtonian-shear")));
+  EXPECT_THAT(codes[1], HasSubstr("newtonian-shear"));
+  EXPECT_EQ(codes[1], codes[2]);
 }
 
 TEST_F(EhlPoint, FindsTheLimitOfThreeGrids) {  // slow
@@ -309,7 +313,7 @@ TEST_F(EhlPoint, MovesItsRoughnessWithItsBody) {
   EXPECT_THAT(run_tabor(words(groups_, bump)).err, HasSubstr("motion.duration lets it move"));
 }
 
-TEST_F(EhlPoint, RejectsPassagesThatCannotBe) {
+TEST_F(EhlPoint, RejectsTransientsThatCannotBe) {
   rejected(words(groups_, {"motion.duration=1ms", "motion.sliding_speed=0m/s"}), "a [roughness]");
   rejected(words(groups_, {"motion.duration=1ms", "roughness.bump.height=50nm",
                            "roughness.bump.wavelength=100um"}),

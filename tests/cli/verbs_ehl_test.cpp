@@ -153,12 +153,14 @@ TEST(EhlImpact, GoesOnWithASweepBehindACaseThatMakesNoSense) {
   ASSERT_EQ(results.size(), 2u);
   EXPECT_EQ(results[0]["converged"], true);
   EXPECT_EQ(results[1]["converged"], false);
-  EXPECT_THAT(results[1]["refused"].get<std::string>(), HasSubstr("thicker layer"));
+  EXPECT_EQ(results[1]["status"], "rejected");
+  EXPECT_THAT(results[1]["error"].get<std::string>(), HasSubstr("thicker layer"));
   const std::vector<std::string> warnings = io::Hdf5Reader(file).texts("/sweep/warnings");
   ASSERT_EQ(warnings.size(), 2u);
   EXPECT_THAT(warnings[1], HasSubstr("thicker layer"));
   words.pop_back();
-  EXPECT_THAT(run_tabor(words).err, HasSubstr("1 of 2 cases are invalid, the first: "));
+  EXPECT_THAT(run_tabor(words).err,
+              testing::AllOf(HasSubstr("(1 of 2 cases"), HasSubstr("[rejected]")));
 }
 
 TEST(EhlImpact, RejectsASweepOfWhichNoCaseMakesSense) {

@@ -42,6 +42,16 @@ class LubricantVerbs : public testing::Test {
   Folder folder_;
 };
 
+TEST_F(LubricantVerbs, AMaterialWithoutShearStrengthIsNamed) {
+  Words words = {"friction",  scan(),     "--pressure", "7MPa",
+                 "--density", "0.9g/m^2", "--material", "steel-100cr6"};
+  const Outcome outcome = run_tabor(words);
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("steel-100cr6 has no shear strength in the library; add --shear-strength"));
+  EXPECT_EQ(run_tabor(words + Words{"--shear-strength", "70MPa"}).code, 0);
+}
+
 TEST_F(LubricantVerbs, LubricateHasTheAgreedKeys) {
   const io::Json result = json_of(lubricate("0.45g/m^2,0.9g/m^2"));
   for (const char* key : {"model", "reading", "edge", "seed", "droplet_height_m",

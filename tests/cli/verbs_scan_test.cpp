@@ -49,7 +49,7 @@ TEST_F(ScanVerbs, InfoHasTheAgreedKeys) {
                      "pixel_y_m", "size_x_m", "size_y_m", "missing_pixels", "missing_fraction",
                      "height_min_m", "height_max_m", "height_rms_m", "height_quantum_m", "doubts",
                      "warnings"});
-  expect_keys(info.at("channels").at(0), {"index", "name", "unit", "is_height"});
+  expect_keys(info.at("channels").at(0), {"index", "name", "unit", "is_height", "nx", "ny"});
   EXPECT_EQ(info.at("nx"), 32);
   EXPECT_EQ(info.at("ny"), 24);
   EXPECT_DOUBLE_EQ(info.at("pixel_x_m").get<double>(), 1e-6);
@@ -88,8 +88,9 @@ TEST_F(ScanVerbs, TreatmentIsAppliedInTheOrderGiven) {
 }
 
 TEST_F(ScanVerbs, UnlevelledScansAreWarnedAbout) {
-  EXPECT_THAT(io::to_text(json_of({"params", scan()}).at("warnings")), HasSubstr("--level plane"));
-  EXPECT_THAT(io::to_text(json_of({"params", scan(), "--level", "plane"}).at("warnings")),
+  const Words part = {"params", scan(), "--crop", "0,0,20,16"};  // the whole of it tiles
+  EXPECT_THAT(io::to_text(json_of(part).at("warnings")), HasSubstr("--level plane"));
+  EXPECT_THAT(io::to_text(json_of(part + Words{"--level", "plane"}).at("warnings")),
               testing::Not(HasSubstr("--level plane")));
 }
 
@@ -130,6 +131,9 @@ TEST_F(ScanVerbs, InfoOfAFileThatLacksAUnitSaysWhatToGive) {
   put_bytes(folder_ / "plain.txt", "1 2 3\n4 5 6\n7 8 10\n");
   const io::Json info = json_of({"info", file("plain.txt")});
   EXPECT_TRUE(info.at("pixel_x_m").is_null());
+  EXPECT_EQ(info.at("nx"), 3);
+  EXPECT_EQ(info.at("ny"), 3);
+  EXPECT_THAT(run_tabor({"info", file("plain.txt")}).out, HasSubstr("3 x 3"));
   EXPECT_EQ(info.at("channels").size(), 1u);
   EXPECT_THAT(info.at("doubts").at(0).get<std::string>(), HasSubstr("--pixel 0.67um --unit um"));
   // Everything that needs heights still rejects.
@@ -170,6 +174,17 @@ TEST_F(ScanVerbs, MissingFileIsBadInput) {
   EXPECT_EQ(outcome.code, 3);
   EXPECT_EQ(count_lines(outcome.err), 1u);
   EXPECT_THAT(outcome.err, HasSubstr("absent.x3p"));
+}
+
+TEST_F(ScanVerbs, ConvertSeparatesAsTheNameSays) {
+  for (const auto& [name, separator] : {std::pair{"m.csv", ','}, {"m.CSV", ','}, {"m.txt", '\t'}}) {
+    ASSERT_EQ(run_tabor({"convert", scan(), file(name)}).code, 0) << name;
+    const std::string text = bytes_of(folder_ / name);
+    const std::string row = text.substr(text.rfind('\n', text.size() - 2) + 1);
+    const io::Json read = json_of({"info", file(name)});
+    EXPECT_EQ(std::count(row.begin(), row.end(), separator), read.at("nx").get<int>() - 1) << name;
+    EXPECT_EQ(read.at("height_rms_m"), json_of({"info", file("m.csv")}).at("height_rms_m")) << name;
+  }
 }
 
 TEST_F(ScanVerbs, OutputInAnAbsentFolderCannotBeWritten) {

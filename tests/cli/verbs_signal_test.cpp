@@ -40,6 +40,12 @@ class SignalVerbs : public testing::Test {
   Folder folder_;
 };
 
+std::size_t count_of(const std::string& word, const std::string& text) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(word); at != text.npos; at = text.find(word, at + 1)) ++n;
+  return n;
+}
+
 TEST_F(SignalVerbs, PsdGivesAutocorrelationAndDifferencesWhenAsked) {
   const io::Json plain = json_of({"psd", file("a.sdf")});
   EXPECT_FALSE(plain.contains("acf"));
@@ -53,7 +59,11 @@ TEST_F(SignalVerbs, PsdGivesAutocorrelationAndDifferencesWhenAsked) {
     const io::Json& curve = psd.at("hdf").at(direction);
     EXPECT_EQ(curve.at("lag_m").size(), curve.at("mean_square_m2").size());
     EXPECT_NEAR(curve.at("hurst").get<double>(), 0.8, 0.25);
+    EXPECT_EQ(curve.at("hurst_standard_error_is_lower_bound"), true);
   }
+  EXPECT_FALSE(psd.at("x").contains("hurst_standard_error_is_lower_bound"));
+  const std::string shown = run_tabor({"psd", file("a.sdf"), "--hdf"}).out;
+  EXPECT_EQ(count_of(" or more ", shown), 3u);  // of x, y and radial height differences alone
   EXPECT_EQ(psd.at("trusted").at("shortest_is_limited_by"), "tip");
   EXPECT_DOUBLE_EQ(psd.at("trusted").at("shortest_wavelength_m").get<double>(), 6e-6);
 }
@@ -87,8 +97,7 @@ TEST_F(SignalVerbs, PsdWarningsExponentsOfNoSelfAffineSurface) {
       run_tabor({"convert", file("a.sdf"), file("smooth.sdf"), "--lowpass", "gauss:20um"}).code, 0);
   const Outcome outcome =
       run_tabor({"psd", file("smooth.sdf"), "--fit-min", "0.3/um", "--fit-max", "0.6/um"});
-  EXPECT_THAT(outcome.err,
-              HasSubstr("no self-affine surface has a Hurst exponent outside 0 to 1 (C1D"));
+  EXPECT_THAT(outcome.err, HasSubstr("Hurst exponent outside 0 to 1 (C1D"));
   EXPECT_THAT(run_tabor({"psd", file("a.sdf")}).err, testing::Not(HasSubstr("Hurst")));
 }
 

@@ -1,9 +1,14 @@
 // sweep on two small generated surfaces.
 #include <gmock/gmock.h>
 
+#include <filesystem>
+#include <limits>
+
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
+#include "tabor/core/text.hpp"
 #include "tabor/io/csv.hpp"
+#include "tabor/scan/file.hpp"
 
 namespace tabor::test {
 namespace {
@@ -59,6 +64,58 @@ TEST_F(StudyVerbs, SweepTableShowsMeanAndDeviation) {
   const Outcome outcome = run_tabor(sweep());
   EXPECT_EQ(outcome.code, 0);
   EXPECT_THAT(outcome.out, testing::AllOf(HasSubstr("±"), HasSubstr("4 of 4 done")));
+}
+
+TEST_F(StudyVerbs, SetTakesThePlaceOfAValueInTheFile) {
+  std::vector<std::string> words = sweep();
+  words.insert(words.end(),
+               {"--set", "sweep.mean_pressure=3MPa", "--set", "material.saturation_pressure=none"});
+  const io::Json result = json_of(words);
+  ASSERT_EQ(result.at("averages").size(), 1u);
+  EXPECT_EQ(result.at("averages").at(0).at("mean_pressure_Pa"), 3e6);
+  words.back() = "material.saturation_pressure";
+  const Outcome wrong = run_tabor(words);
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err,
+              HasSubstr("--set: got 'material.saturation_pressure'; expected KEY=VALUE"));
+}
+
+TEST_F(StudyVerbs, SweepTableMarksWhatAFrictionTableLeavesOut) {
+  const auto shown_with = [&](const std::string& densities) {
+    std::string text = bytes_of(folder_ / "study.toml");
+    const std::string listed = text.substr(text.find("lubricant_density"));
+    put_bytes(folder_ / "study.toml", text.replace(text.find(listed), listed.find('\n'),
+                                                   "lubricant_density = " + densities));
+    return run_tabor(sweep()).out;
+  };
+  EXPECT_THAT(shown_with("[\"0 g/m^2\", \"0.05 g/m^2\"]"),
+              testing::Not(HasSubstr("'tabor table' leaves out")));
+  const std::string shown = shown_with("[\"0.05 g/m^2\", \"20 g/m^2\"]");
+  EXPECT_THAT(shown, testing::AllOf(HasSubstr("'tabor table' leaves out\n"), HasSubstr("flood\n")));
+}
+
+/// A line that is read once is short; what a program reads is whole.
+TEST_F(StudyVerbs, FailuresAreLinesOfAtMost160Characters) {
+  const std::string way = std::string(100, 'a') + "/" + std::string(60, 'b');
+  std::filesystem::create_directories(folder_ / way);
+  for (const char* name : {"c", "d"}) {
+    std::filesystem::create_directories(folder_ / way / name);
+    auto scan = scan::read(file("1.h5"));
+    scan.height(3, 4) = std::numeric_limits<double>::quiet_NaN();
+    scan::write(scan, folder_ / way / name / "holed.h5");
+  }
+  put_bytes(folder_ / "study.toml", bytes_of(folder_ / "study.toml") + "[[scan]]\nfile = \"" + way +
+                                        "/?/holed.h5\"\ngroup = \"holed\"\n");
+  const Outcome outcome = run_tabor(sweep());
+  EXPECT_EQ(outcome.code, 3);
+  for (const std::string& line : split(outcome.err, '\n')) EXPECT_LE(line.size(), 160u) << line;
+  for (const char* name : {"c", "d"}) {
+    EXPECT_THAT(outcome.err, HasSubstr(std::string("warning: failed: ") + name + "/holed.h5"));
+  }
+  const io::Json result = json_of(sweep());
+  for (const io::Json& whole : {result.at("failures").at(0), result.at("warnings").back()}) {
+    EXPECT_THAT(whole.get<std::string>(), testing::AllOf(HasSubstr(way), HasSubstr("missing")));
+  }
 }
 
 TEST_F(StudyVerbs, SeedOfTheCommandLineWinsOverTheStudys) {
@@ -149,6 +206,32 @@ TEST_F(StudyVerbs, FlowThatMakesNoSenseIsBadInput) {
   EXPECT_EQ(code_with("sliding_speed = \"-1 m/s\"\n" + oil + viscosity), 3);
   EXPECT_EQ(code_with(speed + "[lubricant]\nfluid = \"stokes\"\n" + viscosity), 3);
   EXPECT_EQ(code_with(speed + oil + viscosity + "[contact]\nboundary = \"free\"\n"), 3);
+}
+
+TEST_F(StudyVerbs, TakesARangeOfPressures) {
+  std::string text = bytes_of(folder_ / "study.toml");
+  const std::string listed = "[\"2 MPa\", \"7 MPa\"]";
+  put_bytes(folder_ / "study.toml",
+            text.replace(text.find(listed), listed.size(), "\"2 MPa..7 MPa:2\""));
+  EXPECT_EQ(json_of(sweep()).at("n_cases"), 4);
+}
+
+TEST_F(StudyVerbs, AMaterialWithoutShearStrengthIsNamed) {
+  std::string text = bytes_of(folder_ / "study.toml");
+  text.replace(0, text.find("[material]"), "");
+  put_bytes(folder_ / "study.toml", text.insert(text.find("youngs"), "name = \"steel-100cr6\"\n"));
+  const Outcome outcome = run_tabor(sweep());
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err,
+              HasSubstr("steel-100cr6 has no shear strength in the library; add shear_strength"));
+}
+
+TEST_F(StudyVerbs, AResultInPlaceOfAStudyIsNamedAsSuch) {
+  const Outcome outcome = run_tabor({"sweep", file("1.h5")});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, testing::AllOf(HasSubstr("got a binary file"), HasSubstr("TOML"),
+                                          HasSubstr("tabor report")));
+  EXPECT_EQ(run_tabor({"ehl", "impact", file("1.h5")}).err.find("parse"), std::string::npos);
 }
 
 TEST_F(StudyVerbs, MissingStudyIsBadInput) {

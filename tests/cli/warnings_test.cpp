@@ -7,12 +7,15 @@
 
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
-#include "tabor/analysis/warning.hpp"
+#include "tabor/cases/warning.hpp"
+#include "tabor/cli/verb.hpp"
+#include "tabor/core/advice.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/io/csv.hpp"
 #include "tabor/io/hdf5.hpp"
 #include "tabor/scan/file.hpp"
 #include "tabor/synthesis/synthesis.hpp"
+#include "tabor/topography/geometry.hpp"
 
 namespace tabor::test {
 namespace {
@@ -38,7 +41,9 @@ struct Condition {
 
 void PrintTo(const Condition& one, std::ostream* out) { *out << one.name; }
 
-void cut_out(Topography& surface) { surface.periodic = false; }
+void cut_out(Topography& surface) {
+  surface = topography::crop(std::move(surface), {5, 3, 50, 40});
+}
 void tilt(Topography& surface) {
   cut_out(surface);
   for (Index x = 0; x < surface.grid.nx; ++x) surface.height.col(x) += 1e-7 * double(x);
@@ -168,6 +173,157 @@ std::string sheet_with_open_edges(const Folder& folder) {
   return scan;
 }
 
+/// Words that begin with two dashes.
+std::set<std::string> options_in(const std::string& text) {
+  std::set<std::string> found;
+  for (std::size_t begin = text.find("--"); begin != std::string::npos;) {
+    const std::size_t end = text.find_first_not_of("-abcdefghijklmnopqrstuvwxyz", begin);
+    found.insert(text.substr(begin, end - begin));
+    begin = text.find("--", std::min(end, text.size()));
+  }
+  return found;
+}
+
+std::set<std::string> options_of(const std::string& name) {
+  std::set<std::string> flags;
+  for (const cli::Verb& verb : cli::verbs()) {
+    if (verb.name != name) continue;
+    const cli::OptionSet set = cli::options_of(verb);
+    for (const cli::Option& option : set.options()) flags.insert(option.flag);
+  }
+  return flags;
+}
+
+/// What people read of the verb and of the study: one line each, in the words that each has.
+TEST_P(WarningsOfNumbers, FitALineAndAdviseWhatThereIs) {
+  const std::string of_verb = run_tabor(verb()).err;
+  const std::set<std::string> flags = options_of("friction");
+  for (const std::string& option : options_in(of_verb)) EXPECT_THAT(flags, Contains(option));
+  EXPECT_THAT(of_verb, testing::Not(HasSubstr("<")));
+  const std::string of_study = run_tabor(sweep()).err;
+  EXPECT_THAT(options_in(of_study), testing::IsEmpty()) << of_study;
+  EXPECT_THAT(of_study, testing::Not(HasSubstr("<")));
+  for (const std::string& line : split(of_verb + of_study, '\n')) {
+    EXPECT_LE(line.size(), 160u) << line;
+    EXPECT_THAT(line, testing::Not(HasSubstr(folder_.path().string())));
+  }
+}
+
+TEST_P(WarningsOfNumbers, AreDoubtsFirst) {
+  const io::Json warnings = json_of(verb()).at("warnings");
+  bool is_information = false;
+  for (const io::Json& warning : warnings) {
+    EXPECT_EQ(warning.at("class"),
+              cases::name_of(cases::class_of(warning.at("code").get<std::string>())));
+    const bool was_information = is_information;
+    is_information = warning.at("class") == "information";
+    EXPECT_TRUE(is_information || !was_information) << warnings;
+  }
+}
+
+/// Every code in the words of every verb: an option is named only where the verb has it.
+TEST(Warnings, AdviseOptionsThatTheVerbHas) {
+  const std::string text =
+      "x; <level=plane>; <despike=auto>; <lowpass>; <lowpass_scan>; <resolution_scan>; <fit_min>; "
+      "<saturation_pressure>; <boundary=free>; <area=pixels>; <model=limit>; <droplet_height>; "
+      "<mirror>";
+  for (const cli::Verb& verb : cli::verbs()) {
+    const std::string said = advised(text, cli::spelling_of(cli::options_of(verb)));
+    const std::set<std::string> flags = options_of(verb.name);
+    for (const std::string& option : options_in(said)) EXPECT_THAT(flags, Contains(option));
+    const bool has_scan = flags.contains("--lowpass-scan");
+    EXPECT_EQ(said.find("--lowpass-scan") != std::string::npos, has_scan) << verb.name;
+  }
+}
+
+/// No tile any more.
+void raise_one_side(Topography& surface) {
+  surface.periodic = surface.edges_match = false;
+  for (Index x = 0; x < surface.grid.nx; ++x) surface.height.col(x) += 1e-7 * double(x);
+}
+
+TEST(Warnings, NoteWhatWasDoneBehindTheDoubts) {
+  const Folder folder;
+  synthesis::SelfAffine recipe;
+  recipe.grid = {64, 48, 64e-6, 48e-6};
+  recipe.rms_height = 1e-7;
+  Topography surface = synthesis::self_affine(recipe);
+  raise_one_side(surface);
+  surface.height(20, 20) += 1e-4;
+  surface.grid.ly *= 1.1;
+  scan::write(surface, folder / "scan.h5");
+  const Words words = {"params",  (folder / "scan.h5").string(), "--despike", "auto", "--fill",
+                       "harmonic"};
+  const std::string shown = run_tabor(words).err;
+  EXPECT_THAT(shown, AllOf(testing::StartsWith("warning: no levelling"),
+                           HasSubstr("\nnote: despike took 1 spike"),
+                           HasSubstr("\nnote: pixels are not square")));
+  EXPECT_EQ(shown.rfind("warning:"), 0u) << shown;
+}
+
+TEST(Warnings, NameScansWithoutTheirFolders) {
+  const Folder folder;
+  synthesis::SelfAffine recipe;
+  recipe.grid = {32, 32, 32e-6, 32e-6};
+  recipe.rms_height = 1e-7;
+  Topography surface = synthesis::self_affine(recipe);
+  Topography tilted = surface;
+  raise_one_side(tilted);
+  const std::string first = (folder / "first.h5").string();
+  const std::string second = (folder / "second.h5").string();
+  scan::write(tilted, first);
+  scan::write(surface, second);
+  const io::Json warnings = json_of({"params", first, second}).at("warnings");
+  ASSERT_EQ(warnings.size(), 1u) << warnings;
+  EXPECT_EQ(warnings.at(0).at("cases").get<Words>(), Words{"first.h5"});
+}
+
+TEST(Explain, PrintsTheEntryOfACodeBeforeAndBehindAnyVerb) {
+  for (const cases::CodeEntry& entry : cases::all_codes()) {
+    const std::string code(entry.code);
+    const Outcome told = run_tabor({"--explain", code});
+    EXPECT_EQ(told.code, 0);
+    EXPECT_THAT(told.out, testing::StartsWith(code + " (" + cases::name_of(entry.kind)));
+    EXPECT_THAT(told.out, HasSubstr("When: "));
+  }
+  const std::string shown = run_tabor({"--explain", "spill-over"}).out;
+  EXPECT_THAT(shown, HasSubstr("tabor does not follow where it goes"));
+  for (const cli::Verb& verb : cli::verbs()) {
+    EXPECT_EQ(run_tabor({verb.name, "--explain", "spill-over"}).out, shown) << verb.name;
+  }
+  EXPECT_EQ(run_tabor({"friction", "scan.h5", "--explain=[spill-over]"}).out, shown);
+  const io::Json object = json_of({"contact", "--explain", "despiked", "--json"});
+  EXPECT_EQ(object.at("class"), "information");
+  EXPECT_EQ(object.at("code"), "despiked");
+}
+
+TEST(Explain, NamesTheNearestCode) {
+  const Outcome outcome = run_tabor({"--explain", "spil-over"});
+  EXPECT_EQ(outcome.code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("did you mean 'spill-over'"));
+  EXPECT_EQ(run_tabor({"contact", "--explain"}).code, 2);
+}
+
+/// A number that no table takes is marked where it stands, and the pixel is spoken of.
+TEST(FrictionOutput, MarksWhatATableRefusesAndNamesThePixel) {
+  const Folder folder;
+  const std::string scan = (folder / "scan.h5").string();
+  ASSERT_EQ(run_tabor({"generate", "edt", "-o", scan, "--pixels", "64", "--pixel", "2um"}).code, 0);
+  const Words words = {"friction",         scan,         "--pressure",     "2MPa",    "--density",
+                       "0.1g/m^2,20g/m^2", "--material", "aluminium-6016", "--model", "limit"};
+  const std::string shown = run_tabor(words).out;
+  EXPECT_THAT(shown, AllOf(HasSubstr("'tabor table' leaves out"), HasSubstr("flood\n"),
+                           HasSubstr("with pixels of 2 µm"), HasSubstr("with pixels of 4 µm")));
+  const io::Json pixels = json_of(words).at("pixel_dependence");
+  ASSERT_EQ(pixels.size(), 2u);
+  EXPECT_EQ(pixels.at(1).at("coarse_lubricated_share"), 1.0);  // flooded on any pixel
+  EXPECT_EQ(pixels.at(0).at("coarse_pixel_x_m"), 4e-6);
+  Words dry = words;
+  dry[5] = "0g/m^2";
+  EXPECT_THAT(run_tabor(dry).out,
+              testing::Not(AllOf(HasSubstr("leaves out"), HasSubstr("with pixels of"))));
+}
+
 /// Several states in one call: each reason once, with the cases it is about.
 TEST(Warnings, AreSaidOnceOverManyStates) {
   const Folder folder;
@@ -205,7 +361,7 @@ TEST(Warnings, AreSaidOnceOverManyStates) {
   const Outcome shown = run_tabor(words);
   EXPECT_EQ(count_lines(shown.err), warnings.size()) << shown.err;
   EXPECT_THAT(shown.err, AllOf(HasSubstr("3 of 6 cases"), HasSubstr("[spill-over]"),
-                               HasSubstr("--mirror"), HasSubstr("isolated body")));
+                               HasSubstr("--edges cut"), HasSubstr("isolated body")));
 }
 
 /// The words by which people and scripts look for them.

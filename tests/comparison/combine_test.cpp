@@ -202,8 +202,12 @@ TEST(WearVolume, OfACarvedPitIsRecovered) {
   ASSERT_TRUE(result.wear);
   tabor::test::expect_within("Two scans", "carved pit", "worn volume, relative", "volume carved",
                              std::abs(result.wear->worn.value / pit - 1), 1e-3);
-  tabor::test::expect_within("Two scans", "pile", "piled-up volume, relative", "volume piled up",
-                             std::abs(result.wear->piled_up.value / pile - 1), 5e-4);
+  // Not a bound on the relative error alone: noise of 0.028 um on each of 707 pixels is 0.27 % of
+  // this volume, so that a smaller error is a matter of the seed.
+  EXPECT_LT(result.wear->piled_up.uncertainty, 0.003 * pile);
+  tabor::test::expect_within(
+      "Two scans", "pile", "piled-up volume, in standard deviations", "volume piled up",
+      std::abs(result.wear->piled_up.value - pile) / result.wear->piled_up.uncertainty, 2);
   EXPECT_NEAR(result.wear->net.value / (pit - pile), 1, 0.03);
   EXPECT_LT(std::abs(result.wear->worn.value - pit),
             4 * result.wear->worn.uncertainty + 0.02 * pit);
@@ -211,6 +215,50 @@ TEST(WearVolume, OfACarvedPitIsRecovered) {
   EXPECT_LT(result.wear->noise_floor, 0.01 * pit);
   EXPECT_NEAR(result.wear->noise, 0.028e-6, 0.006e-6);  // two noises
 }
+
+struct Scar {
+  double depth;  ///< [m]
+  double width;  ///< standard deviation of its Gaussian [pixels]
+};
+
+class GaussianScar : public testing::TestWithParam<Scar> {};
+
+/// Much of a scar without an edge is shallower than the noise of a pixel.
+TEST_P(GaussianScar, HasItsVolumeWithItsRim) {  // slow
+  const auto [depth, width] = GetParam();
+  const auto rough = self_affine_surface(192, 0.8, 5e-6, 8);
+  double sum = 0, squares = 0;
+  constexpr int n = 16;
+  for (std::uint64_t seed = 1; seed <= n; ++seed) {
+    auto before = rough, after = rough;
+    double volume = 0;
+    for (Index y = 0; y < 192; ++y) {
+      for (Index x = 0; x < 192; ++x) {
+        const double r = std::hypot(static_cast<double>(x - 100), static_cast<double>(y - 90));
+        const double loss = depth * std::exp(-r * r / (2 * width * width));
+        after.height(y, x) -=
+            loss + 1e-6 + 1e-9 * static_cast<double>(x - y);  // and levelled otherwise
+        volume += loss * kPixel * kPixel;
+      }
+    }
+    add_noise(before, 3.5e-9, 2 * seed);
+    add_noise(after, 3.5e-9, 2 * seed + 1);
+    CombineOptions options;
+    options.search = false;
+    const auto wear = combine(before, after, options).wear;
+    const double z = (wear->worn.value - volume) / wear->worn.uncertainty;
+    sum += z;
+    squares += z * z;
+    EXPECT_LT(wear->worn.uncertainty, 0.05 * volume);
+  }
+  EXPECT_LE(std::abs(sum / n), 1);
+  EXPECT_LT(squares / n, 3);
+  EXPECT_GT(squares / n, 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scars, GaussianScar,
+                         testing::Values(Scar{20e-9, 15}, Scar{100e-9, 15}, Scar{300e-9, 15},
+                                         Scar{20e-9, 25}, Scar{100e-9, 25}, Scar{300e-9, 25}));
 
 TEST(WearVolume, OfNothingIsWithinItsUncertainty) {
   double squares = 0;
@@ -262,6 +310,20 @@ TEST(Combine, OfOneScanWithItselfIsZero) {
   EXPECT_LT(result.map.height.abs().maxCoeff(), 1e-18);
   EXPECT_EQ(result.map.grid, rough.grid);
   EXPECT_NEAR(result.correlation, 1, 1e-12);
+}
+
+/// What registration finds for two scans in register is zero but for rounding, or noise.
+TEST(Combine, KeepsAllRowsOfScansInRegister) {
+  auto rough = self_affine_surface(128, 0.8, 4e-6, 1);
+  rough.periodic = false;
+  auto other = rough;
+  for (const double noise : {0.0, 5e-9, 20e-9}) {
+    add_noise(other, noise, 3);
+    const auto result = combine(rough, other);
+    ASSERT_TRUE(result.registration);
+    EXPECT_EQ(result.map.grid, rough.grid) << noise;
+    EXPECT_EQ(result.n_common, 128 * 128) << noise;
+  }
 }
 
 TEST(Combine, KeepsATiltThatIsAskedFor) {

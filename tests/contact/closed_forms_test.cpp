@@ -104,5 +104,42 @@ TEST(SolveContact, CarriesAConstantSurfaceUniformly) {
   }
 }
 
+/// Half a pixel at either edge of each contact is all that counting may miss.
+TEST(SolveContact, CountsTheAreaOfWavesAlongEitherAxis) {
+  const reference::WestergaardWave wave_reference{kAmplitude, 1.0, 1.0};
+  const Index n = 128;
+  for (const double ratio : {0.02, 0.1, 0.5, 0.8}) {
+    const double mean_pressure = ratio * wave_reference.full_contact_pressure();
+    const Field along_x = wave(n, kAmplitude, false);
+    for (const Field& height : {along_x, Field(along_x.transpose()), Field(along_x.row(0))}) {
+      for (const double cap : {contact::kNoSaturation, 1e3 * mean_pressure}) {
+        const contact::Summary found = solve_unit(height, mean_pressure, cap).summary;
+        EXPECT_FALSE(found.area_correction_valid);
+        EXPECT_NEAR(found.contact_area_fraction, wave_reference.area_fraction(mean_pressure),
+                    2.0 / static_cast<double>(n));
+      }
+    }
+  }
+}
+
+/// Flat tops touch as wholes under a small load: their area is what was drawn.
+TEST(SolveContact, FindsTheAreaOfRidgesAndPunchesExactly) {
+  const Index n = 64;
+  const auto is_top = [](Index i) { return i % 32 < 8; };
+  Field ridges(n, n), punches(n, n);
+  for (Index y = 0; y < n; ++y) {
+    for (Index x = 0; x < n; ++x) {
+      ridges(y, x) = is_top(x) ? 0 : -1;
+      punches(y, x) = is_top(x) && is_top(y) ? 0 : -1;
+    }
+  }
+  for (const double cap : {contact::kNoSaturation, 1.0}) {
+    for (const Field& height : {ridges, Field(ridges.transpose())}) {
+      EXPECT_DOUBLE_EQ(solve_unit(height, 1e-5, cap).summary.contact_area_fraction, 0.25);
+    }
+    EXPECT_DOUBLE_EQ(solve_unit(punches, 1e-5, cap).summary.contact_area_fraction, 0.0625);
+  }
+}
+
 }  // namespace
 }  // namespace tabor::test

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "contact/surfaces.hpp"
@@ -71,26 +72,81 @@ TEST(Summary, AreaIsNeverBelowWhatTheCapMustHave) {
   EXPECT_DOUBLE_EQ(block.summary().contact_area_fraction, 6.0 / 80);
 }
 
-/// Contact at the cap in the first `rows` rows and `columns` columns.
-contact::Summary capped_corner(Index rows, Index columns, double cap = 1) {
-  Block block(cap);
-  block.problem.mean_pressure = 1e-3;
-  block.state.pressure.setZero();
-  block.state.pressure.topLeftCorner(rows, columns) = 1;
-  block.state.gap = (block.state.pressure > 0).select(0.0, block.state.gap);
-  return block.summary();
+/// What is found where these pixels are in contact, with and without a cap that all of them reach.
+std::vector<contact::Summary> summaries_of(const Mask& contact) {
+  std::vector<contact::Summary> all;
+  for (const double cap : {kNoCap, 1.0}) {
+    const Grid grid{contact.cols(), contact.rows(), 1, 1};
+    contact::Problem problem;
+    problem.mean_pressure = 1e-6;
+    problem.saturation_pressure = cap;
+    contact::State state;
+    state.pressure = contact.cast<double>();
+    state.displacement = Field::Zero(contact.rows(), contact.cols());
+    state.gap = 1 - state.pressure;
+    for (const bool periodic : {true, false}) {
+      all.push_back(contact::summarise(state, problem, grid, periodic));
+    }
+  }
+  return all;
 }
 
-TEST(Summary, AreaIsNotCorrectedWhereCappedPixelsFillWholeRowsOrColumns) {
-  for (const auto& [rows, columns] : {std::pair<Index, Index>{1, 10}, {8, 2}}) {
-    const contact::Summary stripe = capped_corner(rows, columns);
-    EXPECT_FALSE(stripe.area_correction_valid);
-    EXPECT_EQ(stripe.contact_area_fraction, stripe.contact_area_fraction_pixels);
-    EXPECT_TRUE(capped_corner(rows, columns, kNoCap).area_correction_valid);
+template <typename Inside>
+Mask mask_of(Index n, const Inside& inside) {
+  Mask mask(n, n);
+  for (Index y = 0; y < n; ++y) {
+    for (Index x = 0; x < n; ++x) mask(y, x) = inside(double(x), double(y));
   }
-  const contact::Summary corner = capped_corner(7, 9);
-  EXPECT_TRUE(corner.area_correction_valid);
-  EXPECT_LT(corner.contact_area_fraction, corner.contact_area_fraction_pixels);
+  return mask;
+}
+
+void expect_counted(const Mask& contact, const std::string& name) {
+  for (const Mask& mask : {contact, Mask(contact.transpose())}) {
+    for (const contact::Summary& found : summaries_of(mask)) {
+      EXPECT_FALSE(found.area_correction_valid) << name;
+      EXPECT_DOUBLE_EQ(found.contact_area_fraction, mask.cast<double>().mean()) << name;
+    }
+  }
+}
+
+void expect_corrected(const Mask& contact, const std::string& name) {
+  for (const contact::Summary& found : summaries_of(contact)) {
+    EXPECT_TRUE(found.area_correction_valid) << name;
+    EXPECT_LT(found.contact_area_fraction, found.contact_area_fraction_pixels) << name;
+  }
+}
+
+TEST(Summary, AreaIsCountedWhereContactLinesRunAlongTheGrid) {
+  const auto part = [](double a, double period) { return std::fmod(a, period); };
+  for (const double width : {1.0, 4.0, 20.0}) {
+    expect_counted(mask_of(64, [&](double x, double) { return part(x, 32) < width; }), "ridges");
+    expect_counted(mask_of(64, [&](double x, double) { return x >= 30 && x < 30 + width; }), "one");
+  }
+  for (const double side : {4.0, 7.0, 15.0}) {
+    expect_counted(
+        mask_of(64, [&](double x, double y) { return part(x, 32) < side && part(y, 16) < side; }),
+        "punches");
+  }
+  expect_counted(mask_of(64, [](double x, double y) { return x >= 9 && y >= 7; }), "a corner");
+  expect_counted(
+      mask_of(64, [](double x, double y) { return std::hypot((x - 31) / 30, (y - 31) / 2.5) < 1; }),
+      "a needle");
+}
+
+TEST(Summary, AreaIsCorrectedWhereContactLinesCrossTheGrid) {
+  for (const double radius : {1.2, 2.0, 3.5, 8.0, 25.0}) {
+    for (const double place : {31.0, 31.3, 31.5}) {
+      expect_corrected(
+          mask_of(64,
+                  [&](double x, double y) { return std::hypot(x - place, y - place) < radius; }),
+          "disc");
+    }
+  }
+  expect_corrected(mask_of(64, [](double x, double y) { return std::fmod(x + y, 32) < 9; }),
+                   "ridges across");
+  expect_corrected(mask_of(64, [](double x, double y) { return x == 20 && y == 30; }), "one pixel");
+  const Field rough = self_affine(64, 0.8, 2, 16, 3);
+  expect_corrected(rough > 0.5 * rough.maxCoeff(), "rough");
 }
 
 TEST(Summary, LooksAcrossTheEdgesOfAPeriodicCellOnly) {

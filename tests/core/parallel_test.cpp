@@ -1,9 +1,12 @@
 #include "tabor/core/parallel.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -42,6 +45,42 @@ TEST_F(Parallel, RethrowsWhatTheBodyThrows) {
                               if (begin == 57) throw std::runtime_error("57");
                             }),
                std::runtime_error);
+}
+
+/// Whether a copy of this process comes to its end within 20 s and finds what it should.
+bool copy_finds(const std::function<bool()>& expected) {
+  const pid_t copy = ::fork();
+  if (copy == 0) {
+    ::alarm(20);  // ends a copy that waits for threads it has not
+    ::_exit(expected() ? 0 : 1);
+  }
+  int status = 0;
+  return ::waitpid(copy, &status, 0) == copy && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+TEST_F(Parallel, ACopyOfTheProcessWorksOnOneThread) {
+  const Field values = Field::Random(701, 333);
+  set_thread_count(4);
+  const double expected = sum(values);
+  EXPECT_TRUE(copy_finds([&] { return thread_count() == 1 && sum(values) == expected; }));
+  EXPECT_EQ(thread_count(), 4);
+}
+
+TEST_F(Parallel, ACopyOfACopyDoesToo) {
+  const Field values = Field::Random(701, 333);
+  set_thread_count(4);
+  const double expected = sum(values);
+  EXPECT_TRUE(copy_finds([&] { return copy_finds([&] { return sum(values) == expected; }); }));
+}
+
+TEST_F(Parallel, ACopyThatAsksForMoreThreadsStillEnds) {
+  const Field values = Field::Random(701, 333);
+  set_thread_count(4);
+  const double expected = sum(values);
+  EXPECT_TRUE(copy_finds([&] {
+    set_thread_count(3);
+    return sum(values) == expected;
+  }));
 }
 
 TEST_F(Parallel, MaximumOfNothingIsMinusInfinity) {

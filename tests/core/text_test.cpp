@@ -22,6 +22,15 @@ TEST(NearestMatch, FindsTyposAndStaysSilentOnStrangers) {
   EXPECT_EQ(suggestion("zzzzzz", {"pressure"}), "");
 }
 
+TEST(NearestMatch, IsNearToTheFirstWordsOfAName) {
+  const std::vector<std::string> names{"steel-dc04", "aluminium-6016", "glass"};
+  EXPECT_EQ(nearest_match("aluminum", names), "aluminium-6016");
+  EXPECT_EQ(nearest_match("Steel", names), "steel-dc04");
+  EXPECT_EQ(nearest_match("glas", names), "glass");
+  EXPECT_EQ(nearest_match("lamp", {"lamp-shade", "lamps"}), "lamp-shade");
+  EXPECT_FALSE(nearest_match("--a", {"--youngs-modulus"}));
+}
+
 TEST(Split, KeepsEmptyParts) {
   EXPECT_EQ(split("a,,b", ','), (std::vector<std::string>{"a", "", "b"}));
   EXPECT_EQ(split("", ','), (std::vector<std::string>{""}));

@@ -51,6 +51,53 @@ TEST(ParseQuantity, NamesTheUnknownUnit) {
               HasSubstr("'Mpa'"));
 }
 
+TEST(ParseQuantity, ProposesTheUnitThatIsNearlyWritten) {
+  const auto proposal = [](const std::string& text, Dimension expected, const std::string& name) {
+    return rejection([&] { parse_si(text, expected, name); });
+  };
+  for (const auto& [text, unit] :
+       std::vector<std::pair<std::string, std::string>>{{"7Mpa", "'MPa'"},
+                                                        {"7 mpa", "'MPa'"},
+                                                        {"7 MPA", "'MPa'"},
+                                                        {"70 gpa", "'GPa'"},
+                                                        {"7 megapascals", "'MPa'"},
+                                                        {"7 Bar", "'bar'"}}) {
+    EXPECT_THAT(proposal(text, dimension::pressure, "--pressure"),
+                HasSubstr("did you mean " + unit + "?"))
+        << text;
+  }
+  for (const auto& [text, unit] :
+       std::vector<std::pair<std::string, std::string>>{{"2 UM", "'um'"},
+                                                        {"2 microns", "'um'"},
+                                                        {"2 micrometers", "'um'"},
+                                                        {"2 nanometre", "'nm'"},
+                                                        {"2 Nm^1", "'nm^1'"}}) {
+    EXPECT_THAT(proposal(text, dimension::length, "--pixel"),
+                HasSubstr("did you mean " + unit + "?"))
+        << text;
+  }
+  EXPECT_THAT(proposal("1 KG/m^3", dimension::density, "--oil-density"),
+              HasSubstr("did you mean 'kg'?"));
+  EXPECT_THAT(proposal("1 furlong", dimension::length, "--pixel"),
+              testing::Not(HasSubstr("did you mean")));
+}
+
+TEST(ParseQuantity, SaysHowToWriteADecimalComma) {
+  for (const char* text : {"0,5um", "0,5 um", "-0,5um", "0,5e0um"}) {
+    std::string pointed = text;
+    pointed[pointed.find(',')] = '.';
+    EXPECT_THAT(rejection([&] { parse_si(text, dimension::length, "--tip-radius"); }),
+                HasSubstr("write " + pointed))
+        << text;
+  }
+  EXPECT_THAT(rejection([] { parse_si("0,33", dimension::none, "--poisson-ratio"); }),
+              HasSubstr("write 0.33"));
+  EXPECT_THAT(rejection([] { parse_si_list("0,5um", dimension::length, "--pixel"); }),
+              HasSubstr("'0,5um'; expected a decimal point"));
+  EXPECT_THAT(rejection([] { parse_si_list("2MPa,7,5MPa", dimension::pressure, "--pressure"); }),
+              HasSubstr("write 7.5MPa"));
+}
+
 TEST(ParseQuantity, RejectsPowersThatMeanNothing) {
   EXPECT_DOUBLE_EQ(parse_si("1 m^9/m8", dimension::length, "--pixel"), 1);
   EXPECT_THAT(rejection([] { parse_si("1 m^10/m^9", dimension::length, "--pixel"); }),
@@ -150,6 +197,29 @@ TEST(ParseQuantityList, ReadsEachValueWithItsOwnUnit) {
             (std::vector<double>{2e6, 5e5}));
   EXPECT_THROW(parse_si_list("2MPa,,7MPa", dimension::pressure, "--pressure"), InputError);
   EXPECT_THROW(parse_si_list("2MPa,7", dimension::pressure, "--pressure"), InputError);
+}
+
+TEST(ParseQuantityList, TakesRangesBesideValues) {
+  EXPECT_EQ(parse_si_list("2MPa..15MPa:3", dimension::pressure, "--pressure"),
+            (std::vector<double>{2e6, 8.5e6, 15e6}));
+  EXPECT_EQ(parse_si_list("1kPa..100kPa:log:3,1MPa", dimension::pressure, "--pressure"),
+            (std::vector<double>{1e3, 1e4, 1e5, 1e6}));
+  EXPECT_EQ(parse_si_list("500kPa..1MPa:2", dimension::pressure, "--pressure"),
+            (std::vector<double>{5e5, 1e6}));
+}
+
+TEST(ParseQuantityList, RejectsRangesThatCannotBe) {
+  for (const char* text : {"2MPa..15mm:3", "0MPa..1MPa:log:3", "2MPa..15MPa:1", "2MPa..15MPa:x",
+                           "2MPa...15MPa", "2..15:3", "2MPa..15:3"}) {
+    EXPECT_THROW(parse_si_list(text, dimension::pressure, "--pressure"), InputError) << text;
+  }
+}
+
+TEST(ParseQuantity, KnowsPoundsPerSquareInch) {
+  // NIST SP 811 (2008), appendix B.8: 1 psi = 6.894 757 E+03 Pa.
+  EXPECT_NEAR(parse_quantity("1 psi").value, 6.894757e3, 5e-4);
+  EXPECT_EQ(parse_quantity("1 psi").dimension, dimension::pressure);
+  EXPECT_DOUBLE_EQ(parse_quantity("2 ksi").value, 2000 * parse_quantity("1 psi").value);
 }
 
 TEST(UnitFactor, KnowsLengthsOfInstrumentFilesOnly) {

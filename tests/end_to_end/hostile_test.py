@@ -104,7 +104,7 @@ class Folder(Hostile):
         shutil.copy(TABOR, prefix / "bin")
         package = prefix / "share/tabor/python/tabor_report"
         shutil.copytree(SOURCE / "python/tabor_report", package)
-        shutil.copy(SOURCE / "src/tabor/analysis/references.bib", package)
+        shutil.copy(SOURCE / "src/tabor/results/references.bib", package)
         (package / "cli.py").write_text((package / "cli.py").read_text() + "\nprint('the installed one')\n")
         done = subprocess.run([prefix / "bin/tabor", "report", self.generate("scan.h5")], capture_output=True, text=True,
                               timeout=120, check=False)

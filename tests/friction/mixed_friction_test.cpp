@@ -89,7 +89,7 @@ struct Patch {
     state.film.convergence.status = Status::converged;
     state.convergence.status = Status::converged;
   }
-  std::vector<std::string> warnings() const { return friction::warnings(state, problem); }
+  std::vector<std::string> warnings() const { return texts_of(friction::warnings(state, problem)); }
 };
 
 TEST(FluidSummary, SharesTheLoadAndCountsThePixels) {

@@ -45,6 +45,8 @@ void add_instruments(std::vector<Seed>& seeds) {
   }
   seeds.push_back({"png", "with-alpha", plain_png(16, 4, 0)});
   seeds.push_back({"png", "interlaced", plain_png(8, 0, 1)});
+  seeds.push_back({"pgm", "binary", std::string("P5\n3 2\n65535\n\0\1\0\2\0\3\0\4\0\5\0\6", 25)});
+  seeds.push_back({"pgm", "plain", "P2\n# grey\n3 2\n255\n1 2 3\n4 5 255\n"});
 }
 
 void add_containers(std::vector<Seed>& seeds) {
@@ -74,6 +76,18 @@ void add_texts(std::vector<Seed>& seeds) {
       {"german", "# Kanal: Main\n# Breite: 10,0 µm\n# Höhe: 8 µm\n# Werteinheiten: nm\n1 2\n3 4\n"},
       {"wyko",
        "h= 2 w= 2 pixel size= 1.5 um data unit= nm height conversion factor= 2\n1 2\n3 4\n"},
+      {"nova",
+       "File Format = ASCII\nCreated by Nova\nNX = 2\nNY = 2\nScale X = 0,5\nScale Y = 0.5\n"
+       "Unit X = um\nUnit Data = nm\nScale Data = 0.5\nBias Data = 1\nDataScaleNeeded = yes\n"
+       "Start of Data :\n1 2\n3 4\n"},
+      {"spip",
+       "# File Format = ASCII\n# x-pixels = 2\n# y-pixels = 2\n# x-length = 2\n# y-length = 2\n"
+       "# z-unit = [nm]\n# voidpixels =1\n# Start of Data:\n1 2\n3 4\n1 1\n0 1\n"},
+      {"sections",
+       "# Channel: a\n# Width: 2 um\n# Value units: nm\n1 2\n3 4\n# Channel: b\n1 2\n3 5\n"},
+      {"quoted", "\"1,5\",\"2\"\n\"3\",\"4\"\n"},
+      {"coordinates",
+       "0 1 2 3 4 5\n1 7 3 9 2 1\n2 5 8 1 1 4\n3 4 4 1 9 0\n4 0 1 7 2 2\n5 1 2 6 6 1\n"},
       {"nanoscope", "\\Exported image units: nm\n1\n2\n3\n4\n"},
       {"utf16", std::string("\xff\xfe"
                             "1\0 \0"

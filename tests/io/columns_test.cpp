@@ -88,11 +88,21 @@ TEST(Columns, ReadTheObjectBack) {
   EXPECT_EQ(back.flow->n_steps, 4);
 }
 
+TEST(Columns, TakeANumberThatAnOlderObjectLacksAsUnknown) {
+  Record back = full();
+  Json object = json_of(columns(), full());
+  object.erase("gap_m");
+  read_json(object, columns(), back, kTable);
+  EXPECT_TRUE(std::isnan(back.measured.gap));
+  EXPECT_EQ(back.flow->speed, 3);
+}
+
 TEST(Columns, RejectObjectsThatLackAKeyOrHoldAnotherKind) {
   Record back;
   Json object = json_of(columns(), full());
-  object.erase("gap_m");
+  object.erase("name");
   EXPECT_THROW(read_json(object, columns(), back, kTable), InputError);
+  object = json_of(columns(), full());
   object["gap_m"] = "0.1";
   EXPECT_THROW(read_json(object, columns(), back, kTable), InputError);
   object["gap_m"] = Json::array();

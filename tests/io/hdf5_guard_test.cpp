@@ -1,17 +1,21 @@
 // What becomes of a copy of the process that reads a file of others.
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <pthread.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <stdexcept>
 #include <vector>
 
 #include "support/folder.hpp"
 #include "support/sanitizers.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/io/file_lock.hpp"
 #include "tabor/io/hdf5_guard.hpp"
 #include "tabor/io/protection.hpp"
 
@@ -95,28 +99,127 @@ TEST_F(Hdf5Guard, ACopyThatWorksForEverIsEnded) {
   }));
 }
 
-TEST_F(Hdf5Guard, ACopyEndsWithItsProcess) {
-  const test::Folder folder;
-  test::put_bytes(folder / "a.h5", "a");
-  int ends[2] = {-1, -1};
-  ASSERT_EQ(::pipe(ends), 0);
-  const pid_t process = ::fork();
-  if (process == 0) {
-    hdf5_survives(folder / "a.h5", [&] {
-      if (::write(ends[1], "x", 1) != 1) return;
-      for (;;) ::pause();
-    });
-    ::_exit(0);
+/// A process that makes a copy and is killed once that has said so, and what is left of it.
+class Orphan {
+ public:
+  /// `read(say)` makes the copy, in which say() is called; the process holds a lock meanwhile.
+  explicit Orphan(const std::function<void(const std::function<void()>& say)>& read) {
+    if (::pipe(ends_) != 0) return;
+    const pid_t process = ::fork();
+    if (process == 0) {
+      const auto lock = FileLock::take(folder_ / "lock", FileLock::Kind::alone);
+      read([this] { say(); });
+      ::_exit(0);
+    }
+    ::close(ends_[1]);
+    EXPECT_EQ(::read(ends_[0], &copy_, sizeof copy_), static_cast<ssize_t>(sizeof copy_));
+    ::kill(process, SIGKILL);
+    ::waitpid(process, nullptr, 0);
   }
-  ::close(ends[1]);
-  char begun = 0;
-  EXPECT_EQ(::read(ends[0], &begun, 1), 1);
-  ::kill(process, SIGKILL);
-  ::waitpid(process, nullptr, 0);
-  // The pipe ends when the last one ends who could write to it.
-  pollfd pipe{ends[0], POLLIN, 0};
-  EXPECT_EQ(::poll(&pipe, 1, 10000), 1);
-  ::close(ends[0]);
+  ~Orphan() {
+    if (!ends_in(0) && copy_ > 0) ::kill(copy_, SIGKILL);
+    ::close(ends_[0]);
+  }
+  Orphan(const Orphan&) = delete;
+  Orphan& operator=(const Orphan&) = delete;
+
+  /// The pipe ends when the last one ends who could write to it.
+  bool ends_in(int milliseconds) const {
+    pollfd pipe{ends_[0], POLLIN, 0};
+    return ::poll(&pipe, 1, milliseconds) == 1;
+  }
+  bool holds_the_lock() const {
+    return !FileLock::take(folder_ / "lock", FileLock::Kind::alone).has_value();
+  }
+
+ private:
+  void say() const {
+    const pid_t copy = ::getpid();
+    if (::write(ends_[1], &copy, sizeof copy) != static_cast<ssize_t>(sizeof copy)) ::_exit(1);
+  }
+
+  test::Folder folder_;
+  int ends_[2] = {-1, -1};
+  pid_t copy_ = 0;
+};
+
+[[noreturn]] void wait_for_ever() {
+  for (;;) ::pause();
+}
+
+constexpr int kSoon = 10000;  // [ms]
+
+TEST_F(Hdf5Guard, ACopyEndsWithItsProcess) {
+  const Orphan orphan([](const auto& say) {
+    survives([&] {
+      say();
+      wait_for_ever();
+    });
+  });
+  EXPECT_TRUE(orphan.ends_in(kSoon));
+}
+
+// Between the making of the copy and its first step the process has all the time to die.
+std::function<void()> say_when_made;  // a handler of fork() takes no argument
+pid_t original_when_made = 0;
+
+TEST_F(Hdf5Guard, SoDoesACopyWhoseProcessDiesBeforeItsFirstStep) {
+  const Orphan orphan([](const auto& say) {
+    say_when_made = say;
+    original_when_made = ::getpid();
+    ::pthread_atfork(nullptr, nullptr, [] {
+      say_when_made();
+      while (::getppid() == original_when_made) ::usleep(1000);
+    });
+    survives(&wait_for_ever);
+  });
+  EXPECT_TRUE(orphan.ends_in(kSoon));
+  EXPECT_FALSE(orphan.holds_the_lock());
+}
+
+/// In a copy that is not told of the end of its process: waits for it.
+void outlive(const std::function<void()>& say) {
+  ::prctl(PR_SET_PDEATHSIG, 0);
+  const pid_t original = ::getppid();
+  say();
+  while (::getppid() == original) ::usleep(1000);
+}
+
+TEST_F(Hdf5Guard, ACopyThatNobodyReceivesFromEndsAndDoesNotWait) {
+  const Field large = Field::Zero(512, 512);  // more than a pipe holds
+  const Orphan orphan([&](const auto& say) {
+    guarded_hdf5_map("a.h5", {512, 512},
+                     [&](const Rows& send) {
+                       outlive(say);
+                       for (;;) send(large);
+                     },
+                     {});
+  });
+  EXPECT_TRUE(orphan.ends_in(kSoon));
+}
+
+TEST_F(Hdf5Guard, ACopyHoldsNoLock) {
+  const Orphan orphan([](const auto& say) {
+    survives([&] {
+      outlive(say);
+      wait_for_ever();
+    });
+  });
+  EXPECT_FALSE(orphan.ends_in(0));
+  EXPECT_FALSE(orphan.holds_the_lock());
+}
+
+TEST_F(Hdf5Guard, ACopyHasALimitByTheClock) {
+  EXPECT_TRUE(survives([] {
+    const unsigned left = ::alarm(0);  // [s]
+    if (left < 50 || left > 60) std::abort();
+  }));
+  EXPECT_THROW(survives([original = ::getpid()] {
+                 if (::getpid() == original) return;
+                 ::alarm(1);
+                 wait_for_ever();
+               }),
+               InputError);
 }
 
 TEST_F(Hdf5Guard, ACopyThatWaitsForEverIsARejection) {

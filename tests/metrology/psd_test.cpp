@@ -26,6 +26,20 @@ PsdOptions unwindowed() {
   return options;
 }
 
+/// Where buffers lie in memory must not decide about the last bit.
+TEST(PowerSpectra, HaveTheSameBitsHoweverMemoryIsUsed) {
+  const auto rough = synthesis::self_affine(rough_recipe(101, 0.8));
+  const auto first = power_spectra(rough, {});
+  std::vector<std::vector<double>> blocks;
+  for (std::size_t i = 1; i < 24; ++i) {
+    blocks.emplace_back(2 * i + 1, 1.0);
+    const auto again = power_spectra(rough, {});
+    EXPECT_EQ(again.x.density, first.x.density) << i;
+    EXPECT_EQ(again.y.density, first.y.density) << i;
+    EXPECT_EQ(again.radial.density, first.radial.density) << i;
+  }
+}
+
 TEST(PowerSpectra, ShowASineAtItsWavevectorWithItsPower) {
   const double a = 3e-6;
   const auto wave =
@@ -72,8 +86,9 @@ double integral(const Spectrum& spectrum) {
   return dq * std::accumulate(spectrum.density.begin(), spectrum.density.end(), 0.0);
 }
 
-topography::Topography rough_surface(Index n = 256, double hurst = 0.8, double roll_off = 0) {
-  synthesis::SelfAffine recipe = rough_recipe(n, hurst);
+topography::Topography rough_surface(Index n = 256, double hurst = 0.8, double roll_off = 0,
+                                     std::uint64_t seed = 1) {
+  synthesis::SelfAffine recipe = rough_recipe(n, hurst, seed);
   recipe.roll_off_wavelength = roll_off;
   return synthesis::self_affine(recipe);
 }
@@ -162,12 +177,48 @@ TEST(FindFitRange, StaysAboveTheRollOffAndBelowAFilter) {
 }
 
 TEST(FindFitRange, IsNotCutShortByTheScatterOfTheFirstBins) {
-  std::vector<double> q, density;
+  Spectrum spectrum;
   for (int k = 1; k <= 500; ++k) {
-    q.push_back(k);
-    density.push_back(std::pow(k, -2.5) * (k == 4 ? 3.5 : k == 7 ? 0.3 : 1));
+    spectrum.q.push_back(k);
+    spectrum.density.push_back(std::pow(k, -2.5) * (k == 4 ? 3.5 : k == 7 ? 0.3 : 1));
+    spectrum.modes.push_back(3 * k);
   }
-  EXPECT_EQ(find_fit_range(q, density, 1).q_max, 250);
+  EXPECT_EQ(find_fit_range(spectrum, 1).q_max, 250);
+}
+
+/// All waves are there up to the cut-off, none beyond.
+TEST(FindFitRange, ReachesASharpCutOff) {
+  for (const double hurst : {0.3, 0.8}) {
+    for (const double cutoff : {5e-6, 8e-6, 16e-6}) {
+      for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        synthesis::SelfAffine recipe = rough_recipe(512, hurst, seed);
+        recipe.short_cutoff_wavelength = cutoff;
+        const auto fit = power_spectra(synthesis::self_affine(recipe), unwindowed()).radial.hurst;
+        EXPECT_GT(fit.q_max, 0.95 * 2 * pi / cutoff) << hurst << ' ' << cutoff << ' ' << seed;
+        EXPECT_LE(fit.q_max, 1.001 * 2 * pi / cutoff) << hurst << ' ' << cutoff << ' ' << seed;
+        EXPECT_NEAR(fit.hurst, hurst, 3 * fit.standard_error) << cutoff << ' ' << seed;
+        EXPECT_LT(fit.standard_error, 0.06) << cutoff;
+      }
+    }
+  }
+}
+
+TEST(FindFitRange, LeavesOutAGradualFall) {
+  for (const double hurst : {0.3, 0.8}) {
+    for (const double cutoff : {10e-6, 20e-6}) {
+      for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        const auto smooth =
+            topography::low_pass(rough_surface(512, hurst, 0, seed),
+                                 {.kind = topography::FilterKind::gauss, .wavelength = cutoff});
+        const auto fit = power_spectra(smooth, unwindowed()).radial.hurst;
+        // The filter takes exp(-2 ln 2 (q cutoff/2 pi)^2) of the power: a quarter is left at the
+        // cutoff.
+        EXPECT_LT(fit.q_max, 0.5 * 2 * pi / cutoff) << hurst << ' ' << cutoff << ' ' << seed;
+        EXPECT_GT(fit.q_max, 0.2 * 2 * pi / cutoff) << hurst << ' ' << cutoff << ' ' << seed;
+        EXPECT_NEAR(fit.hurst, hurst, 3 * fit.standard_error) << cutoff << ' ' << seed;
+      }
+    }
+  }
 }
 
 TEST(PowerSpectra, OfTheTransposedSurfaceSwapXAndY) {
@@ -182,10 +233,10 @@ TEST(PowerSpectra, OfTheTransposedSurfaceSwapXAndY) {
 
 TEST(PowerSpectra, ScaleWithTheSquareOfTheHeights) {
   auto rough = rough_surface();
-  rough.periodic = false;  // through the window
-  const auto before = power_spectra(rough);
+  const PsdOptions windowed{.window = PsdWindow::hann, .fit_q_min = {}, .fit_q_max = {}};
+  const auto before = power_spectra(rough, windowed);
   rough.height *= 1e3;
-  const auto after = power_spectra(rough);
+  const auto after = power_spectra(rough, windowed);
   EXPECT_NEAR(after.radial.density[5] / before.radial.density[5], 1e6, 1e-4);
   EXPECT_NEAR(after.x.hurst.hurst, before.x.hurst.hurst, 1e-9);
 }
@@ -199,8 +250,13 @@ TEST(PowerSpectra, GiveTheSpectralSlopeOfAWave) {
               1e-12);
 }
 
-TEST(PowerSpectra, WindowByDefaultWhatIsNotPeriodic) {
+TEST(PowerSpectra, WindowByDefaultWhoseEdgesDoNotMatch) {
+  const auto wave =
+      surface(kGrid, [](double x, double) { return 1e-6 * std::cos(2 * pi * 4 * x / kGrid.lx); });
+  EXPECT_FALSE(wave.periodic);
+  EXPECT_EQ(power_spectra(wave).window, PsdWindow::none);
   auto rough = noise(kGrid);
+  for (Index x = 0; x < kGrid.nx; ++x) rough.height.col(x) += 1e-6 * static_cast<double>(x);
   EXPECT_EQ(power_spectra(rough).window, PsdWindow::hann);
   EXPECT_NE(power_spectra(rough).window_gain, 1);
   rough.periodic = true;
@@ -213,8 +269,8 @@ TEST(PowerSpectra, OfWhiteNoiseAreFlatThroughTheWindow) {
   std::uint64_t k = 0;
   const auto white =
       surface({512, 512, 512, 512}, [&](double, double) { return random.normal(k++); });
-  const auto spectra = power_spectra(white);
-  EXPECT_EQ(spectra.window, PsdWindow::hann);
+  const auto spectra =
+      power_spectra(white, {.window = PsdWindow::hann, .fit_q_min = {}, .fit_q_max = {}});
   const auto begin = spectra.x.density.begin();
   EXPECT_NEAR(std::accumulate(begin + 10, begin + 250, 0.0) / 240, 1, 0.01);  // variance * dx
 }

@@ -61,6 +61,19 @@ TEST(FieldMoments, OfAConstantAreZero) {
   EXPECT_EQ(moments.highest, 0);
 }
 
+TEST(Rounding, IsNoHeight) {
+  Field field = Field::Constant(7, 11, 3.1e-6);
+  field(2, 3) *= 1 + 4e-16;
+  field(4, 4) = kHole;
+  EXPECT_TRUE(is_flat(field));
+  EXPECT_EQ(field_moments(field).second, 0);
+  EXPECT_EQ(largest_magnitude(without_rounding(field - 3.1e-6, 3.1e-6)), 0);
+  EXPECT_TRUE(std::isnan(without_rounding(field - 3.1e-6, 3.1e-6)(4, 4)));
+  field(2, 3) = 3.1e-6 + 1e-15;  // a nanometre's millionth, far above it
+  EXPECT_FALSE(is_flat(field));
+  EXPECT_GT(largest_magnitude(without_rounding(field - 3.1e-6, 3.1e-6)), 0);
+}
+
 TEST(FieldMoments, OfHolesOnlyAreAnError) {
   EXPECT_THROW(field_moments(Field::Constant(2, 3, kHole)), InputError);
   EXPECT_THROW(rms_height(Field(0, 0)), InputError);

@@ -2,10 +2,14 @@
 
 import importlib.util
 import json
+import os
+import re
 import shutil
+import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import h5py
 import numpy as np
@@ -14,15 +18,18 @@ from report_test import run
 from synthetic_single import write_single
 from synthetic_study import Recipe
 import synthetic_study
-from tabor_report import encoding, interactive
+from tabor_report import interactive, live_page, refusals
 
+ROOT = Path(__file__).resolve().parents[2]
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
 LARGEST_PAGE = 10e6  # bytes
-PANELS = ("height", "state", "gap", "film")
 RECIPE = Recipe(shape=(120, 160), pressures=(2e6, 5e6, 9e6), densities=(0.45, 0.9))
-RANGES = """["height", "state", "gap", "film"].map((panel) => {
+RANGES = """["height", "state", "pressure", "gap", "film"].map((panel) => {
   const plot = tabor.doc.get_model_by_name(`maps_${panel}_plot`)
   return [plot.x_range.start, plot.x_range.end, plot.y_range.start, plot.y_range.end] })"""
+
+TOOLBARS = """(() => { const all = (root) => [...root.querySelectorAll("*")].flatMap((part) => [part, ...part.shadowRoot ? all(part.shadowRoot) : []])
+  return all(document.querySelector(".section")).filter((part) => part.classList.contains("bk-Toolbar")).map((part) => part.getBoundingClientRect().height) })()"""
 
 
 def browser_or_skip():
@@ -47,6 +54,7 @@ class InBrowser(unittest.TestCase):
         cls.path = cls.make()
         cls.said, cls.asked = [], []
         cls.page = cls.browser.new_page(viewport={"width": 1200, "height": 1000})
+        cls.page.set_default_timeout(120_000)  # ms; others may use the machine
         cls.page.on("console", lambda message: cls.said.append((message.type, message.text)))
         cls.page.on("pageerror", lambda error: cls.said.append(("error", str(error))))
         cls.page.on("request", lambda request: cls.asked.append(request.url))
@@ -75,11 +83,8 @@ class InBrowser(unittest.TestCase):
         self.assertEqual([name for name, text in plots if not text], [])
 
 
-class OneScan(InBrowser):
-    @classmethod
-    def make(cls):
-        write_single(cls.folder / "one.h5", RECIPE)
-        return cls.report(cls.folder / "one.h5", cls.folder / "page")
+class WithMaps(InBrowser):
+    """A page with one scan's maps: seen whole before each test."""
 
     def setUp(self):
         self.page.click("#maps_height_plot", position={"x": 2, "y": 2})
@@ -104,43 +109,23 @@ class OneScan(InBrowser):
     def choose(self, contact, film):
         self.page.select_option("#maps_contact", index=contact)
         self.page.select_option("#maps_film", index=film)
-        self.page.wait_for_function("tabor.maps.maps.canvases !== null")
+        self.page.wait_for_function("!tabor.maps.maps.loading")
+
+
+class OneScan(WithMaps):
+    @classmethod
+    def make(cls):
+        write_single(cls.folder / "one.h5", RECIPE)
+        return cls.report(cls.folder / "one.h5", cls.folder / "page")
 
     def test_nothing_is_fetched_or_complained_about_and_all_has_a_text(self):
         self.check_page()
-
-    def test_the_values_under_the_pointer_are_those_of_the_file_within_a_step(self):
-        with h5py.File(self.folder / "one.h5") as file:
-            height = file["surface/height"][()]
-            height = height - height.mean()
-            for contact, film in ((0, 0), (2, 1)):
-                state = file[f"states/{2 * contact + film:04d}"]
-                stored = {"height": height, "gap": state["gap"][()], "film": state["film_thickness"][()]}
-                self.choose(contact, film)
-                for x, y in ((0.2, 0.3), (0.51, 0.77), (0.93, 0.11)):
-                    found = self.point(x, y)
-                    for name, values in stored.items():
-                        step = np.ptp(values) / encoding.STEPS
-                        error = abs(found[name] - values[found["y"], found["x"]])
-                        self.assertLessEqual(error, 0.51 * step + 1e-7 * np.ptp(values))  # float32 beside half a step
-
-    def test_the_contact_under_the_pointer_is_that_of_the_file(self):
-        with h5py.File(self.folder / "one.h5") as file:
-            for contact, film in ((0, 1), (2, 0)):
-                state = file[f"states/{2 * contact + film:04d}"]
-                pressure, wet = state["pressure"][()], state["film_thickness"][()] > 0
-                self.choose(contact, film)
-                touching = np.argwhere(pressure > 0)
-                for row, column in [*touching[:: len(touching) // 20], (0, 0), (7, 100)]:
-                    found = self.page.evaluate(f"tabor.maps.maps.state({column} + 0.5, {row} + 0.5)")
-                    expected = (pressure[row, column] > 0) * (1 + 2 * wet[row, column])
-                    self.assertIn(found - expected, (0, 1) if expected else (0,), (row, column))
 
     def test_the_reading_is_written_with_units(self):
         self.point(0.4, 0.4)
         text = self.page.inner_text("#maps_reading")
         self.assertRegex(text, r"x [\d.]+ µm\s+·\s+y [\d.]+ µm\s+·\s+height −?[\d.]+ (µm|nm)")
-        self.assertRegex(text, r"film .* gap .* (no contact|contact)")
+        self.assertRegex(text, r"film .* gap .* pressure .* MPa .* (no contact|contact)")
 
     def test_all_maps_zoom_and_move_together(self):
         before = self.page.evaluate(RANGES)
@@ -159,20 +144,6 @@ class OneScan(InBrowser):
         self.assertNotEqual(moved, zoomed)
         self.assertEqual(len({tuple(ranges) for ranges in moved}), 1)
 
-    def test_the_section_is_the_file_along_its_line(self):
-        self.choose(1, 1)
-        self.page.click("#maps_along")
-        cut = self.page.evaluate("tabor.maps.maps.cut()")
-        with h5py.File(self.folder / "one.h5") as file:
-            height, state = file["surface/height"][()], file["states/0003"]
-            height = height - height.mean()
-            row = int(cut["y"][0] / self.page.evaluate("tabor.maps.maps.data.pixel[1]"))
-            np.testing.assert_allclose(cut["solid"], height[row], atol=np.ptp(height) / encoding.STEPS)
-            film, gap = state["film_thickness"][row], state["gap"][row]
-            level = np.array([np.nan if value is None else value for value in cut["level"]], dtype=float)
-            np.testing.assert_array_equal(np.isfinite(level), film > 0)
-            np.testing.assert_allclose(cut["counter"], height[row] + gap, atol=1e-4 * np.ptp(height))
-
     def test_an_end_of_the_section_follows_the_pointer_and_the_map_stays(self):
         self.page.click("#maps_across")
         before = self.page.evaluate(RANGES)
@@ -184,6 +155,14 @@ class OneScan(InBrowser):
         line = self.page.evaluate("tabor.maps.maps.line")
         np.testing.assert_allclose(line[0], [0.85 * 160, 0.4 * 120], atol=4)
         self.assertEqual(self.page.evaluate(RANGES), before)
+
+    def test_tables_are_named_by_the_scan_and_what_is_chosen(self):
+        self.choose(1, 0)
+        names = {"height": "one_height.csv", "gap": "one_gap_5MPa.csv", "film": "one_film_0.45g_per_m2.csv", "state": "one_state_5MPa_0.45g_per_m2.csv"}
+        for selector, name in ({f"a[data-panel={panel}]": name for panel, name in names.items()} | {"#maps_csv": "one_section_5MPa_0.45g_per_m2.csv"}).items():
+            with self.page.expect_download() as download:
+                self.page.click(selector)
+            self.assertEqual(download.value.suggested_filename, name)
 
     def test_a_name_in_the_legend_hides_its_curve(self):
         button = self.page.locator("#against_pressure button.entry").first
@@ -197,12 +176,14 @@ class OneScan(InBrowser):
         self.assertEqual(set(self.page.evaluate(shown)), {True})
 
     def test_print_shows_still_figures_instead(self):
+        self.assertGreater(self.page.evaluate(TOOLBARS)[0], 0)
         self.page.emulate_media(media="print")
         try:
             seen = "[...document.querySelectorAll('{}')].map((part) => part.getBoundingClientRect().height > 0)"
             self.assertEqual(set(self.page.evaluate(seen.format("figure > .live .plot"))), {False})
             self.assertEqual(set(self.page.evaluate(seen.format(".frame, figure > img.still"))), {True})
             self.assertEqual(set(self.page.evaluate(seen.format("nav, .controls, .reading"))), {False})
+            self.assertEqual(self.page.evaluate(TOOLBARS), [0])
         finally:
             self.page.emulate_media(media="screen")
 
@@ -216,6 +197,21 @@ class Study(InBrowser):
     def test_nothing_is_fetched_or_complained_about_and_all_has_a_text(self):
         self.check_page()
 
+    def test_a_list_chooses_among_the_scans_that_the_page_has_room_for(self):
+        self.assertEqual(self.page.locator("#maps_scan option").all_inner_texts(),
+                         ["before_1, side A", "before_2, side A", "before_3, side B", "before_4, side B"])  # fmt: skip
+        self.assertNotIn("--all-scans", self.page.inner_text("main"))
+
+    def test_the_page_says_how_the_scans_without_room_are_shown(self):
+        for name, value, said in (("MOST_SCANS", 2, "Maps of 2 scans of 4: tabor report --all-scans"), ("ROOM", 0, "Maps of one scan of 4: tabor report --all-scans")):
+            with mock.patch.object(live_page, name, value):
+                path = self.report(self.folder / "study", self.folder / name)
+            self.page.goto(path.as_uri())
+            self.assertTrue(self.page.evaluate("tabor.ready"))
+            self.assertIn(said, self.page.inner_text("main"))
+        self.page.goto(self.path.as_uri())
+        self.page.evaluate("tabor.ready")
+
     def test_error_bars_measured_points_and_n_are_there(self):
         columns = self.page.evaluate(
             """[...tabor.doc._all_models.values()].filter((model) => model.type == "ColumnDataSource")
@@ -224,6 +220,32 @@ class Study(InBrowser):
         self.assertTrue(any({"error", "n"} <= set(names) for names in columns))
         labels = self.page.locator("button.entry").all_inner_texts()
         self.assertTrue(any(label.strip().startswith("experiment") for label in labels), labels)
+
+
+class AllScans(InBrowser):
+    @classmethod
+    def make(cls):
+        synthetic_study.write(cls.folder / "study", Recipe(groups=("side A", "side B"), pressures=(2e6, 5e6), shape=(32, 40)))
+        done = run(cls.folder / "study", "--all-scans", "-o", cls.folder / "page")
+        assert done.returncode == 0, done.stderr
+        return cls.folder / "page/report.html"
+
+    def seen(self):
+        return self.page.evaluate("[...document.querySelectorAll('section.maps')].filter((one) => one.offsetHeight > 0).map((one) => one.id)")
+
+    def test_one_list_chooses_the_scan_and_the_state_stays(self):
+        self.assertTrue(self.ready, self.said)
+        self.assertEqual(self.page.locator("#maps_scan option").all_inner_texts(), ["before_1, side A", "before_2, side B"])
+        self.assertEqual(self.seen(), ["maps_scan0000"])
+        self.page.select_option("#maps_scan0000_contact", index=0)
+        self.page.select_option("#maps_scan0000_film", index=1)
+        self.page.select_option("#maps_scan", index=1)
+        self.page.wait_for_function("tabor.maps.maps_scan0001.started && !tabor.maps.maps_scan0001.loading")
+        self.assertEqual(self.seen(), ["maps_scan0001"])
+        self.assertEqual(self.page.evaluate("[tabor.maps.maps_scan0001.contact, tabor.maps.maps_scan0001.film]"), [0, 1])
+        self.assertEqual(self.page.inner_text("#maps_scan0001_state_title"), "Contact at P = 2 MPa with 0.9 g/m²")
+        self.assertGreater(self.page.evaluate("tabor.doc.get_model_by_name('maps_scan0001_height_plot').inner_width"), 300)
+        self.assertEqual([said for said in self.said if said[0] in ("error", "warning")], [])
 
 
 class Parts(InBrowser):
@@ -239,7 +261,7 @@ class Parts(InBrowser):
         return cls.folder / "heights/report.html"
 
     def test_each_page_shows_what_there_is(self):
-        expected = {"heights": ["height"], "contact": ["height", "state", "gap"], "film": ["height", "film"]}
+        expected = {"heights": ["height"], "contact": ["height", "state", "pressure", "gap"], "film": ["height", "film"]}
         for name, panels in expected.items():
             self.page.goto((self.folder / name / "report.html").as_uri())
             self.assertTrue(self.page.evaluate("tabor.ready"), (name, self.said))
@@ -257,22 +279,105 @@ class Size(unittest.TestCase):
         rng = np.random.default_rng(3)
         noise = rng.standard_normal((900, 900)).astype(np.float32) * np.float32(1e-6)
         film = np.maximum(noise, 0)
-        contact = lambda: {"state": lambda: (noise > 1e-6).astype(np.uint8), "gap": lambda: noise}
+        touching = noise > 2.5e-6
+        contact = lambda: {"contact": lambda: (touching.astype(np.uint8), 240e6 * touching), "gap": lambda: noise}
         maps = viewer.Maps(
             "maps",
+            "noise",
             "noise",
             (1e-6, 1e-6),
             noise,
             [viewer.Choice(f"{number} MPa", contact()) for number in range(12)],
             [viewer.Choice("0.9 g/m²", {"film": lambda: film})],
         )
-        budget = 4e6
-        data, pictures = viewer.encoded(maps, budget)
-        arrays = [data["height"], *data["films"], *(part["gap"] for part in data["contacts"] if "gap" in part)]
-        size = sum(map(len, pictures.values())) + sum(len(part["array"]["data"]) for part in arrays)
-        self.assertLess(size, 1.05 * budget)
+        data, pictures = viewer.encoded(maps, share=0.5)
+        parts = [data["height"], *data["films"], *(part[name] for part in data["contacts"] for name in ("gap", "pressure") if name in part)]
+        classes = [*(part["state"] for part in data["contacts"]), *(part["wet"] for part in data["films"])]
+        size = sum(map(len, pictures.values())) + sum(len(part["array"]["data"]) for part in parts) + sum(len(part["data"]) for part in classes)
+        self.assertLess(size, 1.05 * 0.5 * viewer.BUDGET)
         self.assertTrue(data["left_out"])
         self.assertIn("gap", data["contacts"][0])
+
+
+class Quickstart(InBrowser):
+    """The page that tools/quickstart makes: its sentences, its tables and its curves say the same."""
+
+    @classmethod
+    def make(cls):
+        program = os.environ.get("TABOR")
+        if not program:
+            raise unittest.SkipTest("TABOR names no program: the page of quickstart is not made")
+        script = (ROOT / "tools" / "quickstart").read_text()
+        command = re.search(r'"\$tabor" friction (.*?)-o ', script, re.DOTALL).group(1).replace("\\\n", " ")
+        subprocess.run([program, "friction", *command.split(), "-o", cls.folder / "friction.h5"], cwd=ROOT, check=True,
+                       capture_output=True)
+        return cls.report(cls.folder / "friction.h5", cls.folder / "page")
+
+    def texts(self, selector):
+        return self.page.evaluate(f"[...document.querySelectorAll('{selector}')].map((one) => one.textContent.trim())")
+
+    def table(self, selector):
+        """{row: {column: text}}"""
+        columns = self.texts(f"{selector} thead th")
+        rows = self.page.evaluate(f"""[...document.querySelectorAll('{selector} tbody tr')].map((row) =>
+            [...row.querySelectorAll('th, td')].map((cell) => cell.textContent.trim()))""")
+        return {cells[0]: dict(zip(columns, cells[1:])) for cells in rows}
+
+    def curve(self, pressure):
+        """[(density, wet share, friction)] of the file."""
+        with h5py.File(self.folder / "friction.h5") as file:
+            columns = {name: node[()] for name, node in file["density_curves"].items()}
+        here = columns["mean_pressure_Pa"] == pressure
+        names = ("lubricant_density_g_per_m2", "lubricated_share", "friction_lubricated")
+        return list(zip(*(columns[name][here] for name in names)))
+
+    def test_every_number_of_the_sentences_is_that_of_the_tables(self):
+        sentences = list(dict.fromkeys(self.texts("#answers li")))
+        places = self.table("table.places")
+        self.assertEqual(len(sentences), 3)
+        words = {"below": "below", "between": "plateau", "there": "plateau", "beyond": "beyond"}
+        n_words = 0
+        for sentence in sentences:
+            pressure, text = re.match(r"At (\d+ MPa): (.*)", sentence).groups()
+            first, friction = re.search(r"full (?:from|at) (\S+) g/m² (?:on|already) \(friction (\S+)\)", text).groups()
+            self.assertEqual(places["plateau from"][pressure], f"{first} g/m²")
+            points = self.curve(1e6 * float(pressure.split()[0]))
+            at_first = next(point for point in points if f"{point[0]:.4g}" == first)
+            self.assertEqual(f"{at_first[2]:.3g}", friction)
+            edge = re.search(r"above (\S+ to \S+ g/m²)", text)
+            self.assertEqual(places["plateau ends in"][pressure], edge.group(1))
+            for clause in text.split("; "):
+                word = re.search(r"\blies? (\w+),", clause)
+                for density, share in re.findall(r"(\S+) g/m² \((\S+) % wet\)", clause):
+                    droplets = ", single droplets" if "single droplets" in clause else ""
+                    self.assertEqual(places[f"{density} g/m²"][pressure], f"{words[word.group(1)]} ({share} %){droplets}")
+                    n_words += 1
+        self.assertEqual(n_words, 12)
+
+    def test_the_tables_are_those_of_the_states_and_the_curves_pass_by_them(self):
+        places, answer = self.table("table.places"), self.table("table.answer")
+        with h5py.File(self.folder / "friction.h5") as file:
+            states = [dict(node.attrs) for node in file["states"].values()]
+        for state in states:
+            pressure, density = state["mean_pressure_Pa"], state["lubricant_density_g_per_m2"]
+            column, row = f"{pressure / 1e6:g} MPa", f"{density:g} g/m²"
+            self.assertIn(f"({100 * state['lubricated_share']:.3g} %)", places[row][column])
+            friction, *sign = answer[f"friction, {row}"][column].split()
+            self.assertAlmostEqual(float(friction), state["friction_lubricated"], delta=6e-4)
+            self.assertEqual(bool(sign), bool({*refusals.CODES} & {*state["warning_codes"]}))
+            area = {"counted contact": "contact_area_fraction_pixels", "contact area": "contact_area_fraction"}
+            name = "counted contact" if state["area"] == "pixels" else "contact area"
+            self.assertEqual(answer[name][column], f"{100 * state[area[name]]:.3g} %")
+            point = next(point for point in self.curve(pressure) if abs(point[0] / density - 1) < 1e-9)
+            if "few-droplets" not in state["warning_codes"]:
+                self.assertAlmostEqual(point[1], state["lubricated_share"], delta=0.01)  # droplets beside their limit
+            plateau = [float(text) for text in re.findall(r"[\d.]+", places["plateau from"][column])[:1]]
+            ends = [float(text) for text in re.findall(r"[\d.]+", places["plateau ends in"][column])[:2]]
+            if plateau[0] <= density <= ends[0]:
+                self.assertIn(places[row][column].split(" (")[0], ("plateau", "below"))
+                self.assertEqual("below" in places[row][column], "single droplets" in places[row][column])
+            elif density >= ends[1]:
+                self.assertIn("beyond", places[row][column])
 
 
 if __name__ == "__main__":

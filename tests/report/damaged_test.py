@@ -6,7 +6,7 @@ import h5py
 
 from study_case import StudyCase, draw
 from synthetic_study import Recipe
-from tabor_report import friction_series, page_study
+from tabor_report import friction_series, page, page_study, remarks
 
 
 class Damaged(StudyCase):
@@ -16,8 +16,8 @@ class Damaged(StudyCase):
 
         source = self.study(Recipe(groups=("one",)), lose)
         figures = draw(source)
-        self.assertNotIn("fig08_contact_clusters", figures)
-        self.assertIn("fig05_contact_map", figures)
+        self.assertNotIn("contact_clusters", figures)
+        self.assertIn("contact_map", figures)
         self.assertTrue(any("film-" in warning and "missing" in warning for warning in source.warnings))
 
     def test_a_study_without_its_store_still_draws_its_tables(self):
@@ -27,7 +27,7 @@ class Damaged(StudyCase):
 
         self.assertEqual(
             list(draw(self.study(change=lose))),
-            ["fig10_contact_area", "fig06_dry_friction", "fig09_lubricated_friction"],
+            ["contact_area", "dry_friction", "lubricated_friction"],
         )
 
     def test_an_incomplete_study_says_how_much_is_there(self):
@@ -44,7 +44,7 @@ class Damaged(StudyCase):
                         del file[name][column]
                         file[name][column] = values
 
-        self.assertIn("fig04_psd", draw(self.study(change=empty)))
+        self.assertIn("psd", draw(self.study(change=empty)))
 
     def test_a_scan_that_is_not_treated_yet_is_listed_without_maps(self):
         def forget(folder):
@@ -56,9 +56,9 @@ class Damaged(StudyCase):
                     del scan[name]
 
         source = self.study(Recipe(groups=("one", "two")), forget)
-        self.assertIn("before_2.x3p", draw(source)["fig05_contact_map"].title)
+        self.assertEqual("Contact map: before_2, 10 MPa", draw(source)["contact_map"].title)
         scans = page_study.sections(source)["scans"]
-        self.assertEqual(scans[0]["rows"], [("surface", "not treated yet")])
+        self.assertEqual(scans[0]["rows"], [("file", "before_1.x3p"), ("surface", "not treated yet")])
         self.assertIn(("pixels", "128 × 96"), scans[1]["rows"])
 
     def test_warnings_of_the_table_are_said_once_and_in_place_of_warnings(self):
@@ -70,6 +70,29 @@ class Damaged(StudyCase):
 
         source = self.study(Recipe(warnings={0: "5 spikes (0.1 %)"}), warn)
         self.assertEqual(source.warnings, lines)
+
+    def test_the_class_that_the_file_gives_a_warning_parts_doubts_from_information(self):
+        lines = ["pixel replaced [override]", "40 % not fit [spill-over]", "spikes taken out [despiked]"]
+
+        def warn(folder):
+            with h5py.File(folder / "results.h5", "a") as file:
+                file.attrs["warnings"], file.attrs["warning_classes"] = lines, ["information", "doubt", "information"]
+
+        source = self.study(Recipe(), warn)
+        self.assertEqual(remarks.parted(source.warnings), ([lines[1]], [lines[0], lines[2]]))
+        html = page.render(source, [], "")
+        doubts, notes = (html[html.index(f'id="{name}"') :].split("</section>")[0] for name in ("warnings", "notes"))
+        self.assertEqual([doubts.count("<li>"), notes.count("<li>")], [1, 2])
+        self.assertIn(lines[1], doubts)
+
+        def unclassed(folder):
+            warn(folder)
+            with h5py.File(folder / "results.h5", "a") as file:
+                file.attrs["warning_classes"] = ["doubt"]
+
+        self.assertEqual(remarks.parted(self.study(Recipe(), unclassed).warnings), (lines, []))
+
+    def test_without_warnings_of_the_table_those_of_scans_are_said(self):
         self.assertIn("before_1.x3p: 5 spikes (0.1 %)", self.study(Recipe(warnings={0: "5 spikes (0.1 %)"})).warnings)
 
     def test_a_failed_case_is_named_with_its_message(self):

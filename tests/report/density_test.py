@@ -11,7 +11,7 @@ from study_case import StudyCase, draw, rows_of
 from synthetic_single import write_single
 from synthetic_study import Recipe
 from synthetic_tables import DOSES, average_curves, density_curves
-from tabor_report import build, page, page_single, page_study, style
+from tabor_report import areas, build, page, page_single, page_study, style, units
 from tabor_report.figures import density_friction, single_curves
 
 NAME = "friction_against_density"
@@ -91,8 +91,17 @@ class OfAStudy(StudyCase):
 
 
 class Answers(StudyCase):
+    def without_places(self):
+        """As a file from before they were kept: its sentences stand on the page."""
+
+        def forget(folder):
+            with h5py.File(folder / "results.h5", "a") as file:
+                del file["density_places"], file["density_plateaus"]
+
+        return self.study(CURVES, forget)
+
     def test_of_each_group_the_lowest_and_highest_pressure_are_said_first(self):
-        short, every = self.study(CURVES).answers
+        short, every = self.without_places().answers
         ends = [f"{group} at {p} MPa: full from 0.1 g/m²" for group in ("side A", "side B") for p in (2, 15)]
         self.assertEqual(short, ends)
         self.assertEqual(len(every), 8)
@@ -102,7 +111,28 @@ class Answers(StudyCase):
         html = page.render(source, [], "tabor report x")
         places = [html.index(text) for text in ('id="answers"', 'id="warnings"', 'id="scans"')]
         self.assertEqual(places, sorted(places))
-        self.assertIn("All 8 sentences", html)
+        self.assertIn("All 8 sentences", page.render(self.without_places(), [], "tabor report x"))
+
+    def test_of_a_study_a_table_of_densities_and_pressures_stands_in_their_place(self):
+        source = self.study(CURVES)
+        self.assertEqual(source.answers, ([], []))
+        table = source.places
+        self.assertEqual(table["header"], [units.pressure(pressure) for pressure in CURVES.pressures])
+        rows = dict(table["rows"])
+        self.assertEqual(set(rows["plateau from (side A)"]), {"0.1 g/m²"})
+        self.assertEqual(set(rows["plateau ends in (side B)"]), {"1 to 10 g/m²"})
+        for density in CURVES.densities:
+            self.assertEqual(set(rows[f"{density} g/m² (side A)"]), {"plateau (20 %)"})
+        html = page.render(source, [], "x")
+        self.assertIn('<table class="places">', html)
+        self.assertNotIn("full from", html[html.index('id="answers"') : html.index('class="places"')])
+
+    def test_many_pressures_and_rows_are_cut_and_counted(self):
+        pressures = tuple(1e6 * (place + 1) for place in range(12))
+        groups = tuple(f"side {place}" for place in range(20))
+        table = self.study(Recipe(groups, pressures, density_curves=True)).places
+        self.assertEqual((len(table["header"]), table["pressures_left_out"]), (8, 4))
+        self.assertEqual(len(table["rows"]) + table["left_out"], 20 * (2 + len(CURVES.densities)))
 
     def test_without_them_the_page_has_no_such_section(self):
         self.assertNotIn('id="answers"', page.render(self.default, [], "tabor report x"))
@@ -110,6 +140,7 @@ class Answers(StudyCase):
     def test_sentences_that_match_no_curve_are_all_said(self):
         def add(folder):
             with h5py.File(folder / "results.h5", "a") as file:
+                del file["density_places"], file["density_plateaus"]
                 file.attrs["answers"] = ["one <b>thing</b>"]
 
         source = self.study(CURVES, add)
@@ -139,7 +170,7 @@ class Damaged(StudyCase):
         self.assertEqual(sum("/density_averages: its columns are not of one length" in w for w in source.warnings), 1)
         figures = draw(source)
         self.assertNotIn(NAME, figures)
-        self.assertIn("fig09_lubricated_friction", figures)
+        self.assertIn("lubricated_friction", figures)
 
     def test_a_missing_column_a_text_for_numbers_and_no_table_are_named(self):
         def lose(file):
@@ -182,6 +213,41 @@ class Damaged(StudyCase):
         self.assertNotIn(NAME, draw(self.change(spoil)))
 
 
+class DamagedPlaces(StudyCase):
+    def test_what_is_damaged_is_said_and_the_sentences_stay(self):
+        def lose(file):
+            del file["density_places/place"]
+
+        def spoil(file):
+            n = len(file["density_plateaus/plateau_to_g_per_m2"])
+            del file["density_plateaus/plateau_to_g_per_m2"]
+            file["density_plateaus/plateau_to_g_per_m2"] = ["wide"] * n
+
+        for action, words in ((lose, "column place is missing"), (spoil, "column plateau_to_g_per_m2 holds no numbers")):
+            def run(folder):
+                with h5py.File(folder / "results.h5", "a") as file:
+                    action(file)
+
+            source = self.study(CURVES, run)
+            self.assertEqual(sum(words in warning for warning in source.warnings), 1, source.warnings)
+            self.assertIsNone(source.places)
+            self.assertEqual(len(source.answers[1]), 8)
+
+    def test_a_curve_without_a_plateau_says_so(self):
+        def flatten(folder):
+            with h5py.File(folder / "results.h5", "a") as file:
+                for name in ("plateau_from_g_per_m2", "plateau_to_g_per_m2", "beyond_plateau_g_per_m2"):
+                    file[f"density_plateaus/{name}"][:] = np.nan
+                n = len(file["density_places/place"])
+                del file["density_places/place"]
+                file["density_places/place"] = [""] * n
+
+        rows = dict(self.study(CURVES, flatten).places["rows"])
+        self.assertEqual(set(rows["plateau from (side A)"]), {"no plateau"})
+        self.assertEqual(set(rows["plateau ends in (side A)"]), {"\N{EN DASH}"})
+        self.assertEqual(set(rows["0.45 g/m² (side A)"]), {"no plateau (20 %)"})
+
+
 class SettingsOfScans(StudyCase):
     def test_a_card_shows_the_contact_where_scans_differ_and_only_there(self):
         mixed = page_study.sections(self.study(Recipe(contacts={"side B": "elastic"})))["scans"]
@@ -191,9 +257,9 @@ class SettingsOfScans(StudyCase):
         self.assertFalse(any(name == "contact" for scan in alike for name, _ in scan["rows"]))
 
     def test_the_bound_of_the_area_is_said_of_saturated_contacts_only_where_some_are_elastic(self):
-        mixed = draw(self.study(Recipe(contacts={"side B": "elastic"})))["fig10_contact_area"]
+        mixed = draw(self.study(Recipe(contacts={"side B": "elastic"})))["contact_area"]
         self.assertIn("no solution of a saturated contact may lie below it", mixed.caption)
-        self.assertIn("no solution may lie below it", self.default_figures["fig10_contact_area"].caption)
+        self.assertIn("no solution may lie below it", self.default_figures["contact_area"].caption)
 
     def test_chains_of_treatment_are_named_by_groups(self):
         def treat(folder):
@@ -226,6 +292,11 @@ class OfOneScan(unittest.TestCase):
         )
         self.assertEqual({row["friction_dry"] for row in rows}, {f"{0.3:.17g}"})
         self.assertNotIn("Means over", drawn.caption)
+        dots = [line for line in drawn.figure.axes[0].get_lines() if line.get_marker() == "o" and len(line.get_xdata())]
+        found = sorted(zip(np.concatenate([line.get_xdata() for line in dots]),
+                           np.concatenate([line.get_ydata() for line in dots])))
+        states = self.single().states
+        self.assertEqual(found, sorted((state.density, state.facts["friction_lubricated"]) for state in states))
         style.close(drawn.figure)
 
     def test_both_figures_come_first_and_the_answers_are_said(self):
@@ -258,6 +329,51 @@ class OfOneScan(unittest.TestCase):
         source = self.single(density_curves=False)
         self.assertIsNone(density_friction.of_single(source))
         self.assertEqual((source.answers, source.warnings), (([], []), []))
+
+
+class AreasOfFriction(StudyCase):
+    """A page pairs friction with the area that it was computed with, under one name."""
+
+    def counted(self):
+        def change(folder):
+            with h5py.File(folder / "results.h5", "a") as file:
+                file.attrs["area"] = "pixels"
+                values = 1.25 * file["table/contact_area_fraction"][()]
+                del file["table/contact_area_fraction_pixels"]
+                file["table/contact_area_fraction_pixels"] = values
+
+        return self.study(change=change)
+
+    def test_of_a_study_with_pixels_is_the_counted_contact_in_answer_and_figure(self):
+        source = self.counted()
+        answer = page_study.answer(source)
+        names = [name for name, _ in answer["rows"]]
+        self.assertIn("counted contact (side A)", names)
+        self.assertFalse(any("contact area" in name for name in names))
+        self.assertIn(areas.MEANINGS[areas.PIXELS], answer["caption"])
+        figure = draw(source)["contact_area"]
+        self.assertEqual(figure.title, "Counted contact against pressure")
+        self.assertIn("Counted contact (pixels that touch)", figure.caption)
+        self.assertNotIn("Area counted", figure.caption)
+        drawn = {float(row["contact_area_fraction_pixels"]) for row in rows_of(figure.data[""])}
+        self.assertTrue(drawn <= set(source.table["contact_area_fraction_pixels"]))
+
+    def test_of_a_study_with_the_corrected_area_it_is_the_contact_area(self):
+        answer = page_study.answer(self.default)
+        self.assertIn("contact area (side A)", [name for name, _ in answer["rows"]])
+        self.assertIn("Contact area (perimeter-corrected)", self.default_figures["contact_area"].caption)
+
+    def test_of_one_scan_the_answer_has_the_area_of_its_friction(self):
+        class State:
+            def __init__(self, area):
+                self.key, self.pressure, self.pressure_text, self.density, self.visit = "0000", 5e6, "5 MPa", 0.9, 0
+                self.facts = {"contact_area_fraction": 0.02, "contact_area_fraction_pixels": 0.025,
+                              "friction_dry": 0.3, "friction_lubricated": 0.2, "area": area}
+
+        for area, name, text in (("pixels", "counted contact", "2.5 %"), ("corrected", "contact area", "2 %")):
+            found = page_single.answer([State(area)])
+            self.assertEqual(found["rows"][0], (name, [text]))
+            self.assertIn(f"friction on the {name}", found["caption"])
 
 
 if __name__ == "__main__":

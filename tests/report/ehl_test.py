@@ -139,7 +139,7 @@ def many_file(path):
     with new_file(path) as file:
         file.attrs["kind"] = "ehl point sweep"
         file.attrs["config_toml"] = ""
-        file.attrs["warnings"] = ["[a] 1 of 18 cases (roughness.seed / motion.speed = 1 / 0.1 m/s): frictionless"]
+        file.attrs["warnings"] = ["no friction is known (1 of 18 cases: seed 1 / 0.1 m/s) [boundary-friction]"]
         file.create_group("sweep").attrs["axes"] = ["roughness.seed", "motion.speed"]
         file["sweep/axes/roughness.seed"] = np.arange(1.0, 10.0)
         file["sweep/axes/motion.speed"] = [0.1, 1.0]
@@ -147,7 +147,7 @@ def many_file(path):
             file[f"sweep/axes/{key}"].attrs["long_name"] = key
         file["sweep/axes/roughness.seed"].attrs["words"] = [f"seed {n}" for n in range(1, 10)]
         file["sweep/shape"] = [9, 2]
-        for name, value in (("warnings", "frictionless"), ("warning_marks", "a")):
+        for name, value in (("warnings", "no friction is known"), ("warning_codes", "boundary-friction")):
             file[f"sweep/{name}"] = np.array([value] + 17 * [""], dtype=h5py.string_dtype())
         for name in ehl_stribeck._Curve.NAMES:
             file[f"sweep/{name}"] = np.linspace(0.1, 0.2, 18)
@@ -174,15 +174,19 @@ class Ehl(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.folder = Path(scratch.name)
 
-    def drawings(self, make):
-        path = self.folder / f"{make.__name__}.h5"
+    def drawings(self, make, figures=build.ehl_figures, ending=""):
+        path = self.folder / f"{make.__name__}{ending}.h5"
         make(path)
         source = build.open_result(path)
         self.addCleanup(source.file.close)
-        drawn = {drawing.name: drawing for drawing in build.ehl_figures(source)}
+        drawn = {drawing.name: drawing for drawing in figures(source)}
         for drawing in drawn.values():
             style.close(drawing.figure)
         return drawn
+
+    def curves(self, make):
+        """Every column of a sweep against what was varied, by name."""
+        return self.drawings(make, ehl_curves.sweep, "_curves")
 
     def page(self, make):
         """The text of report.html without its figures."""
@@ -219,7 +223,7 @@ class Ehl(unittest.TestCase):
         self.assertNotIn("spike", drawn["impact_central_pressure"].caption)  # its pressure has one peak only
         # The synthetic film is thinnest in the middle, not before the outlet.
         line = self.drawings(line_file)["line_profile"].caption
-        self.assertIn("thinnest, 100 nm, at 0 µm; its pressure ends at 99 µm", line)
+        self.assertIn("thinnest, 83 nm, at 0 µm; its pressure ends at 99 µm", line)  # the number of the result, between nodes
 
     def test_a_roller_film_that_closes_before_the_force_is_largest_is_said_so(self):
         history = {"time": np.array([0, 1e-3, 2e-3]), "min_film": np.array([2.0, 1.0, 3.0])}
@@ -233,19 +237,19 @@ class Ehl(unittest.TestCase):
         for n in (1, 7, 8, 9, 30):
             looks = style.curve_styles(n)
             self.assertEqual(len({look["color"] for look in looks}), n)
-        drawn = self.drawings(many_file)
+        drawn = {**self.drawings(many_file), **self.curves(many_file)}
         for name in ("stribeck", "sweep_friction_coefficient"):
             lines = [line for line in drawn[name].figure.axes[0].get_lines() if line.get_linestyle() == "-"]
             self.assertEqual(len({line.get_color() for line in lines}), 9)
 
     def test_a_sweep_marks_the_cases_of_its_warnings_and_leaves_gaps(self):
         text = self.page(many_file)
-        self.assertEqual(text.count("[a] 1 of 18 cases"), 1)
+        self.assertEqual(text.count("1 of 18 cases"), 1)
         self.assertIn("warnings", text)
-        drawn = self.drawings(many_file)
+        drawn = {**self.drawings(many_file), **self.curves(many_file)}
         self.assertIn("Gaps", drawn["stribeck"].caption)
         rows = self.rows(drawn["sweep_friction_coefficient"])
-        self.assertEqual([row["warnings"] for row in rows[:2]], ["a", ""])
+        self.assertEqual([row["warnings"] for row in rows[:2]], ["boundary-friction", ""])
         self.assertEqual(rows[0]["friction_coefficient"], "nan")
 
     def test_a_sweep_keeps_each_value_at_its_place(self):
@@ -294,6 +298,25 @@ class Ehl(unittest.TestCase):
         self.assertEqual([row["lapped converged"] for row in rows], ["0", "1", "1"])
         self.assertEqual(float(rows[0]["polished friction_solid"]), 0)
 
+    def test_a_stribeck_curve_is_one_figure_of_panels_that_share_their_speeds(self):
+        def with_ratio(path):
+            stribeck_file(path)
+            with h5py.File(path, "a") as file:
+                film = file["sweep/central_film_m"][()]
+                file["sweep/lambda_ratio"] = film / 50e-9
+                file["sweep/lambda_ratio"].attrs.update({"units": "", "long_name": "lambda ratio"})
+
+        for make, n_panels in ((stribeck_file, 3), (with_ratio, 4)):
+            drawn = self.drawings(make)
+            self.assertEqual(set(drawn), {"stribeck"})
+            axes = drawn["stribeck"].figure.axes
+            self.assertEqual(len(axes), n_panels)
+            self.assertEqual(len({panel.get_xlim() for panel in axes}), 1)
+            self.assertEqual(len({round(panel.get_position().x0, 6) for panel in axes}), 1)
+        ratio = axes[2].get_lines()[0]
+        self.assertEqual(axes[2].get_ylabel(), "film / rms roughness")
+        np.testing.assert_allclose(ratio.get_ydata(), axes[1].get_lines()[0].get_ydata() / 50)
+
     def test_a_stribeck_curve_names_the_shares_of_the_contact(self):
         figure = self.drawings(stribeck_file)["stribeck"].figure
         self.assertLessEqual({"lapped: touching", "polished: touching"}, set(style.entries(*figure.axes)))
@@ -303,7 +326,7 @@ class Ehl(unittest.TestCase):
             self.assertEqual(page_ehl._readable(text), shown)
 
     def test_words_make_curves_not_maps(self):
-        axes = self.drawings(stribeck_file)["sweep_central_film_m"].figure.axes[0]
+        axes = self.curves(stribeck_file)["sweep_central_film_m"].figure.axes[0]
         self.assertEqual(set(style.entries(axes)), {"lapped", "polished"})
 
     def test_the_page_of_a_point_contact_shows_tables_in_tables(self):
@@ -324,13 +347,13 @@ class Ehl(unittest.TestCase):
         self.assertIn("motion.speed 100 mm/s to 10 m/s, 3 values", text)
         self.assertNotIn("motion.speed 7 m/s", text)  # of the case: no result is of it
         self.assertIn("roughness.kind lapped, polished", text)
-        self.assertIn("lapped 1 m/s 170 nm 0.09", text)
+        self.assertIn("lapped 1 m/s 0.09 0.07 0.02 170 nm", text)
         self.assertIn("1 of 6 cases did not converge", text)
         self.assertIn("Rows in red did not converge.", text)
         self.assertIn("hot (1 of 6 cases) thin (2 of 6 cases)", text)
 
     def test_axes_of_a_sweep_have_units_that_read_well(self):
-        axes = self.drawings(stribeck_file)["sweep_central_film_m"].figure.axes[0]
+        axes = self.curves(stribeck_file)["sweep_central_film_m"].figure.axes[0]
         self.assertEqual(axes.get_xlabel(), "motion.speed (m/s)")
         self.assertEqual(axes.get_ylabel(), "central film (nm)")
         self.assertAlmostEqual(axes.lines[0].get_ydata()[0], 800)

@@ -4,8 +4,10 @@ import contextlib
 import io
 import tempfile
 import unittest
+import zipfile
 from pathlib import Path
 
+import h5py
 import synthetic_study
 from synthetic_single import write_single
 from synthetic_study import Recipe
@@ -22,6 +24,30 @@ def parsed(path, words):
     options = cli._parser().parse_args([str(path), *words])
     cli._convert(options)
     return options
+
+
+class NoResults(unittest.TestCase):
+    def test_a_scan_is_told_from_a_result_and_the_message_says_what_makes_one(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, make in (("scan.x3p", write_zip), ("scan.h5", write_foreign_hdf5), ("empty.h5", lambda path: path.touch())):
+                path = Path(folder) / name
+                make(path)
+                said = io.StringIO()
+                with contextlib.redirect_stderr(said):
+                    self.assertEqual(cli.main([str(path)]), 3)
+                self.assertIn("no result of tabor", said.getvalue())
+                self.assertIn(f"tabor friction {name}", said.getvalue())
+                self.assertEqual(len(said.getvalue().splitlines()), 1)
+
+
+def write_zip(path):
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("main.xml", "<p/>")
+
+
+def write_foreign_hdf5(path):
+    with h5py.File(path, "w") as file:
+        file["height"] = [[0.0]]
 
 
 class Options(unittest.TestCase):

@@ -35,7 +35,8 @@ class Parameters(unittest.TestCase):
 
     def test_each_scan_is_a_column_and_one_that_failed_is_a_warning(self):
         found = self.table()
-        self.assertEqual(found.scans, ["a.x3p", "b, new.x3p"])
+        self.assertEqual(found.scans, ["a", "b, new"])
+        self.assertEqual(found.files, ["scans/a.x3p", "scans/b, new.x3p"])
         self.assertEqual(found.values["Sq"], [1.07e-6, 0.9e-6])
         self.assertEqual(found.units["Vm(p)"], "m^3/m^2")
         self.assertTrue(math.isnan(found.values["Vm(p)"][1]))
@@ -69,13 +70,15 @@ class Parameters(unittest.TestCase):
         for words in ("Sa (nm)", ">860<", "Sq (µm)", "1.07", "b, new.x3p", "mean ± std", "800 ± 85", "nm³/nm²", "c.x3p: no such file"):
             self.assertIn(words, page)
         self.assertIn(">262\N{NARROW NO-BREAK SPACE}144<", page)
+        self.assertIn("<dt>a</dt><dd>scans/a.x3p</dd>", page)
+        self.assertNotIn("unknown", page[page.index('id="cite"') :])
 
     def test_the_page_of_groups_has_a_figure_and_the_scans_beside_their_mean(self):
         self.table(GROUPS)
         page = self.page("--static", "--figures", "svg")
         for words in ("3 scans, 2 groups", "new, mean ± std", "-worn, mean ± std", "300 ± 140", ">800<", "Roughness parameters of the groups"):
             self.assertIn(words, page)
-        order = [page.index(f">{name}</th>", page.index('id="results"')) for name in ("a_1.x3p", "a_2.x3p", "new, mean ± std", "b.x3p")]
+        order = [page.index(f">{name}</th>", page.index('id="results"')) for name in ("a_1", "a_2", "new, mean ± std", "b")]
         self.assertEqual(order, sorted(order))
         table = self.path.with_name("params_report").joinpath("figures/parameters.csv").read_text(encoding="utf-8")
         self.assertIn("'-worn,Sq,m,1,", table)

@@ -1,5 +1,6 @@
 """The small pieces: units, reduction of maps, choice of the window, tables, files, command line."""
 
+import base64
 import contextlib
 import importlib.util
 import io
@@ -7,17 +8,51 @@ import re
 import stat
 import tempfile
 import unittest
+import zlib
 from pathlib import Path
 from unittest import mock
 
 import numpy as np
 
-from tabor_report import cli, dependencies, errors, maps, output, page, section, still, style, units
+from tabor_report import cli, dependencies, encoding, errors, live_page, maps, names, output, page, section, still, style, units
 from tabor_report.example import richest_window
 from tabor_report.figures import Drawn, psd
 from tabor_report.map_axes import round_length
 from tabor_report.page_single import show, words
 from tabor_report.table import Table, converged
+
+
+class Names(unittest.TestCase):
+    def test_a_file_is_named_by_what_tells_it_from_the_others(self):
+        files = {
+            "scans/before.x3p": "before",
+            "new/one.x3p": "new/one",
+            "old/one.x3p": "old/one",
+            "old/two.x3p": "two.x3p",
+            "two.csv": "two.csv",
+            "sheet_1.5MPa": "sheet_1.5MPa",
+            "map.csv.gz": "map",
+        }
+        self.assertEqual(names.short(files), files)
+        self.assertEqual(names.short(["a", "sub/a.x3p"]), {"a": "a", "sub/a.x3p": "a.x3p"})
+
+    def test_names_of_files_are_told_apart_without_what_no_file_has_in_its_name(self):
+        self.assertEqual(names.in_files(["before_1", "before 1 (side A)", "A", "a", "после", "?"]),
+                         ["before_1", "before_1_side_A", "A_0002", "a_0003", "после", "0005"])  # fmt: skip
+        self.assertEqual(names.of_state("P = 7 MPa (2nd), 0.45 g/m²"), "7MPa_2nd_0.45g_per_m2")
+
+    def test_what_is_read_aloud_has_the_words_of_the_figures(self):
+        said = page.spoken("μ = (A_real − A_lub)/A₀ · τ_y/P, dotted: P/p_sat of scans/A_real.x3p")
+        self.assertEqual(said, "μ = (contact area − lubricated contact area)/A₀ · shear strength/P, dotted: P/saturation pressure of scans/A_real.x3p")
+
+    def test_indices_stand_below_the_line_and_files_keep_their_names(self):
+        for text, shown in (
+            ("μ = (A_real − A_lub)/A₀ · τ_y/P", "μ = (A<sub>real</sub> − A<sub>lub</sub>)/A₀ · τ<sub>y</sub>/P"),
+            ("tau_y/p_sat: <", "τ<sub>y</sub>/p<sub>sat</sub>: &lt;"),
+            ("C1D along x", "C<sup>1D</sup> along x"),
+            ("scans/p_y/A_real.x3p", "scans/p_y/A_real.x3p"),
+        ):
+            self.assertEqual(page.symbols(text), shown)
 
 
 class Units(unittest.TestCase):
@@ -180,7 +215,71 @@ class LiveCurves(unittest.TestCase):
         self.assertIsInstance(plot.extra_y_scales["right1"], LinearScale)
 
 
+def unpacked(array, shape, height):
+    """The codes of encoding.packed, pixel by pixel, as a browser finds them."""
+    data = np.frombuffer(zlib.decompress(base64.b64decode(array["data"])), dtype=np.uint8).reshape(array["planes"], *shape).astype(np.int64)
+    folded = sum(plane << 8 * number for number, plane in enumerate(data))
+    codes, base = (folded >> 1) ^ -(folded & 1), height if array["on_height"] else np.zeros(shape, dtype=np.int64)
+    for y, x in np.ndindex(*shape):
+        before = {(dy, dx): (codes[y - dy, x - dx], base[y - dy, x - dx]) for dy, dx in ((0, 1), (1, 0), (1, 1)) if y >= dy and x >= dx}
+        if array["is_level"]:
+            film, ground = next((before[place] for place in ((0, 1), (1, 0)) if before.get(place, (0, 0))[0] > 0), (0, 0))
+            codes[y, x] += max(0, film + ground - base[y, x]) if film > 0 else 0
+        else:
+            signs = {(0, 1): 1, (1, 0): 1, (1, 1): -1}
+            codes[y, x] += sum(signs[place] * sum(pair) for place, pair in before.items()) - base[y, x]
+    return codes
+
+
+class Grid(unittest.TestCase):
+    """Numbers of the grid of a page."""
+
+    def test_codes_are_packed_without_loss(self):
+        rng = np.random.default_rng(5)
+        shape = 17, 23
+        height = np.rint(rng.standard_normal(shape) * 3e5).astype(np.int64)
+        film = np.maximum(0, 2000 - height) * (rng.random(shape) < 0.7)
+        gap = np.cumsum(rng.integers(-3, 4, shape), axis=1) - height
+        spikes = np.where(rng.random(shape) < 0.05, encoding.LARGEST_CODE, -encoding.LARGEST_CODE)
+        for codes, under, is_level in ((height, None, False), (gap, height, False), (film, height, True), (spikes, None, False), (spikes, -spikes, False)):
+            array = encoding.packed(codes, under, is_level)
+            np.testing.assert_array_equal(unpacked(array, shape, under), codes)
+
+    def test_a_step_is_decimal_and_leaves_five_digits_and_a_spike_takes_none_of_them(self):
+        self.assertEqual(encoding.power_of(3e-6), -11)
+        self.assertEqual(encoding.power_of(3e-6, span=1e-4), -11)
+        self.assertEqual(encoding.power_of(240e6), 3)
+        self.assertLessEqual(1e3 / 10.0 ** encoding.power_of(1e-9, span=1e3), encoding.LARGEST_CODE)
+
+    def test_holes_have_a_code_that_no_value_has(self):
+        codes, hole = encoding.codes_of(np.array([[1.0, np.nan, -2.0]]), 0)
+        self.assertEqual(codes.tolist(), [[1, hole, -2]])
+        self.assertNotIn(hole, (1, -2))
+        self.assertIsNone(encoding.codes_of(np.array([[1.0]]), 0)[1])
+
+    def test_all_pixels_are_kept_up_to_the_largest_grid_and_then_every_nth(self):
+        steps = {(1024, 1024): 1, (1, 1025): 2, (2048, 3): 2, (2049, 3): 3, (3456, 3456): 4}
+        self.assertEqual({shape: encoding.thinning(shape, encoding.LARGEST_GRID) for shape in steps}, steps)
+        self.assertEqual([units.nth(step) for step in (2, 3, 4, 11, 12, 21, 112)], ["2nd", "3rd", "4th", "11th", "12th", "21st", "112th"])
+
+    def test_ticks_of_an_axis_are_round_and_within_it(self):
+        for length in (0.9, 1.0, 7.3, 343.04, 9999.0):
+            ticks = live_page._ticks(length)
+            self.assertTrue(2 <= len(ticks) <= 1 + live_page.MOST_TICKS, (length, ticks))
+            for text, share in ticks:
+                self.assertAlmostEqual(float(text), share * length, places=9)
+                self.assertLessEqual(share, 1 + 1e-9)
+
+
 class Section(unittest.TestCase):
+    def test_flattened_solid_is_named_where_there_is_some(self):
+        height, gap = np.array([[1.0, 2.0, 3.0]]), np.array([[2.0, 0.0, -1.0]])
+        for values, labels in ((gap, ["solid", "flattened", "counterface: solid + gap"]), (np.maximum(gap, 0), ["solid", "counterface: solid + gap"])):
+            figure, grid = style.new_figure(2.0)
+            section.draw(grid[0][0], section.cut(0, (0, 3), 2.0, height, None, values), 1, "m", 1, "m")
+            self.assertEqual(grid[0][0].get_legend_handles_labels()[1], labels)
+            style.close(figure)
+
     def test_lines_are_solid_plus_film_and_solid_plus_gap(self):
         height, film, gap = (
             np.array([[1.0, 2.0, 3.0]]),

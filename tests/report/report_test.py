@@ -96,14 +96,14 @@ class StudyReport(unittest.TestCase):
 
     def test_every_figure_exists_as_png_svg_and_csv_and_is_listed(self):
         names = [
-            "fig03_topography",
-            "fig04_psd",
-            "fig05_contact_map",
-            "fig06_dry_friction",
-            "fig07_lubricant_map",
-            "fig08_contact_clusters",
-            "fig09_lubricated_friction",
-            "fig10_contact_area",
+            "topography",
+            "psd",
+            "contact_map",
+            "dry_friction",
+            "lubricant_map",
+            "contact_clusters",
+            "lubricated_friction",
+            "contact_area",
         ]
         for name in names:
             for ending in ("png", "svg", "csv"):
@@ -166,6 +166,18 @@ class StudyReport(unittest.TestCase):
             self.assertIn(words, self.text)
         self.assertRegex(self.text, r"SHA-256 [0-9a-f]{64}")
 
+    def test_scans_are_named_without_folder_and_extension(self):
+        table = self.page[self.page.index('<section id="results">') : self.page.index('<section id="origin">')]
+        self.assertEqual(set(re.findall(r'<tr[^>]*><td class="text">([^<]*)</td>', table)), {"before_1", "before_2", "before_3"})
+        self.assertRegex(self.text, "(Topography|Maps): before_1 ")
+        for caption in re.findall(r"<figcaption>.*?<span", self.page, re.S):
+            self.assertNotIn(".x3p", caption)
+
+    def test_no_index_stands_on_the_line(self):
+        seen = re.sub(r"<(style|pre|script).*?</\1>|<[^>]*>", "", self.page, flags=re.S)
+        self.assertNotRegex(seen, r"(A|p|τ|tau)_(real|lub|sat|y)\b|C[12]D")
+        self.assertIn("p<sub>sat</sub>", self.page)
+
     def test_the_same_study_gives_the_same_bytes(self):
         before = {
             path: path.read_bytes() for path in [*self.folder.glob("figures/*"), self.folder / "report.html"]
@@ -193,7 +205,7 @@ class TwoPressuresAndDensities(unittest.TestCase):
         contact = {f"{what}_{pressure}MPa" for pressure in (5, 10) for what in ("pressure", "contact", "gap")}
         films = {"film_0.45g_per_m2", "film_0.9g_per_m2"}
         sections = {f"section_{p}MPa_{d}g_per_m2" for p in (5, 10) for d in (0.45, 0.9)}
-        self.assertEqual(self.names, {"topography", "against_pressure"} | contact | films | sections)
+        self.assertEqual(self.names, {"topography", "heights", "against_pressure"} | contact | films | sections)
         self.assertIn("Film map: 0.45 g/m²", self.page)
 
     def test_the_curves_are_the_states(self):
@@ -205,7 +217,7 @@ class TwoPressuresAndDensities(unittest.TestCase):
 
     def test_the_answer_stands_first_one_line_per_question_and_each_warning_once(self):
         answer = self.page[self.page.index('<table class="answer">') : self.page.index("</table>")]
-        for words in ("5 MPa", "10 MPa", "real contact area", "friction dry", "friction, 0.45 g/m²", "friction, 0.9 g/m²"):
+        for words in ("5 MPa", "10 MPa", ">contact area<", "friction dry", "friction, 0.45 g/m²", "friction, 0.9 g/m²"):
             self.assertEqual(answer.count(words), 1, words)
         self.assertLess(self.page.index('<table class="answer">'), self.page.index('<section id="figures">'))
 
@@ -233,13 +245,14 @@ class SingleReport(unittest.TestCase):
             names,
             {
                 "topography",
+                "heights",
                 *(f"{what}_5MPa" for what in ("pressure", "contact", "gap")),
                 "film_0.9g_per_m2",
                 "section_5MPa_0.9g_per_m2",
             },
         )
         self.assertIn("one.x3p", page)
-        self.assertIn("contact area fraction", page)
+        self.assertIn("contact area (perimeter-corrected)", page)
 
     def test_oil_that_flows_shows_its_pressure_and_its_fill(self):
         def flow(state):
@@ -261,13 +274,22 @@ class SingleReport(unittest.TestCase):
         page = (self.folder / "one_report/report.html").read_text(encoding="utf-8")
         self.assertIn("friction while oil flows, 0.9 g/m², 50 mm/s", page)
 
+    def test_a_path_of_loads_that_comes_back_to_a_pressure_shows_it_again(self):
+        names, page = self.report(pressures=(2e6, 7e6, 2e6), film=False)
+        self.assertTrue({f"{what}_{at}" for what in ("pressure", "contact", "gap") for at in ("2MPa", "7MPa", "2MPa_2nd")} <= names)
+        answer, results = (page[page.index(begin) : page.index("</thead>", page.index(begin))] for begin in ('<table class="answer">', 'id="results"'))
+        for head in (answer, results):
+            self.assertEqual(re.findall(r"<th[^>]*>([^<]+)</th>", head), ["2 MPa", "7 MPa", "2 MPa (2nd)"])
+        rows = (self.folder / "one_report/figures/against_pressure.csv").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(len(rows), 4)
+
     def test_a_film_alone_has_no_certificate(self):
         _, page = self.report(contact=False)
         self.assertNotIn("The certificate is", page)
 
     def test_a_film_alone_is_shown_without_contact(self):
         names, _ = self.report(contact=False)
-        self.assertEqual(names, {"topography", "film_0.9g_per_m2", "section_0.9g_per_m2"})
+        self.assertEqual(names, {"topography", "heights", "film_0.9g_per_m2", "section_0.9g_per_m2"})
 
     def test_a_folder_that_cannot_be_written_ends_with_5(self):
         write_single(self.folder / "one.h5", Recipe(shape=(20, 20), pressures=(5e6,)))

@@ -4,12 +4,13 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import h5py
 import numpy as np
 
 from report_test import run
 from synthetic_file import new_file
 from study_case import rows_of
-from tabor_report import build, spectra
+from tabor_report import build, page_spectra, spectra
 from tabor_report.figures import spectra as figure
 
 SIDE, N = 1e-4, 128
@@ -51,6 +52,18 @@ class Spectra(unittest.TestCase):
             np.testing.assert_allclose(line.get_ydata(), density * scale)
         self.assertEqual(len(rows_of(drawn.data[""])), 3 * N // 2)
 
+    def test_exponents_of_the_file_stand_on_the_page(self):
+        write(self.path)
+        with h5py.File(self.path, "a") as file:
+            for axis, hurst in (("x", 0.78), ("radial", 0.81)):
+                file[f"curves/psd_{axis}_{spectra.UNITS[axis]}"].attrs.update({"hurst": hurst, "hurst_standard_error": 0.03})
+        source = build.open_result(self.path)
+        self.addCleanup(source.file.close)
+        rows = dict(page_spectra.sections(source)["answer"]["rows"])
+        self.assertEqual(rows["Hurst exponent"], ["0.78 ± 0.03", "–", "0.81 ± 0.03"])
+        source.file.close()  # it is written anew
+        self.assertNotIn("Hurst exponent", dict(page_spectra.sections(self.source())["answer"]["rows"]))
+
     def test_one_direction_alone_is_drawn_too(self):
         source = self.source(axes=("y",))
         self.assertEqual(list(source.sets[0].curves), ["y"])
@@ -85,14 +98,28 @@ class Spectra(unittest.TestCase):
         (drawn,) = figure.draw(source)
         (axes,) = drawn.figure.axes
         labels = [line.get_label() for line in axes.lines]
-        self.assertEqual(labels[:3], ["a.x3p", "b.x3p", "all, mean of 2"])
+        self.assertEqual(labels[:3], ["a", "b", "all, mean of 2"])
         np.testing.assert_allclose(axes.lines[2].get_ydata(), 1.5e-2 * q / q[0])
         self.assertEqual(len(rows_of(drawn.data[""])), 3 * N // 2)
         done = run(self.path, "-o", self.path.parent / "page")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         page = (self.path.parent / "page/report.html").read_text(encoding="utf-8")
-        for words in ("Power spectra of 2 scans", "all, mean of 2", "Of each scan and mean"):
+        for words in ("Power spectra of 2 scans", "all, mean of 2", "Of each scan and mean", "<dt>b</dt><dd>folder/b.x3p</dd>"):
             self.assertIn(words, page)
+
+    def test_each_direction_has_a_column_of_exponents(self):
+        with new_file(self.path) as file:
+            for i, (name, hurst) in enumerate((("new/a.x3p", 0.7), ("old/a.x3p", 0.8))):
+                node = file.create_group(f"scans/{i:04}")
+                node.attrs["file"] = name
+                for axis in ("x", "y"):
+                    node[f"q_{axis}_rad_per_m"], node[f"psd_{axis}_m3"] = np.arange(1.0, 9), np.ones(8)
+                node["psd_x_m3"].attrs.update({"hurst": hurst, "hurst_standard_error": 0.03})
+        source = build.open_result(self.path)
+        self.addCleanup(source.file.close)
+        answer = page_spectra.sections(source)["answer"]
+        self.assertEqual((answer["caption"], answer["header"][0], answer["header"][2:]), ("Of each scan", "points", ["Hurst exponent along x"]))
+        self.assertEqual([(name, cells[0], cells[2]) for name, cells in answer["rows"]], [("new/a", "8", "0.70 ± 0.03"), ("old/a", "8", "0.80 ± 0.03")])
 
     def test_options_of_studies_are_rejected(self):
         self.source()

@@ -32,7 +32,7 @@ def write_single(path, recipe=Recipe(pressures=(5e6, 10e6), densities=(0.9,)), f
         for key, (pressure, density) in enumerate(pairs):
             _write_single_state(file, key, height, pressure, density if film else None, recipe)
         if recipe.density_curves:
-            write_density_curves(file, density_curves(replace(recipe, groups=("",))))
+            write_density_curves(file, density_curves(replace(recipe, groups=("",))), recipe.densities)
             del file["density_averages"]
             file.attrs["answers"] = [text.strip() for text in file.attrs["answers"]]
 

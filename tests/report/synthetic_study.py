@@ -13,7 +13,8 @@ import numpy as np
 
 from synthetic_file import add_map, add_nxdata, new_file
 from synthetic_maps import OIL_DENSITY, PIXEL, SATURATION, contact_maps, film_map, height_map, spectra
-from synthetic_tables import average, average_curves, density_curves, measured, write_columns, write_csv
+from synthetic_tables import average, average_curves, density_curves, measured, places, plateaus
+from synthetic_tables import write_columns, write_csv
 
 YOUNG, POISSON, SHEAR_STRENGTH = 70e9, 0.33, 70e6
 
@@ -219,7 +220,7 @@ def _write_results(path, recipe, scans, rows, averages):
         write_columns(file.create_group("table"), rows)
         write_columns(file.create_group("averages"), averages)
         if recipe.density_curves:
-            write_density_curves(file, density_curves(recipe))
+            write_density_curves(file, density_curves(recipe), recipe.densities)
         for index, scan in enumerate(scans):
             node = file.create_group(f"scans/{index:04d}")
             _link_scan(node, scan)
@@ -228,8 +229,10 @@ def _write_results(path, recipe, scans, rows, averages):
             write_columns(file.create_group("experiment"), measured(recipe))
 
 
-def write_density_curves(file, curves):
+def write_density_curves(file, curves, densities):
     averages = average_curves(curves)
+    write_columns(file.create_group("density_plateaus"), plateaus(averages))
+    write_columns(file.create_group("density_places"), places(averages, [one for one in densities if one > 0]))
     write_columns(file.create_group("density_curves"), curves)
     write_columns(file.create_group("density_averages"), averages)
     keys = dict.fromkeys((row["group"], row["mean_pressure_Pa"]) for row in averages)

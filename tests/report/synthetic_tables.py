@@ -44,6 +44,39 @@ def density_curves(recipe):
     ]
 
 
+def plateaus(rows):
+    """Rows of /density_plateaus of these mean curves."""
+    keys = dict.fromkeys((row["group"], row["mean_pressure_Pa"]) for row in rows)
+    return [
+        {
+            "group": group,
+            "mean_pressure_Pa": pressure,
+            "below_plateau_g_per_m2": 0.01,
+            "plateau_from_g_per_m2": 0.1,
+            "plateau_to_g_per_m2": 1.0,
+            "beyond_plateau_g_per_m2": 10.0,
+            "lubricated_share": 0.2,
+        }
+        for group, pressure in keys
+    ]
+
+
+def places(rows, densities):
+    """Rows of /density_places."""
+    keys = dict.fromkeys((row["group"], row["mean_pressure_Pa"]) for row in rows)
+    return [
+        {
+            "group": group,
+            "mean_pressure_Pa": pressure,
+            "lubricant_density_g_per_m2": density,
+            "lubricated_share": 0.2 if density <= 1 else 0.6,
+            "place": "plateau" if density <= 1 else "beyond",
+        }
+        for group, pressure in keys
+        for density in densities
+    ]
+
+
 def average_curves(rows):
     """Rows of /density_averages."""
     names = ("group", "mean_pressure_Pa", "lubricant_density_g_per_m2")

@@ -49,6 +49,23 @@ TEST(Averages, KeepGroupsApartInOrderOfAppearance) {
   EXPECT_EQ(result[2].group, "A");
 }
 
+/// One row whose film has such a warning is enough, as the mean over the rest is of drier scans.
+TEST(Averages, SayWhyAFrictionTableLeavesThemOut) {
+  std::vector<Row> rows{row("A", 5, 0.1), row("A", 5, 0.3), row("B", 5, 0.1), row("C", 5, 0.1),
+                        row("D", 5, 0.1), row("D", 5, 0.1), row("E", 5, 0.1)};
+  for (Row& one : rows) one.lubricant_density = 1e-3;
+  rows[1].warnings = {{"resolution", "small patches"}, {"flood", "too much oil"}};
+  rows[2].warnings = {{"resolution", "small patches"}};
+  rows[3].converged = false;
+  rows[4].converged = false;  // the other scan of D counts
+  rows[6].error = "no surface";
+  std::vector<std::string> reasons;
+  for (const Average& one : averages(rows)) reasons.push_back(one.left_out);
+  EXPECT_THAT(reasons, testing::ElementsAre("flood", "", "not-converged", "", "failed"));
+  for (Row& one : rows) one.lubricant_density = 0;  // no warning about oil counts
+  EXPECT_EQ(averages(rows).front().left_out, "");
+}
+
 TEST(Averages, CountOnlyRowsThatConverged) {
   std::vector<Row> rows{row("A", 5, 0.1), row("A", 5, 0.9), row("A", 5, 0.5)};
   rows[1].converged = false;

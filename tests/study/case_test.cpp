@@ -41,9 +41,9 @@ TEST(Tasks, KeyIsTheDigestOfAFixedText) {
   // If this changes, stores written before are computed again: then kAlgorithms must change too.
   Study study;
   study.treatment = {"level=plane"};
-  const Task surface = surface_task(study, {}, "abc");
+  const engine::Task surface = surface_task(study, {}, "abc");
   EXPECT_EQ(surface.text,
-            "tabor surface 4\nscan_sha256 = 3:abc\nchannel = 0:\nunit = 0:\npixel_x_m = 0\n"
+            "tabor surface 5\nscan_sha256 = 3:abc\nchannel = 0:\nunit = 0:\npixel_x_m = 0\n"
             "pixel_y_m = 0\nstep = 11:level=plane\n");
   EXPECT_EQ(surface.file, "surface-" + surface.key + ".h5");
   EXPECT_EQ(surface.key.size(), 16u);
@@ -52,20 +52,20 @@ TEST(Tasks, KeyIsTheDigestOfAFixedText) {
 TEST(Tasks, TextOfACaseWithoutFlowIsWhatItWasBeforeOilCouldFlow) {
   Study study;
   study.settings.friction.shear_strength = 7e7;
-  Task contact;
+  engine::Task contact;
   contact.key = "c";
-  Task film;
+  engine::Task film;
   film.key = "f";
   const Scan scan{"", "one", "all", {}};
   EXPECT_EQ(case_task(study, scan, contact, film, 9e-4).text,
-            "tabor case 4\nscan = 3:one\ngroup = 3:all\ncontact = 1:c\nfilm = 1:f\n"
+            "tabor case 5\nscan = 3:one\ngroup = 3:all\ncontact = 1:c\nfilm = 1:f\n"
             "lubricant_density_kg_per_m2 = 0.00089999999999999998\n"
             "shear_strength_Pa = 70000000\narea = 9:corrected\n");
 }
 
-analysis::FluidSettings flowing(double viscosity, std::optional<double> pressure_viscosity = {},
-                                std::optional<double> eyring_stress = {}) {
-  return {.fluid = analysis::Fluid::reynolds,
+cases::FluidSettings flowing(double viscosity, std::optional<double> pressure_viscosity = {},
+                             std::optional<double> eyring_stress = {}) {
+  return {.fluid = cases::Fluid::reynolds,
           .viscosity = viscosity,
           .pressure_viscosity = pressure_viscosity,
           .eyring_stress = eyring_stress};
@@ -87,7 +87,7 @@ TEST(Tasks, OilThatFlowsChangesOnlyTheCases) {
   EXPECT_TRUE(before.fluids[0].empty());
   std::set<std::string> keys{before.cases[0][0].key, before.cases[0][1].key};
   for (const auto& tasks : {flowing.cases[0], flowing.fluids[0], flowing.fluids[1]}) {
-    for (const Task& task : tasks) keys.insert(task.key);
+    for (const engine::Task& task : tasks) keys.insert(task.key);
   }
   EXPECT_EQ(keys.size(), 14u);
 }
@@ -100,7 +100,7 @@ TEST(Tasks, AFilmThatFlowsDoesNotKnowTheShearStrengthButItsOil) {
   });
   EXPECT_EQ(stronger.fluids[0][0].key, before.fluids[0][0].key);
   EXPECT_NE(stronger.cases[0][0].key, before.cases[0][0].key);
-  for (const analysis::FluidSettings& oil :
+  for (const cases::FluidSettings& oil :
        {flowing(0.3), flowing(0.2, 1e-8), flowing(0.2, {}, 1e6)}) {
     const ScanTasks other = tasks_after([&](Study& study) {
       let_flow(study);
@@ -121,7 +121,7 @@ TEST(Tasks, AllKeysOfAStudyDiffer) {
   std::size_t n = 0;
   for (const ScanTasks& scan : tasks_of(ExampleStudy().read())) {
     for (const auto& cases : scan.cases) {
-      for (const Task& task : cases) {
+      for (const engine::Task& task : cases) {
         keys.insert(task.key);
         ++n;
       }
@@ -175,15 +175,18 @@ TEST(Tasks, SettingsOfAScanAreAsGoodAsThoseOfItsStudy) {
   EXPECT_EQ(all[1].cases.at(0).at(0).key, tasks_of(example())[1].cases.at(0).at(0).key);
 }
 
-TEST(Tasks, WetSharesDependOnTheContactAndTheOilButOnNoDensityOrStrength) {
+TEST(Tasks, WetSharesDependOnTheContactTheOilAndItsDensitiesButOnNoStrength) {
   const ScanTasks before = tasks();
   ASSERT_EQ(before.wet_shares.size(), 2u);
   const ScanTasks same = tasks_after([](Study& study) {
     study.settings.friction.shear_strength = 1e6;
-    study.settings.film.lubricant_densities = {1e-3};
+    study.settings.film.lubricant_densities.push_back(0);  // no oil is no point of the curve
     study.settings.film.seed = 2;
   });
   EXPECT_EQ(same.wet_shares[0].key, before.wet_shares[0].key);
+  const ScanTasks more =
+      tasks_after([](Study& study) { study.settings.film.lubricant_densities.push_back(1e-3); });
+  EXPECT_NE(more.wet_shares[0].key, before.wet_shares[0].key);
   const ScanTasks heavy = tasks_after([](Study& study) { study.settings.film.oil_density = 800; });
   EXPECT_NE(heavy.wet_shares[0].key, before.wet_shares[0].key);
   const ScanTasks stiff =

@@ -12,6 +12,8 @@
 
 #include "support/folder.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/engine/checkpoint.hpp"
+#include "tabor/io/columns.hpp"
 #include "tabor/io/digest.hpp"
 
 // Sweeps of a program that adds numbers, stopped, damaged, shared out and repeated in all ways.
@@ -22,6 +24,13 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+const ColumnHead kSum{"sum", "", "sum", ehl::kInTable};
+
+/// A result that converged.
+ehl::CaseResult result_of(double sum) {
+  return {.numbers = {{kSum, sum}}, .status = ehl::CaseStatus::converged};
+}
+
 /// A program whose result of each case is that of the case before, plus a number of its own. "kind"
 /// ends the chain.
 ehl::Program adding_program(std::atomic<int>& n_solved) {
@@ -29,7 +38,7 @@ ehl::Program adding_program(std::atomic<int>& n_solved) {
                        .summary = "",
                        .keys = {{.name = "number"}, {.name = "kind"}, {.name = "file"}},
                        .files = {"file"},
-                       .columns = {{"sum", "sum", ""}},
+                       .columns = {kSum},
                        .studies = {},
                        .methods = {},
                        .solve = {}};
@@ -43,8 +52,10 @@ ehl::Program adding_program(std::atomic<int>& n_solved) {
       const double number = config.number("number");
       if (number == 13) throw InputError("unlucky");
       *sum += 1 / number;
-      return ehl::CaseResult{
-          .scalars = {{"sum", *sum}}, .converged = number < 5, .warnings = {"a sum"}};
+      ehl::CaseResult result = result_of(*sum);
+      if (number >= 5) result.status = ehl::CaseStatus::not_converged;
+      result.warnings = {{"spikes", "a sum"}};
+      return result;
     };
     chain.write_start = [sum](io::Hdf5Writer& writer) { writer.attribute("/", "sum", *sum); };
     chain.read_start = [sum](const io::Hdf5Reader& reader) { *sum = reader.number("/", "sum"); };
@@ -66,18 +77,19 @@ class EhlSweep : public testing::Test {
   }
 
   /// What all cases amount to, and what the folder holds afterwards.
-  EhlResults run(RunOptions options = {}) {
+  EhlResults run(engine::RunOptions options = {}) {
     EhlSeries cases = series();
     give_tasks(cases);
     n_solved_ = 0;
-    const EhlStore store(folder_of_cases_, options.shard ? Store::Use::shared : Store::Use::alone);
+    const EhlStore store(folder_of_cases_,
+                         options.shard ? engine::Store::Use::shared : engine::Store::Use::alone);
     outcome_ = run_ehl(cases, &store, options, [this](const EhlFound& found) { found_ = found; });
     return outcome_.results;
   }
 
   /// As a run leaves it that is stopped while it solves the case behind the first ones.
   void run_first(int n_cases) {
-    RunOptions options;
+    engine::RunOptions options;
     options.jobs = 1;
     options.observer = [this, n_cases](const Progress& progress) {
       return progress.stage == "look at the store" || n_solved_ < n_cases;
@@ -85,16 +97,18 @@ class EhlSweep : public testing::Test {
     run(options);
   }
 
-  std::vector<io::Json> scalars(const RunOptions& options = {}) {
+  std::vector<io::Json> numbers(const engine::RunOptions& options = {}) {
     std::vector<io::Json> all;
-    for (const auto& result : run(options)) all.push_back(result ? result->scalars : io::Json());
+    for (const auto& result : run(options)) {
+      all.push_back(result ? io::json_of(result->numbers) : io::Json());
+    }
     return all;
   }
 
   /// What an uninterrupted sweep says.
   std::vector<io::Json> expected() {
     std::filesystem::remove_all(folder_of_cases_);
-    std::vector<io::Json> all = scalars();
+    std::vector<io::Json> all = numbers();
     std::filesystem::remove_all(folder_of_cases_);
     return all;
   }
@@ -115,13 +129,13 @@ class EhlSweep : public testing::Test {
     return all;
   }
 
-  static RunOptions with_shard(int index, int count) {
-    RunOptions options;
-    options.shard = Shard{index, count};
+  static engine::RunOptions with_shard(int index, int count) {
+    engine::RunOptions options;
+    options.shard = engine::Shard{index, count};
     return options;
   }
-  static RunOptions retrying() {
-    RunOptions options;
+  static engine::RunOptions retrying() {
+    engine::RunOptions options;
     options.retry = true;
     return options;
   }
@@ -141,14 +155,14 @@ class EhlSweep : public testing::Test {
 
 TEST_F(EhlSweep, GoesOnWhereverItWasStopped) {
   const std::vector<io::Json> whole = expected();
-  ASSERT_EQ(whole[2]["refused"], "unlucky");
+  ASSERT_TRUE(whole[2].empty());  // rejected
   for (int n = 1; n <= 4; ++n) {
     run_first(n);
     EXPECT_THROW(std::rethrow_exception(outcome_.ended_by), Interrupted);
     EXPECT_EQ(outcome_.n_kept, static_cast<std::size_t>(n));
     EXPECT_EQ(files("case-").size(), static_cast<std::size_t>(n));
     EXPECT_EQ(files("start-").size(), 1u);
-    EXPECT_EQ(scalars(), whole) << n;
+    EXPECT_EQ(numbers(), whole) << n;
     EXPECT_EQ(found_.n_kept, static_cast<std::size_t>(n));
     EXPECT_EQ(n_solved_, 5 - n);
     EXPECT_EQ(files("start-").size(), 1u);
@@ -160,7 +174,9 @@ TEST_F(EhlSweep, SaysTheSameWithoutAFolder) {
   const std::vector<io::Json> whole = expected();
   const EhlOutcome outcome = run_ehl(series(), nullptr, {});
   ASSERT_TRUE(outcome.is_complete());
-  for (std::size_t i = 0; i < whole.size(); ++i) EXPECT_EQ(outcome.all()[i].scalars, whole[i]);
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(io::json_of(outcome.all()[i].numbers), whole[i]);
+  }
   EXPECT_FALSE(std::filesystem::exists(folder_of_cases_));
 }
 
@@ -172,9 +188,9 @@ TEST_F(EhlSweep, AnyNumberOfJobsGivesTheSameFiles) {
   EXPECT_EQ(kept.size(), 20u);
   for (const int jobs : {1, 2, 3, 16}) {
     std::filesystem::remove_all(folder_of_cases_);
-    RunOptions options;
+    engine::RunOptions options;
     options.jobs = jobs;
-    EXPECT_EQ(scalars(options), whole) << jobs;
+    EXPECT_EQ(numbers(options), whole) << jobs;
     EXPECT_EQ(contents(), kept) << jobs;
   }
 }
@@ -182,13 +198,13 @@ TEST_F(EhlSweep, AnyNumberOfJobsGivesTheSameFiles) {
 TEST_F(EhlSweep, ShardsTakeWholeChainsAndTogetherAreTheWhole) {
   kinds_ = {"1", "2", "3"};
   const std::vector<io::Json> whole = expected();
-  const std::vector<io::Json> first = scalars(with_shard(1, 2));
+  const std::vector<io::Json> first = numbers(with_shard(1, 2));
   EXPECT_EQ(n_solved_, 10);
   EXPECT_FALSE(outcome_.is_complete());
   EXPECT_TRUE(first[5].is_null());
-  EXPECT_EQ(scalars(with_shard(2, 2)), whole);
+  EXPECT_EQ(numbers(with_shard(2, 2)), whole);
   EXPECT_EQ(n_solved_, 5);
-  EXPECT_EQ(scalars(), whole);
+  EXPECT_EQ(numbers(), whole);
   EXPECT_EQ(n_solved_, 0);
 }
 
@@ -209,7 +225,7 @@ TEST_F(EhlSweep, RetryComputesWhatDidNotConvergeAndAllBehindItAgain) {
   const std::vector<io::Json> whole = expected();
   run();
   const auto kept = contents();
-  EXPECT_EQ(scalars(retrying()), whole);  // 7, the second, does not converge
+  EXPECT_EQ(numbers(retrying()), whole);  // 7, the second, does not converge
   EXPECT_EQ(n_solved_, 5);                // and only the last start is there
   EXPECT_EQ(contents(), kept);
   numbers_ = {"3", "0.1"};
@@ -222,9 +238,9 @@ TEST_F(EhlSweep, RetryComputesWhatDidNotConvergeAndAllBehindItAgain) {
 TEST_F(EhlSweep, RetryInAShardBeginsTheChainAgainWhoseStartIsGone) {
   const std::vector<io::Json> whole = expected();
   run(with_shard(1, 1));
-  RunOptions options = with_shard(1, 1);
+  engine::RunOptions options = with_shard(1, 1);
   options.retry = true;
-  EXPECT_EQ(scalars(options), whole);
+  EXPECT_EQ(numbers(options), whole);
   EXPECT_FALSE(outcome_.ended_by);
   EXPECT_EQ(n_solved_, 5);
 }
@@ -233,10 +249,11 @@ TEST_F(EhlSweep, WarningsAndConvergenceAreKept) {
   run();
   const EhlResults results = run();
   EXPECT_EQ(n_solved_, 0);
-  EXPECT_TRUE(results[0]->converged);
-  EXPECT_FALSE(results[1]->converged);
-  EXPECT_THAT(results[1]->warnings, ElementsAre("a sum"));
-  EXPECT_THAT(results[2]->warnings, ElementsAre("rejected: unlucky"));
+  EXPECT_TRUE(results[0]->converged());
+  EXPECT_FALSE(results[1]->converged());
+  EXPECT_THAT(texts_of(results[1]->warnings), ElementsAre("a sum"));
+  EXPECT_EQ(results[2]->error, "unlucky");
+  EXPECT_THAT(codes_of(results[2]->warnings), ElementsAre("rejected"));
 }
 
 TEST_F(EhlSweep, WhatIsDamagedIsComputedAgain) {
@@ -245,7 +262,7 @@ TEST_F(EhlSweep, WhatIsDamagedIsComputedAgain) {
     for (const char* bytes : {"", "{}", "[1, 2]", "\x89HDF\r\n\x1a\n", "{\"a\": 1e999}"}) {
       run_first(3);
       for (const auto& file : files(prefix)) test::put_bytes(file, bytes);
-      EXPECT_EQ(scalars(), whole) << prefix << bytes;
+      EXPECT_EQ(numbers(), whole) << prefix << bytes;
       ASSERT_FALSE(found_.damaged.empty());
       EXPECT_THAT(found_.damaged.front(), HasSubstr(prefix));
       EXPECT_THAT(found_.damaged.front(), HasSubstr("damaged"));
@@ -254,7 +271,7 @@ TEST_F(EhlSweep, WhatIsDamagedIsComputedAgain) {
   }
   run_first(3);
   for (const auto& file : files("start-")) std::filesystem::remove(file);
-  EXPECT_EQ(scalars(), whole);
+  EXPECT_EQ(numbers(), whole);
 }
 
 TEST_F(EhlSweep, ABitThatTurnedOverInACaseIsFound) {
@@ -266,7 +283,7 @@ TEST_F(EhlSweep, ABitThatTurnedOverInACaseIsFound) {
     std::string other = bytes;
     other[at] = static_cast<char>(other[at] ^ (1 << (at % 7)));
     test::put_bytes(file, other);
-    EXPECT_EQ(scalars().front(), whole.front()) << at;
+    EXPECT_EQ(numbers().front(), whole.front()) << at;
     EXPECT_EQ(n_solved_, 5);
     std::filesystem::remove_all(folder_of_cases_);
     run_first(1);
@@ -278,10 +295,33 @@ TEST_F(EhlSweep, ACaseWithoutNumbersIsDamaged) {
   run_first(3);
   for (const auto& file : files("case-")) {
     io::Json json = io::read_json(file);
-    json["scalars"] = {1, 2};
+    json["numbers"] = {1, 2};
     test::put_bytes(file, io::to_text(json));
   }
-  EXPECT_EQ(scalars(), whole);
+  EXPECT_EQ(numbers(), whole);
+}
+
+TEST_F(EhlSweep, CasesOfAnEarlierVersionAreKept) {
+  const std::vector<io::Json> whole = expected();
+  run_first(3);
+  {
+    const EhlStore store(folder_of_cases_, engine::Store::Use::shared);
+    EhlSeries cases = series();
+    give_tasks(cases);
+    for (const EhlCase& one : cases.cases) {
+      if (!store.store().has(one.task)) continue;
+      io::Json json = engine::read_checkpoint(store.store(), one.task);
+      io::Json earlier = {{"scalars", json["numbers"]},
+                          {"converged", json["status"] == "converged"},
+                          {"warnings", {"a sum"}}};
+      if (json.contains("start_sha256")) earlier["start_sha256"] = json["start_sha256"];
+      if (json["status"] != "rejected") engine::write_checkpoint(store.store(), one.task, earlier);
+    }
+  }
+  EXPECT_EQ(numbers(), whole);
+  EXPECT_LT(n_solved_, 5);
+  EXPECT_THAT(texts_of(outcome_.results[0]->warnings), ElementsAre("a sum"));
+  EXPECT_TRUE(outcome_.results[0]->converged());
 }
 
 TEST_F(EhlSweep, ACaseIsNotKeptUnderTheDigestOfAnotherScan) {
@@ -295,9 +335,9 @@ TEST_F(EhlSweep, ACaseIsNotKeptUnderTheDigestOfAnotherScan) {
   program_.solve = [&](const io::Config& config, const ehl::CaseSetting& setting) {
     if (config.number("number") == 7) test::put_bytes(scan, "smooth");
     setting.surfaces.read({.file = scan}, {});
-    return ehl::CaseResult{.scalars = {{"sum", 0}}, .converged = true};
+    return result_of(0);
   };
-  RunOptions one_by_one;
+  engine::RunOptions one_by_one;
   one_by_one.jobs = 1;
   run(one_by_one);
   EXPECT_THAT([&] { std::rethrow_exception(outcome_.ended_by); },
@@ -343,7 +383,7 @@ TEST_F(EhlSweep, ACaseDependsOnTheBytesOfItsFiles) {
 }
 
 TEST_F(EhlSweep, RemovesOnlyWhatItMade) {
-  const auto finish = [&] { EhlStore(folder_of_cases_, Store::Use::alone).finish(); };
+  const auto finish = [&] { EhlStore(folder_of_cases_, engine::Store::Use::alone).finish(); };
   run_first(3);
   finish();
   EXPECT_FALSE(std::filesystem::exists(folder_of_cases_));
@@ -360,9 +400,9 @@ TEST_F(EhlSweep, AnInterruptedCaseIsNoCase) {
   program_.make_chain = {};
   program_.solve = [](const io::Config& config, const ehl::CaseSetting&) {
     if (config.number("number") == 7) throw Interrupted();
-    return ehl::CaseResult{.scalars = {{"sum", 0}}, .converged = true};
+    return result_of(0);
   };
-  RunOptions one_by_one;
+  engine::RunOptions one_by_one;
   one_by_one.jobs = 1;
   run(one_by_one);
   EXPECT_THROW(std::rethrow_exception(outcome_.ended_by), Interrupted);
@@ -372,7 +412,7 @@ TEST_F(EhlSweep, AnInterruptedCaseIsNoCase) {
 
 TEST_F(EhlSweep, ASecondSweepOfTheSameResultIsRejectedWhileTheFirstRuns) {
   {
-    const EhlStore first(folder_of_cases_, Store::Use::alone);
+    const EhlStore first(folder_of_cases_, engine::Store::Use::alone);
     EXPECT_THAT([&] { run(); },
                 testing::ThrowsMessage<InputError>(HasSubstr("another sweep keeps its cases")));
     EXPECT_THROW(run(with_shard(1, 2)), InputError);
@@ -406,17 +446,20 @@ TEST(SolvingOrder, ComesDownFromTheLargestValue) {
 
 /// Numbers of a program without chains tend to 3 with the first order.
 TEST(EhlStudy, FindsLimitAndOrderOfEachColumn) {
+  static const ColumnHead kValue{"value", "m", "value", ehl::kInTable};
+  static const ColumnHead kSteps{"steps", "", "steps", ehl::kCountInTable};
+  static const ColumnHead kNodes{"nodes", "", "nodes", ehl::kAlone};
   ehl::Program program{.name = "limit",
                        .summary = "",
                        .keys = {{.name = "nodes"}},
-                       .columns = {{"value", "value", "m"}, {"steps", "steps", "", false, false}},
+                       .columns = {kValue, kSteps},
                        .studies = {{"grid", "nodes", "nodes", "", {0.5, 1, 2}}},
                        .methods = {},
                        .solve = [](const io::Config& config, const ehl::CaseSetting&) {
                          const double n = config.has("nodes") ? config.number("nodes") : 64;
                          return ehl::CaseResult{
-                             .scalars = {{"value", 3 + 1 / n}, {"nodes", n}, {"steps", 7}},
-                             .converged = true};
+                             .numbers = {{kValue, 3 + 1 / n}, {kNodes, n}, {kSteps, 7.0}},
+                             .status = ehl::CaseStatus::converged};
                        }};
   const io::Config config = io::Config::parse("", "case.toml");
   const ehl::CaseStudy& study = find_study(program, "grid");

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "example_study.hpp"
-#include "tabor/analysis/warning.hpp"
+#include "tabor/cases/warning.hpp"
 #include "tabor/io/csv.hpp"
 #include "tabor/io/hdf5.hpp"
 
@@ -85,7 +85,7 @@ TEST(FrictionTable, LeavesOutWhatCannotBeTrusted) {
 
 TEST(FrictionTable, KeepsNumbersUnderOtherWarnings) {
   const std::vector<std::string>& untrusted = untrusted_codes();
-  for (const analysis::CodeEntry& entry : analysis::all_codes()) {
+  for (const cases::CodeEntry& entry : cases::all_codes()) {
     const std::string code(entry.code);
     if (std::find(untrusted.begin(), untrusted.end(), code) != untrusted.end()) continue;
     FrictionNumbers numbers = three_pressures();
@@ -94,9 +94,15 @@ TEST(FrictionTable, KeepsNumbersUnderOtherWarnings) {
   }
 }
 
+TEST(FrictionTable, SaysWhyItRefusesANumber) {
+  EXPECT_EQ(refusal_of({"spill-over", "steep"}, true), "");
+  EXPECT_EQ(refusal_of({}, false), "not-converged");
+  for (const std::string& code : untrusted_codes()) EXPECT_EQ(refusal_of({code}, true), code);
+}
+
 TEST(FrictionTable, KnowsOnlyCodesThatExist) {
   for (const std::string& code : untrusted_codes()) {
-    EXPECT_TRUE(std::any_of(analysis::all_codes().begin(), analysis::all_codes().end(),
+    EXPECT_TRUE(std::any_of(cases::all_codes().begin(), cases::all_codes().end(),
                             [&](const auto& entry) { return entry.code == code; }))
         << code;
   }

@@ -20,17 +20,17 @@ topography::Topography sheet(Index n) {
   return synthesis::edt(recipe);
 }
 
-analysis::CaseSettings settings() {
-  analysis::CaseSettings settings;
-  analysis::take_material("aluminium-6016", settings);
+cases::CaseSettings settings() {
+  cases::CaseSettings settings;
+  cases::take_material("aluminium-6016", settings);
   settings.mean_pressures = {7e6, 15e6};
   settings.film.lubricant_densities = {0.45e-3};
   settings.film.model = deposition::Model::limit;
   return settings;
 }
 
-std::vector<analysis::FrictionRecord> measured(const topography::Topography& surface) {
-  std::vector<analysis::FrictionRecord> records;
+std::vector<cases::FrictionRecord> measured(const topography::Topography& surface) {
+  std::vector<cases::FrictionRecord> records;
   friction_of(surface, settings(),
               [&](const FrictionState& state) { records.push_back(state.friction); });
   return records;
@@ -65,15 +65,15 @@ TEST(ResolutionScan, WarnsWhereThePixelDecides) {
     const bool decides = std::abs(fine - coarse) > 0.2 * std::max(fine, coarse);
     EXPECT_EQ(records[i].warnings.size(), before[i].warnings.size() + (decides ? 1 : 0));
   }
-  EXPECT_THAT(analysis::codes_of(records[0].warnings), Contains("pixel"));
+  EXPECT_THAT(codes_of(records[0].warnings), Contains("pixel"));
 }
 
 TEST(ResolutionScan, NeedsPixelsAndOilAtRest) {
-  std::vector<analysis::FrictionRecord> records;
+  std::vector<cases::FrictionRecord> records;
   EXPECT_THAT(test::rejection([&] { resolution_scan(sheet(63), settings(), records); }),
               HasSubstr("got 63 x 63 pixels; expected 64 x 64 or more"));
-  analysis::CaseSettings flowing = settings();
-  flowing.fluid.fluid = analysis::Fluid::reynolds;
+  cases::CaseSettings flowing = settings();
+  flowing.fluid.fluid = cases::Fluid::reynolds;
   EXPECT_THAT(test::rejection([&] { resolution_scan(sheet(64), flowing, records); }),
               HasSubstr("oil that flows"));
 }

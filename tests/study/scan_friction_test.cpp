@@ -10,10 +10,11 @@
 #include <vector>
 
 #include "support/rejection.hpp"
-#include "tabor/analysis/states.hpp"
+#include "tabor/cases/states.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/io/columns.hpp"
 #include "tabor/synthesis/synthesis.hpp"
+#include "tabor/topography/treatment.hpp"
 
 namespace tabor::study {
 namespace {
@@ -29,8 +30,8 @@ topography::Topography rough() {
   return synthesis::self_affine(recipe);
 }
 
-analysis::CaseSettings settings() {
-  analysis::CaseSettings settings;
+cases::CaseSettings settings() {
+  cases::CaseSettings settings;
   settings.mean_pressures = {15e6, 2e6, 7e6};
   settings.contact = {.youngs_modulus = 70e9, .poissons_ratio = 0.33, .saturation_pressure = 240e6};
   settings.film.lubricant_densities = {9e-4, 4.5e-4};
@@ -38,30 +39,30 @@ analysis::CaseSettings settings() {
   return settings;
 }
 
-analysis::CaseSettings along_a_load_path() {
-  analysis::CaseSettings path = settings();
+cases::CaseSettings along_a_load_path() {
+  cases::CaseSettings path = settings();
   path.contact.load_path = true;
   return path;
 }
 
-analysis::CaseSettings flowing() {
-  analysis::CaseSettings flow = settings();
+cases::CaseSettings flowing() {
+  cases::CaseSettings flow = settings();
   flow.mean_pressures = {7e6};
-  flow.fluid = {.fluid = analysis::Fluid::reynolds, .sliding_speed = 0.01, .viscosity = 0.2};
+  flow.fluid = {.fluid = cases::Fluid::reynolds, .sliding_speed = 0.01, .viscosity = 0.2};
   return flow;
 }
 
 /// What a state says, and a sum over its film.
 std::string text_of(const FrictionState& state) {
   const io::Json numbers =
-      io::json_of(analysis::friction_columns(), state.friction, analysis::media::kObject);
+      io::json_of(cases::friction_columns(), state.friction, cases::media::kObject);
   return fmt::format("{} {}", io::to_text(numbers, -1), state.film.film.thickness.sum());
 }
 
-std::vector<std::string> states_of(const analysis::CaseSettings& asked, int jobs,
+std::vector<std::string> states_of(const cases::CaseSettings& asked, int jobs,
                                    ContactMaps maps = ContactMaps::kept) {
   std::vector<std::string> texts;
-  RunOptions options;
+  engine::RunOptions options;
   options.jobs = jobs;
   friction_of(
       rough(), asked, [&](const FrictionState& state) { texts.push_back(text_of(state)); }, maps,
@@ -70,22 +71,22 @@ std::vector<std::string> states_of(const analysis::CaseSettings& asked, int jobs
 }
 
 /// The same by the functions of analysis, one after the other.
-std::vector<std::string> states_in_turn(const analysis::CaseSettings& asked) {
+std::vector<std::string> states_in_turn(const cases::CaseSettings& asked) {
   const topography::Topography surface = rough();
-  const auto films = analysis::film_state(surface, asked.film);
-  const auto elasticity = analysis::make_operator(asked.contact, surface.grid);
+  const auto films = cases::film_state(surface, asked.film);
+  const auto elasticity = cases::make_operator(asked.contact, surface.grid);
   std::vector<std::string> texts;
-  const auto receive = [&](analysis::ContactRecord&& contact) {
+  const auto receive = [&](cases::ContactRecord&& contact) {
     const Mask touching = contact::contact_mask(contact.state);
-    for (const analysis::FilmRecord& film : films) {
-      const analysis::FrictionRecord friction =
-          analysis::friction_state(contact, {touching, contact.state.gap, surface.grid}, film,
-                                   nullptr, asked.contact, asked.friction);
+    for (const cases::FilmRecord& film : films) {
+      const cases::FrictionRecord friction =
+          cases::friction_state(contact, {touching, contact.state.gap, surface.grid}, film, nullptr,
+                                asked.contact, asked.friction);
       texts.push_back(
           text_of({.friction = friction, .contact = contact, .film = film, .fluid = nullptr}));
     }
   };
-  analysis::contact_states(*elasticity, surface, asked.contact, asked.mean_pressures, receive);
+  cases::contact_states(*elasticity, surface, asked.contact, asked.mean_pressures, receive);
   return texts;
 }
 
@@ -96,7 +97,7 @@ TEST(FrictionOf, HandsOnWhatTheStatesGiveOneAfterTheOther) {
 }
 
 TEST(FrictionOf, DoesNotDependOnTheNumberOfJobs) {
-  for (const analysis::CaseSettings& asked : {settings(), along_a_load_path(), flowing()}) {
+  for (const cases::CaseSettings& asked : {settings(), along_a_load_path(), flowing()}) {
     const std::vector<std::string> alone = states_of(asked, 1);
     EXPECT_EQ(states_of(asked, 4), alone);
     EXPECT_EQ(states_of(asked, 4, ContactMaps::dropped), alone);
@@ -113,9 +114,9 @@ TEST(FrictionOf, GoesThroughPressuresAndDensitiesAsTheyWereGiven) {
 }
 
 TEST(FrictionOf, SaysWhatToCite) {
-  for (const analysis::CaseSettings& asked : {settings(), flowing()}) {
+  for (const cases::CaseSettings& asked : {settings(), flowing()}) {
     friction_of(rough(), asked, [&](const FrictionState& state) {
-      EXPECT_EQ(state.friction.references, analysis::references_of(asked));
+      EXPECT_EQ(state.friction.references, cases::references_of(asked));
     });
   }
 }
@@ -135,7 +136,7 @@ TEST(FrictionOf, KeepsMapsOfContactsOnlyForThoseWhoLook) {
 
 TEST(FrictionOf, StopsWhenAskedAndWhatItHandedOnIsWhole) {
   std::size_t n_states = 0;
-  RunOptions options;
+  engine::RunOptions options;
   options.jobs = 2;
   options.observer = [&](const Progress&) { return n_states < 2; };
   const auto receive = [&](const FrictionState& state) {
@@ -152,15 +153,45 @@ TEST(FrictionOf, PassesOnWhatTheReceiverThrows) {
 }
 
 TEST(FrictionOf, RejectsSettingsThatMakeNoSense) {
-  const auto rejected = [](const analysis::CaseSettings& asked) {
+  const auto rejected = [](const cases::CaseSettings& asked) {
     return test::rejection([&] { friction_of(rough(), asked, [](const FrictionState&) {}); });
   };
-  analysis::CaseSettings too_high = settings();
+  cases::CaseSettings too_high = settings();
   too_high.mean_pressures.back() = 240e6;
   EXPECT_THAT(rejected(too_high), HasSubstr("saturation pressure"));
-  analysis::CaseSettings negative = settings();
+  cases::CaseSettings negative = settings();
   negative.film.lubricant_densities = {-1};
   EXPECT_THAT(rejected(negative), HasSubstr("density"));
+}
+
+CoarsePixels coarse_pixels_of(const topography::Topography& surface,
+                              const cases::CaseSettings& asked, bool compares = true) {
+  return friction_of(
+             surface, asked, [](const FrictionState&) {}, ContactMaps::dropped, {}, compares)
+      .coarse;
+}
+
+TEST(FrictionOf, SaysTheWetShareOnPixelsTwiceAsLarge) {
+  // The verb says the same of the coarse scan.
+  const auto coarse = topography::apply({"resample=24,16"}, rough());
+  for (const cases::CaseSettings& asked : {settings(), along_a_load_path()}) {
+    const CoarsePixels found = coarse_pixels_of(rough(), asked);
+    std::vector<double> shares;
+    friction_of(coarse, asked, [&](const FrictionState& state) {
+      shares.push_back(state.friction.lubricated_share);
+    });
+    EXPECT_DOUBLE_EQ(found.pixel_x, 2e-6);
+    ASSERT_EQ(found.lubricated_shares.size(), 3u);
+    std::vector<double> told;
+    for (const auto& one : found.lubricated_shares) told.insert(told.end(), one.begin(), one.end());
+    EXPECT_EQ(told, shares);
+  }
+}
+
+TEST(FrictionOf, ComparesNoPixelsWhereItIsNotAskedOrTheyAreFew) {
+  EXPECT_TRUE(coarse_pixels_of(rough(), settings(), false).lubricated_shares.empty());
+  const auto small = topography::apply({"crop=0,0,48,31"}, rough());
+  EXPECT_TRUE(coarse_pixels_of(small, settings()).lubricated_shares.empty());
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "tabor/analysis/states.hpp"
+#include "tabor/cases/states.hpp"
 #include "tabor/study/scan_friction.hpp"
 #include "tabor/synthesis/synthesis.hpp"
 #include "tabor/topography/treatment.hpp"
@@ -22,9 +22,9 @@ synthesis::Edt sheet(Index n, std::uint64_t seed) {
   return recipe;
 }
 
-analysis::CaseSettings lubricated(deposition::Reading reading) {
-  analysis::CaseSettings settings;
-  analysis::take_material("aluminium-6016", settings);
+cases::CaseSettings lubricated(deposition::Reading reading) {
+  cases::CaseSettings settings;
+  cases::take_material("aluminium-6016", settings);
   settings.mean_pressures = {2e6, 15e6};
   settings.film.lubricant_densities = {0.45e-3, 0.9e-3};
   settings.film.reading = reading;
@@ -34,14 +34,14 @@ analysis::CaseSettings lubricated(deposition::Reading reading) {
 /// A sheet before sliding under the pressures of `lubricated`, for every reading of the rain.
 struct PressedSheet {
   topography::Topography surface;
-  std::vector<analysis::ContactRecord> contacts;
+  std::vector<cases::ContactRecord> contacts;
 
   PressedSheet(Index n, std::uint64_t seed) : surface(synthesis::edt(sheet(n, seed))) {
-    const analysis::CaseSettings settings = lubricated({});
-    const auto elasticity = analysis::make_operator(settings.contact, surface.grid);
-    analysis::contact_states(
+    const cases::CaseSettings settings = lubricated({});
+    const auto elasticity = cases::make_operator(settings.contact, surface.grid);
+    cases::contact_states(
         *elasticity, surface, settings.contact, settings.mean_pressures,
-        [&](analysis::ContactRecord&& contact) { contacts.push_back(std::move(contact)); });
+        [&](cases::ContactRecord&& contact) { contacts.push_back(std::move(contact)); });
   }
 };
 
@@ -49,15 +49,15 @@ struct PressedSheet {
 using Frictions = std::map<double, std::map<double, double>>;
 
 Frictions friction_of(const PressedSheet& sheet, deposition::Reading reading) {
-  const analysis::CaseSettings settings = lubricated(reading);
-  const auto films = analysis::film_state(sheet.surface, settings.film);
+  const cases::CaseSettings settings = lubricated(reading);
+  const auto films = cases::film_state(sheet.surface, settings.film);
   Frictions friction;
-  for (const analysis::ContactRecord& contact : sheet.contacts) {
+  for (const cases::ContactRecord& contact : sheet.contacts) {
     const Mask touching = contact::contact_mask(contact.state);
-    for (const analysis::FilmRecord& film : films) {
+    for (const cases::FilmRecord& film : films) {
       const auto record =
-          analysis::friction_state(contact, {touching, contact.state.gap, sheet.surface.grid}, film,
-                                   nullptr, settings.contact, settings.friction);
+          cases::friction_state(contact, {touching, contact.state.gap, sheet.surface.grid}, film,
+                                nullptr, settings.contact, settings.friction);
       friction[record.lubricant_density][record.mean_pressure] = record.friction_lubricated;
     }
   }
@@ -95,11 +95,11 @@ TEST(EdtSheet, FourLargeSheetsDoTheSame) {
 }
 
 TEST(EdtSheet, PocketsAreFullLongBeforeTheDoseOfTheSheet) {
-  const analysis::CaseSettings settings = lubricated(deposition::Reading::conserving);
+  const cases::CaseSettings settings = lubricated(deposition::Reading::conserving);
   const auto result = friction_of(
       synthesis::edt(sheet(512, 2)), settings, [](const FrictionState&) {}, ContactMaps::dropped);
   ASSERT_EQ(result.density_curves.size(), settings.mean_pressures.size());
-  for (const analysis::DensityCurve& curve : result.density_curves) {
+  for (const cases::DensityCurve& curve : result.density_curves) {
     ASSERT_TRUE(curve.plateau);
     EXPECT_LT(curve.plateau->first, 0.1e-3);
     EXPECT_GT(curve.plateau->last, 0.9e-3);
@@ -112,9 +112,9 @@ double dry_friction_after_sliding(std::uint64_t seed, double pressure) {
   recipe.stage = synthesis::EdtStage::after;
   recipe.sliding_pressure = pressure;
   const auto surface = topography::apply({"lowpass=hann:4.5um"}, synthesis::edt(recipe));
-  const analysis::ContactSettings elastic{.youngs_modulus = 70e9, .poissons_ratio = 0.33};
-  const auto contact = analysis::contact_state(surface, elastic, pressure);
-  return analysis::estimate_of(contact.summary, 0, elastic, {.shear_strength = 70e6}).friction_dry;
+  const cases::ContactSettings elastic{.youngs_modulus = 70e9, .poissons_ratio = 0.33};
+  const auto contact = cases::contact_state(surface, elastic, pressure);
+  return cases::estimate_of(contact.summary, 0, elastic, {.shear_strength = 70e6}).friction_dry;
 }
 
 TEST(EdtSheet, ElasticDryFrictionAfterSlidingRisesWithItsPressure) {

@@ -111,6 +111,29 @@ TEST(ReadStudy, TakesSettingsOfAScanInPlaceOfItsOwn) {
   EXPECT_EQ(to_toml(example.read()), to_toml(study));
 }
 
+TEST(ReadStudy, TakesOfAFileWhatItDoesNotSayItself) {
+  const ExampleStudy example;
+  const auto read_with = [&](const std::string& keys) {
+    example.write(with_scan_keys(keys));
+    const Study study = example.read();
+    example.write(to_toml(study));
+    EXPECT_EQ(to_toml(example.read()), to_toml(study));
+    return study.scans.at(1).read;
+  };
+  const scan::ReadOptions square = read_with("pixel = \"2 um\"\nunit = \"nm\"\nchannel = \"3\"\n");
+  EXPECT_EQ(square.pixel_x, 2e-6);
+  EXPECT_EQ(square.pixel_y, 2e-6);  // also in the text that names what is stored
+  EXPECT_EQ(square.unit, "nm");
+  EXPECT_EQ(square.channel, "3");
+  const scan::ReadOptions oblong = read_with("pixel = [\"2 um\", \"3 um\"]\n");
+  EXPECT_EQ(oblong.pixel_x, 2e-6);
+  EXPECT_EQ(oblong.pixel_y, 3e-6);
+  EXPECT_THAT(message_of([&] { read_with("pixel = \"0 um\"\n"); }),
+              HasSubstr("scan.pixel: got 0 m; expected a positive length"));
+  EXPECT_THAT(message_of([&] { read_with("pixel = [\"1 um\", \"1 um\", \"1 um\"]\n"); }),
+              HasSubstr("scan.pixel: got 3 lengths; expected one, or two for x and y"));
+}
+
 TEST(ReadStudy, NeedsNoCommonPressureWhereEveryScanHasItsOwn) {
   const ExampleStudy example;
   const std::string none = replaced(kStudyText, "mean_pressure = [\"5 MPa\", \"15 MPa\"]\n", "");
@@ -138,7 +161,7 @@ TEST(ReadStudy, RejectsSettingsOfAScanThatCannotBe) {
     return message_of([&] { example.read(); });
   };
   EXPECT_THAT(complaint_of("pressure = \"7\"\n"), HasSubstr("unit"));
-  EXPECT_THAT(complaint_of("pressure = \"-7 MPa\"\n"), HasSubstr("above zero"));
+  EXPECT_THAT(complaint_of("pressure = \"-7 MPa\"\n"), HasSubstr("more than zero"));
   EXPECT_THAT(complaint_of("pressure = \"300 MPa\"\n"),
               testing::AllOf(HasSubstr("pressure"), HasSubstr("240 MPa")));
   EXPECT_THAT(complaint_of("pressure = [\"7 MPa\", \"7 MPa\"]\n"), HasSubstr("twice"));
@@ -198,13 +221,34 @@ TEST(ReadStudy, RejectsAFlowThatMakesNoSense) {
   EXPECT_THAT(complaint_of_flow("\"1 m/s\"", "1"), HasSubstr("without a unit"));
   EXPECT_THAT(complaint_of_flow("viscosity = \"0.2 Pa s\"\n", ""),
               HasSubstr("lubricant.viscosity is missing"));
-  EXPECT_THAT(complaint_of_flow("0.2 Pa s", "-0.2 Pa s"), HasSubstr("above zero"));
+  EXPECT_THAT(complaint_of_flow("0.2 Pa s", "-0.2 Pa s"), HasSubstr("more than zero"));
   EXPECT_THAT(complaint_of_flow("sliding_speed = [\"0.1 m/s\", \"1 m/s\"]\n", ""),
               HasSubstr("sweep.sliding_speed is missing"));
   EXPECT_THAT(complaint_of_flow("viscosity =", "eyring_stress = \"0 MPa\"\nviscosity ="),
               HasSubstr("lubricant.eyring_stress"));
   EXPECT_THAT(complaint_of_flow("[sweep]", "[contact]\nboundary = \"free\"\n[sweep]"),
               testing::AllOf(HasSubstr("contact.boundary"), HasSubstr("repeats")));
+}
+
+TEST(ReadStudy, EdgesSayWhatSurroundsEachScan) {
+  for (const char* edges : {"tile", "cut", "end"}) {
+    const ExampleStudy example;
+    const std::string keys = "[contact]\nedges = \"" + std::string(edges) + "\"\n[sweep]";
+    example.write(replaced(kStudyText, "[sweep]", keys));
+    const Study study = example.read();
+    const Study alone = study.of(study.scans.front());
+    EXPECT_EQ(alone.treatment.back(), "edges=" + std::string(edges));
+    EXPECT_EQ(alone.settings.contact.is_periodic(), std::string(edges) != "end");
+    const std::string text = to_toml(study);
+    EXPECT_THAT(text, HasSubstr("edges = \"" + std::string(edges) + "\""));
+    EXPECT_EQ(to_toml(parse_study(text, study.file)), text);
+  }
+  EXPECT_THAT(complaint("[sweep]", "[contact]\nedges = \"cut\"\nboundary = \"free\"\n[sweep]"),
+              testing::AllOf(HasSubstr("contact.edges cut"), HasSubstr("contradict")));
+  EXPECT_THAT(complaint("[sweep]", "[contact]\nedges = \"cutt\"\n[sweep]"),
+              HasSubstr("did you mean 'cut'"));
+  EXPECT_THAT(complaint_of_flow("[sweep]", "[contact]\nedges = \"end\"\n[sweep]"),
+              testing::AllOf(HasSubstr("contact.edges"), HasSubstr("repeats")));
 }
 
 TEST(ReadStudy, RejectsKeysOfAFlowWithoutOne) {
@@ -231,7 +275,7 @@ TEST(ReadStudy, RejectsValuesWithoutOrWithWrongUnits) {
 }
 
 TEST(ReadStudy, RejectsValuesThatMakeNoSense) {
-  EXPECT_THAT(complaint("\"5 MPa\"", "\"-5 MPa\""), HasSubstr("above zero"));
+  EXPECT_THAT(complaint("\"5 MPa\"", "\"-5 MPa\""), HasSubstr("more than zero"));
   EXPECT_THAT(complaint("\"15 MPa\"", "\"300 MPa\""),
               HasSubstr("less than the saturation pressure 240 MPa"));
   EXPECT_THAT(complaint("\"15 MPa\"", "\"5 MPa\""), HasSubstr("twice"));
@@ -261,6 +305,28 @@ TEST(ReadStudy, NamesTheNearestFileOfAScanThatIsNotThere) {
 
 TEST(ReadStudy, RejectsAScanListedTwice) {
   EXPECT_THAT(complaint("\"scan_*.h5\"", "[\"scan_1.h5\", \"scan_*.h5\"]"), HasSubstr("twice"));
+}
+
+TEST(ReadStudy, TakesValuesInPlaceOfThoseOfTheFile) {
+  const ExampleStudy example;
+  example.write(kStudyText);
+  const std::filesystem::path file = example.folder / "study.toml";
+  const Study changed = read_study(file, {{"contact.tolerance", "1e-8"},
+                                          {"lubricant.model", "limit"},
+                                          {"sweep.mean_pressure", "[\"3 MPa\", \"4 MPa\"]"},
+                                          {"material.saturation_pressure", "none"}});
+  EXPECT_EQ(changed.settings.contact.tolerance, 1e-8);
+  EXPECT_EQ(changed.settings.film.model, deposition::Model::limit);
+  EXPECT_THAT(changed.settings.mean_pressures, ElementsAre(3e6, 4e6));
+  EXPECT_FALSE(changed.settings.contact.saturation_pressure);
+  EXPECT_THAT(message_of([&] {
+                read_study(file, {{"contact.tolerence", "1e-8"}});
+              }),
+              HasSubstr("contact.tolerance"));
+  EXPECT_THAT(message_of([&] {
+                read_study(file, {{"contact.tolerance", "1"}});
+              }),
+              HasSubstr("contact.tolerance: got 1; expected 1e-12 to 1e-4"));
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ TEST(FlowingSweep, LeavesWhatTheContactSaysAsItWas) {
 TEST(FlowingSweep, StudiesWithoutFlowKeepTheirRecords) {
   const ExampleStudy example;
   example.run();
-  const Task task = tasks_of(example.read())[0].cases[0][0];
+  const engine::Task task = tasks_of(example.read())[0].cases[0][0];
   const io::Json json = io::read_json(example.results() / "store" / task.file);
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
@@ -92,8 +92,8 @@ TEST(FlowingSweep, AgreesWithTheSolverItself) {
   const ScanTasks tasks = tasks_of(study)[0];
   const topography::Topography surface = treated_surface(study, study.scans[0], tasks.sha256, {});
   const contact::State dry = solve_contact(study, surface, study.settings.mean_pressures[0], {});
-  const Store store(example.results(), Store::Use::alone);
-  const analysis::FluidRecord stored = read_fluid(store, tasks.fluids[0][1]);
+  const engine::Store store(example.results(), engine::Store::Use::alone);
+  const cases::FluidRecord stored = read_fluid(store, tasks.fluids[0][1]);
   ASSERT_TRUE(stored.summary.convergence.converged());
   EXPECT_NEAR(stored.summary.load_share + stored.summary.solid_share, 1, 1.1e-3);
   EXPECT_GT(stored.summary.mean_gap, dry.gap.max(0.0).mean());
@@ -149,7 +149,7 @@ TEST(FlowingSweep, ShardsTogetherAreTheWhole) {
   std::size_t n_fluids = 0;
   for (const int index : {1, 2}) {
     SweepOptions options;
-    options.shard = Shard{index, 2};
+    options.shard = engine::Shard{index, 2};
     n_fluids += example.run(options, "parts").n_fluids;
   }
   EXPECT_EQ(n_fluids, 4u);
@@ -183,7 +183,7 @@ TEST(FlowingSweep, DeletedAndDamagedFilmsFlowAgain) {
   example.write(small_study());
   example.run();
   const std::string csv = example.csv();
-  const Task task = tasks_of(example.read())[1].fluids[0][1];
+  const engine::Task task = tasks_of(example.read())[1].fluids[0][1];
   const std::filesystem::path file = example.results() / "store" / task.file;
   const std::string bytes = test::bytes_of(file);
   test::put_bytes(file, bytes.substr(0, bytes.size() / 2));
@@ -197,8 +197,8 @@ TEST(FlowingSweep, DeletedAndDamagedFilmsFlowAgain) {
 
 /// Puts a film that did not converge into the store, in place of the first of the study.
 void store_unfinished_film(const ExampleStudy& example) {
-  const Store store(example.results(), Store::Use::alone);
-  analysis::FluidRecord record;
+  const engine::Store store(example.results(), engine::Store::Use::alone);
+  cases::FluidRecord record;
   friction::FluidFilmState& state = record.state;
   state.film.pressure = state.film.fill = state.contact.gap = Field::Zero(24, 32);
   record.summary.solid_share = 1;
@@ -215,8 +215,8 @@ TEST(FlowingSweep, SaysWhatDidNotConvergeAndTriesItAgainOnlyByRetry) {
   EXPECT_EQ(first.n_not_converged, 1u);
   EXPECT_THAT(first.findings,
               testing::Contains(testing::ResultOf(
-                  analysis::line_of, testing::AllOf(HasSubstr("scan_1.h5"), HasSubstr("100 mm/s"),
-                                                    HasSubstr("NOT CONVERGED")))));
+                  results::line_of, testing::AllOf(HasSubstr("scan_1.h5"), HasSubstr("100 mm/s"),
+                                                   HasSubstr("NOT CONVERGED")))));
   EXPECT_EQ(table_of(example).text(0, "converged"), "false");
   const io::CsvTable averages = io::read_csv(example.results() / "averages.csv");
   EXPECT_EQ(averages.number(0, "n"), 1);

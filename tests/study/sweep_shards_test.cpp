@@ -1,7 +1,7 @@
 #include <thread>
 
 #include "study/example_study.hpp"
-#include "tabor/study/plan.hpp"
+#include "tabor/engine/plan.hpp"
 #include "tabor/study/sweep.hpp"
 
 namespace tabor::study {
@@ -13,15 +13,15 @@ using testing::HasSubstr;
 
 SweepOptions shard(int index, int count) {
   SweepOptions options;
-  options.shard = Shard{index, count};
+  options.shard = engine::Shard{index, count};
   return options;
 }
 
 TEST(ParseShard, TakesPartsOfAWhole) {
-  EXPECT_EQ(parse_shard("2/8").index, 2);
-  EXPECT_EQ(parse_shard("2/8").count, 8);
+  EXPECT_EQ(engine::parse_shard("2/8").index, 2);
+  EXPECT_EQ(engine::parse_shard("2/8").count, 8);
   for (const char* bad : {"0/8", "9/8", "1/0", "2", "a/b", "1/2/3", "1.5/2", "-1/2", ""}) {
-    EXPECT_THROW(parse_shard(bad), InputError) << bad;
+    EXPECT_THROW(engine::parse_shard(bad), InputError) << bad;
   }
 }
 

@@ -4,9 +4,9 @@
 #include <stdexcept>
 
 #include "study/example_study.hpp"
+#include "tabor/engine/plan.hpp"
 #include "tabor/io/csv.hpp"
 #include "tabor/io/hdf5.hpp"
-#include "tabor/study/plan.hpp"
 #include "tabor/study/record.hpp"
 
 namespace tabor::study {
@@ -83,8 +83,8 @@ TEST(Sweep, WarningsAreThoseOfTheRowsWheneverTheyWereComputed) {
   const Outcome first = example.run();
   const auto lines = [](const Outcome& outcome) {
     std::vector<std::string> all;
-    for (const analysis::Finding& finding : outcome.findings) {
-      all.push_back(analysis::line_of(finding));
+    for (const results::Finding& finding : outcome.findings) {
+      all.push_back(results::line_of(finding));
     }
     return all;
   };
@@ -94,7 +94,7 @@ TEST(Sweep, WarningsAreThoseOfTheRowsWheneverTheyWereComputed) {
   EXPECT_EQ(lines(example.run()), lines(first));
   for (const int index : {1, 2}) {
     SweepOptions options;
-    options.shard = Shard{index, 2};
+    options.shard = engine::Shard{index, 2};
     const Outcome part = example.run(options, "parts");
     EXPECT_EQ(lines(part) == lines(first), index == 2);  // the last has seen every row
   }
@@ -148,11 +148,11 @@ TEST(Sweep, SameBytesForAnyNumberOfJobs) {
 TEST(Sweep, JobsFillThreadsOrHalfOfTheMemory) {
   constexpr std::size_t size = 80'000'000;
   const auto room_for = [](std::size_t n_jobs) { return 2 * n_jobs * size; };
-  EXPECT_EQ(jobs_that_fit(size, room_for(8), 2), 2);
-  EXPECT_EQ(jobs_that_fit(size, room_for(8), 16), 8);
-  EXPECT_EQ(jobs_that_fit(size, room_for(1) - 1, 16), 1);
-  EXPECT_EQ(jobs_that_fit(size, 0, 16), 1);
-  EXPECT_EQ(jobs_that_fit(0, room_for(8), 4), 4);
+  EXPECT_EQ(engine::jobs_that_fit(size, room_for(8), 2), 2);
+  EXPECT_EQ(engine::jobs_that_fit(size, room_for(8), 16), 8);
+  EXPECT_EQ(engine::jobs_that_fit(size, room_for(1) - 1, 16), 1);
+  EXPECT_EQ(engine::jobs_that_fit(size, 0, 16), 1);
+  EXPECT_EQ(engine::jobs_that_fit(0, room_for(8), 4), 4);
 }
 
 TEST(Sweep, StoppedAnywhereAndResumedGivesTheSameBytes) {
@@ -236,8 +236,8 @@ TEST(Sweep, FailedCasesWaitForRetry) {
 /// Puts a contact that did not converge into the store, in place of the first of the study.
 void store_unfinished_contact(const ExampleStudy& example) {
   const Study study = example.read();
-  const Store store(example.results(), Store::Use::alone);
-  analysis::ContactRecord record;
+  const engine::Store store(example.results(), engine::Store::Use::alone);
+  cases::ContactRecord record;
   record.state.pressure = Field::Constant(24, 32, study.settings.mean_pressures[0]);
   record.state.gap = Field::Zero(24, 32);
   record.convergence.certificate = 0.5;
@@ -356,7 +356,7 @@ group = "unfiltered"
   const Outcome outcome = example.run();
   const auto filtered =
       std::find_if(outcome.findings.begin(), outcome.findings.end(),
-                   [](const analysis::Finding& one) { return one.code == "filtered"; });
+                   [](const results::Finding& one) { return one.code == "filtered"; });
   ASSERT_NE(filtered, outcome.findings.end());
   EXPECT_EQ(filtered->n_cases, 8u);  // not those of the third scan
   EXPECT_THAT(filtered->text, HasSubstr("lowpass=hann:4/L"));
@@ -410,6 +410,22 @@ TEST(Sweep, WarnsAboutTwoScansWithTheSameBytes) {
   EXPECT_EQ(outcome.n_contacts, 4u);  // the copy's contacts are in the store already
   ASSERT_EQ(outcome.warnings.size(), 1u);
   EXPECT_THAT(outcome.warnings[0], HasSubstr("scan_1.h5 and scan_3.h5 hold the same bytes"));
+}
+
+/// Whoever opens the results later reads what the run said: of the sweep, and of its rows.
+TEST(Sweep, ResultsHoldWhatTheRunWarnedOf) {
+  const ExampleStudy example;
+  std::filesystem::copy_file(example.folder / "scan_1.h5", example.folder / "scan_3.h5");
+  const Outcome outcome = example.run();
+  std::vector<std::string> lines = outcome.warnings, classes(lines.size(), "doubt");
+  for (const results::Finding& finding : outcome.findings) {
+    lines.push_back(results::line_of(finding));
+    classes.emplace_back(cases::name_of(finding.kind()));
+  }
+  ASSERT_GE(lines.size(), 2u);
+  const io::Hdf5Reader results(example.results() / "results.h5");
+  EXPECT_EQ(results.attribute_texts("/", "warnings"), lines);
+  EXPECT_EQ(results.attribute_texts("/", "warning_classes"), classes);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <vector>
 
+#include "support/rejection.hpp"
 #include "support/sample_surfaces.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/metrology/parameters.hpp"
@@ -280,6 +281,91 @@ TEST(EdtSurface, RejectsRecipesThatMakeNoSense) {
   recipe = edt_recipe();
   recipe.grid.nx = 1;
   EXPECT_THROW(edt(recipe), InputError);
+}
+
+/// Craters that are smaller than pixels would be without number.
+TEST(EdtSurface, RejectsPixelsThatShowNoCraters) {
+  Edt recipe;
+  recipe.grid = {512, 512, 512 * 1.5, 512 * 1.5};
+  EXPECT_THAT(rejection([&] { edt(recipe); }),
+              testing::HasSubstr("EDT surface: got craters of 50 µm; expected at least two pixels "
+                                 "(3 m); take smaller pixels"));
+  recipe.grid = {8, 8, 200e-6, 208e-6};
+  EXPECT_THAT(rejection([&] { edt(recipe); }), testing::HasSubstr("two pixels (52 µm)"));
+  recipe.grid.ly = recipe.grid.lx;
+  recipe.waviness = 0;
+  EXPECT_TRUE(edt(recipe).height.isFinite().all());
+}
+
+TEST(EdtSurface, RejectsACutOutWhoseCratersHaveNoRoom) {
+  Edt recipe;
+  recipe.grid = {64, 64, 64e-12, 64e-12};
+  EXPECT_NO_THROW(edt(recipe));
+  recipe.periodic = false;
+  EXPECT_THAT(rejection([&] { edt(recipe); }), testing::HasSubstr("300000064 x 300000064 pixels"));
+}
+
+TEST(GroundSurface, RejectsGroovesFinerThanItsPixels) {
+  EXPECT_THAT(rejection([] {
+                ground({.grid = {64, 64, 64.0, 64.0}});
+              }),
+              testing::HasSubstr("a groove spacing of 20 µm"));
+  EXPECT_THAT(rejection([] {
+                ground({.grid = {64, 64, 64e-3, 64e-6}});
+              }),
+              testing::HasSubstr("a groove length of 400 µm"));
+}
+
+TEST(GeneratedSurface, HasPixelsAndHeightsThatAScanMayHave) {
+  const Grid vast{16, 16, 1e9, 1e9}, tiny{16, 16, 1e-20, 1e-20}, usual{16, 16, 16e-6, 16e-6};
+  for (const Grid& grid : {vast, tiny}) {
+    SelfAffine rough;
+    rough.grid = grid;
+    rough.rms_height = 1e-6;
+    EXPECT_THAT(rejection([&] { self_affine(rough); }), testing::HasSubstr("pixels of"));
+    EXPECT_THAT(rejection([&] { edt({.grid = grid}); }), testing::HasSubstr("pixels of"));
+    EXPECT_THAT(rejection([&] { ground({.grid = grid}); }), testing::HasSubstr("pixels of"));
+    EXPECT_THAT(rejection([&] { sinusoid({.grid = grid, .wavelength_x = 1e-6}); }),
+                testing::HasSubstr("pixels of"));
+    EXPECT_THAT(rejection([&] { sphere({.grid = grid}); }), testing::HasSubstr("pixels of"));
+    EXPECT_THAT(rejection([&] { bump({.grid = grid}); }), testing::HasSubstr("pixels of"));
+  }
+  const double nan = std::nan("");
+  for (const double height : {1e7, nan}) {
+    SelfAffine rough;
+    rough.grid = usual;
+    rough.rms_height = height;
+    EXPECT_NE(rejection([&] { self_affine(rough); }), "accepted");
+    EXPECT_NE(rejection([&] { edt({.grid = usual, .mean_abs_height = height}); }), "accepted");
+    EXPECT_NE(rejection([&] { ground({.grid = usual, .rms_height = height}); }), "accepted");
+    EXPECT_NE(
+        rejection([&] { sinusoid({.grid = usual, .amplitude = height, .wavelength_x = 8e-6}); }),
+        "accepted");
+    EXPECT_NE(rejection([&] { bump({.grid = usual, .height = height}); }), "accepted");
+  }
+  SelfAffine steep;
+  steep.grid = usual;
+  steep.rms_slope = 1e300;
+  EXPECT_NE(rejection([&] { self_affine(steep); }), "accepted");
+}
+
+TEST(GeneratedSurface, ShowsWhatItIsOf) {
+  const Grid grid{16, 16, 16e-6, 16e-6};
+  EXPECT_THAT(rejection([&] { sphere({.grid = grid, .radius = 0.5e-6}); }),
+              testing::HasSubstr("sphere: got a diameter of 1 µm; expected at least two pixels"));
+  EXPECT_THAT(rejection([&] { bump({.grid = grid, .radius = 0.5e-6}); }),
+              testing::HasSubstr("bump: got a diameter of 1 µm"));
+  EXPECT_NE(rejection([&] { sinusoid({.grid = grid, .wavelength_x = std::nan("")}); }), "accepted");
+  SelfAffine rough;
+  rough.grid = grid;
+  rough.rms_height = 1e-6;
+  for (double SelfAffine::*wavelength :
+       {&SelfAffine::roll_off_wavelength, &SelfAffine::long_cutoff_wavelength,
+        &SelfAffine::short_cutoff_wavelength}) {
+    SelfAffine wrong = rough;
+    wrong.*wavelength = -1e-6;
+    EXPECT_THAT(rejection([&] { self_affine(wrong); }), testing::HasSubstr("zero or more"));
+  }
 }
 
 TEST(GroundSurface, HasGroovesAlongX) {

@@ -79,7 +79,7 @@ TEST(HannFilter, TakesTheLengthOfAProfileForItsSide) {
   EXPECT_LT(largest_difference(filtered.height, hann(9.0 / 12) * row.height), 1e-13);
   EXPECT_TRUE(filtered.warnings.empty());
   EXPECT_THAT(filtered.history.back(), testing::Not(HasSubstr("nan")));
-  EXPECT_THAT(texts(low_pass(row, parse_filter("gauss:2mm")).warnings),
+  EXPECT_THAT(texts_of(low_pass(row, parse_filter("gauss:2mm")).warnings),
               testing::ElementsAre(HasSubstr("longer than the scan")));
 }
 
@@ -207,11 +207,11 @@ TEST(Filters, WarningACutoffThatDoesNothingOrEverything) {
   const auto rough = noise(kGrid);
   EXPECT_TRUE(low_pass(rough, parse_filter("gauss:8um")).warnings.empty());
   EXPECT_TRUE(low_pass(rough, parse_filter("hann:512/L")).warnings.empty());
-  EXPECT_THAT(texts(low_pass(rough, parse_filter("gauss:1.5um")).warnings),
+  EXPECT_THAT(texts_of(low_pass(rough, parse_filter("gauss:1.5um")).warnings),
               testing::ElementsAre(HasSubstr("below two pixels")));
-  EXPECT_THAT(texts(high_pass(rough, parse_filter("gauss:90um")).warnings),
+  EXPECT_THAT(texts_of(high_pass(rough, parse_filter("gauss:90um")).warnings),
               testing::ElementsAre(HasSubstr("longer than the scan")));
-  EXPECT_THAT(texts(low_pass(rough, parse_filter("hann:0.5/L")).warnings),
+  EXPECT_THAT(texts_of(low_pass(rough, parse_filter("hann:0.5/L")).warnings),
               testing::ElementsAre(HasSubstr("longer than the scan")));
 }
 

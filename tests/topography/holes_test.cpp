@@ -174,7 +174,7 @@ TEST(Fill, InventedHeightsStayAWarningWhateverFollows) {
       punch_holes(holed, share);
       const auto treated =
           apply({"fill=" + std::string(name_of(fill)), "level=plane", "mirror"}, holed);
-      const auto warnings = texts(treated.warnings);
+      const auto warnings = texts_of(treated.warnings);
       EXPECT_THAT(warnings, testing::Contains(testing::HasSubstr("were holes")));
       EXPECT_THAT(warnings, testing::Contains(testing::HasSubstr("most of the area is invented"))
                                 .Times(share > 0.5 ? 1 : 0));

@@ -131,12 +131,128 @@ TEST(Spikes, BecomeHolesOrMedians) {
   const auto holed = apply({"despike=auto"}, rough);
   EXPECT_EQ(found(holes(holed)), planted);
   EXPECT_THAT(holed.history.back(), HasSubstr("5 of 65536 heights"));
-  EXPECT_THAT(texts(holed.warnings),
+  EXPECT_THAT(texts_of(holed.warnings),
               testing::ElementsAre(HasSubstr("5 spikes"), HasSubstr("5 of 65536 pixels")));
   const auto mended = apply({"despike=8,5,median"}, rough);
   EXPECT_EQ(count_holes(mended), 0);
   EXPECT_LT((mended.height - clean).abs().maxCoeff(), 0.3e-6);
   EXPECT_EQ(((mended.height - rough.height).abs() > 0).count(), 5);
+}
+
+std::vector<std::string> texts_about_spikes(const Topography& surface) {
+  std::vector<std::string> found;
+  for (const Warning& warning : surface.warnings) {
+    if (warning.code == "spikes") found.push_back(warning.text);
+  }
+  return found;
+}
+
+/// The step that the warning advises.
+std::string advised(const std::string& text) {
+  const std::size_t begin = text.find("<despike=") + 1;
+  return text.substr(begin, text.find('>', begin) - begin);
+}
+
+/// Heights that differ, or are no more.
+Index count_taken(const Topography& before, const Topography& after) {
+  return before.height.size() - (before.height == after.height || before.height.isNaN()).count();
+}
+
+/// Blocks of spikes hide each other in windows of which they fill half.
+TEST(Spikes, ThatStandTogetherAreToldWithTheFurtherPassThatTakesThem) {
+  for (const Index side : {4, 5}) {
+    auto scan = noise({256, 256, 256e-6, 256e-6});
+    const Field clean = scan.height;
+    scan.height.block(100, 60, side, side) += 30e-6;
+    scan.height.block(20, 200, side, side) -= 40e-6;
+    const auto once = apply({"despike=auto"}, scan);
+    ASSERT_EQ(texts_about_spikes(once).size(), 1U) << side;
+    const std::string step = advised(texts_about_spikes(once).front());
+    EXPECT_EQ(step, side == 4 ? "despike=8,7" : "despike=8,9");
+    for (const Treatment& remedy : {Treatment{step}, {"despike=auto", step}}) {
+      const auto after = apply(remedy, scan);
+      EXPECT_EQ(count_holes(after), 2 * side * side) << side;
+      EXPECT_THAT(texts_about_spikes(after), testing::IsEmpty());
+      EXPECT_TRUE((after.height.isNaN() || after.height == clean).all());
+    }
+  }
+}
+
+/// A wider window takes ridges for spikes: near a spike it would be no help.
+TEST(Spikes, LeftAreNoRidges) {
+  for (const Index distance : {1, 3, 4}) {  // of the spike from the ridge [pixels]
+    auto scan = noise({256, 256, 256e-6, 256e-6});
+    scan.height.middleCols(100, 3) += 30e-6;
+    scan.height(128, 102 + distance) += 60e-6;
+    const auto once = apply({"despike=auto"}, scan);
+    EXPECT_EQ(count_holes(once), 1) << distance;
+    EXPECT_THAT(texts_about_spikes(once), testing::IsEmpty()) << distance;
+    EXPECT_GT(count_holes(apply({"despike=8,7"}, once)), 256) << distance;  // most of the ridge
+  }
+}
+
+/// Heights whose tails are heavier than a Gaussian's, as those of scans are.
+Topography heavy_tailed(std::uint64_t seed, double power) {
+  Topography scan = rough_surface(0.1, seed);
+  const double rms = std::sqrt(scan.height.square().mean());
+  scan.height = scan.height.sign() * rms * (scan.height / rms).abs().pow(power);
+  return scan;
+}
+
+/// Whether there is a warning. The pass that it advises takes what it counts, and little else.
+bool is_warned_of_what_a_further_pass_takes(const Topography& once) {
+  const auto texts = texts_about_spikes(once);
+  if (texts.empty()) return false;
+  const Index n_taken = count_taken(once, apply({advised(texts.front())}, once));
+  const Index n_left = std::stol(texts.front());
+  EXPECT_GE(n_taken, n_left) << texts.front();
+  EXPECT_LE(n_taken, 2 * n_left) << texts.front();
+  return true;
+}
+
+TEST(Spikes, LeftAreTakenByTheFurtherPassThatTheWarningNames) {
+  int n_warned = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    for (const double power : {2.0, 3.0, 4.0}) {
+      for (const char* first : {"despike=auto", "despike=8,5,median"}) {
+        const auto once = apply({first}, heavy_tailed(seed, power));
+        if (!is_warned_of_what_a_further_pass_takes(once)) continue;
+        ++n_warned;
+        EXPECT_EQ(advised(texts_about_spikes(once).front()).ends_with(",median"),
+                  std::string(first).ends_with(",median"));
+      }
+    }
+  }
+  EXPECT_GT(n_warned, 5);
+}
+
+TEST(Spikes, LeftInMeasuredScansAreTakenByThatPass) {
+  for (const char* name : {"gelsight_dime.tmd", "confocal_nanofocus1.nms", "frt_microprof2.frt"}) {
+    TABOR_NEEDS_SHARED_SCAN(name);
+    const auto scan = scan::read(tabor::test::shared_scan(name));
+    const auto once = apply({"level=plane", "despike=auto"}, scan);
+    const bool is_warned = is_warned_of_what_a_further_pass_takes(once);
+    EXPECT_EQ(is_warned, std::string(name) != "confocal_nanofocus1.nms") << name;
+  }
+}
+
+TEST(Spikes, LeftAreNoneWhereAWindowHasTakenThemAll) {
+  auto rough = rough_surface(0.8, 3);
+  plant_spikes(rough, 5e-6);
+  EXPECT_THAT(texts_about_spikes(apply({"despike=auto"}, rough)), testing::IsEmpty());
+  for (const double hurst : {0.3, 0.8}) {
+    EXPECT_THAT(texts_about_spikes(apply({"despike=auto"}, rough_surface(hurst, 5))),
+                testing::IsEmpty());
+  }
+  EXPECT_THAT(texts_about_spikes(apply({"despike=8,99"}, rough)), testing::IsEmpty());
+}
+
+TEST(Spikes, LeftInRoughScansAreNone) {
+  for (const char* name : {"rubber_alicona.x3p", "focusvar_rough.al3d", "wli_ds_nonsquare.x3p"}) {
+    TABOR_NEEDS_SHARED_SCAN(name);
+    const auto scan = scan::read(tabor::test::shared_scan(name));
+    EXPECT_THAT(texts_about_spikes(apply({"despike=auto"}, scan)), testing::IsEmpty()) << name;
+  }
 }
 
 TEST(Spikes, DoNotDependOnUnits) {

@@ -12,7 +12,7 @@
 #include <map>
 #include <string>
 
-#include "tabor/analysis/states.hpp"
+#include "tabor/cases/states.hpp"
 #include "tabor/core/resources.hpp"
 #include "tabor/metrology/psd.hpp"
 #include "tabor/scan/file.hpp"
@@ -23,16 +23,16 @@ namespace {
 using namespace tabor;
 using topography::Topography;
 
-analysis::ContactSettings solid() {
-  analysis::ContactSettings settings;
+cases::ContactSettings solid() {
+  cases::ContactSettings settings;
   settings.youngs_modulus = 70e9;
   settings.poissons_ratio = 0.33;
   settings.saturation_pressure = 240e6;
   return settings;
 }
 
-analysis::FilmSettings oil() {
-  analysis::FilmSettings settings;
+cases::FilmSettings oil() {
+  cases::FilmSettings settings;
   settings.lubricant_densities = {0.9e-3};
   return settings;
 }
@@ -40,8 +40,8 @@ analysis::FilmSettings oil() {
 const std::map<std::string, std::function<void(const Topography&)>> kCalls = {
     {"level", [](const Topography& s) { topography::apply({"level=plane"}, s); }},
     {"psd", [](const Topography& s) { metrology::power_spectra(s, {}); }},
-    {"rain", [](const Topography& s) { analysis::film_state(s, oil()); }},
-    {"contact", [](const Topography& s) { analysis::contact_state(s, solid(), 7e6); }}};
+    {"rain", [](const Topography& s) { cases::film_state(s, oil()); }},
+    {"contact", [](const Topography& s) { cases::contact_state(s, solid(), 7e6); }}};
 
 }  // namespace
 

@@ -99,6 +99,20 @@ python_environment() {
   touch "$venv/complete"
 }
 
+# oldest_environment: build/oldest with Debian's libraries and the oldest Bokeh that pyproject.toml allows, for the test that draws every
+# kind of page with them. Fails where either cannot be had: then that test is left out.
+oldest_environment() {
+  local venv=$root/build/oldest
+  [ -e "$venv/complete" ] && return
+  mkdir -p build
+  { /usr/bin/python3 -c 'import numpy, h5py, matplotlib, jinja2, PIL' &&
+    /usr/bin/python3 -m venv --clear --system-site-packages "$venv" &&
+    "$venv/bin/pip" install --quiet --disable-pip-version-check 'bokeh==3.9.0' \
+      "numpy==$(/usr/bin/python3 -c 'import numpy; print(numpy.__version__)')"; } >build/oldest.log 2>&1 ||
+    { echo "Pages are not drawn with the oldest libraries: those cannot be had (build/oldest.log)"; return 1; }
+  touch "$venv/complete"
+}
+
 # report_environment: build/report with what `tabor report` makes interactive pages with, from PyPI. Fails where PyPI
 # cannot be reached: then pages are drawn with Debian's packages, are not interactive, and a line says so.
 report_environment() {

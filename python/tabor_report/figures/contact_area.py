@@ -1,8 +1,8 @@
-"""Real contact area against pressure, every scan and the mean of its group."""
+"""The area that friction was computed with against pressure, every scan and the mean of its group."""
 
 import numpy as np
 
-from tabor_report import style, units
+from tabor_report import areas, style, units
 from tabor_report.figures import Drawn
 from tabor_report.friction_series import draw_loose, number_text
 from tabor_report.output import table_text
@@ -21,16 +21,17 @@ def draw(study):
     _draw_doubtful(axes, groups)
     _draw_bound(axes, study)
     axes.set_xlabel("mean pressure $P$ (MPa)")
-    axes.set_ylabel("real contact area $A_{real}/A_0$ (%)")
+    name = areas.NAMES[areas.of_study(study)]
+    axes.set_ylabel(f"{name} $A_{{real}}/A_0$ (%)")
     axes.grid(color="0.92", linewidth=0.6)
     style.limits_from_zero(axes)
     style.legend_on_top(figure, style.entries(axes))
     return Drawn(
-        "fig10_contact_area",
-        "Real contact area against pressure",
+        "contact_area",
+        f"{name.capitalize()} against pressure",
         _caption(study),
         figure,
-        {"": _csv(groups)},
+        {"": _csv(groups, areas.of_study(study))},
     )
 
 
@@ -48,19 +49,19 @@ def means(states):
 
 def states_of(study, group):
     """One entry per scan and pressure: the area does not depend on the lubricant."""
-    table = study.table
+    table, area = study.table, areas.of_study(study)
     if not table:
         return []
     rows = table.where(table.equal("group", group))
     found = {}
     for row, sure in zip(rows.rows(), converged(rows)):
         key = (row["scan"], float(row["mean_pressure_Pa"]))
-        if np.isfinite(row["contact_area_fraction"]):
+        if np.isfinite(row[area]):
             found[key] = {
                 "scan": row["scan"],
                 "group": group,
                 "pressure": key[1],
-                "area": float(row["contact_area_fraction"]),
+                "area": float(row[area]),
                 "sure": bool(sure),
             }
     return [found[key] for key in sorted(found)]
@@ -104,8 +105,8 @@ def _draw_bound(axes, study):
 
 def _caption(study):
     text = (
-        "Real contact area as a share of the apparent area (%) against the mean pressure P. Symbols: every scan; "
-        "lines: mean over the n scans of a group. "
+        f"{areas.MEANINGS[areas.of_study(study)].capitalize()} as a share of the apparent area (%) against the mean "
+        "pressure P. Symbols: every scan; lines: mean over the n scans of a group. "
     )
     if study.saturation_pressure:
         text += (
@@ -114,7 +115,7 @@ def _caption(study):
         )
     if study.table.not_converged():
         text += "Red rings: did not converge and count in no mean. "
-    return text + f"Area counted: {study.facts.get('area', 'corrected')}."
+    return text.rstrip()
 
 
 def _limited(study):
@@ -122,14 +123,14 @@ def _limited(study):
     return "of a saturated contact " if any(scan.facts.get("contact") == "elastic" for scan in study.scans) else ""
 
 
-def _csv(groups):
+def _csv(groups, area):
     states = [state for _, members in groups for state in members]
     return table_text(
         {
             "scan": [state["scan"] for state in states],
             "group": [state["group"] for state in states],
             "mean_pressure_Pa": [state["pressure"] for state in states],
-            "contact_area_fraction": [state["area"] for state in states],
+            area: [state["area"] for state in states],
             "converged": [state["sure"] for state in states],
         }
     )

@@ -9,7 +9,7 @@ from tabor_report.figures import Drawn
 from tabor_report.figures.contact_map import figure_height
 
 
-def draw(example, name="fig08_contact_clusters"):
+def draw(example, name="contact_clusters"):
     """None where either the contact or the film is missing."""
     if example.contact is None or example.film is None:
         return None
@@ -31,7 +31,7 @@ def draw(example, name="fig08_contact_clusters"):
     }
     return Drawn(
         name + example.suffix,
-        f"Contact clusters: {example.scan.file}",
+        f"Contact clusters: {example.scan.name}",
         _caption(view, example),
         figure,
         data,
@@ -65,7 +65,7 @@ def _caption(view, example):
     total = np.count_nonzero(touching)
     share = np.count_nonzero(touching & (example.thickness > 0)) / total if total else 0.0
     return (
-        f"Contact clusters of {example.scan.file} at {units.pressure(example.contact.pressure)} with "
+        f"Contact clusters of {example.scan.name} at {units.pressure(example.contact.pressure)} with "
         f"{units.density(example.film.density)} of lubricant, in the window of the lubricant map: dry contact "
         f"orange, contact that holds lubricant black. {map_axes.ink_note(view)}Over the whole scan {share:.2%} of the "
         "contact is wet; the window was chosen for its wet contact and is not typical. "

@@ -31,6 +31,8 @@ class Curve:
     spread: np.ndarray
     n: np.ndarray
     dry: float
+    asked: np.ndarray  # densities that films were computed for [g/m^2], and the friction found with them
+    found: np.ndarray
 
 
 def of_study(study, error="std"):
@@ -63,13 +65,36 @@ def _curve_of_study(rows, group, pressure, study, error):
     dry = series_of.dry(study, group)
     known = dry.mean[np.isclose(dry.pressure, pressure, rtol=1e-9)]
     mean = rows["friction_lubricated_mean"]
-    return Curve(group, pressure, rows[DENSITY], mean, spread, rows["n"], float(known[0]) if known.size else math.nan)
+    known_dry = float(known[0]) if known.size else math.nan
+    asked, found = _found_in_study(study, group, pressure)
+    return Curve(group, pressure, rows[DENSITY], mean, spread, rows["n"], known_dry, asked, found)
+
+
+def _found_in_study(study, group, pressure):
+    """(densities, mean friction) of the films that were computed."""
+    table = study.averages
+    if not table or DENSITY not in table or "friction_lubricated_mean" not in table:
+        return np.empty(0), np.empty(0)
+    table = table.where(table.equal("group", group) & table.equal(PRESSURE, pressure))
+    return _above_zero(table[DENSITY], table["friction_lubricated_mean"])
+
+
+def _above_zero(density, friction):
+    density, friction = np.asarray(density, dtype=float), np.asarray(friction, dtype=float)
+    usable = (density > 0) & np.isfinite(friction)
+    return density[usable], friction[usable]
 
 
 def _curve_of_single(rows, pressure, single):
-    dry = [state.facts.get("friction_dry", math.nan) for state in single.states if state.pressure == pressure]
+    states = [state for state in single.states if state.pressure == pressure]
+    dry = [state.facts.get("friction_dry", math.nan) for state in states]
     n, unknown = np.ones(len(rows)), np.full(len(rows), np.nan)
-    return Curve("", pressure, rows[DENSITY], rows["friction_lubricated"], unknown, n, dry[0] if dry else math.nan)
+    known = [state for state in states if state.density]
+    asked, found = _above_zero(
+        [state.density for state in known], [state.facts.get("friction_lubricated", math.nan) for state in known]
+    )
+    friction = rows["friction_lubricated"]
+    return Curve("", pressure, rows[DENSITY], friction, unknown, n, dry[0] if dry else math.nan, asked, found)
 
 
 def _asked_in_study(study, group):
@@ -121,6 +146,8 @@ def _draw_panel(axes, curves, looks, asked, with_n):
         )
         if math.isfinite(curve.dry):
             axes.axhline(curve.dry, color=colour, linestyle=(0, (4, 3)), linewidth=0.8).tabor_label = DRY
+    for curve in curves:
+        axes.plot(curve.asked, curve.found, linestyle="none", marker="o", markersize=3.5, color=looks[curve.pressure])
     axes.set_xscale("log")
     axes.grid(color="0.92", linewidth=0.6)
     _mark(axes, asked)
@@ -175,17 +202,18 @@ def _legend_entries(panels, looks):
     entries = {label: found[label] for label in named}
     grey = {"color": "0.35"}
     (dry,) = panels[0].plot([], [], linestyle=(0, (4, 3)), linewidth=0.8, **grey)
-    (asked,) = panels[0].plot([], [], linestyle=":", linewidth=0.9, **grey)
+    (asked,) = panels[0].plot([], [], linestyle=":", linewidth=0.9, marker="o", markersize=3.5, **grey)
     return entries | {DRY: dry, "asked for": asked}
 
 
 def _caption(curves, error_name, n_left_out):
     parts = [
         "Lubricated friction coefficient μ (dimensionless) against the areal density of the lubricant, at rest, one "
-        "curve for each mean pressure P. From left to right: friction falls while the oil fills the pockets under "
-        "the contacts; on the plateau they are full and more oil gathers in the valleys, so that the density hardly "
-        "matters; at the edge of the plateau the valleys are full up to the contacts, and beyond it the oil drowns "
-        "them. Dashed: the same contacts dry. Dotted: the densities that were asked for. "
+        "curve for each mean pressure P, for droplets that vanish (model limit). From left to right: friction falls "
+        "while the oil fills the pockets under the contacts; on the plateau they are full and more oil gathers in the "
+        "valleys, so that the density hardly matters; where it ends the oil level reaches the contacts, and beyond it "
+        "covers more of them. Dashed: the same contacts dry. Dotted lines and dots: the densities that were asked "
+        "for and the friction in the tables, of the droplets that were asked for. "
     ]
     if error_name is not None:
         parts.append(_about_n(curves, error_name))

@@ -31,7 +31,7 @@ def draw(study, error="std"):
     style.limits_from_zero(axes)
     style.legend_on_top(figure, style.entries(axes))
     return Drawn(
-        "fig06_dry_friction",
+        "dry_friction",
         "Dry friction against pressure",
         _caption(study, curves, error),
         figure,
@@ -53,7 +53,7 @@ def _draw_limit(axes, study):
             color="0.45",
             linestyle=":",
             linewidth=1.0,
-            label=f"all contact saturated, $\\tau_y/p_{{sat}}$ = {value:.3g}",
+            label=f"all contact saturated, $\\mu$ = {value:.3g}",
         )
 
 
@@ -76,6 +76,8 @@ def _caption(study, curves, error):
         )
     else:
         parts.append("One scan per group (n = 1), hence no error bars. ")
+    if limit(study) is not None:
+        parts.append("Dotted: all contact saturated, μ = τ_y/p_sat. ")
     if study.experiment:
         parts.append("Hollow symbols: measured, with the error given in the measurement file. ")
     if any(len(series.loose_pressure) for series in curves):

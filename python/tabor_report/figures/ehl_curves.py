@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tabor_report import hdf, style, units
+from tabor_report import ehl, hdf, style, units
 from tabor_report.figures import Drawn
 from tabor_report.output import table_text
 
@@ -90,8 +90,8 @@ def _drawn(node, name, keys, values):
         _draw_curves(figure, grid[0][0], node, keys, values * factor, label)
     data = {key: points.ravel() for key, points in zip(keys, np.meshgrid(*axes_values, indexing="ij"))}
     own = {name: values.ravel()}
-    if "warning_marks" in node:
-        own["warnings"] = [hdf.text(marks) for marks in node["warning_marks"][()]]
+    if codes := ehl.codes_of(node):
+        own["warnings"] = codes
     return Drawn(
         f"sweep_{name}",
         heading[:1].upper() + heading[1:],

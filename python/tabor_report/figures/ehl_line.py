@@ -57,19 +57,20 @@ def _profile(source, profile):
     return Drawn(
         "line_profile",
         "Pressure and film along the flow",
-        f"Grey: the pressure of the same cylinder without liquid. {_thinnest(profile)}",
+        f"Grey: the pressure of the same cylinder without liquid. {_thinnest(profile, source.scalars.get('min_film_m'))}",
         figure,
         {"": table_text({f"{name}_{unit}": profile[name] for name, unit in PROFILE.items() if name in profile})},
     )
 
 
-def _thinnest(profile):
-    """Where the film is thinnest, and where it ends."""
+def _thinnest(profile, least=None):
+    """Where the film is thinnest, and where it ends; least: the smallest film [m] of the result, which may lie between nodes."""
     x, film, pressure = profile["x"], profile["film"], profile["pressure"]
     place = np.argmin(film)
-    text = f"The film is thinnest, {units.length(film[place])}, at {_place(x[place])}"
+    shown = units.length(film[place] if least is None else least)
+    text = f"The film is thinnest, {shown}, at {_place(x[place])}"
     if np.count_nonzero(film <= 1.001 * film[place]) > 1:
-        text = f"The film is nowhere thinner than {units.length(film[place])}, first at {_place(x[place])}"
+        text = f"The film is nowhere thinner than {shown}, first at {_place(x[place])}"
     loaded = x[pressure > 1e-6 * pressure.max()]
     return text + (f"; its pressure ends at {_place(loaded[-1])}." if loaded.size else ".")
 

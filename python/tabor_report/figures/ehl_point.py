@@ -31,7 +31,7 @@ def draw(source):
         yield _roughness_map(contact)
     yield _slice_plane(source.curves("slice_plane"))
     if history := source.curves("history"):
-        yield _passage(history)
+        yield _transient(history)
 
 
 class _Contact:
@@ -145,7 +145,7 @@ def _centre_line(source, group, label):
     )
 
 
-def _passage(history):
+def _transient(history):
     """What a moving rough surface does to the film."""
     figure, grid = style.new_figure(3.2, width=5.6)
     left = grid[0][0]
@@ -202,7 +202,7 @@ def _film_maps(contact):
     factor, unit = units.length_scale(highest)
     shown = contact.show(left, film * factor, cmap="viridis", vmin=0, vmax=highest * factor)
     levels = np.linspace(0, highest * factor, 9)[1:-1]
-    has_lines = _is_smooth(film[contact.inside()], levels[0] / factor)
+    has_lines = bool(_is_smooth(film[contact.inside()], levels[0] / factor))
     if has_lines:
         left.contour(contact.x * UM, contact.y * UM, film * factor, levels=levels, colors="white", linewidths=0.4)
     bar = figure.colorbar(shown, cax=left.inset_axes([1.03, 0, 0.05, 1]), extend="max")

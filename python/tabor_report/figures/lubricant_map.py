@@ -6,7 +6,7 @@ from tabor_report import map_axes, section, style, units
 from tabor_report.figures import Drawn
 
 
-def draw(example, name="fig07_lubricant_map"):
+def draw(example, name="lubricant_map"):
     """None where the scan has no film."""
     if example.film is None or example.height is None:
         return None
@@ -32,7 +32,7 @@ def draw(example, name="fig07_lubricant_map"):
     }
     return Drawn(
         name + example.suffix,
-        f"Lubricant map: {example.scan.file}",
+        f"Lubricant map: {example.scan.name}",
         _caption(view, example, stretch),
         figure,
         data,
@@ -72,7 +72,7 @@ def _draw_section(axes, view, example):
     factor, unit = map_axes.height_unit(lines["solid_m"])
     section.draw(axes, lines, view.factor, view.unit, factor, unit)
     axes.set_title("(c) section along the dashed line" + _closed(example), pad=18)
-    style.legend_above(axes, 3)
+    style.legend_above(axes, 4)
     return lines, section.exaggeration(axes, view.factor, factor)
 
 
@@ -85,7 +85,7 @@ def _closed(example):
 
 
 def _caption(view, example, stretch):
-    where = f"{example.scan.file}, part of the surface with the most wet contact (a place chosen to show it, not a typical one)"
+    where = f"{example.scan.name}, part of the surface with the most wet contact (a place chosen to show it, not a typical one)"
     text = (
         f"{where}. (a) Dry height about the mean of the scan; (b) lubricant thickness after deposition of "
         f"{units.density(example.film.density)}, sand colour: dry. {view.note}(c) Section along the dashed line: "
@@ -94,7 +94,7 @@ def _caption(view, example, stretch):
     if example.contact is not None:
         text += (
             " and the counterface (red), drawn as the undeformed solid plus the gap, hence the deformed flat, at "
-            f"{units.pressure(example.contact.pressure)}; solid above it is flattened, liquid above it would be squeezed out"
+            f"{units.pressure(example.contact.pressure)}; solid above it has been flattened (pink), liquid above it would be squeezed out"
         )
     return (
         text

@@ -31,7 +31,7 @@ def draw(study, error="std"):
     )
     every = [series for group, curves in panels for series in (series_of.dry(study, group), *curves)]
     return Drawn(
-        "fig09_lubricated_friction",
+        "lubricated_friction",
         "Lubricated friction against pressure",
         _caption(study, every, error),
         figure,

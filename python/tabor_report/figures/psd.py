@@ -21,7 +21,7 @@ def draw(study):
     axes[0][0].set_ylabel("$C^{1D}$ (µm³)")
     _legend(figure, axes[0], curves)
     return Drawn(
-        "fig04_psd", "Power spectral density along x and y", _caption(study), figure, {"": _csv(curves)}
+        "psd", "Power spectral density along x and y", _caption(study), figure, {"": _csv(curves)}
     )
 
 
@@ -75,7 +75,7 @@ def _draw_panel(axes, axis, curves):
         _draw_slope(axes, curves)
     for side in (axes.xaxis, axes.yaxis):
         style.log_axis(side)
-    axes.set_xlabel(f"$q_{axis}$ (rad/µm)")
+    axes.set_xlabel(f"$q$ along ${axis}$ (rad/µm)")
     axes.grid(which="major", color="0.92", linewidth=0.6)
 
 
@@ -126,10 +126,9 @@ def _legend(figure, panels, curves):
 def _label(index, curves):
     found = {axis: of_axis[index] for axis, of_axis in curves.items() if index < len(of_axis)}
     group, _, _, _, n = next(iter(found.values()))
-    parts = [f"n = {n}"] + [
-        f"$H_{axis}$ = {curve[3]:.2f}" for axis, curve in found.items() if np.isfinite(curve[3])
-    ]
-    return f"{style.literal(group) or 'scans'} ({', '.join(parts)})"
+    fitted = [f"{curve[3]:.2f} along ${axis}$" for axis, curve in found.items() if np.isfinite(curve[3])]
+    exponents = f", $H$ = {' and '.join(fitted)}" if fitted else ""
+    return f"{style.literal(group) or 'scans'} (n = {n}{exponents})"
 
 
 def _mean(values):

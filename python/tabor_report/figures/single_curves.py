@@ -2,13 +2,15 @@
 
 import numpy as np
 
-from tabor_report import style, units
+from tabor_report import areas, style, units
 from tabor_report.figures import Drawn
 from tabor_report.friction_series import draw_loose
 from tabor_report.output import table_text
 
-AREA, DRY, LUBRICATED = "contact_area_fraction", "friction_dry", "friction_lubricated"
-_LABELS = {AREA: "real contact area $A_{real}/A_0$ (%)", DRY: "friction coefficient $\\mu$"}
+DRY, LUBRICATED = "friction_dry", "friction_lubricated"
+_LABELS = {key: f"{name} $A_{{real}}/A_0$ (%)" for key, name in areas.NAMES.items()} | {
+    DRY: "friction coefficient $\\mu$"
+}
 
 
 def draw(single):
@@ -16,7 +18,8 @@ def draw(single):
     states = [state for state in single.states if state.pressure is not None]
     if len({state.pressure for state in states}) < 2:
         return None
-    panels = [key for key in (AREA, DRY) if any(_has(state, key) for state in states)]
+    area = areas.of_states(states)
+    panels = [key for key in (area, DRY) if any(_has(state, key) for state in states)]
     if not panels:
         return None
     figure, grid = style.new_figure(3.4, n_columns=len(panels), width=3.7 * len(panels))
@@ -26,10 +29,10 @@ def draw(single):
         style.legend_on_top(figure, style.entries(grid[0][-1]))
     return Drawn(
         "against_pressure",
-        "Friction against pressure" if DRY in panels else "Contact area against pressure",
-        _caption(single, panels, states),
+        "Friction against pressure" if DRY in panels else f"{areas.NAMES[area].capitalize()} against pressure",
+        _caption(single, panels, states, area),
         figure,
-        {"": table_text(_columns(states))},
+        {"": table_text(_columns(states, area))},
     )
 
 
@@ -41,8 +44,9 @@ def _has(state, key):
 def _draw_panel(axes, key, states):
     curves = _curves(key, states)
     for (label, members), look in zip(curves, _looks(key, len(curves))):
-        factor = 100 if key == AREA else 1
-        members = sorted(members, key=lambda pair: pair[0].pressure)
+        factor = 100 if key in areas.NAMES else 1
+        if not any(state.visit for state, _ in members):  # a path of loads is drawn as it goes
+            members = sorted(members, key=lambda pair: pair[0].pressure)
         sure = [(state, value) for state, value in members if state.facts.get("converged", True)]
         loose = [(state, value) for state, value in members if not state.facts.get("converged", True)]
         axes.plot(*_points(sure, factor), label=label, **look)
@@ -55,7 +59,7 @@ def _draw_panel(axes, key, states):
 
 def _looks(key, n):
     """Grey and dashed without oil, then darker for more of it; the area has but one curve."""
-    if key == AREA:
+    if key in areas.NAMES:
         return style.curve_styles(n)
     symbols = style.curve_styles(n)
     dry = {"color": "0.35", "linestyle": "--", "marker": "s", "markersize": 4, "markerfacecolor": "white", "zorder": 4}
@@ -68,10 +72,13 @@ def _points(members, factor):
 
 def _curves(key, states):
     """[(label, [(state, value)])]: the area and dry friction once, lubricated friction per density."""
-    once = {state.pressure: state for state in reversed(states) if _has(state, key)}.values()
-    first = [(state, state.facts[key]) for state in once]
+    once = {}
+    for state in states:
+        if _has(state, key):
+            once.setdefault((state.pressure, state.visit), state)
+    first = [(state, state.facts[key]) for state in once.values()]
     if key != DRY:
-        return [("real contact area", first)]
+        return [(areas.NAMES[key], first)]
     curves = [("dry", first)]
     densities = sorted({state.density for state in states if state.density and _has(state, LUBRICATED)})
     for density in densities:
@@ -80,19 +87,19 @@ def _curves(key, states):
     return curves
 
 
-def _columns(states):
-    keys = ["mean_pressure_Pa", "lubricant_density_g_per_m2", AREA, DRY, LUBRICATED, "converged"]
+def _columns(states, area):
+    keys = ["mean_pressure_Pa", "lubricant_density_g_per_m2", area, DRY, LUBRICATED, "converged"]
     return {key: [state.facts.get(key, "") for state in states] for key in keys}
 
 
-def _caption(single, panels, states):
-    parts = [f"Real contact area of {single.title} against the mean pressure P"]
+def _caption(single, panels, states, area):
+    parts = [f"{areas.MEANINGS[area].capitalize()} of {single.title} against the mean pressure P"]
     if DRY in panels:
         parts.append(
             " (left), and friction coefficient μ = (A_real − A_lub)/A₀ · τ_y/P (right): dashed dry, full lines with "
             "lubricant, darker for more of it. Contact that holds lubricant does not shear, or only with the strength "
             "of its film: a curve lies below the dashed one as far as contact is wet. Amounts whose curves coincide "
-            "fill the same pockets; an amount whose curve lies far below the others drowns the contacts"
+            "fill the same pockets; an amount whose curve lies far below the others stands above part of the contacts"
         )
     parts.append(".")
     if not all(state.facts.get("converged", True) for state in states):

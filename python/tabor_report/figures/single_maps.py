@@ -4,7 +4,7 @@ from functools import cached_property
 
 import numpy as np
 
-from tabor_report import hdf, map_axes, maps, section, style, units
+from tabor_report import hdf, map_axes, maps, names, section, style, units
 from tabor_report.example import richest_window, shores
 from tabor_report.figures import Drawn, contact_map
 
@@ -15,12 +15,12 @@ def draw(single):
     drawn, sections = set(), _Sections(single)
     for state in single.states:
         figures = []
-        if ("contact", state.pressure) not in drawn:
+        if ("contact", state.pressure_label) not in drawn:
             figures += [_pressure(single, state), _contact(single, state), _gap(single, state)]
         if ("film", state.density) not in drawn:
             figures.append(_film(single, state))
         figures += [_fluid_pressure(single, state), _fluid_fill(single, state)]
-        drawn.update({("contact", state.pressure), ("film", state.density)})
+        drawn.update({("contact", state.pressure_label), ("film", state.density)})
         figures.append(sections.draw(state))
         yield from (figure for figure in figures if figure is not None)
 
@@ -52,7 +52,9 @@ def _contact(single, state):
     touching = state.state()
     if touching is None:
         return None
-    return contact_map.draw(touching, single.pixel, state.facts, single.title, f"contact_{in_a_name(state.pressure_label)}")
+    return contact_map.draw(
+        touching, single.pixel, state.facts, single.title, f"contact_{names.of_state(state.pressure_label)}", pressure=state.pressure_text
+    )
 
 
 def _gap(single, state):
@@ -89,12 +91,6 @@ def _film(single, state):
         map_axes.DRY_GROUND,
         state.density_label,
     )
-
-
-def in_a_name(label):
-    """What tells states apart, in the name of a file: 'P = 7 MPa, 0.45 g/m²' -> '7MPa_0.45g_per_m2'."""
-    words = label.replace("P = ", "").replace(", ", "_").replace("/", "_per_").replace("²", "2").replace("µ", "u")
-    return "".join(letter for letter in words if letter.isascii() and (letter.isalnum() or letter in "._-"))
 
 
 def _flow_label(state):
@@ -147,7 +143,7 @@ def _map(single, state, what, values, axis_label, colours, text, ground, label, 
     grid[0][0].set_title(label.replace("P =", "$P$ ="))
     end = "" if highest else "Colours end at the 99.5th percentile of what is drawn."
     return Drawn(
-        f"{what}_{in_a_name(label)}",
+        f"{what}_{names.of_state(label)}",
         f"{what.replace('_', ' ').capitalize()} map: {label}",
         f"{text}, at {label}. {view.note}{end}",
         figure,
@@ -208,15 +204,15 @@ def _section(state, lines, y):
     factor, unit = map_axes.height_unit(lines["solid_m"])
     figure, grid = style.new_figure(3.0)
     section.draw(grid[0][0], lines, length, length_unit, factor, unit)
-    style.legend_above(grid[0][0], 3)
+    style.legend_above(grid[0][0], 4)
     stretch = section.exaggeration(grid[0][0], length, factor)
     caption = (
         f"Section along x at y = {units.number(y * length)} {length_unit}, {state.label}: solid (grey), lubricant before the "
-        "surfaces close (blue), counterface (red) as undeformed solid plus gap (solid above it is flattened), whichever the file holds. "
+        "surfaces close (blue), counterface (red) as undeformed solid plus gap (what stands above it has been flattened: pink), whichever the file holds. "
         f"Heights are stretched {units.number(stretch, 2)} times against lengths."
     )
     return Drawn(
-        f"section_{in_a_name(_flow_label(state))}",
+        f"section_{names.of_state(_flow_label(state))}",
         f"Section: {state.label}",
         caption,
         figure,

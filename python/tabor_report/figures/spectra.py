@@ -99,7 +99,7 @@ def _csv(source):
     for one in source.sets:
         for axis, (q, density) in one.curves.items():
             spread = one.deviations.get(axis, [""] * len(q))
-            cells = [one.name] * len(q), [axis] * len(q), q, density, spread, [UNITS[axis]] * len(q)
+            cells = [one.file or one.name] * len(q), [axis] * len(q), q, density, spread, [UNITS[axis]] * len(q)
             for name, values in zip(columns, cells):
                 columns[name].extend(values)
     return table_text(columns)

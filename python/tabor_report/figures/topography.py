@@ -6,17 +6,19 @@ from tabor_report import map_axes, maps, style
 from tabor_report.figures import Drawn
 
 
-def draw(height, pixel, name, scan_name, suffix=""):
-    """height [m], shape (ny, nx); pixel (x, y) [m]"""
+def draw(height, pixel, name, scan_name, suffix="", zero=None):
+    """height [m], shape (ny, nx); pixel (x, y) [m]; zero: what its zero means, where heights are not shown about their mean."""
     view = map_axes.MapView(maps.whole(height), pixel)
     values = view.reduced(height)
     factor, unit = map_axes.height_unit(values)
-    values = (values - np.nanmean(height)) * factor if np.isfinite(values).any() else values
+    mean = np.nanmean(height) if zero is None and np.isfinite(values).any() else 0.0
+    values = (values - mean) * factor
+    label = zero or "height about the mean"
     figure, axes = style.new_figure(_height(view), width=6.0)
-    map_axes.colour_map(axes[0][0], view, values, f"height about the mean ({unit})", map_axes.HEIGHT_COLOURS)
+    map_axes.colour_map(axes[0][0], view, values, f"{label} ({unit})", map_axes.HEIGHT_COLOURS)
     axes[0][0].set_title(style.literal(scan_name))
     caption = (
-        f"Height of the treated scan {scan_name} about its mean ({unit}); x is the sliding direction, row 0 on "
+        f"{label.capitalize() if zero is None else label} of {scan_name} ({unit}); x is the sliding direction, row 0 on "
         f"top. {view.note}Colours span the 0.5th to 99.5th percentile of what is drawn; grey: missing pixels."
     )
     return Drawn(

@@ -12,6 +12,7 @@
 
 #include "tabor/cli/defaults.hpp"
 #include "tabor/cli/exit_code.hpp"
+#include "tabor/cli/explain.hpp"
 #include "tabor/cli/failure.hpp"
 #include "tabor/cli/help.hpp"
 #include "tabor/cli/interrupt.hpp"
@@ -80,8 +81,10 @@ Words with_defaults(const Verb& verb, const Words& typed, Context& context) {
   return words;
 }
 
+/// A file cannot ask that nothing be said of it.
 void say_defaults(const Context& context) {
-  if (context.defaults.empty() || context.json || context.quiet) return;
+  const bool asks_for_quiet = context.quiet && !context.has_default("--quiet");
+  if (context.defaults.empty() || context.json || asks_for_quiet) return;
   const Defaults used{context.defaults_file, context.defaults};
   context.err << fmt::format("defaults of {}: {}\n", printable(used.file), used.text());
 }
@@ -95,6 +98,7 @@ int run_verb(const Verb& verb, const Words& typed, Context& context, ProgressSty
   parse(noting_files(set, named), verb.name, words);
   check_files(named, context.files);
   say_defaults(context);
+  context.spelling = spelling_of(set);
   set_thread_count(static_cast<int>(std::min<std::uint64_t>(context.threads, 4096)));
   ProgressPrinter progress(context.err, context.quiet ? ProgressStyle::none : style);
   context.progress = &progress;
@@ -113,6 +117,8 @@ int dispatch(const Words& args, Context& context, ProgressStyle style) {
   const Words words(args.begin() + 1, args.end());
   if (args.front() == "--version") {
     context.out << "tabor " << kVersion << '\n';
+  } else if (asks_to_explain({args.front()})) {
+    return explain(args, context);
   } else if (args.front() == "--help" || args.front() == "-h" ||
              (args.front() == "help" && words.empty())) {
     context.out << overview();
@@ -120,6 +126,8 @@ int dispatch(const Words& args, Context& context, ProgressStyle style) {
     context.out << help_of(find_verb(words.front()), words.size() > 1 ? words[1] : "");
   } else if (const Verb& verb = find_verb(args.front()); asks_for_help(words)) {
     context.out << help_of(verb, words.front());
+  } else if (asks_to_explain(words)) {
+    return explain(words, context);
   } else {
     return run_verb(verb, words, context, style);
   }

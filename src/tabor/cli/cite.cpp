@@ -1,26 +1,26 @@
 #include <memory>
 
-#include "tabor/analysis/citations.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/verbs.hpp"
+#include "tabor/results/citations.hpp"
 
 namespace tabor::cli {
 
 namespace {
 
-std::vector<analysis::BibliographyEntry> entries_for(const std::vector<std::string>& files) {
-  if (files.empty()) return analysis::citations();
-  analysis::ReferenceKeys wanted;
-  for (const std::string& file : files) wanted.merge(analysis::references_in(file));
-  return analysis::citations(wanted);
+std::vector<results::BibliographyEntry> entries_for(const std::vector<std::string>& files) {
+  if (files.empty()) return results::citations();
+  results::ReferenceKeys wanted;
+  for (const std::string& file : files) wanted.merge(results::references_in(file));
+  return results::citations(wanted);
 }
 
 int show(const std::vector<std::string>& files, Context& context) {
-  const std::vector<analysis::BibliographyEntry> entries = entries_for(files);
+  const std::vector<results::BibliographyEntry> entries = entries_for(files);
   io::Json object = json_head(context);
   object["bibtex"] = io::Json::object();
   for (const auto& entry : entries) object["bibtex"][entry.key] = entry.text;
-  return finish(context, object, analysis::bibtex_of(entries));
+  return finish(context, object, results::bibtex_of(entries));
 }
 
 }  // namespace

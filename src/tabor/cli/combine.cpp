@@ -6,13 +6,13 @@
 #include <filesystem>
 #include <memory>
 
-#include "tabor/analysis/combination.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/results/combination.hpp"
 
 namespace tabor::cli {
 
@@ -130,7 +130,7 @@ void write(const Combination& c, CombineMode mode, const std::string& file,
   const auto methods = c.map.metadata.find("methods");
   const std::vector<std::string> keys =
       methods == c.map.metadata.end() ? std::vector<std::string>{} : split(methods->second, ' ');
-  analysis::write_combination(c, mode, head_of(context, "", keys), context.warnings, file);
+  results::write_combination(c, mode, head_of(context, "", keys), context.warnings, file);
 }
 
 int show(const Request& request, Context& context) {
@@ -139,15 +139,17 @@ int show(const Request& request, Context& context) {
   second.file = request.second;
   const Scan a = read_scan(request.scan, context);
   const Scan b = read_scan(second, context);
-  context.warn(analysis::findings_of({doubts_of(a), doubts_of(b)}));
+  std::vector<results::Case> cases = {doubts_of(a), doubts_of(b)};
+  results::shorten_paths(cases);
+  context.warn(results::findings_of(cases));
   const Combination c = comparison::combine(a.surface, b.surface, options, context.observer());
-  for (const std::string& doubt : analysis::doubts_of(c)) context.warn(doubt);
+  for (const std::string& doubt : results::doubts_of(c)) context.warn(doubt);
   io::Json object = json_head(context, a);
   object["second_scan"] = {{"path", b.path}, {"sha256", b.sha256}};
   object["second_treatment_history"] = b.surface.history;
   object["mode"] = request.mode;
   object["level_match"] = request.match;
-  object.update(analysis::values_of(c));
+  object.update(results::values_of(c));
   std::string text = text_of(request, a, b, c);
   if (request.output) {
     write(c, options.mode, *request.output, context);

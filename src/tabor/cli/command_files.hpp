@@ -9,19 +9,21 @@
 
 #include "tabor/cli/options.hpp"
 
+// Collects the files that a command reads and writes, and rejects an output that would replace an
+// input.
 namespace tabor::cli {
 
-/// The files that one command reads and writes. What it writes never replaces what it reads, by
-/// whatever name or link either is called: every input is compared with every output as soon as
-/// both are known. Files that options name are entered before the verb runs (noting_files()); a
-/// verb adds those that its files name in turn.
+/// Files that one command reads and writes. An output never replaces an input, whatever names or
+/// links lead to them: every input is compared with every output as soon as both are known. Files
+/// that options name are entered before the verb runs (noting_files()); a verb adds those that its
+/// files name in turn.
 class CommandFiles {
  public:
-  /// A file that the command reads. Throws OutputError if an output would replace it.
+  /// Enters a file that the command reads. Throws OutputError if an output would replace it.
   void reads(const std::filesystem::path& file);
-  /// A file that the command writes. Throws OutputError if it would replace an input.
+  /// Enters a file that the command writes. Throws OutputError if it would replace an input.
   void writes(const std::filesystem::path& file);
-  /// The same for a folder whose files the command makes, replaces and removes.
+  /// Enters a folder whose files the command makes, replaces and removes. Throws as writes().
   void fills(const std::filesystem::path& folder);
 
  private:
@@ -41,10 +43,10 @@ class CommandFiles {
   std::vector<Output> outputs_;
 };
 
-/// The files that the words of a command line name.
+/// Files that the words of a command line name.
 using NamedFiles = std::vector<std::pair<std::string, Option>>;
 
-/// The same options; parse() enters the files that they name.
+/// Returns the same options; parse() then enters the files that they name.
 OptionSet noting_files(const OptionSet& set, NamedFiles& named);
 
 /// Enters them all and rejects, before anything is computed: an output that would replace an input

@@ -1,8 +1,10 @@
 #include <memory>
 #include <optional>
 
+#include "tabor/cases/parameters.hpp"
 #include "tabor/cli/contact_request.hpp"
 #include "tabor/cli/lowpass_scan.hpp"
+#include "tabor/cli/parameter_options.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 
@@ -12,7 +14,7 @@ namespace {
 
 struct Request {
   ScanRequest scan;
-  analysis::CaseSettings settings;
+  cases::CaseSettings settings;
   FieldsRequest file;
   std::vector<double> cutoffs;           ///< of --lowpass-scan
   std::optional<double> shear_strength;  ///< [Pa], for its friction
@@ -23,9 +25,9 @@ io::Json histogram_json(const contact::Histogram& histogram, const std::string& 
 }
 
 /// Contact stiffness and histograms, where --statistics asks for them.
-io::Json statistics_json(const analysis::ContactRecord& record) {
+io::Json statistics_json(const cases::ContactRecord& record) {
   if (!record.statistics) return io::Json::object();
-  const analysis::ContactStatistics& statistics = *record.statistics;
+  const cases::ContactStatistics& statistics = *record.statistics;
   return {{"contact_stiffness_Pa_per_m", io::number(statistics.stiffness.value)},
           {"pressure_histogram", histogram_json(statistics.pressure, "edge_Pa")},
           {"gap_histogram", histogram_json(statistics.gap, "edge_m")},
@@ -39,59 +41,58 @@ void check_all(const Request& request) {
   }
 }
 
-int show(const Request& request, Context& context) {
+int show(Request request, Context& context) {
   check_all(request);
   const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
+  cases::ContactSettings& contact = request.settings.contact;  // a file may say its edges, too
+  check(cases::objection(contact, scan.surface.edges, flag_of));
+  contact.take_edges(scan.surface.edges);
+  check_all(request);
   if (!request.cutoffs.empty()) {
     return run_lowpass_scan(scan, request.settings, request.cutoffs, request.shear_strength,
                             request.file.csv, context);
   }
-  const analysis::ContactSettings& settings = request.settings.contact;
-  const io::Json in_force = analysis::settings_json(settings);
-  auto file = fields_file(request.file, context, scan, in_force, analysis::references_of(settings));
+  const cases::ContactSettings& settings = request.settings.contact;
+  const io::Json in_force = results::settings_json(settings);
+  auto file = fields_file(request.file, context, scan, in_force, cases::references_of(settings));
   io::Json object = json_head(context, scan);
   object["nx"] = scan.surface.grid.nx;
   object["ny"] = scan.surface.grid.ny;
   object.update(in_force);
   object["states"] = io::Json::array();
-  std::vector<analysis::ContactRecord> records;  // without their maps
-  std::vector<analysis::Case> cases;
+  std::vector<cases::ContactRecord> records;  // without their maps
+  std::vector<results::Case> cases;
   int code = kDone;
-  const auto receive = [&](analysis::ContactRecord&& record) {
-    const NamedCells cells =
-        cells_of(analysis::contact_columns(), record, analysis::media::kObject);
-    if (file) file->add_state(object["states"].size(), cells, analysis::fields_of(record));
+  const auto receive = [&](cases::ContactRecord&& record) {
+    const NamedCells cells = cells_of(cases::contact_columns(), record, cases::media::kObject);
+    if (file) file->add_state(object["states"].size(), cells, results::fields_of(record));
     object["states"].push_back(io::json_of(cells));
     object["states"].back().update(statistics_json(record));
-    cases.push_back(analysis::case_of(record));
+    cases.push_back(results::case_of(record));
     if (!record.convergence.converged()) code = kNotConverged;
     record.state = {};
     records.push_back(std::move(record));
   };
   const int ended = until_interrupted(context, [&] {
-    const auto elasticity = analysis::make_operator(settings, scan.surface.grid);
-    analysis::contact_states(*elasticity, scan.surface, settings, request.settings.mean_pressures,
-                             receive, context.observer());
+    const auto elasticity = cases::make_operator(settings, scan.surface.grid);
+    cases::contact_states(*elasticity, scan.surface, settings, request.settings.mean_pressures,
+                          receive, context.observer());
   });
   if (ended == kInterrupted && records.empty()) throw Interrupted();
-  context.warn(analysis::findings_of(cases));
+  context.warn(results::findings_of(cases));
   if (file) file->commit(context.warnings);
   Facts facts;
   describe(scan, facts);
   describe(settings, facts);
-  const std::string text =
-      facts.text() + '\n' + table_of(analysis::contact_columns(), records).text();
+  const std::string text = facts.text() + '\n' + table_of(cases::contact_columns(), records).text();
   return finish(context, object,
-                write_csv(request.file.csv, states_csv(analysis::contact_columns(), records), text),
+                write_csv(request.file.csv, states_csv(cases::contact_columns(), records), text),
                 ended == kInterrupted ? ended : code);
 }
 
-void declare_extras(OptionSet& set, analysis::ContactSettings& settings) {
-  set.toggle("--load-path",
-             "the pressures are one history: the plastic indentation a state leaves is kept in the "
-             "next, so that reloading below the largest is elastic",
-             settings.load_path);
+void declare_extras(OptionSet& set, cases::ContactSettings& settings) {
+  declare(set, parameter_of(cases::contact_parameters(), "load_path"), settings);
   set.toggle("--statistics",
              "add contact stiffness and histograms of pressure, gap and patch area to --json",
              settings.statistics);
@@ -118,8 +119,8 @@ Verb contact_verb() {
           .summary = "real contact area, gap, patches and saturated share under a pressure",
           .details =
               "A rigid flat is pressed on the rough half-space. The certificate bounds the "
-              "energy error; the contact area is corrected for the pixels of its perimeter, "
-              "the pixel count stands beside it.",
+              "energy error. 'contact area' is corrected for the pixels of its perimeter, "
+              "'counted contact' is the share of the pixels that touch.",
           .examples = {"tabor contact surfaces/edt_before.x3p --level plane --pressure 2MPa,7MPa "
                        "--youngs-modulus 70GPa --poisson-ratio 0.33 --saturation-pressure 240MPa",
                        "tabor contact surfaces/edt_before.x3p --level plane --lowpass gauss:8um "
@@ -131,7 +132,10 @@ Verb contact_verb() {
             declare_extras(set, request->settings.contact);
             declare_lowpass_scan(set, *request);
             declare_fields(set, request->file);
-            return [request](Context& context) { return show(*request, context); };
+            return [request](Context& context) {
+              take_edges(request->scan, request->settings.contact);
+              return show(*request, context);
+            };
           }};
 }
 

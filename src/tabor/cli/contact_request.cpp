@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <map>
+#include <algorithm>
+#include <initializer_list>
+#include <string_view>
 
+#include "tabor/cases/parameters.hpp"
 #include "tabor/cli/exit_code.hpp"
+#include "tabor/cli/parameter_options.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
 
@@ -12,117 +16,55 @@ namespace tabor::cli {
 
 namespace {
 
-const char* const kMaterial = "--material";
-
-void declare_material(OptionSet& set, analysis::CaseSettings& settings) {
-  set.add({.flag = kMaterial,
-           .placeholder = "NAME",
-           .help = "take E, NU and, where known, PS and TAU from the library ('tabor materials'); "
-                   "options override them",
-           .is_base = true,
-           .assign = [&settings](const std::string& name) {
-             analysis::take_material(name, settings);
-           }});
+void declare_material(OptionSet& set, cases::CaseSettings& settings) {
+  set.add(
+      {.flag = kMaterial,
+       .placeholder = "NAME",
+       .help = "take E, NU and, where known, PS and TAU from the library ('tabor materials'); "
+               "options override them",
+       .is_base = true,
+       .assign = [&settings](const std::string& name) { cases::take_material(name, settings); }});
 }
 
-void require_without_material(Option& option) {
-  option.required = true;
-  option.unless = kMaterial;
+/// The options of these parameters, those left out that a verb declares itself or has elsewhere.
+template <typename Settings>
+void declare_all(OptionSet& set, const Parameters<Settings>& parameters, Settings& settings,
+                 std::initializer_list<std::string_view> left_out = {}) {
+  for (const Parameter<Settings>& one : parameters) {
+    if (std::find(left_out.begin(), left_out.end(), one.name) == left_out.end()) {
+      declare(set, one, settings);
+    }
+  }
 }
 
 }  // namespace
 
-void declare_contact(OptionSet& set, analysis::CaseSettings& settings) {
+void declare_contact(OptionSet& set, cases::CaseSettings& settings) {
   set.group("Contact");
-  set.quantities("--pressure", "P[,P2,...]", "mean pressure, load / nominal area, e.g. 2MPa,7MPa",
-                 dimension::pressure, settings.mean_pressures)
-      .required = true;
+  declare(set, parameter_of(cases::case_parameters(), "mean_pressure"), settings);
   declare_material(set, settings);
-  require_without_material(set.quantity("--youngs-modulus", "E",
-                                        "Young's modulus of the rough body, e.g. 70GPa",
-                                        dimension::pressure, settings.contact.youngs_modulus));
-  require_without_material(set.number("--poisson-ratio", "NU",
-                                      "Poisson's ratio of the rough body, e.g. 0.33",
-                                      settings.contact.poissons_ratio));
-  set.quantity("--counter-youngs-modulus", "E2", "Young's modulus of the counter body [rigid]",
-               dimension::pressure, settings.contact.counter_youngs_modulus);
-  set.number("--counter-poisson-ratio", "NU2", "Poisson's ratio of the counter body",
-             settings.contact.counter_poissons_ratio);
-  set.add({.flag = "--saturation-pressure",
-           .placeholder = "PS",
-           .help = "cap on the contact pressure, e.g. 240MPa; none: elastic [none]",
-           .unless = kMaterial,
-           .assign = [&settings](const std::string& text) {
-             settings.contact.saturation_pressure.reset();
-             if (text == "none") return;
-             settings.contact.saturation_pressure =
-                 parse_si(text, dimension::pressure, "--saturation-pressure");
-           }});
-  set.choice("--boundary", analysis::kBoundaries,
-             "periodic: the scan repeats; free: loaded on the scan only [periodic]",
-             settings.contact.boundary);
-  set.number("--tolerance", "T", "certificate to reach, 1e-12 to 1e-4 [1e-6]",
-             settings.contact.tolerance);
-  set.choice("--solver", analysis::kSolvers, "polonsky-keer is the textbook baseline [fast]",
-             settings.contact.solver);
+  declare_all(set, cases::contact_parameters(), settings.contact, {"load_path"});
 }
 
-void declare_film(OptionSet& set, analysis::FilmSettings& settings) {
+void declare_film(OptionSet& set, cases::FilmSettings& settings) {
   set.group("Lubricant");
-  set.quantities("--density", "D[,D2,...]", "areal lubricant density as dosed, e.g. 0.45g/m^2",
-                 dimension::areal_density, settings.lubricant_densities)
-      .required = true;
-  set.quantity("--oil-density", "RHO", "density of the liquid [900kg/m^3]", dimension::density,
-               settings.oil_density);
-  set.quantity("--droplet", "D", "droplet volume / pixel area [0.1um]", dimension::length,
-               settings.droplet_height);
-  set.choice(
-      "--model", deposition::kModels,
-      "droplets run downhill; limit: vanishing droplets; one level; constant film [droplets]",
-      settings.model);
-  set.choice("--reading", deposition::kReadings,
-             "what a full pit does with the rest of a droplet: pass it on or drop it [conserving]",
-             settings.reading);
-  set.choice("--edge", deposition::kEdges, "what the border of the scan is [closed]",
-             settings.edge);
+  declare_all(set, cases::film_parameters(), settings, {"seed"});  // all verbs have --seed
 }
 
-void declare_fluid(OptionSet& set, analysis::FluidSettings& settings) {
+void declare_fluid(OptionSet& set, cases::FluidSettings& settings) {
   set.group("Fluid film");
-  set.choice("--fluid", analysis::kFluids,
-             "reynolds: the deposited oil flows and carries part of the load [none]",
-             settings.fluid);
-  set.quantity("--speed", "U", "sliding speed along +x, e.g. 5mm/s", dimension::speed,
-               settings.sliding_speed);
-  set.quantity("--viscosity", "ETA", "dynamic viscosity of the oil, e.g. 0.225Pa*s",
-               dimension::viscosity, settings.viscosity);
-  set.quantity("--pressure-viscosity", "ALPHA",
-               "its growth with pressure by Roelands' law, e.g. 2e-8/Pa [constant]",
-               dimension::per_pressure, settings.pressure_viscosity);
-  set.quantity("--eyring-stress", "TAU", "Ree-Eyring stress of the oil, e.g. 5MPa [Newtonian]",
-               dimension::pressure, settings.eyring_stress);
+  declare_all(set, cases::fluid_parameters(), settings);
 }
 
-void declare_friction(OptionSet& set, analysis::FrictionSettings& settings) {
+void declare_friction(OptionSet& set, cases::FrictionSettings& settings) {
   set.group("Friction");
-  require_without_material(set.quantity("--shear-strength", "TAU",
-                                        "shear strength of the contact, e.g. 70MPa",
-                                        dimension::pressure, settings.shear_strength));
-  set.quantity("--boundary-shear-strength", "TAU_B",
-               "shear strength of wet contact, at most TAU, e.g. 5MPa [0]", dimension::pressure,
-               settings.boundary_shear_strength);
-  set.number("--boundary-shear-share", "X", "the same as a share of TAU, e.g. 0.1",
-             settings.boundary_shear_share);
-  set.choice("--area", friction::kAreas,
-             "contact area that friction uses: perimeter-corrected or counted [pixels with a "
-             "saturation pressure, else corrected]",
-             settings.area);
+  declare_all(set, cases::friction_parameters(), settings);
 }
 
 void declare_fields(OptionSet& set, FieldsRequest& request) {
   declare_output(set, request.output);
   constexpr const char* file = "--output";
-  set.choice("--fields", analysis::kFields,
+  set.choice("--fields", results::kFields,
              "maps in OUT: contact has heights, pressure and film [all]", request.options.fields)
       .only_with = file;
   set.toggle("--double", "keep maps in OUT in double precision", request.options.doubles)
@@ -130,32 +72,21 @@ void declare_fields(OptionSet& set, FieldsRequest& request) {
   declare_csv(set, "one row per state with the keys of --json", request.csv);
 }
 
-std::optional<analysis::FieldsFile> fields_file(const FieldsRequest& request,
-                                                const Context& context, const Scan& scan,
-                                                const io::Json& settings,
-                                                const std::vector<std::string>& methods) {
+std::optional<results::FieldsFile> fields_file(const FieldsRequest& request, const Context& context,
+                                               const Scan& scan, const io::Json& settings,
+                                               const std::vector<std::string>& methods) {
   if (!request.output) return std::nullopt;
-  return analysis::FieldsFile(*request.output, request.options,
-                              head_of(context, analysis::toml_of(settings), methods), scan.surface,
-                              {scan.path, scan.sha256});
+  return results::FieldsFile(*request.output, request.options,
+                             head_of(context, results::toml_of(settings), methods), scan.surface,
+                             {scan.path, scan.sha256});
 }
 
 std::string flag_of(std::string_view setting) {
-  static const std::map<std::string_view, std::string_view> others = {
-      {"mean_pressure", "pressure"},
-      {"lubricant_density", "density"},
-      {"sliding_speed", "speed"},
-      {"counter_poissons_ratio", "counter-poisson-ratio"},
-      {"poissons_ratio", "poisson-ratio"}};
-  const auto found = others.find(setting);
-  std::string flag = "--" + std::string(found == others.end() ? setting : found->second);
-  for (char& c : flag) {
-    if (c == '_') c = '-';
-  }
-  return flag;
+  if (const ParameterHead* found = cases::find_parameter(setting)) return found->option();
+  return ParameterHead{.name = std::string(setting), .help = ""}.option();
 }
 
-void check(const std::optional<analysis::Objection>& objection) {
+void check(const std::optional<cases::Objection>& objection) {
   if (!objection) return;
   const bool has_value = !objection->got.empty();
   const InputError error(has_value ? flag_of(objection->setting) : "", objection->got,
@@ -164,11 +95,18 @@ void check(const std::optional<analysis::Objection>& objection) {
   throw UsageError(has_value ? error.what() : objection->remedy);
 }
 
-void check_contact(const analysis::CaseSettings& settings) {
-  check(analysis::objection(settings.contact, settings.mean_pressures, flag_of));
+void take_edges(const ScanRequest& scan, cases::ContactSettings& settings) {
+  check(scan);
+  const auto edges = topography::edges_of(scan.treatment);
+  check(cases::objection(settings, edges, flag_of));
+  settings.take_edges(edges);
 }
 
-void describe(const analysis::ContactSettings& settings, Facts& facts) {
+void check_contact(const cases::CaseSettings& settings) {
+  check(cases::objection(settings.contact, settings.mean_pressures, flag_of));
+}
+
+void describe(const cases::ContactSettings& settings, Facts& facts) {
   if (settings.load_path) {
     facts.fact("load path", "in the order given, plastic indentation is kept");
   }
@@ -178,11 +116,11 @@ void describe(const analysis::ContactSettings& settings, Facts& facts) {
                                     settings.saturation_pressure
                                         ? "saturation " + si(*settings.saturation_pressure, "Pa")
                                         : std::string("elastic"),
-                                    analysis::kBoundaries.of(settings.boundary),
-                                    analysis::kSolvers.of(settings.solver)));
+                                    cases::kBoundaries.of(settings.boundary_in_force()),
+                                    cases::kSolvers.of(settings.solver)));
 }
 
-void describe(const analysis::FilmSettings& settings, Facts& facts) {
+void describe(const cases::FilmSettings& settings, Facts& facts) {
   std::string text(deposition::kModels.of(settings.model));
   if (settings.model == deposition::Model::droplets) {
     text += fmt::format(" of {}, {}, seed {}", si(settings.droplet_height, "m"),
@@ -193,7 +131,7 @@ void describe(const analysis::FilmSettings& settings, Facts& facts) {
                          plain(settings.oil_density)));
 }
 
-void describe(const analysis::FluidSettings& settings, Facts& facts) {
+void describe(const cases::FluidSettings& settings, Facts& facts) {
   if (!settings.flows()) return;
   std::string text = fmt::format("sliding at {}, {}", si(*settings.sliding_speed, "m/s"),
                                  si(*settings.viscosity, "Pa s"));

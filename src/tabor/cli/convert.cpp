@@ -13,6 +13,7 @@
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
+#include "tabor/scan/read_parameters.hpp"
 #include "tabor/study/study_maps.hpp"
 
 namespace tabor::cli {
@@ -23,7 +24,7 @@ struct Request {
   ScanRequest scan;
   std::string output;
   std::optional<std::string> field;  ///< a map of a result, and not the heights of a scan
-  analysis::MapChoice choice;
+  results::MapChoice choice;
   std::optional<std::uint64_t> scan_number;
 };
 
@@ -42,9 +43,9 @@ void write(const Written& surface, const std::string& file, const Observer& obse
 
 int convert_scan(const Request& request, Context& context) {
   const Scan scan = read_scan(request.scan, context);
-  analysis::Case doubts = doubts_of(scan);
+  results::Case doubts = doubts_of(scan);
   std::erase_if(doubts.warnings, [](const auto& one) { return one.code == "not-levelled"; });
-  context.warn(analysis::findings_of({doubts}));
+  context.warn(results::findings_of({doubts}));
   write(scan.surface, request.output, context.observer());
   io::Json object = json_head(context, scan);
   object["output"] = request.output;
@@ -63,12 +64,9 @@ std::vector<std::string> scan_flags(const ScanRequest& request) {
   for (const std::string& step : request.treatment) {
     flags.push_back("--" + step.substr(0, step.find('=')));
   }
-  const scan::ReadOptions& read = request.read;
-  if (read.channel) flags.emplace_back("--channel");
-  if (read.pixel_x) flags.emplace_back("--pixel");
-  if (read.unit) flags.emplace_back("--unit");
-  if (read.z_scale) flags.emplace_back("--z-scale");
-  if (read.override_unit) flags.emplace_back("--override-unit");
+  for (const auto& one : scan::read_parameters()) {
+    if (one.is_given(request.read)) flags.push_back(one.option());
+  }
   return flags;
 }
 
@@ -83,7 +81,7 @@ void require_no_scan_options(const Request& request, const Context& context) {
   }
 }
 
-std::string state_text(const analysis::ResultMaps& result, std::optional<std::size_t> state) {
+std::string state_text(const results::ResultMaps& result, std::optional<std::size_t> state) {
   const std::size_t n = result.states.size();
   if (n == 0) return "";
   if (!state) return fmt::format("all {}", n);
@@ -92,8 +90,8 @@ std::string state_text(const analysis::ResultMaps& result, std::optional<std::si
 
 int convert_maps(const Request& request, Context& context) {
   require_no_scan_options(request, context);
-  const analysis::ResultMaps result = study::read_maps(request.scan.file, request.scan_number);
-  analysis::MapChoice choice = request.choice;
+  const results::ResultMaps result = study::read_maps(request.scan.file, request.scan_number);
+  results::MapChoice choice = request.choice;
   choice.field = *request.field;
   const scan::MapSet maps = chosen_maps(result, choice);
   write(maps, request.output, context.observer());

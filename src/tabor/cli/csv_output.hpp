@@ -5,9 +5,11 @@
 
 #include "tabor/cli/options.hpp"
 
+// Declares the option `--csv [FILE.csv]` of a verb and writes its table to the file or the
+// terminal.
 namespace tabor::cli {
 
-/// Whether and where the numbers of a verb go as CSV.
+/// Destination of the CSV table of a verb, if any.
 struct CsvRequest {
   std::optional<std::string> file;  ///< "-": the terminal
 
@@ -15,7 +17,7 @@ struct CsvRequest {
   bool prints() const;
 };
 
-/// Declares `--csv [FILE.csv]`; `what` the file holds: "one row per state".
+/// Declares `--csv [FILE.csv]`; `what` says what the file holds: "one row per state".
 void declare_csv(OptionSet& set, const std::string& what, CsvRequest& request);
 
 /// Writes the file that is asked for. Returns what to print: the CSV if it goes to the terminal,

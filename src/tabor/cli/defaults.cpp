@@ -9,6 +9,7 @@
 #include <optional>
 #include <sstream>
 
+#include "tabor/cli/explain.hpp"
 #include "tabor/cli/failure.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
@@ -26,7 +27,7 @@ constexpr const char* kFile = "tabor.toml";
 /// Those that say what one command reads, writes or prints.
 bool may_have_default(const Option& option) {
   return !option.is_positional() && option.names == FileRole::none && option.flag != kFlag &&
-         option.flag != "--json";
+         option.flag != "--json" && option.flag != kExplain;
 }
 
 /// "--shear-strength" as a key of the file.
@@ -63,7 +64,11 @@ std::optional<std::string> typed(const std::string& flag, const Words& words) {
 
 std::string file_for(const Words& words) {
   if (const auto named = typed(kFlag, words)) return *named == "none" ? "" : *named;
-  return std::filesystem::exists(kFile) ? kFile : "";
+  // A link that leads nowhere or to itself is a file that cannot be read: nothing is left out
+  // quietly.
+  std::error_code unknown;
+  const std::filesystem::file_status name = std::filesystem::symlink_status(kFile, unknown);
+  return std::filesystem::exists(name) ? kFile : "";
 }
 
 bool is_typed(const Option& option, const Words& words) {
@@ -77,7 +82,7 @@ bool is_typed(const std::string& flag, const std::vector<Option>& options, const
   });
 }
 
-/// Whether what is typed leaves room for a default of this option.
+/// True where the typed options allow a default of this option.
 bool is_wanted(const Option& option, const std::vector<Option>& options, const Words& words) {
   if (is_typed(option, words) || is_typed(option.unless, options, words)) return false;
   return option.only_with.empty() || is_typed(option.only_with, options, words);

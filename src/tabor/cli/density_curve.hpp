@@ -3,17 +3,24 @@
 #include <string>
 #include <vector>
 
-#include "tabor/analysis/density_curve.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/io/json.hpp"
+#include "tabor/results/density_answer.hpp"
+#include "tabor/study/density_curves.hpp"
 
+// Prints curves of friction against the density of the lubricant, as JSON and as text.
 namespace tabor::cli {
 
-/// The keys of `density_curve` in `tabor friction --json`.
-io::Json json_of(const analysis::DensityCurve& curve);
+/// Returns the object `density_curve` of `tabor friction --json`.
+io::Json json_of(const cases::DensityCurve& curve, const std::vector<results::AskedDensity>& asked);
 
-/// "density at 7 MPa", "the pockets under the contacts are full from ...".
-void describe(const analysis::DensityCurve& curve, const std::vector<double>& asked,
-              const std::string& group, Facts& facts);
+/// Adds the line "density at 7 MPa", "the pockets under the contacts are full from ...".
+void describe(const cases::DensityCurve& curve, const std::vector<results::AskedDensity>& asked,
+              Facts& facts);
+
+/// Returns the table of a study, one column per pressure: where the plateau of each group begins
+/// and ends, and for each density whether it lies below, on or beyond it, with the wet share. Empty
+/// without curves.
+std::string places_text(const std::vector<study::GroupCurve>& curves);
 
 }  // namespace tabor::cli

@@ -4,8 +4,7 @@
 #include <memory>
 #include <set>
 
-#include "tabor/analysis/ehl_file.hpp"
-#include "tabor/analysis/ehl_surfaces.hpp"
+#include "tabor/cases/ehl_surfaces.hpp"
 #include "tabor/cli/axis_option.hpp"
 #include "tabor/cli/film_sweep.hpp"
 #include "tabor/cli/result.hpp"
@@ -13,6 +12,8 @@
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
+#include "tabor/io/columns.hpp"
+#include "tabor/results/ehl_file.hpp"
 #include "tabor/study/ehl_tables.hpp"
 
 namespace tabor::cli {
@@ -59,19 +60,19 @@ int show_one(const ehl::Program& program, const io::Config& config, const Reques
   const ehl::CaseResult result = solve_case(program, config,
                                             {.observer = context.observer(),
                                              .seed = context.seed_or_default(),
-                                             .surfaces = analysis::ehl_surfaces()});
-  for (const std::string& warning : result.warnings) context.warn(warning);
+                                             .surfaces = cases::ehl_surfaces()});
+  context.warn(results::findings_of({{.warnings = result.warnings}}));
   if (request.output) {
-    analysis::write_case(*request.output, context.command_line, program, config, result,
-                         context.warnings);
+    results::write_case(*request.output, context.command_line, program, config, result,
+                        context.warnings);
   }
   io::Json object = json_head(context);
   object["case"] = request.file;
-  object.update(result.scalars);
+  object.update(io::json_of(result.numbers));
   const std::string csv =
       request.csv.is_asked() ? csv_of(study::sweep_of(program, {}, {result})) : "";
   return finish(context, object, write_csv(request.csv, csv, text_of(result.facts)),
-                result.converged ? kDone : kNotConverged);
+                result.converged() ? kDone : kNotConverged);
 }
 
 // What the words ask for
@@ -158,6 +159,15 @@ void declare_options(OptionSet& set, Request& request) {
                "of several)",
        .assign = [&](const std::string& text) { request.axes.push_back(parse_axis(text)); }});
   axis.repeatable = true;
+  set.add({.flag = "--domain",
+           .placeholder = "auto",
+           .help = "a domain, and a grid unless the case has one, large enough for the film of a "
+                   "point contact; the "
+                   "same as --set grid.domain=auto",
+           .assign = [&](const std::string& text) {
+             if (text != "auto") throw UsageError("--domain: got '" + text + "'; expected auto");
+             request.axes.push_back(parse_axis("grid.domain=auto"));
+           }});
   set.text("--study", "grid|domain|time-step",
            "how far the result depends on the grid, the domain or the time step", request.study);
   set.group("Output");
@@ -176,8 +186,8 @@ std::vector<HelpTable> key_tables() {
                     .title = fmt::format("Keys of a case of 'tabor ehl {}'", program.name),
                     .headings = {"key", "unit", "default", "meaning"},
                     .rows = {}};
-    for (const ehl::CaseKey& key : program.keys) {
-      table.rows.push_back({key.name, key.unit, key.usual, key.meaning});
+    for (const ParameterHead& key : program.keys) {
+      table.rows.push_back({key.name, key.shown_unit(), key.when_absent(), key.meaning()});
     }
     tables.push_back(std::move(table));
   }

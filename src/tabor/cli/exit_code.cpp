@@ -4,6 +4,7 @@
 #include <new>
 
 #include "tabor/core/error.hpp"
+#include "tabor/io/regular_file.hpp"
 
 namespace tabor::cli {
 
@@ -21,7 +22,8 @@ int guarded(const Complaint& complain, const std::function<int()>& body) {
   } catch (const std::bad_alloc&) {
     return complain("not enough memory for a surface of this size; crop or resample it", kInput);
   } catch (const std::filesystem::filesystem_error& error) {
-    return complain(error.what(), kInput);
+    return complain(error.path1().string() + ": " + io::reading_problem(error.code().value()),
+                    kInput);
   } catch (const std::exception& error) {
     return complain(std::string("internal error: ") + error.what(), kInternal);
   }

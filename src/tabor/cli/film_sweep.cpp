@@ -12,6 +12,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/printable.hpp"
 #include "tabor/core/text.hpp"
+#include "tabor/io/columns.hpp"
 #include "tabor/study/ehl_tables.hpp"
 
 namespace tabor::cli {
@@ -19,34 +20,26 @@ namespace tabor::cli {
 namespace {
 
 using Results = std::vector<ehl::CaseResult>;
-using CaseColumns = std::vector<ehl::CaseColumn>;
+using ehl::CaseColumns;
 using study::SweepAxis;
-
-/// Says once what the cases warn of.
-void warn_of_many(const study::EhlSweep& found, Context& context) {
-  for (const std::string& line : found.warnings.lines) context.warn(line);
-}
-
-std::string number_text(double value, const ehl::CaseColumn& column) {
-  return column.unit.empty() ? plain(value) : si(value, column.unit);
-}
 
 /// Numbers of many cases under the headings of their columns, what each warns of behind them.
 class CaseTable {
  public:
   /// `first`: headings of what tells the cases apart; `last`: of what stands behind the numbers.
-  CaseTable(std::vector<std::string> first, const CaseColumns& columns,
-            const std::vector<std::string>& last, const std::vector<std::string>& marks)
-      : columns_(columns), marks_(marks), table_(headings(std::move(first), last)) {}
+  CaseTable(std::vector<std::string> first, const study::EhlSweep& found,
+            const std::vector<std::string>& last)
+      : columns_(found.columns),
+        has_codes_(!found.warnings.empty()),
+        table_(headings(std::move(first), last)) {}
 
   void add(std::vector<std::string> cells, const ehl::CaseResult& result,
            const std::vector<std::string>& last) {
-    for (const ehl::CaseColumn& column : columns_) {
-      cells.push_back(number_text(study::number_of(result.scalars, column.key), column));
+    for (const ColumnHead& column : columns_) {
+      cells.push_back(text_of(result.number(column.key), column));
     }
     cells.insert(cells.end(), last.begin(), last.end());
-    if (has_marks()) cells.push_back(marks_[n_rows_]);
-    ++n_rows_;
+    if (has_codes_) cells.push_back(results::codes_text(result.warnings));
     table_.row(cells);
   }
 
@@ -56,7 +49,7 @@ class CaseTable {
     std::vector<std::string> order_row = {"order"};
     io::Json limit_of = io::Json::object(), order_of = io::Json::object();
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-      limit_row.push_back(number_text(limits[i].value, columns_[i]));
+      limit_row.push_back(text_of(limits[i].value, columns_[i]));
       order_row.push_back(plain(limits[i].order, 2));
       limit_of[columns_[i].key] = io::number(limits[i].value);
       order_of[columns_[i].key] = io::number(limits[i].order);
@@ -69,34 +62,35 @@ class CaseTable {
   std::string text() const { return table_.text(); }
 
  private:
-  bool has_marks() const {
-    return std::any_of(marks_.begin(), marks_.end(),
-                       [](const std::string& mark) { return !mark.empty(); });
-  }
   std::vector<std::string> headings(std::vector<std::string> first,
                                     const std::vector<std::string>& last) const {
-    for (const ehl::CaseColumn& column : columns_) first.push_back(column.heading);
+    for (const ColumnHead& column : columns_) first.push_back(column.heading);
     first.insert(first.end(), last.begin(), last.end());
-    if (has_marks()) first.emplace_back("warnings");
+    if (has_codes_) first.emplace_back("warnings");
     return first;
   }
 
   const CaseColumns& columns_;
-  const std::vector<std::string>& marks_;
+  bool has_codes_;
   Table table_;
-  std::size_t n_rows_ = 0;
 };
 
 bool all_converged(const Results& results) {
   return std::all_of(results.begin(), results.end(),
-                     [](const ehl::CaseResult& result) { return result.converged; });
+                     [](const ehl::CaseResult& result) { return result.converged(); });
 }
 
 /// The swept values of a case, `set`, and what came of them.
 io::Json result_of(io::Json set, const ehl::CaseResult& result) {
   io::Json object = {{"set", std::move(set)}};
-  object.update(result.scalars);
-  object["warnings"] = result.warnings;
+  object.update(io::json_of(result.numbers));
+  if (result.rejected()) {
+    object.update({{"converged", false},
+                   {"status", ehl::kCaseStatus.of(result.status)},
+                   {"error", result.error}});
+  }
+  object["warnings"] = texts_of(result.warnings);
+  object["warning_codes"] = codes_of(result.warnings);
   return object;
 }
 
@@ -117,7 +111,7 @@ int finish_many(const FilmSweep& sweep, const study::EhlSweep& found, CaseTable&
 int show_results(const FilmSweep& sweep, const study::EhlSweep& found, Context& context) {
   std::vector<std::string> keys;
   for (const SweepAxis& axis : found.axes) keys.push_back(axis.key);
-  CaseTable table(keys, found.columns, {"converged"}, found.warnings.marks);
+  CaseTable table(keys, found, {"converged"});
   io::Json shown = io::Json::array();
   const std::vector<study::Places> all = combinations(found.axes);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -127,7 +121,7 @@ int show_results(const FilmSweep& sweep, const study::EhlSweep& found, Context& 
       cells.push_back(found.axes[a].values[all[i][a]]);
       set[keys[a]] = cells.back();
     }
-    table.add(cells, found.results[i], {yes_no(found.results[i].converged)});
+    table.add(cells, found.results[i], {yes_no(found.results[i].converged())});
     shown.push_back(result_of(std::move(set), found.results[i]));
   }
   return finish_many(sweep, found, table, {{"results", shown}}, context);
@@ -158,10 +152,10 @@ void say_what_was_found(const study::EhlFound& found, const std::string& folder,
 /// What a shard has to say: the whole is shown by the run that has no shard.
 int show_shard(const FilmSweep& sweep, const study::EhlOutcome& outcome, Context& context) {
   const std::size_t n_cases = outcome.results.size();
-  const study::Shard shard = *sweep.run.shard;
+  const engine::Shard shard = *sweep.run.shard;
   const bool converged =
       std::all_of(outcome.results.begin(), outcome.results.end(),
-                  [](const auto& result) { return !result || result->converged; });
+                  [](const auto& result) { return !result || result->converged(); });
   io::Json object = json_head(context);
   object.update({{"case", sweep.file},
                  {"shard", fmt::format("{}/{}", shard.index, shard.count)},
@@ -195,12 +189,12 @@ int end_early(const FilmSweep& sweep, const study::EhlOutcome& outcome, Context&
 }  // namespace
 
 int show_sweep(const FilmSweep& sweep, study::EhlSeries& series, Context& context) {
-  const study::RunOptions options = run_options(sweep.run, context);
+  const engine::RunOptions options = run_options(sweep.run, context);
   std::optional<study::EhlStore> store;
   if (sweep.output) {
     give_tasks(series, context.observer());
     store.emplace(sweep.folder(),
-                  options.shard ? study::Store::Use::shared : study::Store::Use::alone);
+                  options.shard ? engine::Store::Use::shared : engine::Store::Use::alone);
   }
   const study::EhlOutcome outcome =
       run_ehl(series, store ? &*store : nullptr, options, [&](const study::EhlFound& found) {
@@ -209,7 +203,7 @@ int show_sweep(const FilmSweep& sweep, study::EhlSeries& series, Context& contex
   if (outcome.ended_by) return end_early(sweep, outcome, context);
   if (options.shard) return show_shard(sweep, outcome, context);
   const study::EhlSweep found = sweep_of(sweep.program, sweep.axes, outcome.all());
-  warn_of_many(found, context);
+  context.warn(found.warnings);
   if (store) {
     write_sweep(*sweep.output, head_of(context, sweep.config.to_text(), sweep.program.methods),
                 found, context.warnings);
@@ -221,14 +215,14 @@ int show_sweep(const FilmSweep& sweep, study::EhlSeries& series, Context& contex
 int show_study(const FilmSweep& sweep, const std::string& name, Context& context) {
   const ehl::CaseStudy& study = study::find_study(sweep.program, name);
   study::EhlStudyOutcome outcome =
-      run_ehl_study(sweep.program, sweep.config, study, context.seed_or_default(),
-                    run_options(sweep.run, context));
+      study::run_ehl_study(sweep.program, sweep.config, study, context.seed_or_default(),
+                           run_options(sweep.run, context));
   const study::EhlSweep found =
       study::sweep_of(sweep.program, {std::move(outcome.axis)}, std::move(outcome.results));
-  warn_of_many(found, context);
+  context.warn(found.warnings);
   const SweepAxis& axis = found.axes.front();
   const std::vector<double> values = axis.numbers();
-  CaseTable table({axis.key}, found.columns, {}, found.warnings.marks);
+  CaseTable table({axis.key}, found, {});
   io::Json shown = io::Json::array();
   for (std::size_t i = 0; i < values.size(); ++i) {
     table.add({study.unit.empty() ? axis.values[i] : si(values[i], study.unit)}, found.results[i],

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -7,7 +9,9 @@
 #include "tabor/cli/density_curve.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/core/units.hpp"
 #include "tabor/study/curves_file.hpp"
+#include "tabor/study/friction_table.hpp"
 #include "tabor/study/resolution_scan.hpp"
 #include "tabor/study/scan_friction.hpp"
 
@@ -17,74 +21,153 @@ namespace {
 
 struct Request {
   ScanRequest scan;
-  analysis::CaseSettings settings;
+  cases::CaseSettings settings;
   FieldsRequest file;
   bool density_curve = false;
   bool resolution_scan = false;
 };
 
-void check_all(const analysis::CaseSettings& settings) {
+void check_all(const cases::CaseSettings& settings) {
   check_contact(settings);
-  check(analysis::objection(settings.film));
-  check(analysis::objection(settings.fluid, settings.contact, flag_of));
-  check(analysis::objection(settings.friction, flag_of));
+  check(cases::objection(settings.film));
+  check(cases::objection(settings.fluid, settings.contact, flag_of));
+  check(cases::objection(settings.friction, flag_of, settings.contact.material));
 }
 
 /// All that is printed, and the exit code so far.
 struct Solved {
-  std::vector<analysis::FrictionRecord> records;
-  std::vector<analysis::DensityCurve> curves;
+  std::vector<cases::FrictionRecord> records;
+  std::vector<cases::DensityCurve> curves;
+  study::CoarsePixels coarse;
   std::vector<study::ResolutionRecord> resolution;
   int code = kDone;
 };
 
+/// With --resolution-scan, a table says it.
+bool compares(const Request& request) {
+  const std::vector<double>& densities = request.settings.film.lubricant_densities;
+  const bool has_oil =
+      std::any_of(densities.begin(), densities.end(), [](double density) { return density > 0; });
+  return has_oil && !request.settings.fluid.flows() && !request.resolution_scan;
+}
+
 Solved solve_all(const Request& request, const topography::Topography& surface,
-                 analysis::FieldsFile* file, Context& context) {
+                 results::FieldsFile* file, Context& context) {
   Solved solved;
   const auto receive = [&](const study::FrictionState& state) {
     solved.records.push_back(state.friction);
     if (file == nullptr) return;
-    file->add_state(
-        solved.records.size() - 1,
-        cells_of(analysis::friction_columns(), state.friction, analysis::media::kObject),
-        analysis::fields_of(state.contact, state.film, state.fluid));
+    file->add_state(solved.records.size() - 1,
+                    cells_of(cases::friction_columns(), state.friction, cases::media::kObject),
+                    results::fields_of(state.contact, state.film, state.fluid));
   };
-  study::RunOptions options;
+  engine::RunOptions options;
   options.observer = context.observer();
   const auto maps = file != nullptr ? study::ContactMaps::kept : study::ContactMaps::dropped;
   solved.code = until_interrupted(context, [&] {
-    solved.curves =
-        study::friction_of(surface, request.settings, receive, maps, options).density_curves;
+    study::ScanFrictionResult result =
+        study::friction_of(surface, request.settings, receive, maps, options, compares(request));
+    solved.curves = std::move(result.density_curves);
+    solved.coarse = std::move(result.coarse);
     if (!request.resolution_scan) return;
     solved.resolution = study::resolution_scan(surface, request.settings, solved.records, options);
   });
-  for (const analysis::FrictionRecord& record : solved.records) {
+  for (const cases::FrictionRecord& record : solved.records) {
     if (solved.code == kDone && !record.converged) solved.code = kNotConverged;
   }
   return solved;
 }
 
+/// One state with two pixels: that of the scan, and twice that.
+struct PixelPair {
+  const cases::FrictionRecord& state;
+  double coarse_share;
+
+  double change() const {
+    const double larger = std::max(state.lubricated_share, coarse_share);
+    return larger > 0 ? std::abs(state.lubricated_share - coarse_share) / larger : 0;
+  }
+};
+
+/// Those of the states that are there, in their order: the densities of the first pressure first.
+std::vector<PixelPair> pixel_pairs(const Solved& solved) {
+  std::vector<PixelPair> pairs;
+  std::size_t i = 0;
+  for (const std::vector<double>& of_pressure : solved.coarse.lubricated_shares) {
+    for (const double share : of_pressure) {
+      if (i < solved.records.size()) pairs.push_back({solved.records[i++], share});
+    }
+  }
+  return pairs;
+}
+
+io::Json pixels_json(const Solved& solved, const Grid& grid) {
+  io::Json list = io::Json::array();
+  for (const PixelPair& pair : pixel_pairs(solved)) {
+    list.push_back({{"mean_pressure_Pa", pair.state.mean_pressure},
+                    {"lubricant_density_g_per_m2", in_g_per_m2(pair.state.lubricant_density)},
+                    {"pixel_x_m", grid.dx()},
+                    {"lubricated_share", io::number(pair.state.lubricated_share)},
+                    {"coarse_pixel_x_m", solved.coarse.pixel_x},
+                    {"coarse_lubricated_share", io::number(pair.coarse_share)}});
+  }
+  return list;
+}
+
+/// What the pixel does to the wet share where it does most, as a sentence.
+void describe_pixels(const Solved& solved, const Grid& grid, Facts& facts) {
+  const std::vector<PixelPair> pairs = pixel_pairs(solved);
+  const auto most = std::max_element(
+      pairs.begin(), pairs.end(),
+      [](const PixelPair& a, const PixelPair& b) { return a.change() < b.change(); });
+  if (most == pairs.end()) return;
+  const std::string where =
+      pairs.size() == 1
+          ? ""
+          : fmt::format(" ({} with {}, where it changes most)", si(most->state.mean_pressure, "Pa"),
+                        results::density_text(most->state.lubricant_density));
+  facts.fact("pixel",
+             fmt::format("wet share {} with pixels of {}, {} with pixels of {}{}",
+                         percent(most->state.lubricated_share), si(grid.dx(), "m"),
+                         percent(most->coarse_share), si(solved.coarse.pixel_x, "m"), where));
+}
+
+/// What is printed of each state; at the end what a friction table would leave out.
+Columns<cases::FrictionRecord> shown_columns() {
+  Columns<cases::FrictionRecord> columns = cases::friction_columns();
+  columns.push_back({"left_out", "", study::kLeftOutHeading, [](const cases::FrictionRecord& one) {
+                       const std::string reason =
+                           study::refusal_of(codes_of(one.warnings), one.converged);
+                       return reason.empty() ? Cell() : Cell(reason);
+                     }});
+  return columns;
+}
+
+io::Json curve_json(const cases::DensityCurve& curve, const Solved& solved) {
+  return json_of(curve, results::asked_at(curve.mean_pressure, solved.records));
+}
+
 /// The curve of the first pressure, and of all where there are several.
-void add_curves(const std::vector<analysis::DensityCurve>& curves, io::Json& object) {
-  if (curves.empty()) return;
-  object["density_curve"] = json_of(curves.front());
-  if (curves.size() == 1) return;
+void add_curves(const Solved& solved, io::Json& object) {
+  if (solved.curves.empty()) return;
+  object["density_curve"] = curve_json(solved.curves.front(), solved);
+  if (solved.curves.size() == 1) return;
   io::Json all = io::Json::array();
-  for (const analysis::DensityCurve& curve : curves) all.push_back(json_of(curve));
+  for (const cases::DensityCurve& curve : solved.curves) all.push_back(curve_json(curve, solved));
   object["density_curves"] = all;
 }
 
 /// What each curve says, and with --density-curve the curves.
-std::string curves_text(const std::vector<analysis::DensityCurve>& curves, const Request& request) {
-  if (curves.empty()) return "";
+std::string curves_text(const Solved& solved, const Request& request) {
+  if (solved.curves.empty()) return "";
   Facts facts;
   std::string tables;
-  for (const analysis::DensityCurve& curve : curves) {
-    describe(curve, request.settings.film.lubricant_densities, "", facts);
+  for (const cases::DensityCurve& curve : solved.curves) {
+    describe(curve, results::asked_at(curve.mean_pressure, solved.records), facts);
     if (!request.density_curve) continue;
     Table table({"density at " + si(curve.mean_pressure, "Pa"), "wet share", "friction wet"});
     for (std::size_t i = 0; i < curve.lubricant_densities.size(); ++i) {
-      table.row({analysis::density_text(curve.lubricant_densities[i]),
+      table.row({results::density_text(curve.lubricant_densities[i]),
                  percent(curve.lubricated_shares[i]), plain(curve.friction_lubricated[i], 4)});
     }
     tables += '\n' + table.text();
@@ -93,21 +176,24 @@ std::string curves_text(const std::vector<analysis::DensityCurve>& curves, const
 }
 
 std::string text_of(const Scan& scan, const Request& request, const Solved& solved) {
-  const analysis::CaseSettings& settings = request.settings;
+  const cases::CaseSettings& settings = request.settings;
   Facts facts;
   describe(scan, facts);
   describe(settings.contact, facts);
   describe(settings.film, facts);
   describe(settings.fluid, facts);
   const double boundary = settings.friction.boundary_strength();
-  facts.fact("friction",
-             fmt::format("shear strength {}{}, contact area {}",
-                         si(settings.friction.shear_strength, "Pa"),
-                         boundary > 0 ? fmt::format(", of wet contact {}", si(boundary, "Pa")) : "",
-                         friction::kAreas.of(settings.friction.area_of(settings.contact))));
+  facts.fact(
+      "friction",
+      fmt::format("shear strength {}{}, on the {}", si(settings.friction.shear_strength, "Pa"),
+                  boundary > 0 ? fmt::format(", of wet contact {}", si(boundary, "Pa")) : "",
+                  friction::words_of(settings.friction.area_of(settings.contact))));
   std::string text = facts.text() + '\n';
-  text += table_of(analysis::friction_columns(), solved.records).text();
-  text += curves_text(solved.curves, request);
+  text += table_of(shown_columns(), solved.records).text();
+  Facts pixels;
+  describe_pixels(solved, scan.surface.grid, pixels);
+  if (const std::string line = pixels.text(); !line.empty()) text += '\n' + line;
+  text += curves_text(solved, request);
   if (!request.resolution_scan) return text;
   return text + '\n' + table_of(study::resolution_columns(), solved.resolution).text();
 }
@@ -117,28 +203,34 @@ int show(Request request, Context& context) {
   check_all(request.settings);
   const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
-  const io::Json settings = analysis::settings_json(request.settings);
+  cases::ContactSettings& contact = request.settings.contact;  // a file may say its edges, too
+  check(cases::objection(contact, scan.surface.edges, flag_of));
+  contact.take_edges(scan.surface.edges);
+  check_all(request.settings);
+  const io::Json settings = results::settings_json(request.settings);
   auto file =
-      fields_file(request.file, context, scan, settings, analysis::references_of(request.settings));
+      fields_file(request.file, context, scan, settings, cases::references_of(request.settings));
   const Solved solved = solve_all(request, scan.surface, file ? &*file : nullptr, context);
   if (solved.code == kInterrupted && solved.records.empty()) throw Interrupted();
-  std::vector<analysis::Case> cases;
+  std::vector<results::Case> cases;
   cases.reserve(solved.records.size());
-  for (const analysis::FrictionRecord& one : solved.records) cases.push_back(case_of(one));
-  context.warn(analysis::findings_of(cases));
+  for (const cases::FrictionRecord& one : solved.records) cases.push_back(results::case_of(one));
+  context.warn(results::findings_of(cases));
   if (file) {
-    study::write_curves(solved.curves, request.scan.file, request.settings.film.lubricant_densities,
-                        *file);
+    study::write_curves(solved.curves, request.scan.file, solved.records, *file);
     file->commit(context.warnings);
   }
   io::Json object = json_head(context, scan);
   object.update(settings);
-  object["states"] = states_json(analysis::friction_columns(), solved.records);
-  add_curves(solved.curves, object);
+  object["states"] = states_json(cases::friction_columns(), solved.records);
+  if (!solved.coarse.lubricated_shares.empty()) {
+    object["pixel_dependence"] = pixels_json(solved, scan.surface.grid);
+  }
+  add_curves(solved, object);
   if (request.resolution_scan) {
     object["resolution"] = states_json(study::resolution_columns(), solved.resolution);
   }
-  const auto columns = analysis::friction_columns(request.settings.fluid.flows());
+  const auto columns = cases::friction_columns(request.settings.fluid.flows());
   return finish(context, object,
                 write_csv(request.file.csv, states_csv(columns, solved.records),
                           text_of(scan, request, solved)),
@@ -158,8 +250,9 @@ Verb friction_verb() {
           "Friction is the real contact area times the shear strength over the pressure; "
           "contact that stands in liquid carries no shear, or that of --boundary-shear-strength. "
           "'--density 0g/m^2' asks for dry friction alone. One sentence per pressure says from "
-          "which density the pockets under the contacts are full and at which the valleys reach "
-          "them. With --fluid reynolds the deposited oil flows while the flat slides: it carries "
+          "which density the pockets under the contacts are full and above which the oil level "
+          "reaches the contacts. With --fluid reynolds the deposited oil flows while the flat "
+          "slides: it carries "
           "part of the load and adds viscous shear.",
       .examples =
           {"tabor friction surfaces/edt_before.x3p --level plane --pressure 2MPa,7MPa "
@@ -175,7 +268,7 @@ Verb friction_verb() {
       .declare = [](OptionSet& set) -> Action {
         const auto request = std::make_shared<Request>();
         declare_scan(set, request->scan);
-        analysis::CaseSettings& settings = request->settings;
+        cases::CaseSettings& settings = request->settings;
         declare_contact(set, settings);
         declare_film(set, settings.film);
         declare_fluid(set, settings.fluid);
@@ -187,7 +280,10 @@ Verb friction_verb() {
         set.toggle("--density-curve", "print friction against the density of the oil",
                    request->density_curve);
         declare_fields(set, request->file);
-        return [request](Context& context) { return show(*request, context); };
+        return [request](Context& context) {
+          take_edges(request->scan, request->settings.contact);
+          return show(*request, context);
+        };
       }};
 }
 

@@ -239,7 +239,8 @@ Verb table_verb() {
               "Means over the scans of a group, of a study or of one scan: friction against mean "
               "pressure, areal density of the lubricant and, where the oil flows, sliding speed. "
               "Numbers under a warning that they cannot be trusted (not-converged, flood, "
-              "frictionless, implausible-friction, fluid-film) are left out and named. A deck has "
+              "frictionless, implausible-friction, those of a film that flows) are left out and "
+              "named. A deck has "
               "no units: --units says which its own are, such as mm,s,t (MPa), m,s,kg (Pa), "
               "mm,ms,kg (GPa) or in,s,lbf (psi). docs/friction_tables.md shows each format.",
           .examples = {"tabor table study_results --for abaqus --units mm,s,t --group before",

@@ -1,15 +1,14 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string_view>
 
+#include "tabor/cli/parameter_options.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
-#include "tabor/core/error.hpp"
-#include "tabor/core/text.hpp"
 #include "tabor/metrology/parameters.hpp"
 #include "tabor/synthesis/recipes.hpp"
 
@@ -19,46 +18,21 @@ namespace {
 
 struct Request {
   synthesis::Request recipe;
+  synthesis::PixelSettings pixels;
   std::optional<std::string> output;  // the parser sees to it that there is one
-  std::string pixels = "512";
-  std::string pixel = "0.67um";
-  std::string stage = "before";
-  bool not_periodic = false;
 };
 
 /// "--rms-height" for "rms_height".
 std::string flag_of(std::string_view name) {
-  std::string flag = "--" + std::string(name);
-  std::replace(flag.begin(), flag.end(), '_', '-');
-  return flag;
-}
-
-Index whole_pixels(const std::string& text) {
-  const std::optional<double> n = parse_number(text);
-  if (!n || *n < 1 || *n > 1e6 || *n != static_cast<double>(static_cast<Index>(*n))) {
-    throw UsageError(
-        fmt::format("--pixels: got '{}'; expected numbers of pixels such as 512,256", text));
+  for (const ParameterHead& one : synthesis::recipe_settings()) {
+    if (one.name == name) return one.option();
   }
-  return static_cast<Index>(*n);
-}
-
-Grid grid_of(const Request& request) {
-  const std::vector<std::string> counts = split(request.pixels, ',');
-  const std::vector<double> pixel = parse_si_list(request.pixel, dimension::length, "--pixel");
-  if (counts.size() > 2 || pixel.size() > 2 || pixel.front() <= 0 || pixel.back() <= 0) {
-    throw UsageError("--pixels and --pixel take one positive value or two (x,y)");
-  }
-  const Index nx = whole_pixels(counts.front());
-  const Index ny = whole_pixels(counts.back());
-  return {nx, ny, static_cast<double>(nx) * pixel.front(), static_cast<double>(ny) * pixel.back()};
+  return ParameterHead{.name = std::string(name), .help = ""}.option();
 }
 
 topography::Topography make(const Request& request, std::uint64_t seed) {
   synthesis::Request recipe = request.recipe;
-  recipe.grid = grid_of(request);
-  recipe.stage =
-      request.stage == "after" ? synthesis::EdtStage::after : synthesis::EdtStage::before;
-  recipe.periodic = !request.not_periodic;
+  recipe.grid = synthesis::grid_of(request.pixels, flag_of);
   recipe.seed = seed;
   return synthesis::generate(recipe, flag_of);
 }
@@ -91,57 +65,48 @@ int generate(const Request& request, Context& context) {
   return finish(context, object, facts.text());
 }
 
-std::string placeholder_of(const Dimension& dimension) {
-  if (dimension == dimension::length) return "LENGTH";
-  if (dimension == dimension::pressure) return "P";
-  return dimension == dimension::areal_density ? "D" : "X";
-}
-
-void declare(OptionSet& set, const synthesis::RecipeNumber& number, synthesis::Request& recipe) {
-  const std::string flag = flag_of(number.name);
-  set.add({.flag = flag,
-           .placeholder = placeholder_of(number.dimension),
-           .help = number.help,
-           .assign = [&recipe, flag, number](const std::string& text) {
-             recipe.numbers[number.name] = parse_si(text, number.dimension, flag);
-           }});
-}
-
-void declare_numbers(OptionSet& set, bool of_rough, synthesis::Request& recipe) {
-  for (const synthesis::RecipeNumber& number : synthesis::recipe_numbers()) {
-    if (number.is_of_a_rough == of_rough) declare(set, number, recipe);
+/// " [ground 0.3um]": the defaults of a setting of several kinds.
+std::string defaults_of(const synthesis::RecipeSetting& setting) {
+  std::vector<std::string> texts;
+  for (const auto& [kind, value] : setting.defaults) {
+    texts.push_back(kind + " " + in_a_shell(value));
   }
+  return texts.empty() ? "" : fmt::format(" [{}]", fmt::join(texts, ", "));
 }
 
-void word(OptionSet& set, const std::string& flag, const std::string& placeholder,
-          const std::string& help, std::string& target) {
-  set.add({.flag = flag,
-           .placeholder = placeholder,
-           .help = help,
-           .assign = [&target](const std::string& text) { target = text; }});
+void declare(OptionSet& set, const synthesis::RecipeSetting& setting, synthesis::Request& recipe) {
+  const bool is_of_one = setting.kinds.size() == 1;
+  Option option = option_of(setting, is_of_one && !setting.defaults.empty());
+  if (!is_of_one) option.help = setting.help + defaults_of(setting);
+  option.required = false;  // of the kind that needs it
+  option.assign = [&recipe, &setting, flag = option.flag](const std::string& word) {
+    recipe.settings[setting.name] = setting.taken(*given(flag, word));
+  };
+  set.add(std::move(option));
 }
 
-void declare_rough(OptionSet& set, Request& request) {
-  set.group("self-affine, edt, ground");
-  declare_numbers(set, true, request.recipe);
-  set.choice("--stage", {"before", "after"}, "edt: before or after sliding [before]",
-             request.stage);
-  set.toggle("--not-periodic", "edt: a cut-out instead of a tile", request.not_periodic);
-  set.toggle("--random-amplitudes", "self-affine: Gaussian amplitudes, not random phases only",
-             request.recipe.random_amplitudes);
+void declare_settings(OptionSet& set, bool of_rough, synthesis::Request& recipe) {
+  set.group(fmt::format("{}", fmt::join(synthesis::recipe_kinds(of_rough), ", ")));
+  for (const synthesis::RecipeSetting& setting : synthesis::recipe_settings()) {
+    if (setting.is_of_a_rough == of_rough) declare(set, setting, recipe);
+  }
 }
 
 void declare_options(OptionSet& set, Request& request) {
   set.group("Surface");
-  set.positional("KIND", "self-affine, edt, ground, sinusoid, sphere or bump", request.recipe.kind);
+  std::vector<std::string> kinds = synthesis::recipe_kinds();
+  const std::string last = kinds.back();
+  kinds.pop_back();
+  set.positional("KIND", fmt::format("{} or {}", fmt::join(kinds, ", "), last),
+                 request.recipe.kind);
   set.output("OUT", "the file to write; its extension is the format", scan_extensions(),
              request.output)
       .required = true;
-  word(set, "--pixels", "NX[,NY]", "number of pixels [512]", request.pixels);
-  word(set, "--pixel", "DX[,DY]", "pixel size [0.67um]", request.pixel);
-  declare_rough(set, request);
-  set.group("sinusoid, sphere, bump");
-  declare_numbers(set, false, request.recipe);
+  for (const auto& parameter : synthesis::pixel_parameters()) {
+    declare(set, parameter, request.pixels);
+  }
+  declare_settings(set, true, request.recipe);
+  declare_settings(set, false, request.recipe);
 }
 
 }  // namespace
@@ -149,7 +114,7 @@ void declare_options(OptionSet& set, Request& request) {
 Verb generate_verb() {
   return {.name = "generate",
           .arguments = "KIND -o OUT [options]",
-          .summary = "make a surface: self-affine, edt, ground, sinusoid, sphere, bump",
+          .summary = fmt::format("make a surface: {}", fmt::join(synthesis::recipe_kinds(), ", ")),
           .details = "",
           .examples =
               {"tabor generate edt -o edt.x3p --pixels 256 --seed 7",

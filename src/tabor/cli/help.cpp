@@ -20,28 +20,6 @@ std::string form_of(const Option& option) {
   return form;
 }
 
-// Breaks text at blanks so that it fits beside the column of flags.
-std::string wrapped(const std::string& text, std::size_t indent) {
-  std::string result;
-  std::size_t column = indent;
-  std::size_t begin = 0;
-  while (begin < text.size()) {
-    const std::size_t end = std::min(text.find(' ', begin), text.size());
-    const std::string word = text.substr(begin, end - begin);
-    if (column > indent && column + 1 + word.size() > kScreenWidth) {
-      result += '\n' + std::string(indent, ' ');
-      column = indent;
-    } else if (column > indent) {
-      result += ' ';
-      ++column;
-    }
-    result += word;
-    column += word.size();
-    begin = end + 1;
-  }
-  return result;
-}
-
 std::string option_line(const Option& option) {
   std::string line = "  " + form_of(option);
   if (line.size() + 2 > kHelpColumn) {
@@ -125,6 +103,27 @@ std::string markdown_of(const Verb& verb) {
 
 }  // namespace
 
+std::string wrapped(const std::string& text, std::size_t indent) {
+  std::string result;
+  std::size_t column = indent;
+  std::size_t begin = 0;
+  while (begin < text.size()) {
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    const std::string word = text.substr(begin, end - begin);
+    if (column > indent && column + 1 + word.size() > kScreenWidth) {
+      result += '\n' + std::string(indent, ' ');
+      column = indent;
+    } else if (column > indent) {
+      result += ' ';
+      ++column;
+    }
+    result += word;
+    column += word.size();
+    begin = end + 1;
+  }
+  return result;
+}
+
 std::string overview() {
   std::string text = fmt::format(
       "tabor {}: real contact area, lubricant and friction of scanned rough surfaces\n\n"
@@ -132,7 +131,8 @@ std::string overview() {
       kVersion);
   for (const Verb& verb : verbs()) text += fmt::format("  {:<10} {}\n", verb.name, verb.summary);
   return text +
-         "\n'tabor VERB --help' explains a verb and shows two examples.\n"
+         "\n'tabor VERB --help' explains a verb and shows two examples, 'tabor --explain CODE' the "
+         "warning [CODE].\n"
          "Exit codes: 0 done, 2 usage, 3 bad input, 4 not converged, 5 cannot write, "
          "130 interrupted.\n";
 }

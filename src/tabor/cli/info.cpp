@@ -10,6 +10,7 @@
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/metrology/parameters.hpp"
+#include "tabor/topography/edges.hpp"
 #include "tabor/topography/warnings.hpp"
 
 namespace tabor::cli {
@@ -52,7 +53,9 @@ io::Json channels_of(const FileInfo& file) {
     channels.push_back({{"index", channel.index},
                         {"name", channel.name},
                         {"unit", channel.unit},
-                        {"is_height", channel.is_height}});
+                        {"is_height", channel.is_height},
+                        {"nx", channel.nx},
+                        {"ny", channel.ny}});
   }
   return channels;
 }
@@ -70,6 +73,21 @@ void describe(const FileInfo& file, const std::string& path, const std::string& 
     facts.fact(fmt::format("channel {}", channel.index),
                fmt::format("{} [{}]{}", channel.name, is_unknown ? "?" : channel.unit, remark));
   }
+}
+
+/// Doubts before information, with the options that the verb has.
+std::vector<std::string> warnings_about(const Scan& scan, const Context& context) {
+  std::vector<results::Finding> findings;
+  for (const Warning& warning : scan.surface.warnings) {
+    findings.emplace_back();
+    findings.back().code = warning.code;
+    findings.back().text = warning.text;
+  }
+  results::put_doubts_first(findings);
+  results::spell(context.spelling, findings);
+  std::vector<std::string> texts;
+  for (const results::Finding& finding : findings) texts.push_back(finding.text);
+  return texts;
 }
 
 io::Json json_of(const Context& context, const Scan& scan, const FileInfo& file,
@@ -91,7 +109,7 @@ io::Json json_of(const Context& context, const Scan& scan, const FileInfo& file,
        {"pixel_y_m", grid.dy()},
        {"size_x_m", grid.lx},
        {"size_y_m", grid.ly},
-       {"periodic", surface.periodic},
+       {"periodic", topography::repeats(surface)},
        {"missing_pixels", missing},
        {"missing_fraction", static_cast<double>(missing) / static_cast<double>(grid.size())},
        {"height_min_m", io::number(heights.min)},
@@ -99,11 +117,12 @@ io::Json json_of(const Context& context, const Scan& scan, const FileInfo& file,
        {"height_rms_m", io::number(heights.rms)},
        {"height_quantum_m", io::number(heights.quantum)},
        {"metadata", surface.metadata},
-       {"doubts", topography::texts(surface.warnings)}});
+       {"doubts", warnings_about(scan, context)}});
   return object;
 }
 
-std::string text_of(const Scan& scan, const FileInfo& file, const Heights& heights) {
+std::string text_of(const Context& context, const Scan& scan, const FileInfo& file,
+                    const Heights& heights) {
   const Topography& surface = scan.surface;
   const Grid& grid = surface.grid;
   const auto missing = topography::count_holes(surface);
@@ -112,7 +131,7 @@ std::string text_of(const Scan& scan, const FileInfo& file, const Heights& heigh
   facts.fact("pixels", fmt::format("{} x {}", grid.nx, grid.ny));
   facts.fact("pixel", si(grid.dx(), "m") + " x " + si(grid.dy(), "m"));
   facts.fact("size", si(grid.lx, "m") + " x " + si(grid.ly, "m"));
-  facts.fact("periodic", surface.periodic ? "yes" : "no");
+  facts.fact("periodic", topography::repeats(surface) ? "yes" : "no");
   facts.fact("missing", missing == 0 ? "none"
                                      : fmt::format("{} pixels ({})", missing,
                                                    percent(static_cast<double>(missing) /
@@ -120,8 +139,16 @@ std::string text_of(const Scan& scan, const FileInfo& file, const Heights& heigh
   facts.fact("heights", si(heights.min, "m") + " to " + si(heights.max, "m"));
   facts.fact("rms height", si(heights.rms, "m") + " about the mean");
   if (!std::isnan(heights.quantum)) facts.fact("height step", si(heights.quantum, "m"));
-  for (const topography::Warning& warning : surface.warnings) facts.fact("warning", warning.text);
+  for (const std::string& text : warnings_about(scan, context)) facts.fact("warning", text);
   return facts.text();
+}
+
+/// Whether all channels have as many pixels, so that their number is known whichever is meant.
+bool have_one_size(const std::vector<scan::Channel>& channels) {
+  return !channels.empty() &&
+         std::all_of(channels.begin(), channels.end(), [&](const scan::Channel& channel) {
+           return channel.nx == channels.front().nx && channel.ny == channels.front().ny;
+         });
 }
 
 /// A sound file that needs a word from the user: what is in it, and what to say.
@@ -145,6 +172,12 @@ int show_incomplete(const ScanRequest& request, const scan::ScanFile& scan_file,
   object["doubts"] = {warning};
   Facts facts;
   describe(file, request.file, file.instrument, facts);
+  if (have_one_size(file.channels)) {
+    object["nx"] = file.channels.front().nx;
+    object["ny"] = file.channels.front().ny;
+    facts.fact("pixels",
+               fmt::format("{} x {}", file.channels.front().nx, file.channels.front().ny));
+  }
   facts.fact("needs", warning);
   return finish(context, object, facts.text());
 }
@@ -155,7 +188,8 @@ int show(const ScanRequest& request, Context& context) {
   try {
     const Scan scan = read_scan(scan_file, request, context);
     const Heights heights = heights_of(scan.surface);
-    return finish(context, json_of(context, scan, file, heights), text_of(scan, file, heights));
+    return finish(context, json_of(context, scan, file, heights),
+                  text_of(context, scan, file, heights));
   } catch (const IncompleteError& error) {
     return show_incomplete(request, scan_file, error.what(), context);
   }

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "tabor/analysis/warnings.hpp"
+#include "tabor/cases/warnings.hpp"
 #include "tabor/cli/contact_request.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
@@ -15,55 +15,55 @@ namespace {
 
 struct Request {
   ScanRequest scan;
-  analysis::FilmSettings film;
+  cases::FilmSettings film;
   FieldsRequest file;
 };
 
 int show(const Request& request, Context& context) {
-  analysis::FilmSettings settings = request.film;
+  cases::FilmSettings settings = request.film;
   settings.seed = context.seed_or_default();
-  check(analysis::objection(settings));
+  check(cases::objection(settings));
   const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
-  const io::Json in_force = analysis::settings_json(settings);
-  auto file = fields_file(request.file, context, scan, in_force, analysis::references_of(settings));
+  const io::Json in_force = results::settings_json(settings);
+  auto file = fields_file(request.file, context, scan, in_force, cases::references_of(settings));
 
-  const analysis::Warnings about_surface = analysis::of_surface(scan.surface);
-  std::map<std::size_t, analysis::FilmRecord> films;  // they come in rising order of dose
-  const auto receive = [&](analysis::FilmRecord&& record) {
-    analysis::Warnings warnings = about_surface;
-    analysis::add(record.warnings, warnings);
+  const Warnings about_surface = cases::of_surface(scan.surface);
+  std::map<std::size_t, cases::FilmRecord> films;  // they come in rising order of dose
+  const auto receive = [&](cases::FilmRecord&& record) {
+    Warnings warnings = about_surface;
+    add(record.warnings, warnings);
     record.warnings = std::move(warnings);
     const std::size_t place = record.film.request;
     if (file) {
-      file->add_state(place, cells_of(analysis::film_columns(), record, analysis::media::kObject),
-                      analysis::fields_of(record));
+      file->add_state(place, cells_of(cases::film_columns(), record, cases::media::kObject),
+                      results::fields_of(record));
     }
     record.film.thickness = {};
     films.emplace(place, std::move(record));
   };
   const int code = until_interrupted(
-      context, [&] { analysis::film_state(scan.surface, settings, receive, context.observer()); },
+      context, [&] { cases::film_state(scan.surface, settings, receive, context.observer()); },
       "densities");
   if (films.empty()) throw Interrupted();
-  std::vector<analysis::FilmRecord> records;
-  std::vector<analysis::Case> cases;
+  std::vector<cases::FilmRecord> records;
+  std::vector<results::Case> cases;
   for (auto& [place, record] : films) {
-    cases.push_back(analysis::case_of(record));
+    cases.push_back(results::case_of(record));
     records.push_back(std::move(record));
   }
-  context.warn(analysis::findings_of(cases));
+  context.warn(results::findings_of(cases));
   if (file) file->commit(context.warnings);
 
   io::Json object = json_head(context, scan);
   object.update(in_force);
-  object["states"] = states_json(analysis::film_columns(), records);
+  object["states"] = states_json(cases::film_columns(), records);
   Facts facts;
   describe(scan, facts);
   describe(settings, facts);
-  const std::string text = facts.text() + '\n' + table_of(analysis::film_columns(), records).text();
+  const std::string text = facts.text() + '\n' + table_of(cases::film_columns(), records).text();
   return finish(context, object,
-                write_csv(request.file.csv, states_csv(analysis::film_columns(), records), text),
+                write_csv(request.file.csv, states_csv(cases::film_columns(), records), text),
                 code);
 }
 

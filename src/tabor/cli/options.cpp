@@ -12,8 +12,6 @@
 
 namespace tabor::cli {
 
-namespace {
-
 double finite_number(const std::string& flag, const std::string& text) {
   const std::optional<double> value = parse_number(text);
   if (!value || !std::isfinite(*value)) {
@@ -31,7 +29,12 @@ std::uint64_t whole_number(const std::string& flag, const std::string& text) {
   return static_cast<std::uint64_t>(value);
 }
 
-}  // namespace
+std::string chosen_word(const std::string& flag, const std::string& word,
+                        const std::vector<std::string>& choices) {
+  if (std::find(choices.begin(), choices.end(), word) != choices.end()) return word;
+  throw UsageError(fmt::format("{}: got '{}'; expected {}{}", flag, word, fmt::join(choices, ", "),
+                               suggestion(word, choices)));
+}
 
 Option& OptionSet::add(Option option) {
   option.group = group_;
@@ -90,11 +93,7 @@ Option& OptionSet::choice(const std::string& flag, const std::vector<std::string
                           const std::string& help,
                           const std::function<void(const std::string&)>& take) {
   const auto assign = [flag, words, take](const std::string& word) {
-    if (std::find(words.begin(), words.end(), word) == words.end()) {
-      throw UsageError(fmt::format("{}: got '{}'; expected {}{}", flag, word,
-                                   fmt::join(words, ", "), suggestion(word, words)));
-    }
-    take(word);
+    take(chosen_word(flag, word, words));
   };
   return add({.flag = flag,
               .placeholder = fmt::format("{}", fmt::join(words, "|")),

@@ -8,9 +8,10 @@
 
 #include "tabor/core/units.hpp"
 
+// Declares the options of a verb and assigns the words of a command line to its variables.
 namespace tabor::cli {
 
-/// Whether the word that an option takes names a file.
+/// Kind of file that the word of an option names.
 enum class FileRole {
   none,
   input,   ///< is read, never replaced
@@ -32,7 +33,7 @@ struct Option {
   bool repeatable = false;
   FileRole names = FileRole::none;
   std::string if_bare = {};  ///< value where no word with one of its extensions follows; "": none
-  std::vector<std::string> extensions = {};  ///< of an output: ".h5"; empty: not told from the name
+  std::vector<std::string> extensions = {};             ///< of an output: ".h5"; empty: not checked
   std::function<void(const std::string&)> assign = {};  ///< throws InputError or UsageError
 
   bool is_positional() const { return flag.front() != '-'; }
@@ -43,16 +44,16 @@ struct Option {
 /// default; parse() assigns the given values in the order of the command line.
 class OptionSet {
  public:
-  /// Heading of the options declared from here on.
+  /// Sets the heading of the options declared from here on.
   void group(const std::string& title) { group_ = title; }
 
   Option& add(Option option);
   Option& positional(const std::string& name, const std::string& help, std::string& target);
   Option& positionals(const std::string& name, const std::string& help,
                       std::vector<std::string>& target);
-  /// A word that names a file to read.
+  /// Declares a word that names a file to read.
   Option& input(const std::string& name, const std::string& help, std::string& target);
-  /// `-o`, `--output`: a file of one of these extensions; a folder if there are none.
+  /// Declares `-o`, `--output`: a file of one of these extensions; a folder if there are none.
   Option& output(const std::string& placeholder, const std::string& help,
                  const std::vector<std::string>& extensions, std::optional<std::string>& target);
   Option& toggle(const std::string& flag, const std::string& help, bool& target);
@@ -60,7 +61,7 @@ class OptionSet {
                std::optional<std::string>& target);
   Option& choice(const std::string& flag, const std::vector<std::string>& words,
                  const std::string& help, std::string& target);
-  /// One of the names of an enumeration (core/names.hpp).
+  /// Declares an option whose values are the names of an enumeration (core/names.hpp).
   template <typename Names, typename Enum>
   Option& choice(const std::string& flag, const Names& names, const std::string& help,
                  Enum& target) {
@@ -89,6 +90,13 @@ class OptionSet {
   std::vector<Option> options_;
   std::string group_ = "Options";
 };
+
+/// Parse values of options. Throw UsageError for a word that is no finite number, no whole number
+/// from 0, none of the choices.
+double finite_number(const std::string& flag, const std::string& text);
+std::uint64_t whole_number(const std::string& flag, const std::string& text);
+std::string chosen_word(const std::string& flag, const std::string& word,
+                        const std::vector<std::string>& choices);
 
 /// Assigns the words of the command line. Throws UsageError: an unknown option (naming the nearest
 /// match), a missing or surplus word, a value that is not what the option takes.

@@ -46,7 +46,7 @@ struct Measured {
   ScanParameters row;
   io::Json object;
   std::string facts;
-  analysis::Case doubts;
+  results::Case doubts;
 };
 
 /// Those of a table for people; files and JSON objects have all of them.
@@ -153,14 +153,15 @@ std::string other_sets(const Request& request, const Context& context) {
   return fmt::format("\nother sets: {} (--set all)\n", fmt::join(others, ", "));
 }
 
-/// One sentence for all scans that have the same doubt.
+/// Adds one warning for all scans that have it.
 void warn_of(const std::vector<Measured>& all, Context& context) {
-  std::vector<analysis::Case> cases;
+  std::vector<results::Case> cases;
   cases.reserve(all.size());
   for (const Measured& measured : all) {
     if (measured.row.failure.empty()) cases.push_back(measured.doubts);
   }
-  context.warn(analysis::findings_of(cases));
+  results::shorten_paths(cases);
+  context.warn(results::findings_of(cases));
 }
 
 int show_one(const Request& request, Context& context) {
@@ -292,6 +293,8 @@ void declare_profiles(OptionSet& set, Request& request) {
                dimension::length, request.options.profile.cutoff);
   set.quantity("--profile-short-cutoff", "LS", "cut-off ls against noise, 0um for none [with lc]",
                dimension::length, request.options.profile.short_cutoff);
+  set.quantity("--rmr-height", "C", "height of Rmr(c) above the mean line [that of --smr-height]",
+               dimension::length, request.options.profile.ratio_height);
   set.count("--profile-sections", "sampling lengths of lc, 0 for as many as fit [5]",
             request.profile_sections);
 }

@@ -7,9 +7,11 @@
 #include "tabor/metrology/parameter.hpp"
 #include "tabor/metrology/parameter_means.hpp"
 
+// Prints the roughness parameters of one scan, of several side by side, or of groups, as text, CSV
+// and JSON.
 namespace tabor::cli {
 
-/// What became of one scan of a batch.
+/// Parameters of one scan of a batch, or why it has none.
 struct ScanParameters {
   std::string path;
   std::string treatment;                              ///< the filter chain, "none" without
@@ -23,37 +25,39 @@ struct ReadableUnit {
   std::string name;   ///< "µm", "1/mm²", "" for plain numbers
 };
 
-/// Unit in which `largest` (SI, of the unit "m", "m^2", "1/m^2", "m^3/m^2", ...) is a number
-/// from 1.
+/// Returns the unit in which `largest` (SI, of the unit "m", "m^2", "1/m^2", "m^3/m^2", ...) is at
+/// least 1.
 ReadableUnit readable_unit(const std::string& si_unit, double largest);
 
-/// Symbol, value with unit and definition, one table per set.
+/// Returns symbol, value with unit and definition, one table per set.
 std::string grouped_table(const std::vector<metrology::Parameter>& parameters);
 
-/// A row per parameter, a column per scan that has any, all in the row's unit; for exactly two
-/// scans their ratio, or difference where a ratio says nothing (per cent, angles, signed numbers).
+/// Returns a row per parameter, a column per scan that has any, all in the row's unit; for exactly
+/// two scans also their ratio, or their difference where a ratio is meaningless (per cent, angles,
+/// signed numbers).
 std::string comparison_table(const std::vector<ScanParameters>& scans);
 
-/// One row per scan, one column "symbol [SI unit]" per parameter; empty where there is no value.
+/// Returns one row per scan, one column "symbol [SI unit]" per parameter; empty where there is no
+/// value.
 std::string csv_table(const std::vector<ScanParameters>& scans);
 
-/// The means of one group of scans.
+/// Means of one group of scans.
 struct GroupParameters {
   std::string name;
   std::vector<std::string> scans;  ///< that were measured
   std::vector<metrology::ParameterMean> means;
 };
 
-/// One row per parameter: mean, standard deviation and number of scans.
+/// Returns one row per parameter: mean, standard deviation and number of scans.
 std::string group_table(const GroupParameters& group);
-/// One row per group and parameter, SI: the means, then a column per scan of any group, empty for
-/// one of another group.
+/// Returns one row per group and parameter, SI: the means, then a column per scan of any group,
+/// empty for scans of another group.
 std::string csv_table(const std::vector<GroupParameters>& groups,
                       const std::vector<ScanParameters>& scans);
-/// {"group", "scans", "parameters": {"Sq": {"mean", "std", "sem", "n", "unit"}, ...}}
+/// Returns {"group", "scans", "parameters": {"Sq": {"mean", "std", "sem", "n", "unit"}, ...}}
 io::Json json_of(const GroupParameters& group);
 
-/// {"Sq": {"value", "unit", "definition", "note", "set"}, ...}
+/// Returns {"Sq": {"value", "unit", "definition", "note", "set"}, ...}
 io::Json json_of(const std::vector<metrology::Parameter>& parameters);
 
 }  // namespace tabor::cli

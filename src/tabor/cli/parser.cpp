@@ -85,9 +85,9 @@ void require_all(const Declared& declared, const OptionSet& set, const std::stri
       if (wanted != &option || parsed->count() > 0) continue;
       const std::string form =
           option.placeholder.empty() ? option.flag : option.flag + " " + option.placeholder;
-      throw UsageError(
-          fmt::format("{} is missing ({}){}; see 'tabor {} --help'", form, option.help,
-                      option.unless.empty() ? "" : "; " + option.unless + " stands for it", verb));
+      throw UsageError(fmt::format("{} is missing ({}){}; see 'tabor {} --help'", form, option.help,
+                                   option.unless.empty() ? "" : "; or give " + option.unless,
+                                   verb));
     }
   }
 }
@@ -96,8 +96,8 @@ void require_companions(const Declared& declared, const std::string& verb) {
   for (const auto& [parsed, option] : declared) {
     if (parsed->count() == 0 || option->only_with.empty()) continue;
     if (is_given(option->only_with, declared)) continue;
-    throw UsageError(fmt::format("{} belongs to {} here; see 'tabor {} --help'", option->flag,
-                                 option->only_with, verb));
+    throw UsageError(
+        fmt::format("{} needs {}; see 'tabor {} --help'", option->flag, option->only_with, verb));
   }
 }
 

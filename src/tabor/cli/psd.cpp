@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "tabor/analysis/warnings.hpp"
+#include "tabor/cases/warnings.hpp"
 #include "tabor/cli/csv_output.hpp"
 #include "tabor/cli/psd_result.hpp"
 #include "tabor/cli/result.hpp"
@@ -21,7 +21,7 @@ struct Request {
   std::vector<std::string> files;
   std::vector<ScanGroup> groups;
   std::string convention = "jacobs";
-  std::string window;  ///< "": none for a periodic surface, else hann
+  std::string window;  ///< "": none where edges match, else hann
   std::optional<double> fit_min;
   std::optional<double> fit_max;
   std::optional<double> tip_radius;  ///< [m]
@@ -36,7 +36,7 @@ struct Measured {
   PsdCurves curves;
   io::Json object;
   std::string text;
-  analysis::Case doubts;
+  results::Case doubts;
 };
 
 metrology::PsdOptions options_of(const Request& request) {
@@ -87,7 +87,7 @@ Measured measure(const Request& request, const std::string& file, Context& conte
                     .text = {},
                     .doubts = doubts_of(scan)};
   if (measured.curves.spectra) {
-    analysis::add(analysis::of_spectra(*measured.curves.spectra), measured.doubts.warnings);
+    add(cases::of_spectra(*measured.curves.spectra), measured.doubts.warnings);
   }
   add_curves(measured.object, measured.curves);
   measured.text = text_of(scan, measured.curves);
@@ -95,10 +95,11 @@ Measured measure(const Request& request, const std::string& file, Context& conte
 }
 
 void warn_of(const std::vector<Measured>& all, Context& context) {
-  std::vector<analysis::Case> cases;
+  std::vector<results::Case> cases;
   cases.reserve(all.size());
   for (const Measured& one : all) cases.push_back(one.doubts);
-  context.warn(analysis::findings_of(cases));
+  results::shorten_paths(cases);
+  context.warn(results::findings_of(cases));
 }
 
 std::vector<GroupSpectra> means_of(const std::vector<GroupMembers>& groups, const Request& request,
@@ -180,7 +181,8 @@ void declare_options(OptionSet& set, Request& request) {
   set.choice("--psd-convention", {"jacobs", "persson", "gwyddion"},
              "normalisation [jacobs: Jacobs, Junge & Pastewka 2017]", request.convention);
   set.choice("--window", {"none", "hann"},
-             "taper against edges that do not match [none if periodic, else hann]", request.window);
+             "taper against edges that do not match [none where they do, else hann]",
+             request.window);
   set.quantity("--fit-min", "Q",
                "smallest wavevector of the Hurst fit, 2 pi/wavelength, e.g. 0.1/um",
                dimension::wavevector, request.fit_min);

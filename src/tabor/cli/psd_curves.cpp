@@ -42,6 +42,7 @@ void write_set(const CurveSet& set, io::Hdf5Writer& writer) {
     const std::string path = set.place + "/" + curve.name;
     writer.write(path, curve.values);
     writer.describe(path, curve.unit, curve.long_name);
+    for (const auto& [name, number] : curve.attributes) writer.attribute(path, name, number);
   }
   make_plot(set, writer);
 }
@@ -84,10 +85,10 @@ void write_curves(const std::vector<CurveSet>& sets, const std::filesystem::path
     return;
   }
   io::Hdf5Writer writer(file);
-  analysis::write_result_head(writer, head_of(context, "", methods));
+  results::write_result_head(writer, head_of(context, "", methods));
   for (const CurveSet& set : sets) write_set(set, writer);
   if (!sets.empty()) make_default(sets.front(), writer);
-  analysis::write_warnings(writer, context.warnings);
+  results::write_warnings(writer, context.warnings);
   writer.commit();
 }
 

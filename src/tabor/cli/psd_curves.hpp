@@ -7,17 +7,19 @@
 
 #include "tabor/cli/verb.hpp"
 
+// Writes tables of curves, such as power spectra, as CSV or HDF5.
 namespace tabor::cli {
 
-/// One column of a table of curves. Curves are as long as they are.
+/// One column of a table of curves. Curves of one table may have different lengths.
 struct Curve {
   std::string name;       ///< with its unit: "c1d_x_m3"
   std::string unit;       ///< "m^3"
   std::string long_name;  ///< for people
   std::vector<double> values;
+  std::vector<std::pair<std::string, double>> attributes = {};  ///< of the dataset: "hurst", ...
 };
 
-/// The curves of one scan or of one group of scans.
+/// Curves of one scan or of one group of scans.
 struct CurveSet {
   std::string place = "/curves";  ///< group of an HDF5 file: "/scans/0000"
   std::string heading = {};       ///< before the names of columns: "a.x3p"; "" where there is one
@@ -26,7 +28,7 @@ struct CurveSet {
   std::vector<Curve> curves = {};
 };
 
-/// All curves side by side; short ones end in empty cells.
+/// Returns all curves side by side; short ones end in empty cells.
 std::string csv_of(const std::vector<CurveSet>& sets);
 
 /// Writes them as CSV or as datasets of an HDF5 file, by the extension: .csv or another. `methods`

@@ -32,10 +32,15 @@ io::Json json_of(const Spectrum& spectrum, const std::string& density_key) {
 }
 
 /// A Hurst exponent with its error; "-" where no range of scales is long enough for one.
-template <typename Fit>
-std::string exponent(const Fit& fit) {
+std::string exponent(const metrology::HurstFit& fit) {
   if (!std::isfinite(fit.hurst)) return "-";
   return plain(fit.hurst, 3) + " ± " + plain(fit.standard_error, 1);
+}
+
+/// The same with the error that is a lower bound.
+std::string exponent(const metrology::DifferenceHurst& fit) {
+  if (!std::isfinite(fit.hurst)) return "-";
+  return plain(fit.hurst, 3) + " ± " + plain(fit.standard_error, 1) + " or more";
 }
 
 /// The range of a fit; "no range" where there is none.
@@ -94,6 +99,7 @@ io::Json json_of(const HeightDifference& difference, double mean_square) {
           {"pairs", difference.pairs},
           {"hurst", io::number(fit.hurst)},
           {"hurst_standard_error", io::number(fit.standard_error)},
+          {"hurst_standard_error_is_lower_bound", true},
           {"fit_lag_min_m", fit.lag_min},
           {"fit_lag_max_m", fit.lag_max},
           {"fit_bins", fit.n_bins}};
@@ -141,11 +147,21 @@ std::string in_a_name(std::string unit) {
   return unit;
 }
 
+/// The exponent of a density, beside it in a file.
+std::vector<std::pair<std::string, double>> attributes_of(const metrology::HurstFit& fit) {
+  if (!std::isfinite(fit.hurst)) return {};
+  return {{"hurst", fit.hurst},
+          {"hurst_standard_error", fit.standard_error},
+          {"fit_min_rad_per_m", fit.q_min},
+          {"fit_max_rad_per_m", fit.q_max}};
+}
+
 void add_columns(std::vector<Curve>& columns, const std::string& name, const Spectrum& spectrum) {
   if (spectrum.q.empty()) return;
   columns.push_back({"q_" + name + "_rad_per_m", "rad/m", "wavevector, " + name, spectrum.q});
   columns.push_back({"psd_" + name + "_" + in_a_name(spectrum.unit), spectrum.unit,
-                     "power spectral density, " + name, spectrum.density});
+                     "power spectral density, " + name, spectrum.density,
+                     attributes_of(spectrum.hurst)});
 }
 
 void add_columns(std::vector<Curve>& columns, const std::string& name,

@@ -13,9 +13,10 @@
 #include "tabor/metrology/psd.hpp"
 #include "tabor/metrology/reliability.hpp"
 
+// Prints the spectra and correlations of `tabor psd`, of one scan or averaged over groups.
 namespace tabor::cli {
 
-/// Everything that was asked for; without filled holes there are no spectra.
+/// Results of one scan, as far as they were asked for; a scan with holes has no spectra.
 struct PsdCurves {
   std::optional<metrology::PowerSpectra> spectra;
   std::optional<metrology::Autocorrelation> acf;
@@ -28,13 +29,13 @@ struct PsdCurves {
 /// Adds all curves with their numbers to the JSON object of the verb.
 void add_curves(io::Json& object, const PsdCurves& curves);
 
-/// Facts and a table for people.
+/// Returns facts and a table, as text.
 std::string text_of(const Scan& scan, const PsdCurves& curves);
 
-/// The columns of an output file.
+/// Returns the columns of an output file.
 std::vector<Curve> columns_of(const PsdCurves& curves);
 
-/// The means of one group of scans; of profiles there is one of x and y, and no radial one.
+/// Means of one group of scans. Profiles have only one of x and y, and no radial one.
 struct GroupSpectra {
   std::string name;
   std::vector<std::string> scans;
@@ -42,13 +43,14 @@ struct GroupSpectra {
   Mean rms_height;  ///< [m]
 };
 
-/// Throws InputError for a scan without spectra.
+/// Averages the spectra of a group. Throws InputError for a scan without spectra.
 GroupSpectra mean_of(const std::string& name, const std::vector<std::string>& scans,
                      const std::vector<const PsdCurves*>& curves);
 std::vector<Curve> columns_of(const GroupSpectra& group);
-/// {"group", "scans", "rms_height_m": {..}, "x": {"q_rad_per_m", "mean", "std", "n", "unit"}, ..}
+/// Returns {"group", "scans", "rms_height_m": {..}, "x": {"q_rad_per_m", "mean", "std", "n",
+/// "unit"}, ..}
 io::Json json_of(const GroupSpectra& group);
-/// One row per group.
+/// Returns one row per group.
 std::string text_of(const std::vector<GroupSpectra>& groups);
 
 }  // namespace tabor::cli

@@ -104,7 +104,8 @@ std::string complaint_of(const std::string& output) {
 }
 
 [[noreturn]] void reject(const Request& request, const io::Completed& done) {
-  const std::string complaint = complaint_of(done.output);
+  const bool wants_all = std::getenv("TABOR_TRACEBACK") != nullptr;
+  const std::string complaint = wants_all ? done.output : complaint_of(done.output);
   if (done.exit_code == kUsage) throw UsageError(complaint);
   if (done.exit_code == kInput) throw InputError(complaint);
   if (done.exit_code == kOutput) throw OutputError(complaint);

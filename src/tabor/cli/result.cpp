@@ -11,9 +11,10 @@ namespace tabor::cli {
 namespace {
 
 /// What belongs to numbers says to which; the rest are plain texts.
-io::Json json_of(const analysis::Finding& finding) {
+io::Json json_of(const results::Finding& finding) {
   if (finding.code.empty()) return finding.text;
   return {{"code", finding.code},
+          {"class", cases::name_of(finding.kind())},
           {"text", finding.text},
           {"cases", finding.cases},
           {"n_cases", finding.n_cases}};
@@ -44,14 +45,14 @@ io::Json json_head(const Context& context, const Scan& scan) {
   return object;
 }
 
-analysis::ResultHead head_of(const Context& context, const std::string& config_toml,
-                             const std::vector<std::string>& methods) {
+results::ResultHead head_of(const Context& context, const std::string& config_toml,
+                            const std::vector<std::string>& methods) {
   return {.command = context.command_line, .config_toml = config_toml, .methods = methods};
 }
 
 io::Json json_warnings(const Context& context) {
   io::Json list = io::Json::array();
-  for (const analysis::Finding& warning : context.warnings) list.push_back(json_of(warning));
+  for (const results::Finding& warning : context.warnings) list.push_back(json_of(warning));
   return list;
 }
 
@@ -63,8 +64,8 @@ int finish(Context& context, io::Json object, const std::string& text, int code)
     return code;
   }
   context.out << printable_lines(text) << std::flush;
-  for (const analysis::Finding& warning : context.warnings) {
-    context.err << "warning: " << printable(analysis::line_of(warning)) << '\n';
+  for (const results::Finding& warning : context.warnings) {
+    context.err << printable(Context::line_of(warning)) << '\n';
   }
   return code;
 }

@@ -19,12 +19,12 @@ void declare_run_options(OptionSet& set, RunRequest& request) {
   set.add({.flag = "--shard",
            .placeholder = "I/N",
            .help = "compute only part I of N; all parts may share one folder",
-           .assign = [&](const std::string& text) { request.shard = study::parse_shard(text); }});
+           .assign = [&](const std::string& text) { request.shard = engine::parse_shard(text); }});
   set.toggle("--retry", "compute failed and not converged cases again", request.retry);
 }
 
-study::RunOptions run_options(const RunRequest& request, const Context& context) {
-  study::RunOptions options;
+engine::RunOptions run_options(const RunRequest& request, const Context& context) {
+  engine::RunOptions options;
   options.jobs = static_cast<int>(std::min(request.jobs, kMostJobs));
   options.shard = request.shard;
   options.retry = request.retry;

@@ -8,10 +8,12 @@
 #include <cmath>
 #include <future>
 
-#include "tabor/analysis/warnings.hpp"
+#include "tabor/cases/warnings.hpp"
+#include "tabor/cli/parameter_options.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
+#include "tabor/scan/read_parameters.hpp"
 
 namespace tabor::cli {
 
@@ -19,26 +21,9 @@ namespace {
 
 using topography::Topography;
 
-void assign_pixel(scan::ReadOptions& read, const std::string& text) {
-  const std::vector<double> pixel = parse_si_list(text, dimension::length, "--pixel");
-  if (pixel.size() > 2) throw UsageError("--pixel: expected one length or two (x,y)");
-  read.pixel_x = pixel.front();
-  if (pixel.size() == 2) read.pixel_y = pixel.back();
-}
-
 void declare_reading(OptionSet& set, scan::ReadOptions& read) {
   set.group("Reading");
-  set.text("--channel", "NAME", "height channel, by name or number as in 'tabor info'",
-           read.channel);
-  set.add({.flag = "--pixel",
-           .placeholder = "DX[,DY]",
-           .help = "pixel size where the file has none, e.g. 0.67um or 5um,4um",
-           .assign = [&read](const std::string& text) { assign_pixel(read, text); }});
-  set.text("--unit", "UNIT", "unit of the heights where the file has none, e.g. um", read.unit);
-  set.quantity("--z-scale", "LENGTH", "height of one count, for integer images, e.g. 1nm",
-               dimension::length, read.z_scale);
-  set.toggle("--override-unit", "let --pixel and --unit win over what the file says",
-             read.override_unit);
+  for (const auto& parameter : scan::read_parameters()) declare(set, parameter, read);
 }
 
 void declare_treatment(OptionSet& set, topography::Treatment& treatment) {
@@ -56,6 +41,14 @@ void declare_treatment(OptionSet& set, topography::Treatment& treatment) {
                               .assign = assign});
     option.repeatable = true;
   }
+}
+
+/// With what is said of a file, and where that stands if it was not typed.
+scan::ReadOptions with_origin(scan::ReadOptions read, const Context& context) {
+  for (const ParameterHead& one : scan::read_parameters()) {
+    if (context.has_default(one.option())) read.origin[one.option()] = context.defaults_file;
+  }
+  return read;
 }
 
 /// A digest is a matter of one thread: it is made beside the reading, and given up with it.
@@ -108,22 +101,31 @@ void declare_scans(OptionSet& set, ScanRequest& request, std::vector<std::string
   }
 }
 
+void check(const ScanRequest& request) {
+  try {
+    topography::check(request.treatment);
+  } catch (const InputError& error) {
+    throw UsageError(std::string("--") + error.what());
+  }
+}
+
 Scan read_scan(const ScanRequest& request, Context& context) {
+  check(request);
   return read_scan(scan::ScanFile(request.file, context.observer()), request, context);
 }
 
 Scan read_scan(const scan::ScanFile& file, const ScanRequest& request, Context& context) {
   ScanDigest sha256(file);
-  Topography surface =
-      topography::apply(request.treatment, file.read(request.read), context.observer());
+  Topography surface = topography::apply(
+      request.treatment, file.read(with_origin(request.read, context)), context.observer());
   return {.surface = std::move(surface),
           .path = request.file,
           .sha256 = sha256.get(context.observer()),
           .treatment = request.treatment};
 }
 
-analysis::Case doubts_of(const Scan& scan) {
-  return {.surface = scan.path, .warnings = analysis::of_surface(scan.surface)};
+results::Case doubts_of(const Scan& scan) {
+  return {.surface = scan.path, .warnings = cases::of_surface(scan.surface)};
 }
 
 void require_no_holes(const Scan& scan) {

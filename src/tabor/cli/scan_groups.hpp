@@ -6,9 +6,10 @@
 
 #include "tabor/cli/options.hpp"
 
+// Declares --group NAME=PATTERN and sorts scan files into the named groups.
 namespace tabor::cli {
 
-/// Scans that belong together: those whose names fit a pattern.
+/// Group of scans whose names match a pattern.
 struct ScanGroup {
   std::string name;
   std::string pattern;  ///< of the file name, or of the path as it is given
@@ -17,17 +18,19 @@ struct ScanGroup {
 /// Declares --group NAME=PATTERN.
 void declare_groups(OptionSet& set, std::vector<ScanGroup>& groups);
 
-/// The scans of one name.
+/// Scans of one group.
 struct GroupMembers {
   std::string name;
   std::vector<std::size_t> places;  ///< among the files, rising
 };
 
-/// Patterns of one name are one group. Throws InputError for a pattern that no file fits.
+/// Sorts files into groups; patterns of one name form one group. Throws InputError for a pattern
+/// that no file matches.
 std::vector<GroupMembers> members_of(const std::vector<ScanGroup>& groups,
                                      const std::vector<std::string>& files);
 
-/// What to call scans that stand side by side: file names, or whole paths where names are the same.
+/// Returns headings for scans that stand side by side: file names, or whole paths where names are
+/// the same.
 std::vector<std::string> headings(const std::vector<std::string>& files);
 
 }  // namespace tabor::cli

@@ -18,6 +18,7 @@
 #include "tabor/core/printable.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/io/columns.hpp"
+#include "tabor/study/friction_table.hpp"
 
 namespace tabor::cli {
 
@@ -28,6 +29,7 @@ namespace fs = std::filesystem;
 struct Request {
   std::string study;
   std::optional<std::string> directory;
+  std::vector<study::Change> changes;
   bool wants_template = false;
   RunRequest run;
 
@@ -37,7 +39,7 @@ struct Request {
 };
 
 study::Study read_study(const Request& request, const Context& context) {
-  study::Study study = study::read_study(request.study);
+  study::Study study = study::read_study(request.study, request.changes);
   if (context.seed) study.settings.film.seed = *context.seed;
   return study;
 }
@@ -67,6 +69,9 @@ std::string averages_text(const study::Study& study, const std::vector<study::Av
   std::vector<std::string> titles = {"group", "pressure",     "lubricant",
                                      "n",     "friction dry", "friction wet"};
   if (study.flows()) titles.insert(titles.end(), {"speed", "oil carries", "friction mixed"});
+  const bool leaves_out = std::any_of(averages.begin(), averages.end(),
+                                      [](const auto& one) { return !one.left_out.empty(); });
+  if (leaves_out) titles.emplace_back(study::kLeftOutHeading);
   Table table(titles);
   for (const study::Average& one : averages) {
     std::vector<std::string> cells = {one.group,
@@ -80,27 +85,17 @@ std::string averages_text(const study::Study& study, const std::vector<study::Av
                    {si(one.fluid->sliding_speed, "m/s"), with_deviation(one.fluid->load_share),
                     with_deviation(one.fluid->friction_mixed)});
     }
+    if (leaves_out) cells.push_back(one.left_out);
     table.row(cells);
   }
   return table.text() + "± is the standard deviation over n scans.\n";
-}
-
-/// Of each group under its lowest and its highest pressure.
-std::string curves_text(const std::vector<study::GroupCurve>& curves) {
-  Facts facts;
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    const bool is_first = i == 0 || curves[i - 1].group != curves[i].group;
-    const bool is_last = i + 1 == curves.size() || curves[i + 1].group != curves[i].group;
-    if (is_first || is_last) describe(curves[i].curve, curves[i].asked, curves[i].group, facts);
-  }
-  return curves.empty() ? "" : "\nFriction against the lubricant's density:\n" + facts.text();
 }
 
 io::Json curves_json(const std::vector<study::GroupCurve>& curves) {
   io::Json all = io::Json::array();
   for (const study::GroupCurve& one : curves) {
     io::Json object = {{"group", one.group}, {"n", one.n}};
-    object.update(json_of(one.curve));
+    object.update(json_of(one.curve, one.asked));
     all.push_back(std::move(object));
   }
   return all;
@@ -176,10 +171,19 @@ int sweep(const Request& request, Context& context) {
   if (!outcome.density_curves.empty()) {
     object["density_curves"] = curves_json(outcome.density_curves);
   }
-  const std::string text = outcome_text(request, outcome) + '\n' +
-                           averages_text(study, outcome.averages) +
-                           curves_text(outcome.density_curves);
+  std::string text = outcome_text(request, outcome) + '\n' + averages_text(study, outcome.averages);
+  if (!outcome.density_curves.empty()) {
+    text += "\nFriction against the lubricant's density:\n" + places_text(outcome.density_curves);
+  }
   return finish(context, object, text, code_of(outcome));
+}
+
+study::Change parse_change(const std::string& text) {
+  const std::size_t equal = text.find('=');
+  if (equal == 0 || equal == std::string::npos) {
+    throw UsageError("--set: got '" + text + "'; expected KEY=VALUE, e.g. contact.tolerance=1e-8");
+  }
+  return {text.substr(0, equal), text.substr(equal + 1)};
 }
 
 void declare_options(OptionSet& set, Request& request) {
@@ -188,6 +192,12 @@ void declare_options(OptionSet& set, Request& request) {
             request.study)
       .unless = kTemplate;
   declare_template(set, "a study file to start from", request.wants_template);
+  set.add(
+      {.flag = "--set",
+       .placeholder = "KEY=VALUE",
+       .help = "a value in place of that in the file, e.g. lubricant.model=limit; repeatable",
+       .repeatable = true,
+       .assign = [&](const std::string& text) { request.changes.push_back(parse_change(text)); }});
   set.output("DIR", "folder of the results [STUDY_results]", {}, request.directory);
   declare_run_options(set, request.run);
 }
@@ -207,6 +217,8 @@ Verb sweep_verb() {
               "carries part of the load and adds viscous friction at each speed.",
           .examples = {"tabor sweep examples/06_study/study.toml -o study_results",
                        "tabor sweep examples/06_study/study.toml -o study_results --jobs 2 --json",
+                       "tabor sweep examples/06_study/study.toml --set lubricant.model=limit -o "
+                       "limit_results",
                        "tabor sweep --template"},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();

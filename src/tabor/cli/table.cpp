@@ -13,7 +13,7 @@ namespace tabor::cli {
 
 namespace {
 
-// Characters on the screen: UTF-8 continuation bytes take no room.
+// Characters on the screen: UTF-8 continuation bytes have no width.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));

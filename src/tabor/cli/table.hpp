@@ -9,6 +9,7 @@
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
 
+// Lays out results for the terminal: tables of records, and lines of label and value.
 namespace tabor::cli {
 
 /// Rows of text under headings, aligned for a fixed-width screen: numbers right, words left.
@@ -23,7 +24,7 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// "label   value" lines, aligned; lines with an empty value are left out.
+/// Aligned lines "label   value"; lines with an empty value are left out.
 class Facts {
  public:
   void fact(const std::string& label, const std::string& value);
@@ -33,10 +34,10 @@ class Facts {
   std::vector<std::pair<std::string, std::string>> lines_;
 };
 
-/// What people read of one value, in the words of its column.
+/// Returns the text of one value, in the style of its column.
 std::string text_of(const Cell& cell, const ColumnHead& head);
 
-/// The columns that have a heading and that any of the records has a value in.
+/// Makes a table of the columns that have a heading and a value in at least one record.
 template <typename Record>
 Table table_of(const Columns<Record>& columns, const std::vector<Record>& records) {
   Columns<Record> shown;

@@ -3,18 +3,18 @@
 #include <optional>
 #include <string>
 
+// Estimates the remaining time of a computation from the share that is done.
 namespace tabor::cli {
 
-/// What is left of a computation that now and then says which share of it is done. An early share
-/// or one that jumps is no basis: nothing is told before a twentieth of the work and some seconds
-/// are done, and only while the last seconds agree on when it ends.
+/// Estimates the remaining time of a computation from the share that is done; silent until 5 % and
+/// some seconds are done, and while recent estimates disagree.
 class TimeLeft {
  public:
   /// `start` [s]: when the work began, on the clock of at().
   explicit TimeLeft(double start = 0) : start_(start) {}
 
-  /// Takes note of the share (0..1, NaN if unknown) that is done at `now`, and says how many
-  /// seconds are left.
+  /// Records the share (0..1, NaN if unknown) that is done at `now`, and returns the remaining
+  /// seconds.
   std::optional<double> at(double now, double share);
 
  private:
@@ -24,10 +24,10 @@ class TimeLeft {
   std::optional<double> end_ = {};  ///< [s] mean of the last seconds' estimates
 };
 
-/// "12 s", "3 min 20 s", "2 h 5 min"
+/// Returns a duration as text: "12 s", "3 min 20 s", "2 h 5 min".
 std::string format_duration(double seconds);
 
-/// The same with no more digits than an estimate has: "40 s", "3 min 20 s", "25 min".
+/// Returns a duration rounded as an estimate: "40 s", "3 min 20 s", "25 min".
 std::string format_estimate(double seconds);
 
 }  // namespace tabor::cli

@@ -1,25 +1,51 @@
 #include "tabor/cli/verb.hpp"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
+#include "tabor/cli/contact_request.hpp"
+#include "tabor/cli/explain.hpp"
 #include "tabor/cli/verbs.hpp"
 
 namespace tabor::cli {
 
 void Context::warn(const std::string& text) {
-  analysis::Finding of_no_number;
+  results::Finding of_no_number;
   of_no_number.text = text;
   warn(std::vector{of_no_number});
 }
 
-void Context::warn(const std::vector<analysis::Finding>& found) {
-  for (const analysis::Finding& finding : found) {
-    const auto says_the_same = [&, line = line_of(finding)](const analysis::Finding& said) {
-      return line_of(said) == line;
+void Context::warn(std::vector<results::Finding> found) {
+  if (spelling) results::spell(spelling, found);
+  for (const results::Finding& finding : found) {
+    const auto says_the_same = [&, line = results::line_of(finding)](const results::Finding& said) {
+      return results::line_of(said) == line;
     };
     if (std::none_of(warnings.begin(), warnings.end(), says_the_same)) warnings.push_back(finding);
   }
+  results::put_doubts_first(warnings);
+}
+
+std::string Context::line_of(const results::Finding& finding) {
+  const bool is_doubt = finding.kind() == cases::Class::doubt;
+  return (is_doubt ? "warning: " : "note: ") +
+         results::fitted(results::line_of(finding), results::kLineRoom);
+}
+
+AdviceSpelling spelling_of(const OptionSet& set) {
+  std::set<std::string> flags;
+  for (const Option& option : set.options()) flags.insert(option.flag);
+  return [flags](const Advice& advice) {
+    const std::string flag = flag_of(advice.setting);
+    if (!flags.contains(flag)) return std::string();
+    return advice.value.empty() ? flag : flag + " " + advice.value;
+  };
+}
+
+bool Context::has_default(const std::string& flag) const {
+  return std::any_of(defaults.begin(), defaults.end(),
+                     [&](const auto& used) { return used.first == flag; });
 }
 
 Observer Context::observer() const { return progress ? progress->observer() : Observer{}; }
@@ -35,10 +61,11 @@ const std::vector<Verb>& verbs() {
 
 void declare_common(OptionSet& set, Context& context) {
   set.group("Common options");
+  static std::optional<std::string> nobody;  // looked for before options are read
   set.toggle("--json", "print one JSON object and nothing else", context.json);
   set.toggle("--quiet", "show no progress", context.quiet);
+  set.text(kExplain, "CODE", "say what the code of a warning means, and do nothing else", nobody);
   set.count("--threads", "threads to use [all cores]; results never depend on it", context.threads);
-  static std::optional<std::string> nobody;  // defaults_for() looks for it before options are read
   set.text("--defaults", "FILE|none", "file of default options [tabor.toml here, if there is one]",
            nobody);
   set.count("--seed", "seed of everything random [1]", context.seed);

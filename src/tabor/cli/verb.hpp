@@ -7,14 +7,15 @@
 #include <utility>
 #include <vector>
 
-#include "tabor/analysis/findings.hpp"
 #include "tabor/cli/command_files.hpp"
 #include "tabor/cli/options.hpp"
 #include "tabor/cli/progress.hpp"
+#include "tabor/results/findings.hpp"
 
+// Defines what a verb of the command line is, and the context that each verb works in.
 namespace tabor::cli {
 
-/// What every verb is given besides its own options.
+/// Context of a verb: what it gets besides its own options.
 struct Context {
   std::ostream& out;
   std::ostream& err;
@@ -25,14 +26,22 @@ struct Context {
   bool quiet = false;
   std::uint64_t threads = 0;  ///< 0 = all cores
   std::optional<std::uint64_t> seed = {};
-  std::vector<analysis::Finding> warnings = {};  ///< those without a code belong to no number
-  CommandFiles files = {};                       ///< that it reads and writes
+  std::vector<results::Finding> warnings = {};  ///< those without a code belong to no number
+  AdviceSpelling spelling = {};                 ///< of the options that the verb has
+  CommandFiles files = {};                      ///< that it reads and writes
   ProgressPrinter* progress = nullptr;
 
-  /// Adds a warning once; it appears in the JSON object or on stderr.
+  /// Adds a warning once; it appears in the JSON object or on stderr, warnings before notes.
   void warn(const std::string& text);
-  /// The same for warnings of numbers; their JSON names code and cases.
-  void warn(const std::vector<analysis::Finding>& found);
+  /// Adds warnings of numbers; their JSON has code and cases. Their advice is spelled as options of
+  /// the verb.
+  void warn(std::vector<results::Finding> found);
+  /// Returns a finding as it appears on stderr, on one line of at most results::kLineWidth
+  /// characters: "warning: ..." or, of information, "note: ...".
+  static std::string line_of(const results::Finding& finding);
+  /// True where a file of defaults gave this option.
+  bool has_default(const std::string& flag) const;
+
   Observer observer() const;
   std::uint64_t seed_or_default() const { return seed.value_or(1); }
 };
@@ -40,7 +49,7 @@ struct Context {
 /// Runs a verb whose options are parsed; returns its exit code.
 using Action = std::function<int(Context&)>;
 
-/// What help adds for a word of a verb: `tabor ehl impact --help`.
+/// Table that the help of a verb adds for a word: `tabor ehl impact --help`.
 struct HelpTable {
   std::string word;  ///< "impact"
   std::string title;
@@ -60,13 +69,16 @@ struct Verb {
   std::function<std::vector<HelpTable>()> tables = {};
 };
 
-/// All verbs in the order people meet them.
+/// Returns all verbs in the order of the help.
 const std::vector<Verb>& verbs();
 
 /// Declares --json, --quiet, --threads and --seed, which every verb has.
 void declare_common(OptionSet& set, Context& context);
 
-/// The options of a verb, common ones included, for help and documentation.
+/// Returns a spelling of advice by these options: "--level plane" for <level=plane>.
+AdviceSpelling spelling_of(const OptionSet& set);
+
+/// Returns the options of a verb, common ones included, for help and documentation.
 OptionSet options_of(const Verb& verb);
 
 }  // namespace tabor::cli

@@ -2,6 +2,7 @@
 
 #include "tabor/cli/verb.hpp"
 
+// Declares one function per verb of the command line; verb.cpp puts them in order.
 namespace tabor::cli {
 
 Verb info_verb();

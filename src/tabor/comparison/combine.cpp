@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "tabor/comparison/changes.hpp"
 #include "tabor/comparison/robust_fit.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/names.hpp"
@@ -106,6 +107,27 @@ RobustPlane plane_of(const Field& difference, LevelMatch match) {
   return plane;
 }
 
+/// The plane of the places that show no change: the rim of a scar bends one that is only robust.
+/// What shows a change depends on the plane in turn.
+RobustPlane plane_of_unchanged(const Field& difference, const Grid& grid,
+                               const CombineOptions& options) {
+  constexpr int most_steps = 12;
+  constexpr double fewest = 0.02;  // of the pixels; too few hold no plane
+  RobustPlane plane = plane_of(difference, options.level);
+  if (options.level == LevelMatch::none || !(plane.spread > 0)) return plane;
+  Mask quiet;
+  for (int step = 0; step < most_steps; ++step) {
+    const Mask before = quiet;
+    quiet = find_changes(remove_plane(difference, plane), grid, options.threshold).quiet;
+    const auto n = static_cast<double>(quiet.count());
+    const bool is_same = before.size() > 0 && (before == quiet).all();
+    if (is_same || n < 9 || n < fewest * static_cast<double>(quiet.size())) break;
+    plane =
+        plane_of(quiet.select(difference, std::numeric_limits<double>::quiet_NaN()), options.level);
+  }
+  return plane;
+}
+
 std::string line_of(const Combination& c, const CombineOptions& options,
                     const topography::Topography& b) {
   const bool composite = options.mode == CombineMode::composite;
@@ -150,7 +172,7 @@ Combination combine(const topography::Topography& first, const topography::Topog
     result.map.height = a.height + moved;
   } else {
     const Field difference = a.height - moved;
-    result.plane = plane_of(difference, options.level);
+    result.plane = plane_of_unchanged(difference, a.grid, options);
     result.map.height = remove_plane(difference, result.plane);
   }
   result.map.history.push_back(line_of(result, options, b));

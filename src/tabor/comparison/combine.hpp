@@ -6,6 +6,8 @@
 #include "tabor/comparison/registration.hpp"
 #include "tabor/topography/topography.hpp"
 
+// Combines two scans: wear between two states, their difference, or the composite of two faces in
+// contact.
 namespace tabor::comparison {
 
 /// wear:       A (before) minus B (after) at the same place: positive where material is gone
@@ -14,11 +16,12 @@ namespace tabor::comparison {
 ///             constant minus this map. Nothing is searched: the faces are two places.
 enum class CombineMode { wear, difference, composite };
 
-/// What of B's height relative to A is not real and is taken out of the difference. A plane is
-/// fitted robustly, so that it rests on what did not change.
+/// Mounting offset or tilt of B against A, removed from the difference. A plane is fitted robustly,
+/// then once more to the unchanged places alone: without the changes that wear_volumes() would find
+/// and their rims.
 enum class LevelMatch { none, offset, plane };
 
-/// How combine() matches and subtracts.
+/// Settings of combine().
 struct CombineOptions {
   CombineMode mode = CombineMode::wear;
   bool search = true;  ///< for the shift (wear, difference)
@@ -39,10 +42,11 @@ struct Volume {
 
 /// Volumes between two states of a surface. Changes are looked for in the difference smoothed by a
 /// Gaussian of cutoff 5 pixels, at `threshold` times its noise, and summed in the difference
-/// itself. Uncertainties come from the noise of unchanged places: its standard deviation, the area
-/// over which it is correlated, and the plane fitted to it.
+/// itself, with the rims around them that only the mean over a ring shows. Uncertainties come from
+/// the noise of unchanged places: its standard deviation, the area over which it is correlated, and
+/// the plane fitted to it.
 struct WearVolumes {
-  Volume worn;             ///< gone
+  Volume worn;             ///< removed material
   Volume piled_up;         ///< more than before (as a positive volume)
   Volume net;              ///< worn - piled up over the whole overlap, without a threshold
   double noise = 0;        ///< [m], robust standard deviation of the difference
@@ -51,7 +55,7 @@ struct WearVolumes {
   double threshold = 0;    ///< [m], on the smoothed difference
 };
 
-/// What combine() made of two scans.
+/// Result of combine().
 struct Combination {
   topography::Topography
       map;  ///< on A's pixels (averaged onto B's where those are larger), cut to the overlap
@@ -67,20 +71,21 @@ struct Combination {
   std::optional<WearVolumes> wear;
 };
 
-/// "wear" and so on; nullopt if there is no such mode.
+/// Returns the mode of a name, "wear" and so on; nullopt if there is none.
 std::optional<CombineMode> combine_mode_from(std::string_view name);
-/// The inverse of combine_mode_from().
+/// Returns the name of a mode.
 std::string_view name_of(CombineMode mode);
-/// "plane" and so on; nullopt if there is no such match.
+/// Returns the match of a name, "plane" and so on; nullopt if there is none.
 std::optional<LevelMatch> level_match_from(std::string_view name);
-/// The inverse of level_match_from().
+/// Returns the name of a match.
 std::string_view name_of(LevelMatch match);
 
-/// Throws InputError when the scans do not overlap, or cannot be matched (see register_scans).
+/// Combines two scans. Throws InputError when the scans do not overlap, or cannot be matched (see
+/// register_scans).
 Combination combine(const topography::Topography& a, const topography::Topography& b,
                     const CombineOptions& options = {}, const Observer& observer = {});
 
-/// Volumes of a map of height losses whose zero is the unchanged surface.
+/// Computes the volumes of a map of height losses whose zero is the unchanged surface.
 WearVolumes wear_volumes(const Field& loss, const Grid& grid, double threshold = 4);
 
 }  // namespace tabor::comparison

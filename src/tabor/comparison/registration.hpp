@@ -3,9 +3,10 @@
 #include "tabor/core/convergence.hpp"
 #include "tabor/topography/topography.hpp"
 
+// Finds the shift between two scans of the same place, to a small part of a pixel.
 namespace tabor::comparison {
 
-/// A plane between two scans, over pixels, c0 + c1 u + c2 v with u, v from -1 to 1 across the map.
+/// Plane between two scans, over pixels, c0 + c1 u + c2 v with u, v from -1 to 1 across the map.
 struct RobustPlane {
   double offset = 0;  ///< [m]
   double tilt_x = 0;  ///< [m] over half the width
@@ -13,8 +14,8 @@ struct RobustPlane {
   double spread = 0;  ///< [m], robust standard deviation about the plane
 };
 
-/// Where scan B lies relative to scan A: what is at (x, y) in A, from its top left corner, is at
-/// (x + shift_x, y + shift_y) in B. Rotation and stretch are not looked for.
+/// Position of scan B relative to scan A: what is at (x, y) in A, from its top left corner, is at
+/// (x + shift_x, y + shift_y) in B. Rotation and stretch are not searched.
 struct Registration {
   double shift_x = 0;        ///< [m]
   double shift_y = 0;        ///< [m]
@@ -27,7 +28,7 @@ struct Registration {
   int iterations = 0;        ///< of the refinement, over all sizes
 };
 
-/// When a match counts as credible.
+/// Limits below which a match is not credible.
 struct RegistrationOptions {
   double smallest_overlap = 0.25;     ///< of the smaller scan, for a shift to be considered
   double smallest_distinction = 6;    ///< below, the match is not credible
@@ -45,8 +46,8 @@ struct RegistrationOptions {
 Registration register_scans(const topography::Topography& a, const topography::Topography& b,
                             const RegistrationOptions& options = {}, const Observer& observer = {});
 
-/// B's heights at A's pixels under a shift [m]: shape of A, NaN where B has none. Where B's pixels
-/// are smaller by half or more, its heights are averaged over A's pixels first.
+/// Returns B's heights at A's pixels under a shift [m]: shape of A, NaN where B has none. Where B's
+/// pixels are smaller by half or more, its heights are averaged over A's pixels first.
 Field move_onto(const topography::Topography& b, const Grid& a, double shift_x, double shift_y);
 
 }  // namespace tabor::comparison

@@ -6,10 +6,12 @@
 #include "tabor/core/rows.hpp"
 #include "tabor/numerics/small_matrices.hpp"
 
+// Fits planes and other linear models by least squares with Tukey's biweight, which ignores
+// outliers.
 namespace tabor::comparison {
 
-/// 1.4826 times the median distance of the valid heights from their median: the standard deviation
-/// of a Gaussian. NaN without a valid height.
+/// Returns 1.4826 times the median distance of the valid heights from their median: the standard
+/// deviation of a Gaussian. NaN without a valid height.
 double robust_spread(const Field& height);
 
 /// Normal equations of a weighted least-squares fit of N unknowns.
@@ -19,24 +21,25 @@ struct NormalEquations {
   Eigen::Matrix<double, N, 1> right_side;
   double n_points = 0;  ///< with any weight
 
-  /// Zero along directions that the points do not determine.
+  /// Returns the solution; zero along directions that the points do not determine.
   Eigen::Matrix<double, N, 1> solution() const {
     return numerics::determined_inverse(matrix) * right_side;
   }
 };
 
-/// Weight of a residual by Tukey's biweight; 1 without a cutoff.
+/// Returns the weight of a residual by Tukey's biweight; 1 without a cutoff.
 inline double biweight(double residual, double cutoff) {
   if (!(cutoff > 0)) return 1;
   const double t = residual / cutoff;
   return std::abs(t) < 1 ? (1 - t * t) * (1 - t * t) : 0;
 }
 
-/// Where Tukey's weight ends, in standard deviations: 95 % efficient on Gaussian residuals.
+/// Cutoff of Tukey's biweight in standard deviations: 95 % efficient on Gaussian residuals.
 inline constexpr double kBiweightReach = 4.685;
 
-/// columns(y, x) is the row of the design matrix at a pixel; NaN there or in `residual` leaves the
-/// pixel out. Weights are those of `residual`, which is fitted by columns * solution.
+/// Sums the normal equations of a fit. columns(y, x) is the row of the design matrix at a pixel;
+/// NaN there or in `residual` leaves the pixel out. Weights are those of `residual`, which is
+/// fitted by columns * solution.
 template <int N, typename Columns>
 NormalEquations<N> normal_equations(const Field& residual, double cutoff, const Columns& columns) {
   constexpr int n_sums = N * N + N + 1;
@@ -58,12 +61,12 @@ NormalEquations<N> normal_equations(const Field& residual, double cutoff, const 
           Eigen::Map<const Eigen::Matrix<double, N, 1>>(sums.data() + N * N), sums[n_sums - 1]};
 }
 
-/// Fits by Tukey's biweight (kBiweightReach robust standard deviations), so that places that stand
-/// off do not count. Throws InputError with fewer than 9 valid heights.
+/// Fits a plane by Tukey's biweight (kBiweightReach robust standard deviations), so that outliers
+/// do not count. Throws InputError with fewer than 9 valid heights.
 RobustPlane fit_robust_plane(const Field& height);
 Field remove_plane(const Field& height, const RobustPlane& plane);
 
-/// Coordinate of pixel i of n from -1 to 1.
+/// Returns the coordinate of pixel i of n, from -1 to 1.
 inline double across(Index i, Index n) {
   return (2 * static_cast<double>(i) + 1) / static_cast<double>(n) - 1;
 }

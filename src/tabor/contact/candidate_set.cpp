@@ -137,7 +137,7 @@ void collect_candidates(const Field& residual, FieldF* change, double threshold,
   });
   std::vector<std::size_t> starts{0};
   for (const PixelList& list : lists) starts.push_back(starts.back() + list.size());
-  set.values.residual = {};  // makes room
+  set.values.residual = {};  // frees memory
   float* s = change == nullptr ? nullptr : change->data();
   if (s != nullptr) set.response = {};
   CandidateSet next;

@@ -7,11 +7,12 @@
 #include "tabor/contact/preconditioner.hpp"
 #include "tabor/core/types.hpp"
 
+// Holds the pixels that one step of the fast solver updates, and collects them from a map.
 namespace tabor::contact {
 
-/// The pixels a step of the fast solver looks at: all that carry pressure, and those without that
-/// the next step may press. Everything else has no pressure, so that this is all there is of it.
-/// Parallel arrays in the order of the pixels.
+/// Pixels that a step of the fast solver updates: all that carry pressure, and those without
+/// pressure that the next step may press. All other pixels have zero pressure. Parallel arrays in
+/// the order of the pixels.
 struct CandidateSet {
   PixelList pixels;
   Candidates values;             ///< p [Pa] and v [m]
@@ -21,13 +22,13 @@ struct CandidateSet {
   std::size_t size() const { return pixels.size(); }
 };
 
-/// The pixels of a map that carry pressure.
+/// Returns the pixels of a map that carry pressure.
 CandidateSet pressed_pixels(const Field& pressure);
 
-/// The pressure as a map; `map` has its shape already.
+/// Writes the pressure as a map; `map` has its shape already.
 void spread_pressure(const CandidateSet& set, Field& map);
 
-/// A v above which a pixel without pressure changes neither the certificate nor the next
+/// Returns a v above which a pixel without pressure changes neither the certificate nor the next
 /// separation, from a set whose v is up to date. Both only fall when more pixels join, so that the
 /// pixels with pressure alone give a bound: the mean of v in an elastic contact, else the larger of
 /// their separation, for the step `diagonal_step` [Pa/m], and of their own knapsack's threshold.
@@ -35,9 +36,9 @@ double candidate_threshold(const CandidateSet& set, double load, double saturati
                            double diagonal_step);
 
 /// Collects the set anew: pixels with pressure and those whose v is at most `threshold`.
-/// update(begin, end) is called for every block of pixels first and brings v up to date.
-/// `change` is S dp of the last step, taken as the response and set to zero; where it is null, the
-/// responses of the old set are kept.
+/// update(begin, end) is called for every block of pixels first and brings v up to date. `change`
+/// is S dp of the last step, taken as the response and set to zero; where it is null, the responses
+/// of the old set stay.
 void collect_candidates(const Field& residual, FieldF* change, double threshold,
                         const std::function<void(Index, Index)>& update, CandidateSet& set);
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+// Computes the duality gap, which bounds the error of an approximate contact solution.
 namespace tabor::contact {
 
 /// Pixels that matter to the optimality of a pressure field: every pixel in contact and every other
@@ -11,8 +12,8 @@ struct Candidates {
   std::vector<double> residual;  ///< v = S p - z [m], up to one common constant
 };
 
-/// Duality gap of the contact problem (Rey, Anciaux & Molinari 2017, doi:10.1007/s00466-017-1392-5,
-/// give the energy principle):
+/// Returns the duality gap of the contact problem (Rey, Anciaux & Molinari 2017,
+/// doi:10.1007/s00466-017-1392-5, give the energy principle):
 ///
 ///     G = <p, v> - min { <s, v> : 0 <= s <= p_sat, mean(s) = P },    v = S p - z
 ///

@@ -5,18 +5,20 @@
 #include "tabor/contact/certificate.hpp"
 #include "tabor/contact/contact.hpp"
 
+// Tests whether a pressure satisfies load, bounds and complementarity; both contact solvers stop by
+// it.
 namespace tabor::contact {
 
-/// True where the pressure is at the cap but for rounding. The one test of it: solvers, separation,
-/// gaps and summary ask here.
+/// True where the pressure is at the cap but for rounding. Solvers, separation, gaps and summary
+/// all use this test.
 inline bool at_cap(double pressure, double saturation_pressure) {
   constexpr double rounding = 1e-12;
   return pressure >= (1 - rounding) * saturation_pressure;
 }
 
-/// What a solution must fulfil, in the form both solvers stop by: it carries the load, its duality
-/// gap is small, and the gap is closed wherever the pressure is inside its bounds. The duality gap
-/// weighs gaps with pressure; a pixel with next to no pressure could have any gap without it. Takes
+/// Conditions of a solution, by which both solvers stop: it carries the load, its duality gap is
+/// small, and the gap is closed wherever the pressure is inside its bounds. The duality gap weighs
+/// gaps with pressure; a pixel with next to no pressure could have any gap without it. Takes
 /// pressures p and residuals v = S p - z of all pixels that matter, in the same order.
 class Conditions {
  public:
@@ -25,19 +27,20 @@ class Conditions {
 
   double load() const { return load_; }  ///< sum of the pressures [Pa]
 
-  /// The certificate (docs/theory.md); infinite for a pressure that does not carry the load.
+  /// Returns the certificate (docs/theory.md); infinite for a pressure that does not carry the
+  /// load.
   double certificate(const Candidates& all) const;
 
-  /// sep with gap = v + sep [m]: the mean gap of the pixels inside the bounds is zero, each
-  /// weighted by its distance from the bounds, p (1 - p / p_sat). If all are at the cap, their
-  /// largest gap is zero.
+  /// Returns sep with gap = v + sep [m], such that the mean gap of the pixels inside the bounds is
+  /// zero, each weighted by its distance from the bounds, p (1 - p / p_sat). If all are at the cap,
+  /// their largest gap is zero.
   double separation(std::span<const double> p, std::span<const double> v) const;
 
-  /// Largest violation [m] of: gap = 0 inside the bounds, gap >= 0 without pressure, gap <= 0 at
-  /// the cap.
+  /// Returns the largest violation [m] of: gap = 0 inside the bounds, gap >= 0 without pressure,
+  /// gap <= 0 at the cap.
   double gap_error(std::span<const double> p, std::span<const double> v, double separation) const;
 
-  /// The largest gap_error that counts as converged (docs/theory.md, "Certificate").
+  /// Returns the largest gap_error that counts as converged (docs/theory.md, "Certificate").
   double gap_limit() const { return gap_limit_; }
 
   bool gaps_close(std::span<const double> p, std::span<const double> v) const {
@@ -45,9 +48,9 @@ class Conditions {
   }
 
   enum class Settled { already, now, not_yet };
-  /// Puts on their bounds the pixels that are inside them in name only: their gap would change the
-  /// pressure many times over. The others share what load that moves. `now`: pressures changed, v
-  /// must follow; `not_yet`: too much load would move, the pressures are left as they were.
+  /// Moves pixels to a bound whose pressure is not clearly between the bounds: their gap would
+  /// change it many times over. The other pixels share the moved load. `now`: pressures changed, v
+  /// must be computed again; `not_yet`: too much load would move, the pressures stay as they were.
   Settled settle(std::span<double> p, std::span<const double> v) const;
 
  private:

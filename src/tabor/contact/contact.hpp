@@ -6,17 +6,19 @@
 #include "tabor/core/types.hpp"
 #include "tabor/elastic/operator.hpp"
 
+// Solves the contact of a rough elastic surface with a rigid flat under a mean pressure, and
+// summarises the result.
 namespace tabor::contact {
 
 inline constexpr double kNoSaturation = std::numeric_limits<double>::infinity();
 
-/// Both reach the same certificate.
+/// Algorithm of the contact solver; both reach the same certificate.
 enum class Solver {
   fast,  ///< preconditioned projected spectral gradient, one operator application per iteration
   polonsky_keer  ///< Polonsky & Keer 1999: the textbook baseline, two applications per iteration
 };
 
-/// What is asked: a rigid flat pressed on `height` with a given mean pressure.
+/// Contact problem: a rigid flat is pressed on `height` with a given mean pressure.
 struct Problem {
   Field height;                                ///< [m], asperities up, shape (ny, nx), no NaN
   double mean_pressure = 0;                    ///< P [Pa], load / nominal area, > 0
@@ -25,8 +27,8 @@ struct Problem {
   int max_iterations = 5000;
 };
 
-/// What was found. gap = separation + displacement - height; gap < 0 only at saturated pixels,
-/// where -gap is the residual plastic indentation.
+/// Solution of a contact problem. gap = separation + displacement - height; gap < 0 only at
+/// saturated pixels, where -gap is the residual plastic indentation.
 struct State {
   Field pressure;         ///< [Pa], 0 <= p <= p_sat, mean exactly P
   Field displacement;     ///< [m]
@@ -35,22 +37,23 @@ struct State {
   double gap_error = 0;   ///< [m], largest gap or overlap where the contact conditions allow none
   double gap_limit = 0;   ///< [m], the largest gap_error that counts as converged
   Convergence convergence;
-  /// Steps of the fast solver that left long waves alone, since with them bounds led uphill.
+  /// Steps of the fast solver without the long-wave correction, because with it the bounds made the
+  /// direction an ascent.
   int compact_steps = 0;
 };
 
-/// Solves the contact problem. Throws InputError for invalid input (P >= p_sat, NaN,
-/// wrong shape). Not reaching the tolerance is returned, and so is being stopped: with the load
-/// carried and within the bounds as ever, and the certificate of where the solution stood.
+/// Solves the contact problem. Throws InputError for invalid input (P >= p_sat, NaN, wrong shape).
+/// Not reaching the tolerance is returned, and so is being stopped: the pressure then carries the
+/// load within the bounds, and the certificate tells its quality.
 State solve(elastic::ElasticOperator& elasticity, const Problem& problem,
             Solver solver = Solver::fast, const Observer& observer = {});
 
-/// Everything a user reads about a contact (contact.md section 4).
+/// Numbers that a user reads about a contact.
 struct Summary {
   double mean_pressure = 0;                 ///< [Pa]
   double contact_area_fraction = 0;         ///< perimeter-corrected (Yastrebov et al. 2017)
   double contact_area_fraction_pixels = 0;  ///< counted
-  bool area_correction_valid = true;        ///< false where capped regions fill whole rows
+  bool area_correction_valid = true;        ///< false where contact lines run along the grid
   double saturated_area_fraction = 0;
   double mean_gap = 0;           ///< [m], mean of max(gap, 0)
   double separation = 0;         ///< [m]
@@ -61,11 +64,12 @@ struct Summary {
   double perimeter = 0;  ///< [m], along pixel edges (4/pi of a circle's)
 };
 
-/// `periodic`: opposite borders of the map are neighbours. Shapes are those of the grid.
+/// Computes the summary of a state. `periodic`: opposite borders of the map are neighbours. Shapes
+/// are those of the grid.
 Summary summarise(const State& state, const Problem& problem, const Grid& grid, bool periodic);
 
-/// The surface after unloading: heights less the residual plastic indentation max(-gap, 0) of the
-/// saturated pixels. Solving on it again at the same load or less is elastic.
+/// Returns the surface after unloading: heights less the residual plastic indentation max(-gap, 0)
+/// of the saturated pixels. Solving on it again at the same load or less is elastic.
 Field unloaded_height(const Field& height, const State& state);
 
 /// True where pressure > 0.

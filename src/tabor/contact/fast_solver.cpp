@@ -44,7 +44,7 @@ FieldF zeros(Index ny, Index nx) {
 ///
 /// M: Preconditioner with LongWaves on the pixels that may move; sep: separation for which the
 /// diagonally preconditioned step carries the load; tau: second Barzilai & Borwein (1988) step in
-/// the metric of M; shift: exact load. v follows by S dp in single precision, p and v are kept in
+/// the metric of M; shift: exact load. v follows by S dp in single precision, p and v are stored in
 /// double and v is computed afresh when the certificate has become small (docs/theory.md, "Fast
 /// solver").
 class ProjectedGradient {
@@ -136,7 +136,7 @@ template <typename Residual>
 void ProjectedGradient::collect(const Residual& residual, FieldF* change,
                                 const std::function<void(Index, Index)>& update) {
   for (std::vector<float>* values : {&compact_direction_, &stiffness_, &moved_}) {
-    *values = {};  // makes room
+    *values = {};  // frees memory
   }
   trial_ = {};
   for_each(candidates_.size(), [&](std::size_t k) {

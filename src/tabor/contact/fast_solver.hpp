@@ -4,8 +4,9 @@
 
 namespace tabor::contact {
 
-/// The fast solver behind solve(): preconditioned projected spectral gradient. The problem must
-/// have passed solve()'s checks. State.gap and State.separation are not set yet (see finish_state).
+/// Solves a contact by the preconditioned projected spectral gradient method: the fast solver
+/// behind solve(). The problem must have passed solve()'s checks. State.gap and State.separation
+/// are not set yet (see finish_state).
 State solve_fast(elastic::ElasticOperator& elasticity, const Problem& problem,
                  const Observer& observer);
 

@@ -8,10 +8,11 @@
 
 namespace tabor::contact {
 
-/// Second level of the preconditioner. The compact kernel M answers a residual as if contacts
-/// farther apart than its taper did not feel each other. This adds what they do, on a grid of
-/// blocks of pixels: with P the bilinear interpolation from that grid to the pixels of a set, m the
-/// row sums of M on the set and S_c the compliance of long waves that M leaves out,
+/// Adds long waves to a preconditioned direction (second level of the preconditioner). The compact
+/// kernel M ignores the interaction of contacts farther apart than its taper. This class adds that
+/// interaction on a grid of blocks of pixels: with P the bilinear interpolation from that grid to
+/// the pixels of a set, m the row sums of M on the set and S_c the compliance of long waves that M
+/// leaves out,
 ///
 ///     e = S_c P^T (d - m P e),     d <- d - m P e
 ///
@@ -19,22 +20,25 @@ namespace tabor::contact {
 /// conjugate gradients in the inner product of K = P^T m P, in which I + S_c K is symmetric.
 class LongWaves {
  public:
-  /// plateau: value of M at long waves [Pa/m]; wraps: the grid is a periodic cell.
+  /// Prepares the blocks of a grid. plateau: value of M at long waves [Pa/m]; wraps: the grid is a
+  /// periodic cell.
   LongWaves(const Grid& grid, double effective_modulus, double plateau, bool wraps);
 
-  /// False for grids of a few blocks, on which nothing is left to correct.
+  /// True unless the grid has only a few blocks, on which nothing is left to correct.
   bool useful() const { return blocks_y_ >= kLeastBlocks && blocks_x_ >= kLeastBlocks; }
 
-  /// How far the equation on the blocks is solved: `rough` tells which pixels a bound will hold.
+  /// Accuracy of the solution on the blocks: `rough` suffices to tell which pixels a bound will
+  /// hold.
   enum class Accuracy { rough, full };
 
-  /// Forgets e: the next solution starts from nothing.
+  /// Sets e to zero: the next solution starts from there.
   void start_anew();
 
-  /// direction[k] = compact[k] - (m P e)[k] at pixel set[k], with e found from the e before.
-  /// compact: the direction M gives; stiffness: m [Pa/m]; moved: the part of the direction that the
-  /// bounds on the pressure let through. A pixel where it differs from the compact direction is
-  /// held by a bound: it adds to the load of its block but not to its stiffness.
+  /// Sets direction[k] = compact[k] - (m P e)[k] at pixel set[k]; the solution for e starts from
+  /// the previous e. compact: the direction M gives; stiffness: m [Pa/m]; moved: the part of the
+  /// direction that the bounds on the pressure let through. A pixel where it differs from the
+  /// compact direction is held by a bound: it adds to the load of its block but not to its
+  /// stiffness.
   void correct(const PixelList& set, const std::vector<float>& stiffness,
                const std::vector<float>& moved, const std::vector<float>& compact,
                Accuracy accuracy, std::vector<float>& direction);

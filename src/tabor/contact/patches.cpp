@@ -55,4 +55,24 @@ Transitions count_transitions(const Mask& contact, bool periodic) {
   return transitions;
 }
 
+Index count_corners(const Mask& contact, bool periodic) {
+  const Index ny = periodic ? contact.rows() : contact.rows() - 1;
+  const Index nx = periodic ? contact.cols() : contact.cols() - 1;
+  const auto corners_at = [&](Index y, Index x) {
+    const Index below = (y + 1) % contact.rows(), right = (x + 1) % contact.cols();
+    const bool a = contact(y, x), b = contact(y, right), c = contact(below, x),
+               d = contact(below, right);
+    const int n = int{a} + int{b} + int{c} + int{d};
+    if (n == 2) return a == d ? 2 : 0;  // two pixels that touch at the corner only
+    return n % 2;
+  };
+  return static_cast<Index>(deterministic_sum(ny, [&](Index begin, Index end) {
+    Index n = 0;
+    for (Index y = begin; y < end; ++y) {
+      for (Index x = 0; x < nx; ++x) n += corners_at(y, x);
+    }
+    return static_cast<double>(n);
+  }));
+}
+
 }  // namespace tabor::contact

@@ -4,6 +4,7 @@
 
 #include "tabor/core/types.hpp"
 
+// Counts the connected patches of a contact and the pixel edges and corners of their outlines.
 namespace tabor::contact {
 
 /// Connected contact patches: pixels that share an edge belong together, across the border too if
@@ -13,15 +14,19 @@ struct Patches {
   Index size() const { return static_cast<Index>(pixel_counts.size()); }
 };
 
-/// 4-connected patches; `periodic` joins those at opposite borders.
+/// Finds the 4-connected patches; `periodic` joins patches at opposite borders.
 Patches find_patches(const Mask& contact, bool periodic);
 
-/// Number of neighbouring pixel pairs of which exactly one is in contact.
+/// Numbers of neighbouring pixel pairs of which exactly one is in contact.
 struct Transitions {
   Index along_rows = 0;     ///< left-right neighbours
   Index along_columns = 0;  ///< upper-lower neighbours
   Index total() const { return along_rows + along_columns; }
 };
+
+/// Counts the corners of the outlines of the contact along pixel edges; two where two outlines
+/// meet.
+Index count_corners(const Mask& contact, bool periodic);
 
 /// Counts edges between contact and open pixels, across borders too if `periodic`.
 Transitions count_transitions(const Mask& contact, bool periodic);

@@ -7,11 +7,12 @@
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/types.hpp"
 
+// Lists pixels that satisfy a condition, and loops and sums over such lists on all threads.
 namespace tabor::contact {
 
 using PixelList = std::vector<std::uint32_t>;  ///< linear pixel indices, ascending
 
-/// The i < n for which chosen(i) holds, ascending.
+/// Returns the i < n for which chosen(i) holds, ascending.
 template <typename Chosen>
 PixelList list_where(Index n, const Chosen& chosen) {
   std::vector<PixelList> lists(static_cast<std::size_t>((n + kBlock - 1) / kBlock));
@@ -29,7 +30,7 @@ PixelList list_where(Index n, const Chosen& chosen) {
   return all;
 }
 
-/// body(k) for every k < n.
+/// Calls body(k) for every k < n.
 template <typename Body>
 void for_each(std::size_t n, const Body& body) {
   parallel_for(static_cast<Index>(n), kBlock, [&](Index begin, Index end) {
@@ -37,7 +38,7 @@ void for_each(std::size_t n, const Body& body) {
   });
 }
 
-/// Sum of term(k) over k < n, in fixed blocks.
+/// Returns the sum of term(k) over k < n, in fixed blocks.
 template <typename Term>
 double sum_over(std::size_t n, const Term& term) {
   return deterministic_sum(static_cast<Index>(n), [&](Index begin, Index end) {

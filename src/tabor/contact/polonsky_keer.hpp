@@ -4,10 +4,11 @@
 
 namespace tabor::contact {
 
-/// The textbook baseline behind solve(): conjugate gradients on the contact set with restarts
-/// (Polonsky & Keer 1999, doi:10.1016/S0043-1648(99)00113-1), a pressure cap by clipping (Almqvist
-/// et al. 2007, doi:10.1016/j.triboint.2005.11.008) and two operator applications an iteration, all
-/// in double precision. Same checks, certificate and load projection as the fast solver.
+/// Solves a contact by conjugate gradients on the contact set with restarts: the textbook baseline
+/// behind solve() (Polonsky & Keer 1999, doi:10.1016/S0043-1648(99)00113-1), a pressure cap by
+/// clipping (Almqvist et al. 2007, doi:10.1016/j.triboint.2005.11.008) and two operator
+/// applications an iteration, all in double precision. Checks, certificate and load projection are
+/// those of the fast solver.
 State solve_polonsky_keer(elastic::ElasticOperator& elasticity, const Problem& problem,
                           const Observer& observer);
 

@@ -7,24 +7,24 @@
 
 namespace tabor::contact {
 
-/// Approximate inverse of the elastic operator on a set of pixels: the kernel of E* |q| / 2 on the
-/// grid, times a triangular taper in x and y. The taper keeps it positive definite (product of two
-/// positive definite kernels, Schur) and compact, so that it can act on scattered contact pixels
-/// alone. What it cuts off is left to LongWaves.
+/// Applies an approximate inverse of the elastic operator on a set of pixels: the kernel of E* |q|
+/// / 2 on the grid, times a triangular taper in x and y. The taper keeps it positive definite
+/// (product of two positive definite kernels, Schur) and compact, so that it can act on scattered
+/// contact pixels alone. LongWaves adds what the taper cuts off.
 class Preconditioner {
  public:
-  /// wraps: neighbours continue across the edges (periodic cell).
+  /// Computes the kernel. wraps: neighbours continue across the edges (periodic cell).
   Preconditioner(const Grid& grid, double effective_modulus, bool wraps);
 
-  /// out[k] = sum over the set of kernel * residual at pixel set[k], row_sums[k] = sum over the set
-  /// of the kernel. `residual` has shape (ny, nx) and is zero off the set; a pixel of the set where
-  /// it is zero is not counted.
+  /// Computes out[k] = sum over the set of kernel * residual at pixel set[k], row_sums[k] = sum
+  /// over the set of the kernel. `residual` has shape (ny, nx) and is zero off the set; a pixel of
+  /// the set where it is zero is not counted.
   void apply(const PixelList& set, const FieldF& residual, std::vector<float>& out,
              std::vector<float>& row_sums) const;
 
-  /// Kernel value at the pixel itself [Pa/m]: the stiffness of a lone contact pixel.
+  /// Returns the kernel value at the pixel itself [Pa/m]: the stiffness of a lone contact pixel.
   double diagonal() const { return diagonal_; }
-  /// Sum of the kernel [Pa/m]: the stiffness of a large contact against long waves.
+  /// Returns the sum of the kernel [Pa/m]: the stiffness of a large contact against long waves.
   double plateau() const;
 
  private:

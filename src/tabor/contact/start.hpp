@@ -2,12 +2,14 @@
 
 #include "tabor/contact/contact.hpp"
 
+// Finds a first pressure for a contact solver, from coarser grids or from the bearing area.
 namespace tabor::contact {
 
-/// A first pressure that carries the load: the solution of the same problem on a grid of half the
-/// resolution where that exists (recursively), else the bearing area of the heights. Adds the work
-/// of the coarse grids to fft_pairs, weighted by their share of pixels. The observer is asked on
-/// the coarse grids too, and told no certificate of theirs; if it stops them, so is `convergence`.
+/// Returns a first pressure that carries the load: the solution of the same problem on a grid of
+/// half the resolution where that exists (recursively), else the bearing area of the heights. Adds
+/// the work of the coarse grids to fft_pairs, weighted by their share of pixels. The observer is
+/// asked on the coarse grids, too, but gets no certificate of theirs; if it stops there,
+/// `convergence` says so.
 Field starting_pressure(const elastic::ElasticOperator& elasticity, const Problem& problem,
                         const Observer& observer, Convergence& convergence);
 

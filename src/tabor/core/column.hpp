@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -10,9 +11,9 @@
 #include <variant>
 #include <vector>
 
-// A record is a plain struct of numbers. Its columns say once how each number is called, in which
-// unit it is and where it appears; JSON objects, attributes and tables of HDF5 files, CSV files and
-// the tables on the terminal are all made from them (io/columns.hpp, cli/table.hpp).
+// Defines the columns of a record: the name, unit and outputs of each of its numbers, said once.
+// JSON objects, attributes and tables of HDF5 files, CSV files and the tables on the terminal are
+// all made from them (io/columns.hpp, cli/table.hpp).
 namespace tabor {
 
 /// One value of a record. std::monostate: the record has no such value, and it is left out; a NaN
@@ -20,7 +21,7 @@ namespace tabor {
 using Cell = std::variant<std::monostate, double, std::int64_t, std::uint64_t, bool, std::string,
                           std::vector<std::string>>;
 
-/// How a value is written on the terminal.
+/// Style of a value on the terminal.
 enum class Shown {
   by_unit,   ///< with an SI prefix, "7 MPa"; a number without a unit plainly, a switch as yes or NO
   unscaled,  ///< its unit without a prefix, "0.45 g/m²"
@@ -29,18 +30,18 @@ enum class Shown {
   alarm      ///< a switch that should be off, as no or YES
 };
 
-/// Where a column appears. A table of columns may serve several outputs that do not all hold the
-/// same numbers; what the bits mean to a record is said beside its columns.
+/// Outputs in which a column appears, as bits. A table of columns may serve several outputs that do
+/// not all hold the same numbers; the meaning of the bits stands beside the columns of a record.
 using Media = unsigned;
 inline constexpr Media kEverywhere = ~0U;
 
-/// How a column looks and where it appears.
+/// Style and outputs of a column.
 struct ColumnStyle {
   Shown shown = Shown::by_unit;
   Media media = kEverywhere;
 };
 
-/// All of a column but its value.
+/// Column without its value.
 struct ColumnHead {
   std::string key;   ///< "mean_gap_m", in every output; a dot leads into an object: "wear.time_s".
                      ///< Empty: on the terminal only
@@ -49,11 +50,12 @@ struct ColumnHead {
       heading;  ///< "mean gap", on the terminal and as long_name; empty: not on the terminal
   ColumnStyle style = {};
 
-  /// Whether one of these outputs has the column.
+  /// True where one of these outputs has the column.
   bool is_in(Media media) const { return !key.empty() && (style.media & media) != 0; }
 };
 
-/// Access to a member of a member: member_of(&Record::convergence, &Convergence::iterations).
+/// Returns access to a member of a member: member_of(&Record::convergence,
+/// &Convergence::iterations).
 template <typename Record, typename Part, typename Value>
 auto member_of(Part Record::*part, Value Part::*member) {
   return [part, member](auto& record) -> decltype(auto) { return ((record.*part).*member); };
@@ -85,7 +87,7 @@ Cell to_cell(const std::optional<Value>& value) {
 
 }  // namespace detail
 
-/// The number of a cell, a switch being 0 or 1; NaN for a text or no value.
+/// Returns the number of a cell, 0 or 1 for a switch; NaN for a text or no value.
 double number_in(const Cell& cell);
 
 /// Puts the value of a cell into a variable; throws InputError if it is of another kind.
@@ -99,11 +101,11 @@ template <typename Integer>
 requires std::is_integral_v<Integer>
 void assign(const Cell& cell, Integer& target) { target = static_cast<Integer>(integer_in(cell)); }
 
-/// One number of a record: how it is called, and how it is taken from a record and put into one.
+/// One number of a record: its name, and how it is read from a record and written into one.
 template <typename Record>
 struct Column : ColumnHead {
   std::function<Cell(const Record&)> value;
-  std::function<void(Record&, const Cell&)> assign;  ///< empty for what is computed
+  std::function<void(Record&, const Cell&)> assign;  ///< empty for computed values
   Cell kind;                                         ///< any value of the kind that it has
 
   /// `access`: a member pointer or member_of(), which can be read back, or
@@ -127,8 +129,8 @@ struct Column : ColumnHead {
     }
   }
 
-  /// The same number, taken from a record that `part` finds in this one; a null pointer: there is
-  /// none. `made` is the same where the record is to be filled.
+  /// Takes the same number from a record that `part` finds in this one (null: there is none).
+  /// `made` finds it, or makes it, where the record is to be filled.
   template <typename Part, typename Find, typename Make>
   Column(const Column<Part>& column, Find part, Make made)
       : ColumnHead(column),
@@ -148,8 +150,7 @@ struct Column : ColumnHead {
 template <typename Record>
 using Columns = std::vector<Column<Record>>;
 
-/// Columns of a record that is part of another one; where the part is a std::optional that is
-/// empty, it has no values.
+/// Returns the columns of a record that is a part of another one.
 template <typename Record, typename Part>
 Columns<Record> within(const Columns<Part>& columns, Part Record::*part) {
   Columns<Record> all;
@@ -161,7 +162,7 @@ Columns<Record> within(const Columns<Part>& columns, Part Record::*part) {
   return all;
 }
 
-/// The same of a part that a record may lack.
+/// Returns the columns of a part that a record may lack; they have no values where it does.
 template <typename Record, typename Part>
 Columns<Record> within(const Columns<Part>& columns, std::optional<Part> Record::*part) {
   Columns<Record> all;
@@ -175,7 +176,7 @@ Columns<Record> within(const Columns<Part>& columns, std::optional<Part> Record:
   return all;
 }
 
-/// Columns of a record that this one is derived from.
+/// Returns the columns of a record that this one is derived from.
 template <typename Record, typename Base>
 Columns<Record> inherited(const Columns<Base>& columns) {
   Columns<Record> all;
@@ -187,11 +188,19 @@ Columns<Record> inherited(const Columns<Base>& columns) {
   return all;
 }
 
-/// Columns of both, one after the other.
-template <typename Record>
-Columns<Record> joined(Columns<Record> first, const Columns<Record>& second) {
+/// Returns the columns of all lists, one after the other.
+template <typename Record, std::same_as<Columns<Record>>... More>
+Columns<Record> joined(Columns<Record> first, const Columns<Record>& second, const More&... more) {
   first.insert(first.end(), second.begin(), second.end());
+  (first.insert(first.end(), more.begin(), more.end()), ...);
   return first;
+}
+
+/// The same columns in an object of this name: "max_force_N" becomes "dry.max_force_N".
+template <typename Record>
+Columns<Record> below(const std::string& object, Columns<Record> columns) {
+  for (Column<Record>& column : columns) column.key = object + "." + column.key;
+  return columns;
 }
 
 /// One line of a table: columns with the values of one record.
@@ -202,8 +211,8 @@ struct NamedCell {
 /// The values of one record.
 using NamedCells = std::vector<NamedCell>;
 
-/// The values of a record for one of the outputs, in the order of its columns, those that it has
-/// not left out.
+/// Returns the values of a record for some of the outputs, in the order of its columns; values that
+/// the record does not have are left out.
 template <typename Record>
 NamedCells cells_of(const Columns<Record>& columns, const Record& record,
                     Media media = kEverywhere) {

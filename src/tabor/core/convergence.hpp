@@ -4,9 +4,10 @@
 #include <limits>
 #include <string_view>
 
+// Reports how an iterative computation ended, and lets an observer follow and stop it.
 namespace tabor {
 
-/// How an iterative solver ended.
+/// End of an iterative solver.
 enum class Status {
   converged,        ///< to the tolerance asked for
   stalled,          ///< no step brought it any nearer
@@ -14,33 +15,34 @@ enum class Status {
   stopped           ///< the observer said stop: not a failure, and nothing is tried after it
 };
 
-/// "converged", "stalled", "iteration limit", "stopped".
+/// Returns "converged", "stalled", "iteration limit" or "stopped".
 std::string_view name_of(Status status);
 
-/// What an iterative solver can prove about its result. Not converging is returned, never thrown.
+/// Proven quality of the result of an iterative solver. Not converging is returned, never thrown.
 struct Convergence {
   int iterations = 0;
   int operator_applications = 0;  ///< on the problem's own grid
   double fft_pairs = 0;  ///< all of them: coarse grids by their share of pixels, preconditioner too
   double certificate = std::numeric_limits<double>::infinity();  ///< dimensionless; proves quality
   double tolerance = 0;                                          ///< the certificate asked for
-  Status status = Status::iteration_limit;                       ///< while it still goes on, too
+  Status status = Status::iteration_limit;                       ///< also while it runs
 
-  /// The certificate is within the tolerance.
+  /// True where the certificate is within the tolerance.
   bool converged() const { return status == Status::converged; }
-  /// The observer asked to stop.
+  /// True where the observer asked to stop.
   bool stopped() const { return status == Status::stopped; }
-  /// Neither converged nor stopped: another way may be tried.
+  /// True where it neither converged nor was stopped: another method may be tried.
   bool failed() const { return !converged() && !stopped(); }
 };
 
-/// `now` with the work of what came before it.
+/// Returns `now` with the work of `before` added.
 Convergence after(const Convergence& before, Convergence now);
 
-/// Of a result that needed no iteration.
+/// Returns the convergence of a result that needed no iteration.
 Convergence exact(double tolerance = 0);
 
-/// Share of an iterative solve that is done, from the logarithm of its certificate: 0 at the first.
+/// Returns the share of an iterative solve that is done, from the logarithm of its certificate: 0
+/// at the first.
 double share_done(double first_certificate, const Convergence& convergence);
 
 /// One message from a long computation to whoever watches it.
@@ -58,7 +60,7 @@ using Observer = std::function<bool(const Progress&)>;
 /// Tells the observer if there is one; true if it asks to stop.
 bool asks_to_stop(const Observer& observer, const Progress& progress);
 
-/// For callers to whom an unfinished result is of no use. Throws Interrupted if it was stopped.
+/// Throws Interrupted if the solver was stopped: for callers that cannot use an unfinished result.
 void throw_if_stopped(const Convergence& convergence);
 
 /// Tells the observer if there is one; throws Interrupted when it asks to stop.

@@ -3,9 +3,10 @@
 #include <stdexcept>
 #include <string>
 
+// Defines the exceptions that the library throws on purpose; their classes tell exit codes apart.
 namespace tabor {
 
-/// Everything the library throws on purpose. what() is one line fit for a user's eyes.
+/// Base of everything that the library throws on purpose. what() is one line fit for a user's eyes.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -14,7 +15,8 @@ class Error : public std::runtime_error {
 /// Input that cannot be read or is invalid (exit code 3 of the command line).
 class InputError : public Error {
  public:
-  /// "<what>: got <got>; expected <expected>; <remedy>", empty parts left out.
+  /// Makes the message "<what>: got <got>; expected <expected>; <remedy>"; empty parts are left
+  /// out.
   InputError(const std::string& what, const std::string& got, const std::string& expected,
              const std::string& remedy);
   /// A message that already is one clear line.
@@ -39,7 +41,7 @@ class UsageError : public Error {
   using Error::Error;
 };
 
-/// The user asked to stop (exit code 130). What was finished is kept.
+/// The user asked to stop (exit code 130). Finished results remain.
 class Interrupted : public Error {
  public:
   Interrupted() : Error("interrupted") {}

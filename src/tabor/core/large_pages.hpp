@@ -11,11 +11,12 @@
 #include <cstddef>
 #include <cstdint>
 
+// Allocates large arrays on large memory pages, which makes reading them in random order faster.
 namespace tabor {
 
-/// Asks the system to back n elements by large pages: an array read in random order otherwise
-/// spends as long on finding pages as on reading them, and a new one on being given its pages. Only
-/// a hint; call before the elements are written.
+/// Asks the system to back n elements by large pages: otherwise, an array read in random order
+/// spends as much time on finding pages as on reading them. Only a hint; to be called before the
+/// elements are written.
 template <class T>
 void ask_for_large_pages([[maybe_unused]] T* data, [[maybe_unused]] std::size_t n) {
 #if defined(__linux__)
@@ -29,7 +30,7 @@ void ask_for_large_pages([[maybe_unused]] T* data, [[maybe_unused]] std::size_t 
 #endif
 }
 
-/// A map whose values are still to be written, on large pages.
+/// Returns a map on large pages whose values are still to be written.
 template <class Map>
 Map uninitialised_map(Index ny, Index nx) {
   Map map(ny, nx);
@@ -37,14 +38,14 @@ Map uninitialised_map(Index ny, Index nx) {
   return map;
 }
 
-/// Room for n elements on large pages; call on an empty vector, before its elements exist.
+/// Reserves memory for n elements on large pages; to be called on an empty vector.
 template <class T>
 void reserve_large_pages(std::vector<T>& vector, std::size_t n) {
   vector.reserve(n);
   ask_for_large_pages(vector.data(), n);
 }
 
-/// The same for a vector that has grown to its size.
+/// Moves a vector that has grown to its size to large pages.
 template <class T>
 void move_to_large_pages(std::vector<T>& vector) {
   std::vector<T> moved;
@@ -53,7 +54,7 @@ void move_to_large_pages(std::vector<T>& vector) {
   vector = std::move(moved);
 }
 
-/// Gives back what a vector that has shrunk to less than a half of its room does not use.
+/// Releases the unused memory of a vector that fills less than half of its capacity.
 template <class T>
 void give_back_unused(std::vector<T>& vector) {
   if (vector.size() < vector.capacity() / 2) move_to_large_pages(vector);

@@ -21,9 +21,6 @@ struct Ordinary {
   std::array<std::string_view, 4> units;  ///< the likeliest first, the example's
 };
 
-constexpr Dimension kForcePerLength{0, 1, -2, 0};
-constexpr Dimension kMassPerLength{-1, 1, 0, 0};
-
 // Of names that end alike the longer one stands first. What a dimension has in common comes last.
 constexpr std::array kOrdinary{
     Ordinary{"youngs modulus", dimension::pressure, 1e5, 1.3e12, "70", {"GPa", "Pa", "MPa"}},
@@ -64,8 +61,8 @@ constexpr std::array kOrdinary{
     Ordinary{"", dimension::per_pressure, 1e-10, 1e-6, "2e-8", {"1/Pa", "1/GPa"}},
 
     Ordinary{"", dimension::wavevector, 1, 1e11, "0.1", {"1/um", "1/mm", "1/m"}},
-    Ordinary{"", kForcePerLength, 1e-2, 1e9, "5000", {"N/m", "N/mm"}},
-    Ordinary{"", kMassPerLength, 1e-6, 1e5, "30", {"kg/m"}},
+    Ordinary{"", dimension::force_per_length, 1e-2, 1e9, "5000", {"N/m", "N/mm"}},
+    Ordinary{"", dimension::mass_per_length, 1e-6, 1e5, "30", {"kg/m"}},
     Ordinary{"", dimension::force, 1e-6, 1e6, "20", {"N", "mN"}},
     Ordinary{"", dimension::mass, 1e-9, 1e3, "32.5", {"g", "kg"}},
     Ordinary{"impact profiles", dimension::time, 0, 1, "100", {"us", "ms", "s"}},

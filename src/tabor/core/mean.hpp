@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+// Computes the mean, standard deviation and standard error of repeated values.
 namespace tabor {
 
 /// Statistics of repeated values. NaN where they do not exist: mean for n = 0, the rest for n < 2.
@@ -15,7 +16,7 @@ struct Mean {
       std::numeric_limits<double>::quiet_NaN();  ///< standard deviation / sqrt(n)
 };
 
-/// Of any values; NaN where there are too few: of fewer than two there is no deviation.
+/// Computes the mean of any values; NaN where there are too few: fewer than two have no deviation.
 Mean mean_of(const std::vector<double>& values);
 
 }  // namespace tabor

@@ -9,24 +9,25 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 
+// Gives the enumerators of an enumeration their names and parses the names.
 namespace tabor {
 
-/// The names of an enumeration, in the order of its enumerators, which count up from zero.
+/// Names of an enumeration, in the order of its enumerators, which count up from zero.
 template <typename Enum, std::size_t N>
 class Names {
  public:
   /// One name for each enumerator.
   constexpr explicit Names(const std::array<std::string_view, N>& names) : names_(names) {}
 
-  /// The name of an enumerator.
+  /// Returns the name of an enumerator.
   constexpr std::string_view of(Enum value) const {
     return names_[static_cast<std::size_t>(value)];
   }
 
-  /// All names, in the order of the enumerators.
+  /// Returns all names, in the order of the enumerators.
   std::vector<std::string> all() const { return {names_.begin(), names_.end()}; }
 
-  /// nullopt if there is no such name.
+  /// Returns the enumerator of a name; nullopt if there is none.
   constexpr std::optional<Enum> find(std::string_view name) const {
     for (std::size_t i = 0; i < N; ++i) {
       if (names_[i] == name) return static_cast<Enum>(i);
@@ -34,7 +35,8 @@ class Names {
     return std::nullopt;
   }
 
-  /// Throws InputError with all names and the nearest one; `what` says what is named.
+  /// Returns the enumerator of a name. Throws InputError with all names and the nearest one; `what`
+  /// says what is named.
   Enum parse(std::string_view name, const std::string& what) const {
     if (const auto value = find(name)) return *value;
     std::string expected;
@@ -48,7 +50,7 @@ class Names {
   std::array<std::string_view, N> names_;
 };
 
-/// names<Edge>("closed", "periodic", "open")
+/// Makes the names of an enumeration: names<Edge>("closed", "periodic", "open").
 template <typename Enum, typename... Texts>
 constexpr auto names(Texts... texts) {
   return Names<Enum, sizeof...(Texts)>({std::string_view(texts)...});

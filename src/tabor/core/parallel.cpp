@@ -2,6 +2,7 @@
 #include "tabor/core/parallel.hpp"
 
 #include <omp.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <atomic>
@@ -16,6 +17,16 @@ namespace tabor {
 namespace {
 
 std::atomic<int> requested_threads = 0;
+std::atomic<bool> has_team = false;   // loops of this process have run on several threads
+std::atomic<bool> lost_team = false;  // so they had in the process that this one is a copy of
+
+/// In a copy that fork() made of the process there is one thread. OpenMP would wait for ever for
+/// those that it had in the original, tabor's or another library's.
+void begin_copy() {
+  if (has_team) lost_team = true;
+  requested_threads = 1;
+}
+[[maybe_unused]] const int begins_copies = ::pthread_atfork(nullptr, nullptr, &begin_copy);
 
 /// Runs body(0..n_blocks-1) on all threads; the first exception is rethrown after the loop, since
 /// OpenMP lets none escape from a parallel region.
@@ -28,6 +39,7 @@ void for_each_block(Index n_blocks, const std::function<void(Index)>& body) {
     }
     return;
   }
+  has_team = true;
   std::exception_ptr first_error;
   std::atomic<bool> failed = false;
   std::mutex error_mutex;
@@ -63,6 +75,7 @@ std::vector<double> block_values(Index n, const std::function<double(Index, Inde
 void set_thread_count(int n) { requested_threads = std::max(0, n); }
 
 int thread_count() {
+  if (lost_team) return 1;
   const int requested = requested_threads;
   return requested > 0 ? requested : omp_get_max_threads();
 }

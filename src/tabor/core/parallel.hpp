@@ -4,9 +4,12 @@
 
 #include "tabor/core/types.hpp"
 
+// Runs loops, sums and maxima on all threads; results have the same bits for any number of them.
 namespace tabor {
 
-/// Number of threads the parallel loops use; 0 asks for all cores. Results never depend on it.
+/// Sets the number of threads of the parallel loops; 0 asks for all cores. Results never depend on
+/// it. In a copy of the process made by fork() it is 1, until more are asked for; it stays 1 where
+/// the original has run loops on several threads, as OpenMP does not survive that.
 void set_thread_count(int n);
 int thread_count();
 
@@ -14,17 +17,17 @@ int thread_count();
 /// Blocks are the same whatever the thread count; loops of a single block run serially.
 void parallel_for(Index n, Index block, const std::function<void(Index begin, Index end)>& body);
 
-/// Sum of partial(begin, end) over fixed blocks, added in block order: same bits for any thread
-/// count.
+/// Returns the sum of partial(begin, end) over fixed blocks, added in block order: the same bits
+/// for any thread count.
 double deterministic_sum(Index n, const std::function<double(Index begin, Index end)>& partial);
 
-/// Largest partial(begin, end) over blocks; -infinity for n = 0.
+/// Returns the largest partial(begin, end) over blocks; -infinity for n = 0.
 double parallel_max(Index n, const std::function<double(Index begin, Index end)>& partial);
 
-/// Items per block used by deterministic_sum and a good default for parallel_for over pixels.
+/// Items per block of deterministic_sum(); also a good default for parallel_for() over pixels.
 inline constexpr Index kBlock = 1 << 14;
 
-/// Deterministic sum over a field's values.
+/// Returns the deterministic sum of a field's values.
 double sum(const Field& field);
 
 }  // namespace tabor

@@ -3,15 +3,17 @@
 #include <chrono>
 #include <cstddef>
 
+// Measures memory and wall-clock time of the process.
 namespace tabor {
 
-/// Largest resident memory of this process so far [bytes].
+/// Returns the largest resident memory of this process so far [bytes].
 std::size_t peak_memory_bytes();
 
-/// Memory this process could still take without swapping [bytes]; 0 if the system does not say.
+/// Returns the memory that this process could still take without swapping [bytes]; 0 if the system
+/// does not say.
 std::size_t available_memory_bytes();
 
-/// Seconds since construction (wall clock).
+/// Measures the time since construction (wall clock).
 class Stopwatch {
  public:
   /// [s]

@@ -4,9 +4,10 @@
 
 #include "tabor/core/parallel.hpp"
 
+// Loops and sums over the rows of a map on all threads.
 namespace tabor {
 
-/// Rows handed to a thread at a time: enough work at 1000 columns, still balanced at 100 rows.
+/// Rows per block of a thread: enough work at 1000 columns, still balanced at 100 rows.
 inline constexpr Index kRowsPerBlock = 16;
 
 /// Calls body(y) for every row on all threads.
@@ -17,8 +18,8 @@ void for_each_row(Index n_rows, const Body& body) {
   });
 }
 
-/// Sum of of_row(y), an array of N numbers, added in the order of the rows: the same bits for any
-/// number of threads.
+/// Returns the sum of of_row(y), an array of N numbers, added in the order of the rows: the same
+/// bits for any number of threads.
 template <int N, typename OfRow>
 Eigen::Array<double, N, 1> sum_over_rows(Index n_rows, const OfRow& of_row) {
   using Sums = Eigen::Array<double, N, 1>;

@@ -25,6 +25,18 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
+/// To a whole candidate, or, one more, to its first words: "steel" is near to "steel-dc04".
+std::size_t distance_to(std::string_view word, std::string_view candidate) {
+  std::size_t distance = edit_distance(word, candidate);
+  for (std::size_t end = candidate.find('-'); end != std::string_view::npos;
+       end = candidate.find('-', end + 1)) {
+    const std::string_view first = candidate.substr(0, end);
+    if (first.find_first_not_of('-') == std::string_view::npos) continue;
+    distance = std::min(distance, edit_distance(word, first) + 1);
+  }
+  return distance;
+}
+
 bool is_space(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
 }  // namespace
@@ -70,7 +82,7 @@ std::optional<std::string> nearest_match(std::string_view word,
   std::optional<std::string> best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 3) + 1;
   for (const std::string& candidate : candidates) {
-    const std::size_t distance = edit_distance(lower(word), lower(candidate));
+    const std::size_t distance = distance_to(lower(word), lower(candidate));
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;

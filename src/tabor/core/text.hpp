@@ -5,26 +5,29 @@
 #include <string_view>
 #include <vector>
 
+// Splits, trims and compares text, and parses numbers without regard to the user's locale.
 namespace tabor {
 
-/// The parts between separators, empty ones too.
+/// Returns the parts between separators, empty ones too.
 std::vector<std::string> split(std::string_view text, char separator);
-/// Without the white space at both ends.
+/// Returns the text without white space at both ends.
 std::string_view trim(std::string_view text);
-/// In lower case; letters of ASCII alone change.
+/// Returns the text in lower case; only ASCII letters change.
 std::string lower(std::string_view text);
 
-/// The whole of `text` as a number in the C locale, whatever the user's locale; nullopt otherwise.
+/// Parses the whole of `text` as a number in the C locale, whatever the user's locale; nullopt if
+/// it is none.
 std::optional<double> parse_number(std::string_view text);
 
-/// The candidate within edit distance max(2, size / 3) that is nearest to `word`; nullopt if none.
+/// Returns the candidate (or its first words) within edit distance max(2, size / 3) of `word`, or
+/// nullopt.
 std::optional<std::string> nearest_match(std::string_view word,
                                          const std::vector<std::string>& candidates);
 
-/// "; did you mean 'plane'?" or "" when nothing is near.
+/// Returns "; did you mean 'plane'?" or "" when nothing is near.
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 
-/// "yes" or "NO", for tables, where what should catch the eye is the latter.
+/// Returns "yes" or "NO", for tables in which "NO" should catch the eye.
 std::string yes_no(bool value);
 
 }  // namespace tabor

@@ -2,12 +2,13 @@
 
 #include <Eigen/Core>
 
+// Defines Grid, Field and Mask, the maps that all modules share.
 namespace tabor {
 
-/// Counts and positions of pixels.
+/// Type of counts and positions of pixels.
 using Index = Eigen::Index;
 
-/// A map sampled on a Grid: shape (ny, nx), row 0 is the top row, x (columns) is the fast axis and
+/// Map sampled on a Grid: shape (ny, nx), row 0 is the top row, x (columns) is the fast axis and
 /// the sliding direction.
 using Field = Eigen::Array<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using FieldF = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -15,7 +16,7 @@ using FieldF = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 /// True where a pixel is selected (a hole, a contact pixel, ...); same layout as Field.
 using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// A cell-centred regular grid: nx * ny pixels cover lx * ly [m], extent = n * spacing.
+/// Cell-centred regular grid: nx * ny pixels cover lx * ly [m], extent = n * spacing.
 struct Grid {
   Index nx = 0;
   Index ny = 0;

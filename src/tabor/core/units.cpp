@@ -12,6 +12,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/likely_unit.hpp"
 #include "tabor/core/text.hpp"
+#include "tabor/core/value_range.hpp"
 
 namespace tabor {
 namespace {
@@ -25,20 +26,37 @@ struct Unit {
 
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
+constexpr double kPsi =
+    4.4482216152605 / (0.0254 * 0.0254);  // a pound-force on a square inch, both exact
+
 constexpr std::array kUnits{
-    Unit{"m", 1, {1, 0, 0, 0}, true},          Unit{"g", 1e-3, {0, 1, 0, 0}, true},
-    Unit{"s", 1, {0, 0, 1, 0}, true},          Unit{"K", 1, {0, 0, 0, 1}, true},
-    Unit{"Pa", 1, {-1, 1, -2, 0}, true},       Unit{"N", 1, {1, 1, -2, 0}, true},
-    Unit{"J", 1, {2, 1, -2, 0}, true},         Unit{"W", 1, {2, 1, -3, 0}, true},
-    Unit{"Hz", 1, {0, 0, -1, 0}, true},        Unit{"l", 1e-3, {3, 0, 0, 0}, true},
-    Unit{"L", 1e-3, {3, 0, 0, 0}, true},       Unit{"bar", 1e5, {-1, 1, -2, 0}, true},
-    Unit{"P", 0.1, {-1, 1, -1, 0}, true},      Unit{"St", 1e-4, {2, 0, -1, 0}, true},
-    Unit{"Å", 1e-10, {1, 0, 0, 0}, false},     Unit{"Ang", 1e-10, {1, 0, 0, 0}, false},
-    Unit{"micron", 1e-6, {1, 0, 0, 0}, false}, Unit{"in", 0.0254, {1, 0, 0, 0}, false},
-    Unit{"inch", 0.0254, {1, 0, 0, 0}, false}, Unit{"min", 60, {0, 0, 1, 0}, false},
-    Unit{"h", 3600, {0, 0, 1, 0}, false},      Unit{"rad", 1, {0, 0, 0, 0}, false},
-    Unit{"deg", kDegree, {0, 0, 0, 0}, false}, Unit{"%", 0.01, {0, 0, 0, 0}, false},
+    Unit{"m", 1, {1, 0, 0, 0}, true},
+    Unit{"g", 1e-3, {0, 1, 0, 0}, true},
+    Unit{"s", 1, {0, 0, 1, 0}, true},
+    Unit{"K", 1, {0, 0, 0, 1}, true},
+    Unit{"Pa", 1, {-1, 1, -2, 0}, true},
+    Unit{"N", 1, {1, 1, -2, 0}, true},
+    Unit{"J", 1, {2, 1, -2, 0}, true},
+    Unit{"W", 1, {2, 1, -3, 0}, true},
+    Unit{"Hz", 1, {0, 0, -1, 0}, true},
+    Unit{"l", 1e-3, {3, 0, 0, 0}, true},
+    Unit{"L", 1e-3, {3, 0, 0, 0}, true},
+    Unit{"bar", 1e5, {-1, 1, -2, 0}, true},
+    Unit{"P", 0.1, {-1, 1, -1, 0}, true},
+    Unit{"St", 1e-4, {2, 0, -1, 0}, true},
+    Unit{"Å", 1e-10, {1, 0, 0, 0}, false},
+    Unit{"Ang", 1e-10, {1, 0, 0, 0}, false},
+    Unit{"micron", 1e-6, {1, 0, 0, 0}, false},
+    Unit{"in", 0.0254, {1, 0, 0, 0}, false},
+    Unit{"inch", 0.0254, {1, 0, 0, 0}, false},
+    Unit{"min", 60, {0, 0, 1, 0}, false},
+    Unit{"h", 3600, {0, 0, 1, 0}, false},
+    Unit{"rad", 1, {0, 0, 0, 0}, false},
+    Unit{"deg", kDegree, {0, 0, 0, 0}, false},
+    Unit{"%", 0.01, {0, 0, 0, 0}, false},
     Unit{"1", 1, {0, 0, 0, 0}, false},
+    Unit{"psi", kPsi, {-1, 1, -2, 0}, false},
+    Unit{"ksi", 1e3 * kPsi, {-1, 1, -2, 0}, false},
 };
 
 struct Prefix {
@@ -128,6 +146,85 @@ std::optional<Quantity> find_expression(std::string_view expression, std::string
   return result;
 }
 
+/// Spelled out parts of units.
+struct Spelling {
+  std::string_view word, symbol;
+};
+
+constexpr std::array kSpelledPrefixes{
+    Spelling{"nano", "n"}, Spelling{"micro", "u"}, Spelling{"milli", "m"}, Spelling{"centi", "c"},
+    Spelling{"kilo", "k"}, Spelling{"mega", "M"},  Spelling{"giga", "G"},  Spelling{"", ""}};
+
+constexpr std::array kSpelledUnits{
+    Spelling{"meter", "m"},      Spelling{"metre", "m"},   Spelling{"pascal", "Pa"},
+    Spelling{"newton", "N"},     Spelling{"second", "s"},  Spelling{"sec", "s"},
+    Spelling{"gram", "g"},       Spelling{"kelvin", "K"},  Spelling{"poise", "P"},
+    Spelling{"angstrom", "Ang"}, Spelling{"micron", "um"}, Spelling{"liter", "l"},
+    Spelling{"litre", "l"},      Spelling{"degree", "deg"}};
+
+/// "micrometers" -> "um"
+std::string symbol_of_words(std::string_view words) {
+  std::string word = lower(words);
+  if (word.size() > 3 && word.back() == 's') word.pop_back();
+  for (const auto& [prefix, prefix_symbol] : kSpelledPrefixes) {
+    if (!word.starts_with(prefix)) continue;
+    for (const auto& [unit, symbol] : kSpelledUnits) {
+      if (word.substr(prefix.size()) == unit) {
+        return std::string(prefix_symbol) + std::string(symbol);
+      }
+    }
+  }
+  return "";
+}
+
+/// Letters that two words of one length have alike.
+std::size_t n_alike(std::string_view a, std::string_view b) {
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) n += a[i] == b[i] ? 1 : 0;
+  return n;
+}
+
+/// All units written like `name` but for the case of their letters.
+std::vector<std::string> units_of_other_case(std::string_view name) {
+  std::vector<std::string> found;
+  const auto add = [&](const std::string& unit) {
+    if (lower(unit) == lower(name)) found.push_back(unit);
+  };
+  for (const Unit& unit : kUnits) {
+    add(std::string(unit.name));
+    if (!unit.takes_prefix) continue;
+    for (const Prefix& prefix : kPrefixes) add(std::string(prefix.name) + std::string(unit.name));
+  }
+  return found;
+}
+
+/// The unit that `factor` may have been meant to be, "MPa" for "Mpa"; of several `likely`, if it is
+/// among them. "" if there is none.
+std::string similar_unit(std::string_view factor, std::string_view likely) {
+  const std::size_t end = std::min(factor.find_first_of("^-0123456789"), factor.size());
+  const std::string_view name = factor.substr(0, end);
+  std::string best = symbol_of_words(name);
+  for (const std::string& unit : units_of_other_case(name)) {
+    if (unit == likely || best.empty() || n_alike(unit, name) > n_alike(best, name)) best = unit;
+    if (unit == likely) break;
+  }
+  return best.empty() ? "" : best + std::string(factor.substr(end));
+}
+
+/// "0.5um" for "0,5um"; "" if the text has no decimal comma.
+std::string with_decimal_point(std::string_view text) {
+  const std::size_t comma = text.find(',');
+  if (comma == std::string_view::npos || comma == 0 || comma + 1 == text.size()) return "";
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  if (!is_digit(text[comma - 1]) || !is_digit(text[comma + 1])) return "";
+  std::string pointed(text);
+  pointed[comma] = '.';
+  return parse_number(pointed.substr(0, pointed.find_first_not_of("+-0123456789.eE"))) ||
+                 parse_number(pointed.substr(0, pointed.find_first_not_of("+-0123456789.")))
+             ? pointed
+             : "";
+}
+
 /// Splits "7e6Pa" into the longest number at its start and the rest.
 std::optional<double> take_number(std::string_view& text) {
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -144,24 +241,57 @@ std::string shown(std::string_view name, const WrittenValue& value) {
   return fmt::format("\"{}\"", value.as_text());
 }
 
+/// The values of one part of a list: those of a range, else the part itself.
+std::vector<std::string> listed(const std::string& part, std::string_view name) {
+  if (!is_value_range(part)) return {part};
+  try {
+    return values_of_range(part);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}; write a range like 2MPa..15MPa:7 or 1MPa..100MPa:log:5",
+                                 name, error.what()));
+  }
+}
+
 }  // namespace
 
-Quantity parse_quantity(std::string_view text) {
+namespace {
+
+/// `likely`: the unit that an ordinary value of this number would have.
+Quantity parse_quantity(std::string_view text, std::string_view likely) {
   std::string_view rest = trim(text);
   const auto number = take_number(rest);
   if (!number || !std::isfinite(*number)) {
     throw InputError(fmt::format("'{}', which does not begin with a finite number", text));
   }
+  if (const std::string pointed = with_decimal_point(trim(text)); !pointed.empty()) {
+    throw InputError(fmt::format("'{}' with a decimal comma; write {}", text, pointed));
+  }
   std::string culprit;
   const auto unit = find_expression(trim(rest), culprit);
-  if (!unit) throw InputError(fmt::format("'{}': unknown unit '{}'", text, culprit));
+  if (!unit) {
+    const std::string similar = similar_unit(culprit, likely);
+    throw InputError(
+        fmt::format("'{}': unknown unit '{}'{}", text, culprit,
+                    similar.empty() ? "" : fmt::format("; did you mean '{}'?", similar)));
+  }
   return {*number * unit->value, unit->dimension};
 }
+
+/// The number that a text begins with, as it is written.
+std::string_view number_of(std::string_view text) {
+  std::string_view rest = trim(text);
+  const std::string_view whole = rest;
+  return take_number(rest) ? whole.substr(0, whole.size() - rest.size()) : std::string_view();
+}
+
+}  // namespace
+
+Quantity parse_quantity(std::string_view text) { return parse_quantity(text, ""); }
 
 double parse_si(std::string_view text, Dimension expected, std::string_view name) {
   Quantity quantity;
   try {
-    quantity = parse_quantity(text);
+    quantity = parse_quantity(text, with_likely_unit(number_of(text), name, expected).unit);
   } catch (const InputError& error) {
     const std::string likely = expected == dimension::none
                                    ? std::string("a plain number")
@@ -183,8 +313,23 @@ double parse_si(std::string_view text, Dimension expected, std::string_view name
 
 std::vector<double> parse_si_list(std::string_view text, Dimension expected,
                                   std::string_view name) {
+  const std::vector<std::string> parts = split(text, ',');
   std::vector<double> values;
-  for (const std::string& part : split(text, ',')) values.push_back(parse_si(part, expected, name));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    // "0,5um": the unit stands behind the last part only.
+    const bool is_bare = expected != dimension::none && parse_number(parts[i]);
+    if (is_bare && i + 1 < parts.size()) {
+      const std::string both = parts[i] + "," + parts[i + 1];
+      if (const std::string pointed = with_decimal_point(both); !pointed.empty()) {
+        throw InputError(std::string(name), fmt::format("'{}'", both),
+                         "a decimal point, or a unit behind every value of a list",
+                         "write " + pointed);
+      }
+    }
+    for (const std::string& value : listed(parts[i], name)) {
+      values.push_back(parse_si(value, expected, name));
+    }
+  }
   return values;
 }
 

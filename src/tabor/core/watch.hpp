@@ -7,25 +7,26 @@
 #include "tabor/core/convergence.hpp"
 #include "tabor/core/error.hpp"
 
+// Lets an observer stop any computation below the place where it was handed over.
 namespace tabor {
 
-/// Keeps an observer asked while this object lives: at once, and from then on about ten times a
-/// second by every loop of core/parallel.hpp and every go_on_or_throw() that its thread comes to,
-/// however deep below. What is computed there need not know who watches it.
+/// Lets an observer stop the computation while this object lives: it is asked at once, and then
+/// about ten times a second by every loop of core/parallel.hpp and every go_on_or_throw() that its
+/// thread reaches, at any depth. The code there need not know the observer.
 ///
-/// A watch within a watch speaks in its place until it ends. Both may have the same observer.
+/// A watch within a watch replaces it until it ends. Both may have the same observer.
 class Watch {
  public:
   /// Asks for the first time. A watch without a stage has nothing to show and only asks. Throws
-  /// Interrupted when the observer says stop, here and later.
-  /// `observer` must outlive the watch; an empty one leaves the word to the watch around.
+  /// Interrupted when the observer says stop, here and later. `observer` must outlive the watch; an
+  /// empty one leaves the outer watch in force.
   Watch(const Observer& observer, std::string_view stage);
   Watch(Observer&&, std::string_view) = delete;
   ~Watch();
   Watch(const Watch&) = delete;
   Watch& operator=(const Watch&) = delete;
 
-  /// The done share 0..1 that is told from now on, and at once.
+  /// Sets the done share 0..1 and tells it to the observer at once.
   void tell(double fraction);
 
  private:
@@ -39,8 +40,8 @@ class Watch {
   Watch* outer_;
 };
 
-/// Works under a watch, which is handed to `work`. False, and no exception, if the observer stopped
-/// it; what a watch around says ends the work by Interrupted as ever.
+/// Runs `work` under a watch. Returns false, without an exception, if the observer stopped it; an
+/// outer watch ends the work by Interrupted.
 template <typename Work>
 bool finishes(const Observer& observer, std::string_view stage, const Work& work) {
   try {
@@ -53,17 +54,18 @@ bool finishes(const Observer& observer, std::string_view stage, const Work& work
   }
 }
 
-/// For serial loops that take longer than an eye blink, every few thousand items: asks the observer
-/// that watches this thread, if there is one and a tenth of a second has passed since it was asked.
-/// Throws Interrupted when it says stop.
+/// Asks the observer that watches this thread, if there is one and a tenth of a second has passed
+/// since it was asked. Throws Interrupted when it says stop. To be called every few thousand items
+/// in serial loops that last longer than a tenth of a second.
 void go_on_or_throw();
 
-/// The same for item i of such a loop, where asking for the time each time would be felt.
+/// Does the same every 16384 items i of a loop, where reading the clock for each item would take
+/// too long.
 inline void go_on_or_throw(std::size_t i) {
   if (i % 16384 == 0) go_on_or_throw();
 }
 
-/// For tests: seconds between two questions of a watch, 0 for every opportunity.
+/// Seconds between two questions of a watch; tests set 0, which asks at every opportunity.
 inline constexpr double kWatchPeriod = 0.1;
 void set_watch_period(double seconds);
 

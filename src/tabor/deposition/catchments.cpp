@@ -1,5 +1,7 @@
 #include "tabor/deposition/catchments.hpp"
 
+#include <utility>
+
 #include "tabor/core/watch.hpp"
 
 namespace tabor::deposition {
@@ -11,6 +13,10 @@ Catchments::Catchments(Pools& pools)
       runs_to_(pools.count(), kNoPool) {
   drain_all();
   for (const PoolId leaf : drains_to_) ++area_[static_cast<std::size_t>(leaf)];
+  for (std::size_t leaf = 0; leaf < area_.size(); ++leaf) {
+    if (area_[leaf] > 0) sources_.push_back({static_cast<PoolId>(leaf), area_[leaf]});
+    area_[leaf] = 0;
+  }
 }
 
 /// Order of height, pixel numbers breaking ties; beyond an open edge lies the lowest place.
@@ -50,15 +56,31 @@ void Catchments::drain_all() {
 }
 
 void Catchments::rain(Volume film) {
-  const auto n_pools = static_cast<PoolId>(area_.size());
-  for (PoolId leaf = 0; leaf < n_pools; ++leaf) {
-    go_on_or_throw(static_cast<std::size_t>(leaf));
-    Volume carried = film * area_[static_cast<std::size_t>(leaf)];
-    PoolId pool = leaf;
+  for (std::size_t i = 0; i < sources_.size(); ++i) {
+    go_on_or_throw(i);
+    Source& source = sources_[i];
+    Volume carried = film * source.area;
     while (carried > 0) {
-      pool = overflow(pool);
-      carried = pools_.pour(pool, carried);
+      source.pool = overflow(source.pool);
+      carried = pools_.pour(source.pool, carried);
     }
+  }
+  join_sources();
+}
+
+/// Joins the sources of each pool: it is full before any of its liquid runs on. So the next rain
+/// has only as many sources as there are pools that are not full.
+void Catchments::join_sources() {
+  std::size_t n_joined = 0;
+  for (const Source source : sources_) {
+    const PoolId pool = pools_.owner(source.pool);
+    std::int32_t& area = area_[static_cast<std::size_t>(pool)];
+    if (area == 0) sources_[n_joined++].pool = pool;
+    area += source.area;
+  }
+  sources_.resize(n_joined);
+  for (Source& source : sources_) {
+    source.area = std::exchange(area_[static_cast<std::size_t>(source.pool)], 0);
   }
 }
 

@@ -6,14 +6,14 @@
 
 namespace tabor::deposition {
 
-/// The dry valleys of a surface: which lowest place each pixel drains to, and how overflow runs on.
-/// For pools with ordered ties, where a droplet's path down never meets equal heights.
+/// Finds the catchments of a surface: the lowest place that each pixel drains to, and the path of
+/// overflow. For pools with ordered ties, where a flow path never meets equal heights.
 class Catchments {
  public:
   explicit Catchments(Pools& pools);
 
-  /// The same film [quanta] on every pixel. The result does not depend on the order of pouring, so
-  /// that raining a film in parts is the same as raining it at once.
+  /// Rains the same film [quanta] on every pixel. The result does not depend on the order of
+  /// pouring, so that raining a film in parts is the same as raining it at once.
   void rain(Volume film);
 
  private:
@@ -22,10 +22,18 @@ class Catchments {
   void drain_all();
   PoolId overflow(PoolId full);
   PoolId across_saddle(PoolId full);
+  void join_sources();
 
   Pools& pools_;
+  /// Number of pixels whose rain reaches this pool first.
+  struct Source {
+    PoolId pool;
+    std::int32_t area;
+  };
+
   std::vector<PoolId> drains_to_;   ///< per pixel: leaf pool, or kOcean
-  std::vector<std::int32_t> area_;  ///< per pool: pixels draining to it
+  std::vector<Source> sources_;     ///< of all pixels, each pool once after a rain
+  std::vector<std::int32_t> area_;  ///< per pool: scratch of join_sources(), else zero
   std::vector<PoolId> runs_to_;     ///< per full pool: where its overflow went last, or kNoPool
   std::vector<PoolId> passed_;
 };

@@ -88,15 +88,15 @@ void Confluences::add_branches(Target fork) {
       continue;
     }
     // The water of a full pool at its own saddle is as high as the saddle: nothing flows back.
-    const bool spills_here =
-        pool.spills() && pool.saddle != kSeveral && slopes_.from(pool.saddle) == fork;
+    const Pixel saddle = pool.spills() ? pools_.saddle(branch.pool) : kSeveral;
+    const bool spills_here = saddle != kSeveral && slopes_.from(saddle) == fork;
     if (!spills_here) successors_.push_back(branch.pool);
   }
 }
 
 void Confluences::add_overflow(PoolId full) {
-  const Pool& pool = pools_[full];
-  if (pool.spills() && pool.saddle != kSeveral) successors_.push_back(slopes_.from(pool.saddle));
+  const Pixel saddle = pools_[full].spills() ? pools_.saddle(full) : kSeveral;
+  if (saddle != kSeveral) successors_.push_back(slopes_.from(saddle));
 }
 
 }  // namespace tabor::deposition

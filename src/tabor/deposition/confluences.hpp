@@ -6,30 +6,31 @@
 
 namespace tabor::deposition {
 
-/// Where all flow paths from a fork, or from a full pool, meet again.
+/// Finds the place where all flow paths from a fork, or from a full pool, meet again (its
+/// confluence). A fork is a pixel whose flow path depends on the levels (slopes.hpp).
 ///
-/// Which branch of a fork a droplet takes changes with the levels, but often it does not matter:
-/// all branches lead, over full pools and further forks, to the same place. That is a pool that is
-/// not full, or a fork or full pool from which paths part for good. Whatever is rained later, every
-/// droplet comes by there. For let more water cover a place on one of the paths. The pool it
-/// belongs to then covers the whole path down to the first full pool on it, has this one as a part,
-/// and so, as no liquid leaves a pool before it is full, also the place to which that one spilled;
-/// and so on to the confluence. A droplet in this pool is where a droplet at the confluence would
-/// be.
+/// The branch that a droplet takes at a fork changes with the levels, but often all branches lead,
+/// over full pools and further forks, to the same place: a pool that is not full, or a fork or full
+/// pool from which paths separate finally. Every later droplet passes there. For let more water
+/// cover a place on one of the paths. The pool of that place then covers the whole path down to the
+/// first full pool on it and has that pool as a part. As no liquid leaves a pool before it is full,
+/// it also covers the place to which that one spilled; and so on to the confluence. A droplet in
+/// this pool is where a droplet at the confluence would be.
 ///
-/// In the words of graphs: common post-dominators of what a place may flow to.
+/// In terms of graphs: the common post-dominators of the places that a place may flow to.
 class Confluences {
  public:
   using Target = Slopes::Target;
 
-  /// As the levels stand. Needs slopes that know pools by their present numbers.
+  /// Finds the confluences for the present levels. The slopes must know the pools by their present
+  /// numbers.
   Confluences(const Slopes& slopes, const Pools& pools);
 
-  /// The farthest place by which every droplet from `at` comes; `at` itself if there is none.
+  /// Returns the farthest place that every droplet from `at` passes; `at` itself if there is none.
   Target of(Target at) const { return next_[index(at)]; }
 
  private:
-  /// A place whose successors are being looked at, depth first.
+  /// Place whose successors are being visited, depth first.
   struct Visit {
     Target at = 0;
     std::size_t begin = 0;  ///< of its successors among successors_

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/resources.hpp"
@@ -200,6 +201,81 @@ class Deposition {
   Terrain terrain_;
 };
 
+/// Some pixels of a surface that no dose has wet yet, by their pools and in each from the lowest
+/// up, as its level reaches them: what is still dry then costs nothing.
+class DryPixels {
+ public:
+  /// `pixels` must outlive them.
+  DryPixels(const Pools& pools, const std::vector<Index>& pixels)
+      : pixels_(pixels), order_(pixels.size()), n_pools_(pools.count()) {
+    std::vector<std::int32_t> end(pools.count() + 1, 0);
+    for (const Index p : pixels) ++end[pool_of(pools, static_cast<Pixel>(p)) + 1];
+    std::partial_sum(end.begin(), end.end(), end.begin());
+    std::vector<std::int32_t> next(end.begin(), end.end() - 1);
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+      const std::size_t pool = pool_of(pools, static_cast<Pixel>(pixels[k]));
+      order_[static_cast<std::size_t>(next[pool]++)] = static_cast<std::int32_t>(k);
+    }
+    for (std::size_t pool = 0; pool + 1 < end.size(); ++pool) {
+      if (end[pool] == end[pool + 1]) continue;
+      go_on_or_throw(pool);
+      std::sort(order_.begin() + end[pool], order_.begin() + end[pool + 1],
+                [&](std::int32_t a, std::int32_t b) {
+                  return pools.height(pixel(a)) < pools.height(pixel(b));
+                });
+      parts_.push_back({static_cast<PoolId>(pool), end[pool], end[pool + 1]});
+    }
+    heights_.reserve(pixels.size());
+    for (const std::int32_t k : order_) heights_.push_back(pools.height(pixel(k)));
+  }
+
+  /// Writes `dose` for those that have liquid above them now, or for all.
+  void wet(std::size_t dose, Pools& pools, bool all, std::vector<std::size_t>& first) {
+    if (pools.count() != n_pools_) follow_renumbering(pools);
+    std::size_t n_left = 0;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      go_on_or_throw(i);
+      Part part = parts_[i];
+      const Height level = pools[part.pool].active() ? pools[pools.owner(part.pool)].level : kDry;
+      while (part.begin < part.end &&
+             (all || level > heights_[static_cast<std::size_t>(part.begin)])) {
+        first[static_cast<std::size_t>(order_[static_cast<std::size_t>(part.begin++)])] = dose;
+      }
+      if (part.begin < part.end) parts_[n_left++] = part;
+    }
+    parts_.resize(n_left);
+  }
+
+ private:
+  /// The dry pixels of one pool.
+  struct Part {
+    PoolId pool;
+    std::int32_t begin;
+    std::int32_t end;
+  };
+
+  static std::size_t pool_of(const Pools& pools, Pixel p) {
+    return static_cast<std::size_t>(pools.pool_at(p));
+  }
+
+  Pixel pixel(std::int32_t k) const {
+    return static_cast<Pixel>(pixels_[static_cast<std::size_t>(k)]);
+  }
+
+  void follow_renumbering(const Pools& pools) {
+    for (Part& part : parts_) {
+      part.pool = pools.pool_at(pixel(order_[static_cast<std::size_t>(part.begin)]));
+    }
+    n_pools_ = pools.count();
+  }
+
+  const std::vector<Index>& pixels_;
+  std::vector<std::int32_t> order_;  // places among the pixels
+  std::vector<Height> heights_;      // of them, in that order
+  std::vector<Part> parts_;
+  std::size_t n_pools_;  // fewer once they have new numbers
+};
+
 }  // namespace
 
 void deposit(const Field& height, const Grid& grid, const Dose& dose, const FilmSink& sink,
@@ -220,22 +296,10 @@ std::vector<std::size_t> first_wetting_doses(const Field& height, const Grid& gr
                      "rising doses of droplets or their limit", "");
   }
   std::vector<std::size_t> first(pixels.size(), dose.mean_films.size());
-  std::vector<std::int32_t> dry(pixels.size());  // places of those that no dose has wet yet
-  std::iota(dry.begin(), dry.end(), 0);
+  std::optional<DryPixels> dry;
   const auto look = [&](std::size_t i, const RainState&, Pools& pools) {
-    const bool is_drowned = dose.edge != Edge::open && pools.beyond() > 0;
-    std::size_t n_dry = 0;
-    for (const std::int32_t k : dry) {
-      go_on_or_throw(static_cast<std::size_t>(k));
-      const auto p = static_cast<Pixel>(pixels[static_cast<std::size_t>(k)]);
-      const bool is_wet = pools[pools.owner(pools.pool_at(p))].level > pools.height(p);
-      if (is_wet || is_drowned) {
-        first[static_cast<std::size_t>(k)] = i;
-      } else {
-        dry[n_dry++] = k;
-      }
-    }
-    dry.resize(n_dry);
+    if (!dry) dry.emplace(pools, pixels);
+    dry->wet(i, pools, dose.edge != Edge::open && pools.beyond() > 0, first);
   };
   const FilmSink no_films;
   Deposition(height, grid, dose, no_films).rain(look, observer);

@@ -10,9 +10,11 @@
 #include "tabor/core/names.hpp"
 #include "tabor/core/types.hpp"
 
+// Lays oil on a surface, as random droplets, as their limit of vanishing size, as one level or as a
+// uniform film.
 namespace tabor::deposition {
 
-/// How the liquid gets onto the surface.
+/// Model of how the liquid gets onto the surface.
 enum class Model {
   droplets,     ///< random droplets run downhill, one after the other (Costagliola et al. 2021)
   limit,        ///< the same for vanishing droplets: fill, spill, merge (Barnes et al. 2020)
@@ -20,13 +22,13 @@ enum class Model {
   uniform       ///< the same thickness everywhere
 };
 
-/// What a local minimum does with a droplet that does not fit (Model::droplets only).
+/// Excess of a droplet that fills a depression: conserve or drop (Model::droplets only).
 enum class Reading {
   conserving,  ///< N pixels rise by droplet/N, never above the rim; the rest flows on
   literal      ///< N pixels rise by a whole droplet, never above the rim; the rest is dropped
 };
 
-/// What happens at the border of the map.
+/// Border condition of the map.
 enum class Edge {
   closed,    ///< a wall: nothing leaves
   periodic,  ///< opposite borders are neighbours
@@ -37,7 +39,7 @@ inline constexpr auto kModels = names<Model>("droplets", "limit", "bottom-fill",
 inline constexpr auto kReadings = names<Reading>("conserving", "literal");
 inline constexpr auto kEdges = names<Edge>("closed", "periodic", "open");
 
-/// What is asked of a deposition. docs/lubrication.md states the rule to the last bit.
+/// Settings of a deposition. docs/lubrication.md states the rule to the last bit.
 struct Dose {
   std::vector<double> mean_films;  ///< dosed volume / nominal area [m], any order, each >= 0
   double droplet_height = 1e-7;    ///< droplet volume / pixel area [m], > 0 (Model::droplets)
@@ -47,7 +49,7 @@ struct Dose {
   std::uint64_t seed = 1;  ///< chooses the start pixels (Model::droplets)
 };
 
-/// The liquid on the surface at one dose, and everything a user reads about it.
+/// Liquid on the surface at one dose, with the numbers that a user reads about it.
 struct Film {
   Field thickness;              ///< [m], >= 0, exactly 0 where dry, shape of the height
   double mean_film = 0;         ///< as asked [m]
@@ -67,33 +69,33 @@ struct Film {
 /// Receives each film when its dose is reached, in ascending order of dose.
 using FilmSink = std::function<void(Film&& film)>;
 
-/// Films for every dose, in the order of dose.mean_films; one run passes through all of them.
+/// Lays down the films of all doses in one run; returns them in the order of dose.mean_films.
 /// `height` [m], asperities up, shape (grid.ny, grid.nx), no NaN. Throws InputError for input that
-/// is invalid, Interrupted when the observer asks to stop.
-/// Memory beside `height` and the films: about 30 bytes per pixel.
+/// is invalid, Interrupted when the observer asks to stop. Memory beside `height` and the films:
+/// about 30 bytes per pixel.
 std::vector<Film> deposit(const Field& height, const Grid& grid, const Dose& dose,
                           const Observer& observer = {});
 
-/// The same for many doses of a large map: only one film is in memory at a time.
+/// Lays down many doses on a large map: only one film is in memory at a time.
 void deposit(const Field& height, const Grid& grid, const Dose& dose, const FilmSink& sink,
              const Observer& observer = {});
 
-/// For some pixels (places in the map, row by row) which dose is the first to wet them, in one run
-/// through all doses: the place in dose.mean_films, which must rise, or their number where none
-/// does. Costs no films. For droplets and their limit. Throws as deposit().
+/// Returns, for some pixels (places in the map, row by row), the first dose that wets them: its
+/// place in dose.mean_films, which must rise, or the number of doses where none does. One run
+/// through all doses; no film is made. For droplets and their limit. Throws as deposit().
 std::vector<std::size_t> first_wetting_doses(const Field& height, const Grid& grid,
                                              const Dose& dose, const std::vector<Index>& pixels,
                                              const Observer& observer = {});
 
-/// Mean film [m] of an areal lubricant density [kg/m^2] and an oil density [kg/m^3].
+/// Returns the mean film [m] of an areal lubricant density [kg/m^2] and an oil density [kg/m^3].
 double mean_film(double lubricant_density, double oil_density);
 
-/// "droplets", "limit", "bottom-fill", "uniform" and so on, as on the command line.
+/// Return "droplets", "limit", "bottom-fill", "uniform" and so on, as on the command line.
 std::string_view name(Model model);
 std::string_view name(Reading reading);
 std::string_view name(Edge edge);
 
-/// The inverse of name(). Throws InputError with the nearest match.
+/// Return the enumerator of a name. Throw InputError with the nearest match.
 Model parse_model(std::string_view text);
 Reading parse_reading(std::string_view text);
 Edge parse_edge(std::string_view text);

@@ -6,21 +6,21 @@
 
 namespace tabor::deposition {
 
-/// The rule of deposition, word for word: walks, flood-fills, and knows nothing else. Its cost
-/// grows like the fourth power of the side of the map; it is there to judge the fast engine.
+/// Implements the rule of deposition word for word, by walks and flood fills. Its cost grows like
+/// the fourth power of the side of the map; tests compare the fast engine with it.
 class NaiveRain {
  public:
   NaiveRain(Terrain terrain, Reading reading);
 
-  /// One droplet of `volume` starting at `start`. Returns the volume it added (less in the literal
-  /// reading where the rest is dropped, more where a whole region rises by a droplet).
+  /// Adds one droplet of `volume` starting at `start`. Returns the volume it added (less in the
+  /// literal reading where the rest is dropped, more where a whole region rises by a droplet).
   Volume drop(Pixel start, Height volume);
 
-  /// Solid plus liquid [quanta]; 64 bits because a flooded closed map rises without limit.
+  /// Returns solid plus liquid [quanta]; 64 bits because a flooded closed map rises without limit.
   const std::vector<std::int64_t>& levels() const { return level_; }
   Volume lost() const { return lost_; }
 
-  /// Liquid of all pools that is not yet enough to raise them by a quantum.
+  /// Returns the liquid of all pools that is not yet enough to raise them by a quantum.
   Volume remainders() const;
 
  private:
@@ -40,7 +40,7 @@ class NaiveRain {
   Terrain terrain_;
   Reading reading_;
   std::vector<std::int64_t> level_;
-  std::vector<Volume> remainder_;  ///< kept at the lowest pixel number of its region
+  std::vector<Volume> remainder_;  ///< stored at the lowest pixel number of its region
   Volume lost_ = 0;
 };
 

@@ -14,7 +14,6 @@ namespace {
 // Pixels in order of height lie anywhere: how many ahead of its turn one is asked of the memory.
 constexpr std::size_t kNear = 16;
 constexpr std::size_t kFar = 24;
-constexpr std::int32_t kAbsorbed = -1;  // `area` of a pool that turned out to be part of another
 
 constexpr std::size_t kDigits = 2048;    // of a pass of the radix sort
 constexpr Index kBlockOfKeys = 1 << 20;  // that one thread sorts
@@ -64,6 +63,19 @@ std::size_t count_minima(const Terrain& terrain) {
   return static_cast<std::size_t>(deterministic_sum(terrain.size(), count));
 }
 
+/// What each of `all` is, at its new number, if it has one.
+template <typename Each>
+std::vector<Each> in_order(const std::vector<Each>& all, const std::vector<PoolId>& number,
+                           PoolId count) {
+  std::vector<Each> ordered;
+  reserve_large_pages(ordered, static_cast<std::size_t>(count));
+  ordered.resize(static_cast<std::size_t>(count));
+  for (std::size_t id = 0; id < number.size(); ++id) {
+    if (number[id] != kNoPool) ordered[static_cast<std::size_t>(number[id])] = all[id];
+  }
+  return ordered;
+}
+
 }  // namespace
 
 std::vector<Pixel> ascending_pixels(const Terrain& terrain) {
@@ -99,7 +111,9 @@ void PoolBuilder::build() {
   reserve_large_pages(to_.sites_, ascending.size());
   to_.sites_.resize(ascending.size());
   for (std::size_t p = 0; p < ascending.size(); ++p) to_.sites_[p].height = terrain.height[p];
-  reserve_large_pages(to_.pools_, 2 * count_minima(terrain) + 1);  // a merger unites two at least
+  const std::size_t n_most = 2 * count_minima(terrain) + 1;  // a merger unites two at least
+  reserve_large_pages(to_.pools_, n_most);
+  reserve_large_pages(to_.growth_, n_most);
   if (terrain.edge == Edge::open) {
     pool(new_pool(kDry)).area = 1;  // of the ocean: a droplet raises it by its own volume
   }
@@ -138,6 +152,8 @@ PoolId PoolBuilder::new_pool(Height base) {
   Pool& added = to_.pools_.emplace_back();
   added.owner = id;
   added.level = base;
+  to_.growth_.emplace_back();
+  is_absorbed_.push_back(false);
   return id;
 }
 
@@ -196,10 +212,10 @@ void PoolBuilder::join(PoolId into, PoolId id, Height base) {
   joining.parent = into;
   joining.owner = into;
   if (ties_ == Ties::connected && joining.level == base) {
-    pool(into).open_children += joining.open_children;
-    joining.area = kAbsorbed;
+    growth(into).open_children += growth(id).open_children;
+    is_absorbed_[static_cast<std::size_t>(id)] = true;
   } else {
-    ++pool(into).open_children;
+    ++growth(into).open_children;
   }
 }
 
@@ -213,7 +229,7 @@ void PoolBuilder::settle_sites(Group group) {
 /// Children of absorbed pools get the absorbing one as parent.
 void PoolBuilder::forget_absorbed() {
   for (Pool& child : to_.pools_) {
-    while (child.parent != kNoPool && pool(child.parent).area == kAbsorbed) {
+    while (child.parent != kNoPool && is_absorbed(child.parent)) {
       child.parent = pool(child.parent).parent;
     }
   }
@@ -230,26 +246,18 @@ void PoolBuilder::number_by_place() {
     if (renamed == kNoPool) renamed = count++;
     site.pool = renamed;
   }
-  std::vector<Pool> pools;
-  reserve_large_pages(pools, static_cast<std::size_t>(count));
-  pools.resize(static_cast<std::size_t>(count));
-  for (std::size_t id = 0; id < number.size(); ++id) {
-    if (number[id] != kNoPool) {
-      Pool& renamed = pools[static_cast<std::size_t>(number[id])];
-      renamed = to_.pools_[id];
-      if (renamed.parent != kNoPool) {
-        renamed.parent = number[static_cast<std::size_t>(renamed.parent)];
-      }
-    }
-  }
   to_.last_ = number[static_cast<std::size_t>(to_.last_)];
-  to_.pools_ = std::move(pools);
+  to_.pools_ = in_order(to_.pools_, number, count);
+  to_.growth_ = in_order(to_.growth_, number, count);
+  for (Pool& each : to_.pools_) {
+    if (each.parent != kNoPool) each.parent = number[static_cast<std::size_t>(each.parent)];
+  }
 }
 
 void PoolBuilder::make_arcs(const std::vector<Pixel>& ascending) {
-  for (const auto& site : to_.sites_) ++pool(site.pool).next;
+  for (const auto& site : to_.sites_) ++growth(site.pool).next;
   std::int32_t begin = 0;
-  for (Pool& each : to_.pools_) {
+  for (Growth& each : to_.growth_) {
     const std::int32_t size = each.next + 1;
     each.next = begin;
     begin += size;
@@ -260,9 +268,11 @@ void PoolBuilder::make_arcs(const std::vector<Pixel>& ascending) {
   to_.is_rim_.resize(n_places);
   fill_arcs(ascending);
   begin = 0;
-  for (Pool& each : to_.pools_) {
+  for (std::size_t id = 0; id < to_.pools_.size(); ++id) {
+    Growth& each = to_.growth_[id];
+    const PoolId parent = to_.pools_[id].parent;
     const auto rim = static_cast<std::size_t>(each.next);
-    to_.arcs_[rim] = each.parent == kNoPool ? kNoRim : pool(each.parent).level;
+    to_.arcs_[rim] = parent == kNoPool ? kNoRim : pool(parent).level;
     to_.is_rim_[rim] = true;
     each.next = std::exchange(begin, each.next + 1);
   }
@@ -277,18 +287,17 @@ void PoolBuilder::fill_arcs(const std::vector<Pixel>& ascending) {
     prefetch_site(ascending, i + kNear);
     const Pixel p = ascending[i];
     const auto& site = to_.sites_[static_cast<std::size_t>(p)];
-    Pool& at = pool(site.pool);
+    Growth& at = growth(site.pool);
     to_.arcs_[static_cast<std::size_t>(at.next++)] = site.height;
-    if (at.open_children == 0 || at.level != site.height) continue;
-    if (at.area == 0) {
-      at.area = 1;
+    if (at.open_children == 0 || pool(site.pool).level != site.height) continue;
+    if (at.lowest == Growth::kNoPlace) {
       at.lowest = p;
     } else if (ties_ == Ties::connected) {
       several[site.pool].push_back(p);
     }
   }
   for (const auto& [id, more] : several) {
-    std::int32_t& lowest = pool(id).lowest;
+    std::int32_t& lowest = growth(id).lowest;
     const Pixel first = std::exchange(lowest, ~static_cast<std::int32_t>(to_.saddles_.size()));
     to_.saddles_.push_back(static_cast<Pixel>(more.size()) + 1);
     to_.saddles_.push_back(first);
@@ -296,23 +305,23 @@ void PoolBuilder::fill_arcs(const std::vector<Pixel>& ascending) {
   }
 }
 
-/// Leaves hold liquid from the start; all other pools wait for their children.
+/// Leaves hold liquid from the start; all other pools wait for their children. A leaf without
+/// height is full at once, and so may be what it becomes part of: which are leaves is said before
+/// the first begins.
 void PoolBuilder::start_leaves() {
   const PoolId first = to_.terrain().edge == Edge::open ? kOcean + 1 : 0;
   const auto count = static_cast<PoolId>(to_.pools_.size());
+  std::vector<PoolId> leaves;
   for (PoolId id = 0; id < count; ++id) {
-    Pool& each = pool(id);
-    each.owner = id;
-    if (!each.active()) {
-      each.level = kDry;
-      each.area = 0;
+    pool(id).owner = id;
+    if (growth(id).open_children > 0) {
+      pool(id).level = kDry;
+    } else if (id >= first) {
+      leaves.push_back(id);
     }
   }
-  for (PoolId id = first; id < count; ++id) {
-    if (pool(id).active() && pool(id).area == 0) {  // an area: absorbed, or active since just now
-      to_.take_in(id);
-    }
-  }
+  to_.n_filling_ = static_cast<PoolId>(leaves.size());
+  for (const PoolId leaf : leaves) to_.take_in(leaf);
 }
 
 }  // namespace tabor::deposition

@@ -4,13 +4,16 @@
 
 #include "tabor/deposition/pools.hpp"
 
+// Builds the tree of pools of a surface from its sorted heights, by union-find.
 namespace tabor::deposition {
 
-/// All pixels, ascending in (height, pixel number). Radix sort: 16 bytes per pixel for a while.
+/// Returns all pixels, ascending in (height, pixel number). Radix sort; needs 16 bytes per pixel
+/// meanwhile.
 std::vector<Pixel> ascending_pixels(const Terrain& terrain);
 
-/// Grows all pools at once: pixels are added from the lowest to the highest, and pools that meet
-/// at a pixel become children of a new one (the merge tree of the sublevel sets, by union-find).
+/// Builds all pools in one pass: pixels are added from the lowest to the highest, and pools that
+/// meet at a pixel become children of a new one (the merge tree of the sublevel sets, by
+/// union-find).
 class PoolBuilder {
  public:
   PoolBuilder(Pools& result, Ties ties) : to_(result), ties_(ties) {}
@@ -33,11 +36,14 @@ class PoolBuilder {
   void number_by_place();
   void start_leaves();
   Pool& pool(PoolId id) { return to_.pools_[static_cast<std::size_t>(id)]; }
+  Growth& growth(PoolId id) { return to_.growth_[static_cast<std::size_t>(id)]; }
+  bool is_absorbed(PoolId id) const { return is_absorbed_[static_cast<std::size_t>(id)]; }
   PoolId& pool_at(Pixel p) { return to_.sites_[static_cast<std::size_t>(p)].pool; }
 
   Pools& to_;
   Ties ties_;
-  std::vector<PoolId> meeting_;  ///< pools around the pixel being added
+  std::vector<PoolId> meeting_;    ///< pools around the pixel being added
+  std::vector<bool> is_absorbed_;  ///< per pool: turned out to be part of another
 };
 
 }  // namespace tabor::deposition

@@ -54,31 +54,41 @@ Volume Pools::raise(PoolId id, Height rise) {
   return volume;
 }
 
-/// The pool `id` has risen to its stop: takes in the pixels there, or else is full and, if it is
-/// the last of its siblings to be so, their parent becomes active (several times where arcs have no
+/// The pool `id` has risen to its stop, or begins: takes in the pixels there. If it is full then
+/// and the last of its siblings to be so, their parent begins (several times where arcs have no
 /// height, as they may with ordered ties).
 void Pools::take_in(PoolId id) {
   while (true) {
     Pool& pool = pools_[static_cast<std::size_t>(id)];
-    auto next = static_cast<std::size_t>(pool.next);
+    Growth& growth = growth_[static_cast<std::size_t>(id)];
+    auto next = static_cast<std::size_t>(growth.next);
     while (!is_rim_[next] && arcs_[next] == pool.level) ++next;
-    pool.area += static_cast<std::int32_t>(next) - pool.next;
-    pool.next = static_cast<std::int32_t>(next);
+    pool.area += static_cast<std::int32_t>(next) - growth.next;
+    growth.next = static_cast<std::int32_t>(next);
     pool.stop = arcs_[next];
-    if (!pool.full()) return;
-    Pool& parent = pools_[static_cast<std::size_t>(pool.parent)];
-    pool.saddle = std::max(parent.lowest, kSeveral);
-    parent.area += pool.area;
-    pool.remember_overflow({});
-    if (--parent.open_children > 0) return;
-    parent.level = pool.level;
-    parent.remainder = 0;
+    if (!pool.full() || !fill_up(id)) return;
     id = pool.parent;
   }
 }
 
+/// The pool `id` is full and becomes part of its parent; true if that one begins.
+bool Pools::fill_up(PoolId id) {
+  const Pool& pool = (*this)[id];
+  Pool& parent = pools_[static_cast<std::size_t>(pool.parent)];
+  Growth& of_parent = growth_[static_cast<std::size_t>(pool.parent)];
+  parent.area += pool.area;
+  --n_filling_;
+  if (--of_parent.open_children > 0) {
+    if (of_parent.lowest < 0) closed_.push_back(id);
+    return false;
+  }
+  parent.level = pool.level;
+  ++n_filling_;
+  return true;
+}
+
 std::span<const Pixel> Pools::bottom(PoolId id) const {
-  const std::int32_t& lowest = (*this)[id].lowest;
+  const std::int32_t& lowest = growth(id).lowest;
   if (lowest >= 0) return {&lowest, 1};
   const std::int32_t place = ~lowest;
   const Pixel* const listed = &saddles_[static_cast<std::size_t>(place)];
@@ -101,14 +111,17 @@ std::vector<PoolId> Pools::renumber() {
       Pool pool = old;
       pool.owner = new_number(id);
       pool.parent = pool.parent == kNoPool ? kNoPool : new_number(pool.parent);
-      if (pool.full()) {
-        pool.remember_overflow({new_number(pool.overflow().end), pool.overflow().bound});
-      }
-      pools_[static_cast<std::size_t>(pool.owner)] = pool;  // never behind the one it comes from
+      pool.overflow.end = new_number(pool.overflow.end);
+      const auto place = static_cast<std::size_t>(pool.owner);  // never behind the old one
+      pools_[place] = pool;
+      growth_[place] = growth(id);
     }
   }
   pools_.resize(static_cast<std::size_t>(n_kept));
   give_back_unused(pools_);
+  growth_.resize(static_cast<std::size_t>(n_kept));
+  give_back_unused(growth_);
+  closed_.clear();
   parallel_for(static_cast<Index>(sites_.size()), kBlock, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       PoolId& pool = sites_[static_cast<std::size_t>(i)].pool;
@@ -119,10 +132,9 @@ std::vector<PoolId> Pools::renumber() {
   return renamed;
 }
 
-bool Pools::flooded() const {
-  if (terrain_->edge == Edge::open) return false;
-  const Pool& all = (*this)[last_];
-  return all.active() && all.stop == kNoRim;
+bool Pools::replete() const {
+  return terrain_->edge == Edge::open ? n_filling_ == 0
+                                      : (*this)[last_].stop == kNoRim && (*this)[last_].active();
 }
 
 }  // namespace tabor::deposition

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "tabor/deposition/terrain.hpp"
 
+// Stores the depressions of a surface as a tree (depression hierarchy) with the liquid in them.
 namespace tabor::deposition {
 
 using PoolId = std::int32_t;
@@ -13,59 +17,51 @@ inline constexpr PoolId kNoPool = -1;
 inline constexpr Pixel kSeveral = -1;
 inline constexpr PoolId kOcean = 0;  ///< of an open edge: lies below everything and never fills
 
-/// What holds together pixels of equal height.
+/// Treatment of neighbouring pixels of equal height.
 enum class Ties {
   connected,  ///< equal neighbours are one place (the rule of the droplets)
   ordered     ///< a lower pixel number counts as lower: no two heights are ever equal
 };
 
-/// Where the path of a droplet ended: in a pool that was not full then.
+/// End of the flow path of a droplet: a pool that was not full then.
 struct FlowPath {
   PoolId end = 0;
   Height bound = kDry;  ///< the path is the same while the level at its end is below
 };
 
-/// One component of the sublevel sets {height <= h}. It holds liquid while it is active: from the
-/// moment its children are full until it is full itself. What only some of these states need shares
-/// its place, so that a droplet that meets a pool reads half a cache line.
+/// Depression of the surface: one component of the sublevel sets {height <= h}. It is active, and
+/// holds liquid, from the moment its children are full until it is full itself. Half a cache line
+/// holds all that a droplet reads of it.
 struct alignas(32) Pool {
-  PoolId parent = kNoPool;  ///< what it becomes part of at its rim; kNoPool for the last one
+  PoolId parent = kNoPool;  ///< the pool that it joins at its rim; kNoPool for the last one
   PoolId owner = kNoPool;   ///< itself, or a step towards the active pool it now belongs to
   Height level = kDry;      ///< of the liquid; kDry before the pool is active
   Height stop = kNoRim;     ///< where it next takes in pixels, or its rim
-  union {
-    std::int32_t area = 0;  ///< until it is full: pixels under or at the level (before it is
-                            ///< active: of its full children)
-    PoolId overflow_end;    ///< when it is full: where the overflow ran last
-  };
-  union {
-    std::int32_t remainder = 0;  ///< while active: liquid above the level, less than one quantum
-                                 ///< over the area
-    std::int32_t lowest;    ///< before: its lowest pixel, or the complement of the place of several
-    Height overflow_bound;  ///< when it is full
-  };
-  union {
-    std::int32_t next = 0;  ///< until it is full: the first pixel not taken in yet, among the arcs
-    Pixel saddle;           ///< when it is full: the only pixel over which it touches its
-                            ///< neighbours; kSeveral if more than one
-  };
-  std::int32_t open_children = 0;
+  std::int32_t area = 0;    ///< pixels under or at the level; before it is active, of full children
+  std::int32_t remainder = 0;  ///< liquid above the level, less than one quantum over the area
+  FlowPath overflow;           ///< when it is full: where the overflow ran last
 
-  bool active() const { return open_children == 0; }
+  /// True where the pool holds liquid. Not defined for the ocean, whose level lies below
+  /// everything.
+  bool active() const { return level != kDry; }
   bool full() const { return level == stop; }
-  /// Full and not part of another pool yet: what flows in flows out over the saddle.
-  bool spills() const { return active() && full() && parent != kNoPool; }
-
-  /// Of a full pool.
-  FlowPath overflow() const { return {overflow_end, overflow_bound}; }
-  void remember_overflow(const FlowPath& path) {
-    overflow_end = path.end;
-    overflow_bound = path.bound;
-  }
+  /// True where it is full and not part of another pool yet: what flows in flows out over the
+  /// saddle.
+  bool spills() const { return full() && parent != kNoPool; }
 };
 
-/// All pools a surface can ever have, as the tree in which they merge, and the liquid in them.
-/// Steps of the liquid are whole numbers: what is poured in is exactly what is there.
+/// Data of a pool that is needed when it takes in pixels or becomes part of another.
+struct Growth {
+  std::int32_t open_children = 0;  ///< that are not full
+  std::int32_t next = 0;           ///< the first pixel not taken in yet, among the arcs
+  std::int32_t lowest = kNoPlace;  ///< its lowest pixel, where its children meet, or the complement
+                                   ///< of the place of several; of a leaf kNoPlace
+  static constexpr std::int32_t kNoPlace = std::numeric_limits<std::int32_t>::min();
+};
+
+/// Depression hierarchy of a surface (Barnes, Callaghan & Wickert 2020): all pools that it can ever
+/// have, as the tree in which they merge, and the liquid in them. Volumes are whole numbers, so
+/// that liquid is conserved exactly.
 class Pools {
  public:
   /// `terrain` must outlive the pools, but its heights are copied and may be released.
@@ -74,11 +70,11 @@ class Pools {
   const Terrain& terrain() const { return *terrain_; }
   std::size_t count() const { return pools_.size(); }
   const Pool& operator[](PoolId id) const { return pools_[static_cast<std::size_t>(id)]; }
-  /// The smallest pool that the pixel can ever be part of.
+  /// Returns the smallest pool that the pixel can ever be part of.
   PoolId pool_at(Pixel p) const { return sites_[static_cast<std::size_t>(p)].pool; }
   Height height(Pixel p) const { return sites_[static_cast<std::size_t>(p)].height; }
 
-  /// The pool whose liquid that of `id` is now part of; `id` itself while it is not active.
+  /// Returns the pool that now holds the liquid of `id`; `id` itself while it is not active.
   PoolId owner(PoolId id) {
     PoolId root = id;
     while (true) {
@@ -90,8 +86,8 @@ class Pools {
     return root;
   }
 
-  /// The same, but a full pool that has become part of its parent since may stand for it: saves
-  /// looking at the parent.
+  /// Returns owner(id), or a full pool that has become part of its parent since: faster, as it does
+  /// not read the parent.
   PoolId holder(PoolId id) const {
     while ((*this)[id].owner != id) id = (*this)[id].owner;
     return id;
@@ -105,20 +101,33 @@ class Pools {
   Volume raise(PoolId id, Height rise);
 
   void remember_overflow(PoolId full, const FlowPath& path) {
-    pools_[static_cast<std::size_t>(full)].remember_overflow(path);
+    pools_[static_cast<std::size_t>(full)].overflow = path;
   }
 
-  Pixel saddle(PoolId full) const { return (*this)[full].saddle; }
-  /// The lowest pixels of a pool that is not active.
+  /// True where some of its children are not full; else it holds liquid, or did.
+  bool waits(PoolId id) const { return growth(id).open_children > 0; }
+
+  /// Returns the only pixel over which a full pool that is not the last touches its neighbours;
+  /// kSeveral if there are more.
+  Pixel saddle(PoolId full) const {
+    return std::max(growth((*this)[full].parent).lowest, kSeveral);
+  }
+  /// Returns the lowest pixels of a pool that is no leaf, ascending.
   std::span<const Pixel> bottom(PoolId id) const;
 
-  /// Poured beyond all rims: run off an open edge, or lying flat above the highest pixel.
-  Volume beyond() const { return beyond_; }
-  /// True once a closed or periodic map is one pool without a rim.
-  bool flooded() const;
+  /// Returns the pools that have filled up to a saddle of several pixels since the last call.
+  std::vector<PoolId> take_closed() { return std::exchange(closed_, {}); }
 
-  /// Gives the pools new numbers, in the same order, and forgets those that have become part of
-  /// others: what is still of use then lies closer together. Returns for each old number the new
+  /// Returns the volume poured beyond all rims: run off an open edge, or lying flat above the
+  /// highest pixel.
+  Volume beyond() const { return beyond_; }
+  /// True once only beyond() can change: a closed or periodic map is one pool without a rim; all
+  /// pools of an open one are full. pool_beyond() takes it all.
+  bool replete() const;
+  PoolId pool_beyond() const { return terrain_->edge == Edge::open ? kOcean : last_; }
+
+  /// Gives the pools new numbers, in the same order, and removes those that have become part of
+  /// others, so that the rest lies closer together in memory. Returns for each old number the new
   /// one of the pool that holds it.
   std::vector<PoolId> renumber();
 
@@ -128,7 +137,7 @@ class Pools {
  private:
   friend class PoolBuilder;
 
-  /// Kept together because they are read together, in no order a cache could guess.
+  /// Height and pool stand together because they are read together, in random order.
   struct Site {
     Height height = 0;
     PoolId pool = kNoPool;
@@ -139,13 +148,18 @@ class Pools {
     if (pool.owner != id || !pool.full() || pool.parent == kNoPool) return pool.owner;
     return (*this)[pool.parent].active() ? pool.parent : id;
   }
+  const Growth& growth(PoolId id) const { return growth_[static_cast<std::size_t>(id)]; }
   void shorten(PoolId id, PoolId root);
   void take_in(PoolId id);
+  bool fill_up(PoolId id);
 
   const Terrain* terrain_;
   Ties ties_;
   PoolId last_ = kNoPool;  ///< the one that holds all others
+  PoolId n_filling_ = 0;   ///< active pools that are not full, the ocean not counted
   std::vector<Pool> pools_;
+  std::vector<Growth> growth_;  ///< per pool
+  std::vector<PoolId> closed_;  ///< see take_closed()
   std::vector<Site> sites_;
   std::vector<Height> arcs_;  ///< heights of the pixels of each pool alone, ascending, and its rim
   std::vector<bool> is_rim_;  ///< per place in arcs_

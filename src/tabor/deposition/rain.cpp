@@ -46,15 +46,17 @@ class Rain {
       state_.dosed += drop(targets_[i]);
       ++state_.n_droplets;
     }
+    state_.n_looks = router_.n_looks();
     return state_.dosed < dose;
   }
 
-  /// Under a flat level without a rim every droplet does the same: all of them at once.
-  void rain_on_flood(Volume dose) {
-    const Volume each = reading_ == Reading::literal ? Volume{droplet_} * pools_.terrain().size()
-                                                     : Volume{droplet_};
+  /// Once nothing but what is beyond can change every droplet does the same: all of them at once.
+  void rain_beyond(Volume dose) {
+    const PoolId pool = pools_.pool_beyond();
+    const Volume each =
+        reading_ == Reading::literal ? Volume{droplet_} * pools_[pool].area : Volume{droplet_};
     const std::int64_t n = std::max<Volume>(0, (dose - state_.dosed + each - 1) / each);
-    pools_.pour(pools_.owner(pools_.pool_at(0)), n * each);
+    pools_.pour(pool, n * each);
     state_.n_droplets += n;
     state_.dosed += n * each;
   }
@@ -119,10 +121,10 @@ void rain_droplets(Pools& pools, Height droplet, Reading reading, std::uint64_t 
   Watch watch(observer, "rain");
   Rain rain(pools, droplet, reading, seed);
   for (std::size_t i = 0; i < doses.size(); ++i) {
-    while (!pools.flooded() && rain.rain_batch(doses[i])) {
+    while (!pools.replete() && rain.rain_batch(doses[i])) {
       watch.tell(static_cast<double>(rain.state().dosed) / static_cast<double>(doses.back()));
     }
-    if (pools.flooded()) rain.rain_on_flood(doses[i]);
+    if (pools.replete()) rain.rain_beyond(doses[i]);
     reached(i, rain.state());
   }
 }
@@ -136,7 +138,7 @@ void rain_evenly(Pools& pools, const std::vector<Volume>& films, const DoseReach
     watch.tell(static_cast<double>(i) / static_cast<double>(films.size()));
     catchments.rain(films[i] - film);
     film = films[i];
-    reached(i, {0, film * pools.terrain().size()});
+    reached(i, {.dosed = film * pools.terrain().size()});
   }
 }
 

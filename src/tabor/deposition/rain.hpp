@@ -4,26 +4,29 @@
 
 #include "tabor/deposition/pools.hpp"
 
+// Rains droplets, or an even film, on a tree of pools until each dose is reached.
 namespace tabor::deposition {
 
-/// What has been rained so far, in whole numbers.
+/// Amount rained so far, in whole numbers.
 struct RainState {
   std::int64_t n_droplets = 0;
   Volume dosed = 0;
+  std::int64_t n_looks = 0;  ///< of droplets, at places: a measure of work
 };
 
-/// Told when a dose is reached; the pools are as they stand then.
+/// Called when a dose is reached; the pools are in the state of that dose.
 using DoseReached = std::function<void(std::size_t dose, const RainState& state)>;
 
-/// Rains droplets of `droplet` quanta on one random pixel after the other until each of the doses
-/// (ascending, in quanta * pixels) is reached or just exceeded. Pools with connected ties.
+/// Rains droplets of `droplet` quanta on random pixels, one after the other, until each of the
+/// doses (ascending, in quanta * pixels) is reached or just exceeded. Needs pools with connected
+/// ties.
 void rain_droplets(Pools& pools, Height droplet, Reading reading, std::uint64_t seed,
                    const std::vector<Volume>& doses, const DoseReached& reached,
                    const Observer& observer);
 
-/// The same for vanishing droplets, each pixel receiving the same: fill, spill, merge (Barnes,
-/// Callaghan & Wickert 2020, doi:10.5194/esurf-8-431-2020). Doses are films (ascending, in quanta).
-/// Pools with ordered ties. What a pool receives comes from the catchment its dry valleys drain.
+/// Rains vanishing droplets, the same on each pixel: fill, spill, merge (Barnes, Callaghan &
+/// Wickert 2020, doi:10.5194/esurf-8-431-2020). Doses are films (ascending, in quanta). Needs pools
+/// with ordered ties. A pool receives the rain of its catchment.
 void rain_evenly(Pools& pools, const std::vector<Volume>& films, const DoseReached& reached,
                  const Observer& observer);
 

@@ -8,6 +8,7 @@
 #include "tabor/core/rows.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/deposition/confluences.hpp"
+#include "tabor/deposition/descent.hpp"
 
 namespace tabor::deposition {
 namespace {
@@ -17,57 +18,6 @@ namespace {
 constexpr Slopes::Target kUnknown = std::numeric_limits<Slopes::Target>::min();
 constexpr Slopes::Target kFork = kUnknown + 1;
 constexpr Slopes::Target kFirstStep = kUnknown + 2;
-
-/// Which pool can become part of which: numbers in the order of a walk through the tree of pools,
-/// in which all descendants of a pool follow it directly.
-class Descent {
- public:
-  explicit Descent(const Pools& pools) : first_(pools.count()), end_(pools.count()) {
-    const auto n = static_cast<PoolId>(pools.count());
-    std::vector<PoolId> child(pools.count(), kNoPool);
-    std::vector<PoolId> sibling(pools.count(), kNoPool);
-    std::vector<PoolId> open;
-    for (PoolId id = 0; id < n; ++id) {
-      const PoolId parent = pools[id].parent;
-      PoolId& head = parent == kNoPool ? open.emplace_back(id) : child[place(parent)];
-      if (parent != kNoPool) {
-        sibling[place(id)] = head;
-        head = id;
-      }
-    }
-    walk(child, sibling, open);
-  }
-
-  bool within(PoolId inner, PoolId outer) const {
-    return first_[place(outer)] <= first_[place(inner)] &&
-           first_[place(inner)] < end_[place(outer)];
-  }
-
- private:
-  static std::size_t place(PoolId id) { return static_cast<std::size_t>(id); }
-
-  void walk(const std::vector<PoolId>& child, const std::vector<PoolId>& sibling,
-            std::vector<PoolId>& open) {
-    std::int32_t count = 0;
-    while (!open.empty()) {
-      const PoolId id = open.back();
-      if (id < 0) {  // the complement: all descendants have been numbered
-        end_[place(~id)] = count;
-        open.pop_back();
-        continue;
-      }
-      go_on_or_throw(static_cast<std::size_t>(count));
-      first_[place(id)] = count++;
-      open.back() = ~id;
-      for (PoolId next = child[place(id)]; next != kNoPool; next = sibling[place(next)]) {
-        open.push_back(next);
-      }
-    }
-  }
-
-  std::vector<std::int32_t> first_;
-  std::vector<std::int32_t> end_;
-};
 
 }  // namespace
 
@@ -105,7 +55,7 @@ class SlopeFinder {
   PoolId pool_at(Pixel p) const { return p == kOutside ? kOcean : pools_.pool_at(p); }
 
   /// Finds for each pixel with lower neighbours which one it leads to, or that it is a fork, and
-  /// makes room for the forks.
+  /// reserves memory for the forks.
   void choose_everywhere() {
     const Pixel nx = pools_.terrain().nx;
     const auto counts = sum_over_rows<2>(pools_.terrain().ny, [&](Index row) {
@@ -138,11 +88,11 @@ class SlopeFinder {
     }
     const PoolId pool = pools_.pool_at(p);
     const Height here = pools_.height(p);
-    if (pools_[pool].active() && pools_[pool].level == here) {
+    if (!pools_.waits(pool) && pools_[pool].level == here) {
       known(p) = pool;
       return p;
     }
-    if (!pools_[pool].active() && pools_.height(pools_.bottom(pool).front()) == here) {
+    if (pools_.waits(pool) && pools_.height(pools_.bottom(pool).front()) == here) {
       lower_ = {p};
       return make_fork(p);
     }

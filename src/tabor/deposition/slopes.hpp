@@ -11,17 +11,18 @@ namespace tabor::deposition {
 
 class Confluences;
 
-/// Where the dry surface leads a droplet, found once and true for any amount of liquid.
+/// Stores where the dry surface leads a droplet, found once and valid for any amount of liquid.
 ///
-/// Most pixels have no choice. Of two lower neighbours of a dry pixel let the higher one, when the
-/// water reaches it, lie in a pool that holds the lower one too: then the droplet goes to the lower
-/// one while that is dry, and into the same pool by either when it is wet. A pixel whose lower
-/// neighbours are nested like this is as good as the lowest of them, and so on downhill, until a
-/// lowest place (a leaf pool) or a fork: a place whose lower neighbours can fill independently, so
-/// that the levels of the day decide. About one pixel in nine of a rough surface is a fork.
+/// Most pixels have only one flow path. Consider two lower neighbours of a dry pixel. If the higher
+/// one, when the liquid reaches it, lies in a pool that also holds the lower one, then the droplet
+/// goes to the lower one while that is dry, and into the same pool by either when it is wet. A
+/// pixel whose lower neighbours are nested like this leads to the lowest of them, and so on
+/// downhill, to a lowest place (a leaf pool) or a fork: a place whose lower neighbours can fill
+/// independently, so that the present levels decide. About one pixel in nine of a rough surface is
+/// a fork.
 ///
-/// If a pool covers any place on such a path it covers all below; hence a start in the water ends
-/// in that pool, or at a fork whose branches are all in it.
+/// If a pool covers any place on such a path it covers all places below; hence a path that starts
+/// in the liquid ends in that pool, or at a fork whose branches are all in it.
 class Slopes {
  public:
   using Target = std::int32_t;  ///< a PoolId, or the complement of the number of a fork
@@ -36,11 +37,11 @@ class Slopes {
     };
   };
 
-  /// A fork has two branches or more, ascending in pixel number; or one, if it is a pixel without
-  /// lower neighbours on a saddle of several equal pixels: that pixel, with the pool above it.
-  /// Two branches, the common number, lie in the fork: half a cache line.
+  /// Fork with two branches or more, ascending in pixel number; or with one, if it is a pixel
+  /// without lower neighbours on a saddle of several equal pixels: that pixel, with the pool above
+  /// it. Two branches, the common number, are stored in the fork: half a cache line.
   struct alignas(32) Fork {
-    /// Where the branches stand among branches_, unless they are two.
+    /// Range of the branches in branches_, unless they are two.
     struct Listed {
       std::int32_t first = 0;
       PoolId none = kNoPool;  ///< where the pool of the first of two branches is
@@ -58,7 +59,7 @@ class Slopes {
 
   static bool is_pool(Target target) { return target >= 0; }
 
-  /// For pools with connected ties that hold no liquid yet.
+  /// Finds the slopes of pools with connected ties that hold no liquid yet.
   explicit Slopes(const Pools& pools);
 
   Target from(Pixel p) const { return leads_to_[static_cast<std::size_t>(p)]; }
@@ -74,14 +75,14 @@ class Slopes {
     return {const_cast<Branch*>(all.data()), all.size()};
   }
 
-  /// The last droplet's path from a fork, or from a full pool.
+  /// Returns the last droplet's path from a fork, or from a full pool.
   FlowPath path_from(const Pools& pools, Target at) const {
-    return is_pool(at) ? pools[at].overflow() : forks_[place_of(at)].path;
+    return is_pool(at) ? pools[at].overflow : forks_[place_of(at)].path;
   }
   void remember(Target fork, const FlowPath& path) { forks_[place_of(fork)].path = path; }
 
-  /// Follows Pools::renumber(), and forgets choices that do not matter any more: what leads to a
-  /// fork, or to a full pool, then leads to the confluence of all paths from there.
+  /// Follows Pools::renumber(), and removes forks that no longer matter: what leads to a fork, or
+  /// to a full pool, then leads to the confluence of all paths from there.
   void settle(Pools& pools, const std::vector<PoolId>& renamed);
 
   void prefetch(Pixel p) const { __builtin_prefetch(&leads_to_[static_cast<std::size_t>(p)]); }

@@ -7,6 +7,7 @@
 #include "tabor/core/types.hpp"
 #include "tabor/deposition/deposition.hpp"
 
+// Rounds a height map to whole numbers, in which the rules of deposition are exact.
 namespace tabor::deposition {
 
 using Height = std::int32_t;  ///< of a solid or a level, in quanta above the terrain's datum
@@ -17,7 +18,7 @@ inline constexpr Pixel kOutside = -1;  ///< neighbour of the border pixels of an
 inline constexpr Height kDry = std::numeric_limits<Height>::min();    ///< below every height
 inline constexpr Height kNoRim = std::numeric_limits<Height>::max();  ///< above every height
 
-/// A dry surface in whole numbers, so that the rule of deposition has no rounding.
+/// Dry surface in whole numbers, so that the rule of deposition has no rounding.
 struct Terrain {
   Pixel nx = 0;
   Pixel ny = 0;

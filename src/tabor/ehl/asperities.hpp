@@ -2,6 +2,7 @@
 
 #include <optional>
 
+// Says how touching solids rub that a boundary film keeps apart.
 namespace tabor::ehl {
 
 /// Solids that touch through a boundary film: where the gap would fall below it, they carry what
@@ -11,7 +12,7 @@ struct Asperities {
   std::optional<double> friction_coefficient = {};  ///< of what they carry
   std::optional<double> shear_strength = {};        ///< [Pa] of what touches, besides
 
-  /// Whether anything is known about their friction; a coefficient of 0 is known.
+  /// True where their friction is known; a coefficient of 0 is known.
   bool has_friction() const { return friction_coefficient || shear_strength; }
 
   /// Friction [N, or N/m] of so much load [N, N/m] on so much area [m^2, m]; NaN where there is

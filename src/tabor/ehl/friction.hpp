@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "tabor/core/warning.hpp"
 #include "tabor/ehl/asperities.hpp"
 #include "tabor/material/lubricant.hpp"
 
@@ -26,7 +27,7 @@ struct FilmFriction {
 /// Takes away (NaN) the friction of a film whose stress knows no limit where it is sheared harder
 /// than oils can be, and that of the whole contact where solids carry load and the case says
 /// nothing about their friction. Returns why.
-std::vector<std::string> void_friction(const material::Shear& shear, const Asperities& asperities,
-                                       const FilmFriction& friction);
+Warnings void_friction(const material::Shear& shear, const Asperities& asperities,
+                       const FilmFriction& friction);
 
 }  // namespace tabor::ehl

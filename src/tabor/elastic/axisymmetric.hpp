@@ -6,20 +6,22 @@
 #include "tabor/core/types.hpp"
 #include "tabor/elastic/pressure_shape.hpp"
 
+// Computes the displacement of an elastic half-space under a pressure that depends on the radius
+// only.
 namespace tabor::elastic {
 
-/// [m/Pa] Displacement at radius r [m] of an elastic half-space under a unit pressure on the disc
-/// of radius c [m], measured from infinity (Johnson 1985, eqs. 3.29 and following).
+/// Returns the displacement [m/Pa] at radius r [m] of an elastic half-space under a unit pressure
+/// on the disc of radius c [m], measured from infinity (Johnson 1985, eqs. 3.29 and following).
 double disc_displacement(double r, double c, double effective_modulus);
 
-/// n radii [m] from 0 to r_max, equally spaced.
+/// Returns n radii [m] from 0 to r_max, equally spaced.
 Eigen::ArrayXd uniform_radii(Index n, double r_max);
-/// n radii [m] from 0 to r_max whose spacing grows in geometric progression, the last one
+/// Returns n radii [m] from 0 to r_max whose spacing grows in geometric progression, the last one
 /// `spacing_ratio` times the first; 1 is uniform. n >= 3, r_max > 0, ratio > 0, else InputError.
 Eigen::ArrayXd graded_radii(Index n, double r_max, double spacing_ratio);
 
-/// [m] The n + 1 edges of the rings around n radii: 0, half way between neighbours, and the last
-/// radius. Also the faces of finite volumes on these nodes.
+/// Returns the n + 1 edges [m] of the rings around n radii: 0, midway between neighbours, and the
+/// last radius. They are also the faces of finite volumes on these nodes.
 Eigen::ArrayXd ring_edges(const Eigen::ArrayXd& radii);
 
 /// Half-space under a pressure that varies with the radius only: u = matrix p at the nodes, u
@@ -28,8 +30,8 @@ Eigen::ArrayXd ring_edges(const Eigen::ArrayXd& radii);
 /// so this is no ElasticOperator.
 class AxisymmetricHalfSpace {
  public:
-  /// radii [m]: from 0, strictly increasing, at least 3; effective_modulus E* [Pa] > 0; else
-  /// InputError. Beyond the last radius the pressure is zero.
+  /// Computes the matrix. radii [m]: from 0, strictly increasing, at least 3; effective_modulus E*
+  /// [Pa] > 0; else throws InputError. Beyond the last radius the pressure is zero.
   AxisymmetricHalfSpace(Eigen::ArrayXd radii, double effective_modulus,
                         PressureShape shape = PressureShape::uniform);
 
@@ -41,7 +43,7 @@ class AxisymmetricHalfSpace {
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Matrix& matrix() const { return matrix_; }
 
-  /// displacement [m] = matrix pressure [Pa]; spans of n values, not the same memory.
+  /// Computes displacement [m] = matrix pressure [Pa]; spans of n values, not the same memory.
   void apply(std::span<const double> pressure, std::span<double> displacement) const;
 
   /// [m^2] load = 2 pi integral p r dr = sum of load_weights * pressure.

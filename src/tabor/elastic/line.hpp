@@ -8,6 +8,8 @@
 #include "tabor/elastic/pressure_shape.hpp"
 #include "tabor/spectral/fft.hpp"
 
+// Computes the displacement of an elastic half-space in plane strain under a pressure profile along
+// x.
 namespace tabor::elastic {
 
 /// Plane-strain half-space under a pressure that varies along x only, at n nodes `spacing` apart:
@@ -20,7 +22,8 @@ namespace tabor::elastic {
 /// coefficients (rows of a Jacobian) beside products; make_line() is one, for the contact solvers.
 class LineHalfSpace {
  public:
-  /// n_nodes >= 3, spacing [m] > 0, effective_modulus E* [Pa] > 0, else InputError.
+  /// Prepares the transforms. n_nodes >= 3, spacing [m] > 0, effective_modulus E* [Pa] > 0, else
+  /// throws InputError.
   LineHalfSpace(Index n_nodes, double spacing, double effective_modulus,
                 PressureShape shape = PressureShape::uniform);
 
@@ -36,15 +39,17 @@ class LineHalfSpace {
   /// Institution of Mechanical Engineers C 214, 563).
   double second_difference(Index offset) const;
 
-  /// All coefficients, shape (n, n) [m/Pa]: u = matrix p.
+  /// Returns all coefficients, shape (n, n) [m/Pa]: u = matrix p.
   Eigen::MatrixXd matrix() const;
-  /// The same displacement in differential form: rows 0 and n - 1 give u there, row i in between
-  /// u_(i-1) - 2 u_i + u_(i+1). Its large coefficients lie near the diagonal.
+  /// Returns the matrix of the same displacement in differential form: rows 0 and n - 1 give u
+  /// there, row i in between u_(i-1) - 2 u_i + u_(i+1). Its large coefficients lie near the
+  /// diagonal.
   Eigen::MatrixXd differential_matrix() const;
 
-  /// displacement [m] = matrix pressure [Pa], by transforms: O(n log n). Spans of n values.
+  /// Computes displacement [m] = matrix pressure [Pa], by transforms: O(n log n). Spans of n
+  /// values.
   void apply(std::span<const double> pressure, std::span<double> displacement) const;
-  /// differences [m] = differential_matrix pressure, by transforms.
+  /// Computes differences [m] = differential_matrix pressure, by transforms.
   void apply_differential(std::span<const double> pressure, std::span<double> differences) const;
 
   /// [m] Weights of the load per width: load = sum of weight p = load_weight() * sum of p.
@@ -65,13 +70,13 @@ class LineHalfSpace {
   Eigen::ArrayXd difference_spectrum_;     // of second_difference() [m/Pa]
 };
 
-/// displacement[i] [m] from the values of apply_differential(): sums them up between the exact
-/// ends. Spans of the same length, which may be the same memory.
+/// Computes displacement[i] [m] from the values of apply_differential(): sums them up between the
+/// exact ends. Spans of the same length, which may be the same memory.
 void displacement_from_differences(std::span<const double> differences,
                                    std::span<double> displacement);
 
-/// The same half-space, with pressure uniform around each node, for the contact solvers: maps of
-/// one row. Throws InputError for a grid of more than one row, or as LineHalfSpace.
+/// Makes the same half-space, with pressure uniform around each node, for the contact solvers: maps
+/// of one row. Throws InputError for a grid of more than one row, or as LineHalfSpace.
 std::unique_ptr<ElasticOperator> make_line(const Grid& grid, double effective_modulus);
 
 }  // namespace tabor::elastic

@@ -16,17 +16,18 @@ class ElasticOperator {
   virtual const Grid& grid() const = 0;
   virtual double effective_modulus() const = 0;  ///< E* [Pa]
 
-  /// displacement [m] = S pressure [Pa], both shape (ny, nx).
+  /// Computes displacement [m] = S pressure [Pa], both of shape (ny, nx).
   virtual void apply(const Field& pressure, Field& displacement) = 0;
 
-  /// The same in single precision, for increments; relative error about 1e-6 of the largest value.
+  /// Computes the same in single precision, for increments; relative error about 1e-6 of the
+  /// largest value.
   virtual void apply(const FieldF& pressure, FieldF& displacement) = 0;
 
-  /// The same half-space sampled on another grid of the same extent (nested starts).
+  /// Returns the same half-space sampled on another grid of the same extent (nested starts).
   virtual std::unique_ptr<ElasticOperator> on_grid(const Grid& grid) const = 0;
 
-  /// pressure = S^-1 displacement up to its mean, where that is one transform. Returns false where
-  /// the operator has no such inverse (free half-space).
+  /// Computes pressure = S^-1 displacement up to its mean, where that is one transform. Returns
+  /// false where the operator has no such inverse (free half-space).
   virtual bool apply_inverse(const Field& displacement, Field& pressure) = 0;
 
   /// True if a uniform pressure displaces nothing (periodic half-space, mean mode dropped).

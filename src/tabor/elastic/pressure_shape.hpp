@@ -2,7 +2,7 @@
 
 namespace tabor::elastic {
 
-/// How the pressure runs between the nodes of a profile.
+/// Shape of the pressure between the nodes of a profile.
 enum class PressureShape {
   uniform,  ///< constant around each node, half way to its neighbours
   linear,   ///< straight from node to node

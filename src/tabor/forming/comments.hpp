@@ -6,22 +6,24 @@
 #include "tabor/forming/friction_table.hpp"
 #include "tabor/forming/unit_system.hpp"
 
+// Writes the numbers and comment lines that the decks of all forming codes share.
 namespace tabor::forming {
 
-/// The digits that every column of every format holds and no number of ours exceeds in meaning:
-/// "2", "4.5e-13".
+/// Returns a number with as many digits as every column of every format holds and as are
+/// significant: "2", "4.5e-13".
 std::string digits(double value);
 
-/// What every deck says of itself: program and version, origin, units, ranges, what is left out.
+/// Returns the head of every deck: program and version, origin, units, ranges, what is left out.
 /// Throws InputError for a table without numbers.
 std::vector<std::string> head_of(const FrictionTable& table, const UnitSystem& units,
                                  const std::string& program);
 
-/// Comment lines, each behind `mark` and no longer than 80 columns; long ones go on, indented, in
-/// the next. Control characters are made visible: no text of a file begins a card.
+/// Returns comment lines, each after `mark` and no longer than 80 columns; long ones continue,
+/// indented, on the next line. Control characters are made visible: no text of a file begins a
+/// card.
 std::string comments(const std::string& mark, const std::vector<std::string>& lines);
 
-/// "lubricant density 4.5e-13 t/mm^2 (0.45 g/m^2)"
+/// Returns "lubricant density 4.5e-13 t/mm^2 (0.45 g/m^2)".
 std::string density_text(double lubricant_density, const UnitSystem& units);
 
 }  // namespace tabor::forming

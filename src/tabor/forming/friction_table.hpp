@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
-// Friction coefficients as a table over what a forming simulation knows at a contact: the mean
-// pressure, the areal density of the lubricant and the sliding speed. docs/friction_tables.md says
-// what they mean.
+// Defines a table of friction coefficients over what a forming simulation knows at a contact: the
+// mean pressure, the areal density of the lubricant and the sliding speed. docs/friction_tables.md
+// explains it.
 namespace tabor::forming {
 
-/// Where a number stands. No speed where friction does not depend on it.
+/// Pressure, density and speed of a number; no speed where friction does not depend on it.
 struct Condition {
   double mean_pressure = 0;                  ///< [Pa]
   double lubricant_density = 0;              ///< [kg/m^2]; 0: dry
@@ -20,7 +20,7 @@ struct Condition {
   bool operator==(const Condition&) const = default;
 };
 
-/// One number: the mean over scans.
+/// One friction coefficient: the mean over scans.
 struct FrictionEntry {
   Condition at = {};
   double friction = 0;
@@ -28,7 +28,7 @@ struct FrictionEntry {
   std::size_t n = 1;                                                     ///< scans that count
 };
 
-/// A number that is not in the table, or scans that do not count in it.
+/// Number that is not in the table, or scans that do not count in it.
 struct LeftOut {
   Condition at = {};
   std::string code = {};  ///< why: a code of docs/warnings.md, "failed" or "incomplete"
@@ -36,41 +36,41 @@ struct LeftOut {
   bool whole = true;  ///< false: the number is there, as the mean over other scans
 };
 
-/// Numbers with what must be said about them.
+/// Friction coefficients with what is left out and where they come from.
 struct FrictionTable {
   std::vector<FrictionEntry> entries;  ///< by density, then pressure, then speed, all rising
   std::vector<LeftOut> left_out;       ///< in the same order
   std::string group;                   ///< of scans; "" where there are none
   std::vector<std::string> origin;     ///< lines for the head of a deck: command, files
 
-  /// Whether its numbers depend on the sliding speed.
+  /// True where its numbers depend on the sliding speed.
   bool has_speeds() const { return !entries.empty() && entries.front().at.sliding_speed; }
 };
 
-/// The numbers under one pressure, speeds rising.
+/// Numbers under one pressure, speeds rising.
 struct PressureRow {
   double mean_pressure = 0;  ///< [Pa]
   std::vector<FrictionEntry> entries;
 };
-/// The numbers at one density, pressures rising.
+/// Numbers at one density, pressures rising.
 struct DensityLayer {
   double lubricant_density = 0;  ///< [kg/m^2]
   std::vector<PressureRow> rows;
 };
-/// The same table in layers.
+/// Returns the same table in layers.
 std::vector<DensityLayer> layers_of(const FrictionTable& table);
 
-/// Numbers that are not there, and scans that do not count in those that are.
+/// Returns the number of missing entries plus that of scans that do not count in the others.
 std::size_t n_left_out(const FrictionTable& table);
 
-/// "flood 2, not-converged 1"; "" if nothing is left out.
+/// Returns "flood 2, not-converged 1"; "" if nothing is left out.
 std::string reasons_of(const FrictionTable& table);
 
-/// Without the pressures at which, for the same density, not all speeds are there: they move to
-/// what is left out, as "incomplete".
+/// Removes pressures at which, for the same density, not all speeds are there: they move to
+/// `left_out`, as "incomplete".
 FrictionTable complete_rows(FrictionTable table);
 
-/// Throws InputError unless there are two pressures or more at this density, or at each: one gives
+/// Throw InputError unless there are two pressures or more at this density, or at each: one gives
 /// no table over pressure.
 void require_two_pressures(const DensityLayer& layer);
 void require_two_pressures(const FrictionTable& table);

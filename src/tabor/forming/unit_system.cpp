@@ -93,7 +93,7 @@ std::array<Word, 3> sorted_words(std::string_view text) {
   return {*found[0], *found[1], *found[2]};
 }
 
-/// The usual name of a pressure, if it has one.
+/// Returns the common name of a pressure unit, if it has one.
 std::string pressure_name(double si, const std::string& otherwise) {
   constexpr double kRounding = 1e-9;
   for (const Named& unit : kPressures) {

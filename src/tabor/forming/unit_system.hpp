@@ -3,18 +3,19 @@
 #include <string>
 #include <string_view>
 
+// Makes a consistent system of units, such as "mm,s,t", for codes whose numbers have none.
 namespace tabor::forming {
 
-/// A unit as a deck has it.
+/// Unit of a deck.
 struct DeckUnit {
   std::string name;  ///< "MPa"
   double si = 1;     ///< one of it in SI
 
-  /// An SI value in this unit.
+  /// Converts an SI value to this unit.
   double of(double quantity) const { return quantity / si; }
 };
 
-/// The units of a deck whose numbers have none: everything is made of its length, time and mass.
+/// Units of a deck whose numbers have none: all follow from its length, time and mass.
 struct UnitSystem {
   std::string words;       ///< as it was asked for: "mm,s,t"
   DeckUnit pressure;       ///< "MPa"
@@ -22,8 +23,8 @@ struct UnitSystem {
   DeckUnit areal_density;  ///< "t/mm^2"
 };
 
-/// The units that follow from three words in any order: a length (m, cm, mm, um, in, ft), a time
-/// (s, ms, us) and a mass (kg, g, mg, t, lb, slug) or the force (N, kN, mN, lbf) that the mass
+/// Returns the units that follow from three words in any order: a length (m, cm, mm, um, in, ft), a
+/// time (s, ms, us) and a mass (kg, g, mg, t, lb, slug) or the force (N, kN, mN, lbf) that the mass
 /// follows from by Newton's law: "mm,s,t" and "mm,s,N" are the same. Throws InputError for anything
 /// else.
 UnitSystem unit_system(std::string_view words);

@@ -30,6 +30,10 @@ double least_area_fraction(const Contact& contact) {
 
 std::string_view name(Area area) { return kAreas.of(area); }
 
+std::string_view words_of(Area area) {
+  return area == Area::corrected ? "contact area" : "counted contact";
+}
+
 Area parse_area(std::string_view text) { return kAreas.parse(text, "area"); }
 
 Estimate estimate(const Contact& contact, double shear_strength, Area area,

@@ -5,9 +5,10 @@
 
 #include "tabor/core/names.hpp"
 
+// Estimates dry and lubricated friction coefficients from the real contact area (Bowden & Tabor).
 namespace tabor::friction {
 
-/// Which count of the real contact area friction uses.
+/// Count of the real contact area that friction uses.
 enum class Area {
   corrected,  ///< perimeter-corrected (Yastrebov et al. 2017)
   pixels      ///< counted contact pixels, as Costagliola et al. 2021 do
@@ -15,11 +16,14 @@ enum class Area {
 
 inline constexpr auto kAreas = names<Area>("corrected", "pixels");
 
-/// As on the command line.
+/// Returns the name of a count, as on the command line.
 std::string_view name(Area area);
+/// Returns "contact area" (perimeter-corrected) or "counted contact" (pixels), for headings and
+/// sentences.
+std::string_view words_of(Area area);
 Area parse_area(std::string_view text);  ///< throws InputError with the nearest match
 
-/// What a Bowden-Tabor estimate needs to know of one state of contact and film.
+/// Numbers of one contact and film that a Bowden-Tabor estimate needs.
 struct Contact {
   double mean_pressure = 0;                 ///< P [Pa], > 0
   double contact_area_fraction = 0;         ///< A_real / A0, perimeter-corrected
@@ -28,7 +32,7 @@ struct Contact {
   double lubricated_share = 0;  ///< wet contact pixels / contact pixels
 };
 
-/// What Bowden and Tabor's rule says of one state.
+/// Friction of one state by Bowden and Tabor's rule.
 struct Estimate {
   double area_fraction = 0;         ///< A_real / A0 that was used
   Area area = Area::corrected;      ///< and how it was counted
@@ -38,7 +42,8 @@ struct Estimate {
   bool corrected_at_bound = false;  ///< the corrected area is, whichever was used
 };
 
-/// Bowden & Tabor: the friction force is the shear strength tau_y [Pa] times the real contact area,
+/// Estimates friction (Bowden & Tabor): the friction force is the shear strength tau_y [Pa] times
+/// the real contact area,
 ///
 ///   dry         mu = (A_real / A0) tau_y / P
 ///   lubricated  mu = ((A_real - A_lub) tau_y + A_lub tau_b) / (A0 P)

@@ -4,16 +4,16 @@
 
 namespace tabor::friction {
 
-/// Finds where an increasing function of a position is zero when each value is costly. Positions
-/// begin at 1, where the function is positive, and go down without end: 1 > x >= 0 shares the load
-/// between solids and oil, below 0 the surfaces are apart. Values may change a little from one
-/// call to the next, as the surface gives way to the oil.
+/// Finds the zero of an increasing function of a position with few evaluations. Positions begin at
+/// 1, where the function is positive, and decrease without limit: for 1 > x >= 0 solids and oil
+/// share the load, below 0 the surfaces are apart. Values may change a little from one call to the
+/// next, as the oil deforms the surface.
 class LoadSearch {
  public:
-  /// Tells the value at a position, ln((solid + fluid load)/load); the position to try next.
+  /// Takes the value at a position, ln((solid + fluid load)/load), and returns the next position.
   double next(double position, double value);
 
-  /// True where the value jumps over zero: a pixel of contact that opens can do that.
+  /// True where the value jumps over zero, as when a contact pixel opens.
   bool met_a_jump() const;
 
  private:

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tabor/core/units.hpp"
 #include "tabor/friction/wet_contact.hpp"
 
@@ -63,21 +65,26 @@ MixedEstimate estimate(const FluidSummary& fluid, double mean_pressure, double s
   return mixed;
 }
 
-std::vector<std::string> warnings(const FluidFilmState& state, const FluidFilmProblem& problem) {
-  std::vector<std::string> found;
+Warnings warnings(const FluidFilmState& state, const FluidFilmProblem& problem) {
+  Warnings found;
   if (state.convergence.failed()) {
-    found.push_back(fmt::format(
-        "film NOT CONVERGED ({}), load balance {:.1e}, gap {:.1e} instead of {:.0e}{}",
-        name_of(state.convergence.status), state.load_error, state.gap_error, problem.tolerance,
-        state.film.convergence.converged() ? "" : ", oil still on the move"));
+    found.push_back(
+        {"fluid-film",
+         fmt::format("film NOT CONVERGED ({}), load balance {:.1e}, gap {:.1e} instead of {:.0e}{}",
+                     name_of(state.convergence.status), state.load_error, state.gap_error,
+                     problem.tolerance,
+                     state.film.convergence.converged() ? "" : ", oil still on the move"),
+         std::max(state.load_error, state.gap_error)});
   }
   const double highest = state.film.pressure.maxCoeff();
-  for (std::string& warning : material::warnings(problem.lubricant, highest)) {
+  for (Warning& warning : material::warnings(problem.lubricant, highest)) {
     found.push_back(std::move(warning));
   }
   if (highest > problem.contact.saturation_pressure) {
-    found.push_back("the oil's pressure reaches " + format_si(highest, "Pa") +
-                    ", more than the solids bear: the film is too thin for its pixels there");
+    found.push_back({"fluid-pressure",
+                     "the oil's pressure reaches " + format_si(highest, "Pa") +
+                         ", more than the solids bear: the film is too thin for its pixels there",
+                     highest / problem.contact.saturation_pressure});
   }
   return found;
 }

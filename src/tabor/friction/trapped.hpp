@@ -4,22 +4,23 @@
 
 #include "tabor/core/types.hpp"
 
+// Finds how much liquid is trapped in closed regions of the gap of a contact.
 namespace tabor::friction {
 
-/// One connected region of the open gap (4 neighbours, no contact pixel in it) that holds liquid.
+/// Connected region of the open gap (4 neighbours, no contact pixel in it) that holds liquid.
 struct GapRegion {
   Index n_pixels = 0;
   Index first_pixel = 0;     ///< lowest row-major index, to find it again on the map
   double liquid_volume = 0;  ///< [m^3]
-  double gap_volume = 0;     ///< room between the surfaces [m^3]
-  bool trapped = false;      ///< no way out through the gap
+  double gap_volume = 0;     ///< volume between the surfaces [m^3]
+  bool trapped = false;      ///< no path out through the gap
 };
 
-/// Where the liquid is when the surfaces are closed. The three shares add up to 1 (to 0 without
+/// Shares of the liquid when the surfaces are closed. The three shares add up to 1 (to 0 without
 /// liquid).
 struct TrappedLiquid {
   std::vector<GapRegion> regions;  ///< those with liquid, in the order of first_pixel
-  double trapped_fraction = 0;     ///< of the liquid: in regions without a way out
+  double trapped_fraction = 0;     ///< of the liquid: in regions without a path out
   double escaping_fraction = 0;  ///< in regions that reach the edge, or run through a periodic cell
   double under_contact_fraction = 0;  ///< on pixels where the solids touch: squeezed out first
 };

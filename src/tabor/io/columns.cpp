@@ -64,6 +64,16 @@ void write_attribute(Hdf5Writer& writer, const std::string& path, const std::str
   }
 }
 
+/// What stands at a key, "wear.time_s"; nullptr if nothing does.
+const Json* value_at(const Json& object, const std::string& key) {
+  const Json* place = &object;
+  for (const std::string& name : split(key, '.')) {
+    place = place->find(name);
+    if (place == nullptr) return nullptr;
+  }
+  return place;
+}
+
 }  // namespace
 
 Json json_of(const NamedCells& cells) {
@@ -98,14 +108,17 @@ void write_dataset(Hdf5Writer& writer, const std::string& path, const std::vecto
                    const Cell& kind) {
   if (is<std::string>(kind)) {
     std::vector<std::string> values;
+    values.reserve(cells.size());
     for (const Cell& cell : cells) values.push_back(text_of(cell));
     writer.write(path, values);
   } else if (is_whole(kind)) {
     std::vector<std::int64_t> values;
+    values.reserve(cells.size());
     for (const Cell& cell : cells) values.push_back(is_whole(cell) ? integer_in(cell) : 0);
     writer.write(path, values);
   } else {
     std::vector<double> values;
+    values.reserve(cells.size());
     for (const Cell& cell : cells) values.push_back(number_in(cell));
     writer.write(path, values);
   }
@@ -118,12 +131,13 @@ std::string csv_line_of(const std::vector<Cell>& cells) {
   return csv_line(texts);
 }
 
+bool has_cell(const Json& object, const std::string& key) {
+  return value_at(object, key) != nullptr;
+}
+
 Cell cell_in(const Json& object, const std::string& key) {
-  const Json* place = &object;
-  for (const std::string& name : split(key, '.')) {
-    place = place->find(name);
-    if (!place) throw InputError(key + ": not there");
-  }
+  const Json* const place = value_at(object, key);
+  if (place == nullptr) throw InputError(key + ": not there");
   if (place->is_null()) return std::numeric_limits<double>::quiet_NaN();
   if (place->is_boolean()) return place->get<bool>();
   if (place->is_number_integer()) return place->get<std::int64_t>();

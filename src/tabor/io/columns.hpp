@@ -1,35 +1,41 @@
 #pragma once
 
+#include <cmath>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "tabor/core/column.hpp"
 #include "tabor/io/hdf5.hpp"
 #include "tabor/io/json.hpp"
 
-// Records as JSON objects, as attributes and tables of HDF5 files, and as CSV files.
+// Converts records to JSON objects, to attributes and tables of HDF5 files, and to CSV files, and
+// reads them back.
 namespace tabor::io {
 
-/// Keys in the order of the cells; NaN and infinity become null.
+/// Returns an object with keys in the order of the cells; NaN and infinity become null.
 Json json_of(const NamedCells& cells);
 
-/// One attribute per cell.
+/// Writes one attribute per cell.
 void write_attributes(Hdf5Writer& writer, const std::string& path, const NamedCells& cells);
 
-/// The same of a JSON object: numbers, texts, lists of texts and switches; the rest is left out.
+/// Writes one attribute per member of a JSON object: numbers, texts, lists of texts and switches;
+/// the rest is left out.
 void write_members(Hdf5Writer& writer, const std::string& path, const Json& object);
 
-/// One column of many records as a dataset: whole numbers and switches as integers, other numbers,
-/// or texts, as `kind` is.
+/// Writes one column of many records as a dataset of the type of `kind`: whole numbers and switches
+/// as integers, other numbers, or texts.
 void write_dataset(Hdf5Writer& writer, const std::string& path, const std::vector<Cell>& cells,
                    const Cell& kind);
 
-/// A line of a CSV file; the cell of a value that does not exist is empty, a list of texts has
-/// blanks between them.
+/// Returns a line of a CSV file; the cell of a value that does not exist is empty, a list of texts
+/// has blanks between them.
 std::string csv_line_of(const std::vector<Cell>& cells);
 
-/// Values of a JSON object or of attributes; throw InputError where there is none of this kind.
+/// Return values of a JSON object or of attributes; throw InputError where there is none of this
+/// kind.
 Cell cell_in(const Json& object, const std::string& key);
+bool has_cell(const Json& object, const std::string& key);
 Cell cell_in(const Hdf5Reader& reader, const std::string& path, const std::string& name,
              const Cell& kind);
 
@@ -44,7 +50,7 @@ void write_attributes(Hdf5Writer& writer, const std::string& path, const Columns
   write_attributes(writer, path, cells_of(columns, record, media));
 }
 
-/// The value of one column in each of the records.
+/// Returns the value of one column in each of the records.
 template <typename Record>
 std::vector<Cell> cells_down(const Column<Record>& column, const std::vector<Record>& records) {
   std::vector<Cell> cells;
@@ -53,7 +59,7 @@ std::vector<Cell> cells_down(const Column<Record>& column, const std::vector<Rec
   return cells;
 }
 
-/// A dataset per column below `group`, one entry per record.
+/// Writes a dataset per column below `group`, one entry per record.
 template <typename Record>
 void write_datasets(Hdf5Writer& writer, const std::string& group, const Columns<Record>& columns,
                     const std::vector<Record>& records, Media media = kEverywhere) {
@@ -63,7 +69,8 @@ void write_datasets(Hdf5Writer& writer, const std::string& group, const Columns<
   }
 }
 
-/// The same with units and headings as `units` and `long_name`: the curves of a history.
+/// Writes the curves of a history: such datasets with units and headings as `units` and
+/// `long_name`.
 template <typename Record>
 void write_curves(Hdf5Writer& writer, const std::string& group, const Columns<Record>& columns,
                   const std::vector<Record>& records) {
@@ -74,7 +81,7 @@ void write_curves(Hdf5Writer& writer, const std::string& group, const Columns<Re
   }
 }
 
-/// A header line and a line per record.
+/// Returns a header line and a line per record.
 template <typename Record>
 std::string csv_of(const Columns<Record>& columns, const std::vector<Record>& records,
                    Media media = kEverywhere) {
@@ -93,14 +100,19 @@ std::string csv_of(const Columns<Record>& columns, const std::vector<Record>& re
   return csv;
 }
 
-/// Puts what write_attributes() or json_of() wrote back into a record; throws InputError where a
-/// column that can be put back is missing.
+/// True where the cells of this kind are numbers that may be unknown.
+inline bool is_number(const Cell& kind) { return std::holds_alternative<double>(kind); }
+
+/// Reads into a record what write_attributes() or json_of() wrote. A number that the file lacks, as
+/// a file of an older version may, is NaN; a missing text, count or switch is an InputError.
 template <typename Record>
 void read_attributes(const Hdf5Reader& reader, const std::string& path,
                      const Columns<Record>& columns, Record& record, Media media = kEverywhere) {
   for (const Column<Record>& column : columns) {
     if (!column.is_in(media) || !column.assign) continue;
-    column.assign(record, cell_in(reader, path, column.key, column.kind));
+    const bool is_lacking = is_number(column.kind) && !reader.has_attribute(path, column.key);
+    column.assign(record,
+                  is_lacking ? Cell(std::nan("")) : cell_in(reader, path, column.key, column.kind));
   }
 }
 
@@ -108,7 +120,9 @@ template <typename Record>
 void read_json(const Json& object, const Columns<Record>& columns, Record& record,
                Media media = kEverywhere) {
   for (const Column<Record>& column : columns) {
-    if (column.is_in(media) && column.assign) column.assign(record, cell_in(object, column.key));
+    if (!column.is_in(media) || !column.assign) continue;
+    const bool is_lacking = is_number(column.kind) && !has_cell(object, column.key);
+    column.assign(record, is_lacking ? Cell(std::nan("")) : cell_in(object, column.key));
   }
 }
 

@@ -8,21 +8,23 @@
 #include <string>
 #include <string_view>
 
+// Computes SHA-256 and MD5 digests of bytes and files.
 namespace tabor::io {
 
-/// Digests as lower-case hexadecimal text.
+/// Return digests as lower-case hexadecimal text.
 std::string sha256(std::span<const std::byte> bytes);
 std::string sha256(std::string_view text);
-/// Throws InputError. `between` is called after every MiB; what it throws ends the reading.
+/// Returns the digest of a file. `between` is called after every MiB; what it throws ends the
+/// reading. Throws InputError.
 std::string sha256_of_file(const std::filesystem::path& file,
                            const std::function<void()>& between = {});
 
-/// Only because the X3P format asks for it.
+/// Returns the MD5 digest, which the X3P format requires.
 std::string md5(std::span<const std::byte> bytes);
 
 enum class DigestKind { sha256, md5 };
 
-/// The same digests of bytes that come piece after piece.
+/// Computes digests of bytes that come piece after piece.
 class RunningDigest {
  public:
   explicit RunningDigest(DigestKind kind);

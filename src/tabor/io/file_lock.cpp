@@ -15,6 +15,33 @@
 namespace tabor::io {
 namespace {
 
+/// Descriptors of all locks, and of those that are being tried.
+struct Registry {
+  std::mutex mutex;
+  std::vector<int> descriptors;
+};
+
+Registry& registry() {
+  static auto* const instance = new Registry;  // locks may be dropped at the end of the program
+  return *instance;
+}
+
+int open_registered(const std::filesystem::path& file) {
+  Registry& all = registry();
+  const std::lock_guard guard(all.mutex);
+  all.descriptors.reserve(all.descriptors.size() + 1);
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (descriptor >= 0) all.descriptors.push_back(descriptor);
+  return descriptor;
+}
+
+void close_registered(int descriptor) {
+  Registry& all = registry();
+  const std::lock_guard guard(all.mutex);
+  std::erase(all.descriptors, descriptor);
+  ::close(descriptor);
+}
+
 /// True if the lock was taken, false if others' exclude it.
 bool try_lock(int descriptor, FileLock::Kind kind, const std::filesystem::path& file) {
   const int operation = (kind == FileLock::Kind::alone ? LOCK_EX : LOCK_SH) | LOCK_NB;
@@ -39,7 +66,7 @@ bool is_still(const std::filesystem::path& file, int descriptor) {
 
 std::optional<FileLock> FileLock::take(const std::filesystem::path& file, Kind kind) {
   for (;;) {
-    const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    const int descriptor = open_registered(file);
     if (descriptor < 0) {
       throw OutputError(file.string() + ": cannot write: " + std::strerror(errno));
     }
@@ -60,7 +87,13 @@ FileLock FileLock::take_or_reject(const std::filesystem::path& file, Kind kind,
 FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 FileLock::~FileLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);  // drops the lock
+  if (descriptor_ >= 0) close_registered(descriptor_);  // drops the lock
+}
+
+HeldLocks::HeldLocks() : guard_(registry().mutex) {}
+
+void HeldLocks::let_go() const {
+  for (const int descriptor : registry().descriptors) ::close(descriptor);
 }
 
 }  // namespace tabor::io

@@ -12,13 +12,14 @@
 
 #include "tabor/core/types.hpp"
 
+// Writes and reads HDF5 files: maps, lists, attributes, axes and links.
 namespace tabor::io {
 
-/// A map of small integers (holes, contact states), same layout as Field.
+/// Map of small integers (holes, contact states), same layout as Field.
 using ByteMap = Eigen::Array<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// One value of a compound type: its texts and its numbers (lists laid out one after the other) in
-/// the order of the members.
+/// Value of a compound type: its texts and its numbers (lists laid out one after the other) in the
+/// order of the members.
 struct Hdf5Record {
   std::vector<std::string> texts;
   std::vector<double> numbers;
@@ -28,21 +29,22 @@ enum class Precision { float64, float32 };
 
 enum class Seal { no, yes };
 
-/// Writes one HDF5 file under a temporary name; commit() gives it its own. Without commit() nothing
-/// stays. Paths are absolute inside the file ("/surface/height"); missing groups are made. Maps are
-/// chunked, shuffled and compressed. Throws OutputError (full disk, unwritable folder). Objects of
-/// this and the next class may live on different threads.
+/// Writes one HDF5 file under a temporary name; commit() renames it. Without commit() no file
+/// remains. Paths are absolute inside the file ("/surface/height"); missing groups are made. Maps
+/// are chunked, shuffled and compressed. Throws OutputError (full disk, unwritable folder). Objects
+/// of this and the next class may live on different threads.
 class Hdf5Writer {
  public:
-  /// With a seal, commit() ends the file with the digest of its bytes (sealed_file.hpp).
+  /// Opens the temporary file. With a seal, commit() ends the file with the digest of its bytes
+  /// (sealed_file.hpp).
   explicit Hdf5Writer(const std::filesystem::path& file, Seal seal = Seal::no);
   ~Hdf5Writer();
   Hdf5Writer(Hdf5Writer&&) noexcept;
   Hdf5Writer& operator=(Hdf5Writer&&) = delete;
 
   void commit();
-  /// Closes the file instead, and returns the temporary name under which it can be read until the
-  /// writer ends and removes it: for what is made from it.
+  /// Closes the file without commit(), and returns the temporary name under which it can be read
+  /// until the writer ends and removes it.
   const std::filesystem::path& close();
 
   void group(const std::string& path);
@@ -52,7 +54,8 @@ class Hdf5Writer {
   void write(const std::string& path, const std::vector<std::int64_t>& values);
   void write(const std::string& path, const std::vector<std::string>& values);
 
-  /// Attribute of the group or dataset at `path` ("/" for the file); replaces an older one.
+  /// Writes an attribute of the group or dataset at `path` ("/" for the file); replaces an older
+  /// one.
   void attribute(const std::string& path, const std::string& name, double value);
   void attribute(const std::string& path, const std::string& name, std::int64_t value);
   void attribute(const std::string& path, const std::string& name, const std::string& value);
@@ -66,7 +69,7 @@ class Hdf5Writer {
   }
   void attribute(const std::string& path, const std::string& name, bool value) = delete;
 
-  /// `units` and `long_name` of a dataset.
+  /// Writes `units` and `long_name` of a dataset.
   void describe(const std::string& path, const std::string& units, const std::string& long_name);
 
   /// Writes cell-centre coordinates `x` and `y` [m] of a grid into a group, as dimension scales;
@@ -78,10 +81,11 @@ class Hdf5Writer {
   void nxdata(const std::string& group, const std::string& signal,
               const std::vector<std::string>& axes = {"y", "x"});
 
-  /// A second name for what is at `target` already.
+  /// Makes a second name for the object at `target`.
   void link(const std::string& path, const std::string& target);
 
-  /// A link at `path` to `target` inside `file` (relative to this file's folder). It may dangle.
+  /// Makes a link at `path` to `target` inside `file` (relative to this file's folder). It may
+  /// dangle.
   void external_link(const std::string& path, const std::string& file, const std::string& target);
 
  private:
@@ -99,22 +103,22 @@ class Hdf5Reader {
   Hdf5Reader& operator=(Hdf5Reader&&) = delete;
 
   bool exists(const std::string& path) const;
-  /// Names of the links in a group, sorted by bytes; dangling external links included.
+  /// Returns the names of the links in a group, sorted by bytes; dangling external links included.
   std::vector<std::string> children(const std::string& group) const;
   /// True for a dataset, false for a group.
   bool is_dataset(const std::string& path) const;
   std::vector<Index> shape(const std::string& path) const;
-  /// Rows and columns of what field() and rows() read, once it is known that the file's bytes can
-  /// hold them and that they fit into memory.
+  /// Returns the rows and columns of a map, after checking that the file's bytes can hold them and
+  /// that they fit into memory.
   std::array<Index, 2> map_shape(const std::string& path) const;
 
-  /// Whether numbers are kept as float32 or smaller, else float64.
+  /// Returns float32 where numbers are stored as float32 or smaller, else float64.
   Precision precision(const std::string& path) const;
 
-  /// Any numeric two-dimensional dataset. `progress` is told the share of rows read so far.
+  /// Reads any numeric two-dimensional dataset. `progress` is told the share of rows read so far.
   Field field(const std::string& path,
               const std::function<void(double share)>& progress = {}) const;
-  /// The same in pieces of some 32 MiB, whole chunks each: accept(first_row, rows).
+  /// Reads a map in pieces of some 32 MiB, whole chunks each: accept(first_row, rows).
   void for_rows(const std::string& path,
                 const std::function<void(Index first_row, const Field& rows)>& accept) const;
   ByteMap bytes(const std::string& path) const;

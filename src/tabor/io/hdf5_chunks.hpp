@@ -7,10 +7,10 @@
 
 #include "tabor/core/types.hpp"
 
-// Maps as HDF5 stores them, made on all threads: the library itself packs on one.
+// Packs maps into HDF5 chunks on all threads: the library itself packs on one.
 namespace tabor::io::hdf5 {
 
-/// One chunk of a two-dimensional dataset as its filters leave it, shuffled and deflated.
+/// Chunk of a two-dimensional dataset as its filters leave it, shuffled and deflated.
 struct PackedChunk {
   std::array<Index, 2> offset{};  ///< row and column of its first element
   std::string bytes;

@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "tabor/core/error.hpp"
+#include "tabor/io/file_lock.hpp"
 #include "tabor/io/hdf5_library.hpp"
 #include "tabor/io/protection.hpp"
 
@@ -30,6 +31,7 @@ namespace {
 struct Limits {
   rlim_t bytes;    ///< of address space
   rlim_t seconds;  ///< of processor time: a slow disk is no damage
+  unsigned wait;   ///< [s] by the clock: what works for nobody any more ends too
 };
 
 /// Room for the library's own tables and buffers.
@@ -39,6 +41,8 @@ constexpr rlim_t kLibraryBytes = rlim_t{256} << 20;
 constexpr rlim_t kSeconds = 2;
 /// A copy that neither sends nor works for so long [s] waits for what will not come.
 constexpr int kPatience = 5;
+/// A copy ends after so long [s], and longer for large files, even if it is never let go on.
+constexpr unsigned kLongest = 60;
 
 /// Runtime libraries, and allocators of sanitizers, have locks that a thread of the original may
 /// hold when the copy is made. The copy waits for them for ever; the next one finds them open.
@@ -76,9 +80,23 @@ herr_t end_without_memory(hid_t stack, void*) {
   return 0;
 }
 
-[[noreturn]] void run_in_copy(const Limits& limits, const std::function<void()>& action) {
-  limit_seconds(limits.seconds);  // first: what follows may wait busily
+/// The copy ends `seconds` from now, whatever it does or waits for.
+void limit_wait(unsigned seconds) {
+  sigset_t alarms;
+  ::sigemptyset(&alarms);
+  ::sigaddset(&alarms, SIGALRM);
+  ::signal(SIGALRM, SIG_DFL);
+  ::sigprocmask(SIG_UNBLOCK, &alarms, nullptr);
+  ::alarm(seconds);
+}
+
+/// The copy ends with the process it was made by, which may be gone already.
+void end_with(pid_t original) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != original) ::_exit(1);
+}
+
+[[noreturn]] void run_in_copy(const Limits& limits, const std::function<void()>& action) {
   hdf5::Session::renew_in_copy(&end_without_memory);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   if (nowhere >= 0) ::dup2(nowhere, STDERR_FILENO);
@@ -95,6 +113,9 @@ herr_t end_without_memory(hid_t stack, void*) {
   ::_exit(0);
 }
 
+/// How a copy ended; or that it waits for what will not come, or was not done in time.
+enum class End { well, badly, stuck, late };
+
 /// A running copy of this process, ended with this object.
 class Copy {
  public:
@@ -105,10 +126,19 @@ class Copy {
     // The copy has one thread, this one: it must be the one that may use the library. Nor may
     // another copy be made meanwhile, or it would keep this one's pipe open.
     const hdf5::Session session;
+    const HeldLocks locks;
+    const pid_t original = ::getpid();
     int ends[2] = {-1, -1};
     if (::pipe2(ends, O_CLOEXEC) != 0) reject(file, errno);
     number_ = ::fork();
-    if (number_ == 0) run_in_copy(limits, [&] { action(ends[1]); });
+    if (number_ == 0) {
+      limit_wait(limits.wait);  // first the limits: what follows may wait, idly or busily
+      limit_seconds(limits.seconds);
+      end_with(original);
+      locks.let_go();
+      ::close(ends[0]);  // or it would receive what it sends itself, and wait for ever
+      run_in_copy(limits, [&] { action(ends[1]); });
+    }
     const int error = errno;
     ::close(ends[1]);
     pipe_ = ends[0];
@@ -128,7 +158,7 @@ class Copy {
 
   /// Up to `size` bytes; 0 at the end, and when it is stuck.
   std::size_t receive(char* bytes, std::size_t size) {
-    if (!wait_for_news()) return 0;
+    if (is_stuck_ || !wait_for_news()) return 0;
     for (;;) {
       const ssize_t n = ::read(pipe_, bytes, size);
       if (n >= 0) return static_cast<std::size_t>(n);
@@ -136,16 +166,15 @@ class Copy {
     }
   }
 
-  /// It waits for something that will not come.
-  bool is_stuck() const { return is_stuck_; }
-
-  /// Waits for the end, which closes the pipe: true if the copy came to it by itself and sent
-  /// nothing more; false if it is stuck.
-  bool ended_well() {
+  /// Waits for the end, which closes the pipe: well if the copy came to it by itself and sent
+  /// nothing more.
+  End end() {
     char more = 0;
-    if (receive(&more, 1) > 0 || is_stuck_) return false;
+    if (receive(&more, 1) > 0) return End::badly;
+    if (is_stuck_) return End::stuck;
     const int status = wait_for_status();
-    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) return End::late;
+    return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? End::well : End::badly;
   }
 
  private:
@@ -205,18 +234,13 @@ void send(int pipe, const Field& rows) {
 }
 
 /// Limits for so many bytes: chunks may be as large as the map, and are unpacked, sorted and
-/// converted one after the other; 20 MB/s is slow for that.
+/// converted one after the other; 20 MB/s is slow for that, and 1 MB/s for a disk.
 Limits limits_for(std::size_t bytes) {
-  constexpr std::size_t kSlowest = 20'000'000;  // bytes per second
-  return {kLibraryBytes + 4 * bytes, kSeconds + bytes / kSlowest};
-}
-
-/// How a copy ended, or that it did not.
-enum class End { well, badly, stuck };
-
-End end_of(Copy& copy) {
-  const bool well = copy.ended_well();
-  return copy.is_stuck() ? End::stuck : well ? End::well : End::badly;
+  constexpr std::size_t kSlowest = 20'000'000;     // bytes per second
+  constexpr std::size_t kSlowestDisk = 1'000'000;  // the same
+  return {.bytes = kLibraryBytes + 4 * bytes,
+          .seconds = kSeconds + bytes / kSlowest,
+          .wait = kLongest + static_cast<unsigned>(bytes / kSlowestDisk)};
 }
 
 End receive_map(Copy& copy, Field& map, const std::function<void(double)>& progress) {
@@ -226,22 +250,28 @@ End receive_map(Copy& copy, Field& map, const std::function<void(double)>& progr
   std::size_t received = 0, told = 0;
   while (received < size) {
     const std::size_t n = copy.receive(bytes + received, std::min(kPiece, size - received));
-    if (n == 0) return copy.is_stuck() ? End::stuck : End::badly;
+    if (n == 0) {
+      const End end = copy.end();
+      return end == End::well ? End::badly : end;  // it sent less
+    }
     received += n;
     if (progress && (received - told >= kPiece || received == size)) {
       told = received;
       progress(static_cast<double>(received) / static_cast<double>(size));
     }
   }
-  return end_of(copy);
+  return copy.end();
 }
 
-/// True if one of the attempts ends well. Throws InputError if the last one is stuck.
-bool one_ends_well(const std::filesystem::path& file, const std::function<End()>& attempt) {
+/// True if one of the attempts ends well. Throws InputError if the last one is stuck or late.
+bool one_ends_well(const std::filesystem::path& file, const Limits& limits,
+                   const std::function<End()>& attempt) {
   End end = End::badly;
-  for (int i = 0; i < kAttempts && end != End::well; ++i) end = attempt();
-  if (end != End::stuck) return end == End::well;
-  throw InputError(file.string(), fmt::format("no answer from its reader in {} s", kPatience),
+  for (int i = 0; i < kAttempts && end != End::well && end != End::late; ++i) end = attempt();
+  if (end == End::well || end == End::badly) return end == End::well;
+  throw InputError(file.string(),
+                   end == End::late ? fmt::format("not read in {} s", limits.wait)
+                                    : fmt::format("no answer from its reader in {} s", kPatience),
                    "a file that can be read", "copy it to a local disk and try again");
 }
 
@@ -250,7 +280,7 @@ std::optional<Field> map_from_copy(const std::filesystem::path& file, std::array
                                    const std::function<void(double)>& progress) {
   Field map(shape[0], shape[1]);
   const Limits limits = limits_for(static_cast<std::size_t>(map.size()) * sizeof(double));
-  const bool is_whole = one_ends_well(file, [&] {
+  const bool is_whole = one_ends_well(file, limits, [&] {
     Copy copy(file, limits,
               [&](int pipe) { send_rows([pipe](const Field& rows) { send(pipe, rows); }); });
     return receive_map(copy, map, progress);
@@ -287,9 +317,9 @@ bool hdf5_survives(const std::filesystem::path& file, const std::function<void()
   std::error_code unknown;
   const auto size = std::filesystem::file_size(file, unknown);
   const Limits limits = limits_for(unknown ? 0 : size);
-  return one_ends_well(file, [&] {
+  return one_ends_well(file, limits, [&] {
     Copy copy(file, limits, [&](int) { action(); });
-    return end_of(copy);
+    return copy.end();
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
-// The only file that includes HDF5's headers, for hdf5_*.cpp alone.
+// Includes HDF5's headers, for hdf5_*.cpp alone, and wraps its identifiers and its global lock. No
+// other file includes them.
 #include <hdf5.h>
 #include <hdf5_hl.h>
 
@@ -13,15 +14,15 @@
 
 namespace tabor::io::hdf5 {
 
-/// Distributed HDF5 libraries are mostly not thread-safe, so one thread at a time is inside. Also
-/// keeps the library from printing its own error stack: what fails is said by an exception.
+/// Lets one thread at a time use the library, as most builds of HDF5 are not thread-safe. Also
+/// prevents the library from printing its own error stack: errors are reported by exceptions.
 class Session {
  public:
   Session() : lock_(mutex()) { H5Eset_auto2(H5E_DEFAULT, on_error(), nullptr); }
 
-  /// In a copy of the process made inside a session: a mutex knows its owner by the number of a
-  /// thread, which the copy has not, so it gets a new one. From now on `handler` is told of every
-  /// failing call.
+  /// Makes a new mutex in a copy of the process that was made inside a session: a mutex knows its
+  /// owner by the number of a thread, which the copy has not. From now on `handler` is told of
+  /// every failing call.
   static void renew_in_copy(H5E_auto2_t handler) {
     new (&mutex()) std::recursive_mutex;
     on_error() = handler;
@@ -39,7 +40,7 @@ class Session {
   std::lock_guard<std::recursive_mutex> lock_;
 };
 
-/// An HDF5 identifier that closes itself; negative means the call that made it failed.
+/// HDF5 identifier that closes itself; negative means the call that made it failed.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {}
@@ -57,23 +58,27 @@ class Handle {
   herr_t (*close_)(hid_t);
 };
 
-/// Whether an external link to this file is one of a study's results into its store: store/NAME.h5.
+/// True where an external link to this file is one of a study's results into its store:
+/// store/NAME.h5.
 bool is_store_file(const std::string& target);
 
-/// From now on the library follows such external links and no others. Within a session.
+/// Makes the library follow such external links and no others from now on. To be called within a
+/// session.
 void follow_store_links_only();
 
-/// How files are opened: without locks of HDF5's own, closed with everything in them.
+/// Returns the access properties of files: without locks of HDF5's own, closed with everything in
+/// them.
 Handle file_access();
 
-/// The same for writing, through a driver that notes a failing write instead of telling HDF5, which
-/// would crash at the end of the program over a file it could not flush.
+/// Returns the access properties for writing, through a driver that records a failing write instead
+/// of reporting it to HDF5, which would crash at the end of the program over a file it could not
+/// flush.
 Handle writing_access();
 
 /// True once a write to this file, opened with writing_access(), has failed.
 bool write_failed(hid_t file);
 
-/// Number of elements, or nullopt-like maximum when the product does not fit.
+/// Returns the number of elements, or UINT64_MAX where the product does not fit.
 inline std::uint64_t count_of(const std::vector<hsize_t>& shape) {
   std::uint64_t count = 1;
   for (const hsize_t n : shape) {

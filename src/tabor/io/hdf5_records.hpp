@@ -9,8 +9,9 @@
 
 namespace tabor::io::hdf5 {
 
-/// `count` compound values of this type, read by `read` (H5Dread or H5Aread bound to its object);
-/// nullopt if a member is neither text nor number nor a list of numbers, or nothing could be read.
+/// Returns `count` compound values of this type, read by `read` (H5Dread or H5Aread bound to its
+/// object); nullopt if a member is neither text nor number nor a list of numbers, or nothing could
+/// be read.
 std::optional<std::vector<Hdf5Record>> read_records(
     hid_t type, hid_t space, std::uint64_t count,
     const std::function<herr_t(hid_t memory_type, void* data)>& read);

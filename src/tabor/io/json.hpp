@@ -16,13 +16,14 @@
 #include <variant>
 #include <vector>
 
+// Represents JSON values, parses them and writes them.
 namespace tabor::io {
 
-/// A JSON value: null, truth value, integer, number, text, list, or object whose keys keep the
-/// order they were given in. It is made from plain values and from braces: a list whose elements
-/// all are {text, value} is an object, any other an array.
+/// JSON value: null, truth value, integer, number, text, list, or object whose keys keep the order
+/// they were given in. It is made from plain values and from braces: a list whose elements all are
+/// {text, value} is an object, any other an array.
 ///
-/// What does not fit (a key of a text, the text of a number) throws Json::exception.
+/// An access that does not fit (a key of a text, the text of a number) throws Json::exception.
 class Json {
  public:
   struct exception : std::runtime_error {
@@ -61,7 +62,7 @@ class Json {
 
   static Json array(std::initializer_list<Json> elements = {});
   static Json object(std::initializer_list<Json> members = {});
-  /// Throws exception with the place of the mistake.
+  /// Parses a text. Throws exception with the place of the mistake.
   static Json parse(std::string_view text);
 
   bool is_null() const;
@@ -73,14 +74,15 @@ class Json {
   bool is_array() const;
   bool is_object() const;
 
-  /// As T: bool, a number, std::string, Json, or std::vector of these. Numbers are converted.
+  /// Returns the value as T: bool, a number, std::string, Json, or std::vector of these. Numbers
+  /// are converted.
   template <typename T>
   T get() const;
 
   std::size_t size() const;  ///< of elements or members; 0 of null, 1 of a plain value
   bool empty() const { return size() == 0; }
 
-  /// The member of this key. An absent one is added as null; null becomes an object.
+  /// Returns the member of this key. An absent one is added as null; null becomes an object.
   Json& operator[](std::string_view key);
   const Json& operator[](std::string_view key) const { return at(key); }
   template <std::integral T>
@@ -108,7 +110,7 @@ class Json {
     const Json* member = find(key);
     return member ? member->get<T>() : otherwise;
   }
-  /// The members in their order: for (const auto& [key, value] : object.items()).
+  /// Returns the members in their order: for (const auto& [key, value] : object.items()).
   const Object& items() const;  ///< of null: none
   /// Takes over the members of an object; those that are there already keep their place.
   void update(const Json& object);
@@ -124,11 +126,11 @@ class Json {
 
   /// Integers and other numbers are equal if their values are.
   friend bool operator==(const Json& a, const Json& b);
-  /// Of numbers; anything else throws exception.
+  /// Compares numbers; anything else throws exception.
   friend std::partial_ordering operator<=>(const Json& a, const Json& b) {
     return a.as_double() <=> b.as_double();
   }
-  /// On one line.
+  /// Writes the value on one line.
   friend std::ostream& operator<<(std::ostream& stream, const Json& json);
 
  private:
@@ -163,14 +165,14 @@ T Json::get() const {
   }
 }
 
-/// JSON has no NaN and no infinity: they become null.
+/// Returns a number as JSON; NaN and infinity, which JSON has not, become null.
 Json number(double value);
 
-/// The object as text; bytes that are not UTF-8 (a file name may hold anything) are replaced.
-/// indent < 0 gives one line.
+/// Returns the value as text; bytes that are not UTF-8 (a file name may hold anything) are
+/// replaced. indent < 0 gives one line.
 std::string to_text(const Json& json, int indent = 2);
 
-/// Parses a file; InputError with the place of the mistake.
+/// Parses a file. Throws InputError with the place of the mistake.
 Json read_json(const std::filesystem::path& file);
 
 }  // namespace tabor::io

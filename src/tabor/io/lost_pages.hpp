@@ -4,10 +4,10 @@
 
 namespace tabor::io {
 
-/// Pages of a mapped file that may vanish: another program cuts the file short, a network drive
-/// goes away. Touching one raises SIGBUS, which ends the program, unless it called
-/// trap_lost_pages() (protection.hpp): then zeros take the place of everything from that page on
-/// while its map is watched, and were_lost() says so.
+/// Watches the pages of a mapped file, which may vanish when another program cuts the file short or
+/// a network drive disappears. Reading a lost page raises SIGBUS, which ends the program, unless it
+/// called trap_lost_pages() (protection.hpp): then zeros replace everything from that page on while
+/// its map is watched, and were_lost() returns true.
 class WatchedPages {
  public:
   WatchedPages() = default;
@@ -15,7 +15,7 @@ class WatchedPages {
   WatchedPages(const WatchedPages&) = delete;
   WatchedPages& operator=(const WatchedPages&) = delete;
 
-  /// `map` begins on a page. Does nothing where 256 maps are watched already.
+  /// Watches `map`, which begins on a page. Does nothing where 256 maps are watched already.
   void watch(std::string_view map);
   void forget();
   bool were_lost() const;

@@ -6,9 +6,10 @@
 
 #include "tabor/core/types.hpp"
 
+// Writes pictures and reads grey images as PNG.
 namespace tabor::io {
 
-/// 8-bit picture, rows from the top, `channels` values per pixel.
+/// Picture of 8 bits per value, rows from the top, `channels` values per pixel.
 struct Picture {
   Index nx = 0;
   Index ny = 0;
@@ -16,11 +17,11 @@ struct Picture {
   std::vector<std::uint8_t> values;
 };
 
-/// Throws OutputError.
+/// Writes a picture. Throws OutputError.
 void write_png(const Picture& picture, const std::filesystem::path& file);
 
-/// Grey values of a PNG with 1 to 16 bits per sample, as counts (no scaling). A colour picture is
-/// rejected: colours are no heights. Throws InputError.
+/// Grey values of a PNG with 1 to 16 bits per sample, as counts (no scaling). read_png() rejects a
+/// colour picture, as colours are no heights, and throws InputError.
 struct GreyImage {
   Field counts;  ///< (ny, nx), NaN where the picture is transparent
   int bits = 8;  ///< per sample, as in the file

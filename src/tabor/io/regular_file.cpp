@@ -13,6 +13,7 @@ namespace tabor::io {
 std::string reading_problem(int error) {
   if (error == ENOENT || error == ENOTDIR) return "no such file";
   if (error == EACCES) return "cannot be read: check its permissions";
+  if (error == ELOOP) return "a link that leads to itself";
   return std::string("cannot be read: ") + std::strerror(error);
 }
 

@@ -6,9 +6,10 @@
 #include <filesystem>
 #include <string>
 
+// Opens regular files for reading and rejects folders, devices and pipes.
 namespace tabor::io {
 
-/// A regular file that is open for reading. How every file of a user is opened: folders, devices
+/// Opens a regular file for reading. Every file of a user is opened by this class: folders, devices
 /// and pipes (also behind links) are rejected at once, never waited for or read without end.
 class RegularFile {
  public:
@@ -21,7 +22,8 @@ class RegularFile {
   int descriptor() const { return descriptor_; }
   const struct stat& status() const { return status_; }
 
-  /// The next bytes, at most `size`; 0 at the end. Throws InputError.
+  /// Reads the next bytes, at most `size`, and returns their number; 0 at the end. Throws
+  /// InputError.
   std::size_t read(char* bytes, std::size_t size) const;
 
  private:
@@ -30,7 +32,7 @@ class RegularFile {
   struct stat status_ {};
 };
 
-/// Why a file could not be opened, from errno: "no such file", "cannot be read: ...".
+/// Returns why a file could not be opened, from errno: "no such file", "cannot be read: ...".
 std::string reading_problem(int error);
 
 }  // namespace tabor::io

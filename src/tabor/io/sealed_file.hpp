@@ -5,21 +5,21 @@
 
 #include "tabor/io/json.hpp"
 
-// Files that say what their bytes should be: a bit that a disk, a memory or a copy turned over is
-// found before anything is believed.
+// Seals files with a digest of their bytes and checks it, so that a flipped bit is found before the
+// content is used.
 namespace tabor::io {
 
-/// Appends a last line, "tabor-sha256 <64 digits>", of all bytes before it. HDF5 does not mind what
-/// stands behind its own end. Throws OutputError.
+/// Appends a last line, "tabor-sha256 <64 digits>", the digest of all bytes before it. HDF5 ignores
+/// bytes after its own end. Throws OutputError.
 void seal(const std::filesystem::path& file);
 
-/// "" if the file ends in such a line and its bytes are those it was made of, otherwise why not,
-/// beginning with the file's name.
+/// Returns "" if the file ends in such a line that fits its bytes, otherwise the error, beginning
+/// with the file's name.
 std::string broken_seal(const std::filesystem::path& file);
 
-/// The same for an object of JSON: a member "sha256" of the text of the others.
+/// Adds to a JSON object the member "sha256", the digest of the text of the others.
 Json sealed(Json object);
-/// Nothing is missing and nothing differs from what was sealed.
+/// True where nothing is missing and nothing differs from what was sealed.
 bool is_sealed(const Json& object);
 
 }  // namespace tabor::io

@@ -85,8 +85,10 @@ TiffDescription describe(const Tiff& tiff) {
   image.bits = tiff.number<std::uint16_t>(TIFFTAG_BITSPERSAMPLE, 1);
   image.is_float =
       tiff.number<std::uint16_t>(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_UINT) == SAMPLEFORMAT_IEEEFP;
-  image.is_grey = image.n_channels == 1 &&
-                  tiff.number<std::uint16_t>(TIFFTAG_PHOTOMETRIC, 0) == PHOTOMETRIC_MINISBLACK;
+  const auto meaning = tiff.number<std::uint16_t>(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
+  image.white_is_zero = meaning == PHOTOMETRIC_MINISWHITE;
+  image.is_grey =
+      image.n_channels == 1 && (image.white_is_zero || meaning == PHOTOMETRIC_MINISBLACK);
   image.is_compressed =
       tiff.number<std::uint16_t>(TIFFTAG_COMPRESSION, COMPRESSION_NONE) != COMPRESSION_NONE;
   image.is_tiled = TIFFIsTiled(tiff) != 0;

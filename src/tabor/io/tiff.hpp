@@ -5,16 +5,18 @@
 
 #include "tabor/core/types.hpp"
 
+// Reads the first image of a TIFF file as numbers.
 namespace tabor::io {
 
-/// The first image of a TIFF file as its tags describe it.
+/// Description of the first image of a TIFF file, from its tags.
 struct TiffDescription {
   Index nx = 0;
   Index ny = 0;
   int n_channels = 1;
   int bits = 1;  ///< per sample
   bool is_float = false;
-  bool is_grey = false;  ///< black is zero; false for colours, colour tables, white as zero
+  bool is_grey = false;        ///< false for colours and colour tables
+  bool white_is_zero = false;  ///< bright pixels have the smaller samples
   bool is_compressed = false;
   bool is_tiled = false;
   bool starts_top_left = true;
@@ -22,13 +24,13 @@ struct TiffDescription {
   int n_images = 1;
 };
 
-/// Throws InputError if the file is no TIFF or damaged.
+/// Reads the description. Throws InputError if the file is no TIFF or damaged.
 TiffDescription describe_tiff(const std::filesystem::path& file);
 
-/// The samples of the first image, shape (ny, nx); grey, in strips, of 8, 16 or 32 bits or floats
-/// of 32 or 64: InputError for every other and for damaged files. NaN where the file says that a
-/// sample is missing (tag 42113 of GDAL). `progress` is told the share of
-/// rows read so far.
+/// Reads the samples of the first image as they are stored, shape (ny, nx); grey, in strips, of 8,
+/// 16 or 32 bits or floats of 32 or 64. Throws InputError for every other and for damaged files.
+/// NaN where the file says that a sample is missing (tag 42113 of GDAL). `progress` is told the
+/// share of rows read so far.
 Field read_tiff(const std::filesystem::path& file,
                 const std::function<void(double share)>& progress = {});
 

@@ -12,6 +12,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/likely_unit.hpp"
 #include "tabor/core/text.hpp"
+#include "tabor/core/value_range.hpp"
 #include "tabor/io/atomic_file.hpp"
 
 namespace tabor::io {
@@ -117,7 +118,13 @@ const toml::node& find(const toml::table& values, std::string_view key, const st
 Config::Config(std::shared_ptr<const Table> table) : table_(std::move(table)) {}
 
 Config Config::read(const std::filesystem::path& file) {
-  return parse(read_text(file), file.string());
+  const std::string text = read_text(file);
+  if (text.find('\0') != std::string::npos) {
+    throw InputError(
+        file.string(), "a binary file", "text in TOML, KEY = VALUE on each line",
+        "--template in place of the file prints an example; 'tabor report' draws a result");
+  }
+  return parse(text, file.string());
 }
 
 Config Config::parse(std::string_view text, const std::string& name) {
@@ -197,11 +204,21 @@ double Config::quantity(std::string_view key, Dimension expected) const {
 
 std::vector<double> Config::quantities(std::string_view key, Dimension expected) const {
   const toml::node& node = find(table_->values, key, place(key));
-  if (!node.is_array()) return {quantity(key, expected)};
   std::vector<double> values;
-  for (const auto& element : *node.as_array()) {
-    values.push_back(to_quantity(element, expected, place(key), key));
+  const auto add = [&](const toml::node& element) {
+    const auto* text = element.as_string();
+    if (text != nullptr && is_value_range(text->get())) {
+      const std::vector<double> range = parse_si_list(text->get(), expected, place(key));
+      values.insert(values.end(), range.begin(), range.end());
+    } else {
+      values.push_back(to_quantity(element, expected, place(key), key));
+    }
+  };
+  if (!node.is_array()) {
+    add(node);
+    return values;
   }
+  for (const auto& element : *node.as_array()) add(element);
   if (values.empty()) throw InputError(place(key), "an empty array", "at least one value", "");
   return values;
 }

@@ -12,8 +12,8 @@
 
 namespace tabor::io {
 
-/// A TOML file, or one table of it. Keys are dotted paths ("material.youngs_modulus"). Every wrong
-/// value throws InputError with file, line, key, what stands there and what should.
+/// Reads a TOML file, or one table of it. Keys are dotted paths ("material.youngs_modulus"). Every
+/// wrong value throws InputError with file, line, key, what stands there and what should.
 class Config {
  public:
   static Config read(const std::filesystem::path& file);
@@ -27,30 +27,30 @@ class Config {
   bool flag(std::string_view key) const;
   std::vector<std::string> texts(std::string_view key) const;  ///< an array of strings, or one
 
-  /// Texts as they are, numbers as TOML writes them; an array or one value.
+  /// Returns texts as they are, numbers as TOML writes them; an array or one value.
   std::vector<std::string> words(std::string_view key) const;
 
-  /// A value with its unit ("70 GPa"), in SI. A number without a unit is rejected with the
+  /// Returns a value with its unit ("70 GPa") in SI. A number without a unit is rejected with the
   /// corrected form, unless `expected` is dimensionless.
   double quantity(std::string_view key, Dimension expected) const;
   std::vector<double> quantities(std::string_view key, Dimension expected) const;
 
-  /// The tables of an array [[key]]; empty if the key is absent.
+  /// Returns the tables of an array [[key]]; empty if the key is absent.
   std::vector<Config> tables(std::string_view key) const;
 
-  /// Dotted paths of all values in the order of the file; those inside an array of tables are
-  /// written "scan[].file".
+  /// Returns the dotted paths of all values in the order of the file; those inside an array of
+  /// tables are written "scan[].file".
   std::vector<std::string> keys() const;
 
   /// Throws for the first key that is not in `known`, naming the nearest. Keys inside an array of
   /// tables are written "scan[].file".
   void reject_unknown(const std::vector<std::string>& known) const;
 
-  /// "study.toml:7: scan.file", to begin a message about the value at `key` with.
+  /// Returns "study.toml:7: scan.file", the begin of a message about the value at `key`.
   std::string place(std::string_view key) const;
   const std::string& name() const;  ///< of the file
 
-  /// The same table as TOML text, comments left out.
+  /// Returns the table as TOML text without comments.
   std::string to_text() const;
 
   /// Replaces or adds one value: `value` is TOML ("3", "\"5 MPa\"", "true"); text that is none of

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+// Parses XML text and finds elements in it.
 namespace pugi {
 class xml_document;
 struct xml_node_struct;
@@ -12,8 +13,8 @@ struct xml_node_struct;
 
 namespace tabor::io {
 
-/// An element of an XmlDocument, or no element at all: then its name and text are empty and it has
-/// no children. Valid as long as the document.
+/// Element of an XmlDocument, or no element at all: then its name and text are empty and it has no
+/// children. Valid as long as the document.
 class XmlElement {
  public:
   explicit XmlElement(pugi::xml_node_struct* node = nullptr) : node_(node) {}
@@ -22,7 +23,7 @@ class XmlElement {
   std::string name() const;  ///< with its namespace prefix
   std::string text() const;  ///< of this element alone, without surrounding blanks
 
-  /// First descendant along "Record1/Axes/CX", names without namespace prefixes.
+  /// Returns the first descendant along "Record1/Axes/CX", names without namespace prefixes.
   XmlElement at(std::string_view path) const;
   std::vector<XmlElement> children(const std::string& name) const;
 
@@ -42,7 +43,7 @@ class XmlDocument {
   std::unique_ptr<pugi::xml_document> document_;
 };
 
-/// The text with &, <, > and quotes written as entities.
+/// Returns the text with &, <, > and quotes written as entities.
 std::string xml_escape(std::string_view text);
 
 }  // namespace tabor::io

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+// Reads and makes ZIP archives in memory.
 namespace tabor::io {
 
 struct ZipEntry {
@@ -17,7 +18,7 @@ struct ZipEntry {
   std::size_t packed_size = 0;  ///< [bytes]
 };
 
-/// A ZIP archive in memory, for reading. The bytes must outlive it.
+/// Reads a ZIP archive in memory. The bytes must outlive the reader.
 class ZipReader {
  public:
   /// `name` is what error messages call the archive. Throws InputError if it is not a ZIP archive.
@@ -28,12 +29,12 @@ class ZipReader {
 
   const std::vector<ZipEntry>& entries() const { return entries_; }
 
-  /// The unpacked content of an entry. Memory grows only with bytes that were really unpacked and
-  /// never beyond `limit`: InputError for larger, damaged or truncated entries.
+  /// Returns the unpacked content of an entry. Memory grows only with bytes that were really
+  /// unpacked and never beyond `limit`: InputError for larger, damaged or truncated entries.
   std::string read(const ZipEntry& entry, std::size_t limit) const;
 
-  /// The same content piece after piece, so that it need not fit into memory: each of at most
-  /// kPiece bytes, the last one maybe shorter.
+  /// Unpacks an entry piece after piece, so that it need not fit into memory: each piece has at
+  /// most kPiece bytes; the last one may be shorter.
   static constexpr std::size_t kPiece = std::size_t{1} << 20;
   void read(const ZipEntry& entry, std::size_t limit,
             const std::function<void(std::string_view piece)>& accept) const;
@@ -50,8 +51,8 @@ struct ZipContent {
   std::string bytes;
 };
 
-/// A ZIP archive (deflate) of these files with a fixed time stamp: the same content always gives
-/// the same bytes. Throws OutputError when memory or the library fails.
+/// Returns a ZIP archive (deflate) of these files with a fixed time stamp: the same content always
+/// gives the same bytes. Throws OutputError when memory or the library fails.
 std::string zip(const std::vector<ZipContent>& files);
 
 }  // namespace tabor::io

@@ -5,15 +5,16 @@
 #include <string_view>
 #include <vector>
 
+// Lists named solids with their elastic constants and strengths, each with its source.
 namespace tabor::material {
 
-/// A number and where it is from.
+/// Number with its source.
 struct Sourced {
   double value = 0;
   std::string source;
 };
 
-/// A solid of the library. Values that depend more on its making than on its name are absent.
+/// Solid of the library. Values that depend more on its manufacture than on its name are absent.
 struct NamedSolid {
   std::string name;                            ///< "aluminium-6016"
   std::string description;                     ///< what exactly, in a few words
@@ -23,11 +24,11 @@ struct NamedSolid {
   std::optional<Sourced> shear_strength;       ///< tau_y [Pa] of its dry contacts
 };
 
-/// All there are, ordered by name.
+/// Returns all solids, ordered by name.
 const std::vector<NamedSolid>& solids();
 
-/// By its name, or what stands before the hyphen where only one solid has it: "aluminium". Throws
-/// InputError with all names and the nearest one.
+/// Returns a solid by its name, or by the part before the hyphen where only one solid has it:
+/// "aluminium". Throws InputError with all names and the nearest one.
 const NamedSolid& find_solid(std::string_view name);
 
 }  // namespace tabor::material

@@ -49,19 +49,21 @@ void check_pressure(const Lubricant& lubricant, double pressure) {
   check("pressure for the density law", computable_range(lubricant.density), pressure, "");
 }
 
-std::vector<std::string> warnings(const Lubricant& lubricant, double highest_pressure) {
-  std::vector<std::string> lines;
-  const auto add = [&](std::string_view law, const PressureRange& range) {
+Warnings warnings(const Lubricant& lubricant, double highest_pressure) {
+  Warnings warnings;
+  const auto add = [&](const char* code, std::string_view law, const PressureRange& range) {
     if (highest_pressure > range.highest) {
-      lines.push_back(
-          fmt::format("the pressure reaches {}; the {} law is commonly trusted up to {}",
-                      in_GPa(highest_pressure), law, in_GPa(range.highest)));
+      warnings.push_back(
+          {code,
+           fmt::format("the pressure reaches {}; the {} law is commonly trusted up to {}",
+                       in_GPa(highest_pressure), law, in_GPa(range.highest)),
+           highest_pressure / range.highest});
     }
   };
-  add(fmt::format("{} viscosity", name(law_of(lubricant.viscosity))),
+  add("viscosity-law", fmt::format("{} viscosity", name(law_of(lubricant.viscosity))),
       trusted_range(lubricant.viscosity));
-  add("density", trusted_range(lubricant.density));
-  return lines;
+  add("density-law", "density", trusted_range(lubricant.density));
+  return warnings;
 }
 
 }  // namespace tabor::material

@@ -5,21 +5,24 @@
 #include <string>
 #include <vector>
 
+#include "tabor/core/warning.hpp"
 #include "tabor/material/lubricant_density.hpp"
 #include "tabor/material/lubricant_shear.hpp"
 #include "tabor/material/lubricant_viscosity.hpp"
 
+// Combines viscosity, density and shear laws to one lubricant and evaluates them at the nodes of a
+// film.
 namespace tabor::material {
 
-/// Everything a film needs to know about its liquid: three laws, each a small value.
+/// Lubricant of a film: three laws, each a small value.
 struct Lubricant {
   Viscosity viscosity = ConstantViscosity{0.1};
   RelativeDensity density;  ///< incompressible unless given
   Shear shear;              ///< Newtonian unless given
 };
 
-/// What a Reynolds solver needs at its nodes, one entry per node in each array. Kept by the caller,
-/// so that a Newton iteration allocates nothing.
+/// Values that a Reynolds solver needs at its nodes, one entry per node in each array. The caller
+/// stores them, so that a Newton iteration allocates nothing.
 struct NodeLaws {
   Eigen::ArrayXd viscosity;              ///< eta [Pa s]
   Eigen::ArrayXd viscosity_by_pressure;  ///< [s]
@@ -31,13 +34,13 @@ struct NodeLaws {
 /// density. Pressures outside computable_range() give values that are infinite, negative or NaN.
 void evaluate(const Lubricant& lubricant, std::span<const double> pressure, NodeLaws& laws);
 
-/// Pressures at which viscosity and density can be computed.
+/// Returns the pressures at which viscosity and density can be computed.
 PressureRange computable_range(const Lubricant& lubricant);
 
 /// Throws InputError, naming the law, if the pressure [Pa] is outside computable_range().
 void check_pressure(const Lubricant& lubricant, double pressure);
 
-/// One line for each law that is believed only up to a pressure below `highest_pressure` [Pa].
-std::vector<std::string> warnings(const Lubricant& lubricant, double highest_pressure);
+/// Returns one warning for each law whose trusted range ends below `highest_pressure` [Pa].
+Warnings warnings(const Lubricant& lubricant, double highest_pressure);
 
 }  // namespace tabor::material

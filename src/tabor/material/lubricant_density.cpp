@@ -2,18 +2,12 @@
 
 #include <cassert>
 
-#include "tabor/core/names.hpp"
-
 namespace tabor::material {
-namespace {
 
-constexpr auto kLaws =
-    names<DensityLaw>("constant", "dowson-higginson", "rounded-dowson-higginson");
-
-}  // namespace
-
-DensityLaw parse_density_law(std::string_view text) { return kLaws.parse(text, "density law"); }
-std::string_view name(DensityLaw law) { return kLaws.of(law); }
+DensityLaw parse_density_law(std::string_view text) {
+  return kDensityLaws.parse(text, "density law");
+}
+std::string_view name(DensityLaw law) { return kDensityLaws.of(law); }
 
 RelativeDensity relative_density(DensityLaw law) {
   switch (law) {

@@ -3,9 +3,10 @@
 #include <string_view>
 #include <variant>
 
+// Computes shear stress and effective viscosities of lubricants that thin or slip under shear.
 namespace tabor::material {
 
-/// Stress proportional to the shear rate.
+/// Law of a stress proportional to the shear rate.
 struct NewtonianShear {};
 
 /// stress = tau_E asinh(eta rate / tau_E): Ree & Eyring 1955, doi:10.1063/1.1722098, with one
@@ -33,12 +34,13 @@ LimitingShear limiting_shear(double ambient_limit, double pressure_coefficient);
 /// The shear laws by name.
 enum class ShearLaw { newtonian, ree_eyring, limiting };
 
-/// "newtonian", "ree-eyring", "limiting". Throws InputError with the nearest name.
+/// Returns the law of a name: "newtonian", "ree-eyring", "limiting". Throws InputError with the
+/// nearest name.
 ShearLaw parse_shear_law(std::string_view name);
 std::string_view name(ShearLaw law);
 ShearLaw law_of(const Shear& shear);
 
-/// What a thin film that shears at `rate` opposes to a small pressure gradient, and its
+/// Effective viscosities of a thin sheared film against a small pressure gradient, with their
 /// derivatives.
 struct FlowViscosity {
   /// Viscosity along one direction of the film.
@@ -52,11 +54,12 @@ struct FlowViscosity {
   Direction across;  ///< across it: stress / rate
 };
 
-/// Where sliding dominates the shear of the film, the flow that a pressure gradient adds meets the
-/// tangent of the flow curve along the sliding direction and its secant across. For Ree & Eyring
-/// these are eta / cosh(tau_m / tau_E) and eta (tau_m / tau_E) / sinh(tau_m / tau_E) with the
-/// mid-plane stress tau_m (Johnson & Tevaarwerk 1977). viscosity [Pa s] > 0 at the node's pressure
-/// [Pa]; rate [1/s] = sliding speed / film thickness, of either sign; 0 gives the viscosity itself.
+/// Computes the effective viscosities where sliding dominates the shear of the film: the flow that
+/// a pressure gradient adds meets the tangent of the flow curve along the sliding direction and its
+/// secant across. For Ree & Eyring these are eta / cosh(tau_m / tau_E) and eta (tau_m / tau_E) /
+/// sinh(tau_m / tau_E) with the mid-plane stress tau_m (Johnson & Tevaarwerk 1977). viscosity [Pa
+/// s] > 0 at the node's pressure [Pa]; rate [1/s] = sliding speed / film thickness, of either sign;
+/// 0 gives the viscosity itself.
 FlowViscosity flow_viscosity(const Shear& shear, double viscosity, double rate, double pressure);
 
 /// Mid-plane shear stress [Pa], of the sign of the rate, and its derivatives.

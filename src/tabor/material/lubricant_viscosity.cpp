@@ -6,12 +6,9 @@
 #include <cmath>
 
 #include "tabor/core/error.hpp"
-#include "tabor/core/names.hpp"
 
 namespace tabor::material {
 namespace {
-
-constexpr auto kLaws = names<ViscosityLaw>("constant", "barus", "roelands");
 
 constexpr double kPole = 9.67;             // -ln of the viscosity where all isotherms meet [Pa s]
 constexpr double kPressureScale = 5.1e-9;  // [1/Pa], that is 1 / 196 MPa
@@ -124,9 +121,9 @@ RoelandsViscosity roelands_viscosity_from_z(double ambient, double z,
 }
 
 ViscosityLaw parse_viscosity_law(std::string_view text) {
-  return kLaws.parse(text, "viscosity law");
+  return kViscosityLaws.parse(text, "viscosity law");
 }
-std::string_view name(ViscosityLaw law) { return kLaws.of(law); }
+std::string_view name(ViscosityLaw law) { return kViscosityLaws.of(law); }
 
 ViscosityLaw law_of(const Viscosity& viscosity) {
   return static_cast<ViscosityLaw>(viscosity.index());  // same order

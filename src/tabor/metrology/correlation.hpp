@@ -8,6 +8,7 @@
 
 #include "tabor/core/types.hpp"
 
+// Computes the areal autocorrelation of heights and the correlation lengths Sal and Str.
 namespace tabor::metrology {
 
 /// Areal autocorrelation of heights about their mean, normalised at zero lag, unbiased: the mean
@@ -20,13 +21,14 @@ namespace tabor::metrology {
 /// any case.
 class Autocorrelation {
  public:
-  /// Of the lags.
+  /// Returns the grid of the lags.
   const Grid& grid() const { return grid_; }
   double mean_square() const { return mean_square_; }  ///< [m^2], about the mean; 0 for a flat
 
-  /// Shift of lx columns and ly rows; NaN beyond the field or without a pair of valid points.
+  /// Returns the autocorrelation at a shift of lx columns and ly rows; NaN beyond the field or
+  /// without a pair of valid points.
   double operator()(Index ly, Index lx) const;
-  /// Bilinear between lags; x, y in metres, of any sign.
+  /// Interpolates bilinearly between lags; x, y in metres, of any sign.
   double at(double y, double x) const;
 
  private:
@@ -39,12 +41,12 @@ class Autocorrelation {
   std::vector<std::complex<float>> values_;  ///< pairs of floats: rows ly = 0 .. ny-1
 };
 
-/// Autocorrelation of the valid heights about their mean. Level before: a tilt never decays.
-/// Takes 8 bytes per pixel beside the heights (12 with holes). Throws InputError without a valid
-/// height.
+/// Computes the autocorrelation of the valid heights about their mean. Level before: a tilt never
+/// decays. Takes 8 bytes per pixel beside the heights (12 with holes). Throws InputError without a
+/// valid height.
 Autocorrelation autocorrelation(const Field& height, const Grid& grid);
 
-/// Where the autocorrelation first falls to a threshold along rays from zero lag.
+/// Distances at which the autocorrelation first falls to a threshold along rays from zero lag.
 struct CorrelationLengths {
   double shortest = 0;            ///< Sal [m]; NaN if no ray falls to the threshold
   double shortest_angle = 0;      ///< [rad], 0 = along x, turning from x to the next rows
@@ -53,15 +55,15 @@ struct CorrelationLengths {
   double reach = 0;               ///< [m], how far that ray could be followed; `longest` if found
   Index n_unfinished_rays = 0;    ///< rays that left the field above the threshold
 
-  /// Str = Sal / longest; none where it is only known to be below `texture_bound`.
+  /// Returns Str = Sal / longest; none where it is only known to be below `texture_bound`.
   std::optional<double> texture_aspect() const;
   double texture_bound() const {
     return std::min(1.0, shortest / reach);
   }  ///< Str is smaller than this
 };
 
-/// Sal and Str of ISO 25178-2: rays every 0.25 degrees, followed in steps of half a pixel
-/// with bilinear interpolation, to the first crossing of `threshold`.
+/// Finds Sal and Str of ISO 25178-2 along rays every 0.25 degrees, followed in steps of half a
+/// pixel with bilinear interpolation, to the first crossing of `threshold`.
 CorrelationLengths correlation_lengths(const Autocorrelation& acf, double threshold = 0.2);
 
 }  // namespace tabor::metrology

@@ -5,6 +5,7 @@
 #include "tabor/core/convergence.hpp"
 #include "tabor/core/types.hpp"
 
+// Computes mean square height differences against the distance of points (structure function).
 namespace tabor::metrology {
 
 /// Mean square height difference (structure function) of points a lag apart.
@@ -23,9 +24,9 @@ struct HeightDifferences {
                             ///< shorter side of the scan; none of a profile
 };
 
-/// Exact sums over all pairs of valid points, from correlations in double precision; about 4 bytes
-/// per pixel beside the heights. Differences cancel to about 1e-14 of the mean square height.
-/// Throws InputError without a valid height.
+/// Computes exact sums over all pairs of valid points, from correlations in double precision; needs
+/// about 4 bytes per pixel beside the heights. Differences cancel to about 1e-14 of the mean square
+/// height. Throws InputError without a valid height.
 HeightDifferences height_differences(const Field& height, const Grid& grid,
                                      const Observer& observer = {});
 

@@ -3,85 +3,52 @@
 #include <limits>
 #include <vector>
 
+#include "tabor/metrology/log_bins.hpp"
 #include "tabor/metrology/psd.hpp"
 
 namespace tabor::metrology {
 namespace {
 
-constexpr double kBinsPerDecade = 12;
-
-/// Mean log q and log density of the points in one logarithmic bin.
-struct Bin {
-  double log_q = 0;
-  double log_density = 0;
-};
-
-std::vector<Bin> log_bins(const std::vector<double>& q, const std::vector<double>& density,
-                          double q_min, double q_max) {
-  std::vector<Bin> bins;
-  double number = 0, current = -1;
-  for (std::size_t i = 0; i < q.size(); ++i) {
-    if (q[i] < q_min || q[i] > q_max || !(density[i] > 0)) continue;
-    const double index = std::floor(kBinsPerDecade * std::log10(q[i] / q_min));
-    if (index != current || bins.empty()) {
-      bins.emplace_back();
-      number = 0;
-      current = index;
-    }
-    number += 1;
-    bins.back().log_q += (std::log(q[i]) - bins.back().log_q) / number;
-    bins.back().log_density += (std::log(density[i]) - bins.back().log_density) / number;
+/// The points without what a window makes of a power law with this exponent.
+std::vector<Bin> without_bias(const Spectrum& spectrum, std::vector<Bin> points,
+                              const WindowBias& bias, double exponent) {
+  if (!bias) return points;
+  const std::vector<double> of_all = bias(exponent);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < spectrum.q.size(); ++i) {
+    if (spectrum.density[i] > 0) points[next++].log_density -= of_all[i];
   }
-  return bins;
-}
-
-struct Line {
-  double slope = std::numeric_limits<double>::quiet_NaN();
-  double standard_error = std::numeric_limits<double>::quiet_NaN();
-};
-
-Line fit_line(const std::vector<Bin>& bins) {
-  const auto n = static_cast<double>(bins.size());
-  double mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
-  for (const Bin& bin : bins) {
-    mean_x += bin.log_q / n;
-    mean_y += bin.log_density / n;
-  }
-  for (const Bin& bin : bins) {
-    xx += (bin.log_q - mean_x) * (bin.log_q - mean_x);
-    xy += (bin.log_q - mean_x) * (bin.log_density - mean_y);
-    yy += (bin.log_density - mean_y) * (bin.log_density - mean_y);
-  }
-  const double slope = xy / xx;
-  const double scatter = std::max(0.0, yy - slope * xy) / (n - 2);
-  return {slope, std::sqrt(scatter / xx)};
-}
-
-/// First q from which the density falls more steeply, over half a decade (less at the end of the
-/// spectrum, where bins hold many modes), than H = 1 plus one power.
-double find_cut(const std::vector<Bin>& bins, double offset, double from) {
-  const auto reach = static_cast<std::size_t>(kBinsPerDecade / 2);
-  for (std::size_t i = 0; i + reach / 2 < bins.size(); ++i) {
-    const Bin& last = bins[std::min(i + reach, bins.size() - 1)];
-    const double slope = (last.log_density - bins[i].log_density) / (last.log_q - bins[i].log_q);
-    if (std::exp(bins[i].log_q) > from && slope < -(offset + 3)) return std::exp(bins[i].log_q);
-  }
-  return std::numeric_limits<double>::infinity();
+  return points;
 }
 
 }  // namespace
 
-HurstFit fit_hurst(const std::vector<double>& q, const std::vector<double>& density, double offset,
-                   double q_min, double q_max) {
-  const auto bins = log_bins(q, density, q_min, q_max);
-  const Line line = bins.size() >= 3 ? fit_line(bins) : Line{};
+HurstFit fit_hurst(const Spectrum& spectrum, double offset, double q_min, double q_max,
+                   const WindowBias& bias) {
+  constexpr int n_rounds = 4;  // the bias depends weakly on H
+  const auto points = log_points(spectrum);
   HurstFit fit;
-  fit.hurst = (-line.slope - offset) / 2;
-  fit.standard_error = line.standard_error / 2;
   fit.q_min = q_min;
   fit.q_max = q_max;
-  fit.n_bins = static_cast<int>(bins.size());
+  double exponent = offset + 1.5;
+  for (int round = 0; round < (bias ? n_rounds : 1); ++round) {
+    const auto bins = log_bins(without_bias(spectrum, points, bias, exponent), q_min, q_max);
+    const Line line = fit_line(bins);
+    fit.n_bins = static_cast<int>(bins.size());
+    if (std::isnan(line.slope)) return fit;
+    fit.hurst = (-line.slope - offset) / 2;
+    fit.standard_error = std::sqrt(line.slope_variance) / 2;
+    exponent = std::clamp(-line.slope, offset - 1, offset + 3);
+  }
   return fit;
+}
+
+HurstFit fit_hurst(const std::vector<double>& q, const std::vector<double>& density, double offset,
+                   double q_min, double q_max) {
+  Spectrum spectrum;
+  spectrum.q = q;
+  spectrum.density = density;
+  return fit_hurst(spectrum, offset, q_min, q_max);
 }
 
 DifferenceHurst fit_hurst(const HeightDifference& differences, double mean_square) {
@@ -105,20 +72,6 @@ DifferenceHurst fit_hurst(const HeightDifference& differences, double mean_squar
   result.standard_error = fit.standard_error;
   result.n_bins = fit.n_bins;
   return result;
-}
-
-FitRange find_fit_range(const std::vector<double>& q, const std::vector<double>& density,
-                        double offset) {
-  if (q.empty()) return {};
-  const auto bins = log_bins(q, density, q.front(), q.back());
-  const auto peak = std::max_element(bins.begin(), bins.end(), [&](const Bin& a, const Bin& b) {
-    return a.log_density + offset * a.log_q < b.log_density + offset * b.log_q;
-  });
-  const double roll_off = peak == bins.end() ? q.front() : std::exp(peak->log_q);
-  const double cut = find_cut(bins, offset, roll_off);
-  const double q_max = std::min(q.back() / 2, cut / 2.5);
-  // A narrow spectrum is fitted from nearer to its roll-off, never from below it.
-  return {std::min(2 * roll_off, std::max(roll_off, q_max / 3)), q_max};
 }
 
 }  // namespace tabor::metrology

@@ -2,6 +2,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/rows.hpp"
+#include "tabor/numerics/field_statistics.hpp"
 #include "tabor/spectral/fft.hpp"
 
 namespace tabor::metrology {
@@ -16,6 +17,7 @@ Moments moments_of(const Field& height) {
     throw InputError("correlation of heights", "no valid height", "a surface with heights", "");
   }
   const double mean = first[1] / first[0];
+  if (numerics::is_flat(height)) return {first[0], mean, 0};
   const double square = sum_over_rows<1>(height.rows(), [&](Index y) {
     const auto row = height.row(y);
     return Eigen::Array<double, 1, 1>(row.isNaN().select(0, (row - mean).square()).sum());

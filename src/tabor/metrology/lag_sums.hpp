@@ -2,6 +2,7 @@
 
 #include "tabor/core/types.hpp"
 
+// Computes moments of heights and the padding that sums over pairs of points need.
 namespace tabor::metrology {
 
 /// Number, mean [m] and mean square about the mean [m^2] of the valid heights.
@@ -11,10 +12,11 @@ struct Moments {
   double mean_square = 0;
 };
 
-/// Throws InputError without a valid height.
+/// Computes the moments of the valid heights. Throws InputError without a valid height.
 Moments moments_of(const Field& height);
 
-/// Points of a transform in which shifts of up to n - 1 pixels do not wrap round.
+/// Returns the number of points of a transform in which shifts of up to n - 1 pixels do not wrap
+/// round.
 Index padded_for_lags(Index n);
 
 }  // namespace tabor::metrology

@@ -6,12 +6,13 @@
 
 #include "tabor/topography/topography.hpp"
 
+// Visits the eight neighbours of a pixel.
 namespace tabor::metrology {
 
-/// A pixel as its place in the row-major order of the map.
+/// Pixel as its place in the row-major order of the map.
 using PixelIndex = std::uint32_t;
 
-/// The up to eight neighbours of a pixel: none beyond an edge unless the map is periodic.
+/// Visits the up to eight neighbours of a pixel: none beyond an edge unless the map is periodic.
 class Neighbours {
  public:
   explicit Neighbours(const topography::Topography& topography)

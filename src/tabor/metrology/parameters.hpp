@@ -7,19 +7,20 @@
 #include "tabor/metrology/profile.hpp"
 #include "tabor/topography/topography.hpp"
 
+// Computes the areal roughness parameters of ISO 25178-2 and their companions for a surface.
 namespace tabor::metrology {
 
-/// Which differences Sdq uses.
+/// Differences that Sdq uses.
 /// forward: on the (nx-1)(ny-1) pixels that have a right and a lower neighbour.
 /// seven_point: (z3 - 9 z2 + 45 z1 - 45 z-1 + 9 z-2 - z-3) / (60 dx), pixels with three neighbours
 /// on all four sides.
 enum class SlopeStencil { forward, seven_point };
 
-/// How the cell between four pixels is divided for Sdr: the mean of both splits into two triangles,
-/// or four triangles to the mean of the corners.
+/// Division of the cell between four pixels for Sdr: the mean of both splits into two triangles, or
+/// four triangles to the mean of the corners.
 enum class AreaTriangles { two, four };
 
-/// How parameters are computed.
+/// Settings of parameters().
 struct ParameterOptions {
   std::vector<ParameterSet> sets{kParameterSets.begin(), kParameterSets.end()};
   SlopeStencil stencil = SlopeStencil::forward;
@@ -32,26 +33,26 @@ struct ParameterOptions {
   ProfileOptions profile = {};
 };
 
-/// The parameters of the chosen sets, of the surface AS GIVEN: heights about the mean of its valid
-/// points. ISO means them for a levelled surface; level first (`--level plane`). The height set
-/// begins with N, the number of valid points. What cannot be computed (one row, one pixel, flat,
-/// holes everywhere between) has the value NaN and a note. Throws InputError if all are holes or
-/// an option is invalid; Interrupted when the observer stops it.
+/// Computes the parameters of the chosen sets, of the surface AS GIVEN: heights about the mean of
+/// its valid points. ISO defines them for a levelled surface; level first (`--level plane`). The
+/// height set begins with N, the number of valid points. A parameter that cannot be computed (one
+/// row, one pixel, flat, holes everywhere between) has the value NaN and a note. Throws InputError
+/// if all are holes or an option is invalid; Interrupted when the observer stops it.
 std::vector<Parameter> parameters(const topography::Topography& topography,
                                   const ParameterOptions& options = {},
                                   const Observer& observer = {});
 
-/// Sdq: root mean square of the gradient over the pixels whose stencil touches no hole; the pixels
-/// beyond the edge are never taken from the other side, periodic or not. NaN without such pixels.
-/// [1]
+/// Computes Sdq: root mean square of the gradient over the pixels whose stencil touches no hole;
+/// the pixels beyond the edge are never taken from the other side, periodic or not. NaN without
+/// such pixels. [1]
 double rms_slope(const topography::Topography& topography,
                  SlopeStencil stencil = SlopeStencil::forward);
 
-/// Sdr: developed over projected area minus one, over cells without holes. [%]
+/// Computes Sdr [%]: developed over projected area minus one, over cells without holes.
 double developed_area_ratio(const topography::Topography& topography,
                             AreaTriangles triangles = AreaTriangles::two);
 
-/// Sq: root mean square height about the mean of the valid points. [m]
+/// Computes Sq [m]: root mean square height about the mean of the valid points.
 double rms_height(const topography::Topography& topography);
 
 }  // namespace tabor::metrology

@@ -17,7 +17,8 @@ namespace {
 
 constexpr Index kProfilesPerReport = 256;
 
-/// The middle of the profile, where the sections lie: farthest from the ends.
+/// The middle of the profile, where the sections lie: farthest from the ends, equally far from
+/// both.
 struct Evaluation {
   Index begin = 0;
   Index size = 0;
@@ -27,11 +28,12 @@ Evaluation evaluation_of(Index n, double spacing, const ProfileOptions& options,
                          const ProfileSetting& setting) {
   const Index trim = std::llround(setting.trim / spacing);
   const Index available = n - 2 * trim;
-  Index size = available;
+  Index left_out = 0;  // at either end
   if (options.kind == ProfileKind::roughness) {
-    size = std::min<Index>(available, std::llround(setting.sections * setting.cutoff / spacing));
+    const double wanted = setting.sections * setting.cutoff / spacing;
+    left_out = std::max<Index>(0, std::llround((static_cast<double>(available) - wanted) / 2));
   }
-  return {trim + (available - size) / 2, size};
+  return {trim + left_out, available - 2 * left_out};
 }
 
 /// One row of values per profile.
@@ -165,7 +167,8 @@ std::vector<Parameter> profile_parameters(const topography::Topography& topograp
     if (quantity.name == "dq") {
       definition += options.forward_slopes ? ", forward differences" : ", 7-point stencil";
     } else if (quantity.name == "mr(c)") {
-      definition += fmt::format(" = {} from the mean line", format_si(options.ratio_height, "m"));
+      definition +=
+          fmt::format(" = {} from the mean line", format_si(options.ratio_height.value_or(0), "m"));
     }
     list.push_back(parameter(fmt::format("{}_{}", symbol, name), statistics.mean, quantity.unit,
                              definition.append(means),

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "tabor/numerics/field_statistics.hpp"
 #include "tabor/numerics/small_matrices.hpp"
 #include "tabor/topography/filters.hpp"
 
@@ -61,9 +62,11 @@ Eigen::ArrayXd low_pass_profile(const Eigen::ArrayXd& z, double spacing, double 
       .transpose();
 }
 
-Eigen::ArrayXd filtered_profile(const Eigen::ArrayXd& z, double spacing, bool periodic,
-                                const ProfileOptions& options, const ProfileSetting& setting) {
-  if (options.filtered) return z;
+namespace {
+
+/// Form, S-filter and L-filter, one after the other.
+Eigen::ArrayXd filtered(const Eigen::ArrayXd& z, double spacing, bool periodic,
+                        const ProfileOptions& options, const ProfileSetting& setting) {
   Eigen::ArrayXd profile = without_form(z, options.form_degree);
   if (profile.isNaN().all()) return profile;
   if (setting.short_cutoff > 0) {
@@ -72,6 +75,18 @@ Eigen::ArrayXd filtered_profile(const Eigen::ArrayXd& z, double spacing, bool pe
   if (options.kind == ProfileKind::primary) return profile;
   const Eigen::ArrayXd waviness = low_pass_profile(profile, spacing, setting.cutoff, periodic);
   return options.kind == ProfileKind::waviness ? waviness : profile - waviness;
+}
+
+}  // namespace
+
+Eigen::ArrayXd filtered_profile(const Eigen::ArrayXd& z, double spacing, bool periodic,
+                                const ProfileOptions& options, const ProfileSetting& setting) {
+  if (options.filtered) return z;
+  const Eigen::ArrayXd profile = filtered(z, spacing, periodic, options, setting);
+  const auto as_field = [](const Eigen::ArrayXd& heights) -> Field { return heights.transpose(); };
+  return numerics::without_rounding(as_field(profile), numerics::largest_magnitude(as_field(z)))
+      .row(0)
+      .transpose();
 }
 
 }  // namespace tabor::metrology

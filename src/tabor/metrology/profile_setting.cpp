@@ -10,6 +10,7 @@
 #include "tabor/core/units.hpp"
 #include "tabor/metrology/profile.hpp"
 #include "tabor/metrology/profile_filter.hpp"
+#include "tabor/metrology/profile_values.hpp"
 
 namespace tabor::metrology {
 namespace {
@@ -47,6 +48,9 @@ void check(const ProfileOptions& options, double spacing) {
   if (options.sections && *options.sections < 0) {
     reject("sections", fmt::format("{}", *options.sections), "a number, or 0 for as many as fit");
   }
+  if (options.ratio_height && !std::isfinite(*options.ratio_height)) {
+    reject("height c of Rmr(c)", format_si(*options.ratio_height, "m"), "a height");
+  }
   if (options.form_degree < -1 || options.form_degree > 4) {
     reject("form", fmt::format("degree {}", options.form_degree), "a degree from -1 (none) to 4");
   }
@@ -60,9 +64,8 @@ double estimate_rz(const topography::Topography& topography, ProfileAxis axis,
     const Eigen::ArrayXd profile =
         without_form(profile_of(z, axis, i), options.filtered ? -1 : options.form_degree);
     Eigen::Array2d sum = Eigen::Array2d::Zero();
-    for (Index k = 0; k < kDefaultSections; ++k) {
-      const Index begin = k * profile.size() / kDefaultSections;
-      const auto part = profile.segment(begin, (k + 1) * profile.size() / kDefaultSections - begin);
+    for (const Section& section : sections_of(profile.size(), kDefaultSections)) {
+      const auto part = profile.segment(section.begin, section.end - section.begin);
       if (part.size() > 0 && !part.isNaN().all()) {
         sum += Eigen::Array2d(
             part.maxCoeff<Eigen::PropagateNumbers>() - part.minCoeff<Eigen::PropagateNumbers>(), 1);

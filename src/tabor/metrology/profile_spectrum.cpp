@@ -4,35 +4,19 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <numeric>
+#include <span>
+#include <tuple>
+#include <utility>
 #include <vector>
 
-#include "tabor/core/rows.hpp"
 #include "tabor/metrology/half_spectrum.hpp"
-#include "tabor/spectral/fft.hpp"
+#include "tabor/spectral/strips.hpp"
 
 namespace tabor::metrology {
 namespace {
 
 using std::numbers::pi;
-using ComplexField =
-    Eigen::Array<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-/// Adds of_row(y), an array of numbers, over all rows; blocks of rows in their order.
-template <typename AddRow>
-Eigen::ArrayXd accumulate_rows(Index n_rows, Index n_values, const AddRow& add_row) {
-  constexpr Index block_rows = 64;
-  std::vector<Eigen::ArrayXd> blocks(
-      static_cast<std::size_t>((n_rows + block_rows - 1) / block_rows));
-  parallel_for(n_rows, block_rows, [&](Index begin, Index end) {
-    Eigen::ArrayXd& sums = blocks[static_cast<std::size_t>(begin / block_rows)];
-    sums = Eigen::ArrayXd::Zero(n_values);
-    for (Index y = begin; y < end; ++y) add_row(y, sums);
-  });
-  Eigen::ArrayXd total = Eigen::ArrayXd::Zero(n_values);
-  for (const auto& block : blocks) total += block;
-  return total;
-}
-
 /// Periodic Hann window of n samples with unit mean square.
 Eigen::ArrayXd hann_window(Index n) {
   Eigen::ArrayXd window(n);
@@ -42,38 +26,57 @@ Eigen::ArrayXd hann_window(Index n) {
   return window / std::sqrt(window.square().mean());
 }
 
-/// Rows about their own mean, times the window.
-void prepare_rows(Field& map, const Eigen::ArrayXd& weights) {
-  for_each_row(map.rows(), [&](Index y) {
-    const double mean = map.row(y).mean();
-    map.row(y) = (map.row(y) - mean) * weights.transpose();
-  });
+/// Per frequency, sums over the rows of |FFT|^2 and the number of independent ones among them.
+struct RowPower {
+  Eigen::ArrayXd power, modes;
+};
+
+/// Power over the frequencies ky of one column of a two-dimensional spectrum: their sum, and how
+/// many share it, by (sum P)^2 / sum P^2, whose expectation is (number + 1)/2 for exponential P.
+std::pair<double, double> sum_of_column(const std::complex<double>* column, Index n) {
+  double sum = 0, squares = 0;
+  for (Index ky = 0; ky < n; ++ky) {
+    const double power = std::norm(column[ky]);
+    sum += power;
+    squares += power * power;
+  }
+  return {sum / static_cast<double>(n),
+          squares > 0 ? std::max(1.0, 2 * sum * sum / squares - 1) : 1};
 }
 
-/// Sums over rows of |FFT|^2, a part of the rows at a time: long scans leave no room for more.
-Eigen::ArrayXd row_power(Index n_rows, Index n, const Eigen::ArrayXd& weights,
-                         const RowsOf& rows_of) {
-  constexpr Index rows_at_a_time = 1024;
-  Eigen::ArrayXd power = Eigen::ArrayXd::Zero(n / 2 + 1);
-  ComplexField transform;
-  for (Index begin = 0; begin < n_rows; begin += rows_at_a_time) {
-    Field part = rows_of(begin, std::min(rows_at_a_time, n_rows - begin));
-    prepare_rows(part, weights);
-    spectral::forward_rows(part, transform);
-    power += accumulate_rows(part.rows(), n / 2 + 1, [&](Index y, Eigen::ArrayXd& sums) {
-      sums += transform.row(y).abs2().transpose();
-    });
+/// Transforms a part of the frequencies at a time, as memory does not suffice for long scans.
+RowPower row_power(Index n_rows, Index n, const Eigen::ArrayXd& weights, const RowOf& row_of) {
+  constexpr Index n_strips = 4;
+  RowPower result{Eigen::ArrayXd::Zero(n / 2 + 1), Eigen::ArrayXd::Ones(n / 2 + 1)};
+  const spectral::StripTransform<double> transform(n_rows, n, n_rows, n);
+  const auto row = [&](Index y, std::span<double> values) {
+    row_of(y, values);
+    // Eigen's sums begin at an aligned element: where the row lies would decide about the last bit.
+    const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(n);
+    Eigen::Map<Eigen::ArrayXd> z(values.data(), n);
+    z = (z - mean) * weights;
+  };
+  const Index width = (n / 2 + n_strips) / n_strips;
+  spectral::StripTransform<double>::Strip strip;
+  for (Index begin = 0; begin <= n / 2; begin += width) {
+    const spectral::ColumnRange range{begin, std::min(n / 2 + 1, begin + width)};
+    transform.rows_forward(row, range, strip);
+    spectral::StripTransform<double>::Strip* const strips[] = {&strip};
+    transform.read_columns(
+        strips, range, [&](Index kx, std::span<std::complex<double>* const> columns) {
+          std::tie(result.power[kx], result.modes[kx]) = sum_of_column(columns[0], n_rows);
+        });
   }
-  return power;
+  return result;
 }
 
 }  // namespace
 
 Spectrum profile_spectrum(Index n_rows, Index n, double length, PsdWindow window,
-                          const RowsOf& rows_of) {
+                          const RowOf& row_of) {
   const Eigen::ArrayXd weights =
       window == PsdWindow::hann ? hann_window(n) : Eigen::ArrayXd::Ones(n);
-  const Eigen::ArrayXd power = row_power(n_rows, n, weights, rows_of);
+  const auto [power, modes] = row_power(n_rows, n, weights, row_of);
   const double dx = length / static_cast<double>(n);
   const double scale = dx * dx / (length * static_cast<double>(n_rows));
   Spectrum spectrum;
@@ -82,9 +85,11 @@ Spectrum profile_spectrum(Index n_rows, Index n, double length, PsdWindow window
     const double q = 2 * pi * static_cast<double>(k) / length;
     spectrum.q.push_back(q);
     spectrum.density.push_back(scale * power[k]);
+    spectrum.modes.push_back(2 * k == n ? modes[k] / 2 : modes[k]);  // real at the last frequency
     variance += multiplicity(k, n) * scale * power[k] / length;
     slope_variance += multiplicity(k, n) * q * q * scale * power[k] / length;
   }
+  spectrum.mode_spread = weights.pow(4).mean();
   spectrum.rms_height = std::sqrt(variance);
   spectrum.rms_slope = std::sqrt(slope_variance);
   return spectrum;

@@ -49,13 +49,12 @@ Moments moments_of(const Eigen::ArrayXd& z) {
   return m;
 }
 
-std::vector<Eigen::ArrayXd> sections_of(const Eigen::ArrayXd& z, int n_sections) {
-  std::vector<Eigen::ArrayXd> sections;
-  for (Index k = 0; k < n_sections; ++k) {
-    const Index begin = k * z.size() / n_sections, end = (k + 1) * z.size() / n_sections;
-    sections.emplace_back(z.segment(begin, end - begin));
+std::vector<Eigen::ArrayXd> parts_of(const Eigen::ArrayXd& z, int n_sections) {
+  std::vector<Eigen::ArrayXd> parts;
+  for (const Section& section : sections_of(z.size(), n_sections)) {
+    parts.emplace_back(z.segment(section.begin, section.end - section.begin));
   }
-  return sections;
+  return parts;
 }
 
 /// Mean of what exists.
@@ -81,13 +80,18 @@ Elements means_of(const std::vector<ProfileElement>& elements, double spacing) {
           mean_of(elements, [](const ProfileElement& e) { return e.height; })};
 }
 
-/// ISO 21920-2: over the evaluation length, read from both ends.
-Elements elements_both_ways(const Eigen::ArrayXd& z, double spacing, const Moments& whole) {
-  const Discrimination least{kLeastHeight * whole.highest, -kLeastHeight * whole.lowest, 0};
+/// Read from both ends, so that a profile has no direction.
+Elements elements_both_ways(const Eigen::ArrayXd& z, double spacing, const Discrimination& least) {
   auto elements = profile_elements(z, least);
   const auto backwards = profile_elements(z.reverse(), least);
   elements.insert(elements.end(), backwards.begin(), backwards.end());
   return means_of(elements, spacing);
+}
+
+/// ISO 21920-2: over the evaluation length.
+Elements elements_of_whole(const Eigen::ArrayXd& z, double spacing, const Moments& whole) {
+  return elements_both_ways(z, spacing,
+                            {kLeastHeight * whole.highest, -kLeastHeight * whole.lowest, 0});
 }
 
 /// ISO 4287: in every section, then the mean of the sections.
@@ -97,7 +101,7 @@ Elements elements_by_section(const std::vector<Eigen::ArrayXd>& sections, double
   for (const Eigen::ArrayXd& z : sections) {
     const double least = kLeastHeight * mean_range;
     const double length = kLeastSpacing * static_cast<double>(z.size());
-    found.push_back(means_of(profile_elements(z, {least, least, length}), spacing));
+    found.push_back(elements_both_ways(z, spacing, {least, least, length}));
   }
   return {mean_of(found, [](const Elements& e) { return e.spacing; }),
           mean_of(found, [](const Elements& e) { return e.height; })};
@@ -106,18 +110,10 @@ Elements elements_by_section(const std::vector<Eigen::ArrayXd>& sections, double
 /// k, pk, vk, mrk1, mrk2 and mr(c).
 std::array<double, 6> material_ratios(const Eigen::ArrayXd& z, double ratio_height) {
   const AbbottCurve curve(Eigen::Map<const Field>(z.data(), 1, z.size()));
-  const CoreLine line = curve.core_line();
-  const double ratio1 = curve.ratio_above(line.upper), ratio2 = curve.ratio_above(line.lower);
-  const auto reduced = [](double area, double ratio) {
-    return ratio > 0 ? 2 * 100 * area / ratio : 0;
-  };
+  const Core core = curve.core();
   const double mean = mean_of(z, [](double height) { return height; });
-  return {line.upper - line.lower,
-          reduced(curve.material_above(line.upper), ratio1),
-          reduced(curve.void_below(line.lower), 100 - ratio2),
-          ratio1,
-          ratio2,
-          curve.ratio_above(ratio_height - mean)};
+  return {core.height,     core.peak_height, core.dale_height,
+          core.peak_ratio, core.dale_ratio,  curve.ratio_above(ratio_height - mean)};
 }
 
 }  // namespace
@@ -139,9 +135,9 @@ const std::array<ProfileQuantity, kProfileQuantities> kProfileTable{{
     {"Sm", "", "m",
      "mean spacing of profile elements over the evaluation length, read from both ends; hills and "
      "dales below 10 % of the highest peak or of the deepest pit do not count",
-     "mean over the sections of the mean spacing of profile elements; hills and dales below 10 % "
-     "of "
-     "the mean range of the sections or shorter than 1 % of the section do not count"},
+     "mean over the sections of the mean spacing of profile elements, read from both ends; hills "
+     "and dales below 10 % of the mean range of the sections or shorter than 1 % of the section do "
+     "not count"},
     {"c", "", "m", "mean height of the profile elements whose spacing is averaged above", ""},
     {"pd", "", "1/m", "profile elements per length: one over their mean spacing", ""},
     {"k", "", "m",
@@ -156,6 +152,15 @@ const std::array<ProfileQuantity, kProfileQuantities> kProfileTable{{
     {"mr(c)", "", "%", "share of the evaluation length above c", ""},
 }};
 
+std::vector<Section> sections_of(Index size, int n) {
+  std::vector<Section> sections;
+  for (Index k = 0; k < n; ++k) {
+    const Index from_end = (n - 1 - k) * size / n;
+    sections.push_back({k * size / n, size - from_end});
+  }
+  return sections;
+}
+
 ProfileValues profile_values(const Eigen::ArrayXd& z, double spacing, int sections,
                              const ProfileOptions& options) {
   ProfileValues values;
@@ -163,7 +168,7 @@ ProfileValues profile_values(const Eigen::ArrayXd& z, double spacing, int sectio
   if (!is_usable(z)) return values;
   const bool by_section = options.standard == ProfileStandard::iso4287;
   const Moments whole = moments_of(z);
-  const auto parts = sections_of(z, sections);
+  const auto parts = parts_of(z, sections);
   std::vector<Moments> of_parts;
   of_parts.reserve(parts.size());
   for (const Eigen::ArrayXd& part : parts) of_parts.push_back(moments_of(part));
@@ -176,10 +181,10 @@ ProfileValues profile_values(const Eigen::ArrayXd& z, double spacing, int sectio
   double largest_range = kNan;
   for (const Moments& m : of_parts) largest_range = std::fmax(largest_range, range(m));
   const Elements elements = by_section ? elements_by_section(parts, spacing, mean_range)
-                                       : elements_both_ways(z, spacing, whole);
+                                       : elements_of_whole(z, spacing, whole);
   const double slope = options.forward_slopes ? numerics::rms_slope(z, spacing)
                                               : numerics::seven_point_rms_slope(z, spacing);
-  const auto ratios = material_ratios(z, options.ratio_height);
+  const auto ratios = material_ratios(z, options.ratio_height.value_or(0));
   return {over(&Moments::mean_abs),
           over(&Moments::rms),
           over(&Moments::skewness),

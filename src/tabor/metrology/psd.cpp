@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/names.hpp"
 #include "tabor/metrology/profile_spectrum.hpp"
 #include "tabor/metrology/radial_spectrum.hpp"
+#include "tabor/metrology/window_bias.hpp"
+#include "tabor/numerics/field_statistics.hpp"
+#include "tabor/topography/edges.hpp"
 
 namespace tabor::metrology {
 namespace {
@@ -18,11 +22,27 @@ using std::numbers::pi;
 constexpr auto kConventions = names<PsdConvention>("jacobs", "persson", "gwyddion");
 constexpr auto kWindows = names<PsdWindow>("none", "hann");
 
-void fit(Spectrum& spectrum, double offset, const PsdOptions& options) {
-  const auto range = find_fit_range(spectrum.q, spectrum.density, offset);
-  spectrum.hurst =
-      fit_hurst(spectrum.q, spectrum.density, offset, options.fit_q_min.value_or(range.q_min),
-                options.fit_q_max.value_or(range.q_max));
+/// Exponents of all spectra.
+void fit(const Grid& grid, const PsdOptions& options, PowerSpectra& spectra) {
+  const auto one = [&](Spectrum& spectrum, double offset, const auto& bias) {
+    if (spectrum.q.empty()) return;
+    const auto range = find_fit_range(spectrum, offset);
+    spectrum.hurst = fit_hurst(spectrum, offset, options.fit_q_min.value_or(range.q_min),
+                               options.fit_q_max.value_or(range.q_max), [&](double exponent) {
+                                 return bias(spectrum.q, range.roll_off, exponent);
+                               });
+  };
+  const auto along = [&](double length) {
+    return [&spectra, length](const std::vector<double>& q, double roll_off, double exponent) {
+      return spectra.window == PsdWindow::hann ? line_bias(q, length, roll_off, exponent)
+                                               : std::vector<double>(q.size());
+    };
+  };
+  one(spectra.x, 1, along(grid.lx));
+  one(spectra.y, 1, along(grid.ly));
+  one(spectra.radial, 2, [&](const std::vector<double>& q, double roll_off, double exponent) {
+    return ring_bias(q, grid, spectra.window, roll_off, exponent);
+  });
 }
 
 void convert(PowerSpectra& spectra, PsdConvention convention) {
@@ -55,14 +75,15 @@ void add_lines(const topography::Topography& topography, PowerSpectra& spectra) 
   const Grid& grid = topography.grid;
   const Field& height = topography.height;
   if (grid.nx > 1) {
-    spectra.x = profile_spectrum(
-        grid.ny, grid.nx, grid.lx, spectra.window,
-        [&](Index begin, Index count) -> Field { return height.middleRows(begin, count); });
+    spectra.x = profile_spectrum(grid.ny, grid.nx, grid.lx, spectra.window,
+                                 [&](Index y, std::span<double> row) {
+                                   Eigen::Map<Eigen::ArrayXd>(row.data(), grid.nx) = height.row(y);
+                                 });
   }
   if (grid.ny > 1) {
     spectra.y = profile_spectrum(grid.nx, grid.ny, grid.ly, spectra.window,
-                                 [&](Index begin, Index count) -> Field {
-                                   return height.middleCols(begin, count).transpose();
+                                 [&](Index x, std::span<double> row) {
+                                   Eigen::Map<Eigen::ArrayXd>(row.data(), grid.ny) = height.col(x);
                                  });
   }
 }
@@ -98,21 +119,25 @@ std::string_view name_of(PsdWindow window) { return kWindows.of(window); }
 
 PowerSpectra power_spectra(const topography::Topography& topography, const PsdOptions& options) {
   check_complete(topography);
+  if (numerics::is_flat(topography.height) && !(topography.height == 0).all()) {
+    topography::Topography flat = topography;
+    flat.height.setZero();  // rounding has no spectrum
+    return power_spectra(flat, options);
+  }
   if (options.fit_q_min && options.fit_q_max && !(*options.fit_q_min < *options.fit_q_max)) {
     throw InputError("fit_min", fmt::format("{:g} rad/m", *options.fit_q_min),
                      fmt::format("less than fit_max, {:g} rad/m", *options.fit_q_max), "");
   }
   PowerSpectra spectra;
-  spectra.window = options.window.value_or(topography.periodic ? PsdWindow::none : PsdWindow::hann);
+  spectra.window = options.window.value_or(
+      topography::tiles_as_it_is(topography) ? PsdWindow::none : PsdWindow::hann);
   add_lines(topography, spectra);
   if (topography::is_profile(topography.grid)) {
     take_from_line(topography, spectra);
   } else {
     add_area(topography, spectra);
   }
-  fit(spectra.x, 1, options);
-  fit(spectra.y, 1, options);
-  fit(spectra.radial, 2, options);
+  fit(topography.grid, options, spectra);
   convert(spectra, options.convention);
   return spectra;
 }

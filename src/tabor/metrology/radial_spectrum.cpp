@@ -61,6 +61,16 @@ class WindowedHeights {
     return is_windowed_ ? z * (scale_ * radial_hann(grid_, y, x)) : z;
   }
 
+  /// By how much the window raises the variance of a sum of power over many modes: neighbouring
+  /// ones are no longer independent.
+  double mode_spread() const {
+    return is_windowed_ ? mean_over(grid_,
+                                    [&](Index y, Index x) {
+                                      return std::pow(scale_ * radial_hann(grid_, y, x), 4);
+                                    })
+                        : 1;
+  }
+
   /// Mean square with the window over that without.
   double gain() const {
     const double before =
@@ -105,7 +115,7 @@ void add_column(const Grid& grid, Index kx, const std::complex<double>* column, 
   }
 }
 
-/// Windowed heights are made row by row: beside the spectrum there is no room for a map of them.
+/// Makes windowed heights row by row: beside the spectrum, memory does not suffice for their map.
 RingSums ring_sums(const WindowedHeights& heights, const Grid& grid, double dq, Index n_rings) {
   const spectral::StripTransform<double> transform(grid.ny, grid.nx, grid.ny, grid.nx);
   const spectral::ColumnRange all{0, transform.n_frequencies()};
@@ -141,8 +151,10 @@ RadialSpectrum radial_spectrum(const Field& height, const Grid& grid, PsdWindow 
     if (sums.modes[ring] > 0) {
       spectrum.q.push_back(sums.wavevectors[ring] / sums.modes[ring]);
       spectrum.density.push_back(grid.area() * sums.power[ring] / sums.modes[ring]);
+      spectrum.modes.push_back(std::max(0.5, sums.modes[ring] / 2));  // q and -q are one
     }
   }
+  spectrum.mode_spread = heights.mode_spread();
   spectrum.rms_height = std::sqrt(sums.variance);
   spectrum.rms_slope = std::sqrt(sums.slope_variance);
   return {std::move(spectrum), heights.gain()};

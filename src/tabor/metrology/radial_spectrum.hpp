@@ -9,8 +9,9 @@ struct RadialSpectrum {
   double window_gain = 1;  ///< mean square of the heights with the window over that without
 };
 
-/// Jacobs's C2D = |dx dy FFT2|^2 / (Lx Ly) of the heights about their mean, averaged over rings up
-/// to the smaller Nyquist wavevector; rms height and slope from all modes.
+/// Computes C2D (Jacobs, Junge & Pastewka 2017) = |dx dy FFT2|^2 / (Lx Ly) of the heights about
+/// their mean, averaged over rings up to the smaller Nyquist wavevector; rms height and slope from
+/// all modes.
 RadialSpectrum radial_spectrum(const Field& height, const Grid& grid, PsdWindow window);
 
 }  // namespace tabor::metrology

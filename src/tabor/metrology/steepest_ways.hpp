@@ -5,12 +5,13 @@
 #include "tabor/metrology/neighbours.hpp"
 #include "tabor/metrology/watershed.hpp"
 
+// Follows the steepest path up from every pixel to the peak where it ends.
 namespace tabor::metrology {
 
-/// Maps must be smaller, so that a number and a pixel can share 32 bits.
+/// Upper limit of the number of pixels, so that a number and a pixel can share 32 bits.
 inline constexpr PixelIndex kPixelLimit = 0x80000000U;
 
-/// The heights as a flood of hills sees them: dales are hills of -z.
+/// Heights with the sign of the segmentation: dales are hills of -z.
 struct Relief {
   const topography::Topography& map;
   Neighbours neighbours;
@@ -22,14 +23,15 @@ struct Relief {
   PixelIndex n_pixels() const { return static_cast<PixelIndex>(map.height.size()); }
 };
 
-/// Where the steepest ways up from every pixel end.
+/// Peaks at which the steepest paths up from every pixel end.
 struct Ascents {
   std::vector<PixelIndex> peaks;     ///< highest first, equal ones by rising pixel
   std::vector<std::uint32_t> label;  ///< per pixel: number of its peak in `peaks`; kNoMotif: hole
 };
 
-/// Pixels of a plateau without a higher neighbour take the nearest way off it, in steps to
-/// neighbours; the first pixel of a plateau without a way off is the peak.
+/// Follows the steepest paths. Pixels of a plateau without a higher neighbour take the shortest
+/// path off it, in steps to neighbours; the first pixel of a plateau without such a path is the
+/// peak.
 Ascents climb(const Relief& relief);
 
 }  // namespace tabor::metrology

@@ -6,20 +6,21 @@
 
 namespace tabor::numerics {
 
-/// LU factors with partial pivoting of an n x n matrix whose entries lie at most `lower` places
-/// below and `upper` places above the diagonal; O(n lower (lower + upper)) operations (Golub & Van
-/// Loan, Matrix Computations, 4th edition 2013, section 4.3).
+/// Solves banded systems by LU factors with partial pivoting of an n x n matrix whose entries lie
+/// at most `lower` places below and `upper` places above the diagonal; O(n lower (lower + upper))
+/// operations (Golub & Van Loan, Matrix Computations, 4th edition 2013, section 4.3).
 class BandedLu {
  public:
   BandedLu(Index n, Index lower, Index upper);
 
   Index size() const { return n_; }
-  /// An entry of the matrix before factorise(); (row, column) inside the band. Starts at zero.
+  /// Returns an entry of the matrix before factorise(); (row, column) inside the band. Starts at
+  /// zero.
   double& at(Index row, Index column) { return band_[place(row, column)]; }
   /// Replaces the entries by the factors. False if the matrix is singular to working precision;
   /// throws Interrupted when the observer of the innermost Watch asks to stop.
   bool factorise();
-  /// x = matrix^-1 x, n values, after a factorise() that returned true.
+  /// Sets x = matrix^-1 x, n values, after a factorise() that returned true.
   void solve(double* x) const;
 
  private:

@@ -5,9 +5,9 @@
 
 namespace tabor::numerics {
 
-/// Preconditioned conjugate gradients for A x = b with symmetric, positive (semi-)definite A
-/// (Hestenes & Stiefel 1952, doi:10.6028/jres.049.044). The system says how vectors of length n are
-/// handled, so that the sums of its products keep their own, reproducible order:
+/// Solves A x = b by preconditioned conjugate gradients for symmetric, positive (semi-)definite A
+/// (Hestenes & Stiefel 1952, doi:10.6028/jres.049.044). The system defines the operations on
+/// vectors of length n, so that the sums of its products have their own, reproducible order:
 ///
 ///   void apply(const std::vector<double>& x, std::vector<double>& image)     image = A x
 ///   const Vector& precondition(const std::vector<double>& residual)          approximate A^-1 r
@@ -15,7 +15,7 @@ namespace tabor::numerics {
 ///   type void for_each(std::size_t n, body)                                       body(i), in any
 ///   order
 ///
-/// `residual` is b - A `solution` on entry and on return. `is_done(n_iterations)` is asked before
+/// `residual` is b - A `solution` on entry and on return. `is_done(n_iterations)` is called before
 /// each step and ends the solution; it may throw. Returns the number of steps.
 template <typename System, typename IsDone>
 int conjugate_gradients(System& system, std::vector<double>& residual,

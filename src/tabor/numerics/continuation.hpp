@@ -4,20 +4,21 @@
 
 #include "tabor/core/convergence.hpp"
 
+// Leads a solution from one value of a parameter to another in steps that adapt.
 namespace tabor::numerics {
 
-/// Steps of a continuation, in shares of the whole way.
+/// Steps of a continuation, as shares of the whole change of the parameter.
 struct ContinuationSteps {
   double first = 0.5;
   double smallest = 1.0 / 64;  ///< steps this short are given up
   bool keeps_end = false;  ///< a try at share 1 that failed is where the next begins all the same
 };
 
-/// Continuation in a parameter: leads `state`, a solution at share 0 of a way, to share 1, each
-/// solution being the start of the next; steps grow where one is found and are halved where none
+/// Leads `state`, a solution at share 0 of a change of a parameter, to share 1 by continuation:
+/// each solution is the start of the next; steps grow where one is found and are halved where none
 /// is. `solve(state, share)` advances a state to the solution at a share and returns its account,
-/// with a member `convergence` and a sum that adds up the work. Returns the account of all of it;
-/// stalled, with what was kept last in `state`, where steps became too short.
+/// with a member `convergence` and a sum that adds up the work. Returns the account of all steps;
+/// stalled, with the last accepted solution in `state`, where steps became too short.
 template <typename State, typename Solve>
 auto follow(State& state, const ContinuationSteps& steps, Solve&& solve) {
   decltype(solve(state, 1.0)) outcome{};

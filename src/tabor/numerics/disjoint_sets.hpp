@@ -6,18 +6,19 @@
 #include <type_traits>
 #include <vector>
 
+// Joins numbered members into disjoint sets (union-find), with optional offsets for periodic cells.
 namespace tabor::numerics {
 
-/// Members of disjoint sets have no place in them.
+/// Offset of sets whose members have no place in them.
 struct NoOffset {
   NoOffset operator+(NoOffset) const { return {}; }
   NoOffset operator-(NoOffset) const { return {}; }
   bool operator==(const NoOffset&) const = default;
 };
 
-/// Disjoint sets of the numbers 0 .. n - 1, in a forest whose paths are halved on the way (Tarjan &
-/// van Leeuwen 1984, doi:10.1145/62.2160). The smallest member of a set is its root, so that sets
-/// and what is counted in their order do not depend on the order of joins.
+/// Joins the numbers 0 .. n - 1 into disjoint sets, in a forest with path halving (Tarjan & van
+/// Leeuwen 1984, doi:10.1145/62.2160). The smallest member of a set is its root, so that sets and
+/// what is counted in their order do not depend on the order of joins.
 ///
 /// With an Offset (a group under + and -, zero when value-initialised) each member also has a place
 /// relative to the root: joined along different paths that disagree, a set closes on itself, as a
@@ -25,19 +26,19 @@ struct NoOffset {
 template <typename Number, typename Offset = NoOffset>
 class DisjointSets {
  public:
-  /// Where a member is.
+  /// Place of a member: its root and its offset from it.
   struct Place {
     Number root;
     Offset from_root;
   };
-  /// What join() did: the root of the set that holds both now.
+  /// Result of join(): the root of the set that now holds both.
   struct Joined {
     Number root;
     bool were_one;      ///< both were in one set before
     Offset difference;  ///< then: of this join from the paths before it; zero where they agree
   };
 
-  /// Each number is a set of its own.
+  /// Makes each number a set of its own.
   explicit DisjointSets(std::size_t n = 0) : parent_(n), n_sets_(n) {
     std::iota(parent_.begin(), parent_.end(), Number{0});
     if constexpr (kHasOffsets) offset_.resize(n);
@@ -46,7 +47,7 @@ class DisjointSets {
   std::size_t size() const { return parent_.size(); }
   std::size_t n_sets() const { return n_sets_; }
 
-  /// One number more, in a set of its own.
+  /// Adds a number, in a set of its own.
   Number add() {
     parent_.push_back(static_cast<Number>(parent_.size()));
     if constexpr (kHasOffsets) offset_.emplace_back();
@@ -69,7 +70,7 @@ class DisjointSets {
     return {member, total};
   }
 
-  /// One set of those of `a` and `b`; b lies `step` further than a.
+  /// Joins the sets of `a` and `b`; b lies `step` further than a.
   Joined join(Number a, Number b, Offset step = {}) {
     const Place from = find(a);
     const Place to = find(b);

@@ -52,12 +52,34 @@ double rms_of(const Eigen::ArrayXd& slope) {
 
 }  // namespace
 
+double largest_magnitude(const Field& field) {
+  double largest = 0;
+  for (const double z : field.reshaped<Eigen::RowMajor>()) {
+    largest = std::fmax(largest, std::abs(z));
+  }
+  return largest;
+}
+
+bool is_flat(const Field& field) {
+  double highest = kNan, lowest = kNan;
+  for (const double z : field.reshaped<Eigen::RowMajor>()) {
+    highest = std::fmax(highest, z);
+    lowest = std::fmin(lowest, z);
+  }
+  return !(highest - lowest > rounding_of(std::fmax(std::abs(highest), std::abs(lowest))));
+}
+
+Field without_rounding(Field rest, double magnitude) {
+  if (largest_magnitude(rest) > rounding_of(magnitude)) return rest;
+  return rest.isNaN().select(rest, 0);
+}
+
 FieldMoments field_moments(const Field& field) {
   FieldMoments m;
   m.mean = mean_of_valid(field, m.n);
   m.highest = field.maxCoeff<Eigen::PropagateNumbers>();
   m.lowest = field.minCoeff<Eigen::PropagateNumbers>();
-  if (m.highest == m.lowest) {
+  if (m.highest - m.lowest <= rounding_of(std::max(std::abs(m.highest), std::abs(m.lowest)))) {
     return {.n = m.n, .mean = m.highest};  // flat, whatever the rounding of the mean
   }
   const auto n = static_cast<double>(m.n);

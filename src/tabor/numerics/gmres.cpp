@@ -7,7 +7,7 @@
 namespace tabor::numerics {
 namespace {
 
-/// The least-squares problem of GMRES, kept triangular by Givens rotations.
+/// Solves the least-squares problem of GMRES, made triangular by Givens rotations.
 class Hessenberg {
  public:
   Hessenberg(int size, double norm)

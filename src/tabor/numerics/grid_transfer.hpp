@@ -6,18 +6,18 @@
 
 namespace tabor::numerics {
 
-/// Straight lines between the nodes of two grids of the same domain, from border to border. Their
-/// numbers of nodes may be any, two or more along each side.
+/// Transfers values between the nodes of two grids of the same domain, from border to border, by
+/// linear interpolation. The grids may have any numbers of nodes, two or more along each side.
 class NodeTransfer {
  public:
   /// Only the numbers of nodes of the grids count.
   NodeTransfer(const Grid& fine, const Grid& coarse);
 
-  /// Values between the nodes of the coarse grid: (ny, nx) of the coarse grid to those of the fine.
+  /// Interpolates a coarse field, (ny, nx) of the coarse grid, to the nodes of the fine grid.
   Field to_fine(const Field& coarse) const;
-  /// The transposed of to_fine().
+  /// Applies the transpose of to_fine().
   Field transposed(const Field& fine) const;
-  /// Means around the nodes of the coarse grid.
+  /// Returns means around the nodes of the coarse grid.
   Field mean(const Field& fine) const { return transposed(fine) / weight_; }
 
  private:

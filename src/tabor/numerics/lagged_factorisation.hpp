@@ -10,19 +10,19 @@ namespace tabor::numerics {
 
 /// Solves J x = b for a sequence of dense matrices J that change little from one to the next, with
 /// a lagged factorisation: the factors of an earlier J precondition GMRES, and J is factorised anew
-/// when that takes too many products. The solution is as exact as asked for whatever the age of the
+/// when that takes too many products. The solution reaches the tolerance whatever the age of the
 /// factors.
 class LaggedFactorisation {
  public:
-  /// y = J x, for x of the size of b.
+  /// Computes y = J x, for x of the size of b.
   using Product = std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& y)>;
   /// Writes J into a matrix of zeros.
   using Assembly = std::function<void(Eigen::MatrixXd& matrix)>;
 
-  /// `every_time`: one factorisation per solve, without GMRES.
+  /// Makes a solver without factors. `every_time`: one factorisation per solve, without GMRES.
   explicit LaggedFactorisation(bool every_time = false) : every_time_(every_time) {}
 
-  /// x with |b - J x| <= tolerance |b|. `product` applies J, `assemble` writes it.
+  /// Returns x with |b - J x| <= tolerance |b|. `product` applies J, `assemble` writes it.
   Eigen::VectorXd solve(const Eigen::VectorXd& b, double tolerance, const Product& product,
                         const Assembly& assemble);
 

@@ -6,16 +6,17 @@
 
 #include "tabor/core/convergence.hpp"
 
+// Solves nonlinear equations with an active set by Newton's method with damped steps.
 namespace tabor::numerics {
 
-/// What newton() asks of equations F(state) = 0 with an active set: at each node a bound or an
-/// equation is in force, and the solution decides which.
+/// Requirements of newton() on equations F(state) = 0 with an active set: at each node a bound or
+/// an equation is in force, and the solution decides which.
 ///
 ///   state()              the unknowns and what follows from them; a value that can be copied back
 ///   step()               the solution of J step = -F at the state; empty if there is none
 ///   largest_share(step)  of a step, to begin with: 1, or less where a bound lies nearer
 ///   move(old, step, s)   sets the state a share s of the step away from `old`; false where that
-///                        cannot be believed
+///                        state is rejected
 ///   settle()             changes the set where the new state asks for it; true where the set is
 ///                        that before the step
 ///   measure()            sets the certificate; true where all equations in force hold
@@ -33,11 +34,11 @@ concept NewtonEquations = requires(T& equations, const Eigen::VectorXd& step) {
 struct NewtonLimits {
   int max_iterations = 0;
   int max_halvings = 8;         ///< of a step
-  std::string_view stage = {};  ///< as the observer is told
+  std::string_view stage = {};  ///< name for the observer
 };
 
-/// Takes as much of a step as can be believed: the largest share, or a half of it, a quarter and so
-/// on. False, and the state as it was, if nothing of it can.
+/// Takes as much of a step as move() accepts: the largest share, or a half of it, a quarter and so
+/// on. Returns false, and restores the state, if no share is accepted.
 template <NewtonEquations Equations>
 bool take(Equations& equations, const Eigen::VectorXd& step, int max_halvings) {
   if (step.size() == 0 || !step.allFinite()) return false;
@@ -50,9 +51,10 @@ bool take(Equations& equations, const Eigen::VectorXd& step, int max_halvings) {
   return false;
 }
 
-/// Newton's method with damped steps, semismooth through its active set (Hintermueller, Ito &
-/// Kunisch 2002, doi:10.1137/S1052623401383558). Converged when a step leaves the set as it was and
-/// all equations hold; stalled when nothing of a step can be believed; not converging is no error.
+/// Solves the equations by Newton's method with damped steps, semismooth through its active set
+/// (Hintermueller, Ito & Kunisch 2002, doi:10.1137/S1052623401383558). Converged when a step leaves
+/// the set as it was and all equations hold; stalled when no share of a step is accepted; not
+/// converging is no error.
 template <NewtonEquations Equations>
 void newton(Equations& equations, const NewtonLimits& limits, const Observer& observer = {}) {
   Convergence& now = equations.convergence();

@@ -4,11 +4,11 @@
 
 namespace tabor::numerics {
 
-/// Where an increasing function of a positive place is zero, between two places with values of
-/// opposite signs (that of `low` may be -infinity): false position with the value of the end that
-/// stays halved (Illinois: Dowell & Jarratt 1971, doi:10.1007/BF01934364), bisection where a value
-/// is not finite. Place and value are in one unit; `accuracy`, over the upper end, of either ends
-/// it.
+/// Returns the zero of an increasing function of a positive place, between two places with values
+/// of opposite signs (that of `low` may be -infinity): false position in which the value of the
+/// retained end is halved (Illinois: Dowell & Jarratt 1971, doi:10.1007/BF01934364), bisection
+/// where a value is not finite. Place and value have one unit; the search ends when either is
+/// within `accuracy`, relative to the upper end.
 template <typename Value>
 double increasing_root(const Value& value, double low, double high, double accuracy) {
   double at_high = value(high);

@@ -1,11 +1,13 @@
 #pragma once
 
+// Gives closed forms of rigid lubricated bearings: cylinder, ellipsoid, slider, step and cavitated
+// pocket.
 namespace tabor::reference {
 
 /// Films of a constant viscosity eta [Pa s] between rigid bodies, steady, long or on a line.
 /// Entrainment speed u_m [m/s] is the mean of the two surface speeds.
 
-/// A cylinder over a flat, h = h0 + x^2/(2 R), flowing towards +x, inlet far away.
+/// Film of a cylinder over a flat, h = h0 + x^2/(2 R), flowing towards +x, inlet far away.
 struct CylinderFilm {
   double radius = 0;             ///< R [m]
   double min_film = 0;           ///< h0 [m], << R
@@ -27,12 +29,12 @@ struct CylinderFilm {
   double half_sommerfeld_load() const;         ///< [N/m]
 };
 
-/// Angle gamma of Reynolds' exit, tan(gamma) = x / sqrt(2 R h0): 0.44355.
+/// Returns the angle gamma of Reynolds' exit, tan(gamma) = x / sqrt(2 R h0): 0.44355.
 double martin_exit_angle();
 
-/// An ellipsoid over a flat, h = h0 + x^2/(2 Rx) + y^2/(2 Ry), flowing towards +x: Kapitza 1955
-/// (Zhurnal Tekhnicheskoi Fiziki 25, 747), p = -12 eta u_m x / ((3 + 2 Rx/Ry) h^2), cut at x = 0
-/// for the load (half Sommerfeld).
+/// Film of an ellipsoid over a flat, h = h0 + x^2/(2 Rx) + y^2/(2 Ry), flowing towards +x: Kapitza
+/// 1955 (Zhurnal Tekhnicheskoi Fiziki 25, 747), p = -12 eta u_m x / ((3 + 2 Rx/Ry) h^2), cut at x =
+/// 0 for the load (half Sommerfeld).
 struct KapitzaFilm {
   double radius_x = 0;           ///< Rx [m], in the direction of flow
   double radius_y = 0;           ///< Ry [m]
@@ -49,7 +51,7 @@ struct KapitzaFilm {
   double film_at_load(double load) const;
 };
 
-/// A plane slider of length B whose film falls from h1 to h2; the other wall moves at U (Reynolds
+/// Plane slider of length B whose film falls from h1 to h2; the other wall moves at U (Reynolds
 /// 1886; Hamrock 1994). No pressure at both ends.
 struct LinearSlider {
   double length = 0;         ///< B [m]
@@ -64,8 +66,9 @@ struct LinearSlider {
   double load() const;
 };
 
-/// Rayleigh 1918 (Philosophical Magazine 35, 1): a film h1 along step_place, then h2. The best of
-/// all shapes with given h2: h1/h2 = 1.8660, step at 0.7182 B, load 0.2063 eta U B^2 / h2^2.
+/// Step bearing (Rayleigh 1918, Philosophical Magazine 35, 1): a film h1 along step_place, then h2.
+/// The best of all shapes with given h2: h1/h2 = 1.8660, step at 0.7182 B, load 0.2063 eta U B^2 /
+/// h2^2.
 struct RayleighStep {
   double length = 0;         ///< B [m]
   double step_place = 0;     ///< [m] from the inlet, 0 < step_place < B
@@ -79,11 +82,11 @@ struct RayleighStep {
   double load() const;              ///< [N/m]
 };
 
-/// A parallel film h_l of length L with a deeper pocket [a, b], film h_p: the film tears at the
-/// edge a and forms again inside the pocket, mass conserved (boundary conditions of Jakobsson,
-/// Floberg and Olsson). Absolute pressures: p0 at both ends, p_c in the cavity. Codes that do not
-/// conserve mass fail it. Precondition: pressure and speed such that the cavity lies in the pocket,
-/// a < reformation() < b and 0 < fill() < 1.
+/// Parallel film h_l of length L with a deeper pocket [a, b], film h_p: the film ruptures at the
+/// edge a and reforms inside the pocket, mass conserved (boundary conditions of Jakobsson, Floberg
+/// and Olsson). Absolute pressures: p0 at both ends, p_c in the cavity. Codes that do not conserve
+/// mass do not reproduce it. Precondition: pressure and speed such that the cavity lies in the
+/// pocket, a < reformation() < b and 0 < fill() < 1.
 struct CavitatedPocket {
   double length = 0;            ///< L [m]
   double begin = 0;             ///< a [m]
@@ -103,8 +106,9 @@ struct CavitatedPocket {
   double load() const;              ///< [N/m], integral of the absolute pressure
 };
 
-/// The pressure in a rigid film whose viscosity is eta0 exp(alpha p), from the pressure q [Pa] that
-/// the constant viscosity eta0 gives: p = -ln(1 - alpha q) / alpha; infinite where alpha q >= 1.
+/// Returns the pressure in a rigid film whose viscosity is eta0 exp(alpha p), from the pressure q
+/// [Pa] that the constant viscosity eta0 gives: p = -ln(1 - alpha q) / alpha; infinite where alpha
+/// q >= 1.
 double barus_pressure(double constant_viscosity_pressure, double pressure_coefficient);
 
 }  // namespace tabor::reference

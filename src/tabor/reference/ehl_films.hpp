@@ -1,11 +1,12 @@
 #pragma once
 
+// Gives published formulas for the film thickness of elastohydrodynamic line and point contacts.
 namespace tabor::reference {
 
 /// Film thickness of smooth, fully flooded, isothermal, Newtonian elastohydrodynamic contacts. The
 /// formulas' E' is 2 E*.
 
-/// A cylinder on a flat, per unit of length.
+/// Film of a cylinder on a flat, per unit of length.
 struct LineContactFilm {
   double radius = 0;                ///< R [m]
   double effective_modulus = 0;     ///< E* [Pa]
@@ -41,15 +42,16 @@ struct LineContactFilm {
   double grubin_film() const;
 };
 
-/// Gap [-] before a Hertz line contact, in units of F / (pi E*), x <= -1 or >= 1 in half widths.
+/// Returns the gap [-] before a Hertz line contact, in units of F / (pi E*), x <= -1 or >= 1 in
+/// half widths.
 double grubin_gap(double x);
 
-/// The integral of d / (H + d)^3 over the inlet, d = grubin_gap, H > 0 the film in the same units:
-/// the reduced pressure at the contact's edge. Grubin fits it by 0.0986 H^(-11/8), good near H =
-/// 0.1 to 0.2 only.
+/// Returns the integral of d / (H + d)^3 over the inlet, d = grubin_gap, H > 0 the film in the same
+/// units: the reduced pressure at the contact's edge. Grubin fits it by 0.0986 H^(-11/8), good near
+/// H = 0.1 to 0.2 only.
 double grubin_inlet_integral(double film);
 
-/// An ellipsoid on a flat, entrainment along x.
+/// Film of an ellipsoid on a flat, entrainment along x.
 struct PointContactFilm {
   double radius_x = 0;              ///< Rx [m], along the entrainment
   double radius_y = 0;              ///< Ry [m], >= Rx
@@ -76,10 +78,11 @@ struct PointContactFilm {
   double hamrock_dowson_min() const;
 };
 
-/// Central film h / (Rx sqrt(2 U)) of an incompressible liquid from Moes' M and L and the ratio
-/// Rx / Ry, 0 < ratio <= 1: Nijenbanning, Venner & Moes 1994, doi:10.1016/0043-1648(94)90150-3. For
-/// a compressible one divide by the relative density at the Hertz pressure. In its rigid isoviscous
-/// limit it lies 23 % above the exact film of long ellipses.
+/// Returns the central film h / (Rx sqrt(2 U)) of an incompressible liquid from Moes' M and L and
+/// the ratio Rx / Ry, 0 < ratio <= 1: Nijenbanning, Venner & Moes 1994,
+/// doi:10.1016/0043-1648(94)90150-3. For a compressible one divide by the relative density at the
+/// Hertz pressure. In its rigid isoviscous limit it lies 23 % above the exact film of long
+/// ellipses.
 double nijenbanning_central_film(double moes_load, double moes_viscosity, double radius_ratio);
 
 }  // namespace tabor::reference

@@ -1,8 +1,10 @@
 #pragma once
 
+// Computes complete elliptic integrals without cancellation.
 namespace tabor::reference {
 
-/// Complete elliptic integrals K and E of modulus k, and what is left of K - E where k is small.
+/// Complete elliptic integrals K and E of modulus k, and their differences, which stay exact where
+/// k is small.
 struct EllipticIntegrals {
   double first;   ///< K
   double second;  ///< E
@@ -10,9 +12,9 @@ struct EllipticIntegrals {
   double narrow;  ///< (E - (1 - k^2) K) / k^2, pi/4 at k = 0
 };
 
-/// By the arithmetic-geometric mean (Abramowitz & Stegun 17.6), to some ulp, without the
-/// cancellation of K - E near k = 0 and the four digits that libstdc++ loses near k = 1.
-/// `complement` is sqrt(1 - k^2) > 0, which k itself does not say where it is close to 1.
+/// Computes them by the arithmetic-geometric mean (Abramowitz & Stegun 17.6), to some ulp, without
+/// the cancellation of K - E near k = 0 and the four digits that libstdc++ loses near k = 1.
+/// `complement` is sqrt(1 - k^2) > 0, which cannot be computed from k where it is close to 1.
 EllipticIntegrals elliptic_integrals(double modulus, double complement);
 
 }  // namespace tabor::reference

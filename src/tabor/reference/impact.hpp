@@ -1,10 +1,11 @@
 #pragma once
 
+// Gives the closed form of a dry elastic impact of a ball on a flat.
 namespace tabor::reference {
 
-/// A ball that strikes a flat without lubricant and leaves at the same speed: Hertz' law as a
-/// spring, no waves, no losses (Johnson 1985, section 11.4). Valid while the contact lasts much
-/// longer than waves take across the ball: speed << speed of sound.
+/// Impact of a ball that strikes a flat without lubricant and leaves at the same speed: Hertz' law
+/// as a spring, no waves, no losses (Johnson 1985, section 11.4). Valid while the contact lasts
+/// much longer than waves take across the ball: speed << speed of sound.
 struct DryImpact {
   double sphere_radius = 0;      ///< R [m]
   double effective_modulus = 0;  ///< E* [Pa]
@@ -17,13 +18,13 @@ struct DryImpact {
   double max_pressure = 0;  ///< [Pa] in the centre at the turning point
   double contact_time = 0;  ///< [s] 2.9433 max_approach / v
 
-  /// delta(t) ~ max_approach sin(pi t / contact_time) [m], 0 outside the contact: within 2.2 % of
-  /// max_approach of the exact motion.
+  /// Returns delta(t) ~ max_approach sin(pi t / contact_time) [m], 0 outside the contact: within
+  /// 2.2 % of max_approach of the exact motion.
   double approach_at(double time) const;
   double force_at(double time) const;  ///< [N], of that approach
 };
 
-/// All arguments > 0.
+/// Returns the impact. Precondition: all arguments > 0.
 DryImpact hertz_impact(double sphere_radius, double effective_modulus, double mass, double speed);
 
 }  // namespace tabor::reference

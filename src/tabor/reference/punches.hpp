@@ -1,8 +1,9 @@
 #pragma once
 
+// Gives the closed forms of a flat punch and a cone on an elastic half-space.
 namespace tabor::reference {
 
-/// A rigid flat-ended cylinder pressed into an elastic half-space (Boussinesq 1885; Johnson 1985,
+/// Rigid flat-ended cylinder pressed into an elastic half-space (Boussinesq 1885; Johnson 1985,
 /// section 3.8).
 struct FlatPunch {
   double radius = 0;             ///< a [m]
@@ -12,7 +13,7 @@ struct FlatPunch {
   double pressure(double indentation, double r) const;  ///< [Pa] E* d / (pi sqrt(a^2 - r^2))
 };
 
-/// A rigid cone whose flank makes the angle `slope_angle` with the undeformed surface (Love 1939,
+/// Rigid cone whose flank makes the angle `slope_angle` with the undeformed surface (Love 1939,
 /// doi:10.1093/qmath/os-10.1.161; Sneddon 1965, doi:10.1016/0020-7225(65)90019-4). The mean
 /// pressure does not depend on the load.
 struct Cone {

@@ -1,11 +1,12 @@
 #pragma once
 
+// Gives closed forms of rigid bodies that squeeze out a liquid of constant viscosity.
 namespace tabor::reference {
 
-/// Rigid bodies approaching each other through a liquid of constant viscosity, at speed v [m/s] > 0
+/// Rigid bodies approach each other through a liquid of constant viscosity, at speed v [m/s] > 0
 /// when the gap closes. Pressure 0 outside.
 
-/// A sphere (paraboloid, h = h0 + r^2/(2 R)) against a flat. The liquid reaches up to the gap
+/// Sphere (paraboloid, h = h0 + r^2/(2 R)) against a flat. The liquid reaches up to the gap
 /// `wetted_gap`, infinity if it is unbounded (then Taylor's formula, 6 pi eta R^2 v / h0).
 struct SphereSqueeze {
   double radius = 0;      ///< R [m]
@@ -17,8 +18,8 @@ struct SphereSqueeze {
   double force(double min_film, double speed) const;
 };
 
-/// A cylinder of radius R against a flat, unbounded: p = 6 eta R v / h^2, force per length
-/// 3 sqrt(2) pi eta v (R/h0)^(3/2).
+/// Cylinder of radius R against a flat, unbounded: p = 6 eta R v / h^2, force per length 3 sqrt(2)
+/// pi eta v (R/h0)^(3/2).
 struct CylinderSqueeze {
   double radius = 0;     ///< R [m]
   double viscosity = 0;  ///< [Pa s]
@@ -38,9 +39,9 @@ struct DiscSqueeze {
   double closing_time(double force, double from, double to) const;
 };
 
-/// A rigid ball of mass m that its own inertia carries towards a flat, without gravity:
-/// m dv/dh = 6 pi eta R^2 / h. It stops, however fast, at the gap h exp(-Stokes number): without
-/// elasticity there is no rebound (Davis, Serayssol & Hinch 1986, doi:10.1017/S0022112086002392).
+/// Rigid ball of mass m that its own inertia carries towards a flat, without gravity: m dv/dh = 6
+/// pi eta R^2 / h. It stops, at any speed, at the gap h exp(-Stokes number): without elasticity
+/// there is no rebound (Davis, Serayssol & Hinch 1986, doi:10.1017/S0022112086002392).
 struct BallApproach {
   double radius = 0;     ///< R [m]
   double mass = 0;       ///< m [kg]

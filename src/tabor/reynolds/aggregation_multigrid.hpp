@@ -6,10 +6,11 @@
 #include <cstdint>
 #include <vector>
 
+// Preconditions sparse systems of flow by algebraic multigrid with aggregation.
 namespace tabor::reynolds {
 
-/// A matrix with a positive diagonal and off-diagonals <= 0, by rows: nodes that lose what flows
-/// out of them and gain what flows out of others (an M-matrix, not always symmetric).
+/// Matrix with a positive diagonal and off-diagonals <= 0, by rows: the balance of nodes between
+/// which something flows (an M-matrix, not always symmetric).
 struct CouplingMatrix {
   std::vector<std::int32_t> begin = {0};  ///< of each row's neighbours, size() + 1
   std::vector<std::int32_t> neighbour;    ///< a node may occur more than once
@@ -20,18 +21,18 @@ struct CouplingMatrix {
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
 };
 
-/// One cycle of algebraic multigrid, as a preconditioner. Nodes are joined in two rounds of pairs
-/// along their strongest couplings, so that coarse nodes follow the conductances wherever they
-/// jump; corrections are constant on each (Notay 2010, Electronic Transactions on Numerical
-/// Analysis 37, 123; 2012, doi:10.1137/110835347). W cycles, one Gauss-Seidel sweep forward before
-/// and one backward after.
+/// Preconditions by one cycle of algebraic multigrid. Nodes are joined in two rounds of pairs along
+/// their strongest couplings, so that coarse nodes follow the conductances wherever they jump;
+/// corrections are constant on each (Notay 2010, Electronic Transactions on Numerical Analysis 37,
+/// 123; 2012, doi:10.1137/110835347). W cycles, one Gauss-Seidel sweep forward before and one
+/// backward after.
 class AggregationMultigrid {
  public:
   explicit AggregationMultigrid(CouplingMatrix matrix);
 
   const CouplingMatrix& matrix() const { return levels_.front().matrix; }
 
-  /// z approximates matrix^-1 r.
+  /// Sets z to an approximation of matrix^-1 r.
   void apply(const Eigen::VectorXd& r, Eigen::VectorXd& z);
 
  private:

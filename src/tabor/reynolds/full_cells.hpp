@@ -9,9 +9,11 @@
 #include "tabor/reynolds/aggregation_multigrid.hpp"
 #include "tabor/reynolds/patch_cells.hpp"
 
+// Solves the linear equations for the pressure in the full cells of a patch.
 namespace tabor::reynolds {
 
-/// What is known and what is sought in a cell of a patch.
+/// Kind of a cell of a patch: which of pressure and fill is given, which is unknown. A wall is a
+/// solid cell.
 enum class CellKind : std::uint8_t {
   wall,
   starved,  ///< p = 0, the fill is sought
@@ -19,22 +21,22 @@ enum class CellKind : std::uint8_t {
   pinned    ///< both are given
 };
 
-/// The linear equations for the pressures of the full cells, the starved cells between them
+/// Solves the linear equations for the pressures of the full cells, the starved cells between them
 /// eliminated: oil that pressure drives into a starved cell is carried on along its row and enters
-/// the next full cell, less what the cells on the way keep. Each way over a starved cell becomes
-/// one more coupling of two full cells, in one direction.
+/// the next full cell, less what the cells between them retain. Each flow path over a starved cell
+/// becomes one more coupling of two full cells, in one direction.
 class FullCells {
  public:
-  /// `time` [s] of the implicit step.
+  /// Assembles the equations; `time` [s] of the implicit step.
   FullCells(const PatchCells& cells, const std::vector<CellKind>& kinds, double time);
 
   Index count() const { return static_cast<Index>(cell_.size()); }
   Index cell(Index unknown) const { return cell_[static_cast<std::size_t>(unknown)]; }
 
   /// Adds to x until |right - A x| <= tolerance (2-norm), in at most max_products products:
-  /// stabilised biconjugate gradients (van der Vorst 1992, doi:10.1137/0913035) after multigrid.
-  /// A x [m/s] is what pressures x [Pa] drive out of the full cells for good. False if the
-  /// tolerance was not reached. `tick` is called once an iteration.
+  /// stabilised biconjugate gradients (van der Vorst 1992, doi:10.1137/0913035) after multigrid. A
+  /// x [m/s] is the flow that pressures x [Pa] drive out of the full cells and that does not return
+  /// to them. False if the tolerance was not reached. `tick` is called once an iteration.
   bool solve(const Eigen::VectorXd& right, double tolerance, int max_products, Eigen::VectorXd& x,
              const std::function<void()>& tick);
 

@@ -7,8 +7,8 @@
 
 namespace tabor::reynolds {
 
-/// What flows where in one implicit step of `time` [s], for given kinds of the cells and pressures
-/// of the full ones. Per area of a cell, with flows as in PatchCells:
+/// Balances the flows of one implicit step of `time` [s], for given kinds of the cells and
+/// pressures of the full ones. Per area of a cell, with flows as in PatchCells:
 ///
 ///   (theta h - oil)/time + outflow - inflow = 0
 class PatchBalance {
@@ -28,23 +28,23 @@ class PatchBalance {
     return cells_.reservoir.size() > 0 && cells_.reservoir.data()[cell];
   }
 
-  /// The pressure is 0 until it is given.
+  /// Sets the kind of a cell; its pressure is 0 until it is given.
   void set_kind(Index cell, CellKind new_kind);
   void pin(Index cell, double given_pressure);
 
-  /// Fills of all starved cells, row by row from upstream.
+  /// Computes the fills of all starved cells, row by row from upstream.
   void sweep();
 
-  /// What a cell whose fill is 1 gains too much [m/s].
+  /// Returns the excess inflow of a cell whose fill is 1 [m/s].
   double surplus(Index cell) const;
 
-  /// What a full cell lets through in the step [m/s]: the scale of its surplus.
+  /// Returns the throughput of a full cell in the step [m/s]: the scale of its surplus.
   double throughput(Index cell) const { return gap(cell) / time_ + cells_.carried.data()[cell]; }
 
-  /// What leaves a cell over its faces, less what enters [m/s].
+  /// Returns the outflow of a cell over its faces less its inflow [m/s].
   double outflow(Index cell) const;
 
-  /// Of the flow that pressure drives [W/m^2], over the whole patch.
+  /// Returns the dissipation of the flow that pressure drives [W/m^2], over the whole patch.
   double dissipation() const;
 
  private:

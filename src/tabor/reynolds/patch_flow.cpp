@@ -81,8 +81,8 @@ PatchProblem coarser(const PatchProblem& problem) {
   return coarse;
 }
 
-/// Puts the oil of each room where the fills say, more or less full so that its volume stays: fills
-/// are scaled if there is less oil than they would take, voids if there is more.
+/// Distributes the oil of each connected component by the fills, at constant volume: fills are
+/// scaled down if there is less oil than they would take, voids if there is more.
 void redistribute(const PatchCells& cells, const Rooms& rooms, const Field& fill, Field& oil) {
   struct Room {
     double oil = 0;

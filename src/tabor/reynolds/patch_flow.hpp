@@ -2,18 +2,18 @@
 
 #include "tabor/reynolds/patch_step.hpp"
 
+// Solves the steady flow of oil in the gap of a rough patch with a flat that slides over it.
 namespace tabor::reynolds {
 
-/// The film that the oil makes between surfaces which keep their distance once they have slid far:
-/// the end of many implicit steps (advance() of patch_step.hpp) that begin with `oil`, a film
-/// thickness [m] of shape (ny, nx), settled in the gap. A patch of half as many pixels a side is
-/// solved first and says within each room of the gap where the oil goes, which changes no room's
-/// volume and saves most of the way. Not converging is returned, and so is being stopped:
-/// with what was reached, which has no fields if that is nothing. Throws InputError as
-/// patch_cells().
+/// Solves for the steady film between surfaces of fixed distance that have slid far: the end of
+/// many implicit steps (advance() of patch_step.hpp) that begin with `oil`, a film thickness [m] of
+/// shape (ny, nx), settled in the gap. A patch of half as many pixels a side is solved first; it
+/// gives the distribution of the oil within each connected component of the gap, whose volume it
+/// does not change, and saves most steps. Not converging is returned, and so is being stopped: with
+/// the film so far, which has no fields before the first step. Throws InputError as patch_cells().
 PatchFilm steady_film(const PatchProblem& problem, const Field& oil, const Observer& observer = {});
 
-/// The same, beginning where another steady film of the patch has its oil.
+/// Solves for the steady film from the oil of another steady film of the patch.
 PatchFilm steady_film(const PatchProblem& problem, const Field& oil, const PatchFilm& guess,
                       const Observer& observer = {});
 

@@ -51,7 +51,7 @@ std::vector<Room> measure(const PatchCells& cells, const Rooms& rooms, const Fie
   return result;
 }
 
-/// Fills rooms that have more than they hold, and returns how much that is.
+/// Fills connected components that have more oil than they hold, and returns the excess.
 double drain_excess(const PatchCells& cells, const Rooms& rooms, const std::vector<Room>& measured,
                     Field& oil) {
   double excess = 0;
@@ -65,7 +65,7 @@ double drain_excess(const PatchCells& cells, const Rooms& rooms, const std::vect
   return excess;
 }
 
-/// Gives `share` of their free room to the rooms that have any.
+/// Fills `share` of the free volume of each connected component that has any.
 void fill_up(const PatchCells& cells, const Rooms& rooms, const std::vector<Room>& measured,
              double share, Field& oil) {
   for (Index cell = 0; cell < cells.size(); ++cell) {

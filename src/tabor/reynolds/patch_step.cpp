@@ -97,9 +97,9 @@ class Step {
     for (std::size_t room = 0; room < holds.size(); ++room) overfull_[room] = holds[room] <= 0;
   }
 
-  /// Where all cells of a room are full, nothing says at which pressure. If it has more oil than
-  /// fits, its vent does; if not, a cell is not full after all: the one of the lowest pressure,
-  /// or the emptiest.
+  /// Fixes the pressure of connected components whose cells are all full. If a component has more
+  /// oil than fits, its vent fixes it; if not, one cell is starved after all: that of the lowest
+  /// pressure, or the emptiest.
   void keep_rooms_determined() {
     std::vector<Index> lowest(at(rooms_.count()), -1);
     std::vector<bool> determined(at(rooms_.count()), false);
@@ -231,7 +231,7 @@ class Step {
   double time_;
   const Observer& observer_;
   PatchBalance balance_;
-  std::vector<bool> overfull_;  // rooms with no less oil than they hold
+  std::vector<bool> overfull_;  // connected components with no less oil than they hold
 };
 
 }  // namespace

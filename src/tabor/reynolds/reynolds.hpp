@@ -17,8 +17,8 @@ namespace tabor::reynolds {
 
 enum class FilmShape { line, disc };
 
-/// n cells between two boundary nodes: nodes 0 and n + 1 carry given pressures, node i lies in cell
-/// i - 1, whose faces are i - 1 and i.
+/// Grid of n cells between two boundary nodes: nodes 0 and n + 1 carry given pressures, node i lies
+/// in cell i - 1, whose faces are i - 1 and i.
 struct FilmGrid {
   FilmShape shape = FilmShape::line;
   Eigen::ArrayXd node;    ///< [m], n + 2, ascending
@@ -29,16 +29,17 @@ struct FilmGrid {
   Index n_cells() const { return volume.size(); }
 };
 
-/// n equal cells from begin to end, nodes in their centres. Throws InputError unless begin < end
-/// and n >= 2.
+/// Makes n equal cells from begin to end, nodes in their centres. Throws InputError unless begin <
+/// end and n >= 2.
 FilmGrid line_grid(double begin, double end, Index n);
 
-/// Nodes at 0, dr, .., (n - 1) dr, and the boundary node at radius = n dr; faces in the middle, so
-/// the cell in the centre is half as wide. Nothing flows through the centre: the boundary node 0
-/// lies there too, and its pressure is not used. Throws InputError unless radius > 0 and n >= 2.
+/// Makes nodes at 0, dr, .., (n - 1) dr, and the boundary node at radius = n dr; faces in the
+/// middle, so the cell in the centre is half as wide. Nothing flows through the centre: the
+/// boundary node 0 lies there too, and its pressure is not used. Throws InputError unless radius >
+/// 0 and n >= 2.
 FilmGrid disc_grid(double radius, Index n);
 
-/// A liquid at one pressure, with its derivatives by pressure.
+/// Liquid at one pressure, with its derivatives by pressure.
 struct LiquidState {
   double density = 1;          ///< rho [kg/m^3]; 1 for flows by volume
   double density_slope = 0;    ///< [kg/(m^3 Pa)]
@@ -46,15 +47,15 @@ struct LiquidState {
   double viscosity_slope = 0;  ///< [s]
 };
 
-/// The liquid at one pressure [Pa]. density: rho0 [kg/m^3], 1 for flows by volume.
+/// Returns the liquid at one pressure [Pa]. density: rho0 [kg/m^3], 1 for flows by volume.
 LiquidState liquid_at(const material::Lubricant& lubricant, double pressure, double density = 1);
-/// The liquid at node i of evaluated laws, for flows by volume.
+/// Returns the liquid at node i of evaluated laws, for flows by volume.
 LiquidState liquid_at(const material::NodeLaws& laws, Index i);
 
-/// A liquid of one viscosity [Pa s] and density.
+/// Returns a liquid of one viscosity [Pa s] and density.
 material::Lubricant constant_liquid(double viscosity);
 
-/// What the flow through one face depends on, at one of its two nodes.
+/// Values at one of the two nodes of a face, on which the flow through it depends.
 struct FilmNode {
   double pressure = 0;  ///< p [Pa]
   double film = 0;      ///< h [m], > 0
@@ -72,9 +73,9 @@ struct FaceFlow {
   double by_film[2] = {0, 0};
 };
 
-/// Flow between two nodes. A step of the film at the face is taken exactly, a smooth film to second
-/// order; a viscosity that grows exponentially with pressure (Barus) is exact as well, however
-/// steep the front between the nodes. The fill is that of the node upstream.
+/// Computes the flow between two nodes. A step of the film at the face is treated exactly, a smooth
+/// film to second order; a viscosity that grows exponentially with pressure (Barus) is exact as
+/// well, however steep the front between the nodes. The fill is that of the node upstream.
 FaceFlow face_flow(const FilmNode& left, const FilmNode& right, double speed);
 
 }  // namespace tabor::reynolds

@@ -3,9 +3,10 @@
 #include "tabor/core/convergence.hpp"
 #include "tabor/reynolds/reynolds.hpp"
 
+// Solves Reynolds' equation along a line or radius for a film of known shape, with cavitation.
 namespace tabor::reynolds {
 
-/// What happens where the liquid would be pulled below the cavitation pressure.
+/// Cavitation model: condition where the pressure would fall below the cavitation pressure.
 enum class Cavitation {
   none,             ///< pressures may be negative (full Sommerfeld)
   reynolds,         ///< p >= p_c by complementarity: p = p_c and dp/dx = 0 at the rupture front
@@ -13,7 +14,7 @@ enum class Cavitation {
   mass_conserving,  ///< p-theta of Jakobsson, Floberg and Olsson: p = p_c where theta < 1
 };
 
-/// A film of known shape between rigid walls. Lengths, speeds and pressures in SI.
+/// Film of known shape between rigid surfaces. Lengths, speeds and pressures in SI.
 struct FilmProblem {
   FilmGrid grid;
   Eigen::ArrayXd film;           ///< h [m] at the n + 2 nodes, > 0
@@ -39,9 +40,9 @@ struct FilmSolution {
   Convergence convergence;   ///< certificate: largest imbalance of a full cell over largest flow
 };
 
-/// Newton's method on the pressures (and fills), with the cells of the cavity as a set that changes
-/// between iterations (primal-dual active set). Throws InputError for arrays of wrong size and
-/// films that are not above zero; not converging is returned.
+/// Solves by Newton's method for the pressures (and fills), with the cells of the cavity as a set
+/// that changes between iterations (primal-dual active set). Throws InputError for arrays of wrong
+/// size and films that are not above zero; not converging is returned.
 FilmSolution solve_film(const FilmProblem& problem);
 
 }  // namespace tabor::reynolds

@@ -158,8 +158,9 @@ topography::Topography ScanFile::read(const ReadOptions& options) const {
   const Layer& layer = format::choose_layer(contents, document, options);
   topography::Topography topography;
   std::vector<std::string> found = document.warnings;
-  topography.grid = format::resolve_grid(contents, layer, options, found);
-  const double factor = format::resolve_height_factor(contents, layer, options, found);
+  std::vector<std::string> overrides;  // as the user asked
+  topography.grid = format::resolve_grid(contents, layer, options, overrides);
+  const double factor = format::resolve_height_factor(contents, layer, options, overrides);
   topography.height = heights_of(layer, factor, found);
   go_on_or_throw();
   // Some formats are read by other libraries and programs, which open the file by its name.
@@ -171,19 +172,22 @@ topography::Topography ScanFile::read(const ReadOptions& options) const {
   require_heights(contents, topography);
   go_on_or_throw();
   topography.periodic = document.periodic;
+  topography.tiles = document.tiles;
+  topography.edges = document.edges;
   topography.source = contents.file.string();
   topography.format = document.format;
   topography.instrument = document.instrument;
   topography.channel = layer.name;
   topography.metadata = document.metadata;
   topography.history = document.history;
-  for (std::string& warning : found) topography.warnings.push_back({.text = std::move(warning)});
-  for (const topography::Warning& warning : document.lasting) {
-    topography.warnings.push_back(warning);
+  for (std::string& warning : found) {
+    topography.warnings.push_back({.code = "file", .text = std::move(warning)});
   }
-  for (topography::Warning& warning : topography::warnings(topography)) {
-    topography.warnings.push_back(std::move(warning));
+  for (std::string& text : overrides) {
+    topography.warnings.push_back({.code = "override", .text = std::move(text)});
   }
+  for (const Warning& warning : document.lasting) topography.warnings.push_back(warning);
+  topography::look_at(topography);
   contents.finished({}, 1);
   return topography;
 }

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -11,18 +12,21 @@
 #include "tabor/core/convergence.hpp"
 #include "tabor/topography/topography.hpp"
 
+// Opens scan files of any known format, lists their channels, reads heights and writes scans.
 namespace tabor::scan {
 
-/// One image channel of a scan file.
+/// Image channel of a scan file.
 struct Channel {
   int index = 0;
   std::string name;
   std::string unit;        ///< as in the file
   bool is_height = false;  ///< its unit is a length (only such channels can be read as heights)
+  Index nx = 0;
+  Index ny = 0;
 };
 
-/// What the user says about a file that the file does not say itself. A value the file fixes wins
-/// and contradicting it is rejected, unless override_unit is set.
+/// Information from the user that the file lacks. A value that the file fixes takes precedence, and
+/// a contradiction is rejected, unless override_unit is set.
 struct ReadOptions {
   std::optional<std::string> channel;  ///< name or index
   std::optional<double> pixel_x;       ///< [m]
@@ -30,6 +34,9 @@ struct ReadOptions {
   std::optional<std::string> unit;     ///< of the heights in the file: "um", "nm", ...
   std::optional<double> z_scale;       ///< [m] per count, for integer images
   bool override_unit = false;
+  /// Origin ("tabor.toml") of the options above that nobody typed ("--pixel"), for the warnings
+  /// about what they override.
+  std::map<std::string, std::string> origin = {};
 };
 
 /// Format and channels of a file, without loading heights where the format allows that.
@@ -39,7 +46,7 @@ struct FileInfo {
   std::vector<Channel> channels;
 };
 
-/// One row of the explicit, ordered format table.
+/// Row of the explicit, ordered format table.
 struct FormatRow {
   std::string name;                     ///< "x3p"
   std::string description;              ///< "ISO 25178-72 / 5436-2 XML"
@@ -49,13 +56,13 @@ struct FormatRow {
   bool via_gwyddion = false;
 };
 
-/// All formats, in the order in which they are tried.
+/// Returns all formats, in the order in which they are tried.
 std::vector<FormatRow> formats();
 
-/// The Gwyddion program that converts files of other formats, if it is installed.
+/// Returns the Gwyddion program that converts files of other formats, if it is installed.
 std::optional<std::filesystem::path> gwyddion_program();
 
-/// A scan file that is open: recognised by its content, described, its heights not yet loaded. The
+/// Opens a scan file: recognises it by its content and describes it without loading heights. The
 /// file must not be changed meanwhile.
 class ScanFile {
  public:
@@ -65,12 +72,12 @@ class ScanFile {
   ScanFile(ScanFile&&) noexcept;
   ScanFile& operator=(ScanFile&&) = delete;
 
-  /// Format and channels.
+  /// Returns format and channels.
   FileInfo info() const;
-  /// The heights of one channel. Throws InputError where file and options leave a unit open.
+  /// Reads the heights of one channel. Throws InputError where file and options leave a unit open.
   topography::Topography read(const ReadOptions& options = {}) const;
-  /// Of the file's bytes, hexadecimal. `between` is called after every 4 MiB; what it throws ends
-  /// the reading.
+  /// Returns the SHA-256 of the file's bytes, hexadecimal. `between` is called after every 4 MiB;
+  /// what it throws ends the reading.
   std::string sha256(const std::function<void()>& between = {}) const;
 
  private:
@@ -78,7 +85,7 @@ class ScanFile {
   std::unique_ptr<Opened> opened_;
 };
 
-/// The same for a file that is needed once.
+/// Open a file for one use: its description, or its heights.
 FileInfo inspect(const std::filesystem::path& file);
 topography::Topography read(const std::filesystem::path& file, const ReadOptions& options = {},
                             const Observer& observer = {});
@@ -90,7 +97,7 @@ void require_writer(const std::filesystem::path& file);
 /// temporary name that is then renamed. Throws OutputError, or InputError for an unknown extension.
 void write(const topography::Topography& topography, const std::filesystem::path& file);
 
-/// SHA-256 of the file's bytes, hexadecimal.
+/// Returns the SHA-256 of the file's bytes, hexadecimal.
 std::string sha256(const std::filesystem::path& file);
 
 }  // namespace tabor::scan

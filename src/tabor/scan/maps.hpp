@@ -9,10 +9,10 @@
 #include "tabor/core/types.hpp"
 #include "tabor/io/hdf5.hpp"
 
-// Maps of any quantity, written for other programs.
+// Writes maps of any quantity for other programs.
 namespace tabor::scan {
 
-/// One map of a set.
+/// Map of a set.
 struct NamedMap {
   std::string name;             ///< "pressure"
   std::string unit;             ///< "Pa"; "1" for a plain number
@@ -25,11 +25,11 @@ struct MapSet {
   Grid grid;
   std::vector<NamedMap> maps;
   std::map<std::string, std::string> metadata = {};  ///< GWY alone keeps it
-  /// Where the grid begins [m]: of .vti, .gwy, .csv and .xyz.
+  /// Origin of the grid [m], which .vti, .gwy, .csv and .xyz store.
   double left = 0, top = 0;
 };
 
-/// Of the files that write() makes: ".vti", ...
+/// Returns the extensions of the files that write() makes: ".vti", ...
 std::vector<std::string> map_extensions();
 
 /// Writes by the file name's extension, to a temporary name that is then renamed: .vti, .gwy and

@@ -8,16 +8,18 @@
 
 #include "tabor/core/types.hpp"
 
+// Transforms real maps by fast Fourier transforms and convolves them with spectral multipliers.
 namespace tabor::spectral {
 
-/// Smallest n' >= n whose prime factors are 2, 3, 5 and 7 only: such sizes transform fastest.
+/// Returns the smallest n' >= n whose prime factors are 2, 3, 5 and 7 only: such sizes transform
+/// fastest.
 Index good_fft_size(Index n);
 
-/// Largest prime factor of n (1 for n = 1).
+/// Returns the largest prime factor of n (1 for n = 1).
 Index largest_prime_factor(Index n);
 
-/// Angular wavevector [rad/m] of frequency index k of n samples over `length` [m]: 2 pi k / length
-/// for k <= n/2, 2 pi (k - n) / length above.
+/// Returns the angular wavevector [rad/m] of frequency index k of n samples over `length` [m]: 2 pi
+/// k / length for k <= n/2, 2 pi (k - n) / length above.
 double wavevector(Index k, Index n, double length);
 
 /// Fills values[ky], ky = 0 .. ny/2, with the factor of frequency (kx, ky); the factor of (kx, -ky)
@@ -25,7 +27,8 @@ double wavevector(Index k, Index n, double length);
 template <typename Real>
 using Multiplier = std::function<void(Index kx, std::span<Real> values)>;
 
-/// Two-dimensional FFT of real maps of shape (ny, nx) to half spectra of shape (ny, nx/2 + 1).
+/// Transforms real maps by a two-dimensional FFT: maps of shape (ny, nx) to half spectra of shape
+/// (ny, nx/2 + 1).
 ///
 /// Rows and columns are transformed one by one with the same one-dimensional plans, so that the
 /// result has the same bits for any thread count. The forward transform is not normalised; the
@@ -53,10 +56,10 @@ class RealFft2d {
   std::unique_ptr<Plans> plans_;
 };
 
-/// Convolution of maps by a real, ky-symmetric spectral multiplier, in one sweep over the columns:
-/// out = F^-1 [ multiplier F [in] ]. With padding, the map is the top left (ny, nx) corner of a
-/// zero map of shape (2 ny, 2 nx), of which the same corner is returned: a non-periodic
-/// convolution. Scratch memory is (nx/2 + 1) * ny complex values (twice that with padding).
+/// Convolves maps by a real, ky-symmetric spectral multiplier, in one sweep over the columns: out =
+/// F^-1 [ multiplier F [in] ]. With padding, the map is the top left (ny, nx) corner of a zero map
+/// of shape (2 ny, 2 nx), of which the same corner is returned: a non-periodic convolution. Scratch
+/// memory is (nx/2 + 1) * ny complex values (twice that with padding).
 template <typename Real>
 class Convolution {
  public:
@@ -67,7 +70,8 @@ class Convolution {
   Convolution(Convolution&&) noexcept;
   Convolution& operator=(Convolution&&) noexcept;
 
-  /// in and out have shape (ny, nx) and may be the same. Not safe for concurrent calls.
+  /// Convolves `in` into `out`; both have shape (ny, nx) and may be the same. Not safe for
+  /// concurrent calls.
   void apply(const Real* in, const Multiplier<Real>& multiplier, Real* out);
 
  private:
@@ -75,19 +79,18 @@ class Convolution {
   std::unique_ptr<State> state_;
 };
 
-/// Real spectrum of a map of shape (ny, nx) that is even in x and y: value(y, x) is asked for
-/// 0 <= y <= ny/2, 0 <= x <= nx/2 only. Shape (nx/2 + 1, ny/2 + 1), that is transposed: row kx
-/// holds the values a Multiplier of column kx needs. Takes no more memory than the result.
+/// Returns the real spectrum of a map of shape (ny, nx) that is even in x and y: value(y, x) is
+/// asked for 0 <= y <= ny/2, 0 <= x <= nx/2 only. Shape (nx/2 + 1, ny/2 + 1), that is transposed:
+/// row kx holds the values a Multiplier of column kx needs. Takes no more memory than the result.
 Field even_spectrum(Index ny, Index nx, const std::function<double(Index y, Index x)>& value);
 
-/// One-dimensional transform of every row: spectrum of shape (ny, nx/2 + 1), not normalised.
+/// Transforms every row in one dimension: spectrum of shape (ny, nx/2 + 1), not normalised.
 void forward_rows(
     const Field& map,
     Eigen::Array<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& spectrum);
 
-/// FFTW's measured plans: faster transforms, once measured. Loading makes every later plan use
-/// them; plans without stored wisdom are estimated, so that two runs with the same file give the
-/// same bits.
+/// Loads measured plans of FFTW, which make transforms faster. Every later plan uses them; plans
+/// without stored wisdom are estimated, so that two runs with the same file give the same bits.
 void load_wisdom(const std::filesystem::path& file);
 /// Measures plans for maps of this shape (seconds to minutes) and stores everything known.
 void measure_wisdom(Index ny, Index nx, const std::filesystem::path& file);

@@ -1,7 +1,8 @@
-// The only file that knows FFTW; internal to this module and not installed.
+// Includes FFTW and wraps its plans and buffers, for this module alone. No other file includes it.
 #pragma once
 
 #include <fftw3.h>
+#include <pthread.h>
 
 #include <algorithm>
 #include <complex>
@@ -16,6 +17,10 @@ namespace tabor::spectral {
 
 /// FFTW's planner is not thread-safe; its plans are.
 inline std::mutex planner_mutex;
+/// Makes fork() wait for the planner, so that a copy of the process finds it in a consistent state
+/// and unlocked.
+[[maybe_unused]] inline const int keeps_planner_free = ::pthread_atfork(
+    [] { planner_mutex.lock(); }, [] { planner_mutex.unlock(); }, [] { planner_mutex.unlock(); });
 inline bool wisdom_is_loaded = false;
 
 template <typename Real>
@@ -75,7 +80,7 @@ auto* as_fftw(std::complex<Real>* values) {
   return reinterpret_cast<typename Fftw<Real>::Complex*>(values);  // same layout by FFTW's contract
 }
 
-/// A one-dimensional plan, made with stored wisdom where there is some and estimated elsewhere.
+/// One-dimensional plan, made with stored wisdom where there is some and estimated elsewhere.
 template <typename Real>
 class Plan {
  public:
@@ -170,7 +175,7 @@ inline constexpr Index kRowsPerBlock = 16;
 inline constexpr Index kColumnsPerBlock =
     16;  // whole cache lines of a row, and the block stays in L2
 
-/// Stride of one column inside a block buffer, kept a multiple of the vector length.
+/// Stride of one column inside a block buffer, rounded up to a multiple of the vector length.
 template <typename Real>
 Index column_stride(Index n) {
   constexpr Index step = 64 / static_cast<Index>(sizeof(std::complex<Real>));
@@ -194,7 +199,7 @@ void rows_forward(const RowTransform<Real>& transform, const Real* map, Index n_
   });
 }
 
-/// Inverse of rows_forward, times `scale`; only the first row_length values of each row are kept.
+/// Inverse of rows_forward, times `scale`; only the first row_length values of each row are stored.
 template <typename Real>
 void rows_inverse(const RowTransform<Real>& transform, const std::complex<Real>* spectrum,
                   Index n_rows, Index row_length, Real scale, Real* map) {

@@ -8,6 +8,7 @@
 
 #include "tabor/core/types.hpp"
 
+// Transforms large zero-padded maps a strip of frequencies at a time, to save memory.
 namespace tabor::spectral {
 
 /// Writes row y of a map; called from several threads.
@@ -28,10 +29,11 @@ struct ColumnRange {
   Index size() const { return end - begin; }
 };
 
-/// Two-dimensional transforms of zero-padded real maps, a strip of frequencies kx at a time, for
-/// maps whose whole spectrum is too much to hold. A map of shape (ny, nx) is the top left corner
-/// of a zero map of shape (padded_ny, padded_nx). A strip has shape (ny, range.size()), row-major.
-/// The same bits for any thread count; strips may be cut anywhere without changing a bit of them.
+/// Transforms zero-padded real maps in two dimensions, a strip of frequencies kx at a time, for
+/// maps whose whole spectrum does not fit into memory. A map of shape (ny, nx) is the top left
+/// corner of a zero map of shape (padded_ny, padded_nx). A strip has shape (ny, range.size()),
+/// row-major. The same bits for any thread count; strips may be cut anywhere without changing a bit
+/// of them.
 template <typename Real>
 class StripTransform {
  public:
@@ -50,18 +52,19 @@ class StripTransform {
   Index padded_nx() const;
   Index n_frequencies() const { return padded_nx() / 2 + 1; }  ///< columns of the half spectrum
 
-  /// Transforms the rows of a map and keeps the frequencies of the range.
+  /// Transforms the rows of a map and stores the frequencies of the range.
   void rows_forward(const RowSource<Real>& map, ColumnRange range, Strip& strip) const;
 
   /// Transforms the columns of all strips (one per map, the same range) and shows them to `work`.
   void read_columns(std::span<Strip* const> strips, ColumnRange range,
                     const ColumnWork& work) const;
-  /// The same; then transforms back and keeps the first ny values of what `work` left.
+  /// Transforms as read_columns(), then back, and stores the first ny values of the changed
+  /// columns.
   void change_columns(std::span<Strip* const> strips, ColumnRange range,
                       const ColumnWork& work) const;
 
-  /// Inverse transforms of the rows of a strip whose other frequencies are zero: padded_nx values
-  /// per row, in any order of blocks of rows. The sum over all strips of a map is its inverse
+  /// Transforms the rows of a strip, whose other frequencies are zero, back: padded_nx values per
+  /// row, in any order of blocks of rows. The sum over all strips of a map is its inverse
   /// transform, not normalised (times padded_ny * padded_nx). `sink` may overwrite that row of the
   /// strip.
   void rows_inverse(const Strip& strip, ColumnRange range, const RowSink& sink) const;

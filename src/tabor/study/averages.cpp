@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "tabor/core/units.hpp"
+#include "tabor/study/friction_table.hpp"
 #include "tabor/study/record.hpp"
 
 namespace tabor::study {
@@ -61,6 +62,24 @@ Mean mean_over(const std::vector<const Row*>& rows, const Value& value) {
   return mean_of(values);
 }
 
+/// What a friction table takes of a row.
+FrictionNumber friction_number_of(const Row& row) {
+  FrictionNumber number;
+  number.scan = row.scan;
+  number.group = row.group;
+  number.at = {row.mean_pressure, row.lubricant_density, std::nullopt};
+  number.friction_dry = row.friction_dry;
+  number.friction = row.friction_lubricated;
+  if (row.fluid) {
+    number.at.sliding_speed = row.fluid->sliding_speed;
+    number.friction = row.fluid->friction_mixed;
+  }
+  number.converged = row.converged;
+  number.failed = row.failed();
+  number.codes = codes_of(row.warnings);
+  return number;
+}
+
 Average average_over(const Key& key, const std::vector<const Row*>& rows) {
   Average average;
   average.group = std::get<0>(key);
@@ -94,10 +113,14 @@ std::vector<Average> averages(const std::vector<Row>& rows) {
   std::vector<Average> result;
   for (const Key& key : ordered_keys(rows)) {
     std::vector<const Row*> counted;
+    std::vector<FrictionNumber> numbers;
     for (const Row& row : rows) {
-      if (key_of(row) == key && !row.failed() && row.converged) counted.push_back(&row);
+      if (key_of(row) != key) continue;
+      numbers.push_back(friction_number_of(row));
+      if (!row.failed() && row.converged) counted.push_back(&row);
     }
     result.push_back(average_over(key, counted));
+    result.back().left_out = refusal_of(numbers);
   }
   return result;
 }

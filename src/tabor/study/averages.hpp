@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "tabor/analysis/records.hpp"
+#include "tabor/cases/records.hpp"
 #include "tabor/core/column.hpp"
 #include "tabor/core/mean.hpp"
 
+// Averages the friction of a study over the scans of each group.
 namespace tabor::study {
 
 struct Row;
@@ -15,7 +16,7 @@ struct Row;
 using tabor::Mean;
 using tabor::mean_of;
 
-/// Means of what only a film that flows has.
+/// Means of the numbers that only a flowing film has.
 struct FluidAverage {
   double sliding_speed = 0;  ///< [m/s]
   Mean load_share;
@@ -23,7 +24,7 @@ struct FluidAverage {
   Mean friction_mixed;
 };
 
-/// One row of averages.csv: the scans of one group under one pressure and density, and at one speed
+/// Row of averages.csv: the scans of one group under one pressure and density, and at one speed
 /// where the oil flows.
 struct Average {
   std::string group;
@@ -33,13 +34,16 @@ struct Average {
   Mean friction_dry;
   Mean friction_lubricated;
   std::optional<FluidAverage> fluid;
+  std::string
+      left_out;  ///< why a friction table leaves it out (friction_table.hpp); "" if it does not
 };
 
-/// Groups, pressures, densities and speeds in the order of their first row. Rows that failed or did
-/// not converge do not count: n says how many did.
+/// Averages the rows; groups, pressures, densities and speeds in the order of their first row. Rows
+/// that failed or did not converge do not count: n is the number of those that do.
 std::vector<Average> averages(const std::vector<Row>& rows);
 
-/// Columns of what mean_columns() calls "_mean", "_std" and "_sem", behind a name.
+/// Returns the columns "_mean", "_std" and "_sem"; add_mean() puts the name of a number before
+/// them.
 const Columns<Mean>& mean_columns();
 template <typename Record>
 void add_mean(const std::string& name, Mean Record::*mean, Columns<Record>& columns) {
@@ -49,7 +53,8 @@ void add_mean(const std::string& name, Mean Record::*mean, Columns<Record>& colu
   }
 }
 
-/// Of averages.csv, results.h5 and JSON, with or without those of a film that flows.
+/// Returns the columns of averages.csv, results.h5 and JSON, with or without those of a flowing
+/// film.
 Columns<Average> average_columns(bool oil_flows);
 
 }  // namespace tabor::study

@@ -31,10 +31,12 @@ struct NamedDimension {
 
 /// Of the keys that cases have.
 constexpr NamedDimension kUnits[] = {
-    {dimension::none, ""},     {dimension::length, "m"},       {dimension::pressure, "Pa"},
-    {dimension::speed, "m/s"}, {dimension::viscosity, "Pa s"}, {dimension::per_pressure, "1/Pa"},
-    {dimension::force, "N"},   {{0, 1, -2, 0}, "N/m"},         {dimension::mass, "kg"},
-    {{-1, 1, 0, 0}, "kg/m"},   {dimension::time, "s"},         {dimension::temperature, "K"}};
+    {dimension::none, ""},          {dimension::length, "m"},
+    {dimension::pressure, "Pa"},    {dimension::speed, "m/s"},
+    {dimension::viscosity, "Pa s"}, {dimension::per_pressure, "1/Pa"},
+    {dimension::force, "N"},        {dimension::force_per_length, "N/m"},
+    {dimension::mass, "kg"},        {dimension::mass_per_length, "kg/m"},
+    {dimension::time, "s"},         {dimension::temperature, "K"}};
 
 }  // namespace
 

@@ -3,25 +3,28 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 
-#include "tabor/analysis/density_curve.hpp"
+#include "tabor/cases/density_curve.hpp"
+#include "tabor/cases/parameters.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/io/digest.hpp"
 
 namespace tabor::study {
 namespace {
 
-Task task_of(std::string_view kind, std::string_view extension, const std::string& body) {
-  return make_task(kind, extension, fmt::format("tabor {} {}\n{}", kind, kAlgorithms, body));
+engine::Task task_of(std::string_view kind, std::string_view extension, const std::string& body) {
+  return engine::make_task(kind, extension,
+                           fmt::format("tabor {} {}\n{}", kind, kAlgorithms, body));
 }
 
 /// The contact under one pressure, and what is computed from it.
 void add_pressure(const Study& study, const Scan& scan, double pressure, ScanTasks& tasks) {
-  const Task contact = contact_task(study, tasks.surface, pressure);
+  const engine::Task contact = contact_task(study, tasks.surface, pressure);
   const std::vector<Condition> conditions = study.conditions();
-  std::vector<Task> cases;
-  std::vector<Task> fluids;
+  std::vector<engine::Task> cases;
+  std::vector<engine::Task> fluids;
   cases.reserve(conditions.size());
   fluids.reserve(conditions.size());
   for (const Condition& condition : conditions) {
@@ -30,93 +33,113 @@ void add_pressure(const Study& study, const Scan& scan, double pressure, ScanTas
                               study.flows() ? &fluids.back() : nullptr));
   }
   tasks.contacts.push_back(contact);
-  if (analysis::has_density_curve(study.settings)) {
+  if (cases::has_density_curve(study.settings)) {
     tasks.wet_shares.push_back(wet_shares_task(study, contact));
   }
   tasks.cases.push_back(std::move(cases));
   tasks.fluids.push_back(std::move(fluids));
 }
 
-/// Nothing without a boundary film: such cases are those of stores from before there was one.
-std::string boundary_line(const analysis::FrictionSettings& friction) {
-  const double strength = friction.boundary_strength();
-  return strength > 0 ? text_line("boundary_shear_strength_Pa", strength) : "";
+std::string text_line_of(const std::string& key, const Cell& cell) {
+  if (const auto* word = std::get_if<std::string>(&cell)) return engine::text_line(key, *word);
+  if (const auto* count = std::get_if<std::uint64_t>(&cell)) {
+    return engine::text_line(key, std::to_string(*count));
+  }
+  if (const auto* flag = std::get_if<bool>(&cell)) {
+    return engine::text_line(key, *flag ? "yes" : "no");
+  }
+  const auto* number = std::get_if<double>(&cell);
+  return number != nullptr && !std::isnan(*number) ? engine::text_line(key, *number) : "";
+}
+
+/// A line for each parameter that the result depends on.
+template <typename Settings>
+std::string text_of(const Parameters<Settings>& parameters, const Settings& settings) {
+  std::string lines;
+  for (const Parameter<Settings>& one : parameters) {
+    if (one.identity == Identity::no) continue;
+    const Cell cell = one.identifying(settings);
+    const bool is_default = cell == one.identifying(Settings{});
+    if (one.identity == Identity::unless_default && is_default) continue;
+    lines += text_line_of(one.json_key(), cell);
+  }
+  return lines;
+}
+
+/// The same of these parameters alone.
+template <typename Settings>
+std::string text_of(const Parameters<Settings>& parameters, const Settings& settings,
+                    std::initializer_list<std::string_view> names) {
+  Parameters<Settings> some;
+  for (const std::string_view name : names) some.push_back(parameter_of(parameters, name));
+  return text_of(some, settings);
 }
 
 }  // namespace
 
-Task surface_task(const Study& study, const Scan& scan, const std::string& scan_sha256) {
-  std::string body = text_line("scan_sha256", scan_sha256);
-  body += text_line("channel", scan.read.channel.value_or(""));
-  body += text_line("unit", scan.read.unit.value_or(""));
-  body += text_line("pixel_x_m", scan.read.pixel_x.value_or(0));
-  body += text_line("pixel_y_m", scan.read.pixel_y.value_or(0));
-  for (const std::string& step : study.treatment) body += text_line("step", step);
+engine::Task surface_task(const Study& study, const Scan& scan, const std::string& scan_sha256) {
+  std::string body = engine::text_line("scan_sha256", scan_sha256);
+  body += engine::text_line("channel", scan.read.channel.value_or(""));
+  body += engine::text_line("unit", scan.read.unit.value_or(""));
+  body += engine::text_line("pixel_x_m", scan.read.pixel_x.value_or(0));
+  body += engine::text_line("pixel_y_m", scan.read.pixel_y.value_or(0));
+  for (const std::string& step : study.treatment) body += engine::text_line("step", step);
   return task_of("surface", "h5", body);
 }
 
-Task contact_task(const Study& study, const Task& surface, double mean_pressure) {
-  const analysis::ContactSettings& settings = study.settings.contact;
+engine::Task contact_task(const Study& study, const engine::Task& surface, double mean_pressure) {
+  const cases::ContactSettings& settings = study.settings.contact;
   return task_of("contact", "h5",
-                 text_line("surface", surface.key) + text_line("mean_pressure_Pa", mean_pressure) +
-                     text_line("effective_modulus_Pa", settings.effective_modulus()) +
-                     text_line("saturation_pressure_Pa", settings.pressure_cap()) +
-                     text_line("boundary", analysis::kBoundaries.of(settings.boundary)) +
-                     text_line("solver", analysis::kSolvers.of(settings.solver)) +
-                     text_line("tolerance", settings.tolerance));
+                 engine::text_line("surface", surface.key) +
+                     engine::text_line("mean_pressure_Pa", mean_pressure) +
+                     engine::text_line("effective_modulus_Pa", settings.effective_modulus()) +
+                     text_of(cases::contact_parameters(), settings));
 }
 
-Task film_task(const Study& study, const Task& surface) {
-  const analysis::FilmSettings& lubricant = study.settings.film;
-  std::string body = text_line("surface", surface.key) +
-                     text_line("oil_density_kg_per_m3", lubricant.oil_density) +
-                     text_line("model", deposition::name(lubricant.model)) +
-                     text_line("reading", deposition::name(lubricant.reading)) +
-                     text_line("edge", deposition::name(lubricant.edge)) +
-                     text_line("droplet_height_m", lubricant.droplet_height) +
-                     text_line("seed", std::to_string(lubricant.seed));
+engine::Task film_task(const Study& study, const engine::Task& surface) {
+  const cases::FilmSettings& lubricant = study.settings.film;
+  std::string body =
+      engine::text_line("surface", surface.key) + text_of(cases::film_parameters(), lubricant);
   for (const double density : lubricant.lubricant_densities) {
-    body += text_line("lubricant_density_kg_per_m2", density);
+    body += engine::text_line("lubricant_density_kg_per_m2", density);
   }
   return task_of("film", "h5", body);
 }
 
-Task wet_shares_task(const Study& study, const Task& contact) {
-  const analysis::FilmSettings& lubricant = study.settings.film;
-  return task_of(kWetSharesKind, "json",
-                 text_line("contact", contact.key) +
-                     text_line("oil_density_kg_per_m3", lubricant.oil_density) +
-                     text_line("reading", deposition::name(lubricant.reading)) +
-                     text_line("edge", deposition::name(lubricant.edge)));
+engine::Task wet_shares_task(const Study& study, const engine::Task& contact) {
+  const cases::FilmSettings& lubricant = study.settings.film;
+  std::string body =
+      engine::text_line("wet_shares_algorithms", kWetSharesAlgorithms) +
+      engine::text_line("contact", contact.key) +
+      text_of(cases::film_parameters(), lubricant, {"oil_density", "reading", "edge"});
+  for (const double density : lubricant.lubricant_densities) {
+    if (density > 0) body += engine::text_line("lubricant_density_kg_per_m2", density);
+  }
+  return task_of(kWetSharesKind, "json", body);
 }
 
-Task fluid_task(const Study& study, const Task& contact, const Task& film,
-                const Condition& condition) {
-  const friction::FlowingOil oil = study.settings.fluid.oil();
-  std::string body = text_line("fluid_algorithms", kFluidAlgorithms) +
-                     text_line("contact", contact.key) + text_line("film", film.key) +
-                     text_line("lubricant_density_kg_per_m2", study.lubricant_density(condition)) +
-                     text_line("sliding_speed_m_per_s", study.sliding_speeds.at(condition.speed)) +
-                     text_line("viscosity_Pa_s", oil.viscosity);
-  if (oil.pressure_viscosity) {
-    body += text_line("pressure_viscosity_per_Pa", *oil.pressure_viscosity);
-  }
-  if (oil.eyring_stress) body += text_line("eyring_stress_Pa", *oil.eyring_stress);
+engine::Task fluid_task(const Study& study, const engine::Task& contact, const engine::Task& film,
+                        const Condition& condition) {
+  const std::string body =
+      engine::text_line("fluid_algorithms", kFluidAlgorithms) +
+      engine::text_line("contact", contact.key) + engine::text_line("film", film.key) +
+      engine::text_line("lubricant_density_kg_per_m2", study.lubricant_density(condition)) +
+      text_of(cases::fluid_parameters(), study.fluid_settings(condition));
   return task_of("fluid", "h5", body);
 }
 
-Task case_task(const Study& study, const Scan& scan, const Task& contact, const Task& film,
-               double lubricant_density, const Task* fluid) {
+engine::Task case_task(const Study& study, const Scan& scan, const engine::Task& contact,
+                       const engine::Task& film, double lubricant_density,
+                       const engine::Task* fluid) {
   return task_of(
       "case", "json",
-      text_line("scan", scan.label) + text_line("group", scan.group) +
-          text_line("contact", contact.key) + text_line("film", film.key) +
-          text_line("lubricant_density_kg_per_m2", lubricant_density) +
-          text_line("shear_strength_Pa", study.settings.friction.shear_strength) +
-          boundary_line(study.settings.friction) +
-          text_line("area",
-                    friction::name(study.settings.friction.area_of(study.settings.contact))) +
-          (fluid != nullptr ? text_line("fluid", fluid->key) : ""));
+      engine::text_line("scan", scan.label) + engine::text_line("group", scan.group) +
+          engine::text_line("contact", contact.key) + engine::text_line("film", film.key) +
+          engine::text_line("lubricant_density_kg_per_m2", lubricant_density) +
+          text_of(cases::friction_parameters(), study.settings.friction) +
+          engine::text_line(
+              "area", friction::name(study.settings.friction.area_of(study.settings.contact))) +
+          (fluid != nullptr ? engine::text_line("fluid", fluid->key) : ""));
 }
 
 std::vector<ScanTasks> tasks_of(const Study& study, const Observer& observer) {

@@ -3,55 +3,59 @@
 #include <string>
 #include <vector>
 
+#include "tabor/engine/task.hpp"
 #include "tabor/study/study.hpp"
-#include "tabor/study/task.hpp"
 
+// Makes the tasks of a study and the texts that their keys are made of. Where a scan has settings
+// of its own, the study of its tasks is Study::of(scan).
 namespace tabor::study {
 
-// The tasks of a study, and the texts that their keys are made of. Where a scan has settings of its
-// own, the study of its tasks is Study::of(scan).
+/// Version of the algorithms, part of the texts. Raise it when the same text gives other numbers
+/// than before.
+inline constexpr int kAlgorithms = 5;
+inline constexpr int kFluidAlgorithms = 1;      ///< the same for films that flow alone
+inline constexpr int kWetSharesAlgorithms = 2;  ///< the same for wet shares over the density alone
 
-/// Change it when the same text gives other numbers than before.
-inline constexpr int kAlgorithms = 4;
-inline constexpr int kFluidAlgorithms = 1;  ///< the same for films that flow alone
+/// Makes the task of the treated scan; `scan_sha256` is of the scan file's bytes.
+engine::Task surface_task(const Study& study, const Scan& scan, const std::string& scan_sha256);
 
-/// The treated scan; `scan_sha256` is of the scan file's bytes.
-Task surface_task(const Study& study, const Scan& scan, const std::string& scan_sha256);
+/// Makes the task of one contact: surface and pressure.
+engine::Task contact_task(const Study& study, const engine::Task& surface, double mean_pressure);
 
-/// One contact: surface and pressure.
-Task contact_task(const Study& study, const Task& surface, double mean_pressure);
+/// Makes the task of the films of all densities on one surface.
+engine::Task film_task(const Study& study, const engine::Task& surface);
 
-/// The films of all densities on one surface.
-Task film_task(const Study& study, const Task& surface);
+/// Makes the task of the film that flows between one contact's surfaces, under one condition.
+engine::Task fluid_task(const Study& study, const engine::Task& contact, const engine::Task& film,
+                        const Condition& condition);
 
-/// The film that flows between one contact's surfaces, under one condition.
-Task fluid_task(const Study& study, const Task& contact, const Task& film,
-                const Condition& condition);
+/// Makes the task of one row of the results. Names of scan and group belong to it: they are
+/// columns. `fluid` is null where the oil does not flow.
+engine::Task case_task(const Study& study, const Scan& scan, const engine::Task& contact,
+                       const engine::Task& film, double lubricant_density,
+                       const engine::Task* fluid = nullptr);
 
-/// One row of the results. Names of scan and group belong to it: they are columns. `fluid` is null
-/// where the oil does not flow.
-Task case_task(const Study& study, const Scan& scan, const Task& contact, const Task& film,
-               double lubricant_density, const Task* fluid = nullptr);
-
-/// The share of one contact that each of many densities wets.
+/// Kind of the tasks of wet shares: the share of one contact that each of many densities wets,
+/// those of the study among them.
 inline constexpr const char* kWetSharesKind = "wetshares";
-Task wet_shares_task(const Study& study, const Task& contact);
+engine::Task wet_shares_task(const Study& study, const engine::Task& contact);
 
-/// Everything a study needs of one scan.
+/// Tasks of one scan.
 struct ScanTasks {
   std::string sha256;
-  Task surface;
-  Task film;
-  std::vector<Task> contacts;             ///< one per pressure
-  std::vector<Task> wet_shares;           ///< the same; empty where there are none
-  std::vector<std::vector<Task>> cases;   ///< [pressure][condition]
-  std::vector<std::vector<Task>> fluids;  ///< the same; empty lists where the oil does not flow
+  engine::Task surface;
+  engine::Task film;
+  std::vector<engine::Task> contacts;            ///< one per pressure
+  std::vector<engine::Task> wet_shares;          ///< the same; empty where there are none
+  std::vector<std::vector<engine::Task>> cases;  ///< [pressure][condition]
+  std::vector<std::vector<engine::Task>>
+      fluids;  ///< the same; empty lists where the oil does not flow
 };
 
 /// Reads every scan file once, for its digest. Throws InputError.
 std::vector<ScanTasks> tasks_of(const Study& study, const Observer& observer = {});
 
-/// "contact surface.x3p 7 MPa": what a person watching calls the task.
+/// Returns the name of a task in progress messages: "contact surface.x3p 7 MPa".
 std::string stage_name(const std::string& what, const Scan& scan, double mean_pressure = 0);
 
 }  // namespace tabor::study

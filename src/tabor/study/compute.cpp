@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "tabor/analysis/states.hpp"
+#include "tabor/cases/states.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/io/digest.hpp"
@@ -18,7 +18,7 @@ constexpr std::size_t kBytesPerPixel = 80;
 constexpr std::size_t kBytesPerFlowingPixel = 500;
 
 /// A row that has its place and no numbers yet.
-Row empty_row(const Study& study, const Scan& scan, const Task& task, std::size_t pressure,
+Row empty_row(const Study& study, const Scan& scan, const engine::Task& task, std::size_t pressure,
               const Condition& condition) {
   Row row;
   row.case_id = task.key;
@@ -78,40 +78,40 @@ std::size_t bytes_of_job(const Grid& grid, bool oil_flows) {
          (oil_flows ? kBytesPerFlowingPixel : kBytesPerPixel);
 }
 
-void compute_surface(const Store& store, const Task& task,
+void compute_surface(const engine::Store& store, const engine::Task& task,
                      const topography::Topography& topography) {
   write_surface(store, task, topography, metrology::power_spectra(topography));
 }
 
 contact::State solve_contact(const Study& study, const topography::Topography& topography,
                              double mean_pressure, const Observer& observer) {
-  return analysis::contact_state(topography, study.settings.contact, mean_pressure, observer).state;
+  return cases::contact_state(topography, study.settings.contact, mean_pressure, observer).state;
 }
 
-void compute_contact(const Store& store, const Task& task, const Study& study,
+void compute_contact(const engine::Store& store, const engine::Task& task, const Study& study,
                      const topography::Topography& topography, double mean_pressure,
                      const Observer& observer) {
-  write_contact(
-      store, task, topography.grid, study.settings.contact.pressure_cap(),
-      analysis::contact_state(topography, study.settings.contact, mean_pressure, observer));
+  write_contact(store, task, topography.grid, study.settings.contact.pressure_cap(),
+                cases::contact_state(topography, study.settings.contact, mean_pressure, observer));
 }
 
-void compute_film(const Store& store, const Task& task, const Study& study,
+void compute_film(const engine::Store& store, const engine::Task& task, const Study& study,
                   const topography::Topography& topography, const Observer& observer) {
   FilmFile file(store, task, topography.grid);
-  const auto receive = [&file](analysis::FilmRecord&& record) { file.add(record); };
-  analysis::film_state(topography, study.settings.film, receive, observer);
+  const auto receive = [&file](cases::FilmRecord&& record) { file.add(record); };
+  cases::film_state(topography, study.settings.film, receive, observer);
   file.commit();
 }
 
-void compute_fluid(const Store& store, const Study& study, const topography::Topography& topography,
-                   const contact::State& dry, const ScanTasks& tasks, std::size_t pressure,
-                   std::size_t condition, const Observer& observer) {
+void compute_fluid(const engine::Store& store, const Study& study,
+                   const topography::Topography& topography, const contact::State& dry,
+                   const ScanTasks& tasks, std::size_t pressure, std::size_t condition,
+                   const Observer& observer) {
   const Condition under = study.conditions().at(condition);
-  const analysis::ContactSettings settings = study.settings.contact;
+  const cases::ContactSettings settings = study.settings.contact;
   const double mean_pressure = study.settings.mean_pressures[pressure];
-  const auto elasticity = analysis::make_operator(settings, topography.grid);
-  const analysis::FluidRecord record = analysis::fluid_state(
+  const auto elasticity = cases::make_operator(settings, topography.grid);
+  const cases::FluidRecord record = cases::fluid_state(
       *elasticity, topography.height, dry, mean_pressure,
       read_film(store, tasks.film, under.density), settings, study.fluid_settings(under), observer);
   write_fluid(store, tasks.fluids[pressure][condition], topography.grid, record,
@@ -120,42 +120,42 @@ void compute_fluid(const Store& store, const Study& study, const topography::Top
                {"sliding_speed_m_per_s", record.sliding_speed}});
 }
 
-void compute_wet_shares(const Store& store, const Task& task, const Task& contact,
-                        const analysis::WettingDoses& doses) {
+void compute_wet_shares(const engine::Store& store, const engine::Task& task,
+                        const engine::Task& contact, const cases::WettingDoses& doses) {
   const Mask touching = read_contact_mask(store, contact);
   if (!doses.first.empty() && doses.first.size() != static_cast<std::size_t>(touching.size())) {
     throw InputError("the store", "a surface and a contact of two sizes", "both of one surface",
                      "remove the folder store and run the sweep again");
   }
   write_wet_shares(store, task,
-                   {doses.lubricant_densities, analysis::lubricated_shares(doses, touching)});
+                   {doses.lubricant_densities, cases::lubricated_shares(doses, touching)});
 }
 
-void compute_row(const Store& store, const Study& study, const Scan& scan, const ScanTasks& tasks,
-                 std::size_t pressure, std::size_t condition) {
+void compute_row(const engine::Store& store, const Study& study, const Scan& scan,
+                 const ScanTasks& tasks, std::size_t pressure, std::size_t condition) {
   const StoredContact contact = read_contact(store, tasks.contacts[pressure]);
   const Condition under = study.conditions().at(condition);
-  const Task& task = tasks.cases[pressure][condition];
-  analysis::FilmRecord film = read_film_record(store, tasks.film, under.density);
+  const engine::Task& task = tasks.cases[pressure][condition];
+  cases::FilmRecord film = read_film_record(store, tasks.film, under.density);
   film.lubricant_density = study.lubricant_density(under);
   require_one_size(contact, film.film.thickness);
-  std::optional<analysis::FluidRecord> fluid;
+  std::optional<cases::FluidRecord> fluid;
   if (study.flows()) {
     fluid = read_fluid(store, tasks.fluids[pressure][condition]);
     fluid->sliding_speed = study.sliding_speeds[under.speed];
   }
   Row row = empty_row(study, scan, task, pressure, under);
-  static_cast<analysis::FrictionRecord&>(row) = analysis::friction_state(
+  static_cast<cases::FrictionRecord&>(row) = cases::friction_state(
       contact, {contact.contact, contact.gap, contact.grid}, film, fluid ? &*fluid : nullptr,
       study.settings.contact, study.settings.friction);
   row.mean_pressure = study.settings.mean_pressures[pressure];
   write_row(store, task, row);
 }
 
-void record_failure(const Store& store, const Study& study, const Scan& scan,
+void record_failure(const engine::Store& store, const Study& study, const Scan& scan,
                     const ScanTasks& tasks, std::size_t pressure, std::size_t condition,
                     const std::string& error) {
-  const Task& task = tasks.cases[pressure][condition];
+  const engine::Task& task = tasks.cases[pressure][condition];
   Row row = empty_row(study, scan, task, pressure, study.conditions().at(condition));
   row.error = error;
   write_row(store, task, row);

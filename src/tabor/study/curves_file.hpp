@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "tabor/analysis/density_curve.hpp"
-#include "tabor/analysis/fields_file.hpp"
+#include "tabor/cases/density_curve.hpp"
+#include "tabor/results/fields_file.hpp"
 
 namespace tabor::study {
 
-/// Adds the curves of one scan, and what each says of the densities that were asked for, to its
+/// Adds the curves of one scan, and the answers of each for the densities of the records, to its
 /// result file; nothing without curves.
-void write_curves(const std::vector<analysis::DensityCurve>& curves, const std::string& scan,
-                  const std::vector<double>& asked, analysis::FieldsFile& file);
+void write_curves(const std::vector<cases::DensityCurve>& curves, const std::string& scan,
+                  const std::vector<cases::FrictionRecord>& records, results::FieldsFile& file);
 
 }  // namespace tabor::study

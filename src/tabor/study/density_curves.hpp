@@ -3,37 +3,39 @@
 #include <string>
 #include <vector>
 
-#include "tabor/analysis/density_curve.hpp"
 #include "tabor/core/column.hpp"
+#include "tabor/results/density_answer.hpp"
 #include "tabor/study/averages.hpp"
 #include "tabor/study/study.hpp"
 
-// Friction against the areal density of the lubricant, of all scans of a study.
+// Averages curves of friction against the density of the lubricant over the scans of a study.
 namespace tabor::study {
 
-/// The curve of one scan under one pressure.
+/// Curve of one scan under one pressure.
 struct ScanCurve {
   std::string scan;
   std::string group;
-  analysis::DensityCurve curve;
+  cases::DensityCurve curve;
 };
 
-/// The mean over the scans of one group under one pressure, up to the density that all of them
-/// reach.
+/// Mean curve over the scans of one group under one pressure, at the densities that all of them
+/// have.
 struct GroupCurve {
   std::string group;
-  std::size_t n = 0;                      ///< scans
-  analysis::DensityCurve curve;           ///< means
-  std::vector<Mean> lubricated_shares;    ///< one per density, with deviations
-  std::vector<Mean> friction_lubricated;  ///< the same
-  std::vector<double> asked;              ///< densities [kg/m^2] of its scans in the study
+  std::size_t n = 0;                         ///< scans
+  cases::DensityCurve curve;                 ///< means
+  std::vector<Mean> lubricated_shares;       ///< one per density, with deviations
+  std::vector<Mean> friction_lubricated;     ///< the same
+  std::vector<results::AskedDensity> asked;  ///< of its scans, with the mean wet share of the rows
 };
-std::vector<GroupCurve> average_curves(const Study& study, const std::vector<ScanCurve>& curves);
+std::vector<GroupCurve> average_curves(const std::vector<ScanCurve>& curves,
+                                       const std::vector<Row>& rows);
 
-/// "side A at 7 MPa: the pockets under the contacts are full from ...".
+/// Returns the answer of a curve: "side A at 7 MPa: the pockets under the contacts are full from
+/// ...".
 std::string answer_of(const GroupCurve& curve);
 
-/// One point of a curve, and of a mean curve: a row of the tables.
+/// Point of a curve: a row of a table.
 struct CurvePoint {
   std::string scan;
   std::string group;
@@ -42,7 +44,7 @@ struct CurvePoint {
   double lubricated_share = 0;
   double friction_lubricated = 0;
 };
-/// The same over the scans of a group.
+/// Point of a mean curve over the scans of a group: a row of a table.
 struct AveragePoint {
   std::string group;
   double mean_pressure = 0;      ///< [Pa]
@@ -51,9 +53,20 @@ struct AveragePoint {
   Mean lubricated_share;
   Mean friction_lubricated;
 };
+/// Position of one density of the study on the mean curve.
+struct PlacePoint {
+  std::string group;
+  double mean_pressure = 0;      ///< [Pa]
+  double lubricant_density = 0;  ///< [kg/m^2]
+  double lubricated_share = 0;   ///< mean over the rows
+  std::string place;  ///< "below", "plateau", "beyond", or empty for a curve without a plateau
+};
+std::vector<PlacePoint> places_of(const std::vector<GroupCurve>& curves);
 std::vector<CurvePoint> points_of(const std::vector<ScanCurve>& curves);
 std::vector<AveragePoint> points_of(const std::vector<GroupCurve>& curves);
 const Columns<CurvePoint>& curve_columns();
 const Columns<AveragePoint>& average_curve_columns();
+const Columns<GroupCurve>& plateau_columns();  ///< NaN where there is none
+const Columns<PlacePoint>& place_columns();
 
 }  // namespace tabor::study

@@ -7,10 +7,11 @@
 #include <set>
 #include <utility>
 
-#include "tabor/analysis/ehl_surfaces.hpp"
+#include "tabor/cases/ehl/case.hpp"
+#include "tabor/cases/ehl_surfaces.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
 #include "tabor/core/version.hpp"
-#include "tabor/ehl/case.hpp"
 #include "tabor/io/digest.hpp"
 
 namespace tabor::study {
@@ -62,24 +63,24 @@ bool ends_chain(const ehl::Program& program, const std::vector<SweepAxis>& axes,
 }
 
 EhlSeries series_of(const ehl::Program& program, std::uint64_t seed) {
-  return {.program = program, .cases = {}, .seed = seed, .surfaces = analysis::ehl_surfaces()};
+  return {.program = program, .cases = {}, .seed = seed, .surfaces = cases::ehl_surfaces()};
 }
 
 std::string text_of(const EhlSeries& series, const EhlCase& one, const std::string& key_before,
                     const Observer& observer) {
   const ehl::Program& program = series.program;
   std::string text = fmt::format("tabor ehl {} {}\n", program.name, kEhlAlgorithms);
-  text += text_line("version", std::string_view(kVersion));
-  text += text_line("seed", std::to_string(series.seed));
+  text += engine::text_line("version", std::string_view(kVersion));
+  text += engine::text_line("seed", std::to_string(series.seed));
   // Messages begin with the name of the case and a line number in it.
-  text += text_line("case", one.config.name());
-  text += text_line("case_sha256", series.digests->of(one.config.name(), observer));
-  text += text_line("config", one.config.to_text());
+  text += engine::text_line("case", one.config.name());
+  text += engine::text_line("case_sha256", series.digests->of(one.config.name(), observer));
+  text += engine::text_line("config", one.config.to_text());
   for (const std::string& key : program.files) {
     if (!one.config.has(key)) continue;
-    text += text_line(key, series.digests->of(ehl::named_file(one.config, key), observer));
+    text += engine::text_line(key, series.digests->of(ehl::named_file(one.config, key), observer));
   }
-  if (!key_before.empty()) text += text_line("after", key_before);
+  if (!key_before.empty()) text += engine::text_line("after", key_before);
   return text;
 }
 
@@ -89,7 +90,7 @@ std::string FileDigests::of(const fs::path& file, const Observer& observer) {
   const std::lock_guard lock(mutex_);
   const auto known = digests_.find(resolved(file));
   if (known != digests_.end()) return known->second;
-  const std::string digest = digest_of(file, observer);
+  std::string digest = digest_of(file, observer);
   if (!digest.empty()) digests_.emplace(resolved(file), digest);
   return digest;
 }
@@ -117,14 +118,14 @@ EhlSeries ehl_sweep(const ehl::Program& program, const io::Config& config,
                     const std::vector<SweepAxis>& axes, std::uint64_t seed) {
   EhlSeries series = series_of(program, seed);
   const std::vector<Places> all = combinations(axes);
-  const EhlCaseNames names = names_of(axes, all);
+  const std::vector<std::string> names = names_of(axes, all);
   const Places* before = nullptr;
   std::size_t n_chains = 0;
   for (const std::size_t place : solving_order(axes, all, program.downwards)) {
     const bool starts_anew = !before || ends_chain(program, axes, *before, all[place]);
     n_chains += starts_anew ? 1 : 0;
     series.cases.push_back({.config = case_at(config, axes, all[place]),
-                            .name = names.values[place],
+                            .name = names[place],
                             .place = place,
                             .chain = n_chains - 1,
                             .starts_anew = starts_anew});
@@ -154,7 +155,7 @@ void give_tasks(EhlSeries& series, const Observer& observer) {
   std::string before;
   for (EhlCase& one : series.cases) {
     if (one.starts_anew) before.clear();
-    one.task = make_task("case", "json", text_of(series, one, before, observer));
+    one.task = engine::make_task("case", "json", text_of(series, one, before, observer));
     one.start_file = "start-" + one.task.key + ".h5";
     before = one.task.key;
   }
@@ -170,13 +171,16 @@ std::vector<fs::path> files_of(const EhlSeries& series) {
   return {files.begin(), files.end()};
 }
 
-EhlCaseNames names_of(const std::vector<SweepAxis>& axes, const std::vector<Places>& all) {
-  EhlCaseNames names{.key = {}, .values = std::vector<std::string>(all.size())};
+std::vector<std::string> names_of(const std::vector<SweepAxis>& axes,
+                                  const std::vector<Places>& all) {
+  std::vector<std::string> names(all.size());
   for (std::size_t a = 0; a < axes.size(); ++a) {
     const std::string before = a > 0 ? " / " : "";
-    names.key += before + axes[a].key;
     for (std::size_t i = 0; i < all.size(); ++i) {
-      names.values[i] += before + axes[a].values[all[i][a]];
+      const std::string& value = axes[a].values[all[i][a]];
+      names[i] += before;
+      if (parse_number(value)) names[i] += axes[a].key + "=";
+      names[i] += value;
     }
   }
   return names;

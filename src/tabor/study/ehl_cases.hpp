@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "tabor/ehl/program.hpp"
+#include "tabor/cases/ehl/program.hpp"
+#include "tabor/engine/task.hpp"
 #include "tabor/study/axis.hpp"
-#include "tabor/study/task.hpp"
 
 // Many cases of one elastohydrodynamic program.
 namespace tabor::study {
@@ -18,7 +18,7 @@ namespace tabor::study {
 /// Raise it when the same case gives other numbers than before.
 inline constexpr int kEhlAlgorithms = 3;
 
-/// What the files hold that cases name, for several threads at a time: no case is kept under the
+/// Digests of the files that cases name, for several threads at a time: no case is stored under the
 /// digest of other bytes than it was solved with.
 class FileDigests {
  public:
@@ -41,7 +41,7 @@ struct EhlCase {
   std::size_t place = 0;    ///< among the cases as they were asked for
   std::size_t chain = 0;    ///< each case of a chain but the first may start from the one before
   bool starts_anew = true;  ///< the first of its chain
-  Task task = {};           ///< without a file where nothing is kept
+  engine::Task task = {};   ///< without a file where nothing is stored
   std::string start_file =
       {};  ///< name in the store of what the next case of the chain starts from
 };
@@ -68,19 +68,17 @@ EhlSeries ehl_variants(const ehl::Program& program, const io::Config& config,
                        const std::string& key, const std::vector<std::string>& values,
                        std::uint64_t seed);
 
-/// Gives each case the task under which it is kept. Its text is everything that the result depends
-/// on: program, version, case file, seed, values, the bytes of the files that it names, and the key
-/// of the case before it in the chain. Throws Interrupted when the observer stops it.
+/// Gives each case the task under which it is stored. Its text is everything that the result
+/// depends on: program, version, case file, seed, values, the bytes of the files that it names, and
+/// the key of the case before it in the chain. Throws Interrupted when the observer stops it.
 void give_tasks(EhlSeries& series, const Observer& observer = {});
 
 /// The files that the cases name, each once.
 std::vector<std::filesystem::path> files_of(const EhlSeries& series);
 
-/// How the cases of a series are told apart, as they were asked for.
-struct EhlCaseNames {
-  std::string key;                  ///< "roughness.kind / motion.speed"
-  std::vector<std::string> values;  ///< of each case, "lapped-like / 1 m/s"
-};
-EhlCaseNames names_of(const std::vector<SweepAxis>& axes, const std::vector<Places>& all);
+/// What tells each of the cases from the others: its values, plain numbers behind their keys,
+/// "lapped-like / 1 m/s / grid.nodes=65".
+std::vector<std::string> names_of(const std::vector<SweepAxis>& axes,
+                                  const std::vector<Places>& all);
 
 }  // namespace tabor::study

@@ -9,9 +9,10 @@
 #include <utility>
 
 #include "tabor/core/error.hpp"
+#include "tabor/engine/checkpoint.hpp"
+#include "tabor/io/columns.hpp"
 #include "tabor/io/digest.hpp"
 #include "tabor/io/hdf5_guard.hpp"
-#include "tabor/study/checkpoint.hpp"
 
 namespace tabor::study {
 namespace {
@@ -27,14 +28,27 @@ ehl::CaseResult solve_or_reject(const ehl::CaseSolver& solve, const EhlCase& one
     result.write = {};
     return result;
   } catch (const InputError& error) {
-    return {.scalars = {{"refused", error.what()}, {"converged", false}},
-            .warnings = {std::string("rejected: ") + error.what()}};
+    return {.status = ehl::CaseStatus::rejected,
+            .error = error.what(),
+            .warnings = {{"rejected", error.what()}}};
   }
 }
 
-Quality quality_of(const ehl::CaseResult& result) {
-  if (is_rejected(result)) return Quality::failed;
-  return result.converged ? Quality::converged : Quality::not_converged;
+engine::Quality quality_of(const ehl::CaseResult& result) {
+  if (result.rejected()) return engine::Quality::failed;
+  return result.converged() ? engine::Quality::converged : engine::Quality::not_converged;
+}
+
+io::Json json_of(const ehl::CaseResult& result) {
+  io::Json warnings = io::Json::array();
+  for (const Warning& warning : result.warnings) {
+    warnings.push_back(
+        {{"code", warning.code}, {"text", warning.text}, {"weight", io::number(warning.weight)}});
+  }
+  return {{"numbers", io::json_of(result.numbers)},
+          {"status", ehl::kCaseStatus.of(result.status)},
+          {"error", result.error},
+          {"warnings", warnings}};
 }
 
 /// What the jobs of one chain share: the solver, and behind which case it stands.
@@ -58,7 +72,7 @@ std::shared_ptr<Chain> chain_of(const ehl::Program& program) {
 /// What all jobs of a series share.
 struct SeriesOfJobs {
   const EhlSeries& series;
-  const Store* store;
+  const engine::Store* store;
   EhlResults& results;
   std::vector<std::string>& damaged;
   std::mutex mutex = {};  // of `damaged`
@@ -72,7 +86,7 @@ using Shared = std::shared_ptr<SeriesOfJobs>;
 bool has_start(SeriesOfJobs& shared, std::size_t i) {
   const fs::path file = shared.start_of(i);
   if (!fs::exists(file)) return false;  // the next case has been solved from there
-  const io::Json kept = read_checkpoint(*shared.store, shared.series.cases[i].task);
+  const io::Json kept = engine::read_checkpoint(*shared.store, shared.series.cases[i].task);
   if (kept.value("start_sha256", std::string()) == io::sha256_of_file(file)) return true;
   const std::lock_guard lock(shared.mutex);
   shared.damaged.push_back(file.string() + ": damaged");
@@ -103,8 +117,7 @@ void stand_before(SeriesOfJobs& shared, Chain& chain, std::size_t i) {
 /// before only goes when this one is there.
 void keep(const SeriesOfJobs& shared, const Chain& chain, std::size_t i,
           const ehl::CaseResult& result) {
-  io::Json json = {
-      {"scalars", result.scalars}, {"converged", result.converged}, {"warnings", result.warnings}};
+  io::Json json = json_of(result);
   if (chain.keeps_starts()) {
     io::Hdf5Writer writer(shared.start_of(i));
     chain.solver.write_start(writer);
@@ -112,12 +125,12 @@ void keep(const SeriesOfJobs& shared, const Chain& chain, std::size_t i,
     json["start_sha256"] = io::sha256_of_file(shared.start_of(i));
   }
   const EhlCase& one = shared.series.cases[i];
-  write_checkpoint(*shared.store, one.task, json);
+  engine::write_checkpoint(*shared.store, one.task, json);
   std::error_code ignored;
   if (!one.starts_anew) fs::remove(shared.start_of(i - 1), ignored);
 }
 
-void compute(SeriesOfJobs& shared, Chain& chain, std::size_t i, const Monitor& monitor) {
+void compute(SeriesOfJobs& shared, Chain& chain, std::size_t i, const engine::Monitor& monitor) {
   const EhlCase& one = shared.series.cases[i];
   const std::lock_guard lock(chain.mutex);
   if (shared.store) stand_before(shared, chain, i);
@@ -128,37 +141,37 @@ void compute(SeriesOfJobs& shared, Chain& chain, std::size_t i, const Monitor& m
   shared.results[one.place] = std::move(result);
 }
 
-std::string defect_of(const Store& store, const Task& task) {
+std::string defect_of(const SeriesOfJobs& shared, const engine::Task& task) {
   try {
-    read_ehl_case(store, task);
+    read_ehl_case(*shared.store, task, shared.series.program.columns);
   } catch (const InputError& error) {
     return error.what();
   }
   return "";
 }
 
-Job job_of(const Shared& shared, const std::shared_ptr<Chain>& chain, std::size_t i) {
+engine::Job job_of(const Shared& shared, const std::shared_ptr<Chain>& chain, std::size_t i) {
   const EhlSeries& series = shared->series;
   const EhlCase& one = series.cases[i];
-  Job job;
-  job.task = shared->store ? one.task : Task{};
+  engine::Job job;
+  job.task = shared->store ? one.task : engine::Task{};
   job.kind = "case";
   job.stage = fmt::format("{} {}", series.program.name, one.name);
   job.part = one.chain;
   job.restarts = true;
   if (!one.starts_anew) job.needs = {i - 1};
-  job.compute = [shared, chain, i](const Monitor& monitor) {
+  job.compute = [shared, chain, i](const engine::Monitor& monitor) {
     compute(*shared, *chain, i, monitor);
   };
   if (series.program.memory) {
-    job.memory = [shared, i](const Monitor&) {
+    job.memory = [shared, i](const engine::Monitor&) {
       return shared->series.program.memory(shared->series.cases[i].config);
     };
   }
   if (!shared->store) return job;
-  job.defect = [shared, task = one.task] { return defect_of(*shared->store, task); };
+  job.defect = [shared, task = one.task] { return defect_of(*shared, task); };
   job.quality = [shared, task = one.task] {
-    return quality_of(read_ehl_case(*shared->store, task));
+    return quality_of(read_ehl_case(*shared->store, task, shared->series.program.columns));
   };
   if (chain->keeps_starts()) job.can_serve = [shared, i] { return has_start(*shared, i); };
   return job;
@@ -166,7 +179,7 @@ Job job_of(const Shared& shared, const std::shared_ptr<Chain>& chain, std::size_
 
 }  // namespace
 
-EhlStore::EhlStore(const fs::path& folder, Store::Use use)
+EhlStore::EhlStore(const fs::path& folder, engine::Store::Use use)
     : store_(folder, use,
              folder.string() +
                  ": another sweep keeps its cases there; wait for it to end, give another -o, or "
@@ -191,25 +204,59 @@ std::size_t EhlStore::n_unused(const EhlSeries& series) const {
   return n;
 }
 
-bool is_rejected(const ehl::CaseResult& result) { return result.scalars.contains("refused"); }
+namespace {
 
-ehl::CaseResult read_ehl_case(const Store& store, const Task& task) {
-  const io::Json json = read_checkpoint(store, task);
+NamedCells cells_in(const io::Json& numbers, const ehl::CaseColumns& columns) {
+  NamedCells cells;
+  for (const ColumnHead& head : columns) {
+    if (io::has_cell(numbers, head.key)) cells.push_back({head, io::cell_in(numbers, head.key)});
+  }
+  return cells;
+}
+
+/// A case of an earlier version: warnings have no codes.
+ehl::CaseResult earlier_result(const io::Json& json, const ehl::CaseColumns& columns) {
+  ehl::CaseResult result{.numbers = cells_in(json.at("scalars"), columns)};
+  if (json.at("converged").get<bool>()) result.status = ehl::CaseStatus::converged;
+  for (const io::Json& text : json.at("warnings")) {
+    result.warnings.push_back({"", text.get<std::string>()});
+  }
+  return result;
+}
+
+ehl::CaseResult result_of(const io::Json& json, const ehl::CaseColumns& columns) {
+  if (json.contains("scalars")) return earlier_result(json, columns);
+  ehl::CaseResult result{.numbers = cells_in(json.at("numbers"), columns)};
+  result.status =
+      ehl::kCaseStatus.parse(json.at("status").get<std::string>(), "status of a stored case");
+  result.error = json.at("error").get<std::string>();
+  for (const io::Json& warning : json.at("warnings")) {
+    const io::Json& weight = warning.at("weight");
+    result.warnings.push_back({warning.at("code").get<std::string>(),
+                               warning.at("text").get<std::string>(),
+                               weight.is_null() ? 0 : weight.get<double>()});
+  }
+  return result;
+}
+
+}  // namespace
+
+ehl::CaseResult read_ehl_case(const engine::Store& store, const engine::Task& task,
+                              const ehl::CaseColumns& columns) {
+  const io::Json json = engine::read_checkpoint(store, task);
   try {
-    ehl::CaseResult result{.scalars = json.at("scalars"),
-                           .converged = json.at("converged").get<bool>(),
-                           .warnings = json.at("warnings").get<std::vector<std::string>>()};
-    if (result.scalars.is_object()) return result;
+    ehl::CaseResult result = result_of(json, columns);
+    if (result.rejected() || !result.numbers.empty()) return result;
   } catch (const io::Json::exception&) {  // as below
   }
   throw InputError(store.path(task).string() + ": not a whole case");
 }
 
-std::vector<Job> ehl_jobs(const EhlSeries& series, const Store* store, EhlResults& results,
-                          std::vector<std::string>& damaged) {
+std::vector<engine::Job> ehl_jobs(const EhlSeries& series, const engine::Store* store,
+                                  EhlResults& results, std::vector<std::string>& damaged) {
   results.resize(series.cases.size());
   const Shared shared(new SeriesOfJobs{series, store, results, damaged});
-  std::vector<Job> jobs;
+  std::vector<engine::Job> jobs;
   std::shared_ptr<Chain> chain;
   for (std::size_t i = 0; i < series.cases.size(); ++i) {
     if (series.cases[i].starts_anew) chain = chain_of(series.program);

@@ -10,7 +10,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/study/plan.hpp"
+#include "tabor/engine/plan.hpp"
 
 namespace tabor::study {
 namespace {
@@ -26,34 +26,36 @@ double value_at(const ehl::CaseStudy& study, double usual, double factor) {
 
 /// What stands in the store already, for whoever wonders why a sweep begins anew or does not. What
 /// is damaged is removed.
-EhlFound look(const EhlSeries& series, const EhlStore& store, const RunOptions& options) {
+EhlFound look(const EhlSeries& series, const EhlStore& store, const engine::RunOptions& options) {
   EhlFound found;
   found.n_cases = series.cases.size();
   found.n_unused = store.n_unused(series);
   EhlResults ignored;
-  const std::vector<Job> jobs = ehl_jobs(series, &store.store(), ignored, found.damaged);
-  const Plan plan = plan_jobs(jobs, &store.store(), options.shard.value_or(Shard{}), options.retry,
-                              options.observer);
+  const std::vector<engine::Job> jobs = ehl_jobs(series, &store.store(), ignored, found.damaged);
+  const engine::Plan plan =
+      engine::plan_jobs(jobs, &store.store(), options.shard.value_or(engine::Shard{}),
+                        options.retry, options.observer);
   found.n_kept = plan.n_found;
   found.damaged.insert(found.damaged.end(), plan.warnings.begin(), plan.warnings.end());
   return found;
 }
 
 /// Nothing where it is not there, or where another shard has to compute it again.
-std::optional<ehl::CaseResult> kept_case(const Store& store, const Task& task) {
+std::optional<ehl::CaseResult> kept_case(const EhlSeries& series, const engine::Store& store,
+                                         const engine::Task& task) {
   if (!store.has(task)) return std::nullopt;
   try {
-    return read_ehl_case(store, task);
+    return read_ehl_case(store, task, series.program.columns);
   } catch (const InputError&) {
     return std::nullopt;
   }
 }
 
 /// Adds what was computed before, or by another shard.
-void read_kept(const EhlSeries& series, const Store& store, EhlOutcome& outcome) {
+void read_kept(const EhlSeries& series, const engine::Store& store, EhlOutcome& outcome) {
   for (const EhlCase& one : series.cases) {
     std::optional<ehl::CaseResult>& result = outcome.results[one.place];
-    if (!result) result = kept_case(store, one.task);
+    if (!result) result = kept_case(series, store, one.task);
     outcome.n_kept += store.has(one.task) ? 1 : 0;
   }
 }
@@ -62,21 +64,22 @@ std::vector<double> numbers_of(const std::vector<ehl::CaseResult>& results,
                                const std::string& key) {
   std::vector<double> numbers;
   numbers.reserve(results.size());
-  for (const ehl::CaseResult& result : results) numbers.push_back(number_of(result.scalars, key));
+  for (const ehl::CaseResult& result : results) numbers.push_back(result.number(key));
   return numbers;
 }
 
-void reject_the_first_that_makes_no_sense(const std::vector<ehl::CaseResult>& results) {
+bool is_rejected(const ehl::CaseResult& result) { return result.rejected(); }
+
+void throw_first_rejection(const std::vector<ehl::CaseResult>& results) {
   const auto rejected = std::find_if(results.begin(), results.end(), is_rejected);
-  if (rejected == results.end()) return;
-  throw InputError(rejected->scalars.at("refused").get<std::string>());
+  if (rejected != results.end()) throw InputError(rejected->error);
 }
 
-std::vector<ehl::CaseResult> solve_all(const EhlSeries& series, const RunOptions& options) {
+std::vector<ehl::CaseResult> solve_all(const EhlSeries& series, const engine::RunOptions& options) {
   const EhlOutcome outcome = run_ehl(series, nullptr, options);
   if (outcome.ended_by) std::rethrow_exception(outcome.ended_by);
   std::vector<ehl::CaseResult> results = outcome.all();
-  reject_the_first_that_makes_no_sense(results);
+  throw_first_rejection(results);
   return results;
 }
 
@@ -90,18 +93,19 @@ bool EhlOutcome::is_complete() const {
 std::vector<ehl::CaseResult> EhlOutcome::all() const {
   std::vector<ehl::CaseResult> all;
   for (const std::optional<ehl::CaseResult>& result : results) all.push_back(result.value());
-  if (std::all_of(all.begin(), all.end(), is_rejected)) reject_the_first_that_makes_no_sense(all);
+  if (std::all_of(all.begin(), all.end(), is_rejected)) throw_first_rejection(all);
   return all;
 }
 
-EhlOutcome run_ehl(const EhlSeries& series, const EhlStore* store, const RunOptions& options,
+EhlOutcome run_ehl(const EhlSeries& series, const EhlStore* store,
+                   const engine::RunOptions& options,
                    const std::function<void(const EhlFound&)>& told) {
   if (store && told) told(look(series, *store, options));
   EhlOutcome outcome;
   std::vector<std::string> damaged;
-  const Store* const folder = store ? &store->store() : nullptr;
-  const Report report =
-      run_jobs(ehl_jobs(series, folder, outcome.results, damaged), folder, options);
+  const engine::Store* const folder = store ? &store->store() : nullptr;
+  const engine::Report report =
+      engine::run_jobs(ehl_jobs(series, folder, outcome.results, damaged), folder, options);
   outcome.n_computed = report.computed("case");
   outcome.ended_by = report.ended_by;
   if (folder) read_kept(series, *folder, outcome);
@@ -129,12 +133,12 @@ const ehl::CaseStudy* study_of(const ehl::Program& program, const std::vector<Sw
 
 EhlStudyOutcome run_ehl_study(const ehl::Program& program, const io::Config& config,
                               const ehl::CaseStudy& study, std::uint64_t seed,
-                              const RunOptions& options) {
+                              const engine::RunOptions& options) {
   ehl::Program alone = program;
   alone.make_chain = {};
   // What the case does not say is what its solution says it took.
   const auto usual = solve_all(ehl_sweep(alone, config, {}, seed), options);
-  const double value = number_of(usual.front().scalars, study.scalar);
+  const double value = usual.front().number(study.number);
   if (!std::isfinite(value)) {
     throw InputError("study " + study.name, "a case that has no " + study.key, "", "");
   }
@@ -147,28 +151,21 @@ EhlStudyOutcome run_ehl_study(const ehl::Program& program, const io::Config& con
   return {std::move(axis), std::move(results)};
 }
 
-double number_of(const io::Json& scalars, const std::string& key) {
-  const io::Json* node = &scalars;
-  for (const std::string& name : split(key, '.')) {
-    node = node->find(name);
-    if (!node) return kNone;
-  }
-  return node->is_number() ? node->get<double>() : kNone;
-}
-
-std::vector<ehl::CaseColumn> columns_of(const ehl::Program& program,
-                                        const std::vector<ehl::CaseResult>& results) {
-  std::vector<ehl::CaseColumn> columns;
-  for (const ehl::CaseColumn& column : program.columns) {
-    const std::vector<double> numbers = numbers_of(results, column.key);
-    const bool is_there = std::any_of(numbers.begin(), numbers.end(),
-                                      [](double number) { return std::isfinite(number); });
-    if (is_there || !column.is_optional) columns.push_back(column);
+ehl::CaseColumns columns_of(const ehl::Program& program,
+                            const std::vector<ehl::CaseResult>& results) {
+  ehl::CaseColumns columns;
+  for (const ColumnHead& column : program.columns) {
+    const auto knows = [&](const ehl::CaseResult& result) {
+      return std::isfinite(result.number(column.key));
+    };
+    const bool is_known =
+        column.is_in(ehl::media::kWhereKnown) && std::any_of(results.begin(), results.end(), knows);
+    if (is_known || column.is_in(ehl::media::kTable)) columns.push_back(column);
   }
   return columns;
 }
 
-std::vector<numerics::GridLimit> limits_of(const std::vector<ehl::CaseColumn>& columns,
+std::vector<numerics::GridLimit> limits_of(const ehl::CaseColumns& columns,
                                            const ehl::CaseStudy& study,
                                            const std::vector<double>& values,
                                            const std::vector<ehl::CaseResult>& results) {
@@ -178,9 +175,10 @@ std::vector<numerics::GridLimit> limits_of(const std::vector<ehl::CaseColumn>& c
   }
   std::vector<numerics::GridLimit> limits;
   limits.reserve(columns.size());
-  for (const ehl::CaseColumn& column : columns) {
-    limits.push_back(column.has_limit ? numerics::limit_of(spacing, numbers_of(results, column.key))
-                                      : numerics::GridLimit{kNone, kNone});
+  for (const ColumnHead& column : columns) {
+    limits.push_back(column.is_in(ehl::media::kLimit)
+                         ? numerics::limit_of(spacing, numbers_of(results, column.key))
+                         : numerics::GridLimit{kNone, kNone});
   }
   return limits;
 }

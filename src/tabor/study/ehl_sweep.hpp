@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "tabor/engine/engine.hpp"
 #include "tabor/numerics/grid_limit.hpp"
 #include "tabor/study/ehl_jobs.hpp"
-#include "tabor/study/engine.hpp"
 
 // Sweeps over the values of a case, and studies of how far a result depends on its grid.
 namespace tabor::study {
@@ -17,7 +17,7 @@ namespace tabor::study {
 struct EhlFound {
   std::size_t n_cases = 0;           ///< of this shard, or of all
   std::size_t n_kept = 0;            ///< of them that need not be computed
-  std::size_t n_unused = 0;          ///< kept cases of another case file, sweep or version
+  std::size_t n_unused = 0;          ///< stored cases of another case file, sweep or version
   std::vector<std::string> damaged;  ///< one line per file that cannot be used
 };
 
@@ -37,7 +37,8 @@ struct EhlOutcome {
 /// Solves the cases that the store does not hold yet; `told`, if there is one, is told once what it
 /// holds. Results do not depend on options, threads or interruptions. Throws what plan_jobs()
 /// throws; whatever ends the run later is in the outcome.
-EhlOutcome run_ehl(const EhlSeries& series, const EhlStore* store, const RunOptions& options,
+EhlOutcome run_ehl(const EhlSeries& series, const EhlStore* store,
+                   const engine::RunOptions& options,
                    const std::function<void(const EhlFound&)>& told = {});
 
 /// The study of this name. Throws UsageError with those that the program knows.
@@ -57,18 +58,15 @@ struct EhlStudyOutcome {
 /// Interrupted.
 EhlStudyOutcome run_ehl_study(const ehl::Program& program, const io::Config& config,
                               const ehl::CaseStudy& study, std::uint64_t seed,
-                              const RunOptions& options);
+                              const engine::RunOptions& options);
 
-/// The number at a key, "wear.mean_depth_m" being that of an object inside; NaN if there is none.
-double number_of(const io::Json& scalars, const std::string& key);
-
-/// The columns of a program that these cases have.
-std::vector<ehl::CaseColumn> columns_of(const ehl::Program& program,
-                                        const std::vector<ehl::CaseResult>& results);
+/// The columns of the table of these cases.
+ehl::CaseColumns columns_of(const ehl::Program& program,
+                            const std::vector<ehl::CaseResult>& results);
 
 /// What each column tends to on ever finer grids, and the order of the error that it shows.
 /// `values`: of what the study varies, at least three.
-std::vector<numerics::GridLimit> limits_of(const std::vector<ehl::CaseColumn>& columns,
+std::vector<numerics::GridLimit> limits_of(const ehl::CaseColumns& columns,
                                            const ehl::CaseStudy& study,
                                            const std::vector<double>& values,
                                            const std::vector<ehl::CaseResult>& results);

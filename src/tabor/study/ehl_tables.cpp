@@ -33,7 +33,7 @@ void write_axes(io::Hdf5Writer& writer, const std::vector<SweepAxis>& axes) {
 }
 
 /// An array per column.
-void write_columns(io::Hdf5Writer& writer, const std::vector<ehl::CaseColumn>& columns,
+void write_columns(io::Hdf5Writer& writer, const ehl::CaseColumns& columns,
                    const Results& results) {
   std::vector<double> values(results.size());
   const auto write = [&](const std::string& name, const std::string& unit,
@@ -41,13 +41,11 @@ void write_columns(io::Hdf5Writer& writer, const std::vector<ehl::CaseColumn>& c
     writer.write("/sweep/" + name, values);
     writer.describe("/sweep/" + name, unit, heading);
   };
-  for (const ehl::CaseColumn& column : columns) {
-    for (std::size_t i = 0; i < results.size(); ++i) {
-      values[i] = number_of(results[i].scalars, column.key);
-    }
+  for (const ColumnHead& column : columns) {
+    for (std::size_t i = 0; i < results.size(); ++i) values[i] = results[i].number(column.key);
     write(column.key, column.unit, column.heading);
   }
-  for (std::size_t i = 0; i < results.size(); ++i) values[i] = results[i].converged ? 1 : 0;
+  for (std::size_t i = 0; i < results.size(); ++i) values[i] = results[i].converged() ? 1 : 0;
   write("converged", "", "converged");
 }
 
@@ -66,6 +64,16 @@ std::vector<Cell> values_at(const std::vector<SweepAxis>& axes, const Places& pl
   return cells;
 }
 
+std::vector<results::Finding> warnings_of(const EhlSweep& sweep) {
+  const std::vector<std::string> names = names_of(sweep.axes, combinations(sweep.axes));
+  std::vector<results::Case> cases(sweep.results.size());
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    cases[i].name = names[i];
+    cases[i].warnings = sweep.results[i].warnings;
+  }
+  return results::findings_of(cases);
+}
+
 }  // namespace
 
 EhlSweep sweep_of(const ehl::Program& program, std::vector<SweepAxis> axes, Results results) {
@@ -77,7 +85,7 @@ EhlSweep sweep_of(const ehl::Program& program, std::vector<SweepAxis> axes, Resu
                  .warnings = {},
                  .limits = {}};
   sweep.columns = columns_of(program, sweep.results);
-  sweep.warnings = gather_warnings(sweep.results, names_of(sweep.axes, combinations(sweep.axes)));
+  sweep.warnings = warnings_of(sweep);
   if (study) {
     sweep.limits = limits_of(sweep.columns, *study, sweep.axes.front().numbers(), sweep.results);
   }
@@ -87,39 +95,39 @@ EhlSweep sweep_of(const ehl::Program& program, std::vector<SweepAxis> axes, Resu
 std::string csv_of(const EhlSweep& sweep) {
   std::vector<Cell> cells;
   for (const SweepAxis& axis : sweep.axes) cells.emplace_back(with_unit(axis));
-  for (const ehl::CaseColumn& column : sweep.columns) cells.emplace_back(column.key);
+  for (const ColumnHead& column : sweep.columns) cells.emplace_back(column.key);
   cells.emplace_back("converged");
   cells.emplace_back("warnings");
+  cells.emplace_back("warning_codes");
   std::string csv = io::csv_line_of(cells);
   const std::vector<Places> all = combinations(sweep.axes);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const ehl::CaseResult& result = sweep.results[i];
     cells = values_at(sweep.axes, all[i]);
-    for (const ehl::CaseColumn& column : sweep.columns) {
-      cells.emplace_back(number_of(result.scalars, column.key));
-    }
-    cells.emplace_back(result.converged);
-    cells.emplace_back(fmt::format("{}", fmt::join(result.warnings, "; ")));
+    for (const ColumnHead& column : sweep.columns) cells.emplace_back(result.number(column.key));
+    cells.emplace_back(result.converged());
+    cells.emplace_back(fmt::format("{}", fmt::join(texts_of(result.warnings), "; ")));
+    cells.emplace_back(results::codes_text(result.warnings));
     csv += io::csv_line_of(cells);
   }
   return csv;
 }
 
-void write_sweep(const std::filesystem::path& file, const analysis::ResultHead& head,
-                 const EhlSweep& sweep, const std::vector<analysis::Finding>& warnings) {
+void write_sweep(const std::filesystem::path& file, const results::ResultHead& head,
+                 const EhlSweep& sweep, const std::vector<results::Finding>& warnings) {
   io::Hdf5Writer writer(file);
-  analysis::write_result_head(writer, head);
+  results::write_result_head(writer, head);
   writer.attribute("/", "kind", "ehl " + sweep.program.name + " sweep");
   write_axes(writer, sweep.axes);
   write_columns(writer, sweep.columns, sweep.results);
-  std::vector<std::string> of_cases;
-  of_cases.reserve(sweep.results.size());
+  std::vector<std::string> texts, codes;
   for (const ehl::CaseResult& result : sweep.results) {
-    of_cases.push_back(fmt::format("{}", fmt::join(result.warnings, "\n")));
+    texts.push_back(fmt::format("{}", fmt::join(texts_of(result.warnings), "\n")));
+    codes.push_back(results::codes_text(result.warnings));
   }
-  writer.write("/sweep/warnings", of_cases);
-  writer.write("/sweep/warning_marks", sweep.warnings.marks);
-  analysis::write_warnings(writer, warnings);
+  writer.write("/sweep/warnings", texts);
+  writer.write("/sweep/warning_codes", codes);
+  results::write_warnings(writer, warnings);
   writer.commit();
 }
 

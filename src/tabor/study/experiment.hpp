@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
+// Reads measured friction from a CSV file, to compare a study with.
 namespace tabor::study {
 
-/// Measured friction to compare a study with, one entry per row of its CSV file.
+/// Measured friction, one entry per row of its CSV file.
 struct Experiment {
   std::filesystem::path file;
   std::vector<double> mean_pressure;      ///< [Pa]

@@ -1,4 +1,3 @@
-#include "tabor/analysis/warnings.hpp"
 #include "tabor/io/columns.hpp"
 #include "tabor/io/hdf5_guard.hpp"
 #include "tabor/study/task_file.hpp"
@@ -7,26 +6,20 @@ namespace tabor::study {
 namespace {
 
 /// All but the maps.
-analysis::FluidRecord fluid_numbers(const io::Hdf5Reader& reader) {
-  analysis::FluidRecord record;
-  io::read_attributes(reader, "/fluid", analysis::fluid_columns(), record);
+cases::FluidRecord fluid_numbers(const io::Hdf5Reader& reader) {
+  cases::FluidRecord record;
+  io::read_attributes(reader, "/fluid", cases::fluid_columns(), record);
   if (reader.number("/fluid", "converged") != 0) {
     record.summary.convergence.status = Status::converged;
   }
-  record.warnings = analysis::of_flow(reader.attribute_texts("/fluid", "warnings"));
+  record.warnings = read_warnings(reader, "/fluid");
   return record;
-}
-
-std::vector<std::string> texts_of(const analysis::Warnings& warnings) {
-  std::vector<std::string> texts;
-  for (const analysis::Warning& warning : warnings) texts.push_back(warning.text);
-  return texts;
 }
 
 }  // namespace
 
-void write_fluid(const Store& store, const Task& task, const Grid& grid,
-                 const analysis::FluidRecord& record, const Scalars& conditions) {
+void write_fluid(const engine::Store& store, const engine::Task& task, const Grid& grid,
+                 const cases::FluidRecord& record, const Scalars& conditions) {
   const std::string group = "/fluid";
   io::Hdf5Writer writer = task_writer(store, task, "fluid");
   writer.axes(group, grid);
@@ -37,12 +30,12 @@ void write_fluid(const Store& store, const Task& task, const Grid& grid,
   write_map(writer, group, {"fluid_gap", "m", "gap while sliding"}, record.state.contact.gap);
   writer.nxdata(group, "fluid_pressure");
   write_attributes(writer, group, conditions);
-  io::write_attributes(writer, group, analysis::fluid_columns(), record);
-  writer.attribute(group, "warnings", texts_of(record.warnings));
+  io::write_attributes(writer, group, cases::fluid_columns(), record);
+  write_warnings(writer, group, record.warnings);
   writer.commit();
 }
 
-analysis::FluidRecord read_fluid(const Store& store, const Task& task) {
+cases::FluidRecord read_fluid(const engine::Store& store, const engine::Task& task) {
   return io::read_guarded(store.path(task), fluid_numbers);
 }
 

@@ -2,17 +2,17 @@
 
 #include <vector>
 
+#include "tabor/engine/job.hpp"
+#include "tabor/engine/store.hpp"
 #include "tabor/study/case.hpp"
-#include "tabor/study/job.hpp"
-#include "tabor/study/store.hpp"
 
 namespace tabor::study {
 
-/// What a study needs of all its scans, for run_jobs(): of each scan its surface and its films,
-/// then every contact with its rows. Where the oil flows, each film that flows comes with its row
-/// after the contacts of its scan. A scan and a pressure are one part. Everything given must
-/// outlive the jobs.
-std::vector<Job> friction_jobs(const Store& store, const Study& study,
-                               const std::vector<ScanTasks>& tasks);
+/// Lists the jobs of a study for run_jobs(): for each scan its surface and its films, then every
+/// contact with its rows. Where the oil flows, each flowing film comes with its row after the
+/// contacts of its scan. A scan and a pressure are one part. Everything given must outlive the
+/// jobs.
+std::vector<engine::Job> friction_jobs(const engine::Store& store, const Study& study,
+                                       const std::vector<ScanTasks>& tasks);
 
 }  // namespace tabor::study

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr double kGram = 1e-3;  // [kg]
 
-[[noreturn]] void reject(const fs::path& file, const std::string& got) {
+[[noreturn]] void reject_file(const fs::path& file, const std::string& got) {
   throw InputError(file.string(), got,
                    "a folder of 'tabor sweep', its results.h5, or a file of 'tabor friction -o'",
                    "");
@@ -58,7 +58,7 @@ std::vector<FrictionNumber> numbers_of_study(const io::Hdf5Reader& file, const f
   for (const std::size_t size :
        {groups.size(), errors.size(), codes.size(), pressures.size(), densities.size(),
         speeds.size(), dry.size(), converged.size(), friction.size()}) {
-    if (size != n) reject(path, "a table whose columns differ in length");
+    if (size != n) reject_file(path, "a table whose columns differ in length");
   }
   std::vector<FrictionNumber> all;
   all.reserve(n);
@@ -88,7 +88,7 @@ std::vector<FrictionNumber> numbers_of_states(const io::Hdf5Reader& file, const 
   std::optional<double> speed;
   for (const std::string& name : file.children("/states")) {
     const std::string state = "/states/" + name;
-    if (!file.has_attribute(state, "friction_dry")) reject(path, "a result without friction");
+    if (!file.has_attribute(state, "friction_dry")) reject_file(path, "a result without friction");
     const bool flows = file.has_attribute(state, "friction_mixed");
     if (flows && !speed) speed = speed_of_states(file);
     FrictionNumber number;
@@ -113,7 +113,7 @@ void check_places(const std::vector<FrictionNumber>& numbers, const fs::path& pa
     const bool is_place = std::isfinite(at.mean_pressure) && at.mean_pressure > 0 &&
                           std::isfinite(at.lubricant_density) && at.lubricant_density >= 0 &&
                           std::isfinite(at.sliding_speed.value_or(0));
-    if (!is_place) reject(path, "friction under no pressure or at no density");
+    if (!is_place) reject_file(path, "friction under no pressure or at no density");
   }
 }
 
@@ -125,14 +125,14 @@ FrictionNumbers read_from(const io::Hdf5Reader& file, const fs::path& path) {
   FrictionNumbers read;
   read.file = path;
   if (!file.has_attribute("/", "format") || file.text("/", "format") != "tabor") {
-    reject(path, "an HDF5 file of another program");
+    reject_file(path, "an HDF5 file of another program");
   }
   if (file.exists("/table/friction_dry")) {
     read.numbers = numbers_of_study(file, path);
   } else if (file.exists("/states")) {
     read.numbers = numbers_of_states(file, path);
   }
-  if (read.numbers.empty()) reject(path, "a result without friction");
+  if (read.numbers.empty()) reject_file(path, "a result without friction");
   check_places(read.numbers, path);
   read.origin = {fmt::format("source: {}, made by tabor {} on {}", path.string(),
                              attribute(file, "software_version"), attribute(file, "created")),
@@ -149,7 +149,7 @@ FrictionNumbers read_friction(const fs::path& results) {
                             [&](const io::Hdf5Reader& file) { return read_from(file, results); });
   }
   const fs::path file = results / "results.h5";
-  if (!fs::exists(file, unknown)) reject(results, "a folder without results.h5");
+  if (!fs::exists(file, unknown)) reject_file(results, "a folder without results.h5");
   return read_friction(file);
 }
 

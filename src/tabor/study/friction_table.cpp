@@ -17,13 +17,12 @@
 namespace tabor::study {
 namespace {
 
-using forming::Condition;
 using forming::FrictionTable;
 
 constexpr double kSameDensity = 1e-9;  // of a density: the rounding of its unit
 
 using Place = std::tuple<double, double, std::optional<double>>;  ///< density, pressure, speed
-Place place_of(const Condition& at) {
+Place place_of(const forming::Condition& at) {
   return {at.lubricant_density, at.mean_pressure, at.sliding_speed};
 }
 
@@ -167,7 +166,7 @@ Gathered gather(const std::vector<FrictionNumber>& numbers, const std::vector<st
 /// The numbers of one condition become a mean, or the reason why there is none.
 void add_mean(const std::vector<FrictionNumber>& numbers, const std::vector<std::string>& kept,
               FrictionTable& table) {
-  const Condition& at = numbers.front().at;
+  const forming::Condition& at = numbers.front().at;
   const Gathered gathered = gather(numbers, kept);
   const std::string reason = gathered.against_mean();
   if (!reason.empty()) {
@@ -184,9 +183,27 @@ void add_mean(const std::vector<FrictionNumber>& numbers, const std::vector<std:
 }  // namespace
 
 const std::vector<std::string>& untrusted_codes() {
-  static const std::vector<std::string> codes = {"not-converged", "flood", "frictionless",
-                                                 "implausible-friction", "fluid-film"};
+  static const std::vector<std::string> codes = {
+      "not-converged", "flood",          "frictionless",  "implausible-friction",
+      "fluid-film",    "fluid-pressure", "viscosity-law", "density-law"};
   return codes;
+}
+
+std::string refusal_of(const std::vector<std::string>& codes, bool converged) {
+  FrictionNumber number;
+  number.converged = converged;
+  number.codes = codes;
+  return reason_against(number, {});
+}
+
+std::string refusal_of(const std::vector<FrictionNumber>& numbers) {
+  if (numbers.empty()) return "";
+  std::vector<FrictionNumber> of_table;
+  of_table.reserve(numbers.size());
+  for (const FrictionNumber& number : numbers) {
+    of_table.push_back(number.at.lubricant_density == 0 ? as_dry(number) : number);
+  }
+  return gather(of_table, {}).against_mean();
 }
 
 FrictionTable friction_table(const FrictionNumbers& numbers, const FrictionTableChoice& choice) {

@@ -2,10 +2,10 @@
 #include <set>
 #include <utility>
 
-#include "tabor/study/engine.hpp"
+#include "tabor/engine/engine.hpp"
+#include "tabor/engine/plan.hpp"
+#include "tabor/engine/store.hpp"
 #include "tabor/study/friction_jobs.hpp"
-#include "tabor/study/plan.hpp"
-#include "tabor/study/store.hpp"
 #include "tabor/study/sweep.hpp"
 
 // A study in parts for many processes.
@@ -47,10 +47,10 @@ std::vector<Study> parts_of(const Study& study) {
 
 Missing missing_parts(const Study& study, const std::filesystem::path& directory, bool retry,
                       const Observer& observer) {
-  const Store store(directory, Store::Use::alone);
+  const engine::Store store(directory, engine::Store::Use::alone);
   const std::vector<ScanTasks> tasks = tasks_of(study, observer);
-  const std::vector<Job> jobs = friction_jobs(store, study, tasks);
-  Plan plan = plan_jobs(jobs, &store, {}, retry, observer);
+  const std::vector<engine::Job> jobs = friction_jobs(store, study, tasks);
+  engine::Plan plan = engine::plan_jobs(jobs, &store, {}, retry, observer);
   std::set<std::size_t> wanted;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     if (jobs[i].part && plan.entries[i].wanted) wanted.insert(*jobs[i].part);
@@ -61,10 +61,10 @@ Missing missing_parts(const Study& study, const std::filesystem::path& directory
 }
 
 PartOutcome run_part(const Study& part, const std::filesystem::path& directory,
-                     const RunOptions& options) {
-  const Store store(directory, Store::Use::shared);
+                     const engine::RunOptions& options) {
+  const engine::Store store(directory, engine::Store::Use::shared);
   const std::vector<ScanTasks> tasks = tasks_of(part, options.observer);
-  Report report = run_jobs(friction_jobs(store, part, tasks), &store, options);
+  engine::Report report = engine::run_jobs(friction_jobs(store, part, tasks), &store, options);
   report.rethrow();
   return {report.computed("contact"), std::move(report.failures)};
 }

@@ -40,7 +40,7 @@ double value_or_nan(const io::Json& value) {
   return value.is_null() ? kNoValue : value.get<double>();
 }
 
-std::string defect_of_json(const Store& store, const Task& task) {
+std::string defect_of_json(const engine::Store& store, const engine::Task& task) {
   try {
     if (task.file.starts_with(kWetSharesKind)) return read_wet_shares(store, task), "";
     return read_row(store, task).case_id == task.key ? "" : "belongs to another case";
@@ -75,9 +75,8 @@ StoredContact contact_numbers(const io::Hdf5Reader& reader) {
   }
   stored.grid = {shape[1], shape[0], reader.number("/contact", "size_x_m"),
                  reader.number("/contact", "size_y_m")};
-  analysis::ContactRecord& record = stored;
-  io::read_attributes(reader, "/contact", analysis::contact_columns(), record,
-                      analysis::media::kStore);
+  cases::ContactRecord& record = stored;
+  io::read_attributes(reader, "/contact", cases::contact_columns(), record, cases::media::kStore);
   if (reader.number("/contact", "converged") != 0) record.convergence.status = Status::converged;
   record.warnings = read_warnings(reader, "/contact");
   return stored;
@@ -85,17 +84,17 @@ StoredContact contact_numbers(const io::Hdf5Reader& reader) {
 
 }  // namespace
 
-void write_row(const Store& store, const Task& task, const Row& row) {
+void write_row(const engine::Store& store, const engine::Task& task, const Row& row) {
   io::Json json;
   json["case_id"] = row.case_id;
   json["canonical_text"] = task.text;
   json["software_version"] = kVersion;
   json["scan"] = row.scan;
   json["group"] = row.group;
-  json.update(io::json_of<analysis::FrictionRecord>(analysis::friction_columns(), row,
-                                                    analysis::media::kStore));
+  json.update(
+      io::json_of<cases::FrictionRecord>(cases::friction_columns(), row, cases::media::kStore));
   json["warnings"] = io::Json::array();
-  for (const analysis::Warning& warning : row.warnings) {
+  for (const Warning& warning : row.warnings) {
     json["warnings"].push_back(
         {{"code", warning.code}, {"text", warning.text}, {"weight", io::number(warning.weight)}});
   }
@@ -103,7 +102,7 @@ void write_row(const Store& store, const Task& task, const Row& row) {
   io::write_file(store.path(task), io::to_text(io::sealed(std::move(json))) + "\n");
 }
 
-Row read_row(const Store& store, const Task& task) {
+Row read_row(const engine::Store& store, const engine::Task& task) {
   const io::Json json = io::read_json(store.path(task));
   try {
     if (!io::is_sealed(json)) {
@@ -113,9 +112,9 @@ Row read_row(const Store& store, const Task& task) {
     row.case_id = json.at("case_id").get<std::string>();
     row.scan = json.at("scan").get<std::string>();
     row.group = json.at("group").get<std::string>();
-    io::read_json<analysis::FrictionRecord>(
-        json, analysis::friction_columns(json.contains("sliding_speed_m_per_s")), row,
-        analysis::media::kStore);
+    io::read_json<cases::FrictionRecord>(
+        json, cases::friction_columns(json.contains("sliding_speed_m_per_s")), row,
+        cases::media::kStore);
     for (const io::Json& warning : json.at("warnings")) {
       row.warnings.push_back({warning.at("code").get<std::string>(),
                               warning.at("text").get<std::string>(),
@@ -128,7 +127,8 @@ Row read_row(const Store& store, const Task& task) {
   }
 }
 
-void write_surface(const Store& store, const Task& task, const topography::Topography& topography,
+void write_surface(const engine::Store& store, const engine::Task& task,
+                   const topography::Topography& topography,
                    const metrology::PowerSpectra& spectra) {
   io::Hdf5Writer writer = task_writer(store, task, "surface");
   topography::write_surface_group(writer, topography, topography.source, io::Precision::float32);
@@ -142,8 +142,8 @@ void write_surface(const Store& store, const Task& task, const topography::Topog
   writer.commit();
 }
 
-void write_contact(const Store& store, const Task& task, const Grid& grid,
-                   double saturation_pressure, const analysis::ContactRecord& record) {
+void write_contact(const engine::Store& store, const engine::Task& task, const Grid& grid,
+                   double saturation_pressure, const cases::ContactRecord& record) {
   io::Hdf5Writer writer = task_writer(store, task, "contact");
   writer.axes("/contact", grid);
   const std::string path = "/contact/state";
@@ -152,66 +152,66 @@ void write_contact(const Store& store, const Task& task, const Grid& grid,
   writer.attach_axes(path);
   write_map(writer, "/contact", {"gap", "m", "gap between the surfaces"}, record.state.gap);
   writer.nxdata("/contact", "state");
-  io::write_attributes(writer, "/contact", analysis::contact_columns(), record,
-                       analysis::media::kStore);
+  io::write_attributes(writer, "/contact", cases::contact_columns(), record, cases::media::kStore);
   write_attributes(writer, "/contact", {{"size_x_m", grid.lx}, {"size_y_m", grid.ly}});
   write_warnings(writer, "/contact", record.warnings);
   writer.commit();
 }
 
-SurfaceFacts read_surface_facts(const Store& store, const Task& task) {
+SurfaceFacts read_surface_facts(const engine::Store& store, const engine::Task& task) {
   return io::read_guarded(store.path(task), facts_of_surface);
 }
 
-analysis::ContactRecord read_contact_record(const Store& store, const Task& task) {
+cases::ContactRecord read_contact_record(const engine::Store& store, const engine::Task& task) {
   return io::read_guarded(store.path(task), contact_numbers);
 }
 
-Mask read_contact_mask(const Store& store, const Task& task) {
+Mask read_contact_mask(const engine::Store& store, const engine::Task& task) {
   return io::read_guarded_map(store.path(task), "/contact/state") > 0;
 }
 
-StoredContact read_contact(const Store& store, const Task& task) {
+StoredContact read_contact(const engine::Store& store, const engine::Task& task) {
   StoredContact stored = io::read_guarded(store.path(task), contact_numbers);
   stored.contact = read_contact_mask(store, task);
   stored.gap = io::read_guarded_map(store.path(task), "/contact/gap");
   return stored;
 }
 
-FilmFile::FilmFile(const Store& store, const Task& task, const Grid& grid)
+FilmFile::FilmFile(const engine::Store& store, const engine::Task& task, const Grid& grid)
     : grid_(grid), writer_(task_writer(store, task, "films/0000")) {
   writer_.group("/films");
 }
 
-void FilmFile::add(const analysis::FilmRecord& record) {
+void FilmFile::add(const cases::FilmRecord& record) {
   const std::string group = film_group(record.film.request);
   writer_.axes(group, grid_);
   write_map(writer_, group, {"film_thickness", "m", "film thickness"}, record.film.thickness);
   writer_.nxdata(group, "film_thickness");
-  io::write_attributes(writer_, group, analysis::film_columns(), record, analysis::media::kStore);
+  io::write_attributes(writer_, group, cases::film_columns(), record, cases::media::kStore);
   write_warnings(writer_, group, record.warnings);
 }
 
 void FilmFile::commit() { writer_.commit(); }
 
-Field read_film(const Store& store, const Task& task, std::size_t density) {
+Field read_film(const engine::Store& store, const engine::Task& task, std::size_t density) {
   return io::read_guarded_map(store.path(task), film_group(density) + "/film_thickness");
 }
 
-analysis::FilmRecord read_film_record(const Store& store, const Task& task, std::size_t density) {
+cases::FilmRecord read_film_record(const engine::Store& store, const engine::Task& task,
+                                   std::size_t density) {
   const auto numbers = [density](const io::Hdf5Reader& reader) {
-    analysis::FilmRecord record;
-    io::read_attributes(reader, film_group(density), analysis::film_columns(), record,
-                        analysis::media::kStore);
+    cases::FilmRecord record;
+    io::read_attributes(reader, film_group(density), cases::film_columns(), record,
+                        cases::media::kStore);
     record.warnings = read_warnings(reader, film_group(density));
     return record;
   };
-  analysis::FilmRecord record = io::read_guarded(store.path(task), numbers);
+  cases::FilmRecord record = io::read_guarded(store.path(task), numbers);
   record.film.thickness = read_film(store, task, density);
   return record;
 }
 
-std::string defect(const Store& store, const Task& task) {
+std::string defect(const engine::Store& store, const engine::Task& task) {
   if (task.file.ends_with(".json")) return defect_of_json(store, task);
   // Only a file that is to the last byte what was written is opened at all.
   std::string problem = io::broken_seal(store.path(task));

@@ -6,23 +6,23 @@
 #include <utility>
 #include <vector>
 
-#include "tabor/analysis/records.hpp"
+#include "tabor/cases/records.hpp"
 #include "tabor/contact/contact.hpp"
 #include "tabor/deposition/deposition.hpp"
+#include "tabor/engine/store.hpp"
 #include "tabor/io/hdf5.hpp"
 #include "tabor/metrology/psd.hpp"
 #include "tabor/study/case.hpp"
-#include "tabor/study/store.hpp"
 #include "tabor/topography/topography.hpp"
 
-// What the store's files hold and how they are written and read back (docs/results.md). Writing
+// Defines what the files of the store hold, and writes and reads them (docs/results.md). Writing
 // throws OutputError; reading a damaged file throws InputError.
 namespace tabor::study {
 
-using analysis::kNoValue;
+using cases::kNoValue;
 
-/// One row of results.csv. Numbers are NaN in a row that failed.
-struct Row : analysis::FrictionRecord {
+/// Row of results.csv. Numbers are NaN in a row that failed.
+struct Row : cases::FrictionRecord {
   std::string case_id;
   std::string scan;
   std::string group;
@@ -31,13 +31,14 @@ struct Row : analysis::FrictionRecord {
   bool failed() const { return !error.empty(); }
 };
 
-void write_row(const Store& store, const Task& task, const Row& row);
-Row read_row(const Store& store, const Task& task);
+void write_row(const engine::Store& store, const engine::Task& task, const Row& row);
+Row read_row(const engine::Store& store, const engine::Task& task);
 
-void write_surface(const Store& store, const Task& task, const topography::Topography& topography,
+void write_surface(const engine::Store& store, const engine::Task& task,
+                   const topography::Topography& topography,
                    const metrology::PowerSpectra& spectra);
 
-/// What a stored surface says about itself, for readers that look at no map.
+/// Facts of a stored surface, for readers that need no map.
 struct SurfaceFacts {
   Index nx = 0;
   Index ny = 0;
@@ -48,54 +49,56 @@ struct SurfaceFacts {
   std::vector<std::string> treatment;
   std::vector<std::string> warnings;
 };
-SurfaceFacts read_surface_facts(const Store& store, const Task& task);
+SurfaceFacts read_surface_facts(const engine::Store& store, const engine::Task& task);
 
-/// What a row needs of a stored contact: the record with no maps but these.
-struct StoredContact : analysis::ContactRecord {
+/// Stored contact as a row needs it: the record with no maps but these.
+struct StoredContact : cases::ContactRecord {
   Mask contact;  ///< true where the solids touch
   Field gap;     ///< [m]
   Grid grid;
 };
-void write_contact(const Store& store, const Task& task, const Grid& grid,
-                   double saturation_pressure, const analysis::ContactRecord& record);
-StoredContact read_contact(const Store& store, const Task& task);
-/// Its numbers alone.
-analysis::ContactRecord read_contact_record(const Store& store, const Task& task);
-/// Its mask alone: true where the solids touch.
-Mask read_contact_mask(const Store& store, const Task& task);
+void write_contact(const engine::Store& store, const engine::Task& task, const Grid& grid,
+                   double saturation_pressure, const cases::ContactRecord& record);
+StoredContact read_contact(const engine::Store& store, const engine::Task& task);
+/// Reads the numbers of a contact alone.
+cases::ContactRecord read_contact_record(const engine::Store& store, const engine::Task& task);
+/// Reads the mask of a contact alone: true where the solids touch.
+Mask read_contact_mask(const engine::Store& store, const engine::Task& task);
 
-/// Films arrive one after the other, in any order; commit() when all are there.
+/// Writes the file of films, which arrive one after the other, in any order; to be committed when
+/// it is complete.
 class FilmFile {
  public:
-  FilmFile(const Store& store, const Task& task, const Grid& grid);
-  void add(const analysis::FilmRecord& record);
+  FilmFile(const engine::Store& store, const engine::Task& task, const Grid& grid);
+  void add(const cases::FilmRecord& record);
   void commit();
 
  private:
   Grid grid_;
   io::Hdf5Writer writer_;
 };
-Field read_film(const Store& store, const Task& task, std::size_t density);
-/// All that is kept of it.
-analysis::FilmRecord read_film_record(const Store& store, const Task& task, std::size_t density);
+Field read_film(const engine::Store& store, const engine::Task& task, std::size_t density);
+/// Reads all that is stored of a film.
+cases::FilmRecord read_film_record(const engine::Store& store, const engine::Task& task,
+                                   std::size_t density);
 
 /// Names and values of attributes.
 using Scalars = std::vector<std::pair<std::string, double>>;
 
-/// One state whose oil flows, under these conditions: numbers, and maps for the report, which are
-/// not read back.
-void write_fluid(const Store& store, const Task& task, const Grid& grid,
-                 const analysis::FluidRecord& record, const Scalars& conditions);
-analysis::FluidRecord read_fluid(const Store& store, const Task& task);
+/// Writes one state with flowing oil, under these conditions: numbers, and maps for the report,
+/// which are not read back.
+void write_fluid(const engine::Store& store, const engine::Task& task, const Grid& grid,
+                 const cases::FluidRecord& record, const Scalars& conditions);
+cases::FluidRecord read_fluid(const engine::Store& store, const engine::Task& task);
 
-/// Empty if the file in the store has all its bytes as they were written and belongs to the task,
-/// otherwise what is wrong with it.
-std::string defect(const Store& store, const Task& task);
+/// Returns "" if the file in the store is complete, unchanged and of this task, otherwise its
+/// defect.
+std::string defect(const engine::Store& store, const engine::Task& task);
 
-/// "/films/0003"
+/// Returns the group of a film, "/films/0003".
 std::string film_group(std::size_t density);
 
-/// What every HDF5 file of tabor says about itself.
+/// Writes the root attributes of every HDF5 file of tabor.
 void write_root(io::Hdf5Writer& writer, const std::string& default_group);
 
 }  // namespace tabor::study

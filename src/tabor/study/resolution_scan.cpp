@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "tabor/analysis/warnings.hpp"
+#include "tabor/cases/warnings.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/study/scan_friction.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 constexpr Index kFewestPixels = 64;  // along a side: a quarter of them is the coarsest grid
 
-void check_scan(const topography::Topography& surface, const analysis::CaseSettings& settings) {
+void check_scan(const topography::Topography& surface, const cases::CaseSettings& settings) {
   const Grid& grid = surface.grid;
   if (std::min(grid.nx, grid.ny) < kFewestPixels) {
     throw InputError("resolution scan", fmt::format("{} x {} pixels", grid.nx, grid.ny),
@@ -37,7 +37,7 @@ std::string low_passed(const Grid& grid, int pixels) {
 }
 
 void add_records(const topography::Topography& surface, const std::string& step,
-                 const analysis::CaseSettings& settings, const RunOptions& options,
+                 const cases::CaseSettings& settings, const engine::RunOptions& options,
                  std::vector<ResolutionRecord>& records) {
   const topography::Topography treated = topography::apply({step}, surface, options.observer);
   const auto receive = [&](const FrictionState& state) {
@@ -50,7 +50,7 @@ void add_records(const topography::Topography& surface, const std::string& step,
 
 const Columns<ResolutionRecord>& resolution_columns() {
   using Record = ResolutionRecord;
-  using Friction = analysis::FrictionRecord;
+  using Friction = cases::FrictionRecord;
   static const Columns<Friction> friction{
       {"mean_pressure_Pa", "Pa", "pressure", &Friction::mean_pressure},
       {"lubricant_density_g_per_m2",
@@ -58,11 +58,9 @@ const Columns<ResolutionRecord>& resolution_columns() {
        "lubricant",
        [](const Friction& one) { return in_g_per_m2(one.lubricant_density); },
        {.shown = Shown::unscaled}},
-      {"contact_area_fraction_pixels",
-       "",
-       "pixels",
-       &Friction::contact_area_fraction_pixels,
-       {.shown = Shown::percent}},
+      {"contact_area_fraction_pixels", "", "", &Friction::contact_area_fraction_pixels},
+      cases::friction_area_columns()[0],
+      cases::friction_area_columns()[1],
       {"lubricated_share", "", "wet share", &Friction::lubricated_share, {.shown = Shown::percent}},
       {"friction_lubricated", "", "friction wet", &Friction::friction_lubricated},
       {"converged", "", "converged", &Friction::converged}};
@@ -74,9 +72,9 @@ const Columns<ResolutionRecord>& resolution_columns() {
 }
 
 std::vector<ResolutionRecord> resolution_scan(const topography::Topography& surface,
-                                              const analysis::CaseSettings& settings,
-                                              std::vector<analysis::FrictionRecord>& as_measured,
-                                              const RunOptions& options) {
+                                              const cases::CaseSettings& settings,
+                                              std::vector<cases::FrictionRecord>& as_measured,
+                                              const engine::RunOptions& options) {
   check_scan(surface, settings);
   std::vector<ResolutionRecord> records;
   add_records(surface, resampled(surface.grid, 4), settings, options, records);
@@ -84,11 +82,11 @@ std::vector<ResolutionRecord> resolution_scan(const topography::Topography& surf
   add_records(surface, resampled(surface.grid, 2), settings, options, records);
   for (std::size_t i = 0; i < as_measured.size(); ++i) {
     const ResolutionRecord& coarse = records.at(first_half + i);
-    analysis::add(analysis::of_pixel(coarse.pixel_x, coarse.friction.lubricated_share,
-                                     surface.grid.dx(), as_measured[i].lubricated_share),
-                  as_measured[i].warnings);
+    add(cases::of_pixel(coarse.pixel_x, coarse.friction.lubricated_share, surface.grid.dx(),
+                        as_measured[i].lubricated_share),
+        as_measured[i].warnings);
   }
-  for (const analysis::FrictionRecord& record : as_measured) {
+  for (const cases::FrictionRecord& record : as_measured) {
     records.push_back({"", surface.grid.dx(), record});
   }
   for (const int pixels : {4, 8, 16}) {

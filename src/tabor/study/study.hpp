@@ -5,19 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "tabor/analysis/settings.hpp"
+#include "tabor/cases/settings.hpp"
 #include "tabor/core/names.hpp"
 #include "tabor/scan/file.hpp"
 #include "tabor/study/experiment.hpp"
 #include "tabor/topography/treatment.hpp"
 
+// Defines a study (scans x pressures x densities x speeds) and reads it from its TOML file.
 namespace tabor::study {
 
-/// Whether contacts of a scan saturate.
+/// Deformation of the contacts of a scan: elastic, or limited by the saturation pressure.
 enum class Deformation { elastic, saturated };
 inline constexpr auto kDeformations = names<Deformation>("elastic", "saturated");
 
-/// What a scan is computed under in place of what its study says; what is absent is the study's.
+/// Settings of a scan that override those of its study; absent ones are the study's.
 struct OwnSettings {
   std::optional<std::vector<double>> mean_pressures = {};       ///< [Pa]
   std::optional<std::vector<double>> lubricant_densities = {};  ///< [kg/m^2]
@@ -26,7 +27,7 @@ struct OwnSettings {
   std::optional<deposition::Reading> reading = {};
 };
 
-/// One surface of a study. A file may stand in several groups, to compare settings.
+/// Surface of a study. A file may stand in several groups, to compare settings.
 struct Scan {
   std::filesystem::path file;  ///< where it is
   std::string label;           ///< how the study calls it: its path relative to the study file
@@ -35,49 +36,58 @@ struct Scan {
   OwnSettings own = {};
 };
 
-/// Under what each contact is repeated: positions in the lists of a study.
+/// Density and speed under which a contact is repeated, as positions in the lists of a study.
 struct Condition {
   std::size_t density = 0;
   std::size_t speed = 0;
 };
 
-/// Scans x pressures x densities x speeds and everything they share. A value; SI throughout.
+/// Study: scans x pressures x densities x speeds and all that they share. A value; SI throughout.
 struct Study {
   std::string title;
   std::filesystem::path file;  ///< the study file
   topography::Treatment treatment;
-  analysis::CaseSettings settings;  ///< of scans without their own; speed: each of sliding_speeds
+  std::optional<topography::Edges> edges =
+      {};                        ///< of surfaces whose treatment says nothing of them
+  cases::CaseSettings settings;  ///< of scans without their own; speed: each of sliding_speeds
   std::vector<double> sliding_speeds;  ///< [m/s]; empty unless the oil flows
   std::vector<Scan> scans;
   std::optional<Experiment> experiment;
 
-  /// Whether the friction of the flowing oil is computed, at each of sliding_speeds.
+  /// True where the friction of the flowing oil is computed, at each of sliding_speeds.
   bool flows() const { return settings.fluid.flows(); }
-  /// The study of this scan alone, whose own settings are those of that study.
+  /// Returns the study of this scan alone, whose settings are the scan's own.
   Study of(const Scan& scan) const;
-  /// Pressures times conditions, of all scans.
+  /// Returns the number of cases: pressures times conditions, of all scans.
   std::size_t n_cases() const;
-  /// Densities, and for each all speeds, in the order of the study.
+  /// Returns the densities, and for each all speeds, in the order of the study.
   std::vector<Condition> conditions() const;
-  double lubricant_density(const Condition& condition) const;                ///< [kg/m^2]
-  analysis::FluidSettings fluid_settings(const Condition& condition) const;  ///< at its speed
+  double lubricant_density(const Condition& condition) const;             ///< [kg/m^2]
+  cases::FluidSettings fluid_settings(const Condition& condition) const;  ///< at its speed
 };
 
-/// Reads a study file. File names in it, which may be patterns ("before_*.x3p"), are relative to
-/// its own folder. Throws InputError with file, line and key for anything unknown, missing, without
-/// its unit or out of range, and for scans that are not there.
-Study read_study(const std::filesystem::path& file);
+/// Value that replaces that of a study file: "contact.tolerance", "1e-8".
+struct Change {
+  std::string key;
+  std::string value;
+};
 
-/// The same of a text, as if it stood in this file.
+/// Reads a study file, changed. File names in it, which may be patterns ("before_*.x3p"), are
+/// relative to its own folder. Throws InputError with file, line and key for anything unknown,
+/// missing, without its unit or out of range, and for scans that are not there.
+Study read_study(const std::filesystem::path& file, const std::vector<Change>& changes = {});
+
+/// Reads a study from a text, as if it stood in this file.
 Study parse_study(const std::string& text, const std::filesystem::path& file);
 
-/// A study file to start from, with every key there is; those that need not be are commented out.
+/// Returns a study file to start from, with every key; optional keys are commented out.
 std::string study_template();
 
-/// All of them, dotted: "sweep.mean_pressure", "scan[].file".
+/// Returns all keys, dotted: "sweep.mean_pressure", "scan[].file".
 const std::vector<std::string>& known_keys();
 
-/// Every setting in force, defaults included, as a study file that gives the same study again.
+/// Returns every setting in force, defaults included, as a study file that gives the same study
+/// again.
 std::string to_toml(const Study& study);
 
 }  // namespace tabor::study

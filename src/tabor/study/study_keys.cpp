@@ -2,40 +2,70 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 namespace tabor::study {
+namespace {
+
+/// The key of a setting, or the first key with this name; "" where there is none.
+std::string known_key_of(const std::string& name) {
+  if (const ParameterHead* const found = cases::find_parameter(name)) return found->study_key;
+  for (const std::string& key : known_keys()) {
+    if (key == name || key.ends_with("." + name)) return key;
+  }
+  return "";
+}
+
+}  // namespace
 
 void reject(const io::Config& config, std::string_view key, const std::string& got,
             const std::string& expected) {
   throw InputError(config.place(key), got, expected, "");
 }
 
-double positive(const io::Config& config, std::string_view key, Dimension expected) {
-  const double value = config.quantity(key, expected);
-  if (!(value > 0) || !std::isfinite(value)) {
-    reject(config, key, fmt::format("{}", value), "a value above zero");
-  }
-  return value;
-}
-
-std::vector<double> read_axis(const io::Config& config, std::string_view key, Dimension expected,
-                              bool zero_allowed) {
-  std::vector<double> values = config.quantities(key, expected);
+std::vector<double> read_axis(const io::Config& config, std::string_view key,
+                              const ParameterHead& parameter) {
+  std::vector<double> values = config.quantities(key, parameter.dimension);
   std::set<double> seen;
   for (const double value : values) {
-    if (!std::isfinite(value) || value < 0 || (value == 0 && !zero_allowed)) {
-      reject(config, key, fmt::format("{}", value),
-             zero_allowed ? "values of zero or more" : "values above zero");
+    if (!parameter.bounds.contain(value)) {
+      reject(config, key, text_of(value, parameter.dimension), parameter.bounds.text);
     }
     if (!seen.insert(value).second) reject(config, key, "the same value twice", "each value once");
   }
   return values;
 }
 
+std::string key_of(std::string_view setting) {
+  const ParameterHead* const found = cases::find_parameter(setting);
+  return found != nullptr ? found->study_key : "contact." + std::string(setting);
+}
+
+void check(const io::Config& config, const std::optional<cases::Objection>& objection) {
+  if (!objection) return;
+  const std::string place = config.place(key_of(objection->setting));
+  if (objection->got.empty()) throw InputError(place + ": " + objection->remedy);
+  throw InputError(place, objection->got, objection->expected, objection->remedy);
+}
+
+AdviceSpelling spelling() {
+  return [](const Advice& advice) -> std::string {
+    const std::string& name = advice.setting;
+    for (const topography::StepDescription& step : topography::treatment_steps()) {
+      if (step.name != name) continue;
+      if (step.argument.empty()) return fmt::format("\"{}\"", name);
+      return fmt::format("\"{}={}\"", name, advice.value.empty() ? "..." : advice.value);
+    }
+    std::string key = known_key_of(name);
+    if (key.empty() || advice.value.empty()) return key;
+    return fmt::format("{} = \"{}\"", key, advice.value);
+  };
+}
+
 topography::Treatment read_steps(const io::Config& config, std::string_view key) {
-  const topography::Treatment steps = config.texts(key);
+  topography::Treatment steps = config.texts(key);
   try {
     topography::check(steps);
   } catch (const InputError& error) {

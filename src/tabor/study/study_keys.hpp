@@ -3,29 +3,37 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "tabor/cases/parameters.hpp"
+#include "tabor/core/advice.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/io/toml.hpp"
+#include "tabor/record/settings_file.hpp"
 #include "tabor/study/study.hpp"
 
-// What the parts that read a study file share.
+// Reads single keys of a study file and reports errors with file, line and key.
 namespace tabor::study {
 
 [[noreturn]] void reject(const io::Config& config, std::string_view key, const std::string& got,
                          const std::string& expected);
 
-/// Finite and above zero, in SI.
-double positive(const io::Config& config, std::string_view key, Dimension expected);
+/// Reads a sweep axis at a key: every value must lie within the bounds of its parameter and occur
+/// once.
+std::vector<double> read_axis(const io::Config& config, std::string_view key,
+                              const ParameterHead& parameter);
 
-/// A sweep axis: every value finite, at least (or above) zero, and named once.
-std::vector<double> read_axis(const io::Config& config, std::string_view key, Dimension expected,
-                              bool zero_allowed);
+/// Returns the key of a setting: "contact.tolerance" for "tolerance".
+std::string key_of(std::string_view setting);
 
-/// Runs a parser of the modules below and says at which key its complaint arose.
+/// Throws the objection, if any, with the place of its key.
+void check(const io::Config& config, const std::optional<cases::Objection>& objection);
+
+/// Runs a parser of a lower module and adds the place of the key to its errors.
 template <typename Parse>
 auto at_key(const io::Config& config, std::string_view key, Parse parse) {
   try {
@@ -35,7 +43,7 @@ auto at_key(const io::Config& config, std::string_view key, Parse parse) {
   }
 }
 
-/// A key whose values have names.
+/// Reads a key whose values have names.
 template <typename Names>
 auto named(const io::Config& config, std::string_view key, const Names& names) {
   const std::string word = config.text(key);
@@ -44,13 +52,17 @@ auto named(const io::Config& config, std::string_view key, const Names& names) {
          fmt::format("{}", fmt::join(names.all(), " or ")) + suggestion(word, names.all()));
 }
 
-/// A chain of treatment steps that exist.
+/// Returns the spelling of advice in a study file: "level=plane" as a step, contact.boundary =
+/// "free".
+AdviceSpelling spelling();
+
+/// Reads a chain of treatment steps, which must exist.
 topography::Treatment read_steps(const io::Config& config, std::string_view key);
 
-/// The [[scan]] tables; file names are relative to `folder`.
+/// Reads the [[scan]] tables; file names are relative to `folder`.
 void read_scans(const io::Config& config, const std::filesystem::path& folder, Study& study);
 
-/// lubricant.fluid and what belongs to it.
+/// Checks the keys of oil that flows, and reads its speeds.
 void read_flowing_oil(const io::Config& config, Study& study);
 
 }  // namespace tabor::study

@@ -11,8 +11,8 @@ namespace tabor::study {
 namespace {
 
 namespace fs = std::filesystem;
-using analysis::ResultMaps;
 using io::Hdf5Reader;
+using results::ResultMaps;
 
 constexpr const char* kResult = "a result of contact, lubricate, friction, sweep or ehl point";
 
@@ -69,11 +69,11 @@ void add_states(const Hdf5Reader& reader, const std::string& scan, ResultMaps& r
     const auto member = [&](const char* name, std::size_t number) {
       return if_there(reader, fmt::format("{}/{}/{:04}", scan, name, number));
     };
-    analysis::add_state(reader,
-                        {.contact = member("contact", place_of(pressures[row], pressures_so_far)),
-                         .film = member("films", place_of(densities[row], densities_so_far)),
-                         .fluid = member("fluid", place++)},
-                        result);
+    results::add_state(reader,
+                       {.contact = member("contact", place_of(pressures[row], pressures_so_far)),
+                        .film = member("films", place_of(densities[row], densities_so_far)),
+                        .fluid = member("fluid", place++)},
+                       result);
   }
 }
 
@@ -84,7 +84,7 @@ ResultMaps read_study(const Hdf5Reader& reader, const fs::path& file,
     throw InputError(file.string(), "a scan whose surface is not in the store",
                      "its folder 'store' beside it", "run the study again, which makes it anew");
   }
-  ResultMaps result = analysis::maps_on(reader, file, chosen + "/surface");
+  ResultMaps result = results::maps_on(reader, file, chosen + "/surface");
   add_states(reader, chosen, result);
   return result;
 }
@@ -99,7 +99,7 @@ ResultMaps read_from(const Hdf5Reader& reader, const fs::path& file,
     throw InputError("scan of " + file.string(), fmt::format("{}", *scan),
                      "none: it holds one surface", "");
   }
-  return analysis::read_result_maps(reader, file);
+  return results::read_result_maps(reader, file);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tabor/core/text.hpp"
+#include "tabor/scan/read_parameters.hpp"
 #include "tabor/study/study_keys.hpp"
 
 namespace tabor::study {
@@ -13,13 +14,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Takes what the file says at a key, which stands for the name of the parameter in complaints.
+void read_at(const io::Config& config, const std::string& key,
+             Parameter<scan::ReadOptions> parameter, scan::ReadOptions& options) {
+  parameter.study_key = key;
+  try {
+    read_setting(config, parameter, options);
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    if (!text.starts_with(parameter.name + ":")) throw;
+    throw InputError(config.place(key) + text.substr(parameter.name.size()));
+  }
+}
+
 void read_file_options(const io::Config& config, const std::string& prefix,
                        scan::ReadOptions& options) {
-  if (config.has(prefix + "channel")) options.channel = config.text(prefix + "channel");
-  if (config.has(prefix + "unit")) options.unit = config.text(prefix + "unit");
-  if (config.has(prefix + "pixel")) {
-    options.pixel_x = options.pixel_y = positive(config, prefix + "pixel", dimension::length);
+  for (const Parameter<scan::ReadOptions>& one : scan::read_parameters()) {
+    const std::string key = prefix + one.study_name();
+    if (!one.study_key.empty() && config.has(key)) read_at(config, key, one, options);
   }
+  if (!options.pixel_y) options.pixel_y = options.pixel_x;
 }
 
 /// The characters of a folder's name mean themselves, whatever a pattern would make of them.
@@ -58,7 +72,8 @@ std::vector<std::string> names_beside(const fs::path& file) {
 std::vector<fs::path> find_files(const io::Config& config, const fs::path& folder,
                                  const std::string& name) {
   const fs::path exact = folder / name;
-  if (fs::exists(exact)) return {exact};
+  std::error_code unknown;  // reading says what is wrong with a link
+  if (fs::exists(fs::symlink_status(exact, unknown))) return {exact};
   std::vector<fs::path> files = matches(folder, name);
   if (files.empty()) {
     throw InputError(config.place("file") + ": no file '" + name + "' in " + folder.string() +
@@ -76,10 +91,11 @@ std::string label_of(const fs::path& file, const fs::path& folder) {
 OwnSettings read_own_settings(const io::Config& entry) {
   OwnSettings own;
   if (entry.has("pressure")) {
-    own.mean_pressures = read_axis(entry, "pressure", dimension::pressure, false);
+    own.mean_pressures = read_axis(entry, "pressure", *cases::find_parameter("mean_pressure"));
   }
   if (entry.has("density")) {
-    own.lubricant_densities = read_axis(entry, "density", dimension::areal_density, true);
+    own.lubricant_densities =
+        read_axis(entry, "density", *cases::find_parameter("lubricant_density"));
   }
   if (entry.has("treatment")) own.treatment = read_steps(entry, "treatment");
   if (entry.has("contact")) own.deformation = named(entry, "contact", kDeformations);
@@ -87,17 +103,26 @@ OwnSettings read_own_settings(const io::Config& entry) {
   return own;
 }
 
-/// Where the study file says what analysis calls by this name.
-std::string key_of(std::string_view setting) {
-  if (setting == "mean_pressure") return "sweep.mean_pressure";
-  if (setting == "tolerance" || setting == "boundary") return "contact." + std::string(setting);
-  return "material." + std::string(setting);
+/// Throws where steps of the treatment or the boundary contradict what is said about edges.
+void check_edges(const io::Config& config, const Study& alone) {
+  try {
+    topography::check(alone.treatment);
+  } catch (const InputError& error) {
+    throw InputError(config.name() + ": " + error.what());
+  }
+  const auto edges = topography::edges_of(alone.treatment);
+  check(config, cases::objection(alone.settings.contact, edges, key_of));
+  if (alone.flows() && !alone.settings.contact.is_periodic()) {
+    reject(config, "contact.edges", "'end'",
+           "'tile' or 'cut': a film that flows is solved on a patch that repeats");
+  }
 }
 
 /// What the scans of one table are computed under, as they all share it.
 void check_settings(const io::Config& config, const io::Config& entry, const Study& alone,
                     const OwnSettings& own) {
-  const analysis::CaseSettings& settings = alone.settings;
+  check_edges(config, alone);
+  const cases::CaseSettings& settings = alone.settings;
   if (settings.mean_pressures.empty()) {
     throw InputError(config.place("sweep.mean_pressure") + " is missing, and " +
                      entry.texts("file").front() + " has no pressure of its own");
@@ -105,11 +130,11 @@ void check_settings(const io::Config& config, const io::Config& entry, const Stu
   if (own.deformation == Deformation::saturated && !settings.contact.saturation_pressure) {
     reject(entry, "contact", "'saturated' without a limit", "material.saturation_pressure with it");
   }
-  const auto found = analysis::objection(settings.contact, settings.mean_pressures, key_of);
-  if (!found) return;
-  const bool is_own = found->setting == "mean_pressure" && own.mean_pressures;
-  throw InputError(is_own ? entry.place("pressure") : config.place(key_of(found->setting)),
-                   found->got, found->expected, found->remedy);
+  const auto found = cases::objection(settings.contact, settings.mean_pressures, key_of);
+  if (found && found->setting == "mean_pressure" && own.mean_pressures) {
+    throw InputError(entry.place("pressure"), found->got, found->expected, found->remedy);
+  }
+  check(config, found);
 }
 
 }  // namespace

@@ -1,7 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <string_view>
 
+#include "tabor/cases/parameters.hpp"
+#include "tabor/scan/read_parameters.hpp"
 #include "tabor/study/study.hpp"
 
 namespace tabor::study {
@@ -34,46 +39,50 @@ std::string decimal(double value) {
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
-std::string solid_lines(double youngs_modulus, double poissons_ratio, std::string_view prefix) {
-  return fmt::format("{0}youngs_modulus = {1}\n{0}poissons_ratio = {2}\n", prefix,
-                     quantity(youngs_modulus, "Pa"), decimal(poissons_ratio));
+/// "key = value" of a parameter as a study file has it; "" without a value.
+std::string line_of(const ParameterHead& parameter, const Cell& cell) {
+  const std::string key = parameter.study_name();
+  if (const auto* word = std::get_if<std::string>(&cell)) {
+    return fmt::format("{} = {}\n", key, toml_text(*word));
+  }
+  if (const auto* count = std::get_if<std::uint64_t>(&cell)) {
+    return fmt::format("{} = {}\n", key, *count);
+  }
+  if (const auto* flag = std::get_if<bool>(&cell)) return fmt::format("{} = {}\n", key, *flag);
+  const auto* number = std::get_if<double>(&cell);
+  if (number == nullptr || std::isnan(*number)) return "";
+  const std::string unit = si_unit(parameter.dimension);
+  return fmt::format("{} = {}\n", key, unit.empty() ? decimal(*number) : quantity(*number, unit));
 }
 
-std::string material_table(const analysis::ContactSettings& contact) {
-  std::string text =
-      "\n[material]\n" + solid_lines(contact.youngs_modulus, contact.poissons_ratio, "");
-  if (contact.counter_youngs_modulus) {
-    text += solid_lines(*contact.counter_youngs_modulus, contact.counter_poissons_ratio.value_or(0),
-                        "counter_");
-  }
-  if (contact.saturation_pressure) {
-    text += fmt::format("saturation_pressure = {}\n", quantity(*contact.saturation_pressure, "Pa"));
-  }
-  return text;
+/// The same of numbers, of one alone where all are alike.
+std::string line_of(const ParameterHead& parameter, const std::vector<double>& numbers) {
+  if (numbers.empty()) return "";
+  const bool are_alike = std::count(numbers.begin(), numbers.end(), numbers.front()) ==
+                         static_cast<std::ptrdiff_t>(numbers.size());
+  if (are_alike) return line_of(parameter, Cell(numbers.front()));
+  return fmt::format("{} = {}\n", parameter.study_name(),
+                     quantities(numbers, si_unit(parameter.dimension)));
 }
 
-/// Lines of the table [lubricant] that only a film that flows has.
-std::string flowing_lines(const analysis::FluidSettings& oil) {
-  std::string text =
-      fmt::format("fluid = \"reynolds\"\nviscosity = {}\n", quantity(*oil.viscosity, "Pa s"));
-  if (oil.pressure_viscosity) {
-    text += fmt::format("pressure_viscosity = {}\n", quantity(*oil.pressure_viscosity, "1/Pa"));
+/// The lines of one table, "material"; "" is the head of the file.
+template <typename Settings>
+std::string lines_of(std::string_view table, const Parameters<Settings>& parameters,
+                     const Settings& settings) {
+  std::string lines;
+  for (const Parameter<Settings>& one : parameters) {
+    if (!one.is_in_table(table)) continue;
+    lines += one.kind == ValueKind::numbers ? line_of(one, one.numbers(settings))
+                                            : line_of(one, one.value(settings));
   }
-  if (oil.eyring_stress) {
-    text += fmt::format("eyring_stress = {}\n", quantity(*oil.eyring_stress, "Pa"));
-  }
-  return text;
+  return lines;
 }
 
-std::string lubricant_table(const analysis::FilmSettings& lubricant,
-                            const analysis::FluidSettings& fluid) {
-  const std::string text = fmt::format(
-      "\n[lubricant]\noil_density = {}\nmodel = {}\nreading = {}\nedge = {}\ndroplet = {}\n"
-      "seed = {}\n",
-      quantity(lubricant.oil_density, "kg/m^3"), toml_text(deposition::name(lubricant.model)),
-      toml_text(deposition::name(lubricant.reading)), toml_text(deposition::name(lubricant.edge)),
-      quantity(lubricant.droplet_height, "m"), lubricant.seed);
-  return fluid.flows() ? text + flowing_lines(fluid) : text;
+std::string lubricant_table(const cases::FilmSettings& lubricant,
+                            const cases::FluidSettings& fluid) {
+  const std::string text =
+      "\n[lubricant]\n" + lines_of("lubricant", cases::film_parameters(), lubricant);
+  return fluid.flows() ? text + lines_of("lubricant", cases::fluid_parameters(), fluid) : text;
 }
 
 std::string step_list(const topography::Treatment& treatment) {
@@ -102,29 +111,43 @@ std::string own_lines(const OwnSettings& own) {
 std::string scan_table(const Scan& scan) {
   std::string text = fmt::format("\n[[scan]]\nfile = {}\ngroup = {}\n", toml_text(scan.label),
                                  toml_text(scan.group));
-  if (scan.read.channel) text += fmt::format("channel = {}\n", toml_text(*scan.read.channel));
-  if (scan.read.pixel_x) text += fmt::format("pixel = {}\n", quantity(*scan.read.pixel_x, "m"));
-  if (scan.read.unit) text += fmt::format("unit = {}\n", toml_text(*scan.read.unit));
-  return text + own_lines(scan.own);
+  return text + lines_of("treatment", scan::read_parameters(), scan.read) + own_lines(scan.own);
+}
+
+/// Whether any treatment says what lies beyond the edges.
+bool steps_say_edges(const Study& study) {
+  return topography::edges_of(study.treatment) ||
+         std::any_of(study.scans.begin(), study.scans.end(), [](const Scan& scan) {
+           return topography::edges_of(scan.own.treatment.value_or(topography::Treatment{}));
+         });
+}
+
+std::string edges_line(const Study& study) {
+  return study.edges ? fmt::format("edges = {}\n", toml_text(topography::kEdges.of(*study.edges)))
+                     : "";
+}
+
+/// The boundary in force, nothing where edges decide about it.
+std::optional<cases::Boundary> boundary_of(const Study& study) {
+  const cases::ContactSettings& contact = study.settings.contact;
+  if (contact.boundary || !(study.edges || steps_say_edges(study))) {
+    return contact.boundary_in_force();
+  }
+  return std::nullopt;
 }
 
 }  // namespace
 
 std::string to_toml(const Study& study) {
-  const analysis::CaseSettings& settings = study.settings;
-  std::string text =
-      fmt::format("title = {}\nshear_strength = {}\nboundary_shear_strength = {}\n",
-                  toml_text(study.title), quantity(settings.friction.shear_strength, "Pa"),
-                  quantity(settings.friction.boundary_strength(), "Pa"));
-  if (settings.friction.area) {  // otherwise each scan's contact chooses
-    text += fmt::format("area = {}\n", toml_text(friction::name(*settings.friction.area)));
-  }
-  text += material_table(settings.contact);
+  const cases::CaseSettings& settings = study.settings;
+  std::string text = fmt::format("title = {}\n", toml_text(study.title));
+  text += lines_of("", cases::friction_parameters(), settings.friction);
+  text += "\n[material]\n" + lines_of("material", cases::contact_parameters(), settings.contact);
   text += fmt::format("\n[treatment]\nsteps = {}\n", step_list(study.treatment));
-  text += fmt::format("\n[contact]\nboundary = {}\nsolver = {}\ntolerance = {}\n",
-                      toml_text(analysis::kBoundaries.of(settings.contact.boundary)),
-                      toml_text(analysis::kSolvers.of(settings.contact.solver)),
-                      decimal(settings.contact.tolerance));
+  cases::ContactSettings contact = settings.contact;
+  contact.boundary = boundary_of(study);
+  text += "\n[contact]\n" + edges_line(study) +
+          lines_of("contact", cases::contact_parameters(), contact);
   text += "\n[sweep]\n";
   if (!settings.mean_pressures.empty()) {  // unless every scan has its own
     text += fmt::format("mean_pressure = {}\n", quantities(settings.mean_pressures, "Pa"));

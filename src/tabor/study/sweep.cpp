@@ -6,9 +6,9 @@
 #include <exception>
 #include <utility>
 
-#include "tabor/study/engine.hpp"
+#include "tabor/engine/engine.hpp"
+#include "tabor/engine/store.hpp"
 #include "tabor/study/friction_jobs.hpp"
-#include "tabor/study/store.hpp"
 #include "tabor/study/tables.hpp"
 
 namespace tabor::study {
@@ -20,16 +20,11 @@ void count_rows(const std::vector<Row>& rows, Outcome& outcome) {
   for (const Row& row : rows) {
     outcome.n_failed += row.failed() ? 1 : 0;
     outcome.n_not_converged += !row.failed() && !row.converged ? 1 : 0;
-    if (row.failed()) {
-      outcome.failures.push_back(
-          fmt::format("{} {} Pa: {}", row.scan, row.mean_pressure, row.error));
-    }
   }
-  const auto last = std::unique(outcome.failures.begin(), outcome.failures.end());
-  outcome.failures.erase(last, outcome.failures.end());
+  outcome.failures = failures_in(rows);
 }
 
-void count_computed(const Report& report, Outcome& outcome) {
+void count_computed(const engine::Report& report, Outcome& outcome) {
   outcome.n_surfaces = report.computed("surface");
   outcome.n_contacts = report.computed("contact");
   outcome.n_films = report.computed("film");
@@ -44,8 +39,9 @@ bool count_twice(const Study& study, const std::vector<ScanTasks>& tasks, std::s
   return tasks[i].sha256 == tasks[j].sha256 && study.scans[i].group == study.scans[j].group;
 }
 
-void warn_about_copies(const Study& study, const std::vector<ScanTasks>& tasks,
-                       std::vector<std::string>& warnings) {
+/// A warning for each scan that is there twice.
+std::vector<std::string> copies_in(const Study& study, const std::vector<ScanTasks>& tasks) {
+  std::vector<std::string> warnings;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (count_twice(study, tasks, i, j)) {
@@ -56,24 +52,28 @@ void warn_about_copies(const Study& study, const std::vector<ScanTasks>& tasks,
       }
     }
   }
+  return warnings;
 }
 
 }  // namespace
 
 Outcome run(const Study& study, const std::filesystem::path& directory,
             const SweepOptions& options) {
-  const Store store(directory, options.shard ? Store::Use::shared : Store::Use::alone);
+  const engine::Store store(directory,
+                            options.shard ? engine::Store::Use::shared : engine::Store::Use::alone);
   Outcome outcome;
   outcome.n_cases = study.n_cases();
   const std::vector<ScanTasks> tasks = tasks_of(study, options.observer);
-  warn_about_copies(study, tasks, outcome.warnings);
-  const Report report = run_jobs(friction_jobs(store, study, tasks), &store, options);
+  outcome.warnings = copies_in(study, tasks);
+  const engine::Report report =
+      engine::run_jobs(friction_jobs(store, study, tasks), &store, options);
   count_computed(report, outcome);
   std::exception_ptr error = report.ended_by;
   try {
     // One shard at a time: whoever comes last has seen every row.
     const auto lock = store.lock("results", [] {});
     StudyTables tables = tables_of(store, study, tasks);
+    tables.warnings = outcome.warnings;
     write_tables(store, study, tasks, tables, options.command);
     count_rows(tables.rows, outcome);
     outcome.averages = std::move(tables.averages);

@@ -4,20 +4,21 @@
 #include <string>
 #include <vector>
 
-#include "tabor/analysis/findings.hpp"
+#include "tabor/engine/run_options.hpp"
+#include "tabor/results/findings.hpp"
 #include "tabor/study/averages.hpp"
 #include "tabor/study/density_curves.hpp"
-#include "tabor/study/run_options.hpp"
 #include "tabor/study/study.hpp"
 
+// Runs a study into its folder of results, whole or in parts.
 namespace tabor::study {
 
-/// How a study is run.
-struct SweepOptions : RunOptions {
-  std::string command;  ///< command line, kept in results.h5
+/// Settings for running a study.
+struct SweepOptions : engine::RunOptions {
+  std::string command;  ///< command line, stored in results.h5
 };
 
-/// How a sweep ended.
+/// End of a sweep.
 struct Outcome {
   std::size_t n_cases = 0;          ///< of the study
   std::size_t n_done = 0;           ///< rows in results.csv, those of earlier runs included
@@ -28,36 +29,37 @@ struct Outcome {
   std::size_t n_films = 0;
   std::size_t n_fluids = 0;  ///< states whose oil flows
   std::size_t n_rows = 0;
-  std::vector<std::string> failures;        ///< one line per scan and pressure that has no numbers
-  std::vector<std::string> warnings;        ///< about the sweep itself
-  std::vector<analysis::Finding> findings;  ///< about the numbers of its rows
-  std::vector<Average> averages;            ///< over the scans of each group
-  std::vector<GroupCurve> density_curves;   ///< friction against density, the same
+  std::vector<std::string> failures;       ///< one line per scan and pressure that has no numbers
+  std::vector<std::string> warnings;       ///< about the sweep itself
+  std::vector<results::Finding> findings;  ///< about the numbers of its rows
+  std::vector<Average> averages;           ///< over the scans of each group
+  std::vector<GroupCurve> density_curves;  ///< friction against density, the same
 };
 
-/// What processes may compute into one store at the same time: one scan under one pressure each.
-/// The study of a part has this scan alone, with the pressure as its own, and no experiment.
+/// Returns the parts that processes may compute into one store at the same time: one scan under one
+/// pressure each. The study of a part has this scan alone, with the pressure as its own, and no
+/// experiment.
 std::vector<Study> parts_of(const Study& study);
 
-/// What the store in `directory` lacks.
+/// Parts of a study that the store lacks.
 struct Missing {
   std::vector<std::size_t> parts;  ///< places in parts_of(), the first pressures of all scans first
   std::vector<std::string> warnings;  ///< one per damaged file, which is removed
 };
-/// Looks at every file of the store. With `retry`, what failed or did not converge is missing, too.
-/// Throws as run().
+/// Finds the missing parts by checking every file of the store. With `retry`, results that failed
+/// or did not converge are missing, too. Throws as run().
 Missing missing_parts(const Study& study, const std::filesystem::path& directory,
                       bool retry = false, const Observer& observer = {});
 
-/// What a run of one part did.
+/// Outcome of a run of one part.
 struct PartOutcome {
   std::size_t n_contacts = 0;         ///< that it computed
   std::vector<std::string> failures;  ///< of what has no numbers
 };
-/// Computes what the store does not hold yet of a part, while others may compute other parts into
-/// the same store. Tables are left to run(), which finds the part done. Throws as run().
+/// Computes what the store does not hold yet of a part, while other processes may compute other
+/// parts into the same store. Writes no tables; run() does that later. Throws as run().
 PartOutcome run_part(const Study& part, const std::filesystem::path& directory,
-                     const RunOptions& options = {});
+                     const engine::RunOptions& options = {});
 
 /// Computes what the store in `directory` does not hold yet: each scan is treated once, each
 /// contact solved once per scan and pressure, each film laid down once per scan for all densities;
@@ -67,8 +69,8 @@ PartOutcome run_part(const Study& part, const std::filesystem::path& directory,
 /// shards, threads or interruptions.
 ///
 /// Throws InputError (unreadable scan file, store in use), Error (a scan was replaced meanwhile),
-/// OutputError (cannot write), Interrupted (the observer returned false; what was finished is
-/// kept).
+/// OutputError (cannot write), Interrupted (the observer returned false; finished results are
+/// stored).
 Outcome run(const Study& study, const std::filesystem::path& directory,
             const SweepOptions& options = {});
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <utility>
@@ -12,6 +13,9 @@
 #include "tabor/core/units.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/columns.hpp"
+#include "tabor/io/hdf5_guard.hpp"
+#include "tabor/results/fields_file.hpp"
+#include "tabor/study/study_keys.hpp"
 #include "tabor/study/wet_shares.hpp"
 
 namespace tabor::study {
@@ -20,58 +24,41 @@ namespace {
 /// One line per warning.
 std::string warning_texts(const Row& row) {
   std::string lines;
-  for (const analysis::Warning& warning : row.warnings) {
-    lines += (lines.empty() ? "" : "\n") + warning.text;
+  for (const Warning& warning : row.warnings) {
+    lines += (lines.empty() ? "" : "\n") + advised(warning.text, spelling());
   }
   return lines;
 }
 
-std::string warning_codes(const Row& row) {
-  return fmt::format("{}", fmt::join(analysis::codes_of(row.warnings), " "));
-}
+std::string warning_codes(const Row& row) { return results::codes_text(row.warnings); }
 
 /// What is not in results.csv, so that it keeps its agreed columns, is in results.h5 alone. Columns
 /// of a film that flows come after the others, so that these stay where they are.
 Columns<Row> row_columns(bool oil_flows) {
-  constexpr ColumnStyle tabled{.media = analysis::media::kTable};
+  constexpr ColumnStyle tabled{.media = cases::media::kTable};
   return joined<Row>(joined<Row>({{"case_id", "", "", &Row::case_id},
                                   {"scan", "", "", &Row::scan},
                                   {"group", "", "", &Row::group}},
-                                 inherited<Row>(analysis::friction_columns(oil_flows))),
+                                 inherited<Row>(cases::friction_columns(oil_flows))),
                      {{"error", "", "", &Row::error, tabled},
                       {"warnings", "", "", warning_texts, tabled},
                       {"warning_codes", "", "", warning_codes, tabled}});
 }
 
-void write_oil(io::Hdf5Writer& writer, const friction::FlowingOil& oil) {
-  writer.attribute("/", "fluid", "reynolds");
-  writer.attribute("/", "viscosity_Pa_s", oil.viscosity);
-  if (oil.pressure_viscosity) {
-    writer.attribute("/", "pressure_viscosity_per_Pa", *oil.pressure_viscosity);
-  }
-  if (oil.eyring_stress) writer.attribute("/", "eyring_stress_Pa", *oil.eyring_stress);
-}
-
 void write_settings(io::Hdf5Writer& writer, const Study& study, const std::string& command) {
-  const analysis::ContactSettings& contact = study.settings.contact;
   write_root(writer, "scans/0000/surface");
   writer.attribute("/", "command", command);
   writer.attribute("/", "config_toml", to_toml(study));
   writer.attribute("/", "created",
                    fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr))));
   writer.attribute("/", "title", study.title);
-  writer.attribute("/", "shear_strength_Pa", study.settings.friction.shear_strength);
-  writer.attribute("/", "boundary_shear_strength_Pa", study.settings.friction.boundary_strength());
-  writer.attribute("/", "youngs_modulus_Pa", contact.youngs_modulus);
-  writer.attribute("/", "poissons_ratio", contact.poissons_ratio);
-  writer.attribute("/", "effective_modulus_Pa", contact.effective_modulus());
-  if (contact.saturation_pressure) {
-    writer.attribute("/", "saturation_pressure_Pa", *contact.saturation_pressure);
+  io::Json settings = io::Json::object();
+  const io::Json in_force = results::settings_json(study.settings);
+  for (const auto& [key, value] : in_force.items()) {
+    if (key != "threads") settings[key] = value;  // of this run, not of the study
   }
-  writer.attribute("/", "oil_density_kg_per_m3", study.settings.film.oil_density);
-  writer.attribute("/", "area",
-                   std::string(friction::name(study.settings.friction.area_of(contact))));
-  if (study.flows()) write_oil(writer, study.settings.fluid.oil());
+  settings["boundary_shear_strength_Pa"] = study.settings.friction.boundary_strength();
+  io::write_members(writer, "/", settings);
 }
 
 void write_surface_facts(io::Hdf5Writer& writer, const std::string& group,
@@ -87,9 +74,10 @@ void write_surface_facts(io::Hdf5Writer& writer, const std::string& group,
 }
 
 /// Links into the store, only to what is there.
-void write_links(io::Hdf5Writer& writer, const std::string& group, const Store& store,
+void write_links(io::Hdf5Writer& writer, const std::string& group, const engine::Store& store,
                  const ScanTasks& tasks, std::size_t n_films) {
-  const auto link = [&](const std::string& name, const Task& task, const std::string& target) {
+  const auto link = [&](const std::string& name, const engine::Task& task,
+                        const std::string& target) {
     if (store.has(task)) writer.external_link(group + "/" + name, "store/" + task.file, target);
   };
   link("surface", tasks.surface, "/surface");
@@ -101,8 +89,10 @@ void write_links(io::Hdf5Writer& writer, const std::string& group, const Store& 
     link(fmt::format("films/{:04}", i), tasks.film, film_group(i));
   }
   std::size_t place = 0;
-  for (const std::vector<Task>& fluids : tasks.fluids) {
-    for (const Task& task : fluids) link(fmt::format("fluid/{:04}", place++), task, "/fluid");
+  for (const std::vector<engine::Task>& fluids : tasks.fluids) {
+    for (const engine::Task& task : fluids) {
+      link(fmt::format("fluid/{:04}", place++), task, "/fluid");
+    }
   }
 }
 
@@ -117,7 +107,7 @@ void write_scan_settings(io::Hdf5Writer& writer, const std::string& group, const
   writer.attribute(group, "reading", std::string(deposition::name(alone.settings.film.reading)));
 }
 
-void write_scans(io::Hdf5Writer& writer, const Store& store, const Study& study,
+void write_scans(io::Hdf5Writer& writer, const engine::Store& store, const Study& study,
                  const std::vector<ScanTasks>& tasks) {
   writer.group("/scans");
   for (std::size_t i = 0; i < tasks.size(); ++i) {
@@ -148,11 +138,11 @@ void write_experiment(io::Hdf5Writer& writer, const Experiment& experiment) {
 
 }  // namespace
 
-std::vector<Row> rows_in(const Store& store, const std::vector<ScanTasks>& tasks) {
+std::vector<Row> rows_in(const engine::Store& store, const std::vector<ScanTasks>& tasks) {
   std::vector<Row> rows;
   for (const ScanTasks& scan : tasks) {
-    for (const std::vector<Task>& cases : scan.cases) {
-      for (const Task& task : cases) {
+    for (const std::vector<engine::Task>& cases : scan.cases) {
+      for (const engine::Task& task : cases) {
         if (store.has(task) && defect(store, task).empty()) rows.push_back(read_row(store, task));
       }
     }
@@ -160,8 +150,8 @@ std::vector<Row> rows_in(const Store& store, const std::vector<ScanTasks>& tasks
   return rows;
 }
 
-std::vector<analysis::Finding> findings_in(const std::vector<Row>& rows) {
-  std::vector<analysis::Case> cases;
+std::vector<results::Finding> findings_in(const std::vector<Row>& rows) {
+  std::vector<results::Case> cases;
   for (const Row& row : rows) {
     if (row.failed()) continue;
     cases.push_back(
@@ -171,29 +161,66 @@ std::vector<analysis::Finding> findings_in(const std::vector<Row>& rows) {
          .speed = row.fluid ? format_si(row.fluid->sliding_speed, "m/s") : std::string(),
          .warnings = row.warnings});
   }
-  return analysis::findings_of(cases);
+  results::shorten_paths(cases);
+  std::vector<results::Finding> findings = results::findings_of(cases);
+  results::spell(spelling(), findings);
+  return findings;
 }
 
 std::string results_csv(const std::vector<Row>& rows, bool oil_flows) {
-  return io::csv_of(row_columns(oil_flows), rows, analysis::media::kCsv);
+  return io::csv_of(row_columns(oil_flows), rows, cases::media::kCsv);
 }
 
 std::string averages_csv(const std::vector<Average>& averages, bool oil_flows) {
   return io::csv_of(average_columns(oil_flows), averages);
 }
 
-StudyTables tables_of(const Store& store, const Study& study, const std::vector<ScanTasks>& tasks) {
+StudyTables tables_of(const engine::Store& store, const Study& study,
+                      const std::vector<ScanTasks>& tasks) {
   StudyTables tables{.rows = rows_in(store, tasks),
                      .averages = {},
                      .curves = density_curves_in(store, study, tasks),
                      .averaged = {}};
   tables.averages = averages(tables.rows);
-  tables.averaged = average_curves(study, tables.curves);
+  tables.averaged = average_curves(tables.curves, tables.rows);
   return tables;
 }
 
-void write_tables(const Store& store, const Study& study, const std::vector<ScanTasks>& tasks,
-                  const StudyTables& tables, const std::string& command) {
+std::vector<std::string> failures_in(const std::vector<Row>& rows) {
+  std::vector<std::string> failures;
+  for (const Row& row : rows) {
+    if (row.failed()) {
+      failures.push_back(fmt::format("{} {} Pa: {}", row.scan, row.mean_pressure, row.error));
+    }
+  }
+  failures.erase(std::unique(failures.begin(), failures.end()), failures.end());
+  return failures;
+}
+
+Remarks remarks_in(const std::filesystem::path& results) {
+  return io::read_guarded(results, [](const io::Hdf5Reader& reader) {
+    Remarks remarks;
+    if (reader.has_attribute("/", "warnings")) {
+      remarks.warnings = reader.attribute_texts("/", "warnings");
+    }
+    const std::vector<std::string> scans = reader.texts("/table/scan");
+    const std::vector<std::string> errors = reader.texts("/table/error");
+    const std::vector<double> pressures = reader.numbers("/table/mean_pressure_Pa");
+    const std::size_t n = std::min({scans.size(), errors.size(), pressures.size()});
+    std::vector<Row> rows(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      rows[i].scan = scans[i];
+      rows[i].error = errors[i];
+      rows[i].mean_pressure = pressures[i];
+    }
+    remarks.failures = failures_in(rows);
+    return remarks;
+  });
+}
+
+void write_tables(const engine::Store& store, const Study& study,
+                  const std::vector<ScanTasks>& tasks, const StudyTables& tables,
+                  const std::string& command) {
   const std::vector<Row>& rows = tables.rows;
   const std::vector<Average>& means = tables.averages;
   io::write_file(store.directory() / "results.csv", results_csv(rows, study.flows()));
@@ -206,17 +233,19 @@ void write_tables(const Store& store, const Study& study, const std::vector<Scan
   write_settings(writer, study, command);
   writer.attribute("/", "n_cases", static_cast<std::int64_t>(study.n_cases()));
   writer.attribute("/", "n_cases_done", static_cast<std::int64_t>(rows.size()));
-  std::vector<std::string> lines;
-  for (const analysis::Finding& finding : findings_in(rows)) {
-    lines.push_back(analysis::line_of(finding));
-  }
-  writer.attribute("/", "warnings", lines);
-  io::write_datasets(writer, "/table", row_columns(study.flows()), rows, analysis::media::kTable);
+  std::vector<results::Finding> findings(tables.warnings.size());
+  for (std::size_t i = 0; i < tables.warnings.size(); ++i) findings[i].text = tables.warnings[i];
+  const std::vector<results::Finding> of_rows = findings_in(rows);
+  findings.insert(findings.end(), of_rows.begin(), of_rows.end());
+  results::write_warnings(writer, findings);
+  io::write_datasets(writer, "/table", row_columns(study.flows()), rows, cases::media::kTable);
   io::write_datasets(writer, "/averages", average_columns(study.flows()), means);
   if (!tables.curves.empty()) {
     io::write_datasets(writer, "/density_curves", curve_columns(), points_of(tables.curves));
     io::write_datasets(writer, "/density_averages", average_curve_columns(),
                        points_of(tables.averaged));
+    io::write_datasets(writer, "/density_plateaus", plateau_columns(), tables.averaged);
+    io::write_datasets(writer, "/density_places", place_columns(), places_of(tables.averaged));
     std::vector<std::string> answers;
     for (const GroupCurve& curve : tables.averaged) answers.push_back(answer_of(curve));
     writer.attribute("/", "answers", answers);

@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "tabor/cases/warnings.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/core/version.hpp"
 
 namespace tabor::study {
 
-io::Hdf5Writer task_writer(const Store& store, const Task& task, const std::string& plotted) {
+io::Hdf5Writer task_writer(const engine::Store& store, const engine::Task& task,
+                           const std::string& plotted) {
   io::Hdf5Writer writer(store.path(task), io::Seal::yes);
   write_root(writer, plotted);
   writer.attribute("/", "canonical_text", task.text);
@@ -23,10 +25,9 @@ void write_map(io::Hdf5Writer& writer, const std::string& group, const MapName& 
   writer.attach_axes(path);
 }
 
-void write_warnings(io::Hdf5Writer& writer, const std::string& path,
-                    const analysis::Warnings& warnings) {
+void write_warnings(io::Hdf5Writer& writer, const std::string& path, const Warnings& warnings) {
   std::vector<std::string> texts, codes, weights;
-  for (const analysis::Warning& warning : warnings) {
+  for (const Warning& warning : warnings) {
     texts.push_back(warning.text);
     codes.push_back(warning.code);
     weights.push_back(fmt::format("{:.17g}", warning.weight));
@@ -36,14 +37,19 @@ void write_warnings(io::Hdf5Writer& writer, const std::string& path,
   writer.attribute(path, "warning_weights", weights);
 }
 
-analysis::Warnings read_warnings(const io::Hdf5Reader& reader, const std::string& path) {
+Warnings read_warnings(const io::Hdf5Reader& reader, const std::string& path) {
   const auto texts = reader.attribute_texts(path, "warnings");
+  if (!reader.has_attribute(path, "warning_codes")) {  // a film that flows, of earlier versions
+    Warnings of_flow;
+    for (const std::string& text : texts) of_flow.push_back({"fluid-film", text});
+    return of_flow;
+  }
   const auto codes = reader.attribute_texts(path, "warning_codes");
   const auto weights = reader.attribute_texts(path, "warning_weights");
   if (codes.size() != texts.size() || weights.size() != texts.size()) {
     throw InputError(path + ": its warnings are not complete");
   }
-  analysis::Warnings warnings;
+  Warnings warnings;
   for (std::size_t i = 0; i < texts.size(); ++i) {
     warnings.push_back({codes[i], texts[i], parse_number(weights[i]).value_or(0)});
   }

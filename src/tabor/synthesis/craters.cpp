@@ -15,12 +15,11 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double kSmallestCrater = 50e-6;  // diameter [m]
-constexpr double kTypicalCrater = 90e-6;   // diameter [m], the median
-constexpr double kCoverage = 2;            // crater area over scan area
-constexpr double kCraterStretch = 1.15;    // rolling lengthens craters along x
-constexpr double kWallWidth = 0.1;         // of a crater, over its radius
-constexpr double kShoulder = 0.35;         // raised rim over crater depth
+constexpr double kTypicalCrater = 90e-6;  // diameter [m], the median
+constexpr double kCoverage = 2;           // crater area over scan area
+constexpr double kCraterStretch = 1.15;   // rolling lengthens craters along x
+constexpr double kWallWidth = 0.1;        // of a crater, over its radius
+constexpr double kShoulder = 0.35;        // raised rim over crater depth
 constexpr double kOutlineIrregularity = 0.06;
 constexpr std::size_t kOutlineModes = 5;  // 2 to 6 lobes
 

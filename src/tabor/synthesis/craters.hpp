@@ -6,7 +6,8 @@
 
 namespace tabor::synthesis {
 
-inline constexpr double kLargestCrater = 150e-6;  ///< diameter [m]
+inline constexpr double kSmallestCrater = 50e-6;  ///< diameter [m]
+inline constexpr double kLargestCrater = 150e-6;  ///< the same
 
 /// Marks of sparks that struck one after the other, [typical depth]: overlapping craters of 50 to
 /// 150 um, lengthened along x by rolling, with raised rims, their total area twice the map's.

@@ -1,13 +1,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
-#include "tabor/core/checks.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/random.hpp"
+#include "tabor/core/resources.hpp"
 #include "tabor/core/rows.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/numerics/root.hpp"
@@ -15,6 +16,7 @@
 #include "tabor/synthesis/craters.hpp"
 #include "tabor/synthesis/random_field.hpp"
 #include "tabor/synthesis/recipe_checks.hpp"
+#include "tabor/synthesis/recipe_parameters.hpp"
 #include "tabor/synthesis/streams.hpp"
 #include "tabor/synthesis/synthesis.hpp"
 
@@ -120,15 +122,19 @@ double mean_abs(const Field& z) {
          static_cast<double>(z.size());
 }
 
+/// What has a height of its own must leave some to the texture.
+void check_overlay(const Field& overlay, double mean_abs_height) {
+  const double alone = mean_abs(overlay);
+  if (alone < mean_abs_height) return;
+  throw InputError(
+      "EDT surface",
+      fmt::format("Sa {} of waviness, plateau roughness and noise alone", format_si(alone, "m")),
+      fmt::format("less than the Sa of the whole, {}", format_si(mean_abs_height, "m")), "");
+}
+
 /// overlay + s texture with the s for which Sa is what the recipe asks for.
 Field combined(const Field& texture, const Field& overlay, double mean_abs_height) {
   const double alone = mean_abs(overlay);
-  if (!(alone < mean_abs_height)) {
-    throw InputError(
-        "EDT surface",
-        fmt::format("Sa {} of waviness, plateau roughness and noise alone", format_si(alone, "m")),
-        fmt::format("less than the Sa of the whole, {}", format_si(mean_abs_height, "m")), "");
-  }
   // Sa of the whole is at least that of the texture less that of the rest.
   const double most = 1.01 * (mean_abs_height + alone) / mean_abs(texture);
   const double scale = numerics::increasing_root(
@@ -171,49 +177,43 @@ void slide(Field& z, const Grid& grid, const Edt& recipe) {
   });
 }
 
-/// A cut-out's parent: large enough that opposite edges of the cut-out are not neighbours.
-Grid parent_grid(const Grid& grid) {
+/// Pixels along x and y of a cut-out's parent: large enough that opposite edges of the cut-out are
+/// not neighbours.
+std::array<double, 2> parent_size(const Grid& grid) {
   const auto larger = [](Index n, double spacing) {
-    return spectral::good_fft_size(n + static_cast<Index>(std::ceil(2 * kLargestCrater / spacing)));
+    return static_cast<double>(n) + std::ceil(2 * kLargestCrater / spacing);
   };
-  const Index nx = larger(grid.nx, grid.dx()), ny = larger(grid.ny, grid.dy());
+  return {larger(grid.nx, grid.dx()), larger(grid.ny, grid.dy())};
+}
+
+Grid parent_grid(const Grid& grid) {
+  const std::array<double, 2> size = parent_size(grid);
+  const Index nx = spectral::good_fft_size(static_cast<Index>(size[0]));
+  const Index ny = spectral::good_fft_size(static_cast<Index>(size[1]));
   return {nx, ny, static_cast<double>(nx) * grid.dx(), static_cast<double>(ny) * grid.dy()};
+}
+
+void check_parent(const std::array<double, 2>& size) {
+  constexpr double kBytesOfPixel = 24;  // heights, and those of one part with its transform
+  const auto memory = static_cast<double>(available_memory_bytes());
+  if (memory == 0 || kBytesOfPixel * size[0] * size[1] <= memory) return;
+  throw InputError("EDT surface",
+                   fmt::format("a cut-out of a map of {:.0f} x {:.0f} pixels, which has room for "
+                               "its craters",
+                               size[0], size[1]),
+                   "one that fits into memory", "take larger pixels, or a tile");
 }
 
 void check_recipe(const Edt& recipe) {
   check_grid(recipe.grid, "EDT surface");
-  check_positive("Sa of the EDT surface", recipe.mean_abs_height);
-  if (!(recipe.hurst > 0 && recipe.hurst <= 1)) {
-    throw InputError("Hurst exponent", fmt::format("{}", recipe.hurst), "0 < H <= 1", "");
-  }
-  check_not_negative("waviness", recipe.waviness);
-  check_not_negative("roughness of the plateaus", recipe.plateau_roughness);
-  check_not_negative("noise", recipe.noise);
-  check_positive("pressure of the sliding", recipe.sliding_pressure, "Pa");
-  check_not_negative("lubricant density of the sliding", recipe.sliding_density, "kg/m^2");
-  if (!(recipe.plateau_share >= 0 && recipe.plateau_share < 1)) {
-    throw InputError("share of plateaus", fmt::format("{}", recipe.plateau_share), "0 to below 1",
-                     "");
-  }
-  if (recipe.grid.nx < 4 || recipe.grid.ny < 4) {
-    throw InputError("EDT surface", fmt::format("{} x {} pixels", recipe.grid.nx, recipe.grid.ny),
+  check_settings(recipe);
+  const Grid& grid = recipe.grid;
+  if (grid.nx < 4 || grid.ny < 4) {
+    throw InputError("EDT surface", fmt::format("{} x {} pixels", grid.nx, grid.ny),
                      "at least 4 x 4 pixels", "");
   }
-}
-
-std::string describe(const Edt& recipe) {
-  const std::string stage =
-      recipe.stage == EdtStage::before
-          ? "before sliding"
-          : fmt::format("after sliding under {} with {}", format_si(recipe.sliding_pressure, "Pa"),
-                        fmt::format("{:.4g} g/m^2", in_g_per_m2(recipe.sliding_density)));
-  return fmt::format(
-      "generate edt: {}, Sa before sliding {}, H = {}, waviness {}, plateaus {} % with {}, noise "
-      "{}, "
-      "{}, seed {}",
-      stage, format_si(recipe.mean_abs_height, "m"), recipe.hurst, format_si(recipe.waviness, "m"),
-      100 * recipe.plateau_share, format_si(recipe.plateau_roughness, "m"),
-      format_si(recipe.noise, "m"), recipe.periodic ? "periodic" : "not periodic", recipe.seed);
+  check_two_pixels("EDT surface", "craters", kSmallestCrater, std::max(grid.dx(), grid.dy()));
+  if (!recipe.periodic) check_parent(parent_size(grid));
 }
 
 }  // namespace
@@ -224,8 +224,9 @@ topography::Topography edt(const Edt& recipe) {
   const auto part = [&](const Field& whole) {
     return Field(whole.topLeftCorner(recipe.grid.ny, recipe.grid.nx));
   };
-  Field z =
-      combined(part(textured(grid, recipe)), part(overlay(grid, recipe)), recipe.mean_abs_height);
+  const Field above = part(overlay(grid, recipe));
+  check_overlay(above, recipe.mean_abs_height);
+  Field z = combined(part(textured(grid, recipe)), above, recipe.mean_abs_height);
   if (recipe.stage == EdtStage::after) {
     slide(z, recipe.grid, recipe);
     z -= sum(z) / static_cast<double>(z.size());

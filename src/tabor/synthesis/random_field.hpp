@@ -5,6 +5,7 @@
 
 #include "tabor/core/types.hpp"
 
+// Draws a periodic random field with a given power spectrum.
 namespace tabor::synthesis {
 
 /// Modulus of a wavevector on the ellipse of a surface whose features are `stretch` times longer

@@ -4,129 +4,167 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <optional>
+#include <cmath>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
+#include "tabor/synthesis/recipe_parameters.hpp"
 
 namespace tabor::synthesis {
 namespace {
 
 using topography::Topography;
 
-/// The numbers given. A recipe takes those it knows; whatever is left at the end does not belong to
-/// its kind and is rejected.
-class Given {
+/// A value of a request, which is one of the setting's own kind.
+class Asked : public Given {
  public:
-  Given(const Request& request, const NumberSpelling& spelling)
-      : request_(request), spelling_(spelling), values_(request.numbers) {}
+  Asked(std::string setting, const Cell& value) : setting_(std::move(setting)), value_(value) {}
 
-  std::optional<double> take(const std::string& name) {
-    const auto node = values_.extract(name);
-    return node ? std::optional(node.mapped()) : std::nullopt;
+  double number(const Dimension&) const override { return as<double>("a number"); }
+  std::vector<double> numbers(const Dimension& expected) const override {
+    return {number(expected)};
   }
-
-  double take_or(const std::string& name, double fallback) { return take(name).value_or(fallback); }
-
-  double need(const std::string& name) {
-    if (const auto value = take(name)) return *value;
-    throw UsageError(fmt::format("generate {}: {} is missing", request_.kind, spelling_(name)));
+  std::uint64_t count() const override { return as<std::uint64_t>("a count"); }
+  bool flag() const override { return as<bool>("true or false"); }
+  std::string word(const std::vector<std::string>& choices) const override {
+    return checked_choice(setting_, as<std::string>(one_of(choices)), choices);
   }
-
-  void reject_rest() const {
-    if (values_.empty()) return;
-    throw UsageError(fmt::format("generate {}: {} does not belong to this kind", request_.kind,
-                                 spelling_(values_.begin()->first)));
+  std::string text() const override { return as<std::string>("a text"); }
+  std::vector<std::string> texts() const override {
+    return as<std::vector<std::string>>("a list of texts");
   }
-
-  const Request& request() const { return request_; }
-  std::string spelt(const std::string& name) const { return spelling_(name); }
+  bool is_word(const std::string& word) const override {
+    const auto* own = std::get_if<std::string>(&value_);
+    return own != nullptr && *own == word;
+  }
 
  private:
-  const Request& request_;
-  const NumberSpelling& spelling_;
-  std::map<std::string, double> values_;
+  template <typename Value>
+  Value as(const std::string& expected) const {
+    if (const auto* value = std::get_if<Value>(&value_)) return *value;
+    throw InputError(setting_, "a value of another type", expected, "");
+  }
+
+  std::string setting_;
+  const Cell& value_;
 };
 
-Topography make_self_affine(Given& given) {
-  SelfAffine recipe;
-  recipe.grid = given.request().grid;
-  recipe.hurst = given.take_or("hurst", recipe.hurst);
-  recipe.rms_height = given.take("rms_height");
-  recipe.rms_slope = given.take("rms_slope");
-  recipe.roll_off_wavelength = given.take_or("roll_off", 0);
-  recipe.long_cutoff_wavelength = given.take_or("long_cutoff", 0);
-  recipe.short_cutoff_wavelength = given.take_or("short_cutoff", 0);
-  recipe.stretch = given.take_or("stretch", 1);
-  recipe.random_amplitudes = given.request().random_amplitudes;
-  recipe.seed = given.request().seed;
-  if (recipe.rms_height.has_value() == recipe.rms_slope.has_value()) {
-    throw UsageError(fmt::format("generate self-affine: give either {} or {}",
-                                 given.spelt("rms_height"), given.spelt("rms_slope")));
+/// The one of this name, or the end of the list.
+template <typename List>
+auto find_named(List& list, const std::string& name) {
+  return std::find_if(list.begin(), list.end(), [&](const auto& one) { return one.name == name; });
+}
+
+[[noreturn]] void reject(const Request& request, const std::string& what) {
+  throw UsageError(fmt::format("generate {}: {}", request.kind, what));
+}
+
+template <typename Recipe>
+void read(const Request& request, const Spelling& spelling, Recipe& recipe) {
+  const auto& table = recipe_table<Recipe>().parameters;
+  for (const RecipeParameter<Recipe>& one : table) {
+    if (one.needed == Needed::yes && !request.settings.contains(one.name)) {
+      reject(request, spelling(one.name) + " is missing");
+    }
   }
-  return self_affine(recipe);
-}
-
-Topography make_edt(Given& given) {
-  Edt recipe{.grid = given.request().grid};
-  recipe.mean_abs_height = given.take_or("mean_height", recipe.mean_abs_height);
-  recipe.hurst = given.take_or("hurst", recipe.hurst);
-  recipe.stage = given.request().stage;
-  recipe.waviness = given.take_or("waviness", recipe.waviness);
-  recipe.plateau_share = given.take_or("plateau_share", recipe.plateau_share);
-  recipe.plateau_roughness = given.take_or("plateau_roughness", recipe.plateau_roughness);
-  recipe.noise = given.take_or("noise", recipe.noise);
-  if (recipe.stage == EdtStage::after) {
-    recipe.sliding_pressure = given.take_or("pressure", recipe.sliding_pressure);
-    recipe.sliding_density = given.take_or("density", recipe.sliding_density);
+  for (const auto& [name, value] : request.settings) {
+    const auto found = find_named(table, name);
+    if (found == table.end()) reject(request, spelling(name) + " does not belong to this kind");
+    found->read(recipe, Asked(spelling(name), value));
   }
-  recipe.periodic = given.request().periodic;
-  recipe.seed = given.request().seed;
-  return edt(recipe);
 }
 
-Topography make_ground(Given& given) {
-  Ground recipe{.grid = given.request().grid};
-  recipe.rms_height = given.take_or("rms_height", recipe.rms_height);
-  recipe.hurst = given.take_or("hurst", recipe.hurst);
-  recipe.groove_spacing = given.take_or("groove_spacing", recipe.groove_spacing);
-  recipe.groove_length = given.take_or("groove_length", recipe.groove_length);
-  recipe.seed = given.request().seed;
-  return ground(recipe);
+/// Throws for settings that mean nothing, or no one thing, together.
+template <typename Recipe>
+void check_together(const Request& request, const Spelling& spelling, const Recipe& recipe) {
+  for (const RecipeParameter<Recipe>& one : recipe_table<Recipe>().parameters) {
+    if (!one.applies || one.applies(recipe) || !request.settings.contains(one.name)) continue;
+    reject(request, fmt::format("{} belongs to {} {}", spelling(one.name), spelling(one.condition),
+                                one.condition_value));
+  }
+  const std::string found = contradiction(recipe, spelling);
+  if (!found.empty()) reject(request, found);
 }
 
-Topography make_sinusoid(Given& given) {
-  Sinusoid recipe{.grid = given.request().grid};
-  recipe.amplitude = given.need("amplitude");
-  recipe.wavelength_x = given.take_or("wavelength_x", 0);
-  recipe.wavelength_y = given.take_or("wavelength_y", 0);
-  return sinusoid(recipe);
+template <typename Recipe>
+Topography made(const Request& request, const Spelling& spelling,
+                Topography (*make)(const Recipe&)) {
+  Recipe recipe;
+  recipe.grid = request.grid;
+  if constexpr (requires { recipe.seed; }) recipe.seed = request.seed;
+  read(request, spelling, recipe);
+  check_bounds(recipe, spelling);
+  check_together(request, spelling, recipe);
+  return make(recipe);
 }
 
-Topography make_sphere(Given& given) {
-  return sphere({.grid = given.request().grid, .radius = given.need("radius")});
+/// A setting as one kind has it.
+template <typename Recipe>
+RecipeSetting setting_of(const RecipeParameter<Recipe>& parameter, const std::string& kind) {
+  RecipeSetting one;
+  static_cast<ParameterHead&>(one) = parameter;
+  one.kinds = {kind};
+  if (parameter.has_default()) one.defaults = {{kind, parameter.example}};
+  one.default_value = parameter.value({});
+  one.taken = [&parameter](const Given& given) {
+    Recipe scratch;
+    parameter.read(scratch, given);
+    return parameter.value(scratch);
+  };
+  if (!parameter.applies) return one;
+  one.kinds = {fmt::format("{}, {} {}", kind, parameter.condition, parameter.condition_value)};
+  return one;
 }
 
-Topography make_bump(Given& given) {
-  return bump({.grid = given.request().grid,
-               .height = given.need("height"),
-               .radius = given.need("radius")});
+/// What can be asked for by a name.
+struct Kind {
+  std::string name;
+  bool is_rough;
+  std::vector<RecipeSetting> settings;
+  std::function<Topography(const Request&, const Spelling&)> make;
+};
+
+template <typename Recipe>
+Kind kind(bool is_rough, Topography (*make)(const Recipe&)) {
+  const RecipeTable<Recipe>& table = recipe_table<Recipe>();
+  Kind one{table.kind, is_rough, {}, [make](const Request& request, const Spelling& spelling) {
+             return made(request, spelling, make);
+           }};
+  for (const RecipeParameter<Recipe>& parameter : table.parameters) {
+    one.settings.push_back(setting_of(parameter, table.kind));
+    one.settings.back().is_of_a_rough = is_rough;
+  }
+  return one;
 }
 
-using Maker = Topography (*)(Given&);
+const std::vector<Kind>& kinds() {
+  static const std::vector<Kind> all{kind(true, self_affine), kind(true, edt),
+                                     kind(true, ground),      kind(false, sinusoid),
+                                     kind(false, sphere),     kind(false, bump)};
+  return all;
+}
 
-const std::map<std::string, Maker>& makers() {
-  static const std::map<std::string, Maker> table = {
-      {"self-affine", make_self_affine}, {"edt", make_edt},       {"ground", make_ground},
-      {"sinusoid", make_sinusoid},       {"sphere", make_sphere}, {"bump", make_bump}};
-  return table;
+void merge(const RecipeSetting& setting, std::vector<RecipeSetting>& all) {
+  const auto known = find_named(all, setting.name);
+  if (known == all.end()) {
+    all.push_back(setting);
+    return;
+  }
+  known->kinds.insert(known->kinds.end(), setting.kinds.begin(), setting.kinds.end());
+  known->defaults.insert(known->defaults.end(), setting.defaults.begin(), setting.defaults.end());
+}
+
+/// "sphere, bump: radius"; what all rough surfaces have goes without their names.
+std::string help_of(const RecipeSetting& setting) {
+  if (setting.kinds.size() == recipe_kinds(setting.is_of_a_rough).size()) return setting.help;
+  return fmt::format("{}: {}", fmt::join(setting.kinds, ", "), setting.help);
 }
 
 void reject_unknown(const Request& request) {
   std::vector<std::string> names;
-  names.reserve(recipe_numbers().size());
-  for (const RecipeNumber& number : recipe_numbers()) names.push_back(number.name);
-  for (const auto& [name, value] : request.numbers) {
+  names.reserve(recipe_settings().size());
+  for (const RecipeSetting& one : recipe_settings()) names.push_back(one.name);
+  for (const auto& [name, value] : request.settings) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
     throw UsageError(fmt::format("generate: got '{}'; expected one of {}{}", name,
                                  fmt::join(names, ", "), suggestion(name, names)));
@@ -135,54 +173,63 @@ void reject_unknown(const Request& request) {
 
 }  // namespace
 
-const std::vector<RecipeNumber>& recipe_numbers() {
-  using namespace dimension;
-  static const std::vector<RecipeNumber> all = {
-      {"hurst", none, "Hurst exponent [0.8, edt 0.75, ground 0.7]"},
-      {"rms_height", length, "self-affine, ground: rms height [ground 0.3um]"},
-      {"rms_slope", none, "self-affine: rms slope, instead of the rms height"},
-      {"roll_off", length, "self-affine: the spectrum is flat above this wavelength"},
-      {"long_cutoff", length, "self-affine: no waves above this wavelength"},
-      {"short_cutoff", length, "self-affine: no waves below this wavelength [2 pixels]"},
-      {"stretch", none, "self-affine: features this much longer along x [1]"},
-      {"mean_height", length, "edt: mean absolute height Sa before sliding [0.9um]"},
-      {"waviness", length, "edt: rms of waves of 250 um and longer [0.6um]"},
-      {"plateau_share", none, "edt: share of the area that is plateaus [0.5]"},
-      {"plateau_roughness", length, "edt: rms of the roughness on the plateaus [50nm]"},
-      {"noise", length, "edt: rms of the microscope's noise [40nm]"},
-      {"pressure", pressure, "edt after sliding: mean pressure of it [7MPa]"},
-      {"density", areal_density, "edt after sliding: lubricant density of it [0.45g/m^2]"},
-      {"groove_spacing", length, "ground: roll-off wavelength across the grooves [20um]"},
-      {"groove_length", length, "ground: length of the grooves along x [400um]"},
-      {"amplitude", length, "sinusoid: amplitude", false},
-      {"wavelength_x", length, "sinusoid: wavelength along x [constant along x]", false},
-      {"wavelength_y", length, "sinusoid: wavelength along y [constant along y]", false},
-      {"radius", length, "sphere, bump: radius", false},
-      {"height", length, "bump: height", false}};
+const std::vector<RecipeSetting>& recipe_settings() {
+  static const std::vector<RecipeSetting> all = [] {
+    std::vector<RecipeSetting> settings;
+    for (const Kind& one : kinds()) {
+      for (const RecipeSetting& setting : one.settings) merge(setting, settings);
+    }
+    for (RecipeSetting& one : settings) one.help = help_of(one);
+    return settings;
+  }();
   return all;
 }
 
 const std::vector<std::string>& recipe_kinds() {
-  static const std::vector<std::string> kinds = [] {
-    std::vector<std::string> names;
-    for (const auto& [kind, unused] : makers()) names.push_back(kind);
-    return names;
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Kind& one : kinds()) all.push_back(one.name);
+    return all;
   }();
-  return kinds;
+  return names;
 }
 
-Topography generate(const Request& request, const NumberSpelling& spelling) {
-  const auto maker = makers().find(request.kind);
-  if (maker == makers().end()) {
+std::vector<std::string> recipe_kinds(bool are_rough) {
+  std::vector<std::string> names;
+  for (const Kind& one : kinds()) {
+    if (one.is_rough == are_rough) names.push_back(one.name);
+  }
+  return names;
+}
+
+Grid grid_of(const PixelSettings& settings, const Spelling& spelling) {
+  for (const Parameter<PixelSettings>& one : pixel_parameters()) {
+    const std::vector<double> numbers = one.numbers(settings);
+    if (!numbers.empty() && numbers.size() <= 2) continue;
+    throw UsageError(fmt::format("{}: got {} numbers; expected one, or two for x and y",
+                                 spelling(one.name), numbers.size()));
+  }
+  auto found = objection_to_bounds(pixel_parameters(), settings);
+  for (const double count : settings.pixels) {
+    if (found || count == std::floor(count)) continue;
+    found = Objection{"pixels", fmt::format("{}", count),
+                      parameter_of(pixel_parameters(), "pixels").bounds.text};
+  }
+  if (found) throw InputError(spelling(found->setting), found->got, found->expected, "");
+  const double nx = settings.pixels.front(), ny = settings.pixels.back();
+  return {static_cast<Index>(nx), static_cast<Index>(ny), nx * settings.pixel.front(),
+          ny * settings.pixel.back()};
+}
+
+Topography generate(const Request& request, const Spelling& spelling) {
+  const auto found = find_named(kinds(), request.kind);
+  if (found == kinds().end()) {
     throw UsageError(fmt::format("generate: got kind '{}'; expected {}{}", request.kind,
                                  fmt::join(recipe_kinds(), ", "),
                                  suggestion(request.kind, recipe_kinds())));
   }
   reject_unknown(request);
-  Given given(request, spelling);
-  Topography surface = maker->second(given);
-  given.reject_rest();
-  return surface;
+  return found->make(request, spelling);
 }
 
 }  // namespace tabor::synthesis

@@ -5,42 +5,57 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "tabor/core/units.hpp"
+#include "tabor/core/column.hpp"
+#include "tabor/record/parameter.hpp"
 #include "tabor/synthesis/synthesis.hpp"
 
 // Surfaces by names, as a person asks for them: "edt" with "plateau_share" 0.6.
 namespace tabor::synthesis {
 
-/// A number that some kinds of surfaces take.
-struct RecipeNumber {
-  std::string name;  ///< "rms_height"
-  Dimension dimension;
-  std::string help;           ///< which kinds take it, what it is, and its usual value
-  bool is_of_a_rough = true;  ///< self-affine, edt, ground; else sinusoid, sphere, bump
+/// A setting that some kinds of surfaces take.
+struct RecipeSetting : ParameterHead {
+  std::vector<std::string> kinds = {};  ///< that take it; `help` names them
+  /// The defaults of the kinds that have one: {"edt", "0.75"}.
+  std::vector<std::pair<std::string, std::string>> defaults = {};
+  bool is_of_a_rough = true;  ///< of self-affine, edt and ground; else of sinusoid, sphere and bump
+  Cell default_value = {};    ///< the default of the first kind; NaN or nothing: none
+  std::function<Cell(const Given&)> taken = {};  ///< what was given, for Request::settings
 };
-const std::vector<RecipeNumber>& recipe_numbers();
+
+/// All settings of all kinds, each once, in the order of the kinds.
+const std::vector<RecipeSetting>& recipe_settings();
 
 /// "self-affine", "edt", ...
 const std::vector<std::string>& recipe_kinds();
+/// Returns the kinds of rough surfaces, or the others.
+std::vector<std::string> recipe_kinds(bool are_rough);
 
-/// What is asked for. Numbers that are not given have their usual values.
+/// The pixels of a generated surface, along x and along y, or one number for both.
+struct PixelSettings {
+  std::vector<double> pixels{512};     ///< their number
+  std::vector<double> pixel{0.67e-6};  ///< their size [m]
+};
+const Parameters<PixelSettings>& pixel_parameters();
+
+/// What is asked for. Settings that are not given have their defaults.
 struct Request {
   std::string kind;
   Grid grid;
-  std::map<std::string, double> numbers = {};  ///< SI, by the names of recipe_numbers()
-  EdtStage stage = EdtStage::before;           ///< of edt
-  bool periodic = true;                        ///< edt: a tile, or a cut-out
-  bool random_amplitudes = false;              ///< of self-affine
+  std::map<std::string, Cell> settings = {};  ///< numbers in SI, by the names of recipe_settings()
   std::uint64_t seed = 1;
 };
 
-/// How those who asked call a number: "--rms-height" for "rms_height".
-using NumberSpelling = std::function<std::string(std::string_view name)>;
+/// How those who asked call a setting: "--rms-height" for "rms_height".
+using Spelling = std::function<std::string(std::string_view setting)>;
 
-/// The surface. Throws UsageError for a kind or a number that does not exist, or does not belong to
-/// the kind, or is missing; InputError for values out of range.
-topography::Topography generate(const Request& request, const NumberSpelling& spelling);
+/// Throws InputError for pixels that are none, UsageError for more than two numbers.
+Grid grid_of(const PixelSettings& settings, const Spelling& spelling);
+
+/// The surface. Throws UsageError for a kind or a setting that does not exist, or does not belong
+/// to the kind, or is missing; InputError for values out of range.
+topography::Topography generate(const Request& request, const Spelling& spelling);
 
 }  // namespace tabor::synthesis

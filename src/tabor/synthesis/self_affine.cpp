@@ -1,14 +1,12 @@
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-#include "tabor/core/checks.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/core/units.hpp"
 #include "tabor/synthesis/random_field.hpp"
 #include "tabor/synthesis/recipe_checks.hpp"
+#include "tabor/synthesis/recipe_parameters.hpp"
 #include "tabor/synthesis/synthesis.hpp"
 
 namespace tabor::synthesis {
@@ -42,31 +40,26 @@ double power_law(double q, const Corners& corners, double hurst, double unit) {
   return std::pow(std::max(q, corners.roll_off) / unit, -2 * (1 + hurst));
 }
 
-void check_recipe(const SelfAffine& recipe) {
-  check_grid(recipe.grid, "self-affine surface");
-  if (!(recipe.hurst > 0 && recipe.hurst <= 1)) {
-    throw InputError("Hurst exponent", fmt::format("{}", recipe.hurst), "0 < H <= 1", "");
-  }
-  if (recipe.rms_height.has_value() == recipe.rms_slope.has_value()) {
-    throw InputError("self-affine surface",
-                     recipe.rms_height ? "both rms height and rms slope" : "no amplitude",
-                     "either the rms height or the rms slope", "");
-  }
-  check_positive("rms height", recipe.rms_height.value_or(1));
-  check_positive("rms slope", recipe.rms_slope.value_or(1));
-  check_positive("stretch", recipe.stretch);
+[[noreturn]] void reject_waves() {
+  throw InputError("self-affine surface", "no wavevector between the cutoffs",
+                   "cutoffs between the scan side and two pixels", "");
 }
 
-std::string describe(const SelfAffine& recipe) {
-  const auto length = [](double value) { return value > 0 ? format_si(value, "m") : "none"; };
-  return fmt::format(
-      "generate self-affine: H = {}, {} = {}, roll-off {}, long cutoff {}, short cutoff {}, "
-      "stretch {}, {}, seed {}",
-      recipe.hurst, recipe.rms_height ? "rms height" : "rms slope",
-      recipe.rms_height ? format_si(*recipe.rms_height, "m") : fmt::format("{}", *recipe.rms_slope),
-      length(recipe.roll_off_wavelength), length(recipe.long_cutoff_wavelength),
-      length(recipe.short_cutoff_wavelength), recipe.stretch,
-      recipe.random_amplitudes ? "random amplitudes" : "random phases", recipe.seed);
+void check_recipe(const SelfAffine& recipe) {
+  check_grid(recipe.grid, "self-affine surface");
+  check_settings(recipe);
+  check_height("waves of the rms slope",
+               recipe.rms_slope.value_or(0) * std::max(recipe.grid.lx, recipe.grid.ly) / (2 * pi));
+}
+
+/// Throws InputError if the cutoffs leave out the longest wave that fits, and all shorter ones, or
+/// the shortest wave of the pixels, and all longer ones.
+void check_waves(const SelfAffine& recipe, const Corners& corners) {
+  const Grid& grid = recipe.grid;
+  const double longest = std::min(elliptic_wavevector(2 * pi / grid.lx, 0, recipe.stretch),
+                                  elliptic_wavevector(0, 2 * pi / grid.ly, recipe.stretch));
+  const double shortest = elliptic_wavevector(pi / grid.dx(), pi / grid.dy(), recipe.stretch);
+  if (longest > corners.highest || shortest < corners.lowest) reject_waves();
 }
 
 }  // namespace
@@ -74,13 +67,11 @@ std::string describe(const SelfAffine& recipe) {
 topography::Topography self_affine(const SelfAffine& recipe) {
   check_recipe(recipe);
   const Corners corners = corners_of(recipe);
+  check_waves(recipe, corners);
   const double unit = 2 * pi / std::max(recipe.grid.lx, recipe.grid.ly);
   auto field = random_field({recipe.grid, recipe.stretch, recipe.random_amplitudes, recipe.seed, 0,
                              [&](double q) { return power_law(q, corners, recipe.hurst, unit); }});
-  if (!(field.variance > 0)) {
-    throw InputError("self-affine surface", "no wavevector between the cutoffs",
-                     "cutoffs between the scan side and two pixels", "");
-  }
+  if (!(field.variance > 0)) reject_waves();
   const double scale = recipe.rms_height ? *recipe.rms_height / std::sqrt(field.variance)
                                          : *recipe.rms_slope / std::sqrt(field.slope_variance);
   field.height *= scale;
@@ -88,8 +79,10 @@ topography::Topography self_affine(const SelfAffine& recipe) {
 }
 
 topography::Topography ground(const Ground& recipe) {
-  check_positive("groove spacing", recipe.groove_spacing);
-  check_positive("groove length", recipe.groove_length);
+  check_grid(recipe.grid, "ground surface");
+  check_settings(recipe);
+  check_two_pixels("ground surface", "a groove spacing", recipe.groove_spacing, recipe.grid.dy());
+  check_two_pixels("ground surface", "a groove length", recipe.groove_length, recipe.grid.dx());
   SelfAffine grooves;
   grooves.grid = recipe.grid;
   grooves.hurst = recipe.hurst;
@@ -99,11 +92,7 @@ topography::Topography ground(const Ground& recipe) {
   grooves.random_amplitudes = true;
   grooves.seed = recipe.seed;
   auto surface = self_affine(grooves);
-  const auto text = fmt::format(
-      "generate ground: Sq = {}, H = {}, groove spacing {}, length {}, seed {}",
-      format_si(recipe.rms_height, "m"), recipe.hurst, format_si(recipe.groove_spacing, "m"),
-      format_si(recipe.groove_length, "m"), recipe.seed);
-  return generated(recipe.grid, std::move(surface.height), true, text);
+  return generated(recipe.grid, std::move(surface.height), true, describe(recipe));
 }
 
 }  // namespace tabor::synthesis

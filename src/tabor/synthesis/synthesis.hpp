@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "tabor/core/names.hpp"
 #include "tabor/topography/topography.hpp"
 
+// Generates rough surfaces with given statistics, and simple shapes.
 namespace tabor::synthesis {
 
 /// Periodic self-affine roughness. The amplitude of each wavevector is drawn from (seed,
@@ -27,6 +29,7 @@ topography::Topography self_affine(const SelfAffine& recipe);
 
 /// Before or after sliding.
 enum class EdtStage { before, after };
+inline constexpr auto kEdtStages = names<EdtStage>("before", "after");
 
 /// A sheet textured by electro-discharge rolls: overlapping craters and plateaus with smaller
 /// asperities on top, on a wavy sheet, with the noise of a microscope. `after` sliding: tops

@@ -176,9 +176,12 @@ Topography filtered(Topography topography, const Filter& filter, bool high) {
   const double side = filter_side(before);
   Topography result = before;
   result.height = low_pass(before.height, before.grid, filter, side, before.periodic);
-  if (high) result.height = before.height - result.height;
+  if (high) {
+    result.height = numerics::without_rounding(before.height - result.height,
+                                               numerics::largest_magnitude(before.height));
+  }
   const auto warning = warning_about(filter, filter.cutoff_wavelength(side), before.grid);
-  if (!warning.empty()) result.warnings.push_back({.text = warning, .code = "filter"});
+  if (!warning.empty()) result.warnings.push_back({.code = "filter", .text = warning});
   result.history.push_back(describe(high ? "highpass" : "lowpass", filter, side, before, result));
   return result;
 }

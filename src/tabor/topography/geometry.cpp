@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tabor/core/error.hpp"
+#include "tabor/topography/edges.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -19,6 +20,13 @@ bool inside(const PixelWindow& w, const Grid& grid) {
          w.nx <= grid.nx - w.x0 && w.ny <= grid.ny - w.y0;
 }
 
+/// Those of a part are others, unless the body ends there.
+void lose_edges(Topography& topography) {
+  topography.periodic = false;
+  topography.edges_match = false;
+  if (topography.edges != Edges::end) topography.edges.reset();
+}
+
 }  // namespace
 
 Topography crop(Topography topography, const PixelWindow& window) {
@@ -28,7 +36,7 @@ Topography crop(Topography topography, const PixelWindow& window) {
         "crop", fmt::format("{},{},{},{} pixels", window.x0, window.y0, window.nx, window.ny),
         fmt::format("x0,y0,nx,ny inside the {} x {} pixels of the scan", grid.nx, grid.ny), "");
   }
-  topography.periodic = topography.periodic && window.nx == grid.nx && window.ny == grid.ny;
+  if (window.nx != grid.nx || window.ny != grid.ny) lose_edges(topography);
   topography.tiles = 1;
   const Field part = topography.height.block(window.y0, window.x0, window.ny, window.nx);
   topography.height = part;
@@ -53,12 +61,17 @@ Topography trim_margins(Topography topography, Index mx, Index my) {
 }
 
 Topography mirror(Topography topography) {
+  if (topography.edges && topography.edges != Edges::cut) {
+    throw InputError("mirror", fmt::format("a surface with edges={}", kEdges.of(*topography.edges)),
+                     "a cut-out of a larger one", "say once what lies beyond the edges");
+  }
   const Field& z = topography.height;
   Field tiled(2 * z.rows(), 2 * z.cols());
   tiled << z, z.rowwise().reverse(), z.colwise().reverse(), z.reverse();
   topography.height = std::move(tiled);
   set_spacing(topography.grid, 2 * topography.grid.nx, 2 * topography.grid.ny);
   topography.periodic = true;
+  topography.edges = Edges::cut;
   topography.tiles *= 2;
   topography.history.push_back(
       fmt::format("mirror: {} x {} pixels, periodic", topography.grid.nx, topography.grid.ny));

@@ -2,9 +2,10 @@
 
 #include "tabor/topography/topography.hpp"
 
+// Crops, resamples, mirrors, flips and transposes surfaces, and interpolates between their pixels.
 namespace tabor::topography {
 
-/// A rectangle of pixels; (x0, y0) is its top left pixel.
+/// Rectangle of pixels; (x0, y0) is its top left pixel.
 struct PixelWindow {
   Index x0 = 0;
   Index y0 = 0;
@@ -12,16 +13,16 @@ struct PixelWindow {
   Index ny = 0;
 };
 
-/// The part inside the window; no longer periodic unless it is the whole. Throws InputError when
-/// the window is empty or leaves the scan.
+/// Returns the part inside the window; no longer periodic unless it is the whole. Throws InputError
+/// when the window is empty or leaves the scan.
 Topography crop(Topography topography, const PixelWindow& window);
 
-/// Without a margin of mx columns and my rows on every side. Throws InputError when nothing is
+/// Removes a margin of mx columns and my rows on every side. Throws InputError when nothing is
 /// left.
 Topography trim_margins(Topography topography, Index mx, Index my);
 
-/// The same area on nx * ny pixels: per axis the area average when there are fewer pixels than
-/// before, a cubic spline through the pixel centres (natural ends, or periodic) when there are
+/// Resamples the same area to nx * ny pixels: per axis the area average when there are fewer pixels
+/// than before, a cubic spline through the pixel centres (natural ends, or periodic) when there are
 /// more. Area averages use the valid part of each cell; splines need a field without holes.
 Topography resample(Topography topography, Index nx, Index ny);
 
@@ -35,13 +36,15 @@ struct Lattice {
   Index ny = 0;
 };
 
-/// Heights between the pixels, by cubic splines along both axes.
+/// Interpolates heights between the pixels by cubic splines along both axes.
 class Interpolant {
  public:
-  /// Of heights without or with holes (NaN).
+  /// Prepares the interpolation of heights with or without holes (NaN).
   explicit Interpolant(const Field& height);
-  /// Shape (lattice.ny, lattice.nx). NaN beyond the outermost pixel centres and where one of the
-  /// four nearest pixels is a hole.
+  /// Returns the heights at the points, shape (lattice.ny, lattice.nx). NaN beyond the outermost
+  /// pixel centres by more than a twentieth of a pixel (up to there points have the outermost
+  /// height, so that two scans in register keep all rows), and where one of the four nearest pixels
+  /// is a hole.
   Field at(const Lattice& lattice) const;
 
  private:
@@ -49,14 +52,15 @@ class Interpolant {
   Mask missing_;
 };
 
-/// Means over cells of width_x * width_y pixels (1 or more), from the top left corner; a rest too
-/// narrow for a cell is left out. A cell that is valid by less than half is a hole.
+/// Returns means over cells of width_x * width_y pixels (1 or more), from the top left corner; a
+/// rest too narrow for a cell is left out. A cell of which less than half is valid is a hole.
 Field cell_means(const Field& height, double width_x, double width_y);
 
-/// 2 x 2 tiling with its mirror images: twice the size, continuous across the edges, periodic.
+/// Tiles the surface 2 x 2 with its mirror images: twice the size, continuous across the edges,
+/// periodic. Throws InputError for a surface that is said to repeat or to end at its edges.
 Topography mirror(Topography topography);
 
-/// A direction of the map.
+/// Direction of the map.
 enum class Axis { x, y };
 
 /// Reverses the order of the columns (x) or rows (y).

@@ -3,9 +3,10 @@
 #include "tabor/core/convergence.hpp"
 #include "tabor/core/types.hpp"
 
+// Fills holes by solving Laplace's equation.
 namespace tabor::topography {
 
-/// What the harmonic fill did; sizes in pixels.
+/// Result of the harmonic fill; sizes in pixels.
 struct HarmonicFill {
   Index n_filled = 0;
   Index n_holes = 0;  ///< connected by 4 neighbours

@@ -124,10 +124,10 @@ void warn_of_invented(Index n_filled, Fill fill, Topography& topography) {
   const double share = static_cast<double>(n_filled) / static_cast<double>(topography.grid.size());
   if (share < kTell) return;
   topography.warnings.push_back(
-      {.text = fmt::format(
+      {.code = "filled-holes",
+       .text = fmt::format(
            "{}{:.3g} % of the pixels were holes and have heights of fill={}, which nobody measured",
-           share > kMost ? "most of the area is invented: " : "", 100 * share, name_of(fill)),
-       .code = "filled-holes"});
+           share > kMost ? "most of the area is invented: " : "", 100 * share, name_of(fill))});
 }
 
 }  // namespace

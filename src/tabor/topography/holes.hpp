@@ -6,20 +6,21 @@
 #include "tabor/core/convergence.hpp"
 #include "tabor/topography/topography.hpp"
 
+// Fills missing heights by one of three methods.
 namespace tabor::topography {
 
-/// How missing heights are replaced.
+/// Method by which missing heights are replaced.
 /// harmonic: the discrete Laplace equation in each hole, measured heights on its rim, no slope
 /// across the edge of the scan (a soap film: no new extrema). nearest: the nearest valid pixel by
 /// distance. mean: the mean of all valid heights.
 enum class Fill { harmonic, nearest, mean };
 
-/// "harmonic" and so on; nullopt if there is no such way.
+/// Returns the method of a name, "harmonic" and so on; nullopt if there is none.
 std::optional<Fill> fill_from(std::string_view name);
-/// The inverse of fill_from().
+/// Returns the name of a method.
 std::string_view name_of(Fill fill);
 
-/// A filled map, and how it was filled.
+/// Filled map, and how it was filled.
 struct FillResult {
   Field height;             ///< without holes
   Index n_filled = 0;       ///< pixels that were holes
@@ -32,7 +33,7 @@ struct FillResult {
 FillResult fill_holes(const Field& height, const Grid& grid, Fill fill,
                       const Observer& observer = {});
 
-/// The topography without holes, with a line in the history that says how much was filled.
+/// Returns the topography without holes, with a line in the history that says how much was filled.
 Topography fill_holes(Topography topography, Fill fill, const Observer& observer = {});
 
 }  // namespace tabor::topography

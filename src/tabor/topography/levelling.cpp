@@ -254,7 +254,8 @@ double rms_without_form(const Field& height, const FormFit& fit) {
     return row;
   });
   const double mean = sums[1] / sums[0];
-  return std::sqrt(std::max(0.0, sums[2] / sums[0] - mean * mean));
+  const double rms = std::sqrt(std::max(0.0, sums[2] / sums[0] - mean * mean));
+  return rms > numerics::rounding_of(numerics::largest_magnitude(height)) ? rms : 0;
 }
 
 Topography level(Topography topography, Form form) {
@@ -264,7 +265,9 @@ Topography level(Topography topography, Form form) {
   }
   const auto fit = fit_form(topography.height, degree_of(form));
   const double rms_before = numerics::rms_height(topography.height);
-  topography.height = remove_form(std::move(topography.height), fit);
+  const double magnitude = numerics::largest_magnitude(topography.height);
+  topography.height =
+      numerics::without_rounding(remove_form(std::move(topography.height), fit), magnitude);
   topography.periodic = topography.periodic && form == Form::mean;  // a tilt does not tile
   topography.history.push_back(
       fmt::format("level={}: {}", name_of(form), describe(topography, fit, rms_before)));

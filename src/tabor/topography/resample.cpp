@@ -128,8 +128,9 @@ struct Positions {
     return std::clamp(first + static_cast<double>(k) * step, 0.0, static_cast<double>(n - 1));
   }
   bool is_inside(Index k) const {
+    constexpr double edge = 0.05;
     const double x = first + static_cast<double>(k) * step;
-    return x >= 0 && x <= static_cast<double>(n - 1);
+    return x >= -edge && x <= static_cast<double>(n - 1) + edge;
   }
 };
 

@@ -51,7 +51,7 @@ void take_neighbours(const Field& height, Index y, Index x, Index window,
   if (values.size() < kFewestNeighbours) values.clear();
 }
 
-/// Median of the heights around a pixel; NaN where there are too few. `values` is room to work in.
+/// Median of the heights around a pixel; NaN where there are too few. `values` is scratch memory.
 double median_around(const Field& height, Index y, Index x, Index window,
                      std::vector<double>& values) {
   take_neighbours(height, y, x, window, values);
@@ -164,7 +164,7 @@ class SpikeTest {
     }
   }
 
-  /// `values` is room to work in.
+  /// `values` is scratch memory.
   bool is_spike(Index y, Index x, std::vector<double>& values) const {
     if (std::isnan(height_(y, x)) || most_neighbours_are_near(y, x)) return false;
     const double middle = median_around(height_, y, x, window_, values);
@@ -252,7 +252,98 @@ Index count_spikes(const Field& height, const SpikeRule& rule) {
   return static_cast<Index>(n[0]);
 }
 
+namespace {
+
+/// A further pass, and the spikes that it would take beside those that are taken already.
+struct FurtherPass {
+  SpikeRule rule;
+  Index n_beside = 0;
+};
+
+/// The same rule through its own window and wider ones: heights that stand together fill more than
+/// half of a window and hide each other in it.
+std::vector<SpikeRule> further_rules(const SpikeRule& rule) {
+  std::vector<SpikeRule> rules;
+  for (const Index more : {0, 2, 4}) {
+    SpikeRule other = rule;
+    other.window = rule.window + more;
+    if (other.window <= kLargestWindow) rules.push_back(other);
+  }
+  return rules;
+}
+
+bool is_near(const Mask& taken, Index y, Index x, Index reach) {
+  const Index top = std::max<Index>(0, y - reach), left = std::max<Index>(0, x - reach);
+  const Index bottom = std::min(taken.rows() - 1, y + reach);
+  const Index right = std::min(taken.cols() - 1, x + reach);
+  return taken.block(top, left, bottom - top + 1, right - left + 1).any();
+}
+
+/// The spikes with one of those taken inside their window that touch it, by a side or a corner, or
+/// another such spike.
+Index count_touching(const Mask& spikes, const Mask& taken, Index window) {
+  Mask touching = Mask::Constant(spikes.rows(), spikes.cols(), false);
+  std::vector<Index> next;
+  Index n = 0;
+  const auto spread_from = [&](Index pixel) {
+    const Index y = pixel / spikes.cols(), x = pixel % spikes.cols();
+    for (Index v = std::max<Index>(0, y - 1); v <= std::min(spikes.rows() - 1, y + 1); ++v) {
+      for (Index u = std::max<Index>(0, x - 1); u <= std::min(spikes.cols() - 1, x + 1); ++u) {
+        if (!spikes(v, u) || touching(v, u) || !is_near(taken, v, u, window / 2)) continue;
+        touching(v, u) = true;
+        next.push_back(v * spikes.cols() + u);
+        ++n;
+      }
+    }
+  };
+  for (Index pixel = 0; pixel < taken.size(); ++pixel) {
+    if (!taken.data()[pixel]) continue;
+    spread_from(pixel);
+    while (!next.empty()) {
+      const Index last = next.back();
+      next.pop_back();
+      spread_from(last);
+    }
+  }
+  return n;
+}
+
+/// The pass that takes the most of what stands together with the spikes taken, the narrowest window
+/// of equal ones; none where most of what it takes stands elsewhere: a wider window takes ridges
+/// for spikes.
+FurtherPass best_pass(const Field& after, const Mask& taken, const SpikeRule& rule) {
+  FurtherPass best;
+  if (!taken.any()) return best;
+  for (const SpikeRule& other : further_rules(rule)) {
+    const Mask spikes = find_spikes(after, other);
+    const Index n_beside = count_touching(spikes, taken, other.window);
+    if (2 * n_beside >= spikes.count() && n_beside > best.n_beside) best = {other, n_beside};
+  }
+  return best;
+}
+
+std::string text_of(const SpikeRule& rule) {
+  return fmt::format("despike={},{}{}", rule.threshold, rule.window,
+                     rule.fill_with_median ? ",median" : "");
+}
+
+/// Spikes that stand together, which a further pass takes.
+void look_again(const Field& after, const Mask& taken, const SpikeRule& rule, Warnings& list) {
+  const auto [further, n] = best_pass(after, taken, rule);
+  if (n == 0) return;
+  list.push_back(
+      {.code = "spikes",
+       .text = fmt::format("{} left by a window of {} pixels: spikes that stand together hide each "
+                           "other; a further <{}> takes {}",
+                           n == 1 ? std::string("1 spike is") : fmt::format("{} spikes are", n),
+                           rule.window, text_of(further), n == 1 ? "it" : "them")});
+}
+
+}  // namespace
+
 Topography remove_spikes(Topography topography, const SpikeRule& rule) {
+  std::erase_if(topography.warnings,
+                [](const Warning& warning) { return warning.code == "spikes"; });
   const Mask spikes = find_spikes(topography.height, rule);
   const Field& before = topography.height;
   Field after = before;
@@ -268,12 +359,13 @@ Topography remove_spikes(Topography topography, const SpikeRule& rule) {
       ++n_spikes;
     }
   }
+  look_again(after, spikes, rule, topography.warnings);
   topography.height = std::move(after);
   if (n_spikes > 0) {
     topography.warnings.push_back(
-        {.text = fmt::format("despike took {} spike{} out of {} heights", n_spikes,
-                             n_spikes == 1 ? "" : "s", spikes.size()),
-         .code = "despiked"});
+        {.code = "despiked",
+         .text = fmt::format("despike took {} spike{} out of {} heights", n_spikes,
+                             n_spikes == 1 ? "" : "s", spikes.size())});
   }
   topography.history.push_back(fmt::format(
       "despike={},{},{}: {} of {} heights ({:.3g} %) were spikes and became {}{}", rule.threshold,

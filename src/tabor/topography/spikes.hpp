@@ -4,11 +4,12 @@
 
 #include "tabor/topography/topography.hpp"
 
+// Finds single heights that stand off from their surroundings, and removes them.
 namespace tabor::topography {
 
-/// What counts as a spike and what becomes of it. A height is a spike when it lies further from
-/// the median of the window around it than `threshold` times BOTH the spread in that window and
-/// the typical distance from such a median all over the scan (of up to 131072 pixels). Spreads are
+/// Definition of a spike, and its replacement. A height is a spike when it lies further from the
+/// median of the window around it than `threshold` times BOTH the spread in that window and the
+/// typical distance from such a median all over the scan (of up to 131072 pixels). Spreads are
 /// robust: 1.4826 times the median absolute deviation, the standard deviation of a Gaussian. Steps
 /// and steep flanks have a wide spread of their own and stay; so do spikes that fill more than half
 /// of a window.
@@ -18,17 +19,19 @@ struct SpikeRule {
   bool fill_with_median = false;  ///< else spikes become holes
 };
 
-/// "auto", "8", "8,7", "8,7,median": threshold, window, and what to put in place. Throws
-/// InputError.
+/// Parses "auto", "8", "8,7", "8,7,median": threshold, window and replacement. Throws InputError.
 SpikeRule parse_spike_rule(std::string_view text);
 
-/// True where a valid height is a spike. Heights with fewer than 5 valid neighbours are left alone.
+/// Returns true where a valid height is a spike. Heights with fewer than 5 valid neighbours are
+/// none.
 Mask find_spikes(const Field& height, const SpikeRule& rule = {});
 
-/// How many there are, without memory per pixel: fit for a first look at a large scan.
+/// Counts the spikes without memory per pixel, as for the inspection of a large scan.
 Index count_spikes(const Field& height, const SpikeRule& rule = {});
 
-/// Without spikes; their number is in the history and, if any, among the warnings.
+/// Removes spikes; their number is in the history and, if any, among the warnings. The result is
+/// searched again, also with wider windows: a warning reports spikes that stand together and names
+/// the further pass that removes them, if one does that without removing more elsewhere.
 Topography remove_spikes(Topography topography, const SpikeRule& rule = {});
 
 }  // namespace tabor::topography

@@ -2,6 +2,9 @@
 
 #include <cstdint>
 
+#include "tabor/core/advice.hpp"
+#include "tabor/topography/edges.hpp"
+
 namespace tabor::topography {
 
 void write_surface_group(io::Hdf5Writer& writer, const Topography& surface,
@@ -20,11 +23,16 @@ void write_surface_group(io::Hdf5Writer& writer, const Topography& surface,
   writer.attribute("/surface", "instrument", surface.instrument);
   writer.attribute("/surface", "channel", surface.channel);
   writer.attribute("/surface", "treatment", surface.history);
-  writer.attribute("/surface", "doubts", texts(surface.warnings));
-  std::vector<std::string> codes;
-  for (const Warning& warning : surface.warnings) codes.push_back(warning.code);
+  std::vector<std::string> doubts, codes;
+  for (const Warning& warning : surface.warnings) {
+    doubts.push_back(without_advice(warning.text));
+    codes.push_back(warning.code);
+  }
+  writer.attribute("/surface", "doubts", doubts);
   writer.attribute("/surface", "doubt_codes", codes);
   writer.attribute("/surface", "periodic", surface.periodic ? 1 : 0);
+  if (surface.edges) writer.attribute("/surface", "edges", std::string(kEdges.of(*surface.edges)));
+  if (surface.tiles > 1) writer.attribute("/surface", "tiles", surface.tiles);
   writer.attribute("/surface", "pixel_x_m", surface.grid.dx());
   writer.attribute("/surface", "pixel_y_m", surface.grid.dy());
 }

@@ -6,13 +6,6 @@
 
 namespace tabor::topography {
 
-std::vector<std::string> texts(const std::vector<Warning>& warnings) {
-  std::vector<std::string> list;
-  list.reserve(warnings.size());
-  for (const Warning& warning : warnings) list.push_back(warning.text);
-  return list;
-}
-
 bool is_profile(const Grid& grid) { return grid.nx == 1 || grid.ny == 1; }
 
 Mask holes(const Topography& topography) { return topography.height.isNaN(); }

@@ -1,30 +1,24 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tabor/core/types.hpp"
+#include "tabor/core/warning.hpp"
 
+// Defines Topography, a measured or generated height map with its origin, history and warnings.
 namespace tabor::topography {
 
-/// What a careful user should know, in one sentence, and how long it holds.
-struct Warning {
-  /// How long a warning holds.
-  enum class About {
-    record,   ///< the file or a step of its treatment: for good
-    heights,  ///< the heights as they are: asked anew after a treatment
-    spikes    ///< until a step looks for spikes: a filter hides them, what they did stays
-  };
-  std::string text;
-  About about = About::record;
-  std::string code = "file";  ///< its name in docs/warnings.md
+/// Surface beyond the edges of a map.
+enum class Edges {
+  tile,  ///< the surface repeats
+  cut,   ///< it is a cut-out of a larger one, which its mirror images continue
+  end    ///< the body ends there
 };
 
-/// The sentences alone.
-std::vector<std::string> texts(const std::vector<Warning>& warnings);
-
-/// A measured or generated height map. A value: treatments return new ones.
+/// Measured or generated height map. A value: treatments return new ones.
 struct Topography {
   Grid grid;
   Field height;            ///< [m], asperities up, NaN = hole
@@ -36,16 +30,20 @@ struct Topography {
   std::string channel;     ///< title of the channel that was read
   std::map<std::string, std::string> metadata;
   std::vector<std::string> history;  ///< treatment steps so far, canonical text with numbers
-  std::vector<Warning> warnings;     ///< about the file, the treatment and the heights
+  Warnings warnings;                 ///< about the file, the treatment and the heights
+  std::optional<Edges> edges = {};   ///< as the user says; absent: found from the heights
+  /// True where opposite edges were found to match (edges.hpp). It survives levelling, which tilts
+  /// the tile.
+  bool edges_match = false;
 };
 
-/// One row or one column: its width counts for nothing.
+/// True for a map of one row or one column: its width has no meaning.
 bool is_profile(const Grid& grid);
 
 Mask holes(const Topography& topography);  ///< true where height is NaN
 Index count_holes(const Topography& topography);
 
-/// Throws InputError if heights are missing: how many, and the remedy. `name`: of the scan.
+/// Throws InputError if heights are missing: how many, and the remedy. `name` of the scan.
 void require_no_holes(const Topography& topography, const std::string& name,
                       const std::string& remedy);
 

@@ -12,10 +12,12 @@
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/core/watch.hpp"
+#include "tabor/topography/edges.hpp"
 #include "tabor/topography/filters.hpp"
 #include "tabor/topography/geometry.hpp"
 #include "tabor/topography/holes.hpp"
 #include "tabor/topography/levelling.hpp"
+#include "tabor/topography/row_offsets.hpp"
 #include "tabor/topography/spikes.hpp"
 #include "tabor/topography/warnings.hpp"
 
@@ -38,8 +40,13 @@ struct Step {
 }
 
 Action parse_level(const std::string& argument) {
+  if (argument == "rows") {
+    return [](Topography t, const Observer&) { return level_rows(std::move(t)); };
+  }
   const auto form = form_from(argument);
-  if (!form) reject("level", argument, {"none", "mean", "poly2", "poly3", "poly4", "plane"});
+  if (!form) {
+    reject("level", argument, {"none", "mean", "poly2", "poly3", "poly4", "rows", "plane"});
+  }
   return [form](Topography t, const Observer&) { return level(std::move(t), *form); };
 }
 
@@ -146,6 +153,12 @@ Action parse_mirror(const std::string& argument) {
   return [](Topography t, const Observer&) { return mirror(std::move(t)); };
 }
 
+Action parse_edges(const std::string& argument) {
+  const auto edges = kEdges.find(argument);
+  if (!edges) reject("edges", argument, {"tile", "end", "cut"});
+  return [edges](Topography t, const Observer&) { return with_edges(std::move(t), *edges); };
+}
+
 Action parse_flip(const std::string& argument) {
   if (argument != "x" && argument != "y") reject("flip", argument, {"y", "x"});
   return [axis = argument == "x" ? Axis::x : Axis::y](Topography t, const Observer&) {
@@ -153,16 +166,17 @@ Action parse_flip(const std::string& argument) {
   };
 }
 
-const std::array<Step, 10>& steps() {
-  static const std::array<Step, 10> table{{
+const std::array<Step, 11>& steps() {
+  static const std::array<Step, 11> table{{
       {{"crop", "x0,y0,nx,ny", "keep a rectangle, in pixels or lengths"}, parse_crop},
       {{"trim", "MARGIN", "cut a margin off all sides, in pixels or as a length (half a cutoff)"},
        parse_trim},
       {{"despike", "auto|8|8,7|8,7,median",
         "make holes (or medians) of spikes: robust sigmas off the median, window [8,5]"},
        parse_despike},
-      {{"level", "none|mean|plane|poly2|poly3|poly4",
-        "subtract a least-squares polynomial (total degree) over the valid points"},
+      {{"level", "none|mean|plane|poly2|poly3|poly4|rows",
+        "subtract a least-squares polynomial (total degree) over the valid points; rows: offsets "
+        "between scan lines, by the median of differences"},
        parse_level},
       {{"fill", "harmonic|nearest|mean", "replace holes; harmonic = Laplace from each hole's rim"},
        parse_fill},
@@ -174,6 +188,10 @@ const std::array<Step, 10>& steps() {
        parse_high_pass},
       {{"resample", "nx,ny", "area average to fewer pixels, cubic spline to more"}, parse_resample},
       {{"mirror", "", "tile 2 x 2 with mirror images: periodic without a seam"}, parse_mirror},
+      {{"edges", "tile|cut|end",
+        "the surface repeats; it is a cut-out, mirrored as --mirror does; the body ends here "
+        "[heights at opposite edges are compared]"},
+       parse_edges},
       {{"flip", "x|y", "reverse the columns (x) or the rows (y)"}, parse_flip},
   }};
   return table;
@@ -205,8 +223,30 @@ std::vector<StepDescription> treatment_steps() {
   return descriptions;
 }
 
+std::optional<Edges> edges_of(const Treatment& treatment) {
+  std::optional<Edges> said;
+  bool is_mirrored = false;
+  for (const std::string& step : treatment) {
+    const auto [name, argument] = split_step(step);
+    is_mirrored = is_mirrored || name == "mirror";
+    if (name != "edges") continue;
+    const std::optional<Edges> edges = kEdges.find(argument);
+    if (said && edges != said) {
+      throw InputError("edges", fmt::format("'{}' after '{}'", argument, kEdges.of(*said)),
+                       "one of them", "");
+    }
+    said = edges;
+  }
+  if (said && is_mirrored && said != Edges::cut) {
+    throw InputError("edges", fmt::format("'{}' with mirror", kEdges.of(*said)),
+                     "'cut' with mirror, which is the same", "");
+  }
+  return said;
+}
+
 void check(const Treatment& treatment) {
   for (const auto& step : treatment) parse_step(step);
+  edges_of(treatment);
 }
 
 Topography apply(const Treatment& treatment, Topography topography, const Observer& observer) {
@@ -216,12 +256,7 @@ Topography apply(const Treatment& treatment, Topography topography, const Observ
     watch.tell(static_cast<double>(i) / static_cast<double>(treatment.size()));
     topography = parse_step(treatment[i])(std::move(topography), observer);
   }
-  if (!treatment.empty()) {
-    const bool looked_for_spikes =
-        std::any_of(treatment.begin(), treatment.end(),
-                    [](const std::string& step) { return split_step(step).first == "despike"; });
-    renew_warnings(topography, looked_for_spikes);
-  }
+  if (!treatment.empty()) renew_warnings(topography);
   watch.tell(1);
   return topography;
 }

@@ -5,13 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
+#include <string_view>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/rows.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/spectral/fft.hpp"
+#include "tabor/numerics/field_statistics.hpp"
+#include "tabor/topography/edges.hpp"
 #include "tabor/topography/levelling.hpp"
+#include "tabor/topography/row_offsets.hpp"
 #include "tabor/topography/spikes.hpp"
 
 namespace tabor::topography {
@@ -125,66 +129,56 @@ double mean_square(const Levelled& levelled) {
   return total(levelled, [mean](double z) { return (z - mean) * (z - mean); })[1] / first[0];
 }
 
-void warn_of_pixels(const Grid& grid, std::vector<Warning>& list) {
+void warn_of_pixels(const Grid& grid, Warnings& list) {
   constexpr double kSquare = 1e-3;
   if (std::abs(grid.dx() / grid.dy() - 1) > kSquare) {
-    list.push_back({.text = fmt::format("pixels are not square: {} x {}", format_si(grid.dx(), "m"),
-                                        format_si(grid.dy(), "m")),
-                    .about = Warning::About::heights,
-                    .code = "pixels-not-square"});
+    list.push_back({.code = "pixels-not-square",
+                    .text = fmt::format("pixels are not square: {} x {}", format_si(grid.dx(), "m"),
+                                        format_si(grid.dy(), "m"))});
   }
 }
 
-/// Of one copy of the scan: it is what can be cropped.
-void warn_of_sizes(const Topography& topography, std::vector<Warning>& list) {
-  const Grid& grid = topography.grid;
-  const auto tiles = static_cast<Index>(topography.tiles);
-  constexpr Index kFastPrime = 13;  // FFTW has fast kernels up to it
-  const auto of_one = [&](Index n) { return std::max<Index>(1, n / tiles); };
-  for (const auto& [n, axis] : {std::pair(of_one(grid.nx), "x"), std::pair(of_one(grid.ny), "y")}) {
-    const Index prime = spectral::largest_prime_factor(n);
-    if (prime <= kFastPrime) continue;
-    Index fast = n;
-    while (spectral::largest_prime_factor(fast) > kFastPrime) --fast;
-    list.push_back({.text = fmt::format("{} pixels along {} have the prime factor {}: transforms "
-                                        "are slow; crop to {}",
-                                        n, axis, prime, fast),
-                    .about = Warning::About::heights,
-                    .code = "slow-size"});
-  }
+void warn_of_rows(const Topography& topography, Warnings& list) {
+  constexpr Index kHeightsOfRow = 1024;
+  const RowJumps found = row_jumps(topography.height, kHeightsOfRow);
+  if (!found.are_offsets()) return;
+  list.push_back(
+      {.code = "row-jumps",
+       .text = fmt::format("rows jump: {} from row to row against {} within rows; <level=rows> "
+                           "takes the offsets out",
+                           format_si(found.size, "m", 3), format_si(found.within_rows, "m", 3))});
 }
 
-void warn_of_holes(const Topography& topography, std::vector<Warning>& list) {
+void warn_of_holes(const Topography& topography, Warnings& list) {
   const Index n_holes = count_holes(topography);
   if (n_holes == 0) return;
   list.push_back(
-      {.text = fmt::format(
-           "{} of {} pixels are missing ({:.2g} %)", n_holes, topography.grid.size(),
-           100 * static_cast<double>(n_holes) / static_cast<double>(topography.grid.size())),
-       .about = Warning::About::heights,
-       .code = "missing-pixels"});
+      {.code = "missing-pixels",
+       .text = fmt::format(
+           "{} of {} pixels are missing ({:.2g} %); <fill=harmonic> fills them", n_holes,
+           topography.grid.size(),
+           100 * static_cast<double>(n_holes) / static_cast<double>(topography.grid.size()))});
 }
 
-void warn_of_quantum(double quantum, double rms, std::vector<Warning>& list) {
+void warn_of_quantum(double quantum, double rms, Warnings& list) {
   constexpr double kCoarse = 0.02;
   constexpr double kPlane = 1e-6;  // heights on a plane but for rounding
   if (quantum > kCoarse * rms && rms > kPlane * quantum) {
-    list.push_back({.text = fmt::format("heights come in steps of {}, {:.2g} of their rms",
-                                        format_si(quantum, "m"), quantum / rms),
-                    .code = "height-steps"});
+    list.push_back({.code = "height-steps",
+                    .text = fmt::format("heights come in steps of {}, {:.2g} of their rms",
+                                        format_si(quantum, "m"), quantum / rms)});
   }
 }
 
-void warn_of_spikes(const Field& height, std::vector<Warning>& list) {
+void warn_of_spikes(const Field& height, Warnings& list) {
   const Index spikes = count_spikes(height);
   if (spikes == 0) return;
-  list.push_back({.text = fmt::format(
-                      "{} spike{} ({:.2g} %): slopes and contact depend on them; --despike auto "
+  list.push_back({.code = "spikes",
+                  .text = fmt::format(
+                      "{} spike{} ({:.2g} %): slopes and contact depend on them; <despike=auto> "
                       "takes them out",
                       spikes, spikes == 1 ? "" : "s",
-                      100 * static_cast<double>(spikes) / static_cast<double>(height.size())),
-                  .about = Warning::About::spikes,
-                  .code = "spikes"});
+                      100 * static_cast<double>(spikes) / static_cast<double>(height.size()))});
 }
 
 /// Heights above their least-squares plane; as they are if they do not determine one. The plane of
@@ -215,29 +209,41 @@ struct Rms {
   double levelled = 0;
 };
 
+/// What rounding alone can have left counts as zero.
 Rms rms_of(const Field& height) {
-  return {.as_is = std::sqrt(mean_square({.height = height})),
-          .levelled = std::sqrt(mean_square(above_plane(height)))};
+  const double rounding = numerics::rounding_of(numerics::largest_magnitude(height));
+  const auto rms = [rounding](const Levelled& levelled) {
+    const double root = std::sqrt(mean_square(levelled));
+    return root > rounding ? root : 0;
+  };
+  return {.as_is = rms({.height = height}), .levelled = rms(above_plane(height))};
 }
 
-/// Warnings that a treatment can dispel or raise.
-std::vector<Warning> about_heights(const Topography& topography, const Rms& rms) {
-  std::vector<Warning> list;
+/// Codes of about_heights(), of which a treatment may dispel or raise every one.
+constexpr std::string_view kOfHeights[] = {"profile", "pixels-not-square", "row-jumps",
+                                           "missing-pixels", "tilt"};
+
+bool is_of_heights(const Warning& warning) {
+  return std::find(std::begin(kOfHeights), std::end(kOfHeights), warning.code) !=
+         std::end(kOfHeights);
+}
+
+/// Warnings about the heights as they are.
+Warnings about_heights(const Topography& topography, const Rms& rms) {
+  Warnings list;
   if (is_profile(topography.grid)) {
-    list.push_back({.text = "a profile of one row: areal results do not apply",
-                    .about = Warning::About::heights,
-                    .code = "profile"});
+    list.push_back({.code = "profile", .text = "a profile of one row: areal results do not apply"});
   } else {
     warn_of_pixels(topography.grid, list);
-    warn_of_sizes(topography, list);
+    warn_of_rows(topography, list);
   }
   warn_of_holes(topography, list);
   if (rms.as_is > 2 * rms.levelled && rms.levelled > 0) {
     list.push_back(
-        {.text = fmt::format("tilt is larger than roughness: Sq {} becomes {} without its plane",
-                             format_si(rms.as_is, "m"), format_si(rms.levelled, "m")),
-         .about = Warning::About::heights,
-         .code = "tilt"});
+        {.code = "tilt",
+         .text = fmt::format(
+             "tilt is larger than roughness: Sq {} becomes {} without its plane; <level=plane>",
+             format_si(rms.as_is, "m"), format_si(rms.levelled, "m"))});
   }
   return list;
 }
@@ -258,19 +264,22 @@ double height_quantum(const Field& height) {
   return 0;
 }
 
-std::vector<Warning> warnings(const Topography& topography) {
+Warnings warnings(const Topography& topography) {
   const Rms rms = rms_of(topography.height);
-  std::vector<Warning> list = about_heights(topography, rms);
+  Warnings list = about_heights(topography, rms);
   warn_of_quantum(height_quantum(topography.height), rms.levelled, list);
   warn_of_spikes(topography.height, list);
   return list;
 }
 
-void renew_warnings(Topography& topography, bool looked_for_spikes) {
-  std::erase_if(topography.warnings, [&](const Warning& warning) {
-    return warning.about == Warning::About::heights ||
-           (looked_for_spikes && warning.about == Warning::About::spikes);
-  });
+void look_at(Topography& topography) {
+  look_at_edges(topography);
+  for (Warning& warning : warnings(topography)) topography.warnings.push_back(std::move(warning));
+}
+
+void renew_warnings(Topography& topography) {
+  look_at_edges(topography);
+  std::erase_if(topography.warnings, is_of_heights);
   for (Warning& warning : about_heights(topography, rms_of(topography.height))) {
     topography.warnings.push_back(std::move(warning));
   }

@@ -1,23 +1,25 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "tabor/topography/topography.hpp"
 
+// Finds problems in the heights of a surface and warns of them: holes, spikes, tilt, quantised
+// heights, jumping rows.
 namespace tabor::topography {
 
-/// What a careful user should know about these heights, one sentence each: pixels that are not
-/// square, holes, quantised heights, spikes, tilt larger than the roughness, sizes that make slow
-/// transforms. What only the file can tell (a guessed unit) its reader adds itself.
-std::vector<Warning> warnings(const Topography& topography);
+/// Returns warnings about these heights, one sentence each: pixels that are not square, holes,
+/// quantised heights, spikes, tilt larger than the roughness, rows that jump. The reader of the
+/// file adds those that only the file can give (a guessed unit).
+Warnings warnings(const Topography& topography);
 
-/// Asks anew, after a treatment, what it may have changed. Steps of the height and spikes are those
-/// of the measurement and stay, the spikes until a step has looked for them.
-void renew_warnings(Topography& topography, bool looked_for_spikes);
+/// Inspects new heights: stores whether edges match, adds the warnings.
+void look_at(Topography& topography);
 
-/// The step [m] all heights are multiples of (up to a common offset); 0 if there is none or if it
-/// is below 2^-24 of their range.
+/// Renews the warnings that a treatment may have changed. Those about quantised heights and spikes
+/// belong to the measurement and stay; remove_spikes() ends the warnings about spikes.
+void renew_warnings(Topography& topography);
+
+/// Returns the step [m] of which all heights are multiples (up to a common offset); 0 if there is
+/// none or if it is below 2^-24 of their range.
 double height_quantum(const Field& height);
 
 }  // namespace tabor::topography

@@ -144,5 +144,41 @@ TEST(SolveSqueeze, RejectsWhatMakesNoSense) {
   EXPECT_THAT(test::rejection([&] { solve_squeeze(problem); }), testing::HasSubstr("sliding"));
 }
 
+TEST(SolveSqueeze, EndsForAnyNumbers) {
+  const double extremes[] = {1e-299, 1e-30, 1e-6, 1, 1e6, 1e30, 1e299};
+  int n_sound = 0;
+  for (double SqueezeProblem::*value :
+       {&SqueezeProblem::mass, &SqueezeProblem::radius, &SqueezeProblem::spring,
+        &SqueezeProblem::viscosity, &SqueezeProblem::layer, &SqueezeProblem::sliding_speed,
+        &SqueezeProblem::pressure_coefficient}) {
+    for (const double factor : extremes) {
+      SqueezeProblem problem = roller(5);
+      problem.*value *= factor;
+      if (!std::isfinite(problem.*value)) continue;
+      problem.time_step = problem.layer / (50 * problem.speed);
+      const SqueezeResult result = solve_squeeze(problem);
+      n_sound += result.convergence.converged() ? 1 : 0;
+      EXPECT_TRUE(!result.convergence.converged() ||
+                  (std::isfinite(result.max_force) && result.min_film > 0));
+    }
+  }
+  EXPECT_GE(n_sound, 7);  // those of the factor 1
+}
+
+TEST(SolveSqueeze, SaysWhereNoFilmBalancesTheRoller) {
+  SqueezeProblem problem = roller(5);
+  problem.mass = 3.02e-299;
+  problem.spring = 1608821387429.9956;
+  const SqueezeResult result = solve_squeeze(problem);
+  EXPECT_EQ(result.convergence.status, Status::stalled);
+  EXPECT_THAT(result.reason, testing::HasSubstr("no film balances the roller"));
+}
+
+TEST(SolveSqueeze, RejectsStepsThatNeverReachTheEnd) {
+  SqueezeProblem problem = roller(5);
+  problem.time_step = 1e-300;
+  EXPECT_THROW(solve_squeeze(problem), InputError);
+}
+
 }  // namespace
 }  // namespace tabor::ehl

@@ -1,4 +1,5 @@
 // What holds for every parameter.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -7,7 +8,10 @@
 
 #include "support/sample_surfaces.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/metrology/psd.hpp"
 #include "tabor/synthesis/synthesis.hpp"
+#include "tabor/topography/treatment.hpp"
+#include "tabor/topography/warnings.hpp"
 #include "values.hpp"
 
 namespace tabor::metrology::test {
@@ -55,6 +59,80 @@ TEST(AllParameters, CarryUnitDefinitionAndSetAndAppearOnce) {
     sets.insert(parameter.set);
   }
   EXPECT_EQ(sets.size(), kParameterSets.size());
+}
+
+/// What rounding makes of a constant is no roughness, whatever the constant and however it became
+/// one.
+TEST(AllParameters, OfAConstantAreThoseOfZero) {
+  const Grid grid{64, 48, 64e-6, 48e-6};
+  const auto zero = surface(grid, [](double, double) { return 0; });
+  const auto expected = parameters(zero);
+  const auto check = [&](const topography::Topography& flat, const std::string& what) {
+    const auto found = parameters(flat);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      EXPECT_EQ(std::isnan(found[i].value), std::isnan(expected[i].value))
+          << found[i].symbol << ' ' << what << ' ' << found[i].value;
+      if (!std::isnan(found[i].value)) {
+        EXPECT_EQ(found[i].value, expected[i].value) << found[i].symbol << ' ' << what;
+      }
+    }
+    for (const auto& warning : topography::warnings(flat)) {
+      EXPECT_NE(warning.code, "tilt") << what;
+      EXPECT_NE(warning.code, "height-steps") << what;
+    }
+    EXPECT_EQ(power_spectra(flat).rms_height, 0) << what;
+    EXPECT_TRUE(std::isnan(power_spectra(flat).radial.hurst.hurst)) << what;
+  };
+  for (const double z : {3.1e-6, -7.3e-5, 0.1, 1e-9 / 3, 1234.5}) {
+    const auto constant = surface(grid, [z](double, double) { return z; });
+    check(constant, fmt::format("constant {}", z));
+    for (const char* step : {"level=plane", "level=mean", "highpass=gauss:10um",
+                             "lowpass=gauss:10um", "lowpass=hann:10um"}) {
+      check(topography::apply({step}, constant), fmt::format("constant {} {}", z, step));
+    }
+    const auto tilted = surface(grid, [z](double x, double y) { return z + 0.1 * x - 0.37 * y; });
+    check(topography::apply({"level=plane"}, tilted), fmt::format("tilted {}", z));
+  }
+}
+
+/// Without levelling a plane has slopes, but neither curvature nor roughness of profiles.
+TEST(AllParameters, OfAPlaneHaveNoCurvatureAndNoProfile) {
+  const auto plane =
+      surface({64, 48, 64e-6, 48e-6}, [](double x, double y) { return 3e-6 + 0.1 * x - 0.3 * y; });
+  const auto found = by_symbol(plane);
+  EXPECT_EQ(found.at("m4"), 0);
+  EXPECT_TRUE(std::isnan(found.at("alpha")));
+  EXPECT_EQ(found.at("Rq_x"), 0);
+  EXPECT_TRUE(std::isnan(found.at("RSm_x")));
+  EXPECT_TRUE(std::isnan(found.at("Rsk_y")));
+  for (const auto& warning : topography::warnings(plane)) EXPECT_NE(warning.code, "tilt");
+}
+
+/// A profile's c is that of the area unless it has its own.
+TEST(AllParameters, HaveTheirHeightsOfMaterialRatios) {
+  const auto surface = rough();
+  const auto ratio = [&](const ParameterOptions& options) {
+    for (const Parameter& parameter : parameters(surface, options)) {
+      if (parameter.symbol == "Rmr(c)_x") return parameter;
+    }
+    return Parameter{};
+  };
+  ParameterOptions options{.sets = {ParameterSet::profile}};
+  const double at_zero = ratio(options).value;
+  options.smr_height = 200e-9;
+  const Parameter at_that_of_smr = ratio(options);
+  EXPECT_LT(at_that_of_smr.value, at_zero - 1);
+  EXPECT_THAT(at_that_of_smr.definition, testing::HasSubstr("above c = 200 nm"));
+  options.profile.ratio_height = 0;
+  EXPECT_EQ(ratio(options).value, at_zero);
+  options.profile.ratio_height = 200e-9;
+  options.smr_height = 0;
+  EXPECT_EQ(ratio(options).value, at_that_of_smr.value);
+  options.profile.ratio_height = kHole;
+  EXPECT_THROW(parameters(surface, options), InputError);
+  EXPECT_THROW(parameters(surface, {.sets = {ParameterSet::function}, .smr_height = kHole}),
+               InputError);
 }
 
 TEST(AllParameters, ScaleWithTheUnit) {

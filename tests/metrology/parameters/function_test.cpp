@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -49,6 +50,63 @@ TEST(MaterialRatio, OfARampFallsInProportion) {
   EXPECT_NEAR(value(surface, kFunction, "Smc(q)"), -0.3e-6, 1e-17);
   EXPECT_NEAR(value(surface, kFunction, "Smr(c)"), 50, 1e-9);
   EXPECT_NEAR(value(surface, kFunction, "Smr(c)", {.sets = {}, .smr_height = 0.25e-6}), 25, 1e-9);
+}
+
+constexpr std::array kFactors{1e-6, 1.1e-6, 0.37e-6, 1e-9 / 3, 2.7, 1e-5 / 7};
+
+/// A tenth of the area at the height h: the core line lies in the lower level, which is no peak.
+TEST(MaterialRatio, OfAPlateauDoesNotDependOnItsHeight) {
+  for (const double h : kFactors) {
+    for (const double offset : {0.0, 0.3 * h, -1.7 * h}) {
+      const auto plateau = surface({40, 40, 4e-5, 4e-5},
+                                   [&](double x, double) { return offset + (x < 4e-6 ? h : 0); });
+      EXPECT_NEAR(value(plateau, kFunction, "Spk") / (2 * h), 1, 1e-9) << h;
+      EXPECT_EQ(value(plateau, kFunction, "Smrk1"), 10) << h;
+      EXPECT_EQ(value(plateau, kFunction, "Smrk2"), 100) << h;
+      EXPECT_NEAR(value(plateau, kFunction, "Sk") / h, 0, 1e-9);
+      EXPECT_NEAR(value(plateau, kFunction, "Svk") / h, 0, 1e-9);
+      // The same turned over has a dale.
+      auto dale = plateau;
+      dale.height = -dale.height;
+      EXPECT_NEAR(value(dale, kFunction, "Svk") / (2 * h), 1, 1e-9) << h;
+      EXPECT_EQ(value(dale, kFunction, "Smrk2"), 90) << h;
+      EXPECT_EQ(value(dale, kFunction, "Smrk1"), 0) << h;
+    }
+  }
+}
+
+/// Steps of a converter: equal secants, ties of heights with the mean and with the core line.
+TEST(MaterialRatio, OfStepsScalesWithThem) {
+  const CounterRandom random(3);
+  for (const int n_steps : {1, 2, 3, 5}) {
+    std::uint64_t k = 0;
+    const Field steps = surface({60, 50, 6e-5, 5e-5}, [&](double, double) {
+                          return std::round(n_steps * (2 * random.uniform(k++) - 1));
+                        }).height;
+    std::vector<Parameter> reference;
+    for (const double factor : {1.0, 1.1, 0.37, 1e-6, 1.1e-6, 1e-5 / 7}) {
+      topography::Topography scaled;
+      scaled.grid = {60, 50, 6e-5, 5e-5};
+      scaled.height = factor * (steps - steps.maxCoeff());  // levels between levels
+      const auto found = parameters(scaled, {.sets = {kFunction, kVolume}});
+      if (reference.empty()) reference = found;
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        const double unit = found[i].unit == "%" ? 1 : factor;
+        EXPECT_NEAR(found[i].value / unit, reference[i].value, 1e-9)
+            << found[i].symbol << ' ' << n_steps << " steps of " << factor;
+      }
+    }
+  }
+}
+
+/// Half of the area at the mean itself.
+TEST(MaterialRatio, AtTheMeanCountsAPlateauThereHalf) {
+  for (const double h : kFactors) {
+    const auto three = surface({40, 20, 4e-5, 2e-5}, [&](double x, double) {
+      return 1.3 * h + (x < 1e-5 ? h : x < 3e-5 ? 0 : -h);
+    });
+    EXPECT_NEAR(value(three, kFunction, "Smr(c)"), 50, 1e-9) << h;
+  }
 }
 
 TEST(Volumes, OfARampAreTriangles) {

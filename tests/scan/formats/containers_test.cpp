@@ -134,6 +134,49 @@ TEST(Tiff, SamplesNamedAsMissingAreHoles) {
   }
 }
 
+TEST(Tiff, WhereWhiteIsZeroGivesTheCountsOfTheFileAndSaysSo) {
+  const Folder folder;
+  for (const int bits : {8, 16}) {
+    const topography::Topography dark =
+        test::read_bytes(folder, test::tiff(bits, 1, 0), counts_of(1e-9));
+    const topography::Topography bright =
+        test::read_bytes(folder, test::tiff(bits, 1, 1), counts_of(1e-9));
+    EXPECT_TRUE(test::same_bits(dark.height, bright.height)) << bits;
+    EXPECT_EQ(dark.format, "tiff");
+    EXPECT_THAT(texts_of(dark.warnings), testing::Contains(testing::HasSubstr("white is zero")));
+  }
+}
+
+TEST(Pgm, GreyValuesAreCountsWhateverTheLargestOneIs) {
+  const Folder folder;
+  Field expected(2, 3);
+  expected << 1, 2, 3, 4, 5, 250;
+  const std::string large("\0\1\0\2\0\3\0\4\0\5\0\xfa", 12);
+  for (const std::string& bytes : {std::string("P5\n3 2\n255\n\1\2\3\4\5\xfa"),
+                                   "P5 3 2 65535\n" + large, "P5\n# a remark\n3\n2\n4095\n" + large,
+                                   std::string("P2\n3 2 # wide\n250\n1 2 3 4\n5 250\n")}) {
+    const topography::Topography map = test::read_bytes(folder, bytes, counts_of(10e-9));
+    EXPECT_EQ(map.format, "pgm");
+    EXPECT_TRUE(test::same_bits(map.height, 10e-9 * expected)) << bytes;
+  }
+}
+
+TEST(Pgm, OfAnotherKindOrCutShortIsRejected) {
+  const Folder folder;
+  EXPECT_THAT(test::rejection(folder, std::string("P6\n1 1\n255\nabc"), counts_of(1)),
+              testing::HasSubstr("a colour picture"));
+  EXPECT_THAT(test::rejection(folder, std::string("P4\n8 1\na"), counts_of(1)),
+              testing::HasSubstr("black and white"));
+  EXPECT_THAT(test::rejection(folder, std::string("P5\n3 2\n255\nabc"), counts_of(1)),
+              testing::HasSubstr("3 x 2"));
+  EXPECT_THAT(test::rejection(folder, std::string("P5\n3 2\n70000\nabcdef"), counts_of(1)),
+              testing::HasSubstr("1 to 65535"));
+  EXPECT_THAT(test::rejection(folder, std::string("P2\n2 1\n9\n1 x"), counts_of(1)),
+              testing::HasSubstr("'x' where its grey value stands"));
+  EXPECT_THAT(test::rejection(folder, std::string("P2\n2 2\n9\n1 2 3 "), counts_of(1)),
+              testing::HasSubstr("'' where its grey value stands"));
+}
+
 TEST(Tiff, ColoursAreRejected) {
   const Folder folder;
   const std::string path = std::getenv("PATH");

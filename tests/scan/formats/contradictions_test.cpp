@@ -59,7 +59,7 @@ TEST(X3pContradictions, WholeNumbersOfMetresAreWarnedOf) {
   test::ByteFile heights;
   for (const std::int16_t z : std::initializer_list<std::int16_t>{1, 2, 3, 4}) heights.append(z);
   const std::string bytes = io::zip({{"main.xml", xml}, {"data.bin", heights.bytes()}});
-  EXPECT_THAT(topography::texts(test::read_bytes(folder, bytes).warnings),
+  EXPECT_THAT(texts_of(test::read_bytes(folder, bytes).warnings),
               Contains(HasSubstr("heights in metres")));
 }
 
@@ -101,7 +101,7 @@ TEST(X3pContradictions, AChangedMaskIsWarnedOf) {
   const topography::Topography map = test::read_bytes(
       folder, io::zip({{"main.xml", xml}, {"data.bin", heights.bytes()}, {"valid.bin", "\x07"}}));
   EXPECT_EQ(topography::count_holes(map), 1);
-  EXPECT_THAT(topography::texts(map.warnings), Contains(HasSubstr("valid points do not match")));
+  EXPECT_THAT(texts_of(map.warnings), Contains(HasSubstr("valid points do not match")));
 }
 
 TEST(ArchiveContradictions, TwoScansInOneArchiveAreRejected) {
@@ -267,10 +267,10 @@ TEST(Surplus, BytesBehindTheMapAreWarnedOf) {
     write(map, folder / name);
     const std::string bytes = test::bytes_of(folder / name);
     const ReadOptions options = name[2] == 'n' ? test::micrometres() : ReadOptions{};
-    EXPECT_THAT(topography::texts(test::read_bytes(folder, bytes, options).warnings),
+    EXPECT_THAT(texts_of(test::read_bytes(folder, bytes, options).warnings),
                 testing::Not(Contains(HasSubstr("bytes follow"))))
         << name;
-    EXPECT_THAT(topography::texts(test::read_bytes(folder, bytes + "12345", options).warnings),
+    EXPECT_THAT(texts_of(test::read_bytes(folder, bytes + "12345", options).warnings),
                 Contains(HasSubstr("5 bytes follow the map")))
         << name;
   }
@@ -310,7 +310,7 @@ TEST(Absurd, HeightsThatNoSurfaceHasAreMissingAndSaid) {
   write(map, folder / "a.gwy");
   const topography::Topography again = read(folder / "a.gwy");
   EXPECT_EQ(topography::count_holes(again), topography::count_holes(map) + 2);
-  EXPECT_THAT(topography::texts(again.warnings), Contains(HasSubstr("2 heights beyond 1000 km")));
+  EXPECT_THAT(texts_of(again.warnings), Contains(HasSubstr("2 heights beyond 1000 km")));
 }
 
 TEST(Absurd, PixelsThatNothingCanScanAreRejected) {
@@ -367,7 +367,7 @@ TEST(InstrumentContradictions, OpdSkipsTheBytesOfUnnamedBlocksAndTakesNumbersByT
 TEST(InstrumentContradictions, SizesThatLeaveHeightsOverAreWarnedOfOrRejected) {
   const Folder folder;
   const auto warnings = [&](const std::string& bytes) {
-    return topography::texts(test::read_bytes(folder, bytes).warnings);
+    return texts_of(test::read_bytes(folder, bytes).warnings);
   };
   EXPECT_THAT(warnings(with(test::tmd(), 37, std::uint32_t{2})),
               Contains(HasSubstr("bytes follow")));
@@ -379,12 +379,11 @@ TEST(InstrumentContradictions, SizesThatLeaveHeightsOverAreWarnedOfOrRejected) {
 
 TEST(InstrumentContradictions, HeightsStatedUpsideDownAreWarnedOf) {
   const Folder folder;
-  EXPECT_THAT(topography::texts(
-                  test::read_bytes(folder, with(test::plain_sur(), 290, std::int16_t{1})).warnings),
-              Contains(HasSubstr("inverted")));
   EXPECT_THAT(
-      topography::texts(test::read_bytes(folder, with(test::plain_sur(), 128, -0.5F)).warnings),
-      Contains(HasSubstr("negative")));
+      texts_of(test::read_bytes(folder, with(test::plain_sur(), 290, std::int16_t{1})).warnings),
+      Contains(HasSubstr("inverted")));
+  EXPECT_THAT(texts_of(test::read_bytes(folder, with(test::plain_sur(), 128, -0.5F)).warnings),
+              Contains(HasSubstr("negative")));
   EXPECT_THAT(test::rejection(folder, with(test::nms(), 24, -6.0)), HasSubstr("from 1 to -6 um"));
 }
 

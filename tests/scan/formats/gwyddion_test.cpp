@@ -3,6 +3,7 @@
 #include "scan/formats/sample.hpp"
 #include "support/scans.hpp"
 #include "tabor/io/subprocess.hpp"
+#include "tabor/scan/formats/gwy_object.hpp"
 
 namespace tabor::scan {
 namespace {
@@ -141,6 +142,114 @@ TEST(Gwyddion, FillsNoDisk) {
   const Path path(programs.path().string() + ":/usr/bin:/bin");
   EXPECT_FALSE(test::rejection(folder, std::string("\x01\x02\x03", 3)).empty());
   EXPECT_LT(std::stod(test::bytes_of(programs / "size")), 1e8);
+}
+
+/// A converter that gives this channel whatever it is asked to read.
+void put_converter(const Folder& programs, const format::GwyBuilder& field,
+                   const std::string& title) {
+  format::GwyBuilder root("GwyContainer");
+  root.add("/0/data", field);
+  root.add("/0/data/title", title);
+  test::put_bytes(programs / "made.gwy", "GWYP" + root.bytes());
+  put_program(programs / "gwyddion",
+              "cp '" + (programs / "made.gwy").string() + "' \"${1#--convert-to-gwy=}\"\n");
+}
+
+/// 4 x 3 values, with a size and units if these are given.
+format::GwyBuilder converted(const Field& values, double width, double height,
+                             const std::string& xy_unit, const std::string& z_unit) {
+  const auto unit = [](const std::string& text) {
+    format::GwyBuilder builder("GwySIUnit");
+    builder.add("unitstr", text);
+    return builder;
+  };
+  format::GwyBuilder field("GwyDataField");
+  field.add("xres", std::int32_t{4});
+  field.add("yres", std::int32_t{3});
+  field.add("xreal", width);
+  field.add("yreal", height);
+  if (!xy_unit.empty()) field.add("si_unit_xy", unit(xy_unit));
+  if (!z_unit.empty()) field.add("si_unit_z", unit(z_unit));
+  field.add("data", values);
+  return field;
+}
+
+Field some_values() {
+  Field values(3, 4);
+  values << 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 200;
+  return values;
+}
+
+const std::string kOfNoFormat("\x01\x02\x03", 3);
+
+TEST(Gwyddion, ASizeThatItInventsIsNotKnown) {
+  const Folder programs, folder;
+  const Path path(programs.path().string() + ":/usr/bin:/bin");
+  ReadOptions options;
+  options.pixel_x = 2e-6;
+  for (const double height : {1.0, 0.75, 0.0}) {  // 0.75: square pixels
+    put_converter(programs, converted(1e-9 * some_values(), 1, height, "m", "m"), "Topography");
+    EXPECT_THAT(test::rejection(folder, kOfNoFormat),
+                testing::AllOf(testing::HasSubstr("no pixel size in the file"),
+                               testing::HasSubstr("--pixel")));
+    const topography::Topography map = test::read_bytes(folder, kOfNoFormat, options);
+    EXPECT_NEAR(map.grid.dx(), 2e-6, 1e-15);
+    EXPECT_NEAR(map.grid.dy(), 2e-6, 1e-15);
+  }
+  // One side that the file states stays.
+  put_converter(programs, converted(1e-9 * some_values(), 1, 6e-6, "m", "m"), "Topography");
+  EXPECT_NEAR(test::read_bytes(folder, kOfNoFormat, options).grid.dy(), 2e-6, 1e-15);
+  options.pixel_x = 1e-6;
+  EXPECT_THAT(test::rejection(folder, kOfNoFormat, options), testing::HasSubstr("2 um along y"));
+}
+
+TEST(Gwyddion, ASizeThatItInventedInAFileThatItSavedIsNotKnown) {
+  const Folder folder;
+  format::GwyBuilder root("GwyContainer");
+  root.add("/0/data", converted(1e-9 * some_values(), 1, 1, "m", "m"));
+  EXPECT_THAT(test::rejection(folder, "GWYP" + root.bytes()),
+              testing::HasSubstr("no pixel size in the file"));
+  topography::Topography map = test::small_map();
+  map.grid.lx = 1;
+  map.grid.ly = 1;
+  write(map, folder / "map.gwy");
+  EXPECT_EQ(read(folder / "map.gwy").grid.lx, 1);
+}
+
+TEST(Gwyddion, CountsOfPicturesAreThoseOfTheFile) {
+  const Folder programs, folder;
+  const Path path(programs.path().string() + ":/usr/bin:/bin");
+  ReadOptions options;
+  options.pixel_x = 1e-6;
+  options.z_scale = 10e-9;
+  for (const double share : {1.0, 1 / 255.0}) {  // of more than 8 bits, of 8
+    put_converter(programs, converted(share * some_values(), 1, 0.75, "", ""), "Gray");
+    EXPECT_THAT(test::rejection(folder, kOfNoFormat), testing::HasSubstr("--pixel"));
+    EXPECT_TRUE(test::same_bits(test::read_bytes(folder, kOfNoFormat, options).height,
+                                10e-9 * some_values()));
+  }
+  put_converter(programs, converted(some_values() / 255, 1, 0.75, "", ""), "Value (max)");
+  EXPECT_THAT(test::rejection(folder, kOfNoFormat), testing::HasSubstr("no channel whose unit"));
+}
+
+TEST(Gwyddion, ABrukerFileWithoutScanSizeAsksForThePixel) {
+  TABOR_NEEDS_SHARED_SCAN("afm_10um_bruker.di");
+  if (!io::find_program("gwyddion")) {
+    GTEST_SKIP() << "Gwyddion is not installed";
+  }
+  std::string bytes = test::bytes_of(test::shared_scan("afm_10um_bruker.di"));
+  for (const std::string size : {"\\Scan Size: 10000 nm", "\\Scan Size: 10 10 ~m"}) {
+    for (std::size_t at = 0; (at = bytes.find(size, at)) != std::string::npos; ++at) {
+      std::replace(&bytes[at], &bytes[at] + size.size(), '1', '0');
+    }
+  }
+  const Folder folder;
+  ReadOptions options;
+  options.channel = "ZSensor";
+  EXPECT_THAT(test::rejection(folder, bytes, options),
+              testing::HasSubstr("no pixel size in the file"));
+  options.pixel_x = 20e-9;
+  EXPECT_NEAR(test::read_bytes(folder, bytes, options).grid.lx, 512 * 20e-9, 1e-12);
 }
 
 TEST(RunProgram, RejectsAProgramThatIsNotThere) {

@@ -1,5 +1,6 @@
 // What the user says about a file against what the file says itself.
 #include "scan/formats/sample.hpp"
+#include "tabor/scan/read_parameters.hpp"
 
 namespace tabor::scan {
 namespace {
@@ -79,6 +80,46 @@ TEST(Inspect, ListsChannelsWithoutChoosingOne) {
   EXPECT_EQ(info.format, "gsf");
   EXPECT_EQ(info.channels[0].name, "phase");
   EXPECT_FALSE(info.channels[0].is_height);
+}
+
+/// Lengths that are given.
+class Lengths : public Given {
+ public:
+  explicit Lengths(std::vector<double> lengths) : lengths_(std::move(lengths)) {}
+  double number(const Dimension&) const override { return lengths_.front(); }
+  std::vector<double> numbers(const Dimension&) const override { return lengths_; }
+  std::uint64_t count() const override { return 0; }
+  bool flag() const override { return true; }
+  std::string word(const std::vector<std::string>&) const override { return ""; }
+  std::string text() const override { return "um"; }
+  std::vector<std::string> texts() const override { return {"um"}; }
+  bool is_word(const std::string&) const override { return false; }
+
+ private:
+  std::vector<double> lengths_;
+};
+
+TEST(ReadParameters, KeepOneSideOfAPixelOrTwo) {
+  const auto& pixel = parameter_of(read_parameters(), "pixel");
+  ReadOptions options;
+  EXPECT_TRUE(pixel.numbers(options).empty());
+  pixel.read(options, Lengths({2e-6, 3e-6}));
+  EXPECT_EQ(options.pixel_x, 2e-6);
+  EXPECT_EQ(options.pixel_y, 3e-6);
+  EXPECT_EQ(pixel.numbers(options), std::vector<double>({2e-6, 3e-6}));
+  pixel.read(options, Lengths({4e-6}));
+  EXPECT_EQ(options.pixel_x, 4e-6);
+  EXPECT_FALSE(options.pixel_y);
+  EXPECT_THROW(pixel.read(options, Lengths({1, 2, 3})), InputError);
+}
+
+TEST(ReadParameters, AreGivenOnceSomethingIsSaid) {
+  for (const Parameter<ReadOptions>& one : read_parameters()) {
+    ReadOptions options;
+    EXPECT_FALSE(one.is_given(options)) << one.name;
+    one.read(options, Lengths({2e-6}));
+    EXPECT_TRUE(one.is_given(options)) << one.name;
+  }
 }
 
 }  // namespace

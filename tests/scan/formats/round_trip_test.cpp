@@ -1,9 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "scan/formats/sample.hpp"
+#include "tabor/io/hdf5.hpp"
+#include "tabor/topography/edges.hpp"
 #include "tabor/topography/holes.hpp"
+#include "tabor/topography/surface_group.hpp"
 
 namespace tabor::scan {
 namespace {
@@ -61,9 +65,7 @@ TEST(H5, RemembersThatHeightsWereInvented) {
   const Folder folder;
   topography::Topography map = topography::fill_holes(
       test::small_map(), topography::Fill::nearest);  // 2 of its few pixels are holes
-  const auto is_invented = [](const topography::Warning& warning) {
-    return warning.code == "filled-holes";
-  };
+  const auto is_invented = [](const Warning& warning) { return warning.code == "filled-holes"; };
   ASSERT_EQ(std::count_if(map.warnings.begin(), map.warnings.end(), is_invented), 1);
   for (int copy = 0; copy < 2; ++copy) {
     write(map, folder / "map.h5");
@@ -120,6 +122,39 @@ TEST(Hdf5Surface, KeepsTreatmentAndPeriodicity) {
   EXPECT_TRUE(read_back.periodic);
   EXPECT_EQ(read_back.history, map.history);
   EXPECT_EQ(read_back.instrument, "profiler");
+}
+
+TEST(Hdf5Surface, KeepsWhatLiesBeyondItsEdges) {
+  const Folder folder;
+  const topography::Topography map = test::small_map();
+  write(map, folder / "map.h5");
+  EXPECT_EQ(read(folder / "map.h5").edges, std::nullopt);
+  using topography::Edges;
+  for (const Edges edges : {Edges::tile, Edges::cut, Edges::end}) {
+    const topography::Topography said = topography::with_edges(map, edges);
+    write(said, folder / "map.h5");
+    const topography::Topography read_back = read(folder / "map.h5");
+    EXPECT_EQ(read_back.edges, edges);
+    EXPECT_EQ(read_back.tiles, said.tiles);
+    EXPECT_EQ(topography::repeats(read_back), edges != Edges::end);
+  }
+}
+
+TEST(Hdf5Surface, RejectsEdgesThatItDoesNotKnow) {
+  const Folder folder;
+  const auto write_with = [&](const auto& change) {
+    io::Hdf5Writer writer(folder / "map.h5");
+    topography::write_surface_group(writer, test::small_map(), "");
+    change(writer);
+    writer.commit();
+  };
+  write_with([](io::Hdf5Writer& file) { file.attribute("/surface", "edges", "torn"); });
+  EXPECT_THAT(test::rejection(folder / "map.h5"),
+              testing::AllOf(testing::HasSubstr("'torn'"), testing::HasSubstr("tile, cut, end")));
+  for (const double tiles : {0.0, 1e9, std::nan("")}) {
+    write_with([&](io::Hdf5Writer& file) { file.attribute("/surface", "tiles", tiles); });
+    EXPECT_THAT(test::rejection(folder / "map.h5"), testing::HasSubstr("tiles = "));
+  }
 }
 
 TEST(Vti, HoldsTheBottomRowFirst) {

@@ -378,8 +378,7 @@ TEST(Sdf, ATrailerOfTextIsNoWarning) {
     file.text(0, "bISO-1.0").number<std::uint16_t>(42, 2).number<std::uint16_t>(44, 2);
     file.number(46, 1e-6).number(54, 1e-6).number(62, 1e-9).number<std::uint8_t>(79, 5);
     for (const int z : {1, 7, 4, 2}) file.append(static_cast<std::int16_t>(z));
-    const auto warnings =
-        topography::texts(test::read_bytes(folder, file.bytes() + trailer).warnings);
+    const auto warnings = texts_of(test::read_bytes(folder, file.bytes() + trailer).warnings);
     return std::count_if(warnings.begin(), warnings.end(), [](const std::string& warning) {
       return warning.find("follow the map") != std::string::npos;
     });

@@ -36,9 +36,7 @@ topography::Topography map_of(Field height) {
 
 std::string all(const topography::Topography& map) {
   std::string text;
-  for (const std::string& warning : topography::texts(topography::warnings(map))) {
-    text += warning + "\n";
-  }
+  for (const std::string& warning : texts_of(topography::warnings(map))) text += warning + "\n";
   return text;
 }
 
@@ -66,13 +64,13 @@ TEST(Warnings, CountTheSpikesThatDespikeTakes) {
   height(10, 10) = 1e-6;
   height(30, 40) = -1e-6;
   EXPECT_EQ(all(map_of(height)),
-            "2 spikes (0.052 %): slopes and contact depend on them; --despike auto takes them "
+            "2 spikes (0.052 %): slopes and contact depend on them; <despike=auto> takes them "
             "out\n");
 }
 
 TEST(Warnings, AnOrdinaryMapRaisesNone) { EXPECT_EQ(all(map_of(1e-6 * noise(64, 60))), ""); }
 
-TEST(Warnings, NameTiltHolesPixelsStepsAndSlowSizes) {
+TEST(Warnings, NameTiltHolesPixelsAndSteps) {
   Field tilted = 1e-8 * noise(64, 64);
   for (Index x = 0; x < 64; ++x) tilted.col(x) += 1e-7 * static_cast<double>(x);
   EXPECT_NE(all(map_of(tilted)).find("tilt"), std::string::npos);
@@ -86,7 +84,6 @@ TEST(Warnings, NameTiltHolesPixelsStepsAndSlowSizes) {
   EXPECT_NE(all(oblong).find("not square"), std::string::npos);
 
   EXPECT_NE(all(map_of((4 * noise(64, 64)).round())).find("steps"), std::string::npos);
-  EXPECT_NE(all(map_of(noise(64, 37))).find("prime factor 37"), std::string::npos);
 }
 
 /// A map with its warnings as a reader would leave them, then treated.
@@ -94,27 +91,25 @@ std::vector<std::string> warnings_after(const topography::Treatment& treatment,
                                         const Field& height) {
   topography::Topography map = map_of(height);
   map.warnings = topography::warnings(map);
-  map.warnings.push_back({.text = "the unit is a guess"});
-  return topography::texts(topography::apply(treatment, std::move(map)).warnings);
+  map.warnings.push_back({.code = "file", .text = "the unit is a guess"});
+  return texts_of(topography::apply(treatment, std::move(map)).warnings);
 }
 
 TEST(Warnings, ATreatmentDispelsThoseAboutTheHeightsItMends) {
   Field height = 1e-8 * noise(64, 37);
   for (Index x = 0; x < 37; ++x) height.col(x) += 1e-7 * static_cast<double>(x);
   height(20, 20) = test::kNaN;
-  EXPECT_THAT(warnings_after({}, height),
-              ElementsAre(HasSubstr("prime factor 37"), HasSubstr("1 of 2368 pixels are missing"),
-                          HasSubstr("tilt"), "the unit is a guess"));
+  EXPECT_THAT(warnings_after({}, height), ElementsAre(HasSubstr("1 of 2368 pixels are missing"),
+                                                      HasSubstr("tilt"), "the unit is a guess"));
   EXPECT_THAT(warnings_after({"level=plane"}, height),
-              ElementsAre("the unit is a guess", HasSubstr("prime factor 37"),
-                          HasSubstr("1 of 2368 pixels are missing")));
+              ElementsAre("the unit is a guess", HasSubstr("1 of 2368 pixels are missing")));
   EXPECT_THAT(warnings_after({"crop=0,0,32,64", "level=plane", "fill=harmonic"}, height),
               ElementsAre("the unit is a guess"));
 }
 
 TEST(Warnings, ATreatmentRaisesNewOnes) {
-  EXPECT_THAT(warnings_after({"crop=0,0,60,37"}, 1e-8 * noise(64, 60)),
-              ElementsAre("the unit is a guess", HasSubstr("prime factor 37")));
+  EXPECT_THAT(warnings_after({"lowpass=gauss:1mm"}, 1e-8 * noise(64, 60)),
+              Contains(HasSubstr("the cutoff of gauss:1000um is longer")));
 }
 
 TEST(Warnings, SpikesAreWarnedOfUntilAStepLooksForThem) {

@@ -2,6 +2,7 @@
 
 #include "tabor/ehl/impact/impact.hpp"
 
+// Follows a rigid ball into an isoviscous layer in closed form, until the bodies deform.
 namespace tabor::ehl {
 
 /// The ball while it is still rigid and the liquid isoviscous.

@@ -8,6 +8,7 @@
 #include "tabor/numerics/lagged_factorisation.hpp"
 #include "tabor/reynolds/reynolds.hpp"
 
+// Advances ball and film of an impact by one time step.
 namespace tabor::ehl {
 
 inline constexpr double kBallTolerance = 1e-9;  ///< of residuals in units of the layer

@@ -93,6 +93,7 @@ class Impact {
     if (stopped) result_.convergence.status = Status::stopped;
     if (result_.history.empty()) record_touch();
     measure(problem_, result_);
+    require_film();
     add_warnings();
     return std::move(result_);
   }
@@ -292,6 +293,17 @@ class Impact {
     result_.profiles.push_back(std::move(profile));
   }
 
+  /// A film that is not above zero, between instants or at one, is no solution: the numbers are
+  /// those of a coarse grid.
+  void require_film() {
+    if (!result_.convergence.converged() || result_.min_film > 0) return;
+    result_.convergence.status = Status::stalled;
+    result_.reason = fmt::format(
+        "the smallest film, {}, is not above zero; use more nodes or shorter time steps",
+        format_si(result_.min_film, "m"));
+    measure(problem_, result_);  // without a rebound
+  }
+
   void add_warnings() {
     // The spike at the end is narrower than any grid: what counts is the centre under load.
     double pressure = 0;
@@ -301,10 +313,12 @@ class Impact {
     result_.warnings = material::warnings(problem_.lubricant, pressure);
     const double radii = result_.domain_radius / dry_.max_radius;
     if (result_.end != ImpactEnd::rebound || radii >= kWideDomain) return;
-    result_.warnings.push_back(fmt::format(
-        "the film ends at {:.2g} radii of the dry contact: rebound and force depend on the domain "
-        "(a domain study tells how much)",
-        radii));
+    result_.warnings.push_back(
+        {"short-domain",
+         fmt::format("the film ends at {:.2g} radii of the dry contact: rebound and force depend "
+                     "on the domain",
+                     radii),
+         1 / radii});
   }
 
   const ImpactProblem& problem_;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tabor/core/convergence.hpp"
+#include "tabor/core/warning.hpp"
 #include "tabor/ehl/impact/ball_film.hpp"
 
 /// Elastohydrodynamic lubrication: films between elastic bodies.
@@ -60,35 +61,39 @@ enum class ImpactEnd {
   unfinished,  ///< no step was short enough to converge, or the observer stopped it
 };
 
-/// An impact. Values that do not exist are NaN.
-struct ImpactResult {
+/// The numbers of an impact. Values that do not exist are NaN.
+struct ImpactMeasures {
   ImpactEnd end = ImpactEnd::unfinished;
-  std::string reason;  ///< of the end, in one line, unless it is a rebound or was stopped
-  /// Of Newton's method in all steps; certificate: the largest residual of a step, in units of the
-  /// layer. Stalled where no step was short enough.
+  /// Convergence of Newton's method in all steps; certificate: the largest residual of a step, in
+  /// units of the layer. Stalled where no step was short enough.
   Convergence convergence;
-  double impact_time = 0;              ///< [s], until the force is 1e-4 of its maximum
-  double max_force = 0;                ///< [N]
-  double time_max_force = 0;           ///< [s]
-  double min_film = 0;                 ///< [m]
-  double time_min_film = 0;            ///< [s]
-  double turning_time = 0;             ///< [s], where the speed is zero
-  double rebound_speed = 0;            ///< [m/s]
-  double restitution = 0;              ///< rebound speed over approach speed
-  double max_deformation = 0;          ///< [m], in the centre
-  double primary_pressure = 0;         ///< [Pa], first peak in the centre, not the spike at the end
-  double time_primary_pressure = 0;    ///< [s]
-  double cavitation_time = 0;          ///< [s], where the film begins to shrink from the edge
-  double full_start_time = 0;          ///< [s], end of the rigid stage
-  double domain_radius = 0;            ///< [m]
-  std::vector<ImpactInstant> history;  ///< at least one
-  std::vector<ImpactProfile> profiles;
-  Eigen::ArrayXd radius;  ///< [m] of the nodes of the profiles, n + 1
-  double time_step = 0;   ///< [s], nominal
+  double impact_time = 0;            ///< [s], until the force is 1e-4 of its maximum
+  double max_force = 0;              ///< [N]
+  double time_max_force = 0;         ///< [s]
+  double min_film = 0;               ///< [m]
+  double time_min_film = 0;          ///< [s]
+  double turning_time = 0;           ///< [s], where the speed is zero
+  double rebound_speed = 0;          ///< [m/s]
+  double restitution = 0;            ///< rebound speed over approach speed
+  double max_deformation = 0;        ///< [m], in the centre
+  double primary_pressure = 0;       ///< [Pa], first peak in the centre, not the spike at the end
+  double time_primary_pressure = 0;  ///< [s]
+  double cavitation_time = 0;        ///< [s], where the film begins to shrink from the edge
+  double full_start_time = 0;        ///< [s], end of the rigid stage
+  double domain_radius = 0;          ///< [m]
+  double time_step = 0;              ///< [s], nominal
   int n_steps = 0;
   int n_cut_steps = 0;
   StepCount count;
-  std::vector<std::string> warnings;  ///< laws used beyond where they are believed, ...
+};
+
+/// An impact.
+struct ImpactResult : ImpactMeasures {
+  std::vector<ImpactInstant> history;  ///< at least one
+  std::vector<ImpactProfile> profiles;
+  Eigen::ArrayXd radius;  ///< [m] of the nodes of the profiles, n + 1
+  std::string reason;     ///< of the end, in one line, unless it is a rebound or was stopped
+  Warnings warnings;      ///< laws used beyond where they are believed, ...
 };
 
 /// Throws InputError for invalid input: values that are not positive, a layer or a

@@ -2,6 +2,7 @@
 
 #include "tabor/ehl/impact/impact.hpp"
 
+// Measures an impact: extrema of its history, and the dimensionless groups.
 namespace tabor::ehl {
 
 /// Fills the scalars of a result from its history: maxima and minima by a parabola through three

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "tabor/core/checks.hpp"
 #include "tabor/core/error.hpp"
@@ -25,6 +26,8 @@ constexpr int kIntervals = 200;          // of the integral of the pressure
 constexpr int kBisections = 55;          // of the angle of the exit
 constexpr double kFilmAccuracy = 1e-12;  // relative
 constexpr int kStepsPerLayer = 2000;
+constexpr int kMaxDoublings = 60;  // of the reach in which a film is looked for
+constexpr double kMostSteps = 1e7;
 constexpr double kLongest = 5;  // times the layer over the speed until we give up waiting
 
 /// Integrals from -pi/2 of cos^2, sin cos^3 and cos^4.
@@ -119,10 +122,16 @@ class Roller {
     return at;
   }
 
-  /// The instant after `now`; `before` the one before it, or null.
-  SqueezeInstant after(const SqueezeInstant& now, const SqueezeInstant* before) const {
+  double step() const { return step_; }
+
+  /// The instant after `now`; `before` the one before it, or null. None where no film balances the
+  /// roller, as its force or its motion leaves the range of numbers.
+  std::optional<SqueezeInstant> after(const SqueezeInstant& now,
+                                      const SqueezeInstant* before) const {
     const auto value = [&](double film) { return excess(film, now, before); };
-    SqueezeInstant next = at_film(root(value, now), now, before);
+    const std::optional<double> film = root(value, now);
+    if (!film) return std::nullopt;
+    SqueezeInstant next = at_film(*film, now, before);
     next.time = now.time + step_;
     return next;
   }
@@ -151,12 +160,16 @@ class Roller {
 
   /// The film at which a growing function is zero, which may be -infinity where it is too thin.
   template <typename Value>
-  double root(const Value& value, const SqueezeInstant& now) const {
+  std::optional<double> root(const Value& value, const SqueezeInstant& now) const {
     double reach = std::max(std::abs(now.film_speed) * step_, 1e-3 * now.film);
     double high = now.film;
-    while (value(high) < 0) high += reach *= 2;
+    for (int i = 0; !(value(high) >= 0); ++i) {
+      if (i == kMaxDoublings) return std::nullopt;
+      high += reach *= 2;
+    }
     double low = std::max(0.0, high - 2 * reach);
-    while (value(low) > 0) low = std::max(0.0, low - (reach *= 2));
+    while (value(low) > 0)
+      low = std::max(0.0, low - (reach *= 2));  // ends at zero, where it is -infinity
     return numerics::increasing_root(value, low, high, kFilmAccuracy);
   }
 
@@ -164,22 +177,36 @@ class Roller {
   double step_ = 0;
 };
 
+double longest_time(const SqueezeProblem& problem) {
+  return kLongest * problem.layer / problem.speed;
+}
+
+/// Throws for a step so short that the end is out of reach.
+void check_step(const SqueezeProblem& problem, double step) {
+  if (longest_time(problem) <= kMostSteps * step) return;
+  throw InputError("time step", format_si(step, "s"),
+                   "at least " + format_si(longest_time(problem) / kMostSteps, "s"), "");
+}
+
 /// Where a straight line between two instants passes zero.
 double zero_between(double t0, double v0, double t1, double v1) {
   return t0 + (t1 - t0) * v0 / (v0 - v1);
 }
 
-/// Adds instants until the gap opens again.
-void follow(const SqueezeProblem& problem, const Roller& roller, Watch& watch,
+/// Adds instants until the gap opens again; false if there is no next one.
+bool follow(const SqueezeProblem& problem, const Roller& roller, Watch& watch,
             std::vector<SqueezeInstant>& history) {
-  const double longest = kLongest * problem.layer / problem.speed;
+  const double longest = longest_time(problem);
   while (history.back().time < longest) {
+    if (!std::isfinite(history.back().force)) return false;
     const std::size_t n = history.size();
-    const SqueezeInstant next = roller.after(history[n - 1], n > 1 ? &history[n - 2] : nullptr);
-    history.push_back(next);
-    watch.tell(next.time / longest);
-    if (next.film_speed > 0 && next.roller_speed > 0) return;
+    const auto next = roller.after(history[n - 1], n > 1 ? &history[n - 2] : nullptr);
+    if (!next) return false;
+    history.push_back(*next);
+    watch.tell(next->time / longest);
+    if (next->film_speed > 0 && next->roller_speed > 0) return true;
   }
+  return true;
 }
 
 void measure(SqueezeResult& result) {
@@ -228,15 +255,22 @@ double squeeze_slide_load(const SqueezeProblem& problem, double film, double fil
 SqueezeResult solve_squeeze(const SqueezeProblem& problem, const Observer& observer) {
   check(problem);
   const Roller roller(problem);
+  check_step(problem, roller.step());
   SqueezeResult result;
   result.history.push_back(roller.start());
-  const auto work = [&](Watch& watch) { follow(problem, roller, watch, result.history); };
+  bool went_on = true;
+  const auto work = [&](Watch& watch) { went_on = follow(problem, roller, watch, result.history); };
   const bool stopped = !finishes(observer, "squeeze", work);
   measure(result);
   result.convergence = {.certificate = kFilmAccuracy, .tolerance = kFilmAccuracy};
-  result.convergence.status = std::isfinite(result.max_force) ? Status::converged : Status::stalled;
+  const bool is_sound = went_on && std::isfinite(result.max_force);
+  result.convergence.status = is_sound ? Status::converged : Status::stalled;
   if (stopped) {
     result.convergence.status = Status::stopped;
+  } else if (!went_on) {
+    result.reason = fmt::format(
+        "no film balances the roller after {}: its force or its motion leaves the range of numbers",
+        format_si(result.history.back().time, "s"));
   } else if (std::isnan(result.turning_time)) {
     result.reason = fmt::format("the roller had not turned after {}",
                                 format_si(result.history.back().time, "s"));

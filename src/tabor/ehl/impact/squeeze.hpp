@@ -5,6 +5,7 @@
 
 #include "tabor/core/convergence.hpp"
 
+// Solves a roller that closes on a sliding flat under a layer of liquid.
 namespace tabor::ehl {
 
 /// A roller that closes on a flat under a layer of liquid while the surfaces slide, per unit width:
@@ -33,8 +34,8 @@ struct SqueezeInstant {
   double force = 0;         ///< W [N/m]
 };
 
-/// Values that do not exist are NaN.
-struct SqueezeResult {
+/// The numbers of a squeezed film. Values that do not exist are NaN.
+struct SqueezeMeasures {
   double max_force = 0;       ///< [N/m]
   double time_max_force = 0;  ///< [s]
   double min_film = 0;        ///< [m]
@@ -43,7 +44,11 @@ struct SqueezeResult {
   double lag = 0;             ///< [s] of the smallest film behind the largest force
   bool gap_closing_at_turning = false;
   Convergence convergence;  ///< of the film of each instant; stalled where no film bears the force
-  std::string reason;       ///< of an end without a turning, one line
+};
+
+/// A squeezed film.
+struct SqueezeResult : SqueezeMeasures {
+  std::string reason;  ///< of an end without a turning, one line
   std::vector<SqueezeInstant> history;
 };
 

@@ -6,6 +6,7 @@
 #include "tabor/ehl/line/film.hpp"
 #include "tabor/ehl/line/system.hpp"
 
+// Gives residuals and derivatives of a line contact to Newton's method.
 namespace tabor::ehl {
 
 /// Balances and load of a state, in units of u_m times the unit of film, and their derivatives by

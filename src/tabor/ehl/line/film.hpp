@@ -8,6 +8,7 @@
 #include "tabor/elastic/line.hpp"
 #include "tabor/material/lubricant.hpp"
 
+// Solves the film of a line contact for given conditions and a given start.
 namespace tabor::ehl {
 
 inline constexpr double kLineTolerance = 1e-8;  ///< of residuals, over the flow in the contact
@@ -32,7 +33,7 @@ struct LineStorage {
 /// y at a place x, by straight lines between equal nodes; the outer ones go on.
 double value_between_nodes(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, double at);
 
-/// Whether the inlet of this film [m] exists on the grid. Where it does not, a film a thousand
+/// True where the inlet of this film [m] exists on the grid. Where it does not, a film a thousand
 /// times too thin can balance as well, and Newton's method may come to it. Where solids touch, they
 /// set its thickness.
 bool sees_inlet(const LineProblem& problem, const Eigen::ArrayXd& x, const Eigen::ArrayXd& film);

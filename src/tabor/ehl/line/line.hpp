@@ -6,11 +6,13 @@
 
 #include "tabor/core/convergence.hpp"
 #include "tabor/core/types.hpp"
+#include "tabor/core/warning.hpp"
 #include "tabor/ehl/asperities.hpp"
 #include "tabor/material/lubricant.hpp"
 #include "tabor/reference/ehl_films.hpp"
 #include "tabor/reference/hertz_line.hpp"
 
+// Solves the lubricated contact of a cylinder with a flat.
 namespace tabor::ehl {
 
 /// What happens where the liquid would be pulled below zero pressure.
@@ -38,22 +40,16 @@ struct LineProblem {
   Asperities asperities;
 };
 
-/// A film. Arrays hold one value per node.
-struct LineResult {
-  Eigen::ArrayXd x;                  ///< [m] from the line of closest approach
-  Eigen::ArrayXd pressure;           ///< p [Pa] of the liquid
-  Eigen::ArrayXd film;               ///< h [m], h_b where solids touch
-  Eigen::ArrayXd asperity_pressure;  ///< P [Pa]; empty if nothing can touch
-  /// [Pa] on the surface: of the film where it carries pressure, of solids where they touch (NaN if
-  /// asperities have no law), 0 elsewhere.
-  Eigen::ArrayXd shear_stress;
-  Eigen::ArrayXd local_friction;  ///< shear_stress over p + P; 0 where nothing carries pressure
-  double separation = 0;          ///< h0 [m], of the undeformed bodies; relative, see LineHalfSpace
-  double min_film = 0;            ///< [m]
-  double central_film = 0;        ///< [m] at x = 0
-  double max_pressure = 0;        ///< [Pa] of p + P
-  double rupture = 0;             ///< [m] where the pressure ends
-  double friction_force = 0;      ///< [N/m] of liquid and solids
+/// The numbers of a film.
+struct LineMeasures {
+  double separation = 0;    ///< h0 [m], of the undeformed bodies; relative, see LineHalfSpace
+  double min_film = 0;      ///< [m]
+  double central_film = 0;  ///< [m] at x = 0
+  double max_pressure = 0;  ///< [Pa] of p + P
+  double max_pressure_before_spike =
+      0;               ///< [Pa] of p; less where the grid cannot show the spike at the outlet
+  double rupture = 0;  ///< [m] where the pressure ends
+  double friction_force = 0;        ///< [N/m] of liquid and solids
   double friction_coefficient = 0;  ///< friction_force over load
   double friction_fluid = 0;        ///< its part from the film sheared where it carries pressure
   double friction_solid = 0;        ///< its part from asperities
@@ -64,7 +60,19 @@ struct LineResult {
   double mass_error = 0;            ///< largest imbalance of a node over the flow in the contact
   double contact_error = 0;         ///< largest P (h - h_b) over pressure and film of the contact
   Convergence convergence;          ///< of Newton's method; certificate: mass_error
-  std::vector<std::string> warnings;
+};
+
+/// A film. Arrays hold one value per node.
+struct LineResult : LineMeasures {
+  Eigen::ArrayXd x;                  ///< [m] from the line of closest approach
+  Eigen::ArrayXd pressure;           ///< p [Pa] of the liquid
+  Eigen::ArrayXd film;               ///< h [m], h_b where solids touch
+  Eigen::ArrayXd asperity_pressure;  ///< P [Pa]; empty if nothing can touch
+  /// [Pa] on the surface: of the film where it carries pressure, of solids where they touch (NaN if
+  /// asperities have no law), 0 elsewhere.
+  Eigen::ArrayXd shear_stress;
+  Eigen::ArrayXd local_friction;  ///< shear_stress over p + P; 0 where nothing carries pressure
+  Warnings warnings;
 };
 
 /// Hertz' dry contact and the groups of the lubricated one.
@@ -101,7 +109,8 @@ struct AsperityEffect {
   double pressure_ratio() const { return max_pressure / smooth_max_pressure; }
 };
 
-/// Of an asperity `width` [m] wide at `place` [m]. Both films have the same nodes.
+/// Returns the effect of an asperity `width` [m] wide at `place` [m]. Both films have the same
+/// nodes.
 AsperityEffect asperity_effect(const LineResult& rough, const LineResult& smooth, double width,
                                double place);
 

@@ -5,6 +5,7 @@
 
 #include "tabor/elastic/line.hpp"
 
+// Solves the linear equations of one Newton step of a line contact.
 namespace tabor::ehl {
 
 /// Three bands of a matrix: lower[i] multiplies x[i - 1], upper[i] multiplies x[i + 1].

@@ -70,7 +70,7 @@ WearProblem completed(WearProblem problem) {
 /// A step that moves the track further than this share of the contact, or of a wave, blurs it.
 constexpr double kLargestMove = 0.25;
 
-std::vector<std::string> warnings_of(const WearProblem& problem, double time_step) {
+Warnings warnings_of(const WearProblem& problem, double time_step) {
   const double move = problem.contact.sliding_speed * time_step;
   double length = hertz_of(problem.contact).half_width;
   if (problem.wave_amplitude > 0 && problem.n_waves > 0) {
@@ -80,9 +80,11 @@ std::vector<std::string> warnings_of(const WearProblem& problem, double time_ste
   if (!varies || move <= kLargestMove * length) return {};
   const double factor = move / (kLargestMove * length);
   return {
-      fmt::format("each step moves the track by {:.2g} of the half width of the contact or of a "
-                  "wave, which blurs the film: give {:.0f} steps per cycle or more",
-                  move / length, std::ceil(factor * static_cast<double>(problem.steps_per_cycle)))};
+      {"coarse-steps",
+       fmt::format("a step moves the track by {:.2g} of a half width or wave, which blurs the "
+                   "film; give {:.0f} steps per cycle",
+                   move / length, std::ceil(factor * static_cast<double>(problem.steps_per_cycle))),
+       factor}};
 }
 
 /// The worn surface and where it is.
@@ -122,16 +124,23 @@ class Motion {
       rate_ = 2 * speed_ / stroke_;
       time_step_ = 2 * std::numbers::pi / rate_ / static_cast<double>(problem.steps_per_cycle);
       n_steps_ = problem.cycles * problem.steps_per_cycle;
+      end_ = static_cast<double>(n_steps_) * time_step_;
       origin_ = -(n_track - problem.contact.nodes) / 2;
       return;
     }
     const Index nodes_per_step = std::max<Index>(1, n_track / problem.steps_per_cycle);
     time_step_ = static_cast<double>(nodes_per_step) * spacing / speed_;
-    n_steps_ = (problem.cycles * n_track + nodes_per_step - 1) / nodes_per_step;
+    end_ = static_cast<double>(problem.cycles) * problem.track_length / speed_;
+    n_steps_ = static_cast<Index>(std::ceil(end_ / time_step_ * (1 - 1e-12)));
   }
 
   double time_step() const { return time_step_; }
   Index n_steps() const { return n_steps_; }
+  /// [s] at which a step ends, counted from 0; the last one may be shorter, so that the track runs
+  /// as far as asked.
+  double end_of(Index step) const {
+    return step + 1 == n_steps_ ? end_ : static_cast<double>(step + 1) * time_step_;
+  }
   /// [m] from where it began.
   double place(double time) const {
     return stroke_ > 0 ? stroke_ / 2 * std::sin(rate_ * time) : speed_ * time;
@@ -158,6 +167,7 @@ class Motion {
   double rate_ = 0;   // [1/s]
   double time_step_;  // [s]
   Index n_steps_ = 0;
+  double end_ = 0;    // [s]
   Index origin_ = 0;  // the film begins in the middle of a track that goes to and fro
 };
 
@@ -178,7 +188,7 @@ class Wearing {
     start(observer);
     for (Index i = 0; i < motion_.n_steps() && result_.convergence.converged(); ++i) {
       watch.tell(static_cast<double>(i) / static_cast<double>(motion_.n_steps()));
-      advance(static_cast<double>(i + 1) * motion_.time_step(), 0);
+      advance(motion_.end_of(i), 0);
     }
   }
 

@@ -3,8 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "tabor/core/warning.hpp"
 #include "tabor/ehl/line/line.hpp"
 
+// Follows the wear of a track that runs under a lubricated cylinder.
 namespace tabor::ehl {
 
 /// A track that runs under a standing cylinder, round and round or to and fro, and is worn by what
@@ -46,7 +48,7 @@ struct WearResult {
   double time_step = 0;              ///< [s] of the film
   double worn_area = 0;              ///< [m^2], volume per width
   Convergence convergence;           ///< of all steps; certificate: of the last one
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 /// Follows the film by implicit Euler steps. The nodes of the track move with it from node to node

@@ -5,6 +5,7 @@
 #include "tabor/core/types.hpp"
 #include "tabor/material/lubricant.hpp"
 
+// Balances the flow through the cells of a point contact.
 namespace tabor::ehl {
 
 /// Nodes that the balance of a cell depends on: itself, two upstream, one downstream, one to
@@ -58,7 +59,7 @@ struct PointFlow {
 
 /// Finite volumes: every face has one flow, shared by its two cells, so mass is conserved to
 /// round-off. Along x the walls carry rho h at the face, extrapolated from two nodes upstream
-/// (second order; Venner & Lubrecht, Multilevel Methods in Lubrication, 2000, section 6.2), kept
+/// (second order; Venner & Lubrecht, Multilevel Methods in Lubrication, 2000, section 6.2), held
 /// positive where the film drops abruptly; pressure drives the flow of reynolds::face_flow(),
 /// through the viscosities along and across the sliding direction.
 PointBalance point_balance(const PointFlow& flow, const PointStorage& storage,

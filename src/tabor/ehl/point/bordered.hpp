@@ -7,6 +7,7 @@
 #include "tabor/ehl/point/balance.hpp"
 #include "tabor/ehl/point/levels.hpp"
 
+// Solves the linear equations of one Newton step of a point contact.
 namespace tabor::ehl {
 
 /// The linear equations of one Newton step of a point contact: a row per node, bordered by the

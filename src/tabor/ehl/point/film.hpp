@@ -7,6 +7,7 @@
 #include "tabor/ehl/point/levels.hpp"
 #include "tabor/ehl/point/point.hpp"
 
+// Solves the film of a point contact for given conditions and a given start.
 namespace tabor::ehl {
 
 /// Which equation a node obeys, and so what is unknown there.
@@ -44,7 +45,7 @@ struct PointConditions {
 
 /// How a film is looked for.
 struct PointFilmOptions {
-  /// Whether solids may touch and flow; if not, the boundary film and the cap on the pressure count
+  /// True where solids may touch and flow; else the boundary film and the cap on the pressure count
   /// for nothing.
   bool solids_touch = false;
   /// If not, Newton's equations are solved with sparse factors of their local part instead of a
@@ -82,7 +83,7 @@ class PointFilm {
   /// its nodes.
   PointState resampled(const PointState& state, const Grid& from) const;
   Field mass_of(const PointState& state) const;  ///< rho/rho0 h [m]
-  /// Whether node k = j nx + i lies off the border, where the pressure is given.
+  /// True where node k = j nx + i lies off the border, where the pressure is given.
   bool in_domain(Index k) const;
 
   struct Outcome {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+// Lists the generated finishes that a case can name.
 namespace tabor::ehl {
 
 /// A finish that is generated: Gaussian heights with a self-affine spectrum that is flat beyond the

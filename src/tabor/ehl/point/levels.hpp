@@ -6,6 +6,7 @@
 #include "tabor/ehl/point/elastic.hpp"
 #include "tabor/numerics/grid_transfer.hpp"
 
+// Makes the grids of the multigrid of a point contact.
 namespace tabor::ehl {
 
 /// A grid of the film and what it takes to correct it by the next coarser one.

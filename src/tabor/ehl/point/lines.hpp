@@ -7,6 +7,7 @@
 #include "tabor/ehl/point/local.hpp"
 #include "tabor/numerics/banded_lu.hpp"
 
+// Smooths the errors of a point contact along lines of nodes.
 namespace tabor::ehl {
 
 /// Smooths the error of the local equations: lines of nodes along the flow, each solved exactly,

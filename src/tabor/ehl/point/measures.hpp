@@ -4,6 +4,7 @@
 
 #include "tabor/ehl/point/point.hpp"
 
+// Measures a film of a point contact: thickness, shares of load and area, friction.
 namespace tabor::ehl {
 
 /// What a user reads about a film. Shares of an area count nodes. Solids touch where no film is

@@ -7,6 +7,7 @@
 #include "tabor/ehl/point/levels.hpp"
 #include "tabor/ehl/point/lines.hpp"
 
+// Preconditions Newton steps of a point contact by one V-cycle of multigrid.
 namespace tabor::ehl {
 
 /// Nodes of a mixed film whose equation or unknown is another one. Empty masks: none.

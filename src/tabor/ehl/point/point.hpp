@@ -6,11 +6,13 @@
 
 #include "tabor/core/convergence.hpp"
 #include "tabor/core/types.hpp"
+#include "tabor/core/warning.hpp"
 #include "tabor/ehl/asperities.hpp"
 #include "tabor/material/lubricant.hpp"
 #include "tabor/reference/ehl_films.hpp"
 #include "tabor/reference/hertz_ellipse.hpp"
 
+// Solves the lubricated contact of a ball or ellipsoid with a flat.
 namespace tabor::ehl {
 
 inline constexpr double kNoPlasticLimit = std::numeric_limits<double>::infinity();
@@ -53,11 +55,11 @@ struct PointResult {
   double entrainment_speed = 0;  ///< u_m [m/s] of a mixed film, else 0
   double load_error = 0;         ///< relative
   double mass_error = 0;         ///< largest imbalance of a cell over the flow through the contact
-  /// Of Newton's method; certificate: the larger error. Operator applications beside those of the
-  /// inverse.
+  /// Convergence of Newton's method; certificate: the larger error. Operator applications are those
+  /// beside the inverse.
   Convergence convergence;
   int n_linear_iterations = 0;  ///< of GMRES
-  std::vector<std::string> warnings;
+  Warnings warnings;
 };
 
 /// Dry contact and the groups of the lubricated one.

@@ -2,6 +2,7 @@
 
 #include "tabor/ehl/point/point.hpp"
 
+// Puts bumps and maps of heights onto the nodes of a point contact.
 namespace tabor::ehl {
 
 /// Heights s [m] at the nodes, asperities up: one round bump in the middle of rings,

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tabor/core/units.hpp"
 #include "tabor/ehl/film.hpp"
+#include "tabor/ehl/point/accuracy.hpp"
 
 namespace tabor::ehl {
 namespace {
@@ -15,6 +17,7 @@ constexpr Index kCoarsest = 48;  // nodes along a side of a grid that is not coa
 /// safely from a thick film, where the flow depends on the pressure gradient.
 constexpr double kFirstFilms[] = {3, 10, 1, 30};
 constexpr double kInletLengths = 4;
+constexpr double kLargeError = 0.02;  // of the film, worth a warning
 
 PointFilm::Outcome solve_from_hertz(const PointFilm& film, const PointConditions& conditions,
                                     PointState& state, const Observer& observer) {
@@ -42,27 +45,41 @@ PointFilm::Outcome solve_nested(const PointProblem& problem, const PointFilm& fi
   return before + film.solve(state, film.conditions(), {}, observer);
 }
 
-Index centre_column(const PointProblem& problem) {
-  const double place = problem.inlet / (problem.inlet + problem.outlet);
-  return static_cast<Index>(std::lround(place * static_cast<double>(problem.nodes_x - 1)));
-}
-
-std::vector<std::string> warnings_of(const PointProblem& problem, const PointResult& result) {
-  std::vector<std::string> warnings =
-      material::warnings(problem.lubricant, result.pressure.maxCoeff());
-  const Index nx = result.grid.nx;
+Warnings warnings_of(const PointProblem& problem, const PointResult& result) {
+  Warnings warnings = material::warnings(problem.lubricant, result.pressure.maxCoeff());
+  const double on_grid = point_grid_error(problem);
+  if (on_grid > kLargeError) {
+    warnings.push_back(
+        {"coarse-grid",
+         fmt::format("the grid makes the central film too thin, by an estimated {}; more nodes, "
+                     "{:.2g} times as many, make it 1 %",
+                     percent(on_grid, 2), std::sqrt(on_grid / 0.01)),
+         on_grid});
+  }
+  const double on_domain = point_domain_error(problem);
+  if (on_domain > kLargeError) {
+    warnings.push_back(
+        {"short-domain",
+         fmt::format("pressure carries load where the domain ends: the central film is too thin by "
+                     "about {}; grid.domain = \"auto\"",
+                     percent(on_domain, 2)),
+         on_domain});
+  }
   const double half_axis = hertz_of(problem).half_axis_x;
   const double length =
-      std::sqrt(2 * problem.radius_x * result.film(result.grid.ny / 2, centre_column(problem)));
+      std::sqrt(2 * problem.radius_x * film_groups_of(problem).nijenbanning_central());
   const double inlet = (problem.inlet - 1) * half_axis / length;
-  if (inlet < kInletLengths) {
-    warnings.push_back(
-        fmt::format("the inlet is {:.2g} lengths sqrt(2 R h) long: a longer one may change the "
-                    "film by some per cent",
-                    inlet));
+  if (inlet < kInletLengths && !(on_domain > kLargeError)) {
+    warnings.push_back({"short-inlet",
+                        fmt::format("the inlet is {:.2g} lengths sqrt(2 R h) long; 4 or more keep "
+                                    "the film from starving",
+                                    inlet),
+                        1 / inlet});
   }
+  const Index nx = result.grid.nx;
   if (result.pressure.col(nx - 2).maxCoeff() > 0) {
-    warnings.emplace_back("the film reaches the end of the domain: give a longer outlet");
+    warnings.push_back(
+        {"short-outlet", "the film reaches the end of the domain: give a longer outlet"});
   }
   return warnings;
 }

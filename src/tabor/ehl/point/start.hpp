@@ -5,6 +5,7 @@
 #include "tabor/ehl/point/film.hpp"
 #include "tabor/numerics/continuation.hpp"
 
+// Finds a first film of a point contact, and the warnings of the last one.
 namespace tabor::ehl {
 
 /// The work of both, and what the second found.

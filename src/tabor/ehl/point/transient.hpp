@@ -5,6 +5,7 @@
 
 #include "tabor/ehl/point/point.hpp"
 
+// Follows the film of a point contact under a roughness that moves.
 namespace tabor::ehl {
 
 /// A rough surface that moves through a point contact, under a constant load. Solids must not

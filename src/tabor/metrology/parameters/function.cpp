@@ -9,29 +9,25 @@ namespace {
 
 constexpr double kSxpUpper = 2.5, kSxpLower = 50;  ///< [%] ISO 25178-3
 
-/// Height of the right triangle over the share `ratio` [%] with the mean height `volume` over all.
-double reduced_height(double volume, double ratio) {
-  return ratio > 0 ? 2 * 100 * volume / ratio : 0;
-}
-
 }  // namespace
 
 std::vector<Parameter> function_parameters(const AbbottCurve& curve,
                                            const ParameterOptions& options) {
-  const CoreLine line = curve.core_line();
-  const double smrk1 = curve.ratio_above(line.upper), smrk2 = curve.ratio_above(line.lower);
+  const Core core = curve.core();
+  const CoreLine& line = core.line;
   const double p = options.peak_ratio, q = options.valley_ratio;
   const std::string of_line =
       "the least-squares line over the 40 % of the Abbott curve with the "
       "flattest secant";
   std::vector<Parameter> found{
-      {"Sk", line.upper - line.lower, "m", "core height: fall of " + of_line + ", 0 % to 100 %"},
-      {"Spk", reduced_height(curve.material_above(line.upper), smrk1), "m",
+      {"Sk", core.height, "m", "core height: fall of " + of_line + ", 0 % to 100 %"},
+      {"Spk", core.peak_height, "m",
        "reduced peak height 2 A1/Smrk1, A1 = 100 <max(z - line(0 %), 0)>"},
-      {"Svk", reduced_height(curve.void_below(line.lower), 100 - smrk2), "m",
+      {"Svk", core.dale_height, "m",
        "reduced dale height 2 A2/(100 - Smrk2), A2 = 100 <max(line(100 %) - z, 0)>"},
-      {"Smrk1", smrk1, "%", "share of area above line(0 %), the hills above the core"},
-      {"Smrk2", smrk2, "%", "share of area above line(100 %), all but the dales below the core"},
+      {"Smrk1", core.peak_ratio, "%", "share of area above line(0 %), the hills above the core"},
+      {"Smrk2", core.dale_ratio, "%",
+       "share of area above line(100 %), all but the dales below the core"},
       {"Spkx", curve.highest() - line.upper, "m", "height of the highest peak above line(0 %)"},
       {"Svkx", line.lower - curve.lowest(), "m", "depth of the deepest pit below line(100 %)"},
       {"Sxp", curve.height_at(kSxpUpper) - curve.height_at(kSxpLower), "m",

@@ -24,7 +24,7 @@ std::vector<Parameter> height_parameters(const topography::Topography& topograph
       {"Sku", rough ? m.fourth / (m.second * m.second) : kNoValue, "1",
        "kurtosis <z^4>/Sq^4 (3 for a Gaussian surface)" + about, no_shape},
       {"Sp", m.highest, "m", "highest peak max z" + about},
-      {"Sv", -m.lowest, "m", "deepest pit -min z" + about},
+      {"Sv", 0.0 - m.lowest, "m", "deepest pit -min z" + about},
       {"Sz", m.highest - m.lowest, "m", "maximum height Sp + Sv"},
   };
 }

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/metrology/features.hpp"
 #include "tabor/metrology/parameters/abbott.hpp"
 #include "tabor/metrology/parameters/sets.hpp"
+#include "tabor/numerics/field_statistics.hpp"
 
 namespace tabor::metrology {
 namespace {
@@ -18,6 +21,16 @@ constexpr std::array<std::string_view, kParameterSets.size()> kSetNames{
 
 bool needs_curve(ParameterSet set) {
   return set == ParameterSet::function || set == ParameterSet::volume;
+}
+
+/// The surface itself, or the copy with heights of exactly zero of one whose heights differ by
+/// rounding alone: what is made of rounding is no roughness.
+const topography::Topography& without_rounding(const topography::Topography& topography,
+                                               std::optional<topography::Topography>& copy) {
+  if (!numerics::is_flat(topography.height)) return topography;
+  copy = topography;
+  copy->height = topography.height.isNaN().select(topography.height, 0);
+  return *copy;
 }
 
 /// Computes set by set and keeps the sorted heights between the two sets that share them.
@@ -46,12 +59,19 @@ class Calculation {
       case ParameterSet::feature:
         return feature_parameters(topography_, {.pruning = options_.pruning}, observer_);
       case ParameterSet::profile:
-        return profile_parameters(topography_, options_.profile, observer_);
+        return profile_parameters(topography_, profile_options(), observer_);
     }
     return {};
   }
 
  private:
+  /// A profile's c is that of the area unless it has its own.
+  ProfileOptions profile_options() const {
+    ProfileOptions options = options_.profile;
+    if (!options.ratio_height) options.ratio_height = options_.smr_height;
+    return options;
+  }
+
   const AbbottCurve& curve() {
     if (!curve_) curve_.emplace(topography_.height, observer_);
     return *curve_;
@@ -74,6 +94,10 @@ void check(const ParameterOptions& options) {
   check_share("material ratio p", options.peak_ratio, 100);
   check_share("material ratio q", options.valley_ratio, 100);
   check_share("ACF threshold s", options.acf_threshold, 1);
+  if (!std::isfinite(options.smr_height)) {
+    throw InputError("height c of Smr(c)", fmt::format("{:g} m", options.smr_height), "a height",
+                     "");
+  }
   if (options.peak_ratio >= options.valley_ratio) {
     throw InputError(
         "material ratios",
@@ -98,7 +122,8 @@ std::vector<Parameter> parameters(const topography::Topography& topography,
   if (topography.height.isNaN().all()) {
     throw InputError("surface parameters", "a surface of holes only", "some valid heights", "");
   }
-  Calculation calculation(topography, options, observer);
+  std::optional<topography::Topography> copy;
+  Calculation calculation(without_rounding(topography, copy), options, observer);
   std::vector<Parameter> all;
   for (const ParameterSet set : options.sets) {
     for (Parameter& parameter : calculation.of(set)) {

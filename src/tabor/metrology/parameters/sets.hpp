@@ -7,13 +7,15 @@
 #include "tabor/core/rows.hpp"
 #include "tabor/metrology/parameters.hpp"
 
+// Declares the functions that compute the areal roughness parameters, one per set of ISO 25178-2.
 namespace tabor::metrology {
 
 class AbbottCurve;
 
 inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-/// One function per set; parameters() calls the chosen ones. Every symbol appears in one set only.
+/// Compute one set of parameters each; parameters() calls the chosen ones. Every symbol appears in
+/// one set only.
 std::vector<Parameter> height_parameters(const topography::Topography& topography);
 std::vector<Parameter> hybrid_parameters(const topography::Topography& topography,
                                          const ParameterOptions& options);

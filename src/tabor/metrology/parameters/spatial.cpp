@@ -49,7 +49,7 @@ std::vector<Parameter> correlation_parameters(const topography::Topography& topo
 }
 
 std::string texture_note(const topography::Topography& topography, const Texture& texture) {
-  if (std::isnan(texture.direction)) return "a flat surface has none";
+  if (std::isnan(texture.wavelength)) return "a flat surface has none";
   std::string note;
   const Grid& grid = topography.grid;
   if (texture.n_holes > 0) note = fmt::format("{} holes count as the mean", texture.n_holes);
@@ -58,6 +58,18 @@ std::string texture_note(const topography::Topography& topography, const Texture
                         note.empty() ? "" : "; ");
   }
   return note;
+}
+
+/// The note of the texture and what holds for its direction alone.
+std::string direction_note(const std::string& note, const Texture& texture) {
+  constexpr double least_said = 5;
+  const double degrees = texture.uncertainty * kDegrees;
+  if (std::isnan(texture.wavelength) || degrees < least_said) return note;
+  const std::string known =
+      texture.is_narrow
+          ? fmt::format("the strip is too narrow to tell, to {:.2g} degrees at best", degrees)
+          : fmt::format("known to {:.2g} degrees by the waves that fit into the field", degrees);
+  return note.empty() ? known : known + "; " + note;
 }
 
 }  // namespace
@@ -73,7 +85,7 @@ std::vector<Parameter> spatial_parameters(const topography::Topography& topograp
   found.push_back({"Std", texture.direction * kDegrees, "deg",
                    "texture direction: angle of the wavevector with the largest angular power "
                    "spectrum of z - <z>, from x counter-clockwise, 0 to 180; the lay runs across",
-                   note});
+                   direction_note(note, texture)});
   found.push_back({"Ssw", texture.wavelength, "m",
                    "dominant spatial wavelength: of the largest Fourier magnitude of z - <z>",
                    note});

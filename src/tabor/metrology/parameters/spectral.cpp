@@ -1,5 +1,6 @@
 // Spectral moments m0, m2, m4 and what random-surface theory makes of them (Longuet-Higgins 1957,
 // Nayak 1971).
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -44,6 +45,19 @@ void add_curvatures(const topography::Topography& topography, SpectralMoments& m
   moments.m4 = 3.0 / 8 * mean_square(grid.ny - 2, grid.nx - 2, [&](Index y, Index x) {
                  return along_x(y + 1, x) + along_y(y, x + 1);
                });
+}
+
+/// Curvatures of a plane are rounding of its heights: zero.
+void drop_rounding(const topography::Topography& topography, SpectralMoments& moments) {
+  const double rounding = numerics::rounding_of(numerics::largest_magnitude(topography.height));
+  const double dx = topography.grid.dx(), dy = topography.grid.dy();
+  const double along_x = rounding / (dx * dx), along_y = rounding / (dy * dy);
+  const auto drop = [](double& moment, double least) {
+    if (moment <= least * least) moment = 0;
+  };
+  drop(moments.m4_x, along_x);
+  drop(moments.m4_y, along_y);
+  drop(moments.m4, std::max(along_x, along_y));
 }
 
 struct Wording {
@@ -99,6 +113,7 @@ SpectralMoments difference_moments(const topography::Topography& topography) {
   moments.m0 = numerics::field_moments(topography.height).second;
   add_slopes(topography, moments);
   add_curvatures(topography, moments);
+  drop_rounding(topography, moments);
   return moments;
 }
 

@@ -1,11 +1,15 @@
 #include "tabor/metrology/parameters/texture.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <limits>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "tabor/core/rows.hpp"
+#include "tabor/metrology/half_spectrum.hpp"
 #include "tabor/numerics/field_statistics.hpp"
 #include "tabor/spectral/fft.hpp"
 
@@ -17,6 +21,7 @@ using Spectrum = Eigen::Array<std::complex<float>, Eigen::Dynamic, Eigen::Dynami
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr Index kRays = 360;  ///< over half a turn
+constexpr double kStep = pi / kRays;
 
 /// Heights about their mean in units of their rms, holes at zero.
 FieldF unit_heights(const Field& height, const numerics::FieldMoments& moments) {
@@ -31,48 +36,135 @@ FieldF unit_heights(const Field& height, const numerics::FieldMoments& moments) 
   return unit;
 }
 
-/// Power of the mode (ky, kx) of any sign, kx within the half spectrum or its mirror image.
-double power_at(const Spectrum& spectrum, Index ky, Index kx) {
-  if (kx < 0) {
-    kx = -kx;
-    ky = -ky;
+/// The power of a mode of the half spectrum, where it points, and the angle to the next modes.
+struct Direction {
+  double power = 0;
+  double angle = 0;   ///< [rad] in [0, pi)
+  double spread = 0;  ///< [rad] to the next modes across, at most a quarter turn
+  double apart = 0;   ///< [rad] to the furthest of the next modes along both axes, or spread uncut
+  bool is_inside = false;  ///< the smaller Nyquist wavevector
+};
+
+/// Angle between two directions that have no sign. [rad]
+double angle_between(double a, double b) {
+  const double turn = std::fmod(std::abs(a - b), pi);
+  return std::min(turn, pi - turn);
+}
+
+/// The modes of a spectrum.
+class Directions {
+ public:
+  Directions(const Spectrum& spectrum, const Grid& grid)
+      : spectrum_(spectrum), grid_(grid), last_(pi / std::max(grid.dx(), grid.dy())) {}
+
+  /// Sums of add(mode, sums) over all modes, rows in parallel.
+  template <typename Add>
+  Eigen::ArrayXd sum(Index n, const Add& add) const {
+    std::vector<Eigen::ArrayXd> rows(static_cast<std::size_t>(spectrum_.rows()));
+    parallel_for(spectrum_.rows(), 1, [&](Index ky, Index) {
+      Eigen::ArrayXd& sums = rows[static_cast<std::size_t>(ky)];
+      sums = Eigen::ArrayXd::Zero(n);
+      for (Index kx = ky == 0 ? 1 : 0; kx < spectrum_.cols(); ++kx) {
+        const Direction mode = at(ky, kx);
+        if (mode.power > 0) add(mode, sums);
+      }
+    });
+    Eigen::ArrayXd total = Eigen::ArrayXd::Zero(n);
+    for (const Eigen::ArrayXd& row : rows) total += row;
+    return total;
   }
-  if (kx >= spectrum.cols() || std::abs(ky) > spectrum.rows() / 2) return 0;
-  if (kx == 0 && ky == 0) return 0;
-  return std::norm(spectrum((ky + spectrum.rows()) % spectrum.rows(), kx));
-}
 
-double power_between(const Spectrum& spectrum, double ky, double kx) {
-  const auto y = static_cast<Index>(std::floor(ky)), x = static_cast<Index>(std::floor(kx));
-  const double v = ky - static_cast<double>(y), u = kx - static_cast<double>(x);
-  return (1 - v) * ((1 - u) * power_at(spectrum, y, x) + u * power_at(spectrum, y, x + 1)) +
-         v * ((1 - u) * power_at(spectrum, y + 1, x) + u * power_at(spectrum, y + 1, x + 1));
-}
-
-/// Integral of power times q along a ray in steps of half a mode, however much longer than wide the
-/// field is.
-double power_along(const Spectrum& spectrum, const Grid& grid, double angle) {
-  const double qx = 2 * pi / grid.lx, qy = 2 * pi / grid.ly;
-  const double step = 0.5 / std::hypot(std::cos(angle) / qx, std::sin(angle) / qy);
-  const double end = pi / std::max(grid.dx(), grid.dy());
-  double total = 0;
-  // From two steps on: closer, the missing mode q = 0 is part of every value.
-  for (Index i = 2; static_cast<double>(i) * step <= end; ++i) {
-    const double q = static_cast<double>(i) * step;
-    // Rows count downwards, angles turn upwards.
-    total += q * power_between(spectrum, -q * std::sin(angle) / qy, q * std::cos(angle) / qx);
+ private:
+  Direction at(Index ky, Index kx) const {
+    const double qx = spectral::wavevector(kx, grid_.nx, grid_.lx);
+    const double qy = -spectral::wavevector(ky, grid_.ny, grid_.ly);  // rows count downwards
+    const double q = std::hypot(qx, qy);
+    const double across = std::hypot(qx / grid_.ly, qy / grid_.lx) * 2 * pi / q;
+    double angle = std::atan2(qy, qx);
+    if (angle < 0) angle += pi;
+    return {.power = multiplicity(kx, grid_.nx) * std::norm(spectrum_(ky, kx)),
+            .angle = angle >= pi ? 0 : angle,
+            .spread = std::clamp(across / q, kStep, pi / 2),
+            .apart = std::max(across / q, angle_to_next(qx, qy)),
+            .is_inside = q <= last_ * (1 + 1e-12)};
   }
-  return total * step;
-}
 
-double strongest_direction(const Spectrum& spectrum, const Grid& grid) {
-  Eigen::ArrayXd power(kRays);
-  parallel_for(kRays, 1, [&](Index ray, Index) {
-    power[ray] = power_along(spectrum, grid, pi * static_cast<double>(ray) / kRays);
+  double angle_to_next(double qx, double qy) const {
+    const double dqx = 2 * pi / grid_.lx, dqy = 2 * pi / grid_.ly;
+    const double angle = std::atan2(qy, qx);
+    double largest = kStep;
+    for (const auto& [x, y] :
+         {std::pair{qx + dqx, qy}, {qx - dqx, qy}, {qx, qy + dqy}, {qx, qy - dqy}}) {
+      if (std::abs(x) < dqx / 2 && std::abs(y) < dqy / 2) continue;  // the mean has no direction
+      largest = std::max(largest, angle_between(std::atan2(y, x), angle));
+    }
+    return largest;
+  }
+
+  const Spectrum& spectrum_;
+  Grid grid_;
+  double last_;
+};
+
+/// Power per angle at every ray.
+Eigen::ArrayXd angular_power(const Directions& modes) {
+  return modes.sum(kRays, [](const Direction& mode, Eigen::ArrayXd& power) {
+    if (!mode.is_inside) return;
+    const auto first = static_cast<Index>(std::ceil((mode.angle - mode.spread) / kStep));
+    const auto last = static_cast<Index>(std::floor((mode.angle + mode.spread) / kStep));
+    for (Index ray = first; ray <= last; ++ray) {
+      const double share =
+          1 - std::abs(static_cast<double>(ray) * kStep - mode.angle) / mode.spread;
+      power[(ray + kRays) % kRays] += mode.power / mode.spread * std::max(0.0, share);
+    }
   });
+}
+
+/// [rad] How far the modes that make the direction lie apart, their mean.
+double distance_at(const Directions& modes, double direction) {
+  const Eigen::ArrayXd sums = modes.sum(2, [&](const Direction& mode, Eigen::ArrayXd& total) {
+    const double off = angle_between(mode.angle, direction);
+    if (!mode.is_inside || off >= mode.spread) return;
+    const double weight = mode.power / mode.spread * (1 - off / mode.spread);
+    total += Eigen::Array2d(weight, weight * mode.apart);
+  });
+  return sums[1] / sums[0];
+}
+
+/// [rad] Half of that distance; less where little power is beside the direction: of a wave that
+/// lies d of the distance beside a mode, the others have a share of about pi^2 d^2 / 3 (that mode
+/// keeps sin^2(pi d) / (pi d)^2).
+double uncertainty_at(const Directions& modes, double direction) {
+  const double apart = distance_at(modes, direction);
+  const Eigen::ArrayXd sums = modes.sum(2, [&](const Direction& mode, Eigen::ArrayXd& total) {
+    const double off = angle_between(mode.angle, direction);
+    if (off > apart * (1 + 1e-9)) return;
+    total += Eigen::Array2d(mode.power, off > kStep ? mode.power : 0);
+  });
+  const double beside = std::sqrt(3 * sums[1] / sums[0]) / pi;
+  return std::min(apart * std::min(0.5, beside), pi / 2);
+}
+
+/// How much further apart modes lie across `direction` than on a square field of the longer side.
+double narrowness(const Grid& grid, double direction) {
+  return std::hypot(std::cos(direction) / grid.ly, std::sin(direction) / grid.lx) *
+         std::max(grid.lx, grid.ly);
+}
+
+void find_direction(const Spectrum& spectrum, const Grid& grid, Texture& texture) {
+  constexpr double largest_uncertainty = 10 * pi / 180, widest = 2;
+  if (grid.ny == 1 || grid.nx == 1) {
+    texture.direction = grid.ny == 1 ? 0 : pi / 2;
+    return;
+  }
+  const Directions modes(spectrum, grid);
   Index strongest = 0;
-  power.maxCoeff(&strongest);
-  return pi * static_cast<double>(strongest) / kRays;
+  angular_power(modes).maxCoeff(&strongest);
+  texture.direction = kStep * static_cast<double>(strongest);
+  texture.uncertainty = uncertainty_at(modes, texture.direction);
+  texture.is_narrow =
+      texture.uncertainty > largest_uncertainty && narrowness(grid, texture.direction) > widest;
+  if (texture.is_narrow) texture.direction = kNan;
 }
 
 double strongest_wavelength(const Spectrum& spectrum, const Grid& grid) {
@@ -101,16 +193,16 @@ double strongest_wavelength(const Spectrum& spectrum, const Grid& grid) {
 Texture texture_of(const topography::Topography& topography) {
   const Grid& grid = topography.grid;
   const numerics::FieldMoments moments = numerics::field_moments(topography.height);
-  if (!(moments.second > 0)) return {kNan, kNan, 0};
+  if (!(moments.second > 0)) return {.direction = kNan, .wavelength = kNan};
   Spectrum spectrum(grid.ny, grid.nx / 2 + 1);
   {
     const FieldF unit = unit_heights(topography.height, moments);
     spectral::RealFft2d<float>(grid.ny, grid.nx).forward(unit.data(), spectrum.data());
   }
-  const double direction = grid.ny == 1   ? 0
-                           : grid.nx == 1 ? pi / 2
-                                          : strongest_direction(spectrum, grid);
-  return {direction, strongest_wavelength(spectrum, grid), grid.size() - moments.n};
+  Texture texture{.wavelength = strongest_wavelength(spectrum, grid),
+                  .n_holes = grid.size() - moments.n};
+  find_direction(spectrum, grid, texture);
+  return texture;
 }
 
 }  // namespace tabor::metrology

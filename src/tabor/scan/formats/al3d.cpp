@@ -31,6 +31,15 @@ Tags take_tags(Cursor& cursor) {
   return tags;
 }
 
+std::string text_of(const Tags& tags, const std::string& key) {
+  const auto tag = tags.find(key);
+  return tag == tags.end() ? "" : tag->second;
+}
+
+std::optional<double> stated(const Tags& tags, const std::string& key) {
+  return stated_number(text_of(tags, key));
+}
+
 double number(const Contents& contents, const Tags& tags, const std::string& key) {
   const auto tag = tags.find(key);
   const auto value = tag == tags.end() ? std::nullopt : parse_number(tag->second);
@@ -72,16 +81,17 @@ Document open_al3d(const Contents& contents) {
   const auto application = tags.find("CreatingApplication");
   Document document{.format = "al3d", .instrument = "Alicona"};
   if (application != tags.end()) document.metadata["CreatingApplication"] = application->second;
-  document.layers.push_back(
-      {.name = "depth",
-       .unit = "m",
-       .nx = raster.nx,
-       .ny = raster.ny,
-       .pixel_x = checked_pixel(contents, number(contents, tags, "PixelSizeXMeter")),
-       .pixel_y = checked_pixel(contents, number(contents, tags, "PixelSizeYMeter")),
-       .load = [contents, data, raster, is_invalid] {
-         return decode(contents, data, raster, holes_where(is_invalid));
-       }});
+  document.layers.push_back({.name = "depth",
+                             .unit = "m",
+                             .nx = raster.nx,
+                             .ny = raster.ny,
+                             .pixel_x = stated(tags, "PixelSizeXMeter"),
+                             .pixel_y = stated(tags, "PixelSizeYMeter"),
+                             .said_x = "PixelSizeXMeter " + text_of(tags, "PixelSizeXMeter"),
+                             .said_y = "PixelSizeYMeter " + text_of(tags, "PixelSizeYMeter"),
+                             .load = [contents, data, raster, is_invalid] {
+                               return decode(contents, data, raster, holes_where(is_invalid));
+                             }});
   return document;
 }
 

@@ -65,13 +65,17 @@ double number(const Contents& contents, const Keys& keys, const std::string& key
   return *value;
 }
 
-std::optional<double> pixel(const Contents& contents, const Keys& keys, char axis, double n) {
-  if (!keys.contains(std::string(1, axis) + "length")) return std::nullopt;
+std::string said(const Keys& keys, char axis) {
+  const std::string key = std::string(1, axis) + "length";
+  return fmt::format("{} {} {}", key, text_of(keys, key, ""),
+                     text_of(keys, std::string(1, axis) + "unit", "nm"));
+}
+
+std::optional<double> pixel(const Keys& keys, char axis, double n) {
+  const auto length = stated_number(text_of(keys, std::string(1, axis) + "length", ""));
+  if (!length) return std::nullopt;
   const std::string unit = text_of(keys, std::string(1, axis) + "unit", "nm");
-  const auto factor = unit_factor(unit, dimension::length);
-  if (!factor) reject(contents, "lengths in '" + unit + "'", "a length", kDamaged);
-  return checked_pixel(contents,
-                       number(contents, keys, std::string(1, axis) + "length") * *factor / n);
+  return *length * unit_factor(unit, dimension::length).value_or(kHole) / n;
 }
 
 }  // namespace
@@ -116,8 +120,10 @@ Document open_bcr(const Contents& contents) {
   if (layer.scale == 0) reject(contents, "a bit2nm of 0", "a height per count", kDamaged);
   layer.nx = raster.nx;
   layer.ny = raster.ny;
-  layer.pixel_x = pixel(contents, keys, 'x', nx);
-  layer.pixel_y = pixel(contents, keys, 'y', ny);
+  layer.pixel_x = pixel(keys, 'x', nx);
+  layer.pixel_y = pixel(keys, 'y', ny);
+  layer.said_x = said(keys, 'x');
+  layer.said_y = said(keys, 'y');
   layer.load = [contents, data = cursor.take(byte_size(raster)), raster, is_void] {
     return decode(contents, data, raster, holes_where(is_void));
   };

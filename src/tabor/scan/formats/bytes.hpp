@@ -13,6 +13,7 @@
 
 #include "tabor/scan/formats/format.hpp"
 
+// Reads numbers and rasters of samples from the bytes of a file, and appends them.
 namespace tabor::scan::format {
 
 static_assert(std::endian::native == std::endian::little,
@@ -29,7 +30,7 @@ T in_order(T value, std::endian order) {
   return value;
 }
 
-/// A cursor over the bytes of a file that never leaves them.
+/// Reads the bytes of a file in order and never reads beyond them.
 class Cursor {
  public:
   explicit Cursor(const Contents& contents, std::endian order = std::endian::little)
@@ -40,7 +41,7 @@ class Cursor {
   void seek(std::size_t position);
   void skip(std::size_t n) { take(n); }
 
-  /// The next n bytes. Throws InputError (truncated) if the file ends before.
+  /// Returns the next n bytes. Throws InputError (truncated) if the file ends before.
   std::string_view take(std::size_t n);
 
   template <typename T>
@@ -50,9 +51,9 @@ class Cursor {
     return in_order(value, order_);
   }
 
-  /// A text field of fixed width, up to its first NUL, without surrounding blanks.
+  /// Returns a text field of fixed width, up to its first NUL, without surrounding blanks.
   std::string take_text(std::size_t width);
-  /// Text up to and without its terminating NUL.
+  /// Returns text up to and without its terminating NUL.
   std::string take_terminated();
 
  private:
@@ -67,7 +68,7 @@ enum class Sample { u8, i8, u16, i16, u32, i32, u64, i64, f32, f64 };
 std::size_t size_of(Sample sample);
 bool is_integer(Sample sample);
 
-/// How the samples of a map lie in the bytes.
+/// Layout of the samples of a map in the bytes.
 struct Raster {
   Sample sample = Sample::f64;
   std::endian order = std::endian::little;
@@ -76,10 +77,10 @@ struct Raster {
   std::size_t row_stride = 0;  ///< [bytes] from row to row, 0 = rows without gaps
 };
 
-/// Number of bytes the raster covers.
+/// Returns the number of bytes that the raster covers.
 std::size_t byte_size(const Raster& raster);
 
-/// What is done to one row of decoded samples, for instance making holes of marked values.
+/// Changes one row of decoded samples, for instance makes holes of marked values.
 using RowStep = std::function<void(std::span<double> row)>;
 
 /// Makes holes of the samples for which is_hole(sample) is true.
@@ -93,13 +94,13 @@ RowStep holes_where(IsHole is_hole) {
 }
 
 /// Decodes `bytes` (at least byte_size(raster), checked before) to numbers, shape (ny, nx), on all
-/// threads. Pages of the file are given back as they are done with, so that the map does not lie
-/// in memory twice. Throws Interrupted.
+/// threads. Decoded pages of the file are released, so that the map is not in memory twice. Throws
+/// Interrupted.
 Field decode(const Contents& contents, std::string_view bytes, const Raster& raster,
              const RowStep& step = {});
 
-/// The same for samples that come piece after piece, as from an archive: accepts the next bytes,
-/// of any length; `field` must have the raster's shape. Rows without gaps only.
+/// Decodes samples that come piece after piece, as from an archive: accepts the next bytes, of any
+/// length; `field` must have the raster's shape. Rows without gaps only.
 class RowDecoder {
  public:
   RowDecoder(const Raster& raster, Field& field) : raster_(raster), field_(&field) {}
@@ -119,14 +120,14 @@ void put(std::string& bytes, T value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 
-/// Says in the document's warnings that bytes are left behind the map: its size may be wrong.
+/// Adds a warning that bytes follow the map: its size may be wrong.
 void warn_of_surplus(const Cursor& behind_map, Document& document);
 
-/// Says in the document's warnings that a negative height scale turns what was measured upside
-/// down.
+/// Adds a warning that a negative height scale turns the surface upside down.
 void warn_of_negative_scale(double scale, Document& document);
 
-/// Text that any format can hold, in at most `most_bytes`: one line, valid UTF-8, no character cut.
+/// Returns text that any format can hold, in at most `most_bytes`: one line, valid UTF-8, no
+/// character cut.
 std::string writable_text(std::string_view text, std::size_t most_bytes = std::string_view::npos);
 
 /// Appends text cut or padded with `fill` to a fixed width.

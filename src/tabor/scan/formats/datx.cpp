@@ -39,14 +39,14 @@ std::string surface_path(const Contents& contents, const std::vector<io::Hdf5Rec
 }
 
 /// Metres per pixel: the second number of the converter.
-std::optional<double> pixel(const Contents& contents, const io::Hdf5Reader& reader,
-                            const std::string& path, const std::string& converter) {
+std::optional<double> pixel(const io::Hdf5Reader& reader, const std::string& path,
+                            const std::string& converter) {
   if (!reader.has_attribute(path, converter)) return std::nullopt;
   const auto records = reader.attribute_records(path, converter);
   if (records.size() != 1 || records[0].numbers.size() < 2) return std::nullopt;
   // A measurement without lateral calibration says 0.
   const double metres = records[0].numbers[1];
-  return metres == 0 ? std::nullopt : std::optional(checked_pixel(contents, metres));
+  return metres == 0 ? std::nullopt : std::optional(metres);
 }
 
 /// Zygo writes the names of units in full.
@@ -84,8 +84,10 @@ Document describe(const Contents& contents) {
                              .unit = unit_of(reader, path),
                              .nx = shape[1],
                              .ny = shape[0],
-                             .pixel_x = pixel(contents, reader, path, "X Converter"),
-                             .pixel_y = pixel(contents, reader, path, "Y Converter"),
+                             .pixel_x = pixel(reader, path, "X Converter"),
+                             .pixel_y = pixel(reader, path, "Y Converter"),
+                             .said_x = "X Converter",
+                             .said_y = "Y Converter",
                              .load = [contents, shape, path, no_data] {
                                return guarded_heights(contents, shape, [&](const auto& send) {
                                  send_heights(contents.file, path, no_data, send);

@@ -6,6 +6,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/resources.hpp"
+#include "tabor/core/text.hpp"
 
 namespace tabor::scan::format {
 
@@ -24,14 +25,15 @@ void ask(const Contents& contents, const std::string& got, const std::string& ex
   throw IncompleteError(contents.file.string(), got, expected, remedy);
 }
 
-void check_size(const Contents& contents, double nx, double ny, std::size_t available) {
+namespace {
+
+void check_whole(const Contents& contents, double nx, double ny) {
   if (!(nx >= 1) || !(ny >= 1) || nx != std::floor(nx) || ny != std::floor(ny)) {
     reject(contents, fmt::format("a size of {} x {} pixels", nx, ny), "at least 1 x 1", kDamaged);
   }
-  if (nx * ny > static_cast<double>(available)) {
-    reject(contents, fmt::format("{} samples", available),
-           fmt::format("{} x {} as its header says", nx, ny), kDamaged);
-  }
+}
+
+void check_memory(const Contents& contents, double nx, double ny) {
   const std::size_t memory = available_memory_bytes();
   if (memory > 0 && nx * ny * sizeof(double) > static_cast<double>(memory)) {
     reject(contents, fmt::format("{} x {} pixels", nx, ny), "a map that fits into memory",
@@ -39,14 +41,32 @@ void check_size(const Contents& contents, double nx, double ny, std::size_t avai
   }
 }
 
+}  // namespace
+
+void check_size(const Contents& contents, double nx, double ny, std::size_t available) {
+  check_whole(contents, nx, ny);
+  if (nx * ny > static_cast<double>(available)) {
+    reject(contents, fmt::format("{} samples", available),
+           fmt::format("{} x {} as its header says", nx, ny), kDamaged);
+  }
+  check_memory(contents, nx, ny);
+}
+
+void check_packed_size(const Contents& contents, double nx, double ny, std::size_t packed_bytes,
+                       std::size_t ratio, std::size_t sample_bytes) {
+  check_whole(contents, nx, ny);
+  if (nx * ny > static_cast<double>(packed_bytes * ratio / sample_bytes)) {
+    reject(contents, fmt::format("{} x {} pixels in its header", nx, ny),
+           fmt::format("as many as its {} bytes can hold", packed_bytes), kDamaged);
+  }
+  check_memory(contents, nx, ny);
+}
+
 bool is_pixel(double length) { return length >= 1e-15 && length <= 1e6; }
 
-double checked_pixel(const Contents& contents, double pixel) {
-  if (!is_pixel(pixel)) {
-    reject(contents, fmt::format("a pixel of {} m", pixel),
-           "a positive length, from 1e-15 to 1e6 m", kDamaged);
-  }
-  return pixel;
+std::optional<double> stated_number(std::string_view text) {
+  if (trim(text).empty()) return std::nullopt;
+  return parse_number(text).value_or(kHole);
 }
 
 }  // namespace tabor::scan::format

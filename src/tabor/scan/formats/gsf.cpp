@@ -44,12 +44,15 @@ double count(const Contents& contents, const Header& header, const std::string& 
 }
 
 /// Without units XReal is only a number (its default is 1).
-std::optional<double> pixel(const Contents& contents, const Header& header, const std::string& key,
-                            Index n) {
+std::optional<double> pixel(const Header& header, const std::string& key, Index n) {
   const auto factor = unit_factor(value_of(header, "XYUnits"), dimension::length);
   const std::string text = value_of(header, key);
   if (!factor || text.empty()) return std::nullopt;
-  return checked_pixel(contents, parse_number(text).value_or(0) * *factor / static_cast<double>(n));
+  return parse_number(text).value_or(kHole) * *factor / static_cast<double>(n);
+}
+
+std::string said(const Header& header, const std::string& key) {
+  return key + " = " + value_of(header, key);
 }
 
 }  // namespace
@@ -72,8 +75,10 @@ Document open_gsf(const Contents& contents) {
   if (layer.name.empty()) layer.name = "height";
   layer.nx = static_cast<Index>(nx);
   layer.ny = static_cast<Index>(ny);
-  layer.pixel_x = pixel(contents, header, "XReal", layer.nx);
-  layer.pixel_y = pixel(contents, header, "YReal", layer.ny);
+  layer.pixel_x = pixel(header, "XReal", layer.nx);
+  layer.pixel_y = pixel(header, "YReal", layer.ny);
+  layer.said_x = said(header, "XReal");
+  layer.said_y = said(header, "YReal");
   const Raster raster{.sample = Sample::f32, .nx = layer.nx, .ny = layer.ny};
   layer.load = [contents, data = cursor.take(byte_size(raster)), raster] {
     return decode(contents, data, raster);

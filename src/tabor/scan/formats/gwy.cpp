@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::string_view kMagic = "GWYP";
 constexpr const char* kInstrument = "Instrument";
+constexpr const char* kSource = "Source";
 
 std::string unit_of(const GwyObject& field, const std::string& which) {
   const GwyObject* unit = field.object(which, "GwySIUnit");
@@ -35,11 +36,14 @@ std::string_view data_of(const Contents& contents, const GwyObject& field, Index
   return data->second.array;
 }
 
-std::optional<double> pixel(const Contents& contents, const GwyObject& field,
-                            const std::string& real, Index n) {
+std::optional<double> pixel(const GwyObject& field, const std::string& real, Index n) {
   const auto factor = unit_factor(unit_of(field, "si_unit_xy"), dimension::length);
   if (!factor || field.items.count(real) == 0) return std::nullopt;
-  return checked_pixel(contents, field.number(real, 0) * *factor / static_cast<double>(n));
+  return field.number(real, 0) * *factor / static_cast<double>(n);
+}
+
+std::string said(const GwyObject& field, const std::string& real) {
+  return fmt::format("{} {:g} {}", real, field.number(real, 0), unit_of(field, "si_unit_xy"));
 }
 
 /// What Gwyddion shows under a mask is interpolated: those pixels are holes.
@@ -70,8 +74,10 @@ Layer layer_of(const Contents& contents, const GwyObject& root, const GwyObject&
   layer.index = id;
   layer.nx = static_cast<Index>(nx);
   layer.ny = static_cast<Index>(ny);
-  layer.pixel_x = pixel(contents, field, "xreal", layer.nx);
-  layer.pixel_y = pixel(contents, field, "yreal", layer.ny);
+  layer.pixel_x = pixel(field, "xreal", layer.nx);
+  layer.pixel_y = pixel(field, "yreal", layer.ny);
+  layer.said_x = said(field, "xreal");
+  layer.said_y = said(field, "yreal");
   const std::string_view data = data_of(contents, field, layer.nx, layer.ny);
   std::string_view mask;
   if (const GwyObject* mask_field = root.object(prefix + "mask", "GwyDataField")) {
@@ -106,6 +112,31 @@ void add_metadata(Document& document, const GwyObject& root, int id) {
   }
 }
 
+/// Whether Gwyddion made up this side of a map: it puts 1 m where a file that it reads states none.
+bool is_invented(const std::optional<double>& pixel, Index n) {
+  constexpr double kRounding = 1e-12;
+  return pixel && std::abs(*pixel * static_cast<double>(n) - 1) < kRounding;
+}
+
+/// Whether write_gwy() has written the file, so that its sizes are those of its map.
+bool is_own(const GwyObject& root) {
+  const GwyObject* meta = root.object("/0/meta", "GwyContainer");
+  return meta != nullptr && meta->items.contains(kSource) && meta->items.contains(kInstrument);
+}
+
+/// A side that Gwyddion made up is not known; the other one neither if it only makes the pixels
+/// square.
+void forget_invented_size(Layer& layer) {
+  const bool x = is_invented(layer.pixel_x, layer.nx), y = is_invented(layer.pixel_y, layer.ny);
+  if (!x && !y) return;
+  constexpr double kRounding = 1e-12;
+  const bool is_square =
+      layer.pixel_x && layer.pixel_y && std::abs(*layer.pixel_x / *layer.pixel_y - 1) < kRounding;
+  if (x || is_square) layer.pixel_x.reset();
+  if (y || is_square) layer.pixel_y.reset();
+  layer.pixel_hint = "no pixel size in the file (Gwyddion puts 1 m for none)";
+}
+
 }  // namespace
 
 Match identify_gwy(std::string_view head) {
@@ -124,6 +155,9 @@ Document open_gwy(const Contents& contents) {
   for (const auto& [id, field] : fields) {
     document.layers.push_back(layer_of(contents, root, *field, id));
     add_metadata(document, root, id);
+  }
+  for (Layer& layer : document.layers) {
+    if (!is_own(root)) forget_invented_size(layer);
   }
   if (document.layers.empty()) {
     reject(contents, "no image channel", "a height map (/0/data)",
@@ -199,7 +233,7 @@ void write_gwy_maps(const MapSet& maps, const std::filesystem::path& file) {
 void write_gwy(const topography::Topography& topography, const std::filesystem::path& file) {
   MapSet maps = as_maps(topography, topography.channel.empty() ? "height" : topography.channel);
   maps.metadata = topography.metadata;
-  maps.metadata["Source"] = topography.source;
+  maps.metadata[kSource] = topography.source;
   maps.metadata[kInstrument] = topography.instrument;
   write_gwy_maps(maps, file);
 }

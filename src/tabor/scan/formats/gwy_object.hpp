@@ -7,11 +7,12 @@
 
 #include "tabor/scan/formats/format.hpp"
 
+// Parses and writes the serialised objects of Gwyddion's native format.
 namespace tabor::scan::format {
 
 struct GwyObject;
 
-/// A component of a serialised object: what of it a reader of height maps needs.
+/// Component of a serialised object, as far as a reader of height maps needs it.
 struct GwyValue {
   char type = 0;                      ///< as in the file: i, d, s, o, D, ...
   double number = 0;                  ///< b c i q d
@@ -20,7 +21,7 @@ struct GwyValue {
   std::shared_ptr<GwyObject> object;  ///< o
 };
 
-/// A serialised object of Gwyddion's native file format.
+/// Serialised object of Gwyddion's native file format.
 struct GwyObject {
   std::string type;  ///< "GwyContainer", "GwyDataField", ...
   std::map<std::string, GwyValue> items;
@@ -30,7 +31,8 @@ struct GwyObject {
   std::string text(const std::string& name) const;  ///< "" if absent
 };
 
-/// The root object of a GWY file. Throws InputError for anything that contradicts its own sizes.
+/// Returns the root object of a GWY file. Throws InputError for anything that contradicts its own
+/// sizes.
 GwyObject parse_gwy(const Contents& contents);
 
 /// Writes components one by one; nested objects are given as the bytes of another builder.

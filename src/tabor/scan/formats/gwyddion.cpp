@@ -1,7 +1,9 @@
 // Every other format: Gwyddion, if installed, converts the file in a process of its own.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <memory>
@@ -36,7 +38,7 @@ std::string convert(const Contents& contents, const std::filesystem::path& progr
   const io::Completed run = io::run_program(
       program,
       {"--convert-to-gwy=" + output.string(), std::filesystem::absolute(contents.file).string()},
-      {{"HOME", folder.path().string()}}, kTimeLimit,
+      {{"HOME", folder.path().string()}, {"LC_ALL", "C.UTF-8"}, {"LANGUAGE", ""}}, kTimeLimit,
       [&contents] {
         constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
         if (contents.observer) report_progress(*contents.observer, "Gwyddion converts", kUnknown);
@@ -49,6 +51,36 @@ std::string convert(const Contents& contents, const std::filesystem::path& progr
   std::ifstream stream(output, std::ios::binary);
   const bool is_whole = run.exit_code < 128;  // no signal, such as that of a limit, ended it
   return is_whole ? std::string{std::istreambuf_iterator<char>(stream), {}} : "";
+}
+
+/// Gwyddion takes 0 for a size that it does not find; what it finds is no less.
+void forget_no_size(Layer& layer) {
+  if (layer.pixel_x && !(*layer.pixel_x > 0)) layer.pixel_x.reset();
+  if (layer.pixel_y && !(*layer.pixel_y > 0)) layer.pixel_y.reset();
+}
+
+/// What Gwyddion makes of pictures: the grey values of 8 bits become shares of 255, those of more
+/// bits stay. The counts of the file come back.
+Field counts_of(Field shares) {
+  constexpr double kMostGrey = 255, kRounding = 1e-6;
+  for (Index i = 0; i < shares.size(); ++i) {
+    const double count = kMostGrey * shares.data()[i];
+    const bool is_share = count >= 0 && count <= kMostGrey + kRounding &&
+                          std::abs(count - std::round(count)) < kRounding;
+    if (!is_share && !std::isnan(count)) return shares;
+  }
+  return (kMostGrey * shares).round();
+}
+
+/// A picture has neither a size nor a unit; Gwyddion calls its channel by its colours.
+void restore_counts(Layer& layer) {
+  if (!layer.unit.empty() || layer.pixel_x || layer.pixel_y) return;
+  static constexpr std::string_view colours[]{"Value (max)", "Red", "Green", "Blue", "Alpha"};
+  layer.is_picture =
+      std::find(std::begin(colours), std::end(colours), layer.name) != std::end(colours);
+  layer.is_count = layer.is_picture || layer.name == "Gray";
+  if (!layer.is_count) return;
+  layer.load = [load = layer.load] { return counts_of(load()); };
 }
 
 }  // namespace
@@ -70,6 +102,8 @@ Document open_gwyddion(const Contents& contents) {
   Document document = open_gwy(contents.part(*bytes));
   document.format = "gwyddion";
   for (Layer& layer : document.layers) {
+    restore_counts(layer);
+    forget_no_size(layer);
     layer.load = [load = layer.load, bytes] { return load(); };  // the bytes live as long
   }
   return document;

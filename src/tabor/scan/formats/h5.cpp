@@ -1,6 +1,7 @@
 // tabor's own HDF5 files (docs/results.md): the group /surface.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -10,6 +11,7 @@
 #include "tabor/core/version.hpp"
 #include "tabor/scan/formats/hdf5_scan.hpp"
 #include "tabor/scan/formats/readers.hpp"
+#include "tabor/topography/edges.hpp"
 #include "tabor/topography/surface_group.hpp"
 
 namespace tabor::scan::format {
@@ -47,29 +49,36 @@ double pitch(const Contents& contents, const io::Hdf5Reader& reader, const std::
   if (!factor) reject(contents, fmt::format("{} in '{}'", path, unit), "a unit of length");
   const double step =
       n > 1 ? (centres.back() - centres.front()) / static_cast<double>(n - 1) : 2 * centres.front();
+  if (!(step > 0)) return step * *factor;  // no pixel, however even
   for (std::size_t i = 0; i < centres.size(); ++i) {
-    constexpr double most_off = 0.01;  // pixels; coordinates may have been kept as float32
+    constexpr double most_off = 0.01;  // pixels; coordinates may be stored as float32
     const double even = centres.front() + static_cast<double>(i) * step;
     if (!(std::abs(centres[i] - even) <= most_off * std::abs(step))) {
       reject(contents, "uneven places in " + path, "evenly spaced rows and columns",
              "resample it first");
     }
   }
-  return checked_pixel(contents, step * *factor);
+  return step * *factor;
 }
 
 double pixel(const Contents& contents, const io::Hdf5Reader& reader, const std::string& axis,
              Index n) {
   const std::string attribute = "pixel_" + axis + "_m", path = "/surface/" + axis;
   if (!reader.has_attribute("/surface", attribute)) return pitch(contents, reader, path, n);
-  const double stated = checked_pixel(contents, reader.number("/surface", attribute));
+  const double stated = reader.number("/surface", attribute);
   constexpr double same = 1e-3;
-  if (reader.exists(path) && n > 1 &&
+  if (is_pixel(stated) && reader.exists(path) && n > 1 &&
       std::abs(pitch(contents, reader, path, n) - stated) > same * stated) {
     reject(contents, fmt::format("{} = {} m, but other steps in {}", attribute, stated, path),
            "one pixel size", kDamaged);
   }
   return stated;
+}
+
+/// Where the pixel stands.
+std::string said(const io::Hdf5Reader& reader, const std::string& axis) {
+  const std::string attribute = "pixel_" + axis + "_m";
+  return reader.has_attribute("/surface", attribute) ? attribute : "the steps of /surface/" + axis;
 }
 
 void require_known_version(const Contents& contents, const io::Hdf5Reader& reader) {
@@ -105,6 +114,26 @@ void send_heights(const std::filesystem::path& file,
   });
 }
 
+std::optional<topography::Edges> edges(const Contents& contents, const io::Hdf5Reader& reader) {
+  const std::string said = text_or_empty(reader, "edges");
+  if (said.empty()) return std::nullopt;
+  const auto known = topography::kEdges.find(said);
+  if (known) return known;
+  reject(contents, fmt::format("edges = '{}' of /surface", said),
+         fmt::format("{}", fmt::join(topography::kEdges.all(), ", ")), kDamaged);
+}
+
+/// Copies of the scan along each side.
+double tiles(const Contents& contents, const io::Hdf5Reader& reader,
+             const std::array<Index, 2>& shape) {
+  if (!reader.has_attribute("/surface", "tiles")) return 1;
+  const double n = reader.number("/surface", "tiles");
+  const auto most = static_cast<double>(std::max(shape[0], shape[1]));
+  if (n >= 1 && n <= most) return n;
+  reject(contents, fmt::format("tiles = {} of /surface", n), fmt::format("from 1 to {}", most),
+         kDamaged);
+}
+
 std::string now_utc() {
   const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   std::tm parts{};
@@ -122,7 +151,7 @@ void add_warnings(const io::Hdf5Reader& reader, Document& document) {
   codes.resize(warnings.size());
   for (std::size_t i = 0; i < warnings.size(); ++i) {
     if (codes[i] == "filled-holes") {
-      document.lasting.push_back({.text = warnings[i], .code = codes[i]});
+      document.lasting.push_back({.code = codes[i], .text = warnings[i]});
     } else {
       document.metadata["earlier warnings"] += warnings[i] + "; ";
     }
@@ -143,6 +172,8 @@ Document describe(const Contents& contents) {
                     .history = texts_or_none(reader, "treatment")};
   document.periodic =
       reader.has_attribute("/surface", "periodic") && reader.integer("/surface", "periodic") != 0;
+  document.edges = edges(contents, reader);
+  document.tiles = tiles(contents, reader, shape);
   document.metadata["source"] = text_or_empty(reader, "source");
   if (reader.has_attribute("/", "methods")) {
     document.metadata["methods"] =
@@ -155,6 +186,8 @@ Document describe(const Contents& contents) {
                              .ny = shape[0],
                              .pixel_x = pixel(contents, reader, "x", shape[1]),
                              .pixel_y = pixel(contents, reader, "y", shape[0]),
+                             .said_x = said(reader, "x"),
+                             .said_y = said(reader, "y"),
                              .load = [contents, shape] {
                                return guarded_heights(contents, shape, [&](const auto& send) {
                                  send_heights(contents.file, send);

@@ -3,12 +3,15 @@
 #include "tabor/io/hdf5_guard.hpp"
 #include "tabor/scan/formats/format.hpp"
 
+// Reads HDF5 scan files through io/hdf5_guard.hpp and rejects files that break its copy of the
+// process.
 namespace tabor::scan::format {
 
-/// Rejects the file if a copy of this process does not get through `describe`.
+/// Rejects the file if a copy of this process does not complete `describe`.
 void require_survival(const Contents& contents, const std::function<void()>& describe);
 
-/// Heights that `send` hands over in a copy of this process; rejects the file if it breaks.
+/// Returns the heights that `send` hands over in a copy of this process; rejects the file if the
+/// copy breaks.
 Field guarded_heights(const Contents& contents, std::array<Index, 2> shape,
                       const io::SendRows& send);
 

@@ -87,7 +87,7 @@ Document open_metropro(const Contents& contents) {
     return decode(contents, data, raster, holes_where([](double z) { return z >= kMissing; }));
   };
   // A file without lateral calibration says 0.
-  const bool calibrated = pixel > 0 && std::isfinite(pixel);
+  const bool calibrated = pixel != 0;
   Document document{.format = "metropro", .instrument = "Zygo"};
   warn_of_surplus(cursor, document);
   warn_of_negative_scale(sign * metres_per_count, document);
@@ -98,6 +98,8 @@ Document open_metropro(const Contents& contents) {
                              .ny = raster.ny,
                              .pixel_x = calibrated ? std::optional(pixel) : std::nullopt,
                              .pixel_y = calibrated ? std::optional(pixel) : std::nullopt,
+                             .said_x = "its lateral resolution",
+                             .said_y = "its lateral resolution",
                              .load = load});
   return document;
 }

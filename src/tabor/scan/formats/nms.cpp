@@ -51,8 +51,10 @@ Document open_nms(const Contents& contents) {
                              .unit = "um",
                              .nx = raster.nx,
                              .ny = raster.ny,
-                             .pixel_x = checked_pixel(contents, dx),
-                             .pixel_y = checked_pixel(contents, dy),
+                             .pixel_x = dx,
+                             .pixel_y = dy,
+                             .said_x = fmt::format("{:g} nm per column", dx * 1e9),
+                             .said_y = fmt::format("{:g} nm per row", dy * 1e9),
                              .load = load});
   return document;
 }

@@ -7,6 +7,7 @@
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/scan/formats/bytes.hpp"
 #include "tabor/scan/formats/readers.hpp"
+#include "tabor/scan/formats/text_grid.hpp"
 
 namespace tabor::scan::format {
 namespace {
@@ -75,6 +76,21 @@ std::vector<double> shape_of(const Contents& contents, std::string_view text) {
   return shape;
 }
 
+/// A narrow array whose first column looks like coordinates is a table, not a map.
+void reject_table(const Contents& contents, const Field& array) {
+  constexpr Index widest = 4, fewest_rows = 8;
+  if (array.cols() < 2 || array.cols() > widest || array.rows() < fewest_rows) return;
+  const auto column = [&](Index i) {
+    return TextColumn{array.data() + i, static_cast<std::size_t>(array.cols()),
+                      static_cast<std::size_t>(array.rows())};
+  };
+  if (!find_coordinates(column(0)) || is_strictly_monotone(column(array.cols() - 1))) return;
+  reject(
+      contents,
+      fmt::format("an array of {} columns, the first one evenly spaced coordinates", array.cols()),
+      "a map of heights", "save the heights alone, a profile as one row, or a text file x z");
+}
+
 }  // namespace
 
 Match identify_npy(std::string_view head) {
@@ -106,8 +122,9 @@ Document open_npy(const Contents& contents) {
                         .nx = transposed ? ny : nx,
                         .ny = transposed ? nx : ny};
     Field stored = decode(contents, data, raster);
-    if (transposed) return stored.transpose();
-    return stored;
+    Field array = transposed ? Field(stored.transpose()) : std::move(stored);
+    reject_table(contents, array);
+    return array;
   };
   Document document{.format = "npy"};
   warn_of_surplus(cursor, document);

@@ -126,8 +126,10 @@ Document open_opd(const Contents& contents) {
     Layer layer = layer_of(contents.part(block->second.bytes), document);
     layer.name = name;
     layer.scale = wavelength / multiplier;
-    layer.pixel_x = checked_pixel(contents, pixel);
-    layer.pixel_y = checked_pixel(contents, pixel * aspect);
+    layer.pixel_x = pixel;
+    layer.pixel_y = pixel * aspect;
+    layer.said_x = fmt::format("Pixel_size {:g} mm", pixel * 1e3);
+    layer.said_y = fmt::format("{}, Aspect {:g}", layer.said_x, aspect);
     document.layers.push_back(std::move(layer));
   }
   if (document.layers.empty()) {

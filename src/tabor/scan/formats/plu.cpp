@@ -57,8 +57,10 @@ Document open_plu(const Contents& contents) {
                              .unit = "um",
                              .nx = raster.nx,
                              .ny = raster.ny,
-                             .pixel_x = checked_pixel(contents, dx),
-                             .pixel_y = checked_pixel(contents, dy),
+                             .pixel_x = dx,
+                             .pixel_y = dy,
+                             .said_x = fmt::format("{:g} um per column", dx * 1e6),
+                             .said_y = fmt::format("{:g} um per row", dy * 1e6),
                              .load = load});
   return document;
 }

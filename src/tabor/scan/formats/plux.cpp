@@ -53,7 +53,7 @@ Document open_plux(const Contents& contents) {
   }
   const double nx = number(contents, general, "IMAGE_SIZE_X");
   const double ny = number(contents, general, "IMAGE_SIZE_Y");
-  check_size(contents, nx, ny, kLargestDeflateRatio * contents.bytes.size() / sizeof(float));
+  check_packed_size(contents, nx, ny, contents.bytes.size(), kLargestDeflateRatio, sizeof(float));
   const Raster raster{
       .sample = Sample::f32, .nx = static_cast<Index>(nx), .ny = static_cast<Index>(ny)};
   Document document{.format = "plux", .instrument = device_of(root)};
@@ -64,8 +64,12 @@ Document open_plux(const Contents& contents) {
     if (i == kMostLayers) reject(contents, "more than 16 layers", "a PLUX index", kDamaged);
     const io::ZipEntry& entry = archive->entry(file, byte_size(raster));
     Layer layer{.name = fmt::format("layer {}", i), .unit = "um", .nx = raster.nx, .ny = raster.ny};
-    layer.pixel_x = checked_pixel(contents, number(contents, general, "FOV_X") * 1e-6);
-    layer.pixel_y = checked_pixel(contents, number(contents, general, "FOV_Y") * 1e-6);
+    const double um_x = number(contents, general, "FOV_X");
+    const double um_y = number(contents, general, "FOV_Y");
+    layer.pixel_x = um_x * 1e-6;
+    layer.pixel_y = um_y * 1e-6;
+    layer.said_x = fmt::format("FOV_X {:g}", um_x);
+    layer.said_y = fmt::format("FOV_Y {:g}", um_y);
     layer.load = [archive, entry, raster] { return unpack(*archive, entry, raster); };
     document.layers.push_back(std::move(layer));
   }

@@ -6,7 +6,7 @@
 /// The readers and writers behind the format table, one .cpp file per format.
 namespace tabor::scan::format {
 
-/// The heights as a set of one map.
+/// Returns the heights as a set of one map.
 MapSet as_maps(const topography::Topography& topography, const std::string& name);
 
 Match identify_h5(std::string_view head);
@@ -76,6 +76,9 @@ Document open_tiff(const Contents& contents);
 
 Match identify_png(std::string_view head);
 Document open_png(const Contents& contents);
+
+Match identify_pnm(std::string_view head);
+Document open_pnm(const Contents& contents);
 
 Match identify_text(std::string_view head);
 Document open_text(const Contents& contents);

@@ -23,9 +23,11 @@ int index_of(const Document& document, const Layer& layer) {
   return layer.index.value_or(static_cast<int>(&layer - document.layers.data()));
 }
 
-std::string list(const Document& document) {
+/// The layers for which `suits` holds, all of them if it is null.
+std::string list(const Document& document, bool (*suits)(const Layer&) = nullptr) {
   std::string text;
   for (const Layer& layer : document.layers) {
+    if (suits != nullptr && !suits(layer)) continue;
     text += fmt::format("{}{} '{}' [{}]", text.empty() ? "" : ", ", index_of(document, layer),
                         layer.name, layer.unit.empty() ? "no unit" : layer.unit);
   }
@@ -56,9 +58,45 @@ std::string flag(const char* name, double metres) {
   return fmt::format("{} {:g}um", name, metres * 1e6);
 }
 
+/// " (--pixel and --override-unit stand in tabor.toml)": what was not typed of an override.
+std::string origin_of(const char* name, const ReadOptions& options) {
+  std::string text;
+  std::string file;
+  for (const char* each : {name, "--override-unit"}) {
+    const auto found = options.origin.find(each);
+    if (found == options.origin.end()) continue;
+    text += (text.empty() ? " (" : " and ") + std::string(each);
+    file = found->second;
+  }
+  if (text.empty()) return "";
+  return text + (text.find(" and ") == std::string::npos ? " stands" : " stand") + " in " + file +
+         ")";
+}
+
+/// What a header says that no pixel can be, and who says it.
+std::string impossible(double length, char axis, const std::string& said) {
+  return fmt::format("a pixel of {:g} m along {}{}", length, axis,
+                     said.empty() ? "" : " (" + said + ")");
+}
+
+/// The pixel along one axis of a file that states what none can be.
+double resolve_impossible(const Contents& contents, const std::string& got,
+                          const std::optional<double>& given, const ReadOptions& options,
+                          std::vector<std::string>& warnings) {
+  if (given && options.override_unit) {
+    warnings.push_back(fmt::format("pixel overridden: {:g} um instead of {}{}", *given * 1e6, got,
+                                   origin_of("--pixel", options)));
+    return *given;
+  }
+  reject(contents, got, "a positive length, from 1e-15 to 1e6 m",
+         given ? "add --override-unit, so that --pixel wins over the file"
+               : "export the file again, or give the pixel, for example --pixel 0.67um "
+                 "--override-unit");
+}
+
 /// The pixel along one axis.
 double resolve_pixel(const Contents& contents, const Layer& layer, char axis,
-                     const std::optional<double>& given, bool override_it,
+                     const std::optional<double>& given, const ReadOptions& options,
                      std::vector<std::string>& warnings) {
   const std::optional<double>& own = axis == 'x' ? layer.pixel_x : layer.pixel_y;
   if (!own && !given) {
@@ -67,20 +105,25 @@ double resolve_pixel(const Contents& contents, const Layer& layer, char axis,
         std::string("add it, for example --pixel 0.67um") +
             (layer.unit.empty() && !layer.is_count ? " --unit um" : ""));
   }
-  if (!given) return checked_pixel(contents, *own);
-  if (!is_pixel(*given)) {
+  if (given && !is_pixel(*given)) {
     reject(contents, fmt::format("--pixel {} m", *given), "a positive length, from 1e-15 to 1e6 m");
   }
+  if (own && !is_pixel(*own)) {
+    const std::string& said = axis == 'x' ? layer.said_x : layer.said_y;
+    return resolve_impossible(contents, impossible(*own, axis, said), given, options, warnings);
+  }
+  if (!given) return *own;
   constexpr double kSame = 1e-6;  // what a user types has fewer digits than the file
   if (!own) return *given;
   if (std::abs(*given - *own) <= kSame * *own) return *own;
-  if (!override_it) {
+  if (!options.override_unit) {
     reject(contents, flag("--pixel", *given),
            fmt::format("{:g} um along {}, which the file fixes", *own * 1e6, axis),
            "drop --pixel, or add --override-unit if the file is wrong");
   }
-  warnings.push_back(fmt::format("pixel along {} overridden: {:g} um instead of the file's {:g} um",
-                                 axis, *given * 1e6, *own * 1e6));
+  warnings.push_back(
+      fmt::format("pixel along {} overridden: {:g} um instead of the file's {:g} um{}", axis,
+                  *given * 1e6, *own * 1e6, origin_of("--pixel", options)));
   return *given;
 }
 
@@ -110,7 +153,9 @@ std::vector<Channel> channels_of(const Document& document) {
     channels.push_back({.index = index_of(document, layer),
                         .name = layer.name,
                         .unit = layer.unit,
-                        .is_height = is_height(layer)});
+                        .is_height = is_height(layer),
+                        .nx = layer.nx,
+                        .ny = layer.ny});
   }
   return channels;
 }
@@ -118,7 +163,7 @@ std::vector<Channel> channels_of(const Document& document) {
 const Layer& choose_layer(const Contents& contents, const Document& document,
                           const ReadOptions& options) {
   if (options.channel) return named_layer(contents, document, *options.channel);
-  for (const auto suits : {is_height, may_be_height}) {
+  for (bool (*const suits)(const Layer&) : {&is_height, &may_be_height}) {
     const Layer* only = nullptr;
     int count = 0;
     for (const Layer& layer : document.layers) {
@@ -127,7 +172,7 @@ const Layer& choose_layer(const Contents& contents, const Document& document,
     }
     if (count == 1) return *only;
     if (count > 1) {
-      ask(contents, fmt::format("{} height channels: {}", count, list(document)), "one",
+      ask(contents, fmt::format("{} height channels: {}", count, list(document, suits)), "one",
           fmt::format("choose it, for example --channel {}", index_of(document, *only)));
     }
   }
@@ -137,8 +182,7 @@ const Layer& choose_layer(const Contents& contents, const Document& document,
 
 Grid resolve_grid(const Contents& contents, const Layer& layer, const ReadOptions& options,
                   std::vector<std::string>& warnings) {
-  const double dx =
-      resolve_pixel(contents, layer, 'x', options.pixel_x, options.override_unit, warnings);
+  const double dx = resolve_pixel(contents, layer, 'x', options.pixel_x, options, warnings);
   const bool has_ratio = layer.pixel_ratio && options.pixel_x && !layer.pixel_y;
   const double ratio = has_ratio ? *layer.pixel_ratio : 1;
   const auto given_y = options.pixel_y   ? options.pixel_y
@@ -151,7 +195,7 @@ Grid resolve_grid(const Contents& contents, const Layer& layer, const ReadOption
            fmt::format("{:g} times, as the coordinates have them", ratio),
            "give the pixel along x only, or add --override-unit");
   }
-  const double dy = resolve_pixel(contents, layer, 'y', given_y, options.override_unit, warnings);
+  const double dy = resolve_pixel(contents, layer, 'y', given_y, options, warnings);
   return {.nx = layer.nx,
           .ny = layer.ny,
           .lx = dx * static_cast<double>(layer.nx),
@@ -167,7 +211,8 @@ double resolve_height_factor(const Contents& contents, const Layer& layer,
   }
   if (options.z_scale) {
     if (is_fixed) {
-      warnings.push_back("height scale overridden: " + flag("--z-scale", *options.z_scale));
+      warnings.push_back("height scale overridden: " + flag("--z-scale", *options.z_scale) +
+                         origin_of("--z-scale", options));
     }
     return scale_of_counts(contents, options);
   }
@@ -183,7 +228,7 @@ double resolve_height_factor(const Contents& contents, const Layer& layer,
              "drop --unit, or add --override-unit if the file is wrong");
     }
     warnings.push_back("height unit overridden: " + *options.unit + " instead of the file's '" +
-                       layer.unit + "'");
+                       layer.unit + "'" + origin_of("--unit", options));
     return layer.scale * given;
   }
   if (own) return layer.scale * *own;

@@ -66,8 +66,10 @@ Layer layer_of(const Contents& contents, const Header& header) {
           .scale = header.z_scale,
           .nx = static_cast<Index>(header.nx),
           .ny = static_cast<Index>(header.ny),
-          .pixel_x = checked_pixel(contents, header.x_scale),
-          .pixel_y = checked_pixel(contents, is_profile ? header.x_scale : header.y_scale)};
+          .pixel_x = header.x_scale,
+          .pixel_y = is_profile ? header.x_scale : header.y_scale,
+          .said_x = fmt::format("Xscale {:g}", header.x_scale),
+          .said_y = fmt::format("Yscale {:g}", header.y_scale)};
 }
 
 Document document_of(std::string name, const Header& header, Layer layer) {

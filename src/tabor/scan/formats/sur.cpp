@@ -69,11 +69,10 @@ Header take_header(const Contents& contents) {
   return header;
 }
 
-std::optional<double> lateral(const Contents& contents, double pixel, const std::string& unit) {
+/// Pixels in what is no length are none: their size can be given.
+std::optional<double> lateral(double pixel, const std::string& unit) {
   if (unit.empty()) return std::nullopt;
-  const auto factor = unit_factor(unit, dimension::length);
-  if (!factor) reject(contents, "pixels in '" + unit + "'", "a length", kDamaged);
-  return checked_pixel(contents, pixel * *factor);
+  return pixel * unit_factor(unit, dimension::length).value_or(kHole);
 }
 
 void require_surface(const Contents& contents, const Header& header) {
@@ -151,8 +150,13 @@ Document open_sur(const Contents& contents) {
   const bool is_compressed = contents.bytes.starts_with(kCompressed);
   Raster raster{.sample = header.bits == 16 ? Sample::i16 : Sample::i32};
   // A deflate stream unpacks to at most 1032 times its size.
-  const std::size_t most = contents.bytes.size() * (is_compressed ? 1032 : 1);
-  check_size(contents, header.nx, header.ny, most / size_of(raster.sample));
+  constexpr std::size_t kLargestRatio = 1032;
+  if (is_compressed) {
+    check_packed_size(contents, header.nx, header.ny, contents.bytes.size(), kLargestRatio,
+                      size_of(raster.sample));
+  } else {
+    check_size(contents, header.nx, header.ny, contents.bytes.size() / size_of(raster.sample));
+  }
   raster.nx = static_cast<Index>(header.nx);
   raster.ny = static_cast<Index>(header.ny);
   Cursor cursor(contents);
@@ -171,7 +175,7 @@ Document open_sur(const Contents& contents) {
     document.warnings.push_back(
         fmt::format("only the first of {} objects is read", header.objects));
   }
-  const auto dx = lateral(contents, header.dx, header.dx_unit);
+  const auto dx = lateral(header.dx, header.dx_unit);
   const bool is_profile = raster.ny == 1 && header.dy_unit.empty();
   document.layers.push_back(
       {.name = header.name.empty() ? "height" : header.name,
@@ -179,7 +183,9 @@ Document open_sur(const Contents& contents) {
        .nx = raster.nx,
        .ny = raster.ny,
        .pixel_x = dx,
-       .pixel_y = is_profile ? dx : lateral(contents, header.dy, header.dy_unit),
+       .pixel_y = is_profile ? dx : lateral(header.dy, header.dy_unit),
+       .said_x = fmt::format("a spacing of {:g} {}", header.dx, header.dx_unit),
+       .said_y = fmt::format("a spacing of {:g} {}", header.dy, header.dy_unit),
        .load = [contents, data_begin, raster, header] {
          return heights(contents, data_begin, raster, header);
        }});

@@ -34,6 +34,7 @@ const std::vector<Format>& table() {
        {".tif", ".tiff"},
        identify_tiff,
        open_tiff},
+      {"pgm", "grey image; needs --pixel and --z-scale", {".pgm", ".pnm"}, identify_pnm, open_pnm},
       {"matrix",
        "text, one row of heights per line",
        {".txt", ".asc", ".csv"},

@@ -5,233 +5,17 @@
 #include <cmath>
 #include <memory>
 
-#include "tabor/core/units.hpp"
 #include "tabor/scan/formats/bytes.hpp"
 #include "tabor/scan/formats/readers.hpp"
-#include "tabor/scan/formats/text_header.hpp"
-#include "tabor/scan/formats/text_numbers.hpp"
+#include "tabor/scan/formats/text_table.hpp"
 
 namespace tabor::scan::format {
 namespace {
-
-/// Largest distance of a coordinate from its grid line, as a share of the spacing: room for the
-/// rounding of printed coordinates.
-constexpr double kGridTolerance = 0.05;
-
-/// Evenly spaced coordinates: their first value, spacing and count.
-struct GridLine {
-  double first = 0;
-  double step = 0;
-  Index n = 0;
-
-  Index index_of(double coordinate) const { return std::lround((coordinate - first) / step); }
-  bool holds(double coordinate) const {
-    const double position = (coordinate - first) / step;
-    return std::abs(position - std::round(position)) <= kGridTolerance;
-  }
-};
-
-/// One column of a table.
-struct TextColumn {
-  const std::vector<double>& values;
-  std::size_t stride;  ///< columns of the table
-  std::size_t offset;
-
-  std::size_t size() const { return values.size() / stride; }
-  double operator[](std::size_t row) const { return values[row * stride + offset]; }
-};
-
-/// What of a range counts as the same coordinate.
-constexpr double kSameShare = 1e-9;
-
-bool holds_all(const GridLine& line, const TextColumn& column) {
-  for (std::size_t i = 0; i < column.size(); ++i) {
-    if (!line.holds(column[i])) return false;
-  }
-  return true;
-}
-
-/// The smallest step between consecutive points taken as the spacing: right for scans whose
-/// coordinates were printed with all their digits.
-std::optional<GridLine> line_of_smallest_step(const TextColumn& column, double low, double high) {
-  double step = high - low;
-  for (std::size_t i = 1; i < column.size(); ++i) {
-    const double difference = std::abs(column[i] - column[i - 1]);
-    if (difference > kSameShare * (high - low)) step = std::min(step, difference);
-  }
-  if ((high - low) / step > static_cast<double>(column.values.size())) return std::nullopt;
-  const double n_steps = std::round((high - low) / step);
-  const GridLine line{low, (high - low) / n_steps, static_cast<Index>(n_steps) + 1};
-  return holds_all(line, column) ? std::optional(line) : std::nullopt;
-}
-
-/// The same for coordinates that rounding or the stage moved: gaps between sorted coordinates are
-/// either within a node or from node to node, and each of these is some whole spacings.
-std::optional<GridLine> line_of_median_gap(const TextColumn& column, double low, double high) {
-  constexpr double clear_jump = 4;  // from the largest gap within a node to the next one
-  std::vector<double> places;
-  for (std::size_t i = 0; i < column.size(); ++i) places.push_back(column[i]);
-  std::sort(places.begin(), places.end());
-  std::vector<double> gaps;
-  for (std::size_t i = 1; i < places.size(); ++i) {
-    const double gap = places[i] - places[i - 1];
-    if (gap > kSameShare * (high - low)) gaps.push_back(gap);
-  }
-  std::sort(gaps.begin(), gaps.end());
-  // The last jump above which the gaps still make up most of the line: those beside missing
-  // columns do not.
-  std::size_t first = gaps.size() - 1;
-  double above = gaps[first];
-  while (first > 0 && (2 * above <= high - low || gaps[first] <= clear_jump * gaps[first - 1])) {
-    above += gaps[--first];
-  }
-  const double smallest = gaps[first];
-  const double median_gap = gaps[first + (gaps.size() - first) / 2];
-  // Places over the numbers of their nodes, as a straight line.
-  double node = 0, sum_node = 0, sum_place = 0, sum_square = 0, sum_product = 0;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const double gap = i > 0 ? places[i] - places[i - 1] : 0;
-    if (gap >= smallest) node += std::round(gap / median_gap);
-    const double place = places[i] - low;
-    sum_node += node;
-    sum_place += place;
-    sum_square += node * node;
-    sum_product += node * place;
-  }
-  if (!(node >= 1) || node > static_cast<double>(column.size())) return std::nullopt;
-  const auto n = static_cast<double>(places.size());
-  const double step =
-      (n * sum_product - sum_node * sum_place) / (n * sum_square - sum_node * sum_node);
-  const GridLine line{low + (sum_place - step * sum_node) / n, step, static_cast<Index>(node) + 1};
-  return holds_all(line, column) ? std::optional(line) : std::nullopt;
-}
-
-/// The grid line behind a column, if all its coordinates lie on one: a single node if they are all
-/// the same.
-std::optional<GridLine> find_grid_line(const TextColumn& column) {
-  double low = column[0];
-  double high = low;
-  for (std::size_t i = 0; i < column.size(); ++i) {
-    if (std::isnan(column[i])) return std::nullopt;
-    low = std::min(low, column[i]);
-    high = std::max(high, column[i]);
-  }
-  if (high == low) return GridLine{low, 1, 1};
-  if (!std::isfinite(high - low)) return std::nullopt;
-  const auto line = line_of_smallest_step(column, low, high);
-  return line ? line : line_of_median_gap(column, low, high);
-}
-
-/// Metres per unit of a coordinate column; nullopt if the file does not say.
-std::optional<double> pixel_of(double step, const std::string& unit) {
-  const auto factor = unit.empty() ? std::nullopt : unit_factor(unit, dimension::length);
-  return factor ? std::optional(step * *factor) : std::nullopt;
-}
 
 struct Shape {
   Index ny;
   Index nx;
 };
-
-Layer layer_of(const TextHeader& header, Shape shape) {
-  return {.name = header.channel.empty() ? "height" : header.channel,
-          .unit = header.unit,
-          .scale = header.scale,
-          .nx = shape.nx,
-          .ny = shape.ny};
-}
-
-/// A layer over values that are already complete.
-Layer layer_of(const TextHeader& header, Field heights) {
-  const auto shared = std::make_shared<const Field>(std::move(heights));
-  Layer layer = layer_of(header, Shape{shared->rows(), shared->cols()});
-  layer.load = [shared] { return *shared; };
-  return layer;
-}
-
-/// Where x, y and z stand in the table; in their common order where the header does not say.
-struct Places {
-  std::size_t x, y, z;
-};
-
-std::optional<Places> places_of(const TextNumbers& numbers, const TextHeader& header) {
-  if (header.is_map) return std::nullopt;
-  const std::size_t n_columns = numbers.n_columns();
-  if (!header.names_places()) return n_columns == 3 ? std::optional(Places{0, 1, 2}) : std::nullopt;
-  const std::size_t x = *header.column('x'), y = *header.column('y');
-  if (const auto z = header.column('z')) return Places{x, y, *z};
-  // A height by another name stands in the column that is left.
-  return n_columns == 3 ? std::optional(Places{x, y, 3 - x - y}) : std::nullopt;
-}
-
-std::string unit_of(const TextHeader& header, char name) {
-  const auto place = header.column(name);
-  return place ? header.columns[*place].unit : "";
-}
-
-/// Points on a regular grid in any order, each node at most once; nodes without a point are holes.
-std::optional<Layer> as_xyz(const TextNumbers& numbers, const TextHeader& header) {
-  const auto places = places_of(numbers, header);
-  // Few points without a word about their columns may as well be a small matrix.
-  const std::size_t least = header.names_places() ? 2 : 4;
-  if (!places || numbers.n_rows() < least) return std::nullopt;
-  const std::size_t stride = numbers.n_columns();
-  const TextColumn along_x{numbers.values, stride, places->x};
-  const TextColumn along_y{numbers.values, stride, places->y};
-  const TextColumn z{numbers.values, stride, places->z};
-  const auto x = find_grid_line(along_x);
-  const auto y = find_grid_line(along_y);
-  if (!x || !y || x->n * y->n < 2 || x->n * y->n > 2 * static_cast<Index>(numbers.n_rows())) {
-    return std::nullopt;
-  }
-  Field heights = Field::Constant(y->n, x->n, kHole);
-  Mask seen = Mask::Constant(y->n, x->n, false);
-  for (std::size_t i = 0; i < z.size(); ++i) {
-    const Index row = y->index_of(along_y[i]);
-    const Index column = x->index_of(along_x[i]);
-    if (seen(row, column)) return std::nullopt;
-    seen(row, column) = true;
-    heights(row, column) = z[i];
-  }
-  Layer layer = layer_of(header, std::move(heights));
-  // A single row does not tell how wide it is: square pixels are assumed, and said (open_text).
-  const std::string x_unit = unit_of(header, 'x'), y_unit = unit_of(header, 'y');
-  layer.pixel_x = x->n > 1 ? pixel_of(x->step, x_unit) : pixel_of(y->step, y_unit);
-  layer.pixel_y = y->n > 1 ? pixel_of(y->step, y_unit) : layer.pixel_x;
-  if (x->n > 1 && y->n > 1) layer.pixel_ratio = y->step / x->step;
-  layer.pixel_hint =
-      fmt::format("coordinates in steps of {:g} and {:g} without a unit", x->step, y->step);
-  return layer;
-}
-
-/// Two columns with an evenly rising first one: a profile, read as a map of one row.
-std::optional<Layer> as_profile(const TextNumbers& numbers, const TextHeader& header) {
-  if (numbers.n_columns() != 2 || numbers.n_rows() < 4 || header.is_map) return std::nullopt;
-  const std::size_t x_place = header.column('z') == 0U ? 1 : header.column('x').value_or(0);
-  const TextColumn along_x{numbers.values, 2, x_place};
-  const TextColumn z{numbers.values, 2, 1 - x_place};
-  const auto x = find_grid_line(along_x);
-  if (!x || x->n != static_cast<Index>(numbers.n_rows())) return std::nullopt;
-  Field heights(1, x->n);
-  for (std::size_t i = 0; i < z.size(); ++i) {
-    if (x->index_of(along_x[i]) != static_cast<Index>(i)) return std::nullopt;
-    heights(0, static_cast<Index>(i)) = z[i];
-  }
-  Layer layer = layer_of(header, std::move(heights));
-  layer.pixel_x = pixel_of(x->step, unit_of(header, 'x'));
-  layer.pixel_y = layer.pixel_x;
-  layer.pixel_hint = fmt::format("coordinates in steps of {:g} without a unit", x->step);
-  return layer;
-}
-
-/// Whether a table is rather a list of points than a map: by its header or its shape.
-bool is_list_of_points(const TextNumbers& numbers, const TextHeader& header) {
-  constexpr std::size_t longest_map = 20;  // times its width
-  if (header.is_map || header.one_per_line) return false;
-  const std::size_t n_columns = numbers.n_columns();
-  return header.names_places() ||
-         (n_columns >= 3 && n_columns <= 4 && numbers.n_rows() > longest_map * n_columns);
-}
 
 /// Rows and columns of a matrix: the header's, a square for exports without line structure, else
 /// the lines themselves.
@@ -261,18 +45,164 @@ Shape shape_of(const Contents& contents, const TextNumbers& numbers, const TextH
   return {static_cast<Index>(numbers.n_rows()), static_cast<Index>(numbers.n_columns())};
 }
 
+/// Rows between which lines without numbers stand may be several maps, one below the other.
+void reject_blocks(const Contents& contents, const TextNumbers& numbers) {
+  const bool are_blocks = numbers.rows.size() > 1 &&
+                          std::all_of(numbers.rows.begin(), numbers.rows.end(),
+                                      [](const TextRows& block) { return block.n_rows > 1; });
+  if (!are_blocks) return;
+  const TextRows& first = numbers.rows.front();
+  reject(contents,
+         fmt::format("{} blocks of numbers, the first one of {} rows up to line {}",
+                     numbers.rows.size(), first.n_rows, first.first_line + first.n_rows - 1),
+         "one map, or maps that each have a header such as '# Channel: height'",
+         "save each in a file of its own, or take out the lines between them");
+}
+
+/// What a matrix has beside its heights.
+struct Coordinates {
+  std::optional<GridLine> x = {};  ///< in the first row
+  std::optional<GridLine> y = {};  ///< in the first column
+};
+
+/// Coordinates in a line of numbers that is long enough to tell.
+std::optional<GridLine> clear_coordinates(const TextColumn& line) {
+  constexpr std::size_t least = 5;
+  const auto found = line.size() >= least ? find_coordinates(line) : std::nullopt;
+  const bool has_few_gaps = found && 2 * found->n <= 3 * static_cast<Index>(line.size());
+  return has_few_gaps ? found : std::nullopt;
+}
+
+/// Coordinates in the first row and column of a matrix: evenly spaced where the next row and column
+/// are not. Where both are, the number in the corner is neither.
+Coordinates coordinates_of(const TextNumbers& numbers) {
+  if (numbers.n_rows() < 2 || numbers.n_columns() < 2) return {};
+  const auto is_even = [](const TextColumn& line) { return find_coordinates(line).has_value(); };
+  const bool may_x = !is_even(row_of(numbers, 1, 1)), may_y = !is_even(column_of(numbers, 1, 1));
+  const auto x = may_x ? clear_coordinates(row_of(numbers, 0, 1)) : std::nullopt;
+  const auto y = may_y ? clear_coordinates(column_of(numbers, 0, 1)) : std::nullopt;
+  if (x && y) return {x, y};
+  if (may_y && clear_coordinates(column_of(numbers, 0))) {
+    return {.y = clear_coordinates(column_of(numbers, 0))};
+  }
+  if (may_x && clear_coordinates(row_of(numbers, 0))) {
+    return {.x = clear_coordinates(row_of(numbers, 0))};
+  }
+  return {};
+}
+
+std::string warning_of(const Coordinates& found) {
+  const bool both = found.x && found.y;
+  return fmt::format(
+      "the first {} evenly spaced: taken as coordinates, not as heights; a line '# Width: 3 um' "
+      "above "
+      "the numbers makes heights of all",
+      both      ? "row and column are"
+      : found.x ? "row is"
+                : "column is");
+}
+
+/// Takes row and column of coordinates off a matrix.
+void remove(const Coordinates& found, TextNumbers& numbers) {
+  const std::size_t width = numbers.n_columns();
+  const std::size_t first_row = found.x ? 1 : 0, first_column = found.y ? 1 : 0;
+  std::vector<double> kept;
+  kept.reserve(numbers.values.size());
+  for (std::size_t row = first_row; row < numbers.n_rows(); ++row) {
+    const double* values = numbers.values.data() + row * width;
+    kept.insert(kept.end(), values + first_column, values + width);
+  }
+  numbers.rows = {{numbers.rows.front().first_line + first_row, numbers.n_rows() - first_row,
+                   width - first_column}};
+  numbers.values = std::move(kept);
+}
+
+/// SPIP writes behind the heights a second map, 0 where one is void.
+void apply_valid_map(const TextHeader& header, TextNumbers& numbers) {
+  if (!(header.n_void > 0) || !header.nx || !header.ny) return;
+  const std::size_t n = numbers.values.size() / 2;
+  if (static_cast<double>(numbers.values.size()) != 2 * *header.nx * *header.ny) return;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (numbers.values[n + i] == 0) numbers.values[i] = kHole;
+  }
+  numbers.values.resize(n);
+}
+
 Layer as_matrix(const Contents& contents, TextNumbers numbers, const TextHeader& header) {
+  apply_valid_map(header, numbers);
   const Shape shape = shape_of(contents, numbers, header);
   const auto values = std::make_shared<const std::vector<double>>(std::move(numbers.values));
-  Layer layer = layer_of(header, shape);
+  Layer layer = layer_of(header, shape.ny, shape.nx);
   layer.load = [values, shape]() -> Field {
     return Eigen::Map<const Field>(values->data(), shape.ny, shape.nx);
   };
-  layer.pixel_x = header.pixel;
-  layer.pixel_y = header.pixel;
+  layer.pixel_x = header.pixel_x;
+  layer.pixel_y = header.pixel_y;
   if (header.width) layer.pixel_x = *header.width / static_cast<double>(shape.nx);
   if (header.height) layer.pixel_y = *header.height / static_cast<double>(shape.ny);
+  layer.said_x = header.said_x;
+  layer.said_y = header.said_y;
+  layer.pixel_hint = header.pixel_hint;
   return layer;
+}
+
+/// A matrix of heights, without coordinates beside them.
+TextLayers read_matrix(const Contents& contents, TextNumbers numbers, const TextHeader& header) {
+  TextLayers read{.format = "matrix", .layers = {}};
+  if (header.one_per_line && numbers.n_rows() != numbers.n_columns()) {
+    read.warnings.push_back("a square map is assumed: the file does not tell its rows");
+  }
+  const bool is_plain = !header.is_map && !header.one_per_line;
+  if (!(header.nx && header.ny) && !header.one_per_line) reject_blocks(contents, numbers);
+  Coordinates found;
+  if (is_plain && numbers.odd_rows() == nullptr) found = coordinates_of(numbers);
+  if (found.x || found.y) {
+    remove(found, numbers);
+    read.warnings.push_back(warning_of(found));
+  }
+  Layer layer = as_matrix(contents, std::move(numbers), header);
+  if (found.x && found.y) {
+    layer.pixel_ratio = found.y->step / found.x->step;
+    layer.pixel_hint = fmt::format("coordinates in steps of {:g} and {:g} without a unit",
+                                   found.x->step, found.y->step);
+  }
+  read.layers.push_back(std::move(layer));
+  return read;
+}
+
+/// Heights stored as shares of a step and from another zero.
+void apply_offset(const TextHeader& header, TextNumbers& numbers) {
+  if (header.offset == 0) return;
+  for (double& value : numbers.values) value += header.offset / header.scale;
+}
+
+/// One header and the numbers behind it, taken from the front of `text`.
+TextLayers take_section(const Contents& contents, std::string_view& text, std::size_t& first_line) {
+  TextHeader header = take_header(contents, text, first_line);
+  TextNumbers numbers = parse_numbers(contents, text,
+                                      {.first_line = header.n_lines + first_line,
+                                       .one_per_line = header.one_per_line,
+                                       .two_columns = header.columns.size() == 2,
+                                       .begins_section = begins_section});
+  text = numbers.rest;
+  first_line = numbers.rest_line;
+  if (numbers.values.empty()) return {};
+  header.fit_columns(numbers.n_columns());
+  if (header.names_places() && !header.column('z') && numbers.n_columns() > 3) {
+    reject(contents, fmt::format("{} columns, none of them named z", numbers.n_columns()),
+           "one of heights", "name the columns in a line such as '# x [um] y [um] other z [um]'");
+  }
+  apply_offset(header, numbers);
+  if (auto table = read_table(contents, numbers, header)) return std::move(*table);
+  return read_matrix(contents, std::move(numbers), header);
+}
+
+/// Names that tell the channels of several sections apart.
+void name_channels(std::vector<Layer>& layers) {
+  for (std::size_t i = 0; i < layers.size(); ++i) {
+    const bool is_named = layers[i].name != "height";
+    if (!is_named) layers[i].name = fmt::format("block {}", i);
+  }
 }
 
 bool has_binary(std::string_view head) {
@@ -282,10 +212,7 @@ bool has_binary(std::string_view head) {
   });
 }
 
-}  // namespace
-
-Match identify_text(std::string_view head) {
-  if (const auto utf8 = utf8_from_utf16(head)) return identify_text(*utf8);
+Match identify_plain(std::string_view head) {
   if (head.starts_with("\xEF\xBB\xBF")) head.remove_prefix(3);
   if (has_binary(head)) return Match::no;
   bool has_header = false;
@@ -299,44 +226,34 @@ Match identify_text(std::string_view head) {
   return has_header ? Match::maybe : Match::no;
 }
 
+Document open_plain(const Contents& contents) {
+  Document document;
+  std::string_view text = contents.bytes;
+  std::size_t first_line = 1, n_sections = 0;
+  while (!text.empty()) {
+    TextLayers read = take_section(contents, text, first_line);
+    if (read.layers.empty()) continue;
+    if (n_sections++ == 0) document.format = read.format;
+    for (Layer& layer : read.layers) document.layers.push_back(std::move(layer));
+    for (std::string& warning : read.warnings) document.warnings.push_back(std::move(warning));
+  }
+  if (document.layers.empty()) reject(contents, "no numbers", "a matrix or x y z", kDamaged);
+  if (n_sections > 1) name_channels(document.layers);
+  return document;
+}
+
+}  // namespace
+
+Match identify_text(std::string_view head) {
+  if (const auto utf8 = utf8_from_utf16(head)) return identify_text(*utf8);
+  const auto plain = without_quotes(head);
+  return identify_plain(plain ? *plain : head);
+}
+
 Document open_text(const Contents& contents) {
   if (const auto utf8 = utf8_from_utf16(contents.bytes)) return open_text(contents.part(*utf8));
-  std::string_view text = contents.bytes;
-  TextHeader header = take_header(contents, text);
-  TextNumbers numbers = parse_numbers(contents, text,
-                                      {.first_line = header.n_lines + 1,
-                                       .one_per_line = header.one_per_line,
-                                       .two_columns = header.columns.size() == 2});
-  if (numbers.values.empty()) reject(contents, "no numbers", "a matrix or x y z", kDamaged);
-  Document document{.format = "matrix"};
-  const bool rectangular = numbers.odd_rows() == nullptr;
-  header.fit_columns(numbers.n_columns());
-  if (header.names_places() && !header.column('z') && numbers.n_columns() > 3) {
-    reject(contents, fmt::format("{} columns, none of them named z", numbers.n_columns()),
-           "one of heights", "name the columns in a line such as '# x [um] y [um] other z [um]'");
-  }
-  if (auto xyz = rectangular ? as_xyz(numbers, header) : std::nullopt) {
-    document.format = "xyz";
-    if (xyz->nx == 1 || xyz->ny == 1) {
-      document.warnings.push_back("a single row of points: square pixels are assumed");
-    }
-    document.layers.push_back(std::move(*xyz));
-  } else if (auto profile = rectangular ? as_profile(numbers, header) : std::nullopt) {
-    document.format = "profile";
-    document.layers.push_back(std::move(*profile));
-  } else {
-    if (rectangular && is_list_of_points(numbers, header)) {
-      reject(contents, "points that do not fill a regular grid, each node once",
-             "evenly spaced x and y",
-             "put the points on a regular grid first, for example with Gwyddion, or name the width "
-             "of a map of so few columns: '# Width: 3 um'");
-    }
-    if (header.one_per_line && numbers.n_rows() != numbers.n_columns()) {
-      document.warnings.push_back("a square map is assumed: the file does not tell its rows");
-    }
-    document.layers.push_back(as_matrix(contents, std::move(numbers), header));
-  }
-  return document;
+  const auto plain = without_quotes(contents.bytes);
+  return open_plain(plain ? contents.part(*plain) : contents);
 }
 
 }  // namespace tabor::scan::format

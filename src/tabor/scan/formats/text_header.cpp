@@ -6,70 +6,11 @@
 #include <utility>
 
 #include "tabor/core/text.hpp"
-#include "tabor/core/units.hpp"
+#include "tabor/scan/formats/text_keys.hpp"
 #include "tabor/scan/formats/text_numbers.hpp"
 
 namespace tabor::scan::format {
 namespace {
-
-/// "10.00 µm" or "10,00 µm" in metres.
-double length(const Contents& contents, std::string_view text) {
-  text = trim(text);
-  const std::size_t end = std::min(text.find_first_not_of("+-0123456789.,eE"), text.size());
-  std::string digits(text.substr(0, end));
-  std::replace(digits.begin(), digits.end(), ',', '.');
-  const auto value = parse_number(digits);
-  const auto factor = unit_factor(text.substr(end), dimension::length);
-  if (!value || !factor || !(*value > 0)) {
-    reject(contents, fmt::format("'{}' in its header", text), "a length with its unit", kDamaged);
-  }
-  return *value * *factor;
-}
-
-double positive(const Contents& contents, std::string_view text) {
-  const auto value = parse_number(text);
-  if (!value || !(*value > 0)) {
-    reject(contents, fmt::format("'{}' in its header", trim(text)), "a positive number", kDamaged);
-  }
-  return *value;
-}
-
-/// Gwyddion's "# Key: value" lines, English and German.
-void read_comment(const Contents& contents, std::string_view line, TextHeader& header) {
-  const std::size_t colon = line.find(':');
-  if (colon == std::string_view::npos) return;
-  const std::string key =
-      lower(trim(line.substr(line.find_first_not_of("# "), colon - line.find_first_not_of("# "))));
-  const std::string_view value = trim(line.substr(colon + 1));
-  if (key == "channel" || key == "kanal") header.channel = value;
-  if (key == "width" || key == "breite") header.width = length(contents, value);
-  if (key == "height" || key == "höhe" || key == "h\xf6he") header.height = length(contents, value);
-  if (key == "value units" || key.starts_with("wert")) header.unit = value;
-  header.is_map = header.is_map || header.width.has_value();
-}
-
-/// Wyko's "key=value" lines; the first line has two of them.
-void read_assignment(const Contents& contents, std::string_view line, TextHeader& header) {
-  const std::size_t equals = line.find('=');
-  const std::string key = lower(trim(line.substr(0, equals)));
-  const std::string_view value = trim(line.substr(equals + 1));
-  header.is_map = true;
-  if (key == "h") {
-    header.ny = positive(contents, value.substr(0, value.find(' ')));
-    const std::size_t second = value.find("w=");
-    if (second != std::string_view::npos) header.nx = positive(contents, value.substr(second + 2));
-  }
-  if (key == "pixel size") header.pixel = length(contents, value);
-  if (key == "data unit" && header.unit.empty()) header.unit = value;
-  if (key.starts_with("height conversion factor")) {
-    header.scale = positive(contents, value);
-    const std::size_t arrow = key.find("->");
-    const std::size_t bracket = key.find(')');
-    if (arrow != std::string::npos && bracket != std::string::npos) {
-      header.unit = trim(std::string_view(key).substr(arrow + 2, bracket - arrow - 2));
-    }
-  }
-}
 
 using Column = TextHeader::Column;
 
@@ -126,7 +67,7 @@ std::size_t n_leading_known(const std::vector<Column>& columns) {
 }
 
 /// The columns that a line so separated names: at least two of x, y and z first, or x, y and z
-/// anywhere, or z with its unit. A remark may follow.
+/// anywhere, or z with its unit, or x with its unit beside others. A remark may follow.
 std::vector<Column> columns_of(std::string_view line, char separator) {
   std::vector<Column> columns;
   for (const std::string& label : column_labels(line, separator)) {
@@ -141,7 +82,9 @@ std::vector<Column> columns_of(std::string_view line, char separator) {
     return column.name == 'z' && !column.unit.empty();
   });
   const bool is_word_of_remark = separator == ' ' && n_known == 0;
-  const bool holds = n_known > 1 || names_all || (names_height && !is_word_of_remark);
+  const bool names_x =
+      columns.size() > 1 && columns.front().name == 'x' && !columns.front().unit.empty();
+  const bool holds = n_known > 1 || names_all || names_x || (names_height && !is_word_of_remark);
   return holds ? columns : std::vector<Column>{};
 }
 
@@ -170,11 +113,6 @@ void read_columns(std::string_view line, TextHeader& header) {
   }
 }
 
-bool is_assignment(const std::string& line) {
-  return line.starts_with("h=") || line.starts_with("pixel size=") ||
-         line.starts_with("data unit=") || line.starts_with("height conversion factor");
-}
-
 }  // namespace
 
 bool is_header_line(std::string_view line) {
@@ -184,7 +122,10 @@ bool is_header_line(std::string_view line) {
 }
 
 void TextHeader::fit_columns(std::size_t n_columns) {
-  if (columns.size() != n_columns) columns.resize(std::min(n_leading_known(columns), n_columns));
+  if (columns.size() == n_columns) return;
+  columns.resize(std::min(n_leading_known(columns), n_columns));
+  // "# x [um] of the stage": a remark, not a column.
+  if (columns.size() == 1 && columns.front().name == 'x') columns.clear();
 }
 
 std::optional<std::size_t> TextHeader::column(char name) const {
@@ -194,36 +135,40 @@ std::optional<std::size_t> TextHeader::column(char name) const {
   return static_cast<std::size_t>(found - columns.begin());
 }
 
-TextHeader take_header(const Contents& contents, std::string_view& text) {
+bool begins_section(std::string_view comment) {
+  return is_known_key(key_of(comment)) || !columns_of(comment).empty();
+}
+
+TextHeader take_header(const Contents& contents, std::string_view& text, std::size_t first_line) {
   constexpr std::string_view kNanoscope = "\\Exported image units:";
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte order mark
   TextHeader header;
+  TextKeys keys;
   const char line_end = line_end_of(text);
   while (!text.empty()) {
     std::string_view rest = text;
     const std::string_view line = trim(take_line(rest, line_end));
-    if (starts_with_number(line)) return header;
-    if (!is_header_line(line)) {
+    if (!keys.is_nova() && starts_with_number(line)) break;
+    if (!keys.is_nova() && !is_header_line(line)) {
       if (contents.bytes.find('\0') != std::string_view::npos) {
         throw Unrecognised(contents, "binary data behind a head of text", "");
       }
       throw Unrecognised(
           contents,
-          fmt::format("text with '{}' on line {}", line.substr(0, 40), header.n_lines + 1),
+          fmt::format("text with '{}' on line {}", line.substr(0, 40), header.n_lines + first_line),
           "begin every line that holds no numbers with #");
     }
     if (line.starts_with(kNanoscope)) {
       header.unit = trim(line.substr(kNanoscope.size()));
       header.one_per_line = true;
-    } else if (is_assignment(lower(line))) {
-      read_assignment(contents, line, header);
-    } else if (line.starts_with('#')) {
-      read_comment(contents, line, header);
+    } else {
+      keys.read(contents, line, header);
     }
     if (!header.is_map) read_columns(line, header);
     text = rest;
     ++header.n_lines;
   }
+  keys.finish(header);
   return header;
 }
 

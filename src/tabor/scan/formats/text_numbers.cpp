@@ -212,6 +212,7 @@ struct Block {
   TextNumbers numbers = {};     ///< lines counted from 0
   std::size_t n_lines = 0;      ///< parsed
   std::string_view wrong = {};  ///< the field on line n_lines that is no number, or empty
+  std::optional<std::string_view> section = {};  ///< from line n_lines on, which begins another one
 };
 
 void add_row(TextNumbers& numbers, std::size_t line, std::size_t n_columns) {
@@ -245,14 +246,19 @@ std::string_view parse_line(std::string_view line, const Separators& separators,
   return fields.has_empty_cell() ? kTwoTabs : std::string_view();
 }
 
-void parse(Block& block, const Separators& separators, char line_end) {
+void parse(Block& block, const Separators& separators, char line_end, const TextHints& hints) {
   // No number takes less than a digit and a separator; what is not used is never touched.
   block.numbers.values.reserve(block.text.size() / 2 + 1);
   std::string_view rest = block.text;
   for (; !rest.empty(); ++block.n_lines) {
     const std::size_t before = block.numbers.values.size();
+    const std::string_view from_here = rest;
     const std::string_view line = take_line(rest, line_end);
-    if (is_comment(line)) continue;
+    if (is_comment(line)) {
+      if (hints.begins_section == nullptr || !hints.begins_section(trim(line))) continue;
+      block.section = from_here;
+      return;
+    }
     block.wrong = parse_line(line, separators, block.numbers.values);
     if (!block.wrong.empty()) return;
     const std::size_t n_columns = block.numbers.values.size() - before;
@@ -368,6 +374,7 @@ TextNumbers parse_numbers(const Contents& contents, std::string_view text, const
   std::size_t first_line = hints.first_line;
   const Separators separators(commas.decimal);
   const char line_end = line_end_of(text);
+  const std::string_view whole = text;
   const double n_bytes = static_cast<double>(text.size());
   TextNumbers numbers;
   while (!text.empty()) {
@@ -377,7 +384,7 @@ TextNumbers parse_numbers(const Contents& contents, std::string_view text, const
       blocks.push_back({.text = take_block(text, line_end)});
     }
     parallel_for(std::ssize(blocks), 1, [&](Index begin, Index) {
-      parse(blocks[static_cast<std::size_t>(begin)], separators, line_end);
+      parse(blocks[static_cast<std::size_t>(begin)], separators, line_end, hints);
     });
     const double share = 1 - static_cast<double>(text.size()) / n_bytes;
     if (blocks.size() > 1 || !text.empty()) make_room(numbers, blocks, share);
@@ -385,10 +392,49 @@ TextNumbers parse_numbers(const Contents& contents, std::string_view text, const
       if (!block.wrong.empty()) reject_line(contents, block, first_line);
       append(numbers, block, first_line);
       first_line += block.n_lines;
+      if (!block.section) continue;
+      numbers.rest = whole.substr(static_cast<std::size_t>(block.section->data() - whole.data()));
+      numbers.rest_line = first_line;
+      return numbers;
     }
     contents.finished(before.substr(0, before.size() - text.size()), share);
   }
   return numbers;
+}
+
+namespace {
+
+/// A cell in quotation marks: as a number with a point if it is one with a comma, as it stands
+/// without them if it has none.
+std::string unquoted(std::string_view cell) {
+  const std::size_t n_commas = static_cast<std::size_t>(std::count(cell.begin(), cell.end(), ','));
+  if (n_commas == 0) return std::string(cell);
+  std::string pointed(cell);
+  std::replace(pointed.begin(), pointed.end(), ',', '.');
+  if (n_commas == 1 && number(trim(pointed), false)) return pointed;
+  const bool has_digit = std::any_of(cell.begin(), cell.end(), is_digit);
+  if (has_digit) return '"' + std::string(cell) + '"';
+  std::replace(pointed.begin(), pointed.end(), '.', ' ');  // a name, "height, smoothed"
+  return pointed;
+}
+
+}  // namespace
+
+std::optional<std::string> without_quotes(std::string_view text) {
+  if (sample_of(text, line_end_of(text)).find('"') == std::string_view::npos) return std::nullopt;
+  std::string plain;
+  plain.reserve(text.size());
+  while (!text.empty()) {
+    const std::size_t open = text.find('"');
+    const std::size_t close = open == std::string_view::npos ? open : text.find('"', open + 1);
+    const bool is_cell = close != std::string_view::npos &&
+                         text.substr(open, close - open).find('\n') == std::string_view::npos;
+    plain += text.substr(0, open);
+    if (open == std::string_view::npos) break;
+    if (is_cell) plain += unquoted(text.substr(open + 1, close - open - 1));
+    text.remove_prefix(is_cell ? close + 1 : open + 1);
+  }
+  return plain;
 }
 
 std::optional<std::string> utf8_from_utf16(std::string_view text) {

@@ -1,6 +1,7 @@
 // Maps as text: a matrix, points x y z, and a table of several maps.
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <iterator>
 
@@ -20,6 +21,13 @@ void put_number(double value, io::Precision precision, std::string& text) {
   } else {
     fmt::format_to(out, "{}", value);
   }
+}
+
+/// What stands between the numbers of a row.
+char separator_of(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".csv" ? ',' : '\t';
 }
 
 double x_of(const MapSet& maps, Index x) {
@@ -66,10 +74,11 @@ void write_matrix_map(const MapSet& maps, const std::filesystem::path& file) {
   std::string text =
       fmt::format("# Channel: {}\n# Width: {} m\n# Height: {} m\n# Value units: {}\n",
                   writable_text(map.name), grid.lx, grid.ly, map.unit);
+  const char separator = separator_of(file);
   for (Index y = 0; y < grid.ny; ++y) {
     for (Index x = 0; x < grid.nx; ++x) {
       put_number(values(y, x), map.precision, text);
-      text += x + 1 < grid.nx ? '\t' : '\n';
+      text += x + 1 < grid.nx ? separator : '\n';
     }
   }
   io::write_file(file, std::string_view(text));

@@ -13,9 +13,9 @@ namespace {
 void require_plain_grey(const Contents& contents, const io::TiffDescription& image) {
   if (image.is_grey && !image.has_park_tags) return;
   throw Unrecognised(contents,
-                     image.has_park_tags ? "a TIFF of a Park microscope"
-                                         : "a TIFF that is no plain grey picture (colours, alpha, "
-                                           "or white as zero)",
+                     image.has_park_tags
+                         ? "a TIFF of a Park microscope"
+                         : "a TIFF that is no plain grey picture (colours or alpha)",
                      "save heights as 16-bit grey");
 }
 
@@ -33,15 +33,19 @@ Match identify_tiff(std::string_view head) {
 Document open_tiff(const Contents& contents) {
   const io::TiffDescription image = io::describe_tiff(contents.file);
   require_plain_grey(contents, image);
-  const std::size_t most = contents.bytes.size() * (image.is_compressed ? kLargestDeflateRatio : 1);
-  check_size(contents, static_cast<double>(image.nx), static_cast<double>(image.ny),
-             most / static_cast<std::size_t>(std::max(1, image.bits / 8)));
+  const std::size_t ratio = image.is_compressed ? kLargestDeflateRatio : 1;
+  check_packed_size(contents, static_cast<double>(image.nx), static_cast<double>(image.ny),
+                    contents.bytes.size(), ratio,
+                    static_cast<std::size_t>(std::max(1, image.bits / 8)));
   Document document{.format = "tiff"};
   if (image.n_images > 1) {
     document.warnings.push_back(fmt::format("only the first of {} images is read", image.n_images));
   }
   if (image.bits < 16) {
     document.warnings.push_back(fmt::format("only {} bits per pixel: coarse heights", image.bits));
+  }
+  if (image.white_is_zero) {
+    document.warnings.push_back("white is zero in this picture: its dark pixels are high");
   }
   document.layers.push_back(
       {.name = "grey values", .is_count = true, .nx = image.nx, .ny = image.ny, .load = [contents] {

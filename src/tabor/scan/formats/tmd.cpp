@@ -1,6 +1,8 @@
 // TMD, TrueMap data files version 2; every length in millimetres.
 #include <fmt/format.h>
 
+#include <fmt/format.h>
+
 #include "tabor/scan/formats/bytes.hpp"
 #include "tabor/scan/formats/readers.hpp"
 
@@ -36,8 +38,10 @@ Document open_tmd(const Contents& contents) {
                              .unit = "mm",
                              .nx = raster.nx,
                              .ny = raster.ny,
-                             .pixel_x = checked_pixel(contents, lx / nx),
-                             .pixel_y = checked_pixel(contents, ly / ny),
+                             .pixel_x = lx / nx,
+                             .pixel_y = ly / ny,
+                             .said_x = fmt::format("a length of {:g} mm", lx * 1e3),
+                             .said_y = fmt::format("a width of {:g} mm", ly * 1e3),
                              .load = load});
   return document;
 }

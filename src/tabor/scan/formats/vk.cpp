@@ -45,7 +45,7 @@ Scales scales_of(const Contents& contents) {
   };
   const double z = picometres(44);
   if (!(z > 0)) reject(contents, "a height step of 0", "a height per count", kDamaged);
-  return {checked_pixel(contents, picometres(42)), checked_pixel(contents, picometres(43)), z};
+  return {picometres(42), picometres(43), z};
 }
 
 Sample sample_of(const Contents& contents, std::uint32_t bits) {
@@ -81,6 +81,8 @@ Layer layer_at(const Contents& contents, std::size_t position, const Scales& sca
   raster.ny = static_cast<Index>(ny);
   Layer layer{.nx = raster.nx, .ny = raster.ny, .pixel_x = scales.pixel_x};
   layer.pixel_y = scales.pixel_y;
+  layer.said_x = "the measuring conditions";
+  layer.said_y = layer.said_x;
   layer.load = [contents, data = cursor.take(byte_size(raster)), raster] {
     return decode(contents, data, raster);
   };

@@ -24,6 +24,7 @@ struct Axis {
   Sample sample = Sample::f64;
   std::optional<double> increment;  ///< [m]; the standard's default is 1
   double offset = 0;
+  std::string said;  ///< the increment as it stands
 };
 
 /// Everything main.xml says about one matrix of heights.
@@ -57,10 +58,14 @@ Sample sample_of(const Contents& contents, const std::string& type) {
 Axis axis(const Contents& contents, const io::XmlElement& root, const std::string& name) {
   const io::XmlElement element = root.at("Record1/Axes/" + name);
   if (!element) reject(contents, "no axis " + name + " in main.xml", "Record1/Axes", kDamaged);
+  // What an increment of pixels cannot be the user may put right; a height scale has no such way.
+  const io::XmlElement increment = element.at("Increment");
+  const bool is_lateral = name != "CZ";
   return {.type = element.at("AxisType").text(),
           .sample = sample_of(contents, element.at("DataType").text()),
-          .increment = number(contents, element.at("Increment")),
-          .offset = number(contents, element.at("Offset")).value_or(0)};
+          .increment = is_lateral ? stated_number(increment.text()) : number(contents, increment),
+          .offset = number(contents, element.at("Offset")).value_or(0),
+          .said = fmt::format("Increment {} of axis {}", increment.text(), name)};
 }
 
 void require_matrix(const Contents& contents, const io::XmlElement& root) {
@@ -72,8 +77,20 @@ void require_matrix(const Contents& contents, const io::XmlElement& root) {
   }
 }
 
-Matrix describe(const Contents& contents, const io::XmlElement& root) {
-  require_matrix(contents, root);
+/// How many heights the file claims to hold, in main.xml or in the entry that it links to.
+std::size_t n_samples_of(const Contents& contents, const Archive& archive,
+                         const io::XmlElement& root) {
+  const std::string link = root.at("Record3/DataLink/PointDataLink").text();
+  const io::XmlElement list = root.at("Record3/DataList");
+  if (!link.empty()) {
+    const std::string type = root.at("Record1/Axes/CZ/DataType").text();
+    return archive.find(link).size / size_of(sample_of(contents, type));
+  }
+  if (!list) reject(contents, "no data in main.xml", "DataLink or DataList", kDamaged);
+  return list.children("Datum").size();
+}
+
+Matrix describe(const Contents& contents, const io::XmlElement& root, std::size_t n_samples) {
   Matrix matrix{.x = axis(contents, root, "CX"),
                 .y = axis(contents, root, "CY"),
                 .z = axis(contents, root, "CZ")};
@@ -93,10 +110,9 @@ Matrix describe(const Contents& contents, const io::XmlElement& root) {
   const double nx = number(contents, dimension.at("SizeX")).value_or(0);
   const double ny = number(contents, dimension.at("SizeY")).value_or(0);
   const double n_layers = number(contents, dimension.at("SizeZ")).value_or(1);
-  // No sample is smaller than a byte.
-  const std::size_t most = kLargestDeflateRatio * contents.bytes.size();
-  check_size(contents, nx, ny, most);
-  check_size(contents, nx * ny, n_layers, most);
+  check_size(contents, nx, ny, n_samples);
+  check_size(contents, nx * ny, n_layers, n_samples);
+  check_packed_size(contents, nx * ny, n_layers, contents.bytes.size(), kLargestDeflateRatio, 1);
   constexpr double kMostLayers = 1000;  // far more than instruments write; each takes memory
   if (n_layers > kMostLayers) {
     reject(contents, fmt::format("{} layers", n_layers), fmt::format("at most {}", kMostLayers));
@@ -205,19 +221,12 @@ bool is_rotated(const Contents& contents, const io::XmlElement& root) {
 /// Stored values of layer k.
 using Load = std::function<Field(Index k, std::vector<std::string>& warnings)>;
 
-/// Without an Increment the standard takes 1 m, which no scan has: a pixel is asked for.
-std::optional<double> pixel(const Contents& contents, const Axis& axis) {
-  if (!axis.increment) return std::nullopt;
-  return checked_pixel(contents, *axis.increment);
-}
-
 /// Profiles need no second spacing.
 const Axis& y_axis(const Matrix& matrix) {
   return matrix.ny == 1 && matrix.y.increment.value_or(0) == 0 ? matrix.x : matrix.y;
 }
 
-void add_layers(Document& document, const Contents& contents, const Matrix& matrix,
-                const Load& load) {
+void add_layers(Document& document, const Matrix& matrix, const Load& load) {
   if (!matrix.z.increment && is_integer(matrix.z.sample)) {
     document.warnings.push_back(
         "whole numbers without an Increment are heights in metres (ISO 25178-72)");
@@ -228,8 +237,10 @@ void add_layers(Document& document, const Contents& contents, const Matrix& matr
                 .unit = "m",
                 .nx = matrix.nx,
                 .ny = matrix.ny,
-                .pixel_x = pixel(contents, matrix.x),
-                .pixel_y = pixel(contents, y_axis(matrix))};
+                .pixel_x = matrix.x.increment,  // the standard's 1 m for none: no scan has that
+                .pixel_y = y_axis(matrix).increment,
+                .said_x = matrix.x.said,
+                .said_y = y_axis(matrix).said};
     layer.late_warnings = std::make_shared<std::vector<std::string>>();
     layer.load = [load, k, z = matrix.z, warnings = layer.late_warnings] {
       Field field = load(k, *warnings);
@@ -273,7 +284,8 @@ Document open_x3p(const Contents& contents) {
   const io::XmlElement root = xml.root();
   Document document{.format = "x3p", .instrument = instrument_of(root)};
   add_metadata(document, root);
-  const Matrix matrix = describe(contents, root);
+  require_matrix(contents, root);
+  const Matrix matrix = describe(contents, root, n_samples_of(contents, *archive, root));
   if (is_rotated(contents, root)) {
     document.warnings.push_back(
         "the Rotation of its axes is not applied: rows and heights as stored");
@@ -282,17 +294,15 @@ Document open_x3p(const Contents& contents) {
   const io::XmlElement list = root.at("Record3/DataList");
   if (!link.at("PointDataLink").text().empty()) {
     const Links links = links_of(*archive, link, matrix);
-    add_layers(document, contents, matrix, [archive, links, matrix](Index k, auto& warnings) {
+    add_layers(document, matrix, [archive, links, matrix](Index k, auto& warnings) {
       return unpack(*archive, links, matrix, k, warnings);
     });
-  } else if (list) {
+  } else {
     const auto values = std::make_shared<const std::vector<double>>(listed(contents, list, matrix));
-    add_layers(document, contents, matrix, [values, matrix](Index k, auto&) -> Field {
+    add_layers(document, matrix, [values, matrix](Index k, auto&) -> Field {
       return Eigen::Map<const Field>(values->data() + k * matrix.nx * matrix.ny, matrix.ny,
                                      matrix.nx);
     });
-  } else {
-    reject(contents, "no data in main.xml", "DataLink or DataList", kDamaged);
   }
   return document;
 }

@@ -1,0 +1,218 @@
+"""Types of arguments, asked by the signature of a function before it begins."""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import inspect
+import operator
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from concurrent.futures import Executor
+from typing import Any, TypeVar, Union, cast
+
+import numpy as np
+
+#: A file or folder.
+Path = Union[str, "os.PathLike[str]"]
+#: Of random numbers: a whole number below 2^64.
+Seed = int
+#: How many: a whole number, zero or more.
+Count = int
+#: Where a picture is drawn, of Matplotlib; the current ones by default.
+Axes = Any
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+_Check = Callable[[Any, str], Any]  # (value, name of the argument) -> the value, as plain types
+
+#: What to give where one of these classes is expected.
+_SUCH_AS = {
+    "Surface": 'a Surface, such as tabor.read(file) or tabor.Surface(heights, pixel="0.67 um")',
+    "Contact": "a Contact, as tabor.contact returns it",
+    "Film": "a Film, as tabor.rain returns it",
+    "Lubricant": 'a Lubricant, such as tabor.Lubricant("0.1 Pa s")',
+    "Solid": 'a Solid, such as tabor.Solid("aluminium-6016"), or the name of a material',
+    "Executor": "an executor of concurrent.futures, such as ProcessPoolExecutor()",
+}
+
+
+def kind_of(value: Any) -> str:
+    """What came, for a message: "list of Film", "None", "str 'x'"."""
+    if value is None:
+        return "None"
+    name = type(value).__name__
+    if isinstance(value, (list, tuple)) and value:
+        return f"{name} of {type(value[0]).__name__}"
+    return f"{name} {value!r}" if isinstance(value, (str, bool, int, float)) and len(repr(value)) < 60 else name
+
+
+def wrong(name: str, value: Any, expected: str) -> TypeError:
+    """The error for an argument of another type."""
+    return TypeError(f"{name}: got {kind_of(value)}; expected {expected}")
+
+
+def plain_text(value: Any, name: str) -> str:
+    """A text."""
+    if not isinstance(value, str):
+        raise wrong(name, value, "a text")
+    return str(value)
+
+
+def texts(value: Any, name: str) -> list[str]:
+    """Texts, or one alone."""
+    if isinstance(value, str):
+        return [value]
+    if not isinstance(value, Iterable) or isinstance(value, (bytes, Mapping)):
+        raise wrong(name, value, "a list of texts")
+    return [plain_text(one, name) for one in value]
+
+
+def flag(value: Any, name: str) -> bool:
+    """True or False."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise wrong(name, value, "True or False")
+    return bool(value)
+
+
+def whole(value: Any, name: str, least: int, most: int) -> int:
+    """A whole number from ``least`` to ``most``."""
+    if isinstance(value, (bool, np.bool_)):
+        raise wrong(name, value, "a whole number")
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise wrong(name, value, "a whole number") from None
+    if not least <= number <= most:
+        expected = "zero or more" if number < least == 0 else f"{least} to {most}"
+        raise ValueError(f"{name}: got {number}; expected {expected}")
+    return number
+
+
+def _real(value: Any, name: str) -> float:
+    if isinstance(value, (bool, np.bool_)) or np.ndim(value) != 0 or np.asarray(value).dtype.kind not in "fiu":
+        raise wrong(name, value, "a number")
+    number = float(value)
+    if number != number:
+        raise ValueError(f"{name}: got NaN; expected a number")
+    return number
+
+
+def path(value: Any, name: str) -> Path:
+    """The name of a file or folder."""
+    if not isinstance(value, (str, os.PathLike)) or not isinstance(os.fspath(value), str):
+        raise wrong(name, value, "the name of a file or folder")
+    if not os.fspath(value) or "\0" in os.fspath(value):
+        raise ValueError(f"{name}: got {os.fspath(value)!r}; expected the name of a file or folder")
+    return value
+
+
+def _channel(value: Any, name: str) -> str | int:
+    return value if isinstance(value, str) else whole(value, name, 0, 2**31 - 1)
+
+
+def mapping(value: Any, name: str) -> Mapping[str, Any]:
+    """Values by names."""
+    if not isinstance(value, Mapping):
+        raise wrong(name, value, "a mapping")
+    for key in value:
+        if not isinstance(key, str):
+            raise TypeError(f"{name}: got the key {key!r}; expected texts as keys")
+    return value
+
+
+def _axes(value: Any, name: str) -> Any:
+    if value is not None and not hasattr(value, "get_figure"):
+        raise wrong(name, value, "axes of Matplotlib")
+    return value
+
+
+def _executor(value: Any, name: str) -> Any:
+    if not isinstance(value, Executor) and not callable(getattr(value, "submit", None)):
+        raise wrong(name, value, _SUCH_AS["Executor"])
+    return value
+
+
+def _solid(value: Any, name: str) -> Any:
+    from ._contact import Solid  # which asks here for its own arguments
+    if not isinstance(value, (Solid, str)):
+        raise wrong(name, value, _SUCH_AS["Solid"])
+    return value
+
+
+_CHECKS: dict[str, _Check] = {
+    "str": plain_text, "bool": flag, "float": _real, "Path": path, "str | int": _channel, "Axes": _axes,
+    "Sequence[str]": texts, "Iterable[str]": texts, "Executor": _executor, "Solid | str": _solid,
+    "int": lambda value, name: whole(value, name, -2**31, 2**31 - 1),
+    "Count": lambda value, name: whole(value, name, 0, 2**31 - 1),
+    "Seed": lambda value, name: whole(value, name, 0, 2**64 - 1),
+}
+
+
+def _instance_check(annotation: str, names: Mapping[str, Any]) -> _Check | None:
+    """Of a class that is known where the function stands, by the time that it is called."""
+    if annotation not in _SUCH_AS:
+        return None
+
+    def check(value: Any, name: str) -> Any:
+        if not isinstance(value, names[annotation]):
+            raise wrong(name, value, _SUCH_AS[annotation])
+        return value
+
+    return check
+
+
+def _check_of(annotation: str, names: Mapping[str, Any]) -> _Check | None:
+    inner = annotation.removesuffix(" | None")
+    check = _CHECKS.get(inner) or _instance_check(inner, names)
+    if check is None or inner == annotation:
+        return check
+    asked = check
+    return lambda value, name: None if value is None else asked(value, name)
+
+
+def _unknown(function: Callable[..., Any], name: str, names: Iterable[str]) -> TypeError:
+    """The error for an argument that a function does not have."""
+    near = difflib.get_close_matches(name, names, 1)
+    title = function.__qualname__.removesuffix(".__init__")
+    return TypeError(f"{title}() got an unexpected keyword argument {name!r}" + (f"; did you mean {near[0]!r}?" if near else ""))
+
+
+def _with_more(function: Callable[..., Any], args: tuple[Any, ...], given: dict[str, Any], n_own: int,
+               more: Sequence[str]) -> tuple[Any, ...]:
+    """The arguments of the function's own; those behind them go to the settings in their order."""
+    if len(args) > n_own + len(more):
+        raise TypeError(f"{function.__qualname__.removesuffix('.__init__')}() takes {n_own + len(more)} arguments; got {len(args)}")
+    for name, value in zip(more, args[n_own:]):
+        if name in given:
+            raise TypeError(f"{function.__qualname__.removesuffix('.__init__')}() got multiple values for argument {name!r}")
+        given[name] = value
+    return args[:n_own]
+
+
+def typed(function: _Function, settings: Sequence[str] = ()) -> _Function:
+    """The function, with its arguments asked by their annotations first: TypeError says what came and what was
+    expected, and names the nearest argument for one that it does not have. Values with units, and what has a type of its
+    own in one function alone, are asked there. ``settings`` are arguments that it takes by ``**settings`` (_settings.py),
+    and by place where it takes ``*more``."""
+    code = function.__code__
+    n_own = code.co_argcount
+    names = code.co_varnames[:n_own + code.co_kwonlyargcount]
+    found = ((name, _check_of(function.__annotations__.get(name, ""), function.__globals__)) for name in names)
+    checks = {name: check for name, check in found if check is not None}
+    positional = tuple(checks.get(name) for name in names[:n_own])
+    known = None if code.co_flags & inspect.CO_VARKEYWORDS and not settings else {*names, *settings}
+    more = [name for name in settings if name not in names] if code.co_flags & inspect.CO_VARARGS else None
+
+    @functools.wraps(function)
+    def asked(*args: Any, **given: Any) -> Any:
+        if more is not None and len(args) > n_own:
+            args = _with_more(function, args, given, n_own, more)
+        plain = [check(value, name) if check else value for value, check, name in zip(args, positional, names)]
+        for name in given:
+            if name in checks:
+                given[name] = checks[name](given[name], name)
+            elif known is not None and name not in known:
+                raise _unknown(function, name, known)
+        return function(*plain, *args[len(plain):], **given)
+
+    return cast(_Function, asked)

@@ -1,0 +1,52 @@
+"""What goes to xarray goes into files of NetCDF and comes back, whoever writes them."""
+
+import numpy as np
+import pytest
+
+import tabor as tb
+
+xarray = pytest.importorskip("xarray")
+
+
+@pytest.fixture(scope="module", params=["h5netcdf", "netcdf4", "scipy"])
+def engine(request):
+    pytest.importorskip({"netcdf4": "netCDF4"}.get(request.param, request.param))
+    return request.param
+
+
+@pytest.fixture(scope="module")
+def results(rough, steel):
+    contact = tb.contact(rough.lowpass("gauss:4um"), 5e7, steel)
+    squeeze = tb.ehl.squeeze(tb.ehl.template("squeeze"))
+    words = tb.ehl.point(tb.ehl.template("point"), **{"grid.nodes": 33})
+    return {"Surface": contact.surface, "Contact": contact, "Film": tb.rain(contact.surface, "0.45 g/m^2"),
+            "Sweep": squeeze.sweep({"lubricant.viscosity": ["0.4 Pa s", "0.5 Pa s"]}),
+            "Sweep of words": words.sweep({"roughness.kind": ["lapped-like"], "motion.speed": [0.5, 1.0]}, check=False)}
+
+
+def test_all_that_goes_to_xarray_is_here(results):
+    with_it = {name for name in (*tb.__all__, *tb.ehl.__all__) if hasattr(getattr(tb, name, getattr(tb.ehl, name, None)), "to_xarray")}
+    assert with_it == {name for name in results if " " not in name}
+
+
+@pytest.mark.parametrize("name", ["Surface", "Contact", "Film", "Sweep", "Sweep of words"])
+def test_a_file_of_netcdf_holds_it_all(results, engine, tmp_path, name):
+    result = results[name]
+    given = result.to_xarray()
+    data = given if isinstance(given, xarray.Dataset) else given.to_dataset()
+    given.to_netcdf(tmp_path / "a.nc", engine=engine)
+    with xarray.open_dataset(tmp_path / "a.nc", engine=engine) as read:
+        xarray.testing.assert_allclose(read.load(), data, rtol=0, atol=0)
+        attributes = read.attrs if isinstance(given, xarray.Dataset) else read[given.name].attrs
+        for warning in result.warnings:
+            assert (warning if isinstance(warning, str) else f"{warning.text} [{warning.code}]") in attributes["warnings"].split("\n")
+        for key, value in getattr(result, "values", {}).items() if name in ("Contact", "Film") else ():
+            if isinstance(value, (bool, int, float, str)) and value == value:
+                assert attributes[key] == value, key
+
+
+def test_warnings_are_there(results):
+    assert results["Contact"].warnings and "warnings" in results["Contact"].to_xarray().attrs
+    assert results["Contact"].to_xarray().attrs["converged"] == 1
+    assert results["Contact"].to_xarray().attrs["references"].split("\n") == list(results["Contact"].references)
+    assert results["Sweep of words"].to_xarray()["converged"].dtype == np.int8

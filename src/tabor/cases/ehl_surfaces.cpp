@@ -1,0 +1,62 @@
+#include "tabor/cases/ehl_surfaces.hpp"
+
+#include "tabor/core/advice.hpp"
+#include "tabor/scan/file.hpp"
+#include "tabor/synthesis/synthesis.hpp"
+#include "tabor/topography/holes.hpp"
+#include "tabor/topography/treatment.hpp"
+
+namespace tabor::cases {
+namespace {
+
+using topography::Topography;
+
+constexpr const char* kHolesRemedy = "treatment = [\"fill=harmonic\", \"level=plane\"]";
+
+ehl::Surface read(const ehl::NamedScan& named, const Observer& observer) {
+  const scan::ScanFile file(named.file, observer);
+  scan::ReadOptions options;
+  options.channel = named.channel;
+  const std::string sha256 = file.sha256();
+  const Topography scan = topography::apply(named.treatment, file.read(options), observer);
+  ehl::Surface surface{.grid = scan.grid, .height = scan.height, .sha256 = sha256, .warnings = {}};
+  for (const Warning& warning : scan.warnings) {
+    surface.warnings.push_back(
+        {warning.code, named.file.filename().string() + ": " + without_advice(warning.text)});
+  }
+  if (!named.rejects_holes_at.empty()) {
+    topography::require_no_holes(scan, named.rejects_holes_at, kHolesRemedy);
+  }
+  return surface;
+}
+
+Topography grooves(const ehl::GeneratedSurface& finish) {
+  return synthesis::ground({.grid = finish.grid,
+                            .rms_height = finish.rms_height,
+                            .hurst = finish.hurst,
+                            .groove_spacing = finish.roll_off_wavelength,
+                            .groove_length = finish.groove_length,
+                            .seed = finish.seed});
+}
+
+Topography gaussian(const ehl::GeneratedSurface& finish) {
+  synthesis::SelfAffine recipe;
+  recipe.grid = finish.grid;
+  recipe.hurst = finish.hurst;
+  recipe.rms_height = finish.rms_height;
+  recipe.roll_off_wavelength = finish.roll_off_wavelength;
+  recipe.random_amplitudes = true;
+  recipe.seed = finish.seed;
+  return synthesis::self_affine(recipe);
+}
+
+ehl::Surface generate(const ehl::GeneratedSurface& finish) {
+  const Topography surface = finish.groove_length > 0 ? grooves(finish) : gaussian(finish);
+  return {.grid = surface.grid, .height = surface.height};
+}
+
+}  // namespace
+
+ehl::SurfaceSource ehl_surfaces() { return {.read = read, .generate = generate}; }
+
+}  // namespace tabor::cases

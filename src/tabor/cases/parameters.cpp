@@ -1,0 +1,298 @@
+#include "tabor/cases/parameters.hpp"
+
+#include <algorithm>
+
+namespace tabor::cases {
+namespace {
+
+const Bounds kPoissonsRatio{
+    .least = -1, .most = 0.5, .least_is_out = true, .text = "above -1 and at most 0.5"};
+const Bounds kTolerance{.least = 1e-12, .most = 1e-4, .text = "1e-12 to 1e-4"};
+const Bounds kShare{.least = 0, .most = 1, .text = "a share of the shear strength, 0 to 1"};
+
+Cell tau_of_wet_contact(const FrictionSettings& one) {
+  const double strength = one.boundary_strength();
+  return strength > 0 ? Cell(strength) : Cell();
+}
+
+}  // namespace
+
+const Parameters<ContactSettings>& contact_parameters() {
+  using Settings = ContactSettings;
+  using One = Parameter<Settings>;
+  static const Parameters<Settings> all{
+      One({.name = "youngs_modulus",
+           .help = "Young's modulus of the rough body",
+           .example = "70 GPa",
+           .dimension = dimension::pressure,
+           .bounds = bounds::above_zero,
+           .study_key = "material.youngs_modulus",
+           .placeholder = "E",
+           .is_of_material = true,
+           .needed = Needed::unless_material},
+          &Settings::youngs_modulus),
+      One({.name = "poissons_ratio",
+           .help = "Poisson's ratio of the rough body",
+           .example = "0.33",
+           .bounds = kPoissonsRatio,
+           .study_key = "material.poissons_ratio",
+           .flag = "--poisson-ratio",
+           .placeholder = "NU",
+           .is_of_material = true,
+           .needed = Needed::unless_material},
+          &Settings::poissons_ratio),
+      One({.name = "counter_youngs_modulus",
+           .help = "Young's modulus of the flat",
+           .example = "210 GPa",
+           .dimension = dimension::pressure,
+           .bounds = bounds::above_zero,
+           .study_key = "material.counter_youngs_modulus",
+           .placeholder = "E2",
+           .absent = "rigid"},
+          &Settings::counter_youngs_modulus),
+      One({.name = "counter_poissons_ratio",
+           .help = "Poisson's ratio of the flat",
+           .example = "0.3",
+           .bounds = kPoissonsRatio,
+           .study_key = "material.counter_poissons_ratio",
+           .flag = "--counter-poisson-ratio",
+           .placeholder = "NU2"},
+          &Settings::counter_poissons_ratio),
+      One({.name = "saturation_pressure",
+           .help = "cap on the contact pressure (none: elastic)",
+           .example = "240 MPa",
+           .dimension = dimension::pressure,
+           .bounds = bounds::above_zero,
+           .study_key = "material.saturation_pressure",
+           .placeholder = "PS",
+           .absent = "none",
+           .none = "none",
+           .is_of_material = true,
+           .identity = Identity::yes},
+          &Settings::saturation_pressure)
+          .with_identifying_value([](const Settings& one) { return Cell(one.pressure_cap()); }),
+      One({.name = "boundary",
+           .help = "whether the scan repeats, or is loaded alone, as with edges that end",
+           .example = "periodic",
+           .study_key = "contact.boundary",
+           .absent = "periodic",
+           .identity = Identity::yes},
+          &Settings::boundary, kBoundaries)
+          .with_value_in_force([](const Settings& one) {
+            return Cell(std::string(kBoundaries.of(one.boundary_in_force())));
+          }),
+      One({.name = "solver",
+           .help = "polonsky-keer is the textbook baseline",
+           .example = "fast",
+           .study_key = "contact.solver",
+           .identity = Identity::yes},
+          &Settings::solver, kSolvers),
+      One({.name = "tolerance",
+           .help = "certificate to reach, 1e-12 to 1e-4",
+           .example = "1e-6",
+           .bounds = kTolerance,
+           .study_key = "contact.tolerance",
+           .placeholder = "T",
+           .identity = Identity::yes},
+          &Settings::tolerance),
+      One({.name = "load_path",
+           .help = "the pressures are one history: the plastic indentation a state leaves is kept "
+                   "in the next, so that reloading below the largest is elastic"},
+          &Settings::load_path)};
+  return all;
+}
+
+const Parameters<FilmSettings>& film_parameters() {
+  using Settings = FilmSettings;
+  using One = Parameter<Settings>;
+  static const Parameters<Settings> all{
+      One({.name = "lubricant_density",
+           .help = "areal lubricant density as dosed, a list or a range as for pressures",
+           .example = "0.45 g/m^2,0.9 g/m^2",
+           .dimension = dimension::areal_density,
+           .bounds = bounds::zero_or_more,
+           .study_key = "sweep.lubricant_density",
+           .flag = "--density",
+           .placeholder = "D[,D2,...]",
+           .argument = "density",
+           .needed = Needed::yes},
+          &Settings::lubricant_densities),
+      One({.name = "oil_density",
+           .help = "density of the liquid",
+           .example = "900 kg/m^3",
+           .dimension = dimension::density,
+           .bounds = bounds::above_zero,
+           .study_key = "lubricant.oil_density",
+           .placeholder = "RHO",
+           .identity = Identity::yes},
+          &Settings::oil_density),
+      One({.name = "model",
+           .help = "droplets run downhill, limit: the same of vanishing droplets, one level, a "
+                   "constant film",
+           .example = "droplets",
+           .study_key = "lubricant.model",
+           .identity = Identity::yes},
+          &Settings::model, deposition::kModels),
+      One({.name = "reading",
+           .help = "a full pit passes the rest of a droplet on, or drops it",
+           .example = "conserving",
+           .study_key = "lubricant.reading",
+           .identity = Identity::yes},
+          &Settings::reading, deposition::kReadings),
+      One({.name = "edge",
+           .help = "what the border of the scan is",
+           .example = "closed",
+           .study_key = "lubricant.edge",
+           .identity = Identity::yes},
+          &Settings::edge, deposition::kEdges),
+      One({.name = "droplet_height",
+           .help = "droplet volume / pixel area",
+           .example = "0.1 um",
+           .dimension = dimension::length,
+           .bounds = bounds::above_zero,
+           .study_key = "lubricant.droplet",
+           .flag = "--droplet",
+           .placeholder = "D",
+           .identity = Identity::yes},
+          &Settings::droplet_height),
+      One({.name = "seed",
+           .help = "of the places where droplets fall",
+           .example = "1",
+           .study_key = "lubricant.seed",
+           .placeholder = "S",
+           .identity = Identity::yes},
+          &Settings::seed)};
+  return all;
+}
+
+const Parameters<FluidSettings>& fluid_parameters() {
+  using Settings = FluidSettings;
+  using One = Parameter<Settings>;
+  static const Parameters<Settings> all{
+      One({.name = "fluid",
+           .help = "with reynolds the deposited oil flows and carries part of the load",
+           .example = "none",
+           .study_key = "lubricant.fluid"},
+          &Settings::fluid, kFluids),
+      One({.name = "sliding_speed",
+           .help = "sliding speed along +x",
+           .example = "5 mm/s",
+           .dimension = dimension::speed,
+           .bounds = bounds::zero_or_more,
+           .study_key = "sweep.sliding_speed",
+           .flag = "--speed",
+           .placeholder = "U",
+           .argument = "speed",
+           .identity = Identity::yes},
+          &Settings::sliding_speed),
+      One({.name = "viscosity",
+           .help = "dynamic viscosity of the oil",
+           .example = "0.225 Pa s",
+           .dimension = dimension::viscosity,
+           .bounds = bounds::above_zero,
+           .study_key = "lubricant.viscosity",
+           .placeholder = "ETA",
+           .identity = Identity::yes},
+          &Settings::viscosity),
+      One({.name = "pressure_viscosity",
+           .help = "its growth with pressure by Roelands' law",
+           .example = "2e-8 1/Pa",
+           .dimension = dimension::per_pressure,
+           .bounds = bounds::above_zero,
+           .study_key = "lubricant.pressure_viscosity",
+           .placeholder = "ALPHA",
+           .absent = "constant",
+           .identity = Identity::yes},
+          &Settings::pressure_viscosity),
+      One({.name = "eyring_stress",
+           .help = "Ree-Eyring stress of the oil",
+           .example = "5 MPa",
+           .dimension = dimension::pressure,
+           .bounds = bounds::above_zero,
+           .study_key = "lubricant.eyring_stress",
+           .placeholder = "TAU",
+           .absent = "Newtonian",
+           .identity = Identity::yes},
+          &Settings::eyring_stress)};
+  return all;
+}
+
+const Parameters<FrictionSettings>& friction_parameters() {
+  using Settings = FrictionSettings;
+  using One = Parameter<Settings>;
+  static const Parameters<Settings> all{
+      One({.name = "shear_strength",
+           .help = "shear strength of the contact",
+           .example = "70 MPa",
+           .dimension = dimension::pressure,
+           .bounds = bounds::above_zero,
+           .study_key = "shear_strength",
+           .placeholder = "TAU",
+           .is_of_material = true,
+           .needed = Needed::unless_material,
+           .identity = Identity::yes},
+          &Settings::shear_strength),
+      One({.name = "boundary_shear_strength",
+           .help = "shear strength of wet contact, at most that of the contact",
+           .example = "5 MPa",
+           .dimension = dimension::pressure,
+           .bounds = bounds::zero_or_more,
+           .study_key = "boundary_shear_strength",
+           .placeholder = "TAU_B",
+           .absent = "0",
+           .identity = Identity::yes},
+          &Settings::boundary_shear_strength)
+          .with_value_in_force(tau_of_wet_contact),
+      One({.name = "boundary_shear_share",
+           .help = "the same as a share of the shear strength",
+           .example = "0.1",
+           .bounds = kShare,
+           .study_key = "boundary_shear_share",
+           .placeholder = "X"},
+          &Settings::boundary_shear_share)
+          .with_value_in_force([](const Settings&) { return Cell(); }),  // the strength says it
+      One({.name = "area",
+           .help = "what friction uses, the contact area (perimeter-corrected) or the counted "
+                   "contact (pixels)",
+           .example = "pixels",
+           .study_key = "area",
+           .absent = "pixels with a saturation pressure, else corrected"},
+          &Settings::area, friction::kAreas)};
+  return all;
+}
+
+const Parameters<CaseSettings>& case_parameters() {
+  static const Parameters<CaseSettings> all = [] {
+    Parameters<CaseSettings> list{
+        {{.name = "mean_pressure",
+          .help = "mean pressure, load / nominal area, a list or a range such as "
+                  "2MPa..15MPa:7 or 1MPa..100MPa:log:5",
+          .example = "2 MPa,7 MPa",
+          .dimension = dimension::pressure,
+          .bounds = bounds::above_zero,
+          .study_key = "sweep.mean_pressure",
+          .flag = "--pressure",
+          .placeholder = "P[,P2,...]",
+          .argument = "pressure",
+          .needed = Needed::yes},
+         &CaseSettings::mean_pressures}};
+    for (const Parameters<CaseSettings>& part :
+         {within(contact_parameters(), &CaseSettings::contact),
+          within(film_parameters(), &CaseSettings::film),
+          within(fluid_parameters(), &CaseSettings::fluid),
+          within(friction_parameters(), &CaseSettings::friction)}) {
+      list.insert(list.end(), part.begin(), part.end());
+    }
+    return list;
+  }();
+  return all;
+}
+
+const ParameterHead* find_parameter(std::string_view name) {
+  const auto& all = case_parameters();
+  const auto found = std::find_if(all.begin(), all.end(),
+                                  [&](const ParameterHead& one) { return one.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+}  // namespace tabor::cases

@@ -1,0 +1,140 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tabor/cases/warning.hpp"
+#include "tabor/contact/contact.hpp"
+#include "tabor/contact/distributions.hpp"
+#include "tabor/contact/stiffness.hpp"
+#include "tabor/core/column.hpp"
+#include "tabor/deposition/deposition.hpp"
+#include "tabor/friction/bowden_tabor.hpp"
+#include "tabor/friction/fluid_film.hpp"
+#include "tabor/friction/mixed_friction.hpp"
+
+// Defines the results of a contact, a film and the friction of both: numbers, maps, warnings,
+// references. The columns of each record define the names of its numbers.
+namespace tabor::cases {
+
+inline constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+
+/// Outputs in which a column appears.
+namespace media {
+inline constexpr Media kObject =
+    1;                              ///< the JSON object of a verb and the attributes of its -o file
+inline constexpr Media kStore = 2;  ///< what a study stores
+inline constexpr Media kCsv = 4;    ///< results.csv, whose columns are agreed
+inline constexpr Media kTable = 8;  ///< /table of results.h5
+inline constexpr Media kObjectAndStore = kObject | kStore;
+inline constexpr Media kRow = kStore | kCsv | kTable;
+}  // namespace media
+
+/// Contact stiffness and histograms.
+struct ContactStatistics {
+  contact::Stiffness stiffness;
+  contact::Histogram pressure;
+  contact::Histogram gap;
+  contact::Histogram patch_area;
+};
+
+/// One solved contact.
+struct ContactRecord {
+  /// topography::digest_of() the pressed surface; 0 where it is not known, as in a record that was
+  /// read from a store, where the name of its file tells surfaces apart. The other records use it
+  /// in the same way.
+  std::uint64_t surface = 0;
+  contact::Summary summary;
+  Convergence convergence;
+  double fft_seconds = 0;
+  double seconds = 0;
+  std::size_t peak_memory = 0;  ///< of the program so far [bytes]
+  std::optional<ContactStatistics> statistics;
+  Warnings warnings;                    ///< of its surface and its own
+  std::vector<std::string> references;  ///< to cite: keys of references.bib; not stored
+  contact::State state;                 ///< maps; empty in a record that was read from a store
+};
+const Columns<ContactRecord>& contact_columns();
+
+/// One film as it was laid down.
+struct FilmRecord {
+  std::uint64_t surface = 0;            ///< digest of the surface below it
+  double lubricant_density = 0;         ///< [kg/m^2]
+  deposition::Film film;                ///< its place in the settings is film.request
+  std::size_t peak_memory = 0;          ///< of the program so far [bytes]
+  Warnings warnings;                    ///< its own
+  std::vector<std::string> references;  ///< to cite; not stored
+};
+const Columns<FilmRecord>& film_columns();
+
+/// One film that flows between the surfaces of one contact.
+struct FluidRecord {
+  std::uint64_t surface = 0;  ///< digest of the surface below it
+  double sliding_speed = 0;   ///< [m/s]
+  friction::FluidSummary summary;
+  Warnings warnings;
+  std::vector<std::string> references;  ///< to cite; not stored
+  friction::FluidFilmState state;       ///< maps; empty in a record that was read from a store
+};
+/// Columns for the store alone: a user sees these numbers as numbers of friction.
+const Columns<FluidRecord>& fluid_columns();
+
+/// Numbers that a flowing film adds to the friction of a contact.
+struct FlowingFriction {
+  double sliding_speed = 0;                 ///< [m/s]
+  double load_share = kNoValue;             ///< of the load, that the oil carries
+  double max_pressure = kNoValue;           ///< of the oil [Pa]
+  double contact_area_fraction = kNoValue;  ///< while sliding
+  double mean_gap = kNoValue;               ///< while sliding [m]
+  double full_fraction = kNoValue;          ///< share of the pixels whose gap is full
+  double outside_film = kNoValue;  ///< oil that the gap cannot hold, over the nominal area [m]
+  double friction_solid = kNoValue;
+  double friction_viscous = kNoValue;
+  double friction_mixed = kNoValue;
+  double load_error = kNoValue;
+  double gap_error = kNoValue;
+  double pressure_error = kNoValue;
+  int evaluations = 0;
+  int iterations = 0;
+  bool converged = false;  ///< film and load balance
+};
+
+/// The friction of one contact with one film. Numbers are NaN where there are none.
+struct FrictionRecord {
+  double mean_pressure = 0;      ///< [Pa]
+  double lubricant_density = 0;  ///< [kg/m^2]
+  double contact_area_fraction = kNoValue;
+  double contact_area_fraction_pixels = kNoValue;
+  double saturated_area_fraction = kNoValue;
+  double mean_gap = kNoValue;    ///< [m]
+  double separation = kNoValue;  ///< [m]
+  double mean_film = kNoValue;   ///< [m]
+  double lubricated_share = kNoValue;
+  double spill_over_fraction = kNoValue;
+  double trapped_fraction = kNoValue;   ///< of the liquid, in closed pockets
+  double escaping_fraction = kNoValue;  ///< of the liquid, with a path out through the gap
+  friction::Area area = friction::Area::corrected;
+  double boundary_shear_strength = 0;        ///< of wet contact [Pa]
+  double friction_area_fraction = kNoValue;  ///< that friction was computed with
+  bool dry_at_bound = false;                 ///< dry friction is tau_y / p_sat
+  double friction_dry = kNoValue;
+  double friction_lubricated = kNoValue;
+  double certificate = kNoValue;
+  double contact_gap_error = kNoValue;   ///< [m]
+  bool converged = false;                ///< contact, and film if it flows
+  std::optional<FlowingFriction> fluid;  ///< absent where the oil does not flow
+  Warnings warnings;                     ///< of its surface, contact, film and friction
+  std::vector<std::string> references;   ///< of all of them, to cite; not stored
+};
+/// Columns for tables on the terminal: the area that friction was computed with, under the name of
+/// its count, so that a table has one of the two areas and says which.
+const Columns<FrictionRecord>& friction_area_columns();
+/// Columns of friction, with or without those of a flowing film.
+Columns<FrictionRecord> friction_columns(bool oil_flows = true);
+
+}  // namespace tabor::cases

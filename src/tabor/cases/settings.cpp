@@ -1,0 +1,164 @@
+#include "tabor/cases/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "tabor/cases/parameters.hpp"
+#include "tabor/core/units.hpp"
+#include "tabor/material/library.hpp"
+#include "tabor/material/solid.hpp"
+
+namespace tabor::cases {
+namespace {
+
+std::optional<Objection> objection_to_pressure(double pressure, const ContactSettings& settings,
+                                               const Spelling& spelling) {
+  if (!bounds::above_zero.contain(pressure)) {
+    return Objection{.setting = "mean_pressure",
+                     .got = format_si(pressure, "Pa"),
+                     .expected = bounds::above_zero.text};
+  }
+  if (pressure < settings.pressure_cap()) return std::nullopt;
+  return Objection{
+      .setting = "mean_pressure",
+      .got = format_si(pressure, "Pa"),
+      .expected = "less than the saturation pressure " + format_si(settings.pressure_cap(), "Pa"),
+      .remedy = fmt::format("no contact that saturates there can carry this load; "
+                            "lower {} or raise {}",
+                            spelling("mean_pressure"), spelling("saturation_pressure"))};
+}
+
+/// Settings of a film that flows, where none does.
+std::optional<Objection> objection_to_idle(const FluidSettings& settings,
+                                           const Spelling& spelling) {
+  const std::pair<const char*, bool> given[] = {
+      {"sliding_speed", settings.sliding_speed.has_value()},
+      {"viscosity", settings.viscosity.has_value()},
+      {"pressure_viscosity", settings.pressure_viscosity.has_value()},
+      {"eyring_stress", settings.eyring_stress.has_value()}};
+  for (const auto& [setting, is_given] : given) {
+    if (!is_given) continue;
+    return Objection{
+        .setting = setting,
+        .got = "",
+        .expected = "",
+        .remedy = fmt::format("{} needs {} reynolds", spelling(setting), spelling("fluid")),
+        .is_about_use = true};
+  }
+  return std::nullopt;
+}
+
+Objection use(std::string setting, std::string remedy) {
+  return {.setting = std::move(setting),
+          .got = "",
+          .expected = "",
+          .remedy = std::move(remedy),
+          .is_about_use = true};
+}
+
+}  // namespace
+
+double ContactSettings::effective_modulus() const {
+  const material::Solid solid{youngs_modulus, poissons_ratio};
+  if (!counter_youngs_modulus) return material::effective_modulus(solid);
+  return material::effective_modulus(solid,
+                                     {*counter_youngs_modulus, counter_poissons_ratio.value_or(0)});
+}
+
+void ContactSettings::take_edges(const std::optional<topography::Edges>& edges) {
+  if (!edges || boundary) return;
+  boundary = *edges == topography::Edges::end ? Boundary::free : Boundary::periodic;
+}
+
+friction::FlowingOil FluidSettings::oil() const {
+  return {viscosity.value_or(0), pressure_viscosity, eyring_stress};
+}
+
+void take_material(std::string_view name, CaseSettings& settings) {
+  const material::NamedSolid& solid = material::find_solid(name);
+  settings.contact.material = solid.name;
+  settings.contact.youngs_modulus = solid.youngs_modulus.value;
+  settings.contact.poissons_ratio = solid.poissons_ratio.value;
+  if (solid.saturation_pressure) {
+    settings.contact.saturation_pressure = solid.saturation_pressure->value;
+  }
+  if (solid.shear_strength) settings.friction.shear_strength = solid.shear_strength->value;
+}
+
+std::optional<Objection> objection(const ContactSettings& settings,
+                                   const std::vector<double>& mean_pressures,
+                                   const Spelling& spelling) {
+  if (settings.counter_youngs_modulus.has_value() != settings.counter_poissons_ratio.has_value()) {
+    return use("counter_youngs_modulus",
+               fmt::format("{} and {} belong together; give both or none",
+                           spelling("counter_youngs_modulus"), spelling("counter_poissons_ratio")));
+  }
+  if (auto found = objection_to_bounds(contact_parameters(), settings)) return found;
+  for (const double pressure : mean_pressures) {
+    if (auto found = objection_to_pressure(pressure, settings, spelling)) return found;
+  }
+  return std::nullopt;
+}
+
+std::optional<Objection> objection(const ContactSettings& settings,
+                                   const std::optional<topography::Edges>& edges,
+                                   const Spelling& spelling) {
+  if (!edges || !settings.boundary) return std::nullopt;
+  const bool ends = *edges == topography::Edges::end;
+  if (ends == (*settings.boundary == Boundary::free)) return std::nullopt;
+  return use("edges", fmt::format("{} {} and {} {} contradict each other; give one of them",
+                                  spelling("edges"), topography::kEdges.of(*edges),
+                                  spelling("boundary"), kBoundaries.of(*settings.boundary)));
+}
+
+std::optional<Objection> objection(const FilmSettings& settings) {
+  return objection_to_bounds(film_parameters(), settings);
+}
+
+std::optional<Objection> objection(const FluidSettings& settings, const ContactSettings& contact,
+                                   const Spelling& spelling) {
+  if (!settings.flows()) return objection_to_idle(settings, spelling);
+  const std::string asked = spelling("fluid") + " reynolds ";
+  if (!settings.sliding_speed) {
+    return use("sliding_speed",
+               fmt::format("{0}needs {1}, e.g. {1} 5mm/s", asked, spelling("sliding_speed")));
+  }
+  if (!settings.viscosity) {
+    return use("viscosity",
+               fmt::format("{0}needs {1}, e.g. {1} 0.225Pa*s", asked, spelling("viscosity")));
+  }
+  if (auto found = objection_to_bounds(fluid_parameters(), settings)) {
+    if (found->setting == "sliding_speed") {
+      found->remedy = "--mirror or --flip the scan to slide the other way";
+    }
+    return found;
+  }
+  friction::lubricant_of(settings.oil());
+  if (contact.is_periodic()) return std::nullopt;
+  return use("boundary", fmt::format("{}is solved on a patch that repeats: use {} periodic", asked,
+                                     spelling("boundary")));
+}
+
+std::optional<Objection> objection(const FrictionSettings& settings, const Spelling& spelling,
+                                   std::string_view material) {
+  if (settings.shear_strength == 0 && !material.empty()) {
+    return use("shear_strength", fmt::format("{} has no shear strength in the library; add {}",
+                                             material, spelling("shear_strength")));
+  }
+  if (settings.boundary_shear_strength && settings.boundary_shear_share) {
+    return use("boundary_shear_share",
+               fmt::format("{} and {} say the same; give one of them",
+                           spelling("boundary_shear_strength"), spelling("boundary_shear_share")));
+  }
+  if (auto found = objection_to_bounds(friction_parameters(), settings)) return found;
+  const double boundary = settings.boundary_strength();
+  if (boundary <= settings.shear_strength) return std::nullopt;
+  return Objection{
+      .setting = "boundary_shear_strength",
+      .got = format_si(boundary, "Pa"),
+      .expected = "zero to the shear strength, " + format_si(settings.shear_strength, "Pa")};
+}
+
+}  // namespace tabor::cases

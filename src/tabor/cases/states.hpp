@@ -1,0 +1,106 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tabor/cases/records.hpp"
+#include "tabor/cases/settings.hpp"
+#include "tabor/elastic/operator.hpp"
+#include "tabor/topography/topography.hpp"
+
+// Computes contact, film, flowing film and friction of a treated surface, in this order. Verbs,
+// studies and programs call the same functions and get the same records. All throw InputError for
+// invalid input and Interrupted where the observer asks to stop; not converging is returned.
+namespace tabor::cases {
+
+/// Makes the elastic half-space of the settings on a grid, for any number of contacts.
+std::unique_ptr<elastic::ElasticOperator> make_operator(const ContactSettings& settings,
+                                                        const Grid& grid);
+
+/// Solves one contact of the surface under a mean pressure [Pa]; the record has the warnings of
+/// both.
+ContactRecord contact_state(elastic::ElasticOperator& elasticity,
+                            const topography::Topography& surface, const ContactSettings& settings,
+                            double mean_pressure, const Observer& observer = {});
+ContactRecord contact_state(const topography::Topography& surface, const ContactSettings& settings,
+                            double mean_pressure, const Observer& observer = {});
+
+/// Surface as the contacts of a load path have left it so far.
+struct LoadPath {
+  Field height;  ///< unloaded [m]; empty before the first contact
+};
+
+/// Solves the next contact of a load path, on the surface that the contacts before it have left;
+/// without a load path in the settings, on the surface as it is.
+ContactRecord contact_state(elastic::ElasticOperator& elasticity,
+                            const topography::Topography& surface, const ContactSettings& settings,
+                            double mean_pressure, LoadPath& path, const Observer& observer = {});
+
+/// Solves the contacts of all pressures, one after the other; hands each record on and then drops
+/// it. Along a load path, each contact is on the surface that the one before has left.
+void contact_states(elastic::ElasticOperator& elasticity, const topography::Topography& surface,
+                    const ContactSettings& settings, const std::vector<double>& mean_pressures,
+                    const std::function<void(ContactRecord&&)>& receive,
+                    const Observer& observer = {});
+
+/// Returns the dose of a rain with these settings.
+deposition::Dose dose_of(const FilmSettings& settings);
+
+/// Lays down the films of all densities in one rain, in rising order of density; `receive` gets
+/// each when it is complete, so that only one is in memory.
+void film_state(const topography::Topography& surface, const FilmSettings& settings,
+                const std::function<void(FilmRecord&&)>& receive, const Observer& observer = {});
+/// Returns the films of all densities in the order of the settings.
+std::vector<FilmRecord> film_state(const topography::Topography& surface,
+                                   const FilmSettings& settings, const Observer& observer = {});
+
+/// Computes the flow of a film [m] between the surfaces of `dry`, a contact of this height [m]
+/// under this mean pressure [Pa].
+FluidRecord fluid_state(elastic::ElasticOperator& elasticity, const Field& height,
+                        const contact::State& dry, double mean_pressure, const Field& film,
+                        const ContactSettings& contact, const FluidSettings& settings,
+                        const Observer& observer = {});
+
+/// Computes the same flow from records, which must be of this surface.
+FluidRecord fluid_state(elastic::ElasticOperator& elasticity, const topography::Topography& surface,
+                        const ContactRecord& dry, const FilmRecord& film,
+                        const ContactSettings& contact, const FluidSettings& settings,
+                        const Observer& observer = {});
+
+/// Contact mask and gap of a closed contact; maps of one shape.
+struct Closed {
+  const Mask& contact;
+  const Field& gap;  ///< [m]
+  const Grid& grid;
+};
+
+/// Computes the friction of a contact with a film and, where it flows, with its flow (else null),
+/// all on one surface.
+FrictionRecord friction_state(const ContactRecord& contact, const Closed& closed,
+                              const FilmRecord& film, const FluidRecord* fluid,
+                              const ContactSettings& contact_settings,
+                              const FrictionSettings& settings);
+
+/// Estimates the friction of the solids, of which liquid covers a share.
+friction::Estimate estimate_of(const contact::Summary& contact, double lubricated_share,
+                               const ContactSettings& contact_settings,
+                               const FrictionSettings& settings);
+
+/// Estimates the friction of the solids and adds its warnings to a list.
+friction::Estimate dry_friction(const ContactRecord& contact, double lubricated_share,
+                                double spill_over_fraction, const ContactSettings& contact_settings,
+                                const FrictionSettings& settings, Warnings& warnings);
+
+/// Returns what to cite, as keys of references.bib.
+std::vector<std::string> references_of(const ContactSettings& settings);
+std::vector<std::string> references_of(const FilmSettings& settings);
+std::vector<std::string> references_of(const FluidSettings& settings);
+std::vector<std::string> references_of(const FrictionSettings& settings);
+std::vector<std::string> references_of(const CaseSettings& settings);
+
+/// Appends the keys that are not in the list yet.
+void add(const std::vector<std::string>& more, std::vector<std::string>& references);
+
+}  // namespace tabor::cases

@@ -1,0 +1,131 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tabor/cases/warnings.hpp"
+#include "tabor/core/units.hpp"
+
+namespace tabor::cases {
+namespace {
+
+/// Costagliola et al. 2021 find a few percent; where more does not fit, where it goes decides.
+constexpr double kSpillOver = 0.05;
+/// Beyond, most of the contact is counted as frictionless.
+constexpr double kWetShare = 0.5;
+/// A share of itself: beyond, a wet share says more of the pixel than of the surface.
+constexpr double kPixelChange = 0.2;
+/// Clean metals in vacuum seize beyond; between technical surfaces nobody measures more.
+constexpr double kLargestFriction = 2;
+
+std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
+
+/// The step that took short waves from the scan, "" if none did.
+std::string low_pass_of(const topography::Topography& surface) {
+  for (const std::string& step : surface.history) {
+    if (step.starts_with("lowpass=")) return step.substr(0, step.find(": "));
+  }
+  return "";
+}
+
+Warning clamp(const friction::Contact& contact, const friction::Estimate& estimate) {
+  if (estimate.at_bound) {
+    return {"clamp",
+            "Dry friction equals tau_y/p_sat: the area is at its bound and says nothing of the "
+            "surface; <area=pixels> counts it"};
+  }
+  const double excess =
+      estimate.area_fraction * contact.saturation_pressure / contact.mean_pressure - 1;
+  return {"clamp",
+          fmt::format("Dry friction equals tau_y/p_sat: almost every contact pixel has yielded. "
+                      "Partly loaded pixels at contact edges add {:.2g} %",
+                      100 * excess),
+          excess};
+}
+
+void warn_of_size(const char* which, double friction, Warnings& list) {
+  if (!(friction > kLargestFriction)) return;
+  list.push_back({"implausible-friction",
+                  fmt::format("{} friction of {:.3g}: above {} no solids slide; check the shear "
+                              "strength and the contact area",
+                              which, friction, kLargestFriction),
+                  friction});
+}
+
+}  // namespace
+
+Warnings of_film(const topography::Topography& surface, const deposition::Film& film) {
+  Warnings list;
+  const std::string filter = low_pass_of(surface);
+  if (!filter.empty() && film.mean_film > 0) {
+    list.push_back(
+        {"filtered",
+         fmt::format("oil on a filtered scan ({}): pockets that it smooths away hold oil, "
+                     "the wet share is larger without",
+                     filter)});
+  }
+  if (const double least = film.thickness.minCoeff(); film.flooded || least > 0) {
+    list.push_back({"flood",
+                    fmt::format("a mean film of {} floods the surface: its highest point is under "
+                                "{} of oil, no contact is dry",
+                                format_si(film.mean_film, "m"), format_si(least, "m")),
+                    least});
+  }
+  const Index n_pixels = film.thickness.size();
+  if (film.n_droplets > 0 && film.n_droplets < n_pixels) {
+    list.push_back(
+        {"few-droplets",
+         fmt::format("{} droplets for {} pixels: the map shows single ones, not their mean; "
+                     "<model=limit> or a smaller <droplet_height>",
+                     film.n_droplets, n_pixels),
+         1 / static_cast<double>(film.n_droplets)});
+  }
+  if (film.lost_volume > 0) {
+    const double share = film.lost_volume / film.dosed_volume;
+    list.push_back({"oil-lost",
+                    fmt::format("{} of the liquid ran off the open edges", percent(share)), share});
+  }
+  return list;
+}
+
+Warnings of_friction(const friction::Contact& contact, const friction::Estimate& estimate,
+                     double spill_over_fraction, const FrictionSettings& settings) {
+  Warnings list;
+  if (estimate.corrected_at_bound) list.push_back(clamp(contact, estimate));
+  if (spill_over_fraction > kSpillOver) {
+    list.push_back(
+        {"spill-over",
+         fmt::format("{:.2g} % of the oil no longer fits when the surfaces close; the wet "
+                     "share assumes the oil stays where it was deposited",
+                     100 * spill_over_fraction),
+         spill_over_fraction});
+  }
+  if (contact.lubricated_share > kWetShare && settings.boundary_strength() == 0) {
+    list.push_back({"frictionless",
+                    fmt::format("wet contact counts as frictionless, and {} of the contact is wet; "
+                                "<boundary_shear_strength> gives it friction",
+                                percent(contact.lubricated_share)),
+                    contact.lubricated_share});
+  }
+  warn_of_size("dry", estimate.friction_dry, list);
+  return list;
+}
+
+Warnings of_pixel(double coarse_pixel, double coarse_share, double pixel, double share) {
+  const double change = std::abs(share - coarse_share) / std::max(share, coarse_share);
+  if (!(change > kPixelChange)) return {};
+  return {{"pixel",
+           fmt::format("the wet share depends on the pixel: {} with {}, {} with {}; a finer scan "
+                       "would change it again",
+                       percent(coarse_share), format_si(coarse_pixel, "m"), percent(share),
+                       format_si(pixel, "m")),
+           change}};
+}
+
+Warnings of_mixed_friction(const friction::MixedEstimate& mixed) {
+  Warnings list;
+  warn_of_size("mixed", mixed.friction_mixed, list);
+  return list;
+}
+
+}  // namespace tabor::cases

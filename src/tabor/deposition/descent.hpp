@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "tabor/deposition/pools.hpp"
+
+// Numbers the pools so that all descendants of a pool follow it, which makes ancestry one
+// comparison.
+namespace tabor::deposition {
+
+/// Numbers the pools in the order of a walk through the tree of pools, in which all descendants of
+/// a pool follow it directly. Valid until pools get new numbers.
+class Descent {
+ public:
+  explicit Descent(const Pools& pools);
+
+  bool within(PoolId inner, PoolId outer) const {
+    return first(outer) <= first(inner) && first(inner) < end(outer);
+  }
+  /// Returns the numbers of a pool and its descendants: [first, end).
+  std::int32_t first(PoolId id) const { return first_[static_cast<std::size_t>(id)]; }
+  std::int32_t end(PoolId id) const { return end_[static_cast<std::size_t>(id)]; }
+
+ private:
+  void walk(const std::vector<PoolId>& child, const std::vector<PoolId>& sibling,
+            std::vector<PoolId>& open);
+
+  std::vector<std::int32_t> first_;
+  std::vector<std::int32_t> end_;
+};
+
+/// Pools that unite in one parent; finds the child that holds a descendant.
+class Children {
+ public:
+  /// `by_first`: all pools, in the order of their numbers in `descent`.
+  Children(const Descent& descent, const std::vector<PoolId>& by_first, PoolId parent);
+
+  std::size_t count() const { return ids_.size(); }
+  PoolId operator[](std::size_t place) const { return ids_[place]; }
+  /// Returns the place of the child that is, or holds, this descendant. In logarithmic time.
+  std::size_t holding(PoolId descendant) const;
+
+ private:
+  const Descent* descent_;
+  std::vector<PoolId> ids_;  ///< ascending in number
+};
+
+}  // namespace tabor::deposition

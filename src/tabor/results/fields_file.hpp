@@ -1,0 +1,127 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tabor/cases/records.hpp"
+#include "tabor/cases/settings.hpp"
+#include "tabor/core/column.hpp"
+#include "tabor/core/names.hpp"
+#include "tabor/io/columns.hpp"
+#include "tabor/io/hdf5.hpp"
+#include "tabor/io/json.hpp"
+#include "tabor/results/findings.hpp"
+#include "tabor/topography/topography.hpp"
+
+// Writes the result files of contacts, films and their friction.
+namespace tabor::results {
+
+/// Attributes that every result file begins with.
+struct ResultHead {
+  std::string command;               ///< that made it
+  std::string config_toml;           ///< every setting in force
+  std::vector<std::string> methods;  ///< keys of references.bib
+};
+void write_result_head(io::Hdf5Writer& writer, const ResultHead& head);
+
+/// Writes the attributes that every result file ends with: the lines of warnings, and the class of
+/// each.
+void write_warnings(io::Hdf5Writer& writer, const std::vector<Finding>& warnings);
+
+/// Returns settings in force as flat objects, for the JSON head and result files.
+io::Json settings_json(const cases::ContactSettings& settings);
+io::Json settings_json(const cases::FilmSettings& settings);
+io::Json settings_json(const cases::FluidSettings& settings);
+/// Returns all settings of a case, those of friction included.
+io::Json settings_json(const cases::CaseSettings& settings);
+
+/// Returns a flat JSON object as TOML lines; nulls are left out.
+std::string toml_of(const io::Json& settings);
+
+/// One map of a state.
+struct StateField {
+  std::string name;  ///< "pressure"
+  std::string unit;  ///< "Pa"
+  std::string long_name;
+  const Field& map;
+  std::string owner = {};  ///< maps of one name and owner are the same one, stored once; "": none
+};
+
+/// Maps that a result file stores.
+enum class Fields {
+  none,     ///< numbers alone
+  contact,  ///< heights, contact pressure and film thickness
+  all
+};
+inline constexpr auto kFields = names<Fields>("none", "contact", "all");
+
+/// Selection and precision of the stored maps.
+struct FieldsOptions {
+  Fields fields = Fields::all;
+  bool doubles = false;  ///< maps are float64 and not float32
+};
+
+/// The scan file that a surface comes from.
+struct ScanOrigin {
+  std::string path;
+  std::string sha256;  ///< of its bytes; "" if it is of no file
+};
+
+/// Returns the maps of a record.
+std::vector<StateField> fields_of(const cases::ContactRecord& record);
+std::vector<StateField> fields_of(const cases::FilmRecord& record);
+std::vector<StateField> fields_of(const cases::FluidRecord& record);
+/// Returns the maps of a friction; `fluid` is null where the oil does not flow. A contact is the
+/// same under all films, and a film on all contacts.
+std::vector<StateField> fields_of(const cases::ContactRecord& contact,
+                                  const cases::FilmRecord& film, const cases::FluidRecord* fluid);
+
+/// Returns a density as text: "0.9 g/m^2".
+std::string density_text(double density);
+
+/// Returns the case that a warning of the record names.
+Case case_of(const cases::ContactRecord& record);
+Case case_of(const cases::FilmRecord& record);
+Case case_of(const cases::FrictionRecord& record);
+
+/// The `-o` file of contact, lubricate and friction (docs/results.md): HDF5, or by the extension
+/// .vti the maps alone, for ParaView. Nothing appears under its name before commit().
+class FieldsFile {
+ public:
+  /// Throws InputError for a .vti without maps.
+  FieldsFile(const std::filesystem::path& file, const FieldsOptions& options,
+             const ResultHead& head, const topography::Topography& surface,
+             const ScanOrigin& origin);
+
+  /// Adds /states/NNNN: scalars as attributes, the first field as what viewers plot.
+  void add_state(std::size_t number, const NamedCells& scalars,
+                 const std::vector<StateField>& fields);
+  /// Adds columns of one length under `group`, of all states together.
+  template <typename Record>
+  void add_table(const std::string& group, const Columns<Record>& columns,
+                 const std::vector<Record>& records) {
+    io::write_datasets(writer_, group, columns, records);
+  }
+  /// Adds the answers that the numbers give, in sentences.
+  void add_answers(const std::vector<std::string>& sentences) {
+    writer_.attribute("/", "answers", sentences);
+  }
+  /// Completes the file with its warnings. Makes no file where no state was added.
+  void commit(const std::vector<Finding>& warnings);
+
+ private:
+  io::Precision precision() const;
+  void write_axes(const std::string& group);
+  void write_map(const std::string& group, const StateField& field);
+
+  std::filesystem::path file_;
+  io::Hdf5Writer writer_;
+  Grid grid_;
+  FieldsOptions options_;
+  std::map<std::string, std::string> stored_;  ///< path of each stored map, by its owner
+  std::size_t n_states_ = 0;
+};
+
+}  // namespace tabor::results
