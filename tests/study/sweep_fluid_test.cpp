@@ -1,12 +1,13 @@
 #include <cmath>
 
 #include "study/example_study.hpp"
+#include "tabor/cases/states.hpp"
 #include "tabor/contact/contact.hpp"
 #include "tabor/io/csv.hpp"
 #include "tabor/io/hdf5.hpp"
 #include "tabor/io/json.hpp"
-#include "tabor/study/compute.hpp"
 #include "tabor/study/record.hpp"
+#include "tabor/study/treated_scan.hpp"
 
 // Studies whose oil flows.
 namespace tabor::study {
@@ -91,7 +92,8 @@ TEST(FlowingSweep, AgreesWithTheSolverItself) {
   const Study study = example.read();
   const ScanTasks tasks = tasks_of(study)[0];
   const topography::Topography surface = treated_surface(study, study.scans[0], tasks.sha256, {});
-  const contact::State dry = solve_contact(study, surface, study.settings.mean_pressures[0], {});
+  const contact::State dry =
+      cases::contact_state(surface, study.settings.contact, study.settings.mean_pressures[0]).state;
   const engine::Store store(example.results(), engine::Store::Use::alone);
   const cases::FluidRecord stored = read_fluid(store, tasks.fluids[0][1]);
   ASSERT_TRUE(stored.summary.convergence.converged());

@@ -1,230 +1,264 @@
 #include "tabor/study/friction_jobs.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/units.hpp"
 #include "tabor/engine/made_once.hpp"
 #include "tabor/io/hdf5_guard.hpp"
-#include "tabor/study/compute.hpp"
+#include "tabor/study/friction_graph.hpp"
+#include "tabor/study/record.hpp"
+#include "tabor/study/treated_scan.hpp"
+#include "tabor/study/wet_shares.hpp"
 
 namespace tabor::study {
 namespace {
-
-engine::Quality quality_of_row(const Row& row) {
-  if (row.failed()) return engine::Quality::failed;
-  return row.converged ? engine::Quality::converged : engine::Quality::not_converged;
-}
 
 engine::Quality quality_of(bool converged) {
   return converged ? engine::Quality::converged : engine::Quality::not_converged;
 }
 
-/// Without its maps.
+engine::Quality quality_of_row(const Row& row) {
+  return row.failed() ? engine::Quality::failed : quality_of(row.converged);
+}
+
+/// Reads whether a stored contact converged, without its maps.
 bool contact_converged(const engine::Store& store, const engine::Task& task) {
   return io::read_guarded(store.path(task), [](const io::Hdf5Reader& reader) {
            return reader.number("/contact", "converged");
          }) != 0;
 }
 
-/// What the jobs of one scan share: all that outlives them, and its treated surface.
-struct ScanOfJobs {
-  const engine::Store& store;
-  const Study study;  ///< of this scan alone
-  const Scan& scan;
-  const ScanTasks& tasks;
-  engine::MadeOnce<topography::Topography> treated = {};
-  cases::WettingDoses doses = {};  ///< made by a job of its own for those that need it
+std::vector<FilmCondition> conditions_of(const Study& study) {
+  std::vector<FilmCondition> conditions;
+  for (const Condition& one : study.conditions()) {
+    conditions.push_back({one.density, study.fluid_settings(one)});
+  }
+  return conditions;
+}
+
+/// Results of one scan in the folder of its study.
+class FrictionInFolder : public FrictionStore,
+                         public std::enable_shared_from_this<FrictionInFolder> {
+ public:
+  FrictionInFolder(const engine::Store& folder, Study study, const Scan& scan,
+                   const ScanTasks& tasks, std::size_t first_part)
+      : FrictionStore(study.settings, conditions_of(study)),
+        folder_(folder),
+        study_(std::move(study)),
+        scan_(scan),
+        tasks_(tasks),
+        first_part_(first_part) {}
+
+  const ScanTasks& tasks() const { return tasks_; }
+
+  void describe(const FrictionPlace& place, engine::Job& job) override {
+    if (const engine::Task* task = task_of(place)) attach(*task, job);
+    const bool is_of_scan =
+        place.kind == FrictionJob::film || place.kind == FrictionJob::wetting_doses;
+    job.stage =
+        stage_name(job.kind, scan_, is_of_scan ? 0 : settings().mean_pressures[place.pressure]);
+    if (!is_of_scan) job.part = first_part_ + place.pressure;
+    add_quality(place, job);
+    if (place.kind == FrictionJob::friction) describe_row(place, job);
+  }
+
+  /// Returns the job that stores the treated scan with its spectra; no friction needs it.
+  engine::Job surface_job() {
+    engine::Job job;
+    attach(tasks_.surface, job);
+    job.kind = "surface";
+    job.stage = stage_name(job.kind, scan_);
+    job.memory = [self = shared_from_this()](const engine::Monitor& monitor) {
+      return bytes_of_job(self->surface(monitor)->grid, self->flows());
+    };
+    job.compute = [self = shared_from_this()](const engine::Monitor& monitor) {
+      const Surface treated = self->surface(monitor);
+      write_surface(self->folder_, self->tasks_.surface, *treated,
+                    metrology::power_spectra(*treated));
+    };
+    return job;
+  }
 
   /// Made by the first who asks, and gone with the last job.
-  std::shared_ptr<const topography::Topography> surface(const engine::Monitor& monitor) {
-    return treated.get([&] {
-      return treated_surface(study, scan, tasks.sha256, monitor.shared(stage_name("read", scan)));
+  Surface surface(const engine::Monitor& monitor) override {
+    return treated_.get([&] {
+      return treated_surface(study_, scan_, tasks_.sha256,
+                             monitor.shared(stage_name("read", scan_)));
     });
   }
-};
-using SharedScan = std::shared_ptr<ScanOfJobs>;
-using SharedContact = std::shared_ptr<engine::MadeOnce<contact::State>>;
-
-engine::Job job_of(const std::string& kind, const SharedScan& scan, const engine::Task& task) {
-  engine::Job job;
-  job.task = task;
-  job.kind = kind;
-  job.defect = [scan, task] { return defect(scan->store, task); };
-  job.memory = [scan](const engine::Monitor& monitor) {
-    return bytes_of_job(scan->surface(monitor)->grid, scan->study.flows());
-  };
-  return job;
-}
-
-engine::Job surface_job(const SharedScan& scan) {
-  engine::Job job = job_of("surface", scan, scan->tasks.surface);
-  job.stage = stage_name("surface", scan->scan);
-  job.compute = [scan](const engine::Monitor& monitor) {
-    compute_surface(scan->store, scan->tasks.surface, *scan->surface(monitor));
-  };
-  return job;
-}
-
-engine::Job film_job(const SharedScan& scan) {
-  engine::Job job = job_of("film", scan, scan->tasks.film);
-  job.stage = stage_name("film", scan->scan);
-  job.is_serial = true;
-  job.compute = [scan](const engine::Monitor& monitor) {
-    compute_film(scan->store, scan->tasks.film, scan->study, *scan->surface(monitor), monitor.own);
-  };
-  return job;
-}
-
-/// Nothing of it is stored: it is done for the contacts whose wet shares are missing.
-engine::Job doses_job(const SharedScan& scan) {
-  engine::Job job = job_of("wetting doses", scan, {});
-  job.defect = nullptr;
-  job.stage = stage_name("wetting doses", scan->scan);
-  job.is_serial = true;
-  job.compute = [scan](const engine::Monitor& monitor) {
-    scan->doses =
-        cases::wetting_doses(*scan->surface(monitor), scan->study.settings.film, monitor.own);
-  };
-  return job;
-}
-
-engine::Job wet_shares_job(const SharedScan& scan, std::size_t pressure) {
-  engine::Job job = job_of(kWetSharesKind, scan, scan->tasks.wet_shares[pressure]);
-  job.is_brief = true;
-  job.memory = nullptr;
-  job.compute = [scan, pressure](const engine::Monitor&) {
-    compute_wet_shares(scan->store, scan->tasks.wet_shares[pressure],
-                       scan->tasks.contacts[pressure], scan->doses);
-  };
-  return job;
-}
-
-engine::Job contact_job(const SharedScan& scan, std::size_t pressure) {
-  const engine::Task& task = scan->tasks.contacts[pressure];
-  const double load = scan->study.settings.mean_pressures[pressure];
-  engine::Job job = job_of("contact", scan, task);
-  job.stage = stage_name("contact", scan->scan, load);
-  job.quality = [scan, task] { return quality_of(contact_converged(scan->store, task)); };
-  job.compute = [scan, task, load](const engine::Monitor& monitor) {
-    compute_contact(scan->store, task, scan->study, *scan->surface(monitor), load, monitor.own);
-  };
-  return job;
-}
-
-engine::Job fluid_job(const SharedScan& scan, const SharedContact& dry, std::size_t pressure,
-                      std::size_t condition) {
-  const engine::Task& task = scan->tasks.fluids[pressure][condition];
-  const double load = scan->study.settings.mean_pressures[pressure];
-  engine::Job job = job_of("fluid", scan, task);
-  job.stage = stage_name("flow", scan->scan, load);
-  job.restarts = true;  // with a contact within each step of the film
-  job.quality = [scan, task] {
-    return quality_of(read_fluid(scan->store, task).summary.convergence.converged());
-  };
-  job.compute = [scan, dry, load, pressure, condition](const engine::Monitor& monitor) {
-    const auto surface = scan->surface(monitor);
-    const auto contact =
-        dry->get([&] { return solve_contact(scan->study, *surface, load, monitor.own); });
-    compute_fluid(scan->store, scan->study, *surface, *contact, scan->tasks, pressure, condition,
-                  monitor.own);
-  };
-  return job;
-}
-
-engine::Job row_job(const SharedScan& scan, std::size_t pressure, std::size_t condition) {
-  const engine::Task& task = scan->tasks.cases[pressure][condition];
-  engine::Job job = job_of("case", scan, task);
-  job.is_brief = true;
-  job.memory = nullptr;
-  job.quality = [scan, task] { return quality_of_row(read_row(scan->store, task)); };
-  job.compute = [scan, pressure, condition](const engine::Monitor&) {
-    try {
-      compute_row(scan->store, scan->study, scan->scan, scan->tasks, pressure, condition);
-    } catch (const InputError& damage) {  // of a file of this store, which is no fault of the case
-      throw Error(damage.what());
-    }
-  };
-  job.record_failure = [scan, pressure, condition](const std::string& error) {
-    record_failure(scan->store, scan->study, scan->scan, scan->tasks, pressure, condition, error);
-  };
-  return job;
-}
-
-/// The list of all jobs as it grows.
-class JobList {
- public:
-  void add(const SharedScan& scan) {
-    surface_ = add(surface_job(scan), {});
-    film_ = add(film_job(scan), {});
-    if (!scan->tasks.wet_shares.empty()) doses_ = add(doses_job(scan), {});
-    shown_ = {surface_};
-    const std::size_t n_pressures = scan->tasks.contacts.size();
-    contacts_.clear();
-    for (std::size_t pressure = 0; pressure < n_pressures; ++pressure) add_contact(scan, pressure);
-    for (std::size_t pressure = 0; pressure < n_pressures; ++pressure) add_flows(scan, pressure);
-    part_ += n_pressures;
+  std::shared_ptr<const Mask> touching(std::size_t pressure) override {
+    return std::make_shared<const Mask>(read_contact_mask(folder_, tasks_.contacts[pressure]));
   }
+  /// The folder holds no displacements: the contact is solved once more for all films in it.
+  std::shared_ptr<const contact::State> dry_contact(
+      std::size_t pressure, const std::function<contact::State()>& solve) override {
+    return dry_contacts_[pressure].get(solve);
+  }
+  std::shared_ptr<const Field> film(std::size_t density) override {
+    return std::make_shared<const Field>(read_film(folder_, tasks_.film, density));
+  }
+  FrictionInputs inputs(const FrictionPlace& place) override;
 
-  std::vector<engine::Job> take() { return std::move(jobs_); }
+  void store_films(const Surface& surface, const LayFilms& lay) override {
+    FilmFile file(folder_, tasks_.film, surface->grid);
+    lay([&file](cases::FilmRecord&& film) { file.add(film); });
+    file.commit();
+  }
+  void store(const FrictionPlace& place, const Surface& surface,
+             cases::ContactRecord&& contact) override {
+    write_contact(folder_, tasks_.contacts[place.pressure], surface->grid,
+                  settings().contact.pressure_cap(), contact);
+  }
+  void store(const FrictionPlace& place, WetShares&& shares) override {
+    write_wet_shares(folder_, tasks_.wet_shares[place.pressure], shares);
+  }
+  void store(const FrictionPlace& place, const Surface& surface,
+             cases::FluidRecord&& fluid) override {
+    const Condition under = study_.conditions().at(place.condition);
+    write_fluid(folder_, tasks_.fluids[place.pressure][place.condition], surface->grid, fluid,
+                {{"mean_pressure_Pa", settings().mean_pressures[place.pressure]},
+                 {"lubricant_density_g_per_m2", in_g_per_m2(study_.lubricant_density(under))},
+                 {"sliding_speed_m_per_s", fluid.sliding_speed}});
+  }
+  void store(const FrictionPlace& place, cases::FrictionRecord&& friction) override {
+    Row row;
+    static_cast<cases::FrictionRecord&>(row) = std::move(friction);
+    store_row(place, std::move(row));
+  }
 
  private:
-  void add_contact(const SharedScan& scan, std::size_t pressure) {
-    contacts_.push_back(add(contact_job(scan, pressure), {}, part_ + pressure));
-    if (scan->study.flows()) return;
-    shown_ = {surface_};
-    if (!scan->tasks.wet_shares.empty()) {
-      shown_.push_back(
-          add(wet_shares_job(scan, pressure), {contacts_[pressure], doses_}, part_ + pressure));
+  const engine::Task* task_of(const FrictionPlace& place) const {
+    switch (place.kind) {
+      case FrictionJob::film:
+        return &tasks_.film;
+      case FrictionJob::wetting_doses:
+        return nullptr;  // for wet shares that are missing
+      case FrictionJob::contact:
+        return &tasks_.contacts[place.pressure];
+      case FrictionJob::wet_shares:
+        return &tasks_.wet_shares[place.pressure];
+      case FrictionJob::fluid:
+        return &tasks_.fluids[place.pressure][place.condition];
+      case FrictionJob::friction:
+        return &tasks_.cases[place.pressure][place.condition];
     }
-    for (std::size_t i = 0; i < scan->tasks.cases[pressure].size(); ++i) {
-      add_row(scan, pressure, i, {contacts_[pressure], film_});
+    return nullptr;
+  }
+
+  void attach(const engine::Task& task, engine::Job& job) const {
+    job.task = task;
+    job.defect = [&folder = folder_, task] { return study::defect(folder, task); };
+  }
+
+  void add_quality(const FrictionPlace& place, engine::Job& job) const {
+    const engine::Task& task = job.task;
+    if (place.kind == FrictionJob::contact) {
+      job.quality = [&folder = folder_, task] {
+        return quality_of(contact_converged(folder, task));
+      };
+    } else if (place.kind == FrictionJob::fluid) {
+      job.quality = [&folder = folder_, task] {
+        return quality_of(read_fluid(folder, task).summary.convergence.converged());
+      };
+    } else if (place.kind == FrictionJob::friction) {
+      job.quality = [&folder = folder_, task] { return quality_of_row(read_row(folder, task)); };
     }
   }
 
-  /// The contact without oil is solved once for all films that flow in it.
-  void add_flows(const SharedScan& scan, std::size_t pressure) {
-    const auto dry = std::make_shared<engine::MadeOnce<contact::State>>();
-    for (std::size_t i = 0; i < scan->tasks.fluids[pressure].size(); ++i) {
-      const std::size_t fluid =
-          add(fluid_job(scan, dry, pressure, i), {contacts_[pressure], film_}, part_ + pressure);
-      add_row(scan, pressure, i, {contacts_[pressure], film_, fluid});
+  void describe_row(const FrictionPlace& place, engine::Job& job) {
+    job.compute = [compute = std::move(job.compute)](const engine::Monitor& monitor) {
+      try {
+        compute(monitor);
+      } catch (
+          const InputError& damage) {  // of a file of this store, which is no fault of the case
+        throw Error(damage.what());
+      }
+    };
+    job.record_failure = [self = shared_from_this(), place](const std::string& error) {
+      Row row;
+      row.error = error;
+      self->store_row(place, std::move(row));
+    };
+  }
+
+  /// Stores a row under its case.
+  void store_row(const FrictionPlace& place, Row&& row) const {
+    const engine::Task& task = tasks_.cases[place.pressure][place.condition];
+    const Condition under = study_.conditions().at(place.condition);
+    row.case_id = task.key;
+    row.scan = scan_.label;
+    row.group = scan_.group;
+    row.mean_pressure = settings().mean_pressures[place.pressure];
+    if (row.failed()) {
+      row.lubricant_density = study_.lubricant_density(under);
+      if (flows()) row.fluid.emplace().sliding_speed = study_.sliding_speeds[under.speed];
     }
+    write_row(folder_, task, row);
   }
 
-  void add_row(const SharedScan& scan, std::size_t pressure, std::size_t condition,
-               std::vector<std::size_t> needs) {
-    add(row_job(scan, pressure, condition), std::move(needs), part_ + pressure);
-    jobs_.back().wants = shown_;
-  }
-
-  std::size_t add(engine::Job job, std::vector<std::size_t> needs,
-                  std::optional<std::size_t> part = {}) {
-    job.needs = std::move(needs);
-    job.part = part;
-    jobs_.push_back(std::move(job));
-    return jobs_.size() - 1;
-  }
-
-  std::vector<engine::Job> jobs_;
-  std::size_t part_ = 0;  // of the first pressure of the scan
-  std::size_t surface_ = 0;
-  std::size_t film_ = 0;
-  std::size_t doses_ = 0;
-  std::vector<std::size_t> shown_;  // beside the rows of a pressure
-  std::vector<std::size_t> contacts_;
+  const engine::Store& folder_;
+  const Study study_;  ///< of this scan alone
+  const Scan& scan_;
+  const ScanTasks& tasks_;
+  std::size_t first_part_;
+  engine::MadeOnce<topography::Topography> treated_;
+  std::vector<engine::MadeOnce<contact::State>> dry_contacts_ =
+      std::vector<engine::MadeOnce<contact::State>>(study_.settings.mean_pressures.size());
 };
+
+FrictionInputs FrictionInFolder::inputs(const FrictionPlace& place) {
+  const Condition under = study_.conditions().at(place.condition);
+  const auto contact =
+      std::make_shared<const StoredContact>(read_contact(folder_, tasks_.contacts[place.pressure]));
+  const auto film =
+      std::make_shared<cases::FilmRecord>(read_film_record(folder_, tasks_.film, under.density));
+  film->lubricant_density = study_.lubricant_density(under);
+  const Field& thickness = film->film.thickness;
+  if (thickness.rows() != contact->gap.rows() || thickness.cols() != contact->gap.cols()) {
+    throw InputError("the store", "a film and a contact of two sizes", "both of one surface",
+                     "remove the folder store and run the sweep again");
+  }
+  std::shared_ptr<cases::FluidRecord> fluid;
+  if (flows()) {
+    fluid = std::make_shared<cases::FluidRecord>(
+        read_fluid(folder_, tasks_.fluids[place.pressure][place.condition]));
+    fluid->sliding_speed = study_.sliding_speeds[under.speed];
+  }
+  return {contact, {contact, &contact->contact}, {contact, &contact->gap}, contact->grid, film,
+          fluid};
+}
+
+/// Appends the jobs of one scan; rows of a pressure are shown with its surface and wet shares.
+void add_scan(const std::shared_ptr<FrictionInFolder>& scan, std::vector<engine::Job>& jobs) {
+  FrictionGraph graph(scan, jobs);
+  const std::size_t surface = graph.add(scan->surface_job(), {});
+  const bool has_wet_shares = !scan->tasks().wet_shares.empty();
+  graph.add_rain(has_wet_shares);
+  for (std::size_t i = 0; i < scan->settings().mean_pressures.size(); ++i) {
+    graph.add_contact(i);
+    std::vector<std::size_t> shown = {surface};
+    if (has_wet_shares) shown.push_back(graph.add_wet_shares(i));
+    for (const std::size_t place : graph.add_frictions(i)) jobs[place].wants = shown;
+  }
+}
 
 }  // namespace
 
 std::vector<engine::Job> friction_jobs(const engine::Store& store, const Study& study,
                                        const std::vector<ScanTasks>& tasks) {
-  JobList jobs;
+  std::vector<engine::Job> jobs;
+  std::size_t n_parts = 0;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    jobs.add(SharedScan(new ScanOfJobs{store, study.of(study.scans[i]), study.scans[i], tasks[i]}));
+    add_scan(std::make_shared<FrictionInFolder>(store, study.of(study.scans[i]), study.scans[i],
+                                                tasks[i], n_parts),
+             jobs);
+    n_parts += tasks[i].contacts.size();
   }
-  return jobs.take();
+  return jobs;
 }
 
 }  // namespace tabor::study

@@ -5,6 +5,7 @@
 #include "tabor/engine/engine.hpp"
 #include "tabor/engine/plan.hpp"
 #include "tabor/engine/store.hpp"
+#include "tabor/study/friction_graph.hpp"
 #include "tabor/study/friction_jobs.hpp"
 #include "tabor/study/sweep.hpp"
 
@@ -66,7 +67,7 @@ PartOutcome run_part(const Study& part, const std::filesystem::path& directory,
   const std::vector<ScanTasks> tasks = tasks_of(part, options.observer);
   engine::Report report = engine::run_jobs(friction_jobs(store, part, tasks), &store, options);
   report.rethrow();
-  return {report.computed("contact"), std::move(report.failures)};
+  return {report.computed(kind_of(FrictionJob::contact)), std::move(report.failures)};
 }
 
 }  // namespace tabor::study

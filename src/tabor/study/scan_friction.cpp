@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <memory>
-#include <mutex>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,7 +15,7 @@
 #include "tabor/core/units.hpp"
 #include "tabor/engine/engine.hpp"
 #include "tabor/friction/wet_contact.hpp"
-#include "tabor/study/compute.hpp"
+#include "tabor/study/friction_graph.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::study {
@@ -23,52 +23,127 @@ namespace {
 
 constexpr Index kFewestPixels = 32;  // along a side that is still coarsened
 
-/// Elastic operators of one half-space, each lent to one job at a time.
-class Operators {
+/// Returns a pointer to what outlives it.
+template <typename Value>
+std::shared_ptr<const Value> lent(const Value& value) {
+  return {std::shared_ptr<const Value>(), &value};
+}
+
+/// One condition for each density: the speed is that of the settings.
+std::vector<FilmCondition> conditions_of(const cases::CaseSettings& settings) {
+  std::vector<FilmCondition> conditions;
+  for (std::size_t d = 0; d < settings.film.lubricant_densities.size(); ++d) {
+    conditions.push_back({d, settings.fluid});
+  }
+  return conditions;
+}
+
+/// Results of one surface in memory. The lists of a pressure have one element per density.
+class FrictionInMemory : public FrictionStore {
  public:
-  using Operator = elastic::ElasticOperator;
+  struct Pressure {
+    cases::ContactRecord contact;
+    std::shared_ptr<const Mask> touching;
+    std::vector<std::optional<cases::FluidRecord>> fluids;
+    std::vector<std::optional<cases::FrictionRecord>> frictions;
 
-  Operators(const cases::ContactSettings& settings, const Grid& grid)
-      : settings_(settings), grid_(grid) {}
+    const cases::FluidRecord* fluid(std::size_t density) const {
+      return fluids[density] ? &*fluids[density] : nullptr;
+    }
+  };
 
-  /// Comes back by itself. The pool must outlive it.
-  std::shared_ptr<Operator> borrow() {
-    return {take().release(),
-            [this](Operator* used) { give_back(std::unique_ptr<Operator>(used)); }};
+  FrictionInMemory(const topography::Topography& surface, const cases::CaseSettings& settings,
+                   bool drops_maps)
+      : FrictionStore(settings, conditions_of(settings)),
+        surface_(surface),
+        drops_maps_(drops_maps),
+        pressures_(settings.mean_pressures.size()),
+        summaries_(settings.mean_pressures.size()),
+        wet_shares_(settings.mean_pressures.size()) {}
+
+  void describe(const FrictionPlace& place, engine::Job& job) override {
+    job.stage = job.kind;
+    if (place.kind == FrictionJob::film || place.kind == FrictionJob::wetting_doses) return;
+    job.stage += " " + format_si(settings().mean_pressures[place.pressure], "Pa");
+  }
+
+  Surface surface(const engine::Monitor&) override { return lent(surface_); }
+  std::shared_ptr<const Mask> touching(std::size_t pressure) override {
+    return pressures_[pressure].touching;
+  }
+  std::shared_ptr<const contact::State> dry_contact(
+      std::size_t pressure, const std::function<contact::State()>&) override {
+    return lent(pressures_[pressure].contact.state);
+  }
+  std::shared_ptr<const Field> film(std::size_t density) override {
+    return lent(films_[density].film.thickness);
+  }
+  FrictionInputs inputs(const FrictionPlace& place) override {
+    const Pressure& one = pressures_[place.pressure];
+    const cases::FluidRecord* fluid = one.fluid(place.condition);
+    return {lent(one.contact),
+            one.touching,
+            lent(one.contact.state.gap),
+            surface_.grid,
+            lent(films_[place.condition]),
+            fluid ? lent(*fluid) : nullptr};
+  }
+
+  void store_films(const Surface&, const LayFilms& lay) override {
+    films_.resize(settings().film.lubricant_densities.size());
+    lay([this](cases::FilmRecord&& film) { films_[film.film.request] = std::move(film); });
+  }
+  void store(const FrictionPlace& place, const Surface&, cases::ContactRecord&& contact) override {
+    Pressure& one = pressures_[place.pressure];
+    one.contact = std::move(contact);
+    one.touching = std::make_shared<const Mask>(contact::contact_mask(one.contact.state));
+    one.fluids.resize(conditions().size());
+    one.frictions.resize(conditions().size());
+    summaries_[place.pressure] = one.contact.summary;
+    contact::State& state = one.contact.state;
+    if (drops_maps_) state.pressure = state.displacement = Field();
+  }
+  void store(const FrictionPlace& place, WetShares&& shares) override {
+    wet_shares_[place.pressure] = std::move(shares);
+  }
+  void store(const FrictionPlace& place, const Surface&, cases::FluidRecord&& fluid) override {
+    Pressure& one = pressures_[place.pressure];
+    fluid.surface = one.contact.surface;
+    one.fluids[place.condition] = std::move(fluid);
+  }
+  void store(const FrictionPlace& place, cases::FrictionRecord&& friction) override {
+    pressures_[place.pressure].frictions[place.condition] = std::move(friction);
+  }
+
+  const std::vector<cases::FilmRecord>& films() const { return films_; }
+  Pressure take(std::size_t pressure) {
+    if (drops_maps_) pressures_[pressure].contact.state.gap = Field();
+    return std::exchange(pressures_[pressure], {});
+  }
+
+  /// Returns one curve for each pressure, none for a surface without heights.
+  std::vector<cases::DensityCurve> density_curves() const {
+    std::vector<cases::DensityCurve> curves;
+    for (std::size_t i = 0; i < wet_shares_.size(); ++i) {
+      const WetShares& shares = wet_shares_[i];
+      if (shares.lubricant_densities.empty()) continue;
+      curves.push_back(cases::density_curve(shares.lubricant_densities, shares.lubricated_shares,
+                                            summaries_[i], settings()));
+    }
+    return curves;
   }
 
  private:
-  std::unique_ptr<Operator> take() {
-    {
-      const std::lock_guard lock(mutex_);
-      if (!idle_.empty()) {
-        std::unique_ptr<Operator> one = std::move(idle_.back());
-        idle_.pop_back();
-        return one;
-      }
-    }
-    return cases::make_operator(settings_, grid_);
-  }
-
-  void give_back(std::unique_ptr<Operator> used) {
-    const std::lock_guard lock(mutex_);
-    idle_.push_back(std::move(used));
-  }
-
-  const cases::ContactSettings& settings_;
-  const Grid& grid_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<Operator>> idle_;
+  const topography::Topography& surface_;
+  bool drops_maps_;
+  std::vector<cases::FilmRecord> films_;
+  std::vector<Pressure> pressures_;
+  std::vector<contact::Summary> summaries_;  // they outlive the contacts
+  std::vector<WetShares> wet_shares_;
 };
 
-/// What is known of one pressure so far. The lists have one element per density.
-struct Pressure {
-  cases::ContactRecord contact;
-  std::vector<std::optional<cases::FluidRecord>> fluids;
-  std::vector<cases::FrictionRecord> frictions;
-};
-
-/// How many contacts may wait for the rain: what fits in a quarter of the memory, at least two.
+/// Returns how many contacts may wait for the rain: what fits in a quarter of the memory, at least
+/// two.
 std::size_t n_waiting(const Grid& grid, bool maps_are_kept) {
   const std::size_t bytes_per_pixel =
       sizeof(double) + sizeof(bool) + (maps_are_kept ? 2 * sizeof(double) : 0);
@@ -76,206 +151,53 @@ std::size_t n_waiting(const Grid& grid, bool maps_are_kept) {
   return std::max<std::size_t>(2, available_memory_bytes() / 4 / std::max<std::size_t>(1, bytes));
 }
 
-/// Area averages over twice the pixel still show a surface.
-bool can_be_coarsened(const Grid& grid) { return std::min(grid.nx, grid.ny) >= kFewestPixels; }
-
-/// The jobs of one surface and what they hand to each other.
-class ScanFriction {
- public:
-  ScanFriction(const topography::Topography& surface, const cases::CaseSettings& settings,
-               const std::function<void(const FrictionState&)>& receive, ContactMaps maps,
-               bool compares_pixels)
-      : surface_(surface),
-        settings_(settings),
-        receive_(receive),
-        compares_pixels_(compares_pixels && can_be_coarsened(surface.grid)),
-        drops_maps_(maps == ContactMaps::dropped && !settings.fluid.flows()),
-        window_(n_waiting(surface.grid, !drops_maps_)),
-        operators_(settings.contact, surface.grid),
-        pressures_(settings.mean_pressures.size()),
-        touching_(settings.mean_pressures.size()) {}
-
-  /// What rains first, as most of it is serial, and with each contact what waits for it: among the
-  /// jobs that are ready the engine takes the first.
-  std::vector<engine::Job> jobs() {
-    std::vector<engine::Job> jobs = {film_job()};
-    const bool has_curve = cases::has_density_curve(settings_);
-    if (has_curve) jobs.push_back(doses_job());
-    for (std::size_t i = 0; i < pressures_.size(); ++i) add_pressure(i, jobs);
-    if (has_curve) jobs.push_back(curves_job());
-    if (compares_pixels_) jobs.push_back(coarse_job());
-    return jobs;
-  }
-
-  ScanFrictionResult take_result() { return {std::move(curves_), std::move(coarse_)}; }
-
- private:
-  std::size_t n_densities() const { return settings_.film.lubricant_densities.size(); }
-
-  engine::Job job_of(const std::string& kind, std::optional<std::size_t> pressure = {}) const {
-    engine::Job job;
-    job.kind = kind;
-    job.stage = kind;
-    if (pressure) job.stage += " " + format_si(settings_.mean_pressures[*pressure], "Pa");
-    job.memory = [this](const engine::Monitor&) {
-      return bytes_of_job(surface_.grid, settings_.fluid.flows());
-    };
-    return job;
-  }
-
-  engine::Job doses_job() {
-    engine::Job job = job_of("wetting doses");
-    job.is_serial = true;
-    job.compute = [this](const engine::Monitor& monitor) {
-      doses_ = cases::wetting_doses(surface_, settings_.film, monitor.own);
-    };
-    return job;
-  }
-
-  engine::Job curves_job() {
-    engine::Job job = job_of("density curve");
-    job.is_brief = true;
-    job.needs = contacts_;
-    job.needs.push_back(kDoses);
-    job.compute = [this](const engine::Monitor&) {
-      curves_ = cases::density_curves(doses_, touching_, settings_);
-    };
-    return job;
-  }
-
-  engine::Job film_job() {
-    engine::Job job = job_of("film");
-    job.is_serial = true;
-    job.compute = [this](const engine::Monitor& monitor) {
-      films_ = cases::film_state(surface_, settings_.film, monitor.own);
-    };
-    return job;
-  }
-
-  /// Rain and contacts on a quarter of the pixels.
-  engine::Job coarse_job() {
-    engine::Job job = job_of("coarse pixels");
-    job.compute = [this](const engine::Monitor& monitor) {
-      const Grid& grid = surface_.grid;
-      const topography::Topography coarse = topography::apply(
-          {fmt::format("resample={},{}", grid.nx / 2, grid.ny / 2)}, surface_, monitor.own);
-      const auto films = cases::film_state(coarse, settings_.film, monitor.own);
-      coarse_.pixel_x = coarse.grid.dx();
-      const auto receive = [&](const cases::ContactRecord& contact) {
-        const Mask touching = contact::contact_mask(contact.state);
-        std::vector<double>& shares = coarse_.lubricated_shares.emplace_back();
-        for (const cases::FilmRecord& film : films) {
-          shares.push_back(friction::lubricated_share(touching, film.film.thickness));
-        }
-      };
-      const auto elasticity = cases::make_operator(settings_.contact, coarse.grid);
-      cases::contact_states(*elasticity, coarse, settings_.contact, settings_.mean_pressures,
-                            receive, monitor.own);
-    };
-    return job;
-  }
-
-  void add_pressure(std::size_t i, std::vector<engine::Job>& jobs) {
-    engine::Job contact = contact_job(i);
-    if (settings_.contact.load_path && i > 0) contact.needs.push_back(contacts_[i - 1]);
-    if (i >= window_) contact.needs.push_back(results_[i - window_]);
-    contacts_.push_back(jobs.size());
-    jobs.push_back(std::move(contact));
-    engine::Job friction = friction_job(i);
-    friction.needs = {kFilm, contacts_[i]};
-    for (std::size_t d = 0; settings_.fluid.flows() && d < n_densities(); ++d) {
-      friction.needs.push_back(jobs.size());
-      jobs.push_back(fluid_job(i, d));
-      jobs.back().needs = {kFilm, contacts_[i]};
+/// Computes rain and contacts on a quarter of the pixels.
+CoarsePixels coarse_pixels(const topography::Topography& surface,
+                           const cases::CaseSettings& settings, const Observer& observer) {
+  const Grid& grid = surface.grid;
+  const topography::Topography coarse = topography::apply(
+      {fmt::format("resample={},{}", grid.nx / 2, grid.ny / 2)}, surface, observer);
+  const auto films = cases::film_state(coarse, settings.film, observer);
+  CoarsePixels result{coarse.grid.dx(), {}};
+  const auto receive = [&](const cases::ContactRecord& contact) {
+    const Mask touching = contact::contact_mask(contact.state);
+    std::vector<double>& shares = result.lubricated_shares.emplace_back();
+    for (const cases::FilmRecord& film : films) {
+      shares.push_back(friction::lubricated_share(touching, film.film.thickness));
     }
-    engine::Job result = result_job(i);
-    result.needs = {jobs.size()};
-    if (i > 0) result.needs.push_back(results_[i - 1]);  // in their order
-    jobs.push_back(std::move(friction));
-    results_.push_back(jobs.size());
-    jobs.push_back(std::move(result));
-  }
+  };
+  const auto elasticity = cases::make_operator(settings.contact, coarse.grid);
+  cases::contact_states(*elasticity, coarse, settings.contact, settings.mean_pressures, receive,
+                        observer);
+  return result;
+}
 
-  engine::Job contact_job(std::size_t i) {
-    engine::Job job = job_of("contact", i);
-    job.compute = [this, i](const engine::Monitor& monitor) {
-      Pressure& pressure = pressures_[i];
-      pressure.contact = cases::contact_state(*operators_.borrow(), surface_, settings_.contact,
-                                              settings_.mean_pressures[i], load_path_, monitor.own);
-      contact::State& state = pressure.contact.state;
-      touching_[i] = cases::touching_of(pressure.contact);
-      pressure.fluids.resize(n_densities());
-      if (drops_maps_) state.pressure = state.displacement = Field();
-    };
-    return job;
-  }
-
-  engine::Job fluid_job(std::size_t i, std::size_t density) {
-    engine::Job job = job_of("flow", i);
-    job.restarts = true;  // with a contact within each step of the film
-    job.compute = [this, i, density](const engine::Monitor& monitor) {
-      pressures_[i].fluids[density] =
-          cases::fluid_state(*operators_.borrow(), surface_, pressures_[i].contact, films_[density],
-                             settings_.contact, settings_.fluid, monitor.own);
-    };
-    return job;
-  }
-
-  engine::Job friction_job(std::size_t i) {
-    engine::Job job = job_of("friction", i);
-    job.compute = [this, i](const engine::Monitor&) {
-      Pressure& pressure = pressures_[i];
-      contact::State& state = pressure.contact.state;
-      for (std::size_t d = 0; d < films_.size(); ++d) {
-        pressure.frictions.push_back(cases::friction_state(
-            pressure.contact, {touching_[i].mask, state.gap, surface_.grid}, films_[d],
-            fluid_of(pressure, d), settings_.contact, settings_.friction));
-      }
-      if (drops_maps_) state.gap = Field();
-    };
-    return job;
-  }
-
-  engine::Job result_job(std::size_t i) {
-    engine::Job job = job_of("keep", i);
-    job.is_brief = drops_maps_;  // whoever looks at maps writes them
-    job.compute = [this, i](const engine::Monitor&) { hand_on(std::exchange(pressures_[i], {})); };
-    return job;
-  }
-
-  void hand_on(const Pressure& pressure) {
-    for (std::size_t d = 0; d < films_.size(); ++d) {
-      receive_({.friction = pressure.frictions[d],
-                .contact = pressure.contact,
-                .film = films_[d],
-                .fluid = fluid_of(pressure, d)});
+engine::Job hand_on_job(const std::shared_ptr<FrictionInMemory>& store, std::size_t pressure,
+                        const std::function<void(const FrictionState&)>& receive) {
+  engine::Job job;
+  job.kind = job.stage = "hand on";
+  job.compute = [store, pressure, &receive](const engine::Monitor&) {
+    const FrictionInMemory::Pressure one = store->take(pressure);
+    for (std::size_t d = 0; d < one.frictions.size(); ++d) {
+      receive({.friction = *one.frictions[d],
+               .contact = one.contact,
+               .film = store->films()[d],
+               .fluid = one.fluid(d)});
     }
-  }
+  };
+  return job;
+}
 
-  static const cases::FluidRecord* fluid_of(const Pressure& pressure, std::size_t density) {
-    return pressure.fluids[density] ? &*pressure.fluids[density] : nullptr;
-  }
-
-  static constexpr std::size_t kFilm = 0;  // places among the jobs
-  static constexpr std::size_t kDoses = 1;
-
-  const topography::Topography& surface_;
-  const cases::CaseSettings& settings_;
-  const std::function<void(const FrictionState&)>& receive_;
-  bool compares_pixels_;
-  bool drops_maps_;
-  std::size_t window_;
-  Operators operators_;
-  cases::LoadPath load_path_;  // contacts of a load path wait for each other
-  std::vector<cases::FilmRecord> films_;
-  std::vector<Pressure> pressures_;
-  std::vector<cases::Touching> touching_;
-  cases::WettingDoses doses_;
-  std::vector<cases::DensityCurve> curves_;
-  CoarsePixels coarse_;
-  std::vector<std::size_t> contacts_;  // places of their jobs
-  std::vector<std::size_t> results_;
-};
+engine::Job coarse_job(const std::shared_ptr<FrictionInMemory>& store, const Grid& grid,
+                       CoarsePixels& result) {
+  engine::Job job;
+  job.kind = job.stage = "coarse pixels";
+  job.memory = [&grid](const engine::Monitor&) { return bytes_of_job(grid, false); };
+  job.compute = [store, &result](const engine::Monitor& monitor) {
+    result = coarse_pixels(*store->surface(monitor), store->settings(), monitor.own);
+  };
+  return job;
+}
 
 }  // namespace
 
@@ -284,11 +206,35 @@ ScanFrictionResult friction_of(const topography::Topography& surface,
                                const std::function<void(const FrictionState&)>& receive,
                                ContactMaps maps, const engine::RunOptions& options,
                                bool compares_pixels) {
-  ScanFriction scan(surface, settings, receive, maps, compares_pixels);
-  const engine::Report report = engine::run_jobs(scan.jobs(), nullptr, options);
+  const bool drops_maps = maps == ContactMaps::dropped && !settings.fluid.flows();
+  const auto store = std::make_shared<FrictionInMemory>(surface, settings, drops_maps);
+  const bool has_curves = cases::has_density_curve(settings);
+  const std::size_t window = n_waiting(surface.grid, !drops_maps);
+  std::vector<engine::Job> jobs;
+  FrictionGraph graph(store, jobs);
+  graph.add_rain(has_curves);
+  std::vector<std::size_t> handed_on;  // places
+  for (std::size_t i = 0; i < settings.mean_pressures.size(); ++i) {
+    std::vector<std::size_t> before;
+    if (i >= window) before.push_back(handed_on[i - window]);
+    graph.add_contact(i, before);
+    std::vector<std::size_t> needs;
+    if (has_curves) needs.push_back(graph.add_wet_shares(i));
+    for (const std::size_t place : graph.add_frictions(i)) needs.push_back(place);
+    if (i > 0) needs.push_back(handed_on[i - 1]);  // in their order
+    engine::Job hand_on = hand_on_job(store, i, receive);
+    hand_on.is_brief = drops_maps;  // a receiver of maps writes them
+    handed_on.push_back(graph.add(std::move(hand_on), std::move(needs)));
+  }
+  ScanFrictionResult result;
+  if (compares_pixels && std::min(surface.grid.nx, surface.grid.ny) >= kFewestPixels) {
+    graph.add(coarse_job(store, surface.grid, result.coarse), {});
+  }
+  const engine::Report report = engine::run_jobs(std::move(jobs), nullptr, options);
   report.rethrow();
   if (!report.failures.empty()) throw InputError(report.failures.front());
-  return scan.take_result();
+  result.density_curves = store->density_curves();
+  return result;
 }
 
 }  // namespace tabor::study

@@ -8,6 +8,7 @@
 
 #include "tabor/engine/engine.hpp"
 #include "tabor/engine/store.hpp"
+#include "tabor/study/friction_graph.hpp"
 #include "tabor/study/friction_jobs.hpp"
 #include "tabor/study/tables.hpp"
 
@@ -25,11 +26,12 @@ void count_rows(const std::vector<Row>& rows, Outcome& outcome) {
 }
 
 void count_computed(const engine::Report& report, Outcome& outcome) {
+  const auto computed = [&report](FrictionJob job) { return report.computed(kind_of(job)); };
   outcome.n_surfaces = report.computed("surface");
-  outcome.n_contacts = report.computed("contact");
-  outcome.n_films = report.computed("film");
-  outcome.n_fluids = report.computed("fluid");
-  outcome.n_rows = report.computed("case");
+  outcome.n_contacts = computed(FrictionJob::contact);
+  outcome.n_films = computed(FrictionJob::film);
+  outcome.n_fluids = computed(FrictionJob::fluid);
+  outcome.n_rows = computed(FrictionJob::friction);
   outcome.warnings.insert(outcome.warnings.end(), report.warnings.begin(), report.warnings.end());
 }
 

@@ -1,0 +1,207 @@
+#include "tabor/study/friction_graph.hpp"
+
+#include <mutex>
+#include <utility>
+
+#include "tabor/cases/states.hpp"
+#include "tabor/core/error.hpp"
+
+namespace tabor::study {
+namespace {
+
+/// Of a job with its surface; tools/bench/study prints it. With oil that flows, what the peak of
+/// `tabor friction --fluid reynolds` grows by with the pixels of a flooded scan, and a little.
+constexpr std::size_t kBytesPerPixel = 80;
+constexpr std::size_t kBytesPerFlowingPixel = 500;
+
+/// Elastic operators of one half-space, each lent to one job at a time.
+class Operators {
+ public:
+  using Operator = elastic::ElasticOperator;
+
+  /// Lends an operator, which comes back by itself. The pool must outlive it.
+  std::shared_ptr<Operator> borrow(const cases::ContactSettings& settings, const Grid& grid) {
+    return {take(settings, grid).release(),
+            [this](Operator* used) { give_back(std::unique_ptr<Operator>(used)); }};
+  }
+
+ private:
+  std::unique_ptr<Operator> take(const cases::ContactSettings& settings, const Grid& grid) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!idle_.empty()) {
+        std::unique_ptr<Operator> one = std::move(idle_.back());
+        idle_.pop_back();
+        return one;
+      }
+    }
+    return cases::make_operator(settings, grid);
+  }
+
+  void give_back(std::unique_ptr<Operator> used) {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(used));
+  }
+
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Operator>> idle_;
+};
+
+}  // namespace
+
+std::size_t bytes_of_job(const Grid& grid, bool oil_flows) {
+  return static_cast<std::size_t>(grid.nx * grid.ny) *
+         (oil_flows ? kBytesPerFlowingPixel : kBytesPerPixel);
+}
+
+FrictionStore::FrictionStore(cases::CaseSettings settings, std::vector<FilmCondition> conditions)
+    : settings_(std::move(settings)), conditions_(std::move(conditions)) {}
+
+/// All that the jobs of one surface share; gone with the last of them.
+struct FrictionGraph::Shared {
+  std::shared_ptr<FrictionStore> store;
+  Operators operators = {};
+  cases::LoadPath load_path = {};  // contacts of a load path wait for each other
+  cases::WettingDoses doses = {};
+
+  const cases::CaseSettings& settings() const { return store->settings(); }
+  double mean_pressure(const FrictionPlace& place) const {
+    return settings().mean_pressures[place.pressure];
+  }
+  std::shared_ptr<Operators::Operator> operator_on(const Grid& grid) {
+    return operators.borrow(settings().contact, grid);
+  }
+
+  void lay_films(const engine::Monitor& monitor) {
+    const auto surface = store->surface(monitor);
+    store->store_films(surface, [&](const auto& receive) {
+      cases::film_state(*surface, settings().film, receive, monitor.own);
+    });
+  }
+
+  void find_doses(const engine::Monitor& monitor) {
+    doses = cases::wetting_doses(*store->surface(monitor), settings().film, monitor.own);
+  }
+
+  void solve_contact(const FrictionPlace& place, const engine::Monitor& monitor) {
+    const auto surface = store->surface(monitor);
+    store->store(place, surface,
+                 cases::contact_state(*operator_on(surface->grid), *surface, settings().contact,
+                                      mean_pressure(place), load_path, monitor.own));
+  }
+
+  void share_of_wet(const FrictionPlace& place) {
+    const auto touching = store->touching(place.pressure);
+    if (!doses.first.empty() && doses.first.size() != static_cast<std::size_t>(touching->size())) {
+      throw InputError("the store", "a surface and a contact of two sizes", "both of one surface",
+                       "remove the folder store and run the sweep again");
+    }
+    store->store(place,
+                 WetShares{doses.lubricant_densities, cases::lubricated_shares(doses, *touching)});
+  }
+
+  void solve_flow(const FrictionPlace& place, const engine::Monitor& monitor) {
+    const auto surface = store->surface(monitor);
+    const auto elasticity = operator_on(surface->grid);
+    const auto solve_dry = [&] {
+      return cases::contact_state(*elasticity, *surface, settings().contact, mean_pressure(place),
+                                  monitor.own)
+          .state;
+    };
+    const auto dry = store->dry_contact(place.pressure, solve_dry);
+    const FilmCondition& condition = store->conditions()[place.condition];
+    store->store(place, surface,
+                 cases::fluid_state(*elasticity, surface->height, *dry, mean_pressure(place),
+                                    *store->film(condition.density), settings().contact,
+                                    condition.fluid, monitor.own));
+  }
+
+  void estimate_friction(const FrictionPlace& place) {
+    const FrictionInputs in = store->inputs(place);
+    store->store(place,
+                 cases::friction_state(*in.contact, {*in.touching, *in.gap, in.grid}, *in.film,
+                                       in.fluid.get(), settings().contact, settings().friction));
+  }
+};
+
+FrictionGraph::FrictionGraph(std::shared_ptr<FrictionStore> store, std::vector<engine::Job>& jobs)
+    : shared_(new Shared{std::move(store)}), jobs_(jobs) {}
+
+std::size_t FrictionGraph::add(engine::Job job, std::vector<std::size_t> needs) {
+  job.needs = std::move(needs);
+  jobs_.push_back(std::move(job));
+  return jobs_.size() - 1;
+}
+
+engine::Job FrictionGraph::job_of(const FrictionPlace& place,
+                                  std::function<void(const engine::Monitor&)> compute) const {
+  engine::Job job;
+  job.kind = kind_of(place.kind);
+  job.compute = std::move(compute);
+  job.memory = [shared = shared_](const engine::Monitor& monitor) {
+    return bytes_of_job(shared->store->surface(monitor)->grid, shared->store->flows());
+  };
+  shared_->store->describe(place, job);
+  return job;
+}
+
+engine::Job FrictionGraph::brief_job_of(const FrictionPlace& place,
+                                        std::function<void(const engine::Monitor&)> compute) const {
+  engine::Job job = job_of(place, std::move(compute));
+  job.is_brief = true;
+  job.memory = nullptr;
+  return job;
+}
+
+void FrictionGraph::add_rain(bool has_wet_shares) {
+  engine::Job film = job_of({FrictionJob::film},
+                            [shared = shared_](const engine::Monitor& m) { shared->lay_films(m); });
+  film.is_serial = true;
+  film_ = add(std::move(film), {});
+  if (!has_wet_shares) return;
+  engine::Job doses =
+      job_of({FrictionJob::wetting_doses},
+             [shared = shared_](const engine::Monitor& m) { shared->find_doses(m); });
+  doses.is_serial = true;
+  doses_ = add(std::move(doses), {});
+}
+
+void FrictionGraph::add_contact(std::size_t pressure, std::vector<std::size_t> needs) {
+  const FrictionPlace place{FrictionJob::contact, pressure};
+  if (shared_->settings().contact.load_path && pressure > 0) needs.push_back(contacts_.back());
+  contacts_.push_back(add(
+      job_of(place, [shared = shared_, place](
+                        const engine::Monitor& monitor) { shared->solve_contact(place, monitor); }),
+      std::move(needs)));
+}
+
+std::size_t FrictionGraph::add_wet_shares(std::size_t pressure) {
+  const FrictionPlace place{FrictionJob::wet_shares, pressure};
+  return add(brief_job_of(place, [shared = shared_,
+                                  place](const engine::Monitor&) { shared->share_of_wet(place); }),
+             {contacts_[pressure], doses_});
+}
+
+std::size_t FrictionGraph::add_flow(const FrictionPlace& place) {
+  engine::Job job = job_of(place, [shared = shared_, place](const engine::Monitor& monitor) {
+    shared->solve_flow(place, monitor);
+  });
+  job.restarts = true;  // with a contact within each step of the film
+  return add(std::move(job), {contacts_[place.pressure], film_});
+}
+
+std::vector<std::size_t> FrictionGraph::add_frictions(std::size_t pressure) {
+  std::vector<std::size_t> places;
+  for (std::size_t i = 0; i < shared_->store->conditions().size(); ++i) {
+    std::vector<std::size_t> needs = {contacts_[pressure], film_};
+    if (shared_->store->flows()) needs.push_back(add_flow({FrictionJob::fluid, pressure, i}));
+    const FrictionPlace place{FrictionJob::friction, pressure, i};
+    places.push_back(add(
+        brief_job_of(place, [shared = shared_,
+                             place](const engine::Monitor&) { shared->estimate_friction(place); }),
+        std::move(needs)));
+  }
+  return places;
+}
+
+}  // namespace tabor::study
