@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <stdexcept>
+#include <thread>
 
 namespace tabor {
 namespace {
@@ -81,6 +82,24 @@ TEST_F(Parallel, ACopyThatAsksForMoreThreadsStillEnds) {
     set_thread_count(3);
     return sum(values) == expected;
   }));
+}
+
+TEST_F(Parallel, ALimitHoldsForItsOwnThread) {
+  set_thread_count(4);
+  std::atomic<int> limit = 2;
+  {
+    const ThreadLimit limited(limit);
+    EXPECT_EQ(thread_count(), 2);
+    int of_another = 0;
+    std::thread([&] { of_another = thread_count(); }).join();
+    EXPECT_EQ(of_another, 4);
+    limit = 3;
+    EXPECT_EQ(thread_count(), 3);
+    const std::atomic<int> one = 1;
+    const ThreadLimit inner(one);
+    EXPECT_EQ(thread_count(), 1);
+  }
+  EXPECT_EQ(thread_count(), 4);
 }
 
 TEST_F(Parallel, MaximumOfNothingIsMinusInfinity) {

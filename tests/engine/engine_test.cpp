@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <set>
+#include <thread>
 
 #include "support/folder.hpp"
 #include "tabor/core/error.hpp"
@@ -295,13 +296,20 @@ TEST_F(Engine, AChainThatCannotGoOnBeginsAnew) {
   EXPECT_EQ(n_computed_, 1 + 3);
 }
 
-TEST_F(Engine, SharesTheThreadsAndGivesThemBack) {
+TEST_F(Engine, SharesItsThreadsAndLeavesThoseOfOthers) {
   set_thread_count(6);
   std::atomic<int> alone = 0;
-  std::vector<Job> jobs(1);
+  std::atomic<int> of_others = 0;
+  std::vector<Job> jobs(2);
   jobs[0].compute = [&](const Monitor&) { alone = thread_count(); };
+  jobs[1].is_serial = true;
+  jobs[1].needs = {0};
+  jobs[1].compute = [&](const Monitor&) {
+    std::thread([&] { of_others = thread_count(); }).join();
+  };
   run_jobs(std::move(jobs), nullptr);
   EXPECT_EQ(alone, 6);
+  EXPECT_EQ(of_others, 6);
   EXPECT_EQ(thread_count(), 6);
   set_thread_count(0);
 }

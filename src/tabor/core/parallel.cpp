@@ -17,6 +17,7 @@ namespace tabor {
 namespace {
 
 std::atomic<int> requested_threads = 0;
+thread_local const std::atomic<int>* own_limit = nullptr;
 std::atomic<bool> has_team = false;   // loops of this process have run on several threads
 std::atomic<bool> lost_team = false;  // so they had in the process that this one is a copy of
 
@@ -76,9 +77,14 @@ void set_thread_count(int n) { requested_threads = std::max(0, n); }
 
 int thread_count() {
   if (lost_team) return 1;
+  if (own_limit != nullptr) return std::max<int>(1, *own_limit);
   const int requested = requested_threads;
   return requested > 0 ? requested : omp_get_max_threads();
 }
+
+ThreadLimit::ThreadLimit(const std::atomic<int>& limit) : outer_(own_limit) { own_limit = &limit; }
+
+ThreadLimit::~ThreadLimit() { own_limit = outer_; }
 
 void parallel_for(Index n, Index block, const std::function<void(Index, Index)>& body) {
   for_each_block(count_blocks(n, block), [&](Index k) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <functional>
 
 #include "tabor/core/types.hpp"
@@ -12,6 +13,20 @@ namespace tabor {
 /// the original has run loops on several threads, as OpenMP does not survive that.
 void set_thread_count(int n);
 int thread_count();
+
+/// Limits the threads of the loops that the thread which made it runs, while it lives; other
+/// threads keep theirs. Any thread may change the limit meanwhile. A limit within a limit replaces
+/// it until it ends.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(const std::atomic<int>& limit);  ///< must outlive this object
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  const std::atomic<int>* outer_;
+};
 
 /// Calls body(begin, end) for consecutive blocks of [0, n), `block` items each, on all threads.
 /// Blocks are the same whatever the thread count; loops of a single block run serially.

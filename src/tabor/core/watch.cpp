@@ -1,6 +1,5 @@
 #include "tabor/core/watch.hpp"
 
-#include <atomic>
 #include <chrono>
 #include <limits>
 
@@ -9,7 +8,7 @@
 namespace tabor {
 namespace {
 
-std::atomic<double> period = kWatchPeriod;  // [s] between two questions
+thread_local double period = kWatchPeriod;  // [s] between two questions
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();

@@ -65,8 +65,9 @@ inline void go_on_or_throw(std::size_t i) {
   if (i % 16384 == 0) go_on_or_throw();
 }
 
-/// Seconds between two questions of a watch; tests set 0, which asks at every opportunity.
+/// Seconds between two questions of a watch.
 inline constexpr double kWatchPeriod = 0.1;
+/// Sets the period of the watches of this thread; tests set 0, which asks at every opportunity.
 void set_watch_period(double seconds);
 
 }  // namespace tabor

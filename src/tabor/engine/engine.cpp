@@ -19,26 +19,23 @@
 namespace tabor::engine {
 namespace {
 
-/// Shares the machine's threads among the jobs that run, for as long as it lives.
+/// Shares the threads of a run among its jobs; threads outside the run keep theirs.
 class ThreadShare {
  public:
-  ThreadShare() : n_threads_(thread_count()) {}
-  ~ThreadShare() { set_thread_count(n_threads_); }
-  ThreadShare(const ThreadShare&) = delete;
-  ThreadShare& operator=(const ThreadShare&) = delete;
-
   void begin(const Job& job) { change(job, 1); }
   void end(const Job& job) { change(job, -1); }
+  const std::atomic<int>& of_each() const { return of_each_; }
 
  private:
   void change(const Job& job, int by) {
     (job.is_serial ? n_serial_ : n_parallel_) += by;
-    set_thread_count(std::max(1, (n_threads_ - n_serial_) / std::max(1, n_parallel_)));
+    of_each_ = std::max(1, (n_threads_ - n_serial_) / std::max(1, n_parallel_));
   }
 
-  int n_threads_;
+  int n_threads_ = thread_count();
   int n_serial_ = 0;
   int n_parallel_ = 0;
+  std::atomic<int> of_each_ = n_threads_;
 };
 
 /// The message of an InputError, or "".
@@ -157,6 +154,7 @@ class Engine {
   }
 
   void work() {
+    const ThreadLimit limit(thread_share_.of_each());
     // Loops that know no observer, as those of a contact's set-up, end when the run does.
     const Observer asking = [this](const Progress& progress) {
       tell(progress);

@@ -23,7 +23,7 @@
 //   4. reads from the store what it wants to show, whether it was computed now or before, and calls
 //      Report::rethrow() once the finished results are shown or written.
 //
-// friction_jobs.cpp lists the jobs of a study: surface, films, contacts, fluid, rows. Cases that
+// friction_graph.cpp lists the jobs of a surface: surface, films, contacts, fluid, rows. Cases that
 // each start from the one before are jobs that need each other in a chain:
 //
 //   - the file is the case's checkpoint (checkpoint.hpp): its numbers, and the name and digest of a
