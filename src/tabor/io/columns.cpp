@@ -68,8 +68,9 @@ void write_attribute(Hdf5Writer& writer, const std::string& path, const std::str
 const Json* value_at(const Json& object, const std::string& key) {
   const Json* place = &object;
   for (const std::string& name : split(key, '.')) {
-    place = place->find(name);
-    if (place == nullptr) return nullptr;
+    const auto found = place->find(name);
+    if (found == place->end()) return nullptr;
+    place = &*found;
   }
   return place;
 }

@@ -87,8 +87,7 @@ Json sealed(Json object) {
 }
 
 bool is_sealed(const Json& object) {
-  const Json* seal = object.find(kKey);
-  return seal && *seal == sha256(text_without_seal(object));
+  return object.contains(kKey) && object.at(kKey) == sha256(text_without_seal(object));
 }
 
 }  // namespace tabor::io
