@@ -128,5 +128,47 @@ TEST(Parse, TakesSwitchesAndShortFlags) {
   EXPECT_EQ(output, "file.h5");
 }
 
+TEST(Parse, TakesAttachedValuesAndEndsOptionsAtTwoDashes) {
+  OptionSet set;
+  std::optional<std::string> title;
+  std::optional<std::string> output;
+  std::string scan;
+  set.positional("SCAN", "", scan);
+  set.text("--title", "T", "", title);
+  set.text("--output", "OUT", "", output).short_flag = "-o";
+  parse(set, "verb", {"--title=a=b", "-ofile.h5", "--", "--odd.x3p"});
+  EXPECT_EQ(title, "a=b");
+  EXPECT_EQ(output, "file.h5");
+  EXPECT_EQ(scan, "--odd.x3p");
+}
+
+TEST(Parse, RejectsValuesThatAreNotThereOrNotTaken) {
+  OptionSet set;
+  bool json = false;
+  std::optional<std::string> title;
+  set.toggle("--json", "", json);
+  set.text("--title", "T", "", title);
+  EXPECT_THAT(message_of(set, {"--json=no"}), HasSubstr("--json takes no value"));
+  EXPECT_THAT(message_of(set, {"--title", "--json"}), HasSubstr("--title: T is missing"));
+  EXPECT_THAT(message_of(set, {"-x"}), HasSubstr("unknown option '-x'"));
+}
+
+TEST(Parse, TakesAFileAfterAnOptionThatMayStandAlone) {
+  const auto outcome = [](const std::vector<std::string>& words) {
+    OptionSet set;
+    std::optional<std::string> table;
+    std::vector<std::string> scans;
+    set.positionals("SCAN", "", scans);
+    Option& option = set.text("--csv", "[OUT]", "", table);
+    option.if_bare = "-";
+    option.extensions = {".csv"};
+    parse(set, "verb", words);
+    scans.insert(scans.begin(), *table);
+    return scans;
+  };
+  EXPECT_THAT(outcome({"--csv", "out.CSV", "a.x3p"}), ElementsAre("out.CSV", "a.x3p"));
+  EXPECT_THAT(outcome({"--csv", "a.x3p", "b.x3p"}), ElementsAre("-", "a.x3p", "b.x3p"));
+}
+
 }  // namespace
 }  // namespace tabor::cli

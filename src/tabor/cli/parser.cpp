@@ -1,10 +1,11 @@
-// The one file that knows CLI11. It only tells options, values and positional words apart; what a
-// value means is the business of the Option that takes it.
+// Tells options, values and positional words apart; what a value means is the business of the
+// Option that takes it.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <map>
+#include <cctype>
+#include <set>
+#include <utility>
 
 #include "tabor/cli/options.hpp"
 #include "tabor/core/error.hpp"
@@ -14,90 +15,136 @@ namespace tabor::cli {
 
 namespace {
 
-using Declared = std::map<const CLI::Option*, const Option*>;
+/// Value of an option, in the order of the command line; "" for a switch.
+struct Given {
+  const Option* option;
+  std::string value;
+};
 
 bool names_file_of(const Option& option, const std::string& word) {
   return std::any_of(option.extensions.begin(), option.extensions.end(),
                      [word = lower(word)](const auto& one) { return word.ends_with(one); });
 }
 
-/// Options that may stand alone are given the value that they then have.
-std::vector<std::string> with_bare_values(const OptionSet& set, std::vector<std::string> words) {
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    for (const Option& option : set.options()) {
-      if (option.if_bare.empty() || words[i] != option.flag) continue;
-      if (i + 1 < words.size() && names_file_of(option, words[i + 1])) continue;
-      words[i] += "=" + option.if_bare;
+/// True for a word that begins an option; "-1um" is a value.
+bool is_option(const std::string& word) {
+  if (word.size() < 2 || word[0] != '-') return false;
+  return word[1] != '.' && std::isdigit(static_cast<unsigned char>(word[1])) == 0;
+}
+
+/// Sorts the words of one command line.
+class WordSorter {
+ public:
+  WordSorter(const OptionSet& set, const std::string& verb, const std::vector<std::string>& words)
+      : set_(set), verb_(verb), words_(words) {}
+
+  std::vector<Given> sort() {
+    bool options_ended = false;
+    for (next_ = 0; next_ < words_.size();) {
+      const std::string& word = words_[next_++];
+      if (!options_ended && word == "--") {
+        options_ended = true;
+      } else if (!options_ended && is_option(word)) {
+        take_option(word);
+      } else {
+        take_positional(word);
+      }
+    }
+    return std::move(given_);
+  }
+
+ private:
+  [[noreturn]] void reject(const std::string& why) const {
+    throw UsageError(fmt::format("{}; see 'tabor {} --help'", why, verb_));
+  }
+
+  void take_option(const std::string& word) {
+    const std::size_t equals = word.find('=');
+    const bool is_short = word[1] != '-';
+    const std::string flag = is_short ? word.substr(0, 2) : word.substr(0, equals);
+    const Option& option = find(flag, is_short ? word : flag);
+    const bool has_value = is_short ? word.size() > 2 : equals != std::string::npos;
+    if (option.is_switch()) {
+      if (has_value) reject(fmt::format("{} takes no value", option.flag));
+      given_.push_back({&option, ""});
+    } else {
+      given_.push_back(
+          {&option, has_value ? word.substr(is_short ? 2 : equals + 1) : value_after(option)});
     }
   }
-  return words;
-}
 
-Declared declare(CLI::App& app, const OptionSet& set) {
-  Declared declared;
-  for (const Option& option : set.options()) {
-    const std::string names =
-        option.short_flag.empty() ? option.flag : option.short_flag + "," + option.flag;
-    CLI::Option* added = option.is_switch() ? app.add_flag(names) : app.add_option(names);
-    // Values of a repeated option are all taken here and told apart in assign_in_order(), where
-    // an option that cannot be given twice can be rejected by name.
-    added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-        ->allow_extra_args(option.is_positional() && option.repeatable);
-    if (option.is_positional() && option.repeatable) added->expected(0, -1);
-    if (!option.is_switch()) added->type_name(option.placeholder);  // "1 required UNIT missing"
-    declared[added] = &option;
-  }
-  return declared;
-}
-
-std::vector<std::string> flags_of(const OptionSet& set) {
-  std::vector<std::string> flags = {"--help"};
-  for (const Option& option : set.options()) {
-    if (!option.is_positional()) flags.push_back(option.flag);
-  }
-  return flags;
-}
-
-void reject_unknown_words(const CLI::App& app, const OptionSet& set, const std::string& verb) {
-  const std::vector<std::string> unknown = app.remaining();
-  if (unknown.empty()) return;
-  const auto dashed = std::find_if(unknown.begin(), unknown.end(),
-                                   [](const std::string& word) { return word.starts_with('-'); });
-  if (dashed == unknown.end()) {
-    throw UsageError(
-        fmt::format("unexpected word '{}'; see 'tabor {} --help'", unknown.front(), verb));
-  }
-  const std::string flag = dashed->substr(0, dashed->find('='));
-  throw UsageError(fmt::format("unknown option '{}'{}; see 'tabor {} --help'", flag,
-                               suggestion(flag, flags_of(set)), verb));
-}
-
-bool is_given(const std::string& flag, const Declared& declared) {
-  return std::any_of(declared.begin(), declared.end(), [&](const auto& pair) {
-    return pair.second->flag == flag && pair.first->count() > 0;
-  });
-}
-
-void require_all(const Declared& declared, const OptionSet& set, const std::string& verb) {
-  for (const Option& option : set.options()) {
-    if (!option.required || is_given(option.unless, declared)) continue;
-    for (const auto& [parsed, wanted] : declared) {
-      if (wanted != &option || parsed->count() > 0) continue;
-      const std::string form =
-          option.placeholder.empty() ? option.flag : option.flag + " " + option.placeholder;
-      throw UsageError(fmt::format("{} is missing ({}){}; see 'tabor {} --help'", form, option.help,
-                                   option.unless.empty() ? "" : "; or give " + option.unless,
-                                   verb));
+  const Option& find(const std::string& flag, const std::string& whole) const {
+    for (const Option& option : set_.options()) {
+      if (!option.is_positional() && (option.flag == flag || option.short_flag == flag)) {
+        return option;
+      }
     }
+    std::vector<std::string> flags = {"--help"};
+    for (const Option& option : set_.options()) {
+      if (!option.is_positional()) flags.push_back(option.flag);
+    }
+    reject(fmt::format("unknown option '{}'{}", whole, suggestion(whole, flags)));
+  }
+
+  /// Takes the next word, unless an option may stand alone and it names no file of its kind.
+  std::string value_after(const Option& option) {
+    const bool has_word = next_ < words_.size() && !is_option(words_[next_]);
+    if (!option.if_bare.empty()) {
+      return has_word && names_file_of(option, words_[next_]) ? words_[next_++] : option.if_bare;
+    }
+    if (!has_word) reject(fmt::format("{}: {} is missing", option.flag, option.placeholder));
+    return words_[next_++];
+  }
+
+  void take_positional(const std::string& word) {
+    for (const Option& option : set_.options()) {
+      if (!option.is_positional()) continue;
+      if (!option.repeatable && !filled_.insert(&option).second) continue;
+      given_.push_back({&option, word});
+      return;
+    }
+    reject(fmt::format("unexpected word '{}'", word));
+  }
+
+  const OptionSet& set_;
+  const std::string& verb_;
+  const std::vector<std::string>& words_;
+  std::size_t next_ = 0;
+  std::vector<Given> given_;
+  std::set<const Option*> filled_;  // positional ones that take a single word
+};
+
+bool is_given(const std::string& flag, const std::vector<Given>& given) {
+  return std::any_of(given.begin(), given.end(),
+                     [&](const Given& one) { return one.option->flag == flag; });
+}
+
+void require_all(const std::vector<Given>& given, const OptionSet& set, const std::string& verb) {
+  for (const Option& option : set.options()) {
+    if (!option.required || is_given(option.flag, given) || is_given(option.unless, given)) {
+      continue;
+    }
+    const std::string form =
+        option.placeholder.empty() ? option.flag : option.flag + " " + option.placeholder;
+    throw UsageError(fmt::format("{} is missing ({}){}; see 'tabor {} --help'", form, option.help,
+                                 option.unless.empty() ? "" : "; or give " + option.unless, verb));
   }
 }
 
-void require_companions(const Declared& declared, const std::string& verb) {
-  for (const auto& [parsed, option] : declared) {
-    if (parsed->count() == 0 || option->only_with.empty()) continue;
-    if (is_given(option->only_with, declared)) continue;
+void require_companions(const std::vector<Given>& given, const std::string& verb) {
+  for (const auto& [option, value] : given) {
+    if (option->only_with.empty() || is_given(option->only_with, given)) continue;
     throw UsageError(
         fmt::format("{} needs {}; see 'tabor {} --help'", option->flag, option->only_with, verb));
+  }
+}
+
+void reject_repeated(const std::vector<Given>& given) {
+  std::set<const Option*> seen;
+  for (const Given& one : given) {
+    if (!seen.insert(one.option).second && !one.option->repeatable) {
+      throw UsageError(fmt::format("{} is given more than once", one.option->flag));
+    }
   }
 }
 
@@ -109,39 +156,18 @@ void assign(const Option& option, const std::string& value) {
   }
 }
 
-// Treatment steps act in the order given, so values are assigned in the order of the command line
-// and not, as CLI11 would, in the order of declaration.
-void assign_in_order(CLI::App& app, const Declared& declared, bool is_base) {
-  std::map<const CLI::Option*, std::size_t> taken;
-  for (const CLI::Option* parsed : app.parse_order()) {
-    const Option& option = *declared.at(parsed);
-    if (option.is_base != is_base) continue;
-    const std::size_t position = taken[parsed]++;
-    if (position > 0 && !option.repeatable) {
-      throw UsageError(fmt::format("{} is given more than once", option.flag));
-    }
-    if (position < parsed->results().size()) assign(option, parsed->results()[position]);
-  }
-}
-
 }  // namespace
 
 void parse(const OptionSet& set, const std::string& verb, const std::vector<std::string>& words) {
-  CLI::App app;
-  app.set_help_flag();  // --help is answered before parsing
-  app.allow_extras();
-  const Declared declared = declare(app, set);
-  try {
-    std::vector<std::string> whole = with_bare_values(set, words);
-    std::reverse(whole.begin(), whole.end());
-    app.parse(std::move(whole));
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(fmt::format("{}; see 'tabor {} --help'", error.what(), verb));
+  const std::vector<Given> given = WordSorter(set, verb, words).sort();
+  require_all(given, set, verb);
+  require_companions(given, verb);
+  reject_repeated(given);
+  for (const bool is_base : {true, false}) {
+    for (const auto& [option, value] : given) {
+      if (option->is_base == is_base) assign(*option, value);
+    }
   }
-  reject_unknown_words(app, set, verb);
-  require_all(declared, set, verb);
-  require_companions(declared, verb);
-  for (const bool is_base : {true, false}) assign_in_order(app, declared, is_base);
 }
 
 }  // namespace tabor::cli
