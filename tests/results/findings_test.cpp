@@ -80,7 +80,7 @@ TEST(Findings, FitTheirLineHoweverManyCasesAndHoweverLongTheText) {
         if (i != 1) cases.back().warnings = {{"clamp", text + std::to_string(i), double(i)}};
       }
       const std::string line = line_of(findings_of(cases)[0]);
-      EXPECT_LE(line.size(), kLineRoom) << line;
+      EXPECT_LE(line.size(), kLineLimit) << line;
       EXPECT_THAT(line,
                   testing::AllOf(testing::StartsWith("a sentence"), testing::EndsWith(" [clamp]")));
     }

@@ -450,7 +450,7 @@ TEST(Texts, FitALineAsTheyAre) {
     std::vector<Finding> spelled = {finding};
     spell(option, spelled);
     const std::string line = line_of(spelled[0]);
-    EXPECT_LE(line.size(), kLineRoom);
+    EXPECT_LE(line.size(), kLineLimit);
     EXPECT_THAT(line, Not(HasSubstr("..."))) << line.size();
     EXPECT_THAT(line, HasSubstr("(3 of 12 cases"));
   }

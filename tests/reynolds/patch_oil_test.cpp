@@ -15,7 +15,7 @@ using test::row_patch;
 
 PatchOil settled(const PatchProblem& problem, const Field& oil) {
   const PatchCells cells = patch_cells(problem);
-  return settle(cells, rooms_of(cells), oil, 0);
+  return settle(cells, components_of(cells), oil, 0);
 }
 
 Field row(std::initializer_list<double> values) {
@@ -24,14 +24,15 @@ Field row(std::initializer_list<double> values) {
   return field;
 }
 
-TEST(Rooms, AreCutByWallsAndWrapAround) {
-  const Rooms rooms = rooms_of(patch_cells(row_patch(row({1e-6, 0, 1e-6, 2e-6, 0, 1e-6}))));
-  EXPECT_EQ(rooms.count(), 2);
-  EXPECT_EQ(rooms.of[0], rooms.of[5]);
-  EXPECT_EQ(rooms.of[2], rooms.of[3]);
-  EXPECT_NE(rooms.of[0], rooms.of[2]);
-  EXPECT_EQ(rooms.of[1], -1);
-  EXPECT_EQ(rooms.widest[static_cast<std::size_t>(rooms.of[2])], 3);
+TEST(Components, AreCutByWallsAndWrapAround) {
+  const Components components =
+      components_of(patch_cells(row_patch(row({1e-6, 0, 1e-6, 2e-6, 0, 1e-6}))));
+  EXPECT_EQ(components.count(), 2);
+  EXPECT_EQ(components.of[0], components.of[5]);
+  EXPECT_EQ(components.of[2], components.of[3]);
+  EXPECT_NE(components.of[0], components.of[2]);
+  EXPECT_EQ(components.of[1], -1);
+  EXPECT_EQ(components.widest[static_cast<std::size_t>(components.of[2])], 3);
 }
 
 TEST(Settle, LeavesOilThatFitsWhereItIs) {
@@ -50,7 +51,7 @@ TEST(Settle, MovesOilFromWallsToTheNearestOpenCell) {
 TEST(Settle, SpreadsWhatARoomCannotHoldOverTheOthers) {
   const PatchOil result =
       settled(row_patch(row({1e-6, 0, 4e-6, 2e-6, 0})), row({4e-6, 0, 0, 1e-6, 0}));
-  // 3 um too much for the first room; the other lacks 4 um and 1 um.
+  // 3 um too much for the first component; the other lacks 4 um and 1 um.
   EXPECT_TRUE(result.volume.isApprox(row({1e-6, 0, 2.4e-6, 1.6e-6, 0}), 1e-13));
   EXPECT_EQ(result.outside, 0);
 }

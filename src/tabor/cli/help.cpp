@@ -61,22 +61,22 @@ std::string markdown_of(const HelpTable& table) {
 /// wrapped.
 std::string text_of(const HelpTable& table) {
   constexpr std::size_t kWidest = kScreenWidth / 5;
-  std::vector<std::size_t> rooms(table.headings.size() - 1);
+  std::vector<std::size_t> widths(table.headings.size() - 1);
   std::vector<std::vector<std::string>> rows = {table.headings};
   rows.insert(rows.end(), table.rows.begin(), table.rows.end());
   for (const auto& row : rows) {
-    for (std::size_t i = 0; i < rooms.size(); ++i) {
+    for (std::size_t i = 0; i < widths.size(); ++i) {
       const std::size_t size = i == 0 ? row[i].size() : std::min(kWidest, row[i].size());
-      rooms[i] = std::max(rooms[i], size + 2);
+      widths[i] = std::max(widths[i], size + 2);
     }
   }
   std::string text = fmt::format("\n{}:\n", table.title);
   for (const auto& row : rows) {
     std::string line = "  ";
     std::size_t indent = line.size();
-    for (std::size_t i = 0; i < rooms.size(); ++i) {
+    for (std::size_t i = 0; i < widths.size(); ++i) {
       line += row[i];
-      indent += rooms[i];
+      indent += widths[i];
       if (line.size() + 2 > indent) line += '\n' + std::string(indent, ' ');
       line.resize(std::max(line.size(), line.rfind('\n') + 1 + indent), ' ');
     }

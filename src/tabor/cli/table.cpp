@@ -24,8 +24,8 @@ bool is_numeric(const std::string& cell) {
                            cell.front() == '-' || cell.front() == '.');
 }
 
-std::string aligned(const std::string& cell, std::size_t room, bool right) {
-  const std::string blanks(room - std::min(room, width(cell)), ' ');
+std::string aligned(const std::string& cell, std::size_t column_width, bool right) {
+  const std::string blanks(column_width - std::min(column_width, width(cell)), ' ');
   return right ? blanks + cell : cell + blanks;
 }
 
@@ -60,27 +60,27 @@ void Table::row(std::vector<std::string> cells) {
 }
 
 std::string Table::text() const {
-  std::vector<std::size_t> rooms;
+  std::vector<std::size_t> widths;
   std::vector<bool> right;
   for (std::size_t column = 0; column < headings_.size(); ++column) {
-    std::size_t room = width(headings_[column]);
+    std::size_t column_width = width(headings_[column]);
     bool numeric = !rows_.empty();
     for (const auto& cells : rows_) {
-      room = std::max(room, width(cells[column]));
+      column_width = std::max(column_width, width(cells[column]));
       numeric = numeric && is_numeric(cells[column]);
     }
-    rooms.push_back(room);
+    widths.push_back(column_width);
     right.push_back(numeric);
   }
   const auto line = [&](const std::vector<std::string>& cells) {
     std::string joined;
     for (std::size_t column = 0; column < cells.size(); ++column) {
-      joined += (column > 0 ? "  " : "") + aligned(cells[column], rooms[column], right[column]);
+      joined += (column > 0 ? "  " : "") + aligned(cells[column], widths[column], right[column]);
     }
     return without_trailing_blanks(joined);
   };
   std::vector<std::string> rules;
-  for (const std::size_t room : rooms) rules.emplace_back(room, '-');
+  for (const std::size_t column_width : widths) rules.emplace_back(column_width, '-');
   std::string text = line(headings_) + line(rules);
   for (const auto& cells : rows_) text += line(cells);
   return text;
@@ -91,11 +91,11 @@ void Facts::fact(const std::string& label, const std::string& value) {
 }
 
 std::string Facts::text() const {
-  std::size_t room = 0;
-  for (const auto& [label, value] : lines_) room = std::max(room, width(label));
+  std::size_t column_width = 0;
+  for (const auto& [label, value] : lines_) column_width = std::max(column_width, width(label));
   std::string text;
   for (const auto& [label, value] : lines_) {
-    text += aligned(label, room, false) + "  " + value + '\n';
+    text += aligned(label, column_width, false) + "  " + value + '\n';
   }
   return text;
 }

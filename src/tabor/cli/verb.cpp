@@ -30,7 +30,7 @@ void Context::warn(std::vector<results::Finding> found) {
 std::string Context::line_of(const results::Finding& finding) {
   const bool is_doubt = finding.kind() == cases::Class::doubt;
   return (is_doubt ? "warning: " : "note: ") +
-         results::fitted(results::line_of(finding), results::kLineRoom);
+         results::fitted(results::line_of(finding), results::kLineLimit);
 }
 
 AdviceSpelling spelling_of(const OptionSet& set) {

@@ -72,11 +72,11 @@ std::string counts_of(const FrictionTable& table) {
 }
 
 /// Bytes that go into a line of this width: up to a space, if there is one, else whole characters.
-std::size_t end_of_line(const std::string& text, std::size_t room) {
-  if (text.size() <= room) return text.size();
-  const std::size_t space = text.rfind(' ', room);
+std::size_t end_of_line(const std::string& text, std::size_t limit) {
+  if (text.size() <= limit) return text.size();
+  const std::size_t space = text.rfind(' ', limit);
   if (space != std::string::npos && space > 0) return space;
-  std::size_t end = room;
+  std::size_t end = limit;
   while ((static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;  // within UTF-8
   return end;
 }

@@ -52,8 +52,8 @@ double spill_over_fraction(const Field& film, const Field& gap) {
   const double spilled = deterministic_sum(film.size(), [&](Index begin, Index end) {
     double total = 0;
     for (Index i = begin; i < end; ++i) {
-      const double room = opening[i] < 0 ? 0 : opening[i];  // keeps NaN, unlike std::max
-      const double excess = thickness[i] - room;
+      const double space = opening[i] < 0 ? 0 : opening[i];  // keeps NaN, unlike std::max
+      const double excess = thickness[i] - space;
       total += excess < 0 ? 0 : excess;
     }
     return total;

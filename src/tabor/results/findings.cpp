@@ -176,15 +176,15 @@ void spell(const AdviceSpelling& spelling, std::vector<Finding>& findings) {
 
 std::string statement_of(const Finding& finding) {
   if (finding.code.empty()) return finding.text;
-  const std::size_t room = kLineRoom - in_brackets(finding.code).size();
+  const std::size_t limit = kLineLimit - in_brackets(finding.code).size();
   for (std::size_t n_names = kFew; n_names > 0; --n_names) {
     std::string statement = finding.text + where_of(finding, n_names);
-    if (statement.size() <= room) return statement;
+    if (statement.size() <= limit) return statement;
   }
   Finding rest = finding;
-  if (finding.text.size() + where_of(rest, 0).size() > room) rest.texts_differ = false;
+  if (finding.text.size() + where_of(rest, 0).size() > limit) rest.texts_differ = false;
   const std::string where = where_of(rest, 0);
-  return shortened(finding.text, room - where.size()) + where;
+  return shortened(finding.text, limit - where.size()) + where;
 }
 
 std::string line_of(const Finding& finding) {
@@ -195,20 +195,20 @@ std::string codes_text(const Warnings& warnings) {
   return fmt::format("{}", fmt::join(codes_of(warnings), " "));
 }
 
-std::string shortened(const std::string& text, std::size_t room) {
+std::string shortened(const std::string& text, std::size_t limit) {
   constexpr std::string_view kMore = " ...";
-  if (text.size() <= room) return text;
-  const std::size_t end = text.rfind(' ', room - kMore.size());
+  if (text.size() <= limit) return text;
+  const std::size_t end = text.rfind(' ', limit - kMore.size());
   return text.substr(0, end == std::string::npos ? 0 : end) + std::string(kMore);
 }
 
-std::string fitted(const std::string& text, std::size_t room) {
+std::string fitted(const std::string& text, std::size_t limit) {
   constexpr std::size_t kMostFolders = 1;  // it may tell files of one name apart
   std::string shorter = text;
-  for (std::size_t n = kMostFolders + 1; n-- > 0 && shorter.size() > room;) {
+  for (std::size_t n = kMostFolders + 1; n-- > 0 && shorter.size() > limit;) {
     shorter = with_folders(text, n);
   }
-  return shortened(shorter, room);
+  return shortened(shorter, limit);
 }
 
 void shorten_paths(std::vector<Case>& cases) {

@@ -37,7 +37,7 @@ struct Finding {
 
 /// Characters of a line of a warning with "warning: " before it, and without.
 inline constexpr std::size_t kLineWidth = 160;
-inline constexpr std::size_t kLineRoom = kLineWidth - 9;
+inline constexpr std::size_t kLineLimit = kLineWidth - 9;
 
 /// Groups warnings of the same kind: class `doubt` before `information`, and of each those
 /// about surfaces first, then contacts, films, friction, in the order in which they are met. The
@@ -52,7 +52,7 @@ void spell(const AdviceSpelling& spelling, std::vector<Finding>& findings);
 
 /// The text alone where there is no code; else
 /// "TEXT (2 of 8 cases, the worst shown: 7 MPa, 2 MPa) [code]"
-/// of kLineRoom characters at most: with fewer names of cases, and at last a shortened text.
+/// of kLineLimit characters at most: with fewer names of cases, and at last a shortened text.
 std::string line_of(const Finding& finding);
 /// The same line without its code.
 std::string statement_of(const Finding& finding);
@@ -61,10 +61,10 @@ std::string statement_of(const Finding& finding);
 std::string codes_text(const Warnings& warnings);
 
 /// The text, whose paths lose folders where it is longer than that, and which then loses words.
-std::string fitted(const std::string& text, std::size_t room);
+std::string fitted(const std::string& text, std::size_t limit);
 
 /// The text, of which words are left out at the end where it is longer than that.
-std::string shortened(const std::string& text, std::size_t room);
+std::string shortened(const std::string& text, std::size_t limit);
 
 /// Surfaces that are named by their paths lose the folders that do not tell two of them apart.
 void shorten_paths(std::vector<Case>& cases);

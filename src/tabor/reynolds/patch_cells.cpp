@@ -112,13 +112,13 @@ PatchCells patch_cells(const PatchProblem& problem) {
   return cells;
 }
 
-Rooms rooms_of(const PatchCells& cells) {
-  Rooms rooms{std::vector<std::int32_t>(static_cast<std::size_t>(cells.size()), -1), {}};
+Components components_of(const PatchCells& cells) {
+  Components components{std::vector<std::int32_t>(static_cast<std::size_t>(cells.size()), -1), {}};
   std::vector<std::int32_t> waiting;
   const auto enter = [&](Index cell) {
-    std::int32_t& room = rooms.of[static_cast<std::size_t>(cell)];
-    if (!cells.is_open(cell) || room >= 0) return;
-    room = static_cast<std::int32_t>(rooms.widest.size());
+    std::int32_t& component = components.of[static_cast<std::size_t>(cell)];
+    if (!cells.is_open(cell) || component >= 0) return;
+    component = static_cast<std::int32_t>(components.widest.size());
     waiting.push_back(static_cast<std::int32_t>(cell));
   };
   for (Index first = 0; first < cells.size(); ++first) {
@@ -132,9 +132,9 @@ Rooms rooms_of(const PatchCells& cells) {
       const Neighbours next = cells.around(cell);
       for (const Index other : {next.left, next.right, next.up, next.down}) enter(other);
     }
-    rooms.widest.push_back(widest);
+    components.widest.push_back(widest);
   }
-  return rooms;
+  return components;
 }
 
 }  // namespace tabor::reynolds

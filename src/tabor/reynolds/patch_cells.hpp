@@ -60,7 +60,7 @@ struct PatchCells {
 PatchCells patch_cells(const PatchProblem& problem);
 
 /// Connected components of the gap.
-struct Rooms {
+struct Components {
   std::vector<std::int32_t> of;      ///< of each cell, from 0; -1 at solid cells
   std::vector<std::int32_t> widest;  ///< cell of each component with the largest gap
 
@@ -69,6 +69,6 @@ struct Rooms {
 };
 
 /// Finds the connected components: cells with a gap that are connected by faces.
-Rooms rooms_of(const PatchCells& cells);
+Components components_of(const PatchCells& cells);
 
 }  // namespace tabor::reynolds

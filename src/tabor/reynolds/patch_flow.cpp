@@ -83,30 +83,31 @@ PatchProblem coarser(const PatchProblem& problem) {
 
 /// Distributes the oil of each connected component by the fills, at constant volume: fills are
 /// scaled down if there is less oil than they would take, voids if there is more.
-void redistribute(const PatchCells& cells, const Rooms& rooms, const Field& fill, Field& oil) {
-  struct Room {
+void redistribute(const PatchCells& cells, const Components& components, const Field& fill,
+                  Field& oil) {
+  struct Component {
     double oil = 0;
     double wanted = 0;
     double holds = 0;
   };
-  std::vector<Room> sums(at(rooms.count()));
+  std::vector<Component> sums(at(components.count()));
   for (Index cell = 0; cell < cells.size(); ++cell) {
     if (!cells.is_open(cell)) continue;
-    Room& room = sums[at(rooms.of[at(cell)])];
-    room.oil += oil.data()[cell];
-    room.wanted += fill.data()[cell] * cells.gap.data()[cell];
-    room.holds += cells.gap.data()[cell];
+    Component& component = sums[at(components.of[at(cell)])];
+    component.oil += oil.data()[cell];
+    component.wanted += fill.data()[cell] * cells.gap.data()[cell];
+    component.holds += cells.gap.data()[cell];
   }
   for (Index cell = 0; cell < cells.size(); ++cell) {
     if (!cells.is_open(cell)) continue;
-    const Room& room = sums[at(rooms.of[at(cell)])];
+    const Component& component = sums[at(components.of[at(cell)])];
     const double gap = cells.gap.data()[cell];
     const double wanted = fill.data()[cell] * gap;
-    if (room.oil <= room.wanted && room.wanted > 0) {
-      oil.data()[cell] = wanted * (room.oil / room.wanted);
-    } else if (room.oil < room.holds && room.wanted < room.holds) {
-      oil.data()[cell] =
-          gap - (gap - wanted) * ((room.holds - room.oil) / (room.holds - room.wanted));
+    if (component.oil <= component.wanted && component.wanted > 0) {
+      oil.data()[cell] = wanted * (component.oil / component.wanted);
+    } else if (component.oil < component.holds && component.wanted < component.holds) {
+      oil.data()[cell] = gap - (gap - wanted) * ((component.holds - component.oil) /
+                                                 (component.holds - component.wanted));
     }
   }
 }
@@ -124,12 +125,13 @@ void reject(const PatchFilm& next, PatchFilm& film) {
   film.convergence.status = Status::stalled;
 }
 
-void slide(const PatchProblem& problem, const PatchCells& cells, const Rooms& rooms,
+void slide(const PatchProblem& problem, const PatchCells& cells, const Components& components,
            const Observer& observer, PatchFilm& film) {
-  const double passage = problem.grid.lx / problem.entrainment_speed;  // [s]
+  const double crossing = problem.grid.lx / problem.entrainment_speed;  // [s]
   double length = kFirstStep;
   for (int step = 1; step <= kMaxSteps; ++step) {
-    PatchFilm next = advance(cells, rooms, film.oil, length * passage, film.pressure, observer);
+    PatchFilm next =
+        advance(cells, components, film.oil, length * crossing, film.pressure, observer);
     add_work(film, next);
     if (next.convergence.status == Status::stalled) {
       length /= 4;
@@ -150,8 +152,8 @@ void slide(const PatchProblem& problem, const PatchCells& cells, const Rooms& ro
 void slide_from(const PatchProblem& problem, const Field& oil, const PatchFilm* guess,
                 const Observer& observer, PatchFilm& film) {
   const PatchCells cells = patch_cells(problem);
-  const Rooms rooms = rooms_of(cells);
-  film.oil = settle(cells, rooms, oil, 0);
+  const Components components = components_of(cells);
+  film.oil = settle(cells, components, oil, 0);
   film.pressure = Field::Zero(cells.ny, cells.nx);
   film.fill = film.pressure;
   const bool is_at_rest = problem.entrainment_speed == 0 || !(oil > 0).any();
@@ -160,9 +162,9 @@ void slide_from(const PatchProblem& problem, const Field& oil, const PatchFilm* 
   if (guess) {
     add_work(*guess, film);
     film.pressure = sampled(guess->pressure, cells.ny, cells.nx);
-    redistribute(cells, rooms, sampled(guess->fill, cells.ny, cells.nx), film.oil.volume);
+    redistribute(cells, components, sampled(guess->fill, cells.ny, cells.nx), film.oil.volume);
   }
-  slide(problem, cells, rooms, observer, film);
+  slide(problem, cells, components, observer, film);
 }
 
 void check_oil(const PatchProblem& problem, const Field& oil) {

@@ -33,53 +33,57 @@ std::vector<std::int32_t> nearest_open(const PatchCells& cells) {
   return nearest;
 }
 
-struct Room {
+struct Component {
   double oil = 0;    ///< [m], summed over its cells
   double holds = 0;  ///< [m], sum of the gap
   double free = 0;   ///< [m], sum over the cells that are not full
 };
 
-std::vector<Room> measure(const PatchCells& cells, const Rooms& rooms, const Field& oil) {
-  std::vector<Room> result(at(rooms.count()));
+std::vector<Component> measure(const PatchCells& cells, const Components& components,
+                               const Field& oil) {
+  std::vector<Component> result(at(components.count()));
   for (Index cell = 0; cell < cells.size(); ++cell) {
     if (!cells.is_open(cell)) continue;
-    Room& room = result[at(rooms.of[at(cell)])];
-    room.oil += oil.data()[cell];
-    room.holds += cells.gap.data()[cell];
-    room.free += std::max(cells.gap.data()[cell] - oil.data()[cell], 0.0);
+    Component& component = result[at(components.of[at(cell)])];
+    component.oil += oil.data()[cell];
+    component.holds += cells.gap.data()[cell];
+    component.free += std::max(cells.gap.data()[cell] - oil.data()[cell], 0.0);
   }
   return result;
 }
 
 /// Fills connected components that have more oil than they hold, and returns the excess.
-double drain_excess(const PatchCells& cells, const Rooms& rooms, const std::vector<Room>& measured,
-                    Field& oil) {
+double drain_excess(const PatchCells& cells, const Components& components,
+                    const std::vector<Component>& measured, Field& oil) {
   double excess = 0;
-  for (const Room& room : measured) excess += std::max(room.oil - room.holds, 0.0);
+  for (const Component& component : measured) {
+    excess += std::max(component.oil - component.holds, 0.0);
+  }
   if (excess == 0) return 0;
   for (Index cell = 0; cell < cells.size(); ++cell) {
     if (!cells.is_open(cell)) continue;
-    const Room& room = measured[at(rooms.of[at(cell)])];
-    if (room.oil > room.holds) oil.data()[cell] = cells.gap.data()[cell];
+    const Component& component = measured[at(components.of[at(cell)])];
+    if (component.oil > component.holds) oil.data()[cell] = cells.gap.data()[cell];
   }
   return excess;
 }
 
 /// Fills `share` of the free volume of each connected component that has any.
-void fill_up(const PatchCells& cells, const Rooms& rooms, const std::vector<Room>& measured,
-             double share, Field& oil) {
+void fill_up(const PatchCells& cells, const Components& components,
+             const std::vector<Component>& measured, double share, Field& oil) {
   for (Index cell = 0; cell < cells.size(); ++cell) {
     if (!cells.is_open(cell)) continue;
-    const Room& room = measured[at(rooms.of[at(cell)])];
-    if (room.oil >= room.holds || !(room.free > 0)) continue;
+    const Component& component = measured[at(components.of[at(cell)])];
+    if (component.oil >= component.holds || !(component.free > 0)) continue;
     const double lacks = std::max(cells.gap.data()[cell] - oil.data()[cell], 0.0);
-    oil.data()[cell] += share * lacks * (room.holds - room.oil) / room.free;
+    oil.data()[cell] += share * lacks * (component.holds - component.oil) / component.free;
   }
 }
 
 }  // namespace
 
-PatchOil settle(const PatchCells& cells, const Rooms& rooms, const Field& oil, double outside) {
+PatchOil settle(const PatchCells& cells, const Components& components, const Field& oil,
+                double outside) {
   PatchOil result{oil, outside};
   const std::vector<std::int32_t> nearest = nearest_open(cells);
   for (Index cell = 0; cell < cells.size(); ++cell) {
@@ -88,17 +92,20 @@ PatchOil settle(const PatchCells& cells, const Rooms& rooms, const Field& oil, d
     home += result.volume.data()[cell];
     result.volume.data()[cell] = 0;
   }
-  result.outside += drain_excess(cells, rooms, measure(cells, rooms, result.volume), result.volume);
+  result.outside +=
+      drain_excess(cells, components, measure(cells, components, result.volume), result.volume);
   if (!(result.outside > 0)) return result;
-  const std::vector<Room> measured = measure(cells, rooms, result.volume);
+  const std::vector<Component> measured = measure(cells, components, result.volume);
   double room_left = 0;
-  for (const Room& room : measured) room_left += std::max(room.holds - room.oil, 0.0);
+  for (const Component& component : measured) {
+    room_left += std::max(component.holds - component.oil, 0.0);
+  }
   if (result.outside >= room_left) {
     result.outside -= room_left;
     result.volume = cells.gap;
     return result;
   }
-  fill_up(cells, rooms, measured, result.outside / room_left, result.volume);
+  fill_up(cells, components, measured, result.outside / room_left, result.volume);
   result.outside = 0;
   return result;
 }

@@ -15,6 +15,7 @@ struct PatchOil {
 /// excess of a connected component of the gap, and `outside`, spreads over the free volume of the
 /// others in proportion (oil that leaves a periodic patch enters it again elsewhere). Oil is
 /// conserved: the sum of the volumes and `outside` stays constant to round-off.
-PatchOil settle(const PatchCells& cells, const Rooms& rooms, const Field& oil, double outside);
+PatchOil settle(const PatchCells& cells, const Components& components, const Field& oil,
+                double outside);
 
 }  // namespace tabor::reynolds

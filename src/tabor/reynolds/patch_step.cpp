@@ -31,16 +31,16 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 /// One implicit step: finds the sets of full and starved cells.
 class Step {
  public:
-  Step(const PatchCells& cells, const Rooms& rooms, const PatchOil& oil, double time,
+  Step(const PatchCells& cells, const Components& components, const PatchOil& oil, double time,
        const Observer& observer)
       : cells_(cells),
-        rooms_(rooms),
+        components_(components),
         oil_(oil),
         time_(time),
         observer_(observer),
         balance_(cells, oil, time),
-        overfull_(at(rooms.count()), false) {
-    find_overfull_rooms();
+        overfull_(at(components.count()), false) {
+    find_overfull_components();
   }
 
   PatchFilm run(const Field& guess) {
@@ -85,24 +85,26 @@ class Step {
         balance_.pressure(cell) = guess.data()[cell];
       }
     }
-    keep_rooms_determined();
+    keep_components_determined();
   }
 
-  void find_overfull_rooms() {
-    std::vector<double> holds(at(rooms_.count()), 0);
+  void find_overfull_components() {
+    std::vector<double> holds(at(components_.count()), 0);
     for (Index cell = 0; cell < cells_.size(); ++cell) {
       if (!cells_.is_open(cell)) continue;
-      holds[at(rooms_.of[at(cell)])] += balance_.gap(cell) - balance_.oil(cell);
+      holds[at(components_.of[at(cell)])] += balance_.gap(cell) - balance_.oil(cell);
     }
-    for (std::size_t room = 0; room < holds.size(); ++room) overfull_[room] = holds[room] <= 0;
+    for (std::size_t component = 0; component < holds.size(); ++component) {
+      overfull_[component] = holds[component] <= 0;
+    }
   }
 
   /// Fixes the pressure of connected components whose cells are all full. If a component has more
   /// oil than fits, its vent fixes it; if not, one cell is starved after all: that of the lowest
   /// pressure, or the emptiest.
-  void keep_rooms_determined() {
-    std::vector<Index> lowest(at(rooms_.count()), -1);
-    std::vector<bool> determined(at(rooms_.count()), false);
+  void keep_components_determined() {
+    std::vector<Index> lowest(at(components_.count()), -1);
+    std::vector<bool> determined(at(components_.count()), false);
     const auto before = [&](Index a, Index b) {
       const double lower = balance_.pressure(a) - balance_.pressure(b);
       if (lower != 0) return lower < 0;
@@ -110,16 +112,16 @@ class Step {
     };
     for (Index cell = 0; cell < cells_.size(); ++cell) {
       if (!cells_.is_open(cell)) continue;
-      const std::size_t room = at(rooms_.of[at(cell)]);
-      if (balance_.kind(cell) != CellKind::full) determined[room] = true;
-      if (lowest[room] < 0 || before(cell, lowest[room])) lowest[room] = cell;
+      const std::size_t component = at(components_.of[at(cell)]);
+      if (balance_.kind(cell) != CellKind::full) determined[component] = true;
+      if (lowest[component] < 0 || before(cell, lowest[component])) lowest[component] = cell;
     }
-    for (std::size_t room = 0; room < lowest.size(); ++room) {
-      if (determined[room]) continue;
-      if (overfull_[room]) {
-        balance_.pin(rooms_.widest[room], cells_.vent_pressure);
+    for (std::size_t component = 0; component < lowest.size(); ++component) {
+      if (determined[component]) continue;
+      if (overfull_[component]) {
+        balance_.pin(components_.widest[component], cells_.vent_pressure);
       } else {
-        balance_.set_kind(lowest[room], CellKind::starved);
+        balance_.set_kind(lowest[component], CellKind::starved);
       }
     }
   }
@@ -183,13 +185,13 @@ class Step {
       }
     }
     if (changes == 0) changes = change_vents();
-    if (changes > 0) keep_rooms_determined();
+    if (changes > 0) keep_components_determined();
     return changes;
   }
 
   Index change_vents() {
     Index changes = 0;
-    for (const Index cell : rooms_.widest) {
+    for (const Index cell : components_.widest) {
       if (balance_.is_reservoir(cell)) continue;
       const double flow = balance_.throughput(cell);
       if (balance_.kind(cell) == CellKind::full &&
@@ -226,7 +228,7 @@ class Step {
   }
 
   const PatchCells& cells_;
-  const Rooms& rooms_;
+  const Components& components_;
   const PatchOil& oil_;
   double time_;
   const Observer& observer_;
@@ -236,9 +238,9 @@ class Step {
 
 }  // namespace
 
-PatchFilm advance(const PatchCells& cells, const Rooms& rooms, const PatchOil& oil, double time,
-                  const Field& guess, const Observer& observer) {
-  return Step(cells, rooms, oil, time, observer).run(guess);
+PatchFilm advance(const PatchCells& cells, const Components& components, const PatchOil& oil,
+                  double time, const Field& guess, const Observer& observer) {
+  return Step(cells, components, oil, time, observer).run(guess);
 }
 
 }  // namespace tabor::reynolds

@@ -35,7 +35,7 @@ struct PatchFilm {
 /// connected component of the gap is its vent: where the pressure there would exceed vent_pressure,
 /// oil leaves and is counted as `outside`. `oil` must be settled in the components of these cells.
 /// A `guess` of the pressure (or an empty field) saves iterations. Throws Interrupted.
-PatchFilm advance(const PatchCells& cells, const Rooms& rooms, const PatchOil& oil, double time,
-                  const Field& guess, const Observer& observer = {});
+PatchFilm advance(const PatchCells& cells, const Components& components, const PatchOil& oil,
+                  double time, const Field& guess, const Observer& observer = {});
 
 }  // namespace tabor::reynolds

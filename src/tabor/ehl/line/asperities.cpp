@@ -82,13 +82,14 @@ Eigen::ArrayXd LineFilm::Equations::overlap_products() const {
 void LineFilm::Equations::add_touch(LineLinear& linear) const {
   const Index n = film_.n_;
   const LineUnits& units = film_.units_;
-  const Eigen::ArrayXd room = (state_.film - film_.problem_.asperities.boundary_film) / units.film;
+  const Eigen::ArrayXd clearance =
+      (state_.film - film_.problem_.asperities.boundary_film) / units.film;
   const Eigen::ArrayXd pressure = state_.asperity_pressure / units.pressure;
-  const Eigen::ArrayXd scale = room + pressure;
+  const Eigen::ArrayXd scale = clearance + pressure;
   const double aim = state_.touch_product * film_.film_scale_ / units.film;
-  linear.system.touch = {pressure / scale, room / scale};
+  linear.system.touch = {pressure / scale, clearance / scale};
   linear.residual.conservativeResize(linear.system.size());
-  linear.residual.segment(n, n) = (room * pressure - aim) / scale;
+  linear.residual.segment(n, n) = (clearance * pressure - aim) / scale;
   const double total = (state_.pressure + state_.asperity_pressure).sum();
   linear.load_residual() =
       (film_.elastic_.load_weight() * total - film_.problem_.load) / units.load;
@@ -104,8 +105,8 @@ double LineFilm::Equations::share_before_touch(const Eigen::VectorXd& step) cons
   whole.asperity_pressure += units.pressure * step.segment(n, n).array();
   whole.separation += units.film * step[step.size() - 1];
   whole.film = film_.film_of(whole, conditions_.shape);
-  const Eigen::ArrayXd room = state_.film - film_.problem_.asperities.boundary_film;
-  const double film = ((state_.film - whole.film) / room).maxCoeff();
+  const Eigen::ArrayXd clearance = state_.film - film_.problem_.asperities.boundary_film;
+  const double film = ((state_.film - whole.film) / clearance).maxCoeff();
   const double pressure =
       ((state_.asperity_pressure - whole.asperity_pressure) / state_.asperity_pressure).maxCoeff();
   return std::min(1.0, kShareOfTheWay / std::max({film, pressure, kShareOfTheWay}));
@@ -120,8 +121,9 @@ bool LineFilm::Equations::is_open(const LineState& old) const {
 
 Eigen::ArrayXd LineFilm::touching_pressure(const LineState& state) const {
   if (state.asperity_pressure.size() == 0) return Eigen::ArrayXd::Zero(n_);
-  const Eigen::ArrayXd room = (state.film - problem_.asperities.boundary_film) / film_scale_;
-  return (state.asperity_pressure / units_.pressure > room).select(state.asperity_pressure, 0.0);
+  const Eigen::ArrayXd clearance = (state.film - problem_.asperities.boundary_film) / film_scale_;
+  return (state.asperity_pressure / units_.pressure > clearance)
+      .select(state.asperity_pressure, 0.0);
 }
 
 }  // namespace tabor::ehl

@@ -25,9 +25,10 @@ constexpr double kFirstFilms[] = {10, 3, 40};
 void check_domain(const LineProblem& problem) {
   const double half_width = hertz_of(problem).half_width;
   const Eigen::ArrayXd x = line_nodes(problem);
-  const double room = std::min(-x[0], x[x.size() - 1]);
-  if (!(room > half_width)) {
-    throw InputError("domain of a line contact", fmt::format("{:.4g} m beside the centre", room),
+  const double beside_centre = std::min(-x[0], x[x.size() - 1]);
+  if (!(beside_centre > half_width)) {
+    throw InputError("domain of a line contact",
+                     fmt::format("{:.4g} m beside the centre", beside_centre),
                      fmt::format("more than the half width of Hertz, {:.4g} m", half_width),
                      "make the domain longer or leave it to the program");
   }

@@ -116,13 +116,13 @@ bool PointFilm::Equations::change_nodes() {
     if (!film_.in_domain(k)) continue;
     PointNode& node = state_.nodes.data()[k];
     const double gain = linear_.gain.data()[k];
-    const double room = (state_.film.data()[k] - film_.boundary_film_) / unit;
-    const bool thickens = gain + room > surplus;
+    const double clearance = (state_.film.data()[k] - film_.boundary_film_) / unit;
+    const bool thickens = gain + clearance > surplus;
     if (node == PointNode::cavity) {
       if (gain > surplus) change(node, PointNode::liquid);
     } else if (touches(node)) {
       if (thickens) change(node, is_plastic(node) ? PointNode::plastic : PointNode::liquid);
-    } else if (room < 0 && gain + room < 0) {
+    } else if (clearance < 0 && gain + clearance < 0) {
       change(node, is_plastic(node) ? PointNode::plastic_touching : PointNode::touching);
     }
   }
