@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "tabor/contact/contact.hpp"
 #include "tabor/contact/projection.hpp"
 #include "tabor/core/parallel.hpp"
 
@@ -31,7 +32,7 @@ PixelList candidates_in(const CandidateSet& old, const double* v, double thresho
     if (!has_old && Eigen::Map<const Eigen::ArrayXd>(v + chunk, n).minCoeff() > threshold) continue;
     for (Index i = chunk; i < chunk + n; ++i) {
       const bool is_old = k < old.size() && old.pixels[k] == i;
-      if (v[i] <= threshold || (is_old && old.values.pressure[k] > 0)) {
+      if (v[i] <= threshold || (is_old && touches(old.values.pressure[k]))) {
         pixels.push_back(static_cast<std::uint32_t>(i));
       }
       k += is_old ? 1 : 0;
@@ -70,7 +71,7 @@ double mean_residual_under_pressure(const Candidates& values) {
     return deterministic_sum(n, [&](Index begin, Index end) {
       double partial = 0;
       for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-        partial += values.pressure[k] > 0 ? term(k) : 0.0;
+        partial += touches(values.pressure[k]) ? term(k) : 0.0;
       }
       return partial;
     });
@@ -84,7 +85,7 @@ double mean_residual_under_pressure(const Candidates& values) {
 CandidateSet pressed_pixels(const Field& pressure) {
   const double* p = pressure.data();
   CandidateSet set;
-  set.pixels = list_where(pressure.size(), [p](Index i) { return p[i] > 0; });
+  set.pixels = list_where(pressure.size(), [p](Index i) { return touches(p[i]); });
   resize(set, set.size());
   for_each(set.size(), [&](std::size_t k) { set.values.pressure[k] = p[set.pixels[k]]; });
   return set;
@@ -102,13 +103,13 @@ void spread_pressure(const CandidateSet& set, Field& map) {
 double candidate_threshold(const CandidateSet& set, double load, double saturation_pressure,
                            double diagonal_step) {
   const auto& [pressure, residual] = set.values;
-  if (std::none_of(pressure.begin(), pressure.end(), [](double p) { return p > 0; })) {
+  if (std::none_of(pressure.begin(), pressure.end(), &touches)) {
     return std::numeric_limits<double>::infinity();
   }
   if (!std::isfinite(saturation_pressure)) return mean_residual_under_pressure(set.values);
   std::vector<double> v;
   for (std::size_t k = 0; k < set.size(); ++k) {
-    if (pressure[k] > 0) v.push_back(residual[k]);
+    if (touches(pressure[k])) v.push_back(residual[k]);
   }
   const double highest = *std::max_element(v.begin(), v.end());
   if (static_cast<double>(v.size()) * saturation_pressure <= load) return highest;
@@ -120,7 +121,7 @@ double candidate_threshold(const CandidateSet& set, double load, double saturati
   std::vector<double>& wanted = v;
   wanted.clear();
   for (std::size_t k = 0; k < set.size(); ++k) {
-    if (pressure[k] > 0) wanted.push_back(pressure[k] - diagonal_step * residual[k]);
+    if (touches(pressure[k])) wanted.push_back(pressure[k] - diagonal_step * residual[k]);
   }
   const double separation = -shift_for_load(wanted, load, saturation_pressure) / diagonal_step;
   return std::min(highest, std::max(separation, threshold));

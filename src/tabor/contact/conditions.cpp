@@ -69,7 +69,7 @@ double Conditions::certificate(const Candidates& all) const {
 
 /// How far a pressure is inside its bounds [Pa]: itself without a cap.
 double Conditions::freedom(double p) const {
-  return p <= 0 || at_cap(p, cap_) ? 0.0 : p * (1 - p / cap_);
+  return !touches(p) || at_cap(p, cap_) ? 0.0 : p * (1 - p / cap_);
 }
 
 double Conditions::separation(std::span<const double> p, std::span<const double> v) const {
@@ -78,7 +78,7 @@ double Conditions::separation(std::span<const double> p, std::span<const double>
     return -sum_over(p.size(), [&](std::size_t i) { return freedom(p[i]) * v[i]; }) / total;
   }
   constexpr double none = -std::numeric_limits<double>::infinity();
-  return -max_over(p.size(), [&](std::size_t i) { return p[i] > 0 ? v[i] : none; });
+  return -max_over(p.size(), [&](std::size_t i) { return touches(p[i]) ? v[i] : none; });
 }
 
 double Conditions::gap_error(std::span<const double> p, std::span<const double> v,
@@ -86,7 +86,7 @@ double Conditions::gap_error(std::span<const double> p, std::span<const double> 
   return max_over(p.size(), [&](std::size_t i) {
     const double gap = v[i] + separation;
     const double overlap = at_cap(p[i], cap_) ? 0.0 : -gap;
-    const double opening = p[i] > 0 ? gap : 0.0;
+    const double opening = touches(p[i]) ? gap : 0.0;
     return std::max({overlap, opening, 0.0});
   });
 }
@@ -103,7 +103,7 @@ double Conditions::settled_pressure(double p, double gap) const {
   const auto is_false = [&](double pressure, double closing) {
     return closing > std::max(kFalseContact * pressure * pixel_compliance_, rounding_);
   };
-  if (p <= 0 || p >= cap_) return p;
+  if (!touches(p) || p >= cap_) return p;
   return is_false(p, gap) ? 0 : (at_cap(p, cap_) || is_false(cap_ - p, -gap) ? cap_ : p);
 }
 
@@ -111,7 +111,8 @@ double Conditions::settled_pressure(double p, double gap) const {
 /// it.
 bool Conditions::share_rest(std::span<double> p) const {
   const PixelList free = list_where(static_cast<Index>(p.size()), [&](Index i) {
-    return p[static_cast<std::size_t>(i)] > 0 && p[static_cast<std::size_t>(i)] < cap_;
+    const double pressure = p[static_cast<std::size_t>(i)];
+    return touches(pressure) && pressure < cap_;
   });
   std::vector<double> values(free.size());
   for_each(free.size(), [&](std::size_t k) { values[k] = p[free[k]]; });

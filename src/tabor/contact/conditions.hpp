@@ -9,13 +9,6 @@
 // it.
 namespace tabor::contact {
 
-/// True where the pressure is at the cap but for rounding. Solvers, separation, gaps and summary
-/// all use this test.
-inline bool at_cap(double pressure, double saturation_pressure) {
-  constexpr double rounding = 1e-12;
-  return pressure >= (1 - rounding) * saturation_pressure;
-}
-
 /// Conditions of a solution, by which both solvers stop: it carries the load, its duality gap is
 /// small, and the gap is closed wherever the pressure is inside its bounds. The duality gap weighs
 /// gaps with pressure; a pixel with next to no pressure could have any gap without it. Takes

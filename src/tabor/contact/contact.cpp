@@ -127,7 +127,7 @@ State stopped_at_start(elastic::ElasticOperator& elasticity, const Problem& prob
 bool cap_may_be_idle(const State& state, double cap) {
   constexpr double least_share = 0.005;  // of the contact pixels
   return static_cast<double>(saturated_mask(state, cap).count()) <=
-         least_share * static_cast<double>((state.pressure > 0).count());
+         least_share * static_cast<double>(contact_mask(state).count());
 }
 
 /// A cap that no pressure reaches leaves the elastic answer, to the bit: wherever the cap turns out
@@ -182,7 +182,7 @@ void finish_state(const elastic::ElasticOperator& elasticity, const Problem& pro
   const double separation = state.separation;
   for_each(n, [=](std::size_t i) {
     gap[i] += separation;
-    if (p[i] <= 0) {
+    if (!touches(p[i])) {
       gap[i] = std::max(gap[i], 0.0);
     } else if (at_cap(p[i], cap)) {
       p[i] = cap;
@@ -225,7 +225,9 @@ Field unloaded_height(const Field& height, const State& state) {
   return height + state.gap.min(0.0);
 }
 
-Mask contact_mask(const State& state) { return state.pressure > 0; }
+Mask contact_mask(const Field& pressure) { return pressure.unaryExpr(&touches); }
+
+Mask contact_mask(const State& state) { return contact_mask(state.pressure); }
 
 Mask saturated_mask(const State& state, double saturation_pressure) {
   return state.pressure.unaryExpr(

@@ -72,10 +72,22 @@ Summary summarise(const State& state, const Problem& problem, const Grid& grid, 
 /// of the saturated pixels. Solving on it again at the same load or less is elastic.
 Field unloaded_height(const Field& height, const State& state);
 
-/// True where pressure > 0.
+/// True where a pixel under this pressure is in contact. Solvers, masks and measures all use this
+/// test.
+inline bool touches(double pressure) { return pressure > 0; }
+
+/// True where the pressure is at the cap but for rounding. Solvers, masks and measures all use this
+/// test.
+inline bool at_cap(double pressure, double saturation_pressure) {
+  constexpr double rounding = 1e-12;
+  return pressure >= (1 - rounding) * saturation_pressure;
+}
+
+/// Returns the contact pixels: touches() of each pressure.
+Mask contact_mask(const Field& pressure);
 Mask contact_mask(const State& state);
 
-/// True where the pressure is at the cap.
+/// Returns the saturated pixels: at_cap() of each pressure.
 Mask saturated_mask(const State& state, double saturation_pressure);
 
 }  // namespace tabor::contact

@@ -191,7 +191,7 @@ void ProjectedGradient::choose_active_set() {
     const auto k = static_cast<std::size_t>(i);
     const double p = candidates_.values.pressure[k];
     const double relaxed = trial_[k] - relaxed_shift_;
-    return (p > 0 || relaxed > 0) && (p < cap_ || relaxed < cap_);
+    return (touches(p) || touches(relaxed)) && (p < cap_ || relaxed < cap_);
   });
   active_.resize(places_.size());
   for_each(active_.size(), [&](std::size_t k) { active_[k] = candidates_.pixels[places_[k]]; });

@@ -25,7 +25,7 @@ class ConjugateGradient {
   State run(const Observer& observer);
 
  private:
-  bool is_free(Index i) const { return pressure_(i) > 0 && !at_cap(pressure_(i), cap_); }
+  bool is_free(Index i) const { return touches(pressure_(i)) && !at_cap(pressure_(i), cap_); }
   double mean_over_free(const Field& field) const;
   double level() const;
   Conditions::Settled settle(Convergence& convergence);
@@ -125,7 +125,7 @@ void ConjugateGradient::step(double length) {
   bool any_violation = false;
   for (Index i = 0; i < gap_.size(); ++i) {
     const bool free = is_free(i);
-    const bool overlaps = !free && (pressure_(i) <= 0 ? gap_(i) < 0 : gap_(i) > 0);
+    const bool overlaps = !free && (touches(pressure_(i)) ? gap_(i) > 0 : gap_(i) < 0);
     if (free) {
       pressure_(i) -= length * direction_(i);
     } else if (overlaps) {

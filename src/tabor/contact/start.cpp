@@ -67,7 +67,7 @@ Field bearing_pressure(const Problem& problem) {
 void fit_to_load(Field& pressure, double mean_pressure, double saturation_pressure) {
   const double load = mean_pressure * static_cast<double>(pressure.size());
   double* p = pressure.data();
-  PixelList support = list_where(pressure.size(), [p](Index i) { return p[i] > 0; });
+  PixelList support = list_where(pressure.size(), [p](Index i) { return touches(p[i]); });
   if (support.empty() || saturation_pressure * static_cast<double>(support.size()) <= load) {
     support = list_where(pressure.size(), [](Index) { return true; });
   }

@@ -15,7 +15,7 @@ constexpr int kMostIterations = 2000;
 PixelList free_pixels(const State& state, double saturation_pressure) {
   PixelList pixels;
   for (Index i = 0; i < state.pressure.size(); ++i) {
-    if (state.pressure(i) > 0 && state.pressure(i) < saturation_pressure) {
+    if (touches(state.pressure(i)) && !at_cap(state.pressure(i), saturation_pressure)) {
       pixels.push_back(static_cast<std::uint32_t>(i));
     }
   }

@@ -103,9 +103,9 @@ double load_error(const Field& pressure, double mean_pressure) {
 /// they do, all of them where the pixels in contact cannot.
 void carry_load(Field& pressure, const contact::Problem& problem) {
   const double load = problem.mean_pressure * static_cast<double>(pressure.size());
-  const auto n_contacts = static_cast<double>((pressure > 0).count());
+  const auto n_contacts = static_cast<double>(contact::contact_mask(pressure).count());
   const bool all = n_contacts * problem.saturation_pressure <= load;
-  const auto is_chosen = [all](double p) { return all || p > 0; };
+  const auto is_chosen = [all](double p) { return all || contact::touches(p); };
   const std::span pixels(pressure.data(), static_cast<std::size_t>(pressure.size()));
   std::vector<double> chosen;
   std::copy_if(pixels.begin(), pixels.end(), std::back_inserter(chosen), is_chosen);
@@ -135,7 +135,7 @@ io::Json check(const Request& request) {
                                          request.grid.nx, request.grid.ny));
   }
   io::Json json;
-  json["contact_area"] = (pressure > 0).cast<double>().mean();
+  json["contact_area"] = contact::contact_mask(pressure).cast<double>().mean();
   json["lowest_pressure_Pa"] = pressure.minCoeff();
   json["highest_pressure_Pa"] = pressure.maxCoeff();
   json["load_error"] = load_error(pressure, request.problem.mean_pressure);
