@@ -5,10 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "tabor/contact/pixel_list.hpp"
 #include "tabor/contact/projection.hpp"
 #include "tabor/contact/scale.hpp"
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
 #include "tabor/elastic/half_space.hpp"
 
 namespace tabor::contact {
@@ -22,17 +21,6 @@ constexpr double kLargestShare = 30;  // of sqrt(tolerance) x length scale
 constexpr double kRelativeRounding = 1e-13;
 constexpr double kMostSettled = 1e-6;  // of the load: more is for the solver's iterations to move
 constexpr double kExactLoad = 1e-13;   // relative: no need to correct
-
-template <typename Term>
-double max_over(std::size_t n, const Term& term) {
-  return parallel_max(static_cast<Index>(n), [&](Index begin, Index end) {
-    double largest = -std::numeric_limits<double>::infinity();
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      largest = std::max(largest, term(i));
-    }
-    return largest;
-  });
-}
 
 }  // namespace
 

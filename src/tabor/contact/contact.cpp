@@ -11,12 +11,11 @@
 
 #include "tabor/contact/conditions.hpp"
 #include "tabor/contact/fast_solver.hpp"
-#include "tabor/contact/pixel_list.hpp"
 #include "tabor/contact/polonsky_keer.hpp"
 #include "tabor/contact/scale.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/large_pages.hpp"
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/numerics/field_statistics.hpp"
 
@@ -24,10 +23,8 @@ namespace tabor::contact {
 namespace {
 
 bool all_finite(const Field& map) {
-  const double n_finite = deterministic_sum(map.size(), [&](Index begin, Index end) {
-    const Eigen::Map<const Eigen::ArrayXd> block(map.data() + begin, end - begin);
-    return static_cast<double>(block.isFinite().count());
-  });
+  const double n_finite = sum_over_blocks(
+      map.size(), [](const auto& block) { return block.isFinite().count(); }, map.data());
   return n_finite == static_cast<double>(map.size());
 }
 

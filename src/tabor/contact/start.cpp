@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <vector>
 
 #include "tabor/contact/fast_solver.hpp"
-#include "tabor/contact/pixel_list.hpp"
 #include "tabor/contact/projection.hpp"
 #include "tabor/core/large_pages.hpp"
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
+#include "tabor/core/rows.hpp"
 
 namespace tabor::contact {
 namespace {
@@ -21,26 +20,18 @@ constexpr double kCoarseTolerance = 1e-3;  // tighter coarse solutions save noth
 /// Means of 2 x 2 pixels; the last row and column of odd sizes stand for themselves.
 Field halved(const Field& fine) {
   auto coarse = uninitialised_map<Field>((fine.rows() + 1) / 2, (fine.cols() + 1) / 2);
-  parallel_for(coarse.rows(), 16, [&](Index begin, Index end) {
-    for (Index y = begin; y < end; ++y) {
-      const Index below = std::min(2 * y + 1, fine.rows() - 1);
-      for (Index x = 0; x < coarse.cols(); ++x) {
-        const Index right = std::min(2 * x + 1, fine.cols() - 1);
-        coarse(y, x) = 0.25 * (fine(2 * y, 2 * x) + fine(2 * y, right) + fine(below, 2 * x) +
-                               fine(below, right));
-      }
-    }
+  for_each_pixel(coarse.rows(), coarse.cols(), [&](Index y, Index x) {
+    const Index below = std::min(2 * y + 1, fine.rows() - 1);
+    const Index right = std::min(2 * x + 1, fine.cols() - 1);
+    coarse(y, x) =
+        0.25 * (fine(2 * y, 2 * x) + fine(2 * y, right) + fine(below, 2 * x) + fine(below, right));
   });
   return coarse;
 }
 
 Field doubled(const Field& coarse, Index ny, Index nx) {
   auto fine = uninitialised_map<Field>(ny, nx);
-  parallel_for(ny, 16, [&](Index begin, Index end) {
-    for (Index y = begin; y < end; ++y) {
-      for (Index x = 0; x < nx; ++x) fine(y, x) = coarse(y / 2, x / 2);
-    }
-  });
+  for_each_pixel(ny, nx, [&](Index y, Index x) { fine(y, x) = coarse(y / 2, x / 2); });
   return fine;
 }
 
@@ -73,10 +64,7 @@ void fit_to_load(Field& pressure, double mean_pressure, double saturation_pressu
   }
   std::vector<double> values(support.size());
   for_each(values.size(), [&](std::size_t k) { values[k] = p[support[k]]; });
-  const auto n = static_cast<Index>(values.size());
-  const double carried = deterministic_sum(n, [&](Index begin, Index end) {
-    return std::accumulate(values.begin() + begin, values.begin() + end, 0.0);
-  });
+  const double carried = sum_over(values.size(), [&](std::size_t k) { return values[k]; });
   if (!std::isfinite(saturation_pressure) && carried > 0) {
     for_each(values.size(), [&](std::size_t k) { values[k] *= load / carried; });
   }

@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "tabor/contact/conditions.hpp"
 #include "tabor/contact/contact.hpp"
 #include "tabor/contact/patches.hpp"
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
 
 namespace tabor::contact {
 namespace {
@@ -15,14 +14,9 @@ namespace {
 /// doi:10.1016/j.triboint.2017.04.023).
 constexpr double kTransitionArea = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
 
-double mean_of(Index n, const std::function<double(Index)>& value) {
-  return deterministic_sum(n,
-                           [&](Index begin, Index end) {
-                             double partial = 0;
-                             for (Index i = begin; i < end; ++i) partial += value(i);
-                             return partial;
-                           }) /
-         static_cast<double>(n);
+template <typename Value>
+double mean_of(Index n, const Value& value) {
+  return sum_over(n, value) / static_cast<double>(n);
 }
 
 /// Corners per pixel edge of a contact line: 2 - sqrt 2 = 0.59 of one that runs in all directions
