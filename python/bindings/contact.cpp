@@ -92,6 +92,7 @@ void restore_contact(ContactRecord& self, const ContactState& saved) {
   state.pressure = field_of(std::get<4>(saved));
   state.displacement = field_of(std::get<5>(saved));
   state.gap = field_of(std::get<6>(saved));
+  state.mean_pressure = one.summary.mean_pressure;
   state.separation = one.summary.separation;
   state.convergence = one.convergence;
 }

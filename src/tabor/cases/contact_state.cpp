@@ -24,8 +24,8 @@ ContactRecord solve(elastic::ElasticOperator& elasticity, const Field& height,
                     const ContactSettings& settings, double mean_pressure,
                     const Observer& observer) {
   const contact::Problem problem{.height = height,
-                                 .mean_pressure = mean_pressure,
-                                 .saturation_pressure = settings.pressure_cap(),
+                                 .control = contact::MeanPressure{mean_pressure},
+                                 .bounds = {.upper = settings.pressure_cap()},
                                  .tolerance = settings.tolerance};
   const Stopwatch watch;
   const double fft_before = elasticity.fft_seconds();

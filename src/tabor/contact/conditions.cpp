@@ -24,10 +24,9 @@ constexpr double kExactLoad = 1e-13;   // relative: no need to correct
 
 }  // namespace
 
-Conditions::Conditions(const elastic::ElasticOperator& elasticity, const Problem& problem,
-                       double saturation_pressure)
+Conditions::Conditions(const elastic::ElasticOperator& elasticity, const LoadProblem& problem)
     : load_(problem.mean_pressure * static_cast<double>(problem.height.size())),
-      cap_(saturation_pressure) {
+      cap_(problem.saturation_pressure) {
   const Grid& grid = elasticity.grid();
   const double modulus = elasticity.effective_modulus();
   const double length = length_scale(elasticity, problem);

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "tabor/contact/certificate.hpp"
-#include "tabor/contact/contact.hpp"
+#include "tabor/contact/load_problem.hpp"
 
 // Tests whether a pressure satisfies load, bounds and complementarity; both contact solvers stop by
 // it.
@@ -15,8 +15,7 @@ namespace tabor::contact {
 /// pressures p and residuals v = S p - z of all pixels that matter, in the same order.
 class Conditions {
  public:
-  Conditions(const elastic::ElasticOperator& elasticity, const Problem& problem,
-             double saturation_pressure);
+  Conditions(const elastic::ElasticOperator& elasticity, const LoadProblem& problem);
 
   double load() const { return load_; }  ///< sum of the pressures [Pa]
 

@@ -7,10 +7,12 @@
 #include <limits>
 #include <span>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "tabor/contact/conditions.hpp"
 #include "tabor/contact/fast_solver.hpp"
+#include "tabor/contact/load_problem.hpp"
 #include "tabor/contact/polonsky_keer.hpp"
 #include "tabor/contact/scale.hpp"
 #include "tabor/core/error.hpp"
@@ -28,7 +30,7 @@ bool all_finite(const Field& map) {
   return n_finite == static_cast<double>(map.size());
 }
 
-void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
+void check_maps(const elastic::ElasticOperator& elasticity, const Problem& problem) {
   const Grid& grid = elasticity.grid();
   if (problem.height.rows() != grid.ny || problem.height.cols() != grid.nx) {
     throw InputError(
@@ -40,13 +42,27 @@ void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
     throw InputError("contact", "a surface with holes or infinite heights",
                      "a height at every pixel", "fill the holes first (--fill harmonic)");
   }
-  if (!(problem.mean_pressure > 0) || !std::isfinite(problem.mean_pressure)) {
-    throw InputError("mean pressure", format_si(problem.mean_pressure, "Pa"), "a positive pressure",
-                     "");
+  if (problem.start.size() == 0) return;
+  if (problem.start.rows() != grid.ny || problem.start.cols() != grid.nx ||
+      !all_finite(problem.start) || extent_of(problem.start).lowest < 0) {
+    throw InputError("contact", "a pressure to start from that is no pressure on this grid",
+                     "zero or more at every pixel of the heights", "");
   }
-  if (!(problem.saturation_pressure > problem.mean_pressure)) {
-    throw InputError("saturation pressure", format_si(problem.saturation_pressure, "Pa"),
-                     "more than the mean pressure of " + format_si(problem.mean_pressure, "Pa"),
+}
+
+void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
+  check_maps(elasticity, problem);
+  if (std::holds_alternative<Force>(problem.control) && elasticity.drops_mean()) {
+    throw InputError("force", "a surface that repeats without end", "one that ends: a free patch",
+                     "give a mean pressure");
+  }
+  const double mean_pressure = prescribed_pressure(problem, elasticity.grid());
+  if (!(mean_pressure > 0) || !std::isfinite(mean_pressure)) {
+    throw InputError("mean pressure", format_si(mean_pressure, "Pa"), "a positive pressure", "");
+  }
+  if (!(problem.bounds.upper > mean_pressure)) {
+    throw InputError("saturation pressure", format_si(problem.bounds.upper, "Pa"),
+                     "more than the mean pressure of " + format_si(mean_pressure, "Pa"),
                      "no pressure field below the cap can carry this load");
   }
   if (!(problem.tolerance > 0)) {
@@ -70,13 +86,14 @@ double offset_of(const Field& height) {
 }
 
 /// Rms pressure [Pa] that full contact needs to flatten the surface: E* / 2 * rms slope.
-double flattening_pressure(const elastic::ElasticOperator& elasticity, const Problem& problem) {
+double flattening_pressure(const elastic::ElasticOperator& elasticity, const LoadProblem& problem) {
   return 0.5 * elasticity.effective_modulus() * rms_slope(problem.height, elasticity.grid());
 }
 
 /// p = P + S^-1 z, the answer if it stays within the bounds (contact everywhere); one transform.
 /// Tried only where the pressure is not far below the flattening pressure.
-bool try_full_contact(elastic::ElasticOperator& elasticity, const Problem& problem, State& state) {
+bool try_full_contact(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
+                      State& state) {
   if (problem.mean_pressure < 0.25 * flattening_pressure(elasticity, problem) ||
       !elasticity.apply_inverse(problem.height, state.pressure)) {
     return false;
@@ -95,7 +112,7 @@ bool try_full_contact(elastic::ElasticOperator& elasticity, const Problem& probl
   state.convergence.tolerance = problem.tolerance;
   const Field residual = state.displacement - problem.height;
   state.convergence.certificate =
-      Conditions(elasticity, problem, problem.saturation_pressure)
+      Conditions(elasticity, problem)
           .certificate({{state.pressure.data(), state.pressure.data() + state.pressure.size()},
                         {residual.data(), residual.data() + residual.size()}});
   if (!(state.convergence.certificate <= problem.tolerance)) return false;
@@ -103,16 +120,16 @@ bool try_full_contact(elastic::ElasticOperator& elasticity, const Problem& probl
   return true;
 }
 
-State run(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
+State run(elastic::ElasticOperator& elasticity, const LoadProblem& problem, Solver solver,
           const Observer& observer) {
   return solver == Solver::fast ? solve_fast(elasticity, problem, observer)
                                 : solve_polonsky_keer(elasticity, problem, observer);
 }
 
 /// Where the solver would have begun: what is left of a solution that was stopped before.
-State stopped_at_start(elastic::ElasticOperator& elasticity, const Problem& problem,
+State stopped_at_start(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
                        Solver solver) {
-  Problem start = problem;
+  LoadProblem start = problem;
   start.max_iterations = 0;
   State state = run(elasticity, start, solver, {});
   state.convergence.status = Status::stopped;
@@ -130,12 +147,12 @@ bool cap_may_be_idle(const State& state, double cap) {
 /// A cap that no pressure reaches leaves the elastic answer, to the bit: wherever the cap turns out
 /// idle, the answer is the one computed without it. Caps above what roughness usually reaches
 /// are tried without first.
-State run_capped(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
+State run_capped(elastic::ElasticOperator& elasticity, const LoadProblem& problem, Solver solver,
                  const Observer& observer, bool& cap_is_idle) {
   const double cap = problem.saturation_pressure;
   double pairs_spent = 0;
   const auto try_elastic = [&](State& state) {
-    Problem elastic_problem = problem;
+    LoadProblem elastic_problem = problem;
     elastic_problem.saturation_pressure = kNoSaturation;
     state = run(elasticity, elastic_problem, solver, observer);
     pairs_spent += state.convergence.fft_pairs;
@@ -161,9 +178,10 @@ State run_capped(elastic::ElasticOperator& elasticity, const Problem& problem, S
 
 /// Fixes the separation and makes pressure and gap exactly complementary, which moves either by no
 /// more than the error that is reported: gap_error, and rounding of pressures at the cap.
-void finish_state(const elastic::ElasticOperator& elasticity, const Problem& problem, double cap,
+void finish_state(const elastic::ElasticOperator& elasticity, const LoadProblem& problem,
                   State& state) {
-  const Conditions conditions(elasticity, problem, cap);
+  const Conditions conditions(elasticity, problem);
+  const double cap = problem.saturation_pressure;
   state.gap = uninitialised_map<Field>(state.pressure.rows(), state.pressure.cols());
   double* p = state.pressure.data();
   double* gap = state.gap.data();
@@ -190,19 +208,9 @@ void finish_state(const elastic::ElasticOperator& elasticity, const Problem& pro
   });
 }
 
-}  // namespace
-
-State solve(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
-            const Observer& observer) {
-  check(elasticity, problem);
-  const double offset = offset_of(problem.height);
-  if (offset != 0) {
-    Problem near_zero = problem;
-    near_zero.height -= offset;
-    State state = solve(elasticity, near_zero, solver, observer);
-    state.separation += offset;
-    return state;
-  }
+/// Solves under a mean pressure, on heights that do not lie far from zero.
+State solve_near_zero(elastic::ElasticOperator& elasticity, LoadProblem problem, Solver solver,
+                      const Observer& observer) {
   State state;
   bool cap_is_idle = !std::isfinite(problem.saturation_pressure);
   if (asks_to_stop(observer, {"contact"})) {
@@ -213,8 +221,32 @@ State solve(elastic::ElasticOperator& elasticity, const Problem& problem, Solver
                         : run_capped(elasticity, problem, solver, observer, cap_is_idle);
     state.convergence.fft_pairs += pairs_spent;
   }
-  finish_state(elasticity, problem, cap_is_idle ? kNoSaturation : problem.saturation_pressure,
-               state);
+  if (cap_is_idle) problem.saturation_pressure = kNoSaturation;
+  state.mean_pressure = problem.mean_pressure;
+  finish_state(elasticity, problem, state);
+  return state;
+}
+
+}  // namespace
+
+double prescribed_pressure(const Problem& problem, const Grid& grid) {
+  if (const auto* force = std::get_if<Force>(&problem.control)) return force->value / grid.area();
+  return std::get<MeanPressure>(problem.control).value;
+}
+
+State solve(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
+            const Observer& observer) {
+  check(elasticity, problem);
+  const double mean_pressure = prescribed_pressure(problem, elasticity.grid());
+  const double offset = offset_of(problem.height);
+  if (offset == 0) {
+    return solve_near_zero(elasticity, under_pressure(problem, mean_pressure), solver, observer);
+  }
+  Problem near_zero = problem;
+  near_zero.height -= offset;
+  State state =
+      solve_near_zero(elasticity, under_pressure(near_zero, mean_pressure), solver, observer);
+  state.separation += offset;
   return state;
 }
 

@@ -1,12 +1,13 @@
 #pragma once
 
 #include <limits>
+#include <variant>
 
 #include "tabor/core/convergence.hpp"
 #include "tabor/core/types.hpp"
 #include "tabor/elastic/operator.hpp"
 
-// Solves the contact of a rough elastic surface with a rigid flat under a mean pressure, and
+// Solves the contact of a rough elastic surface with a rigid flat under a given load, and
 // summarises the result.
 namespace tabor::contact {
 
@@ -18,24 +19,46 @@ enum class Solver {
   polonsky_keer  ///< Polonsky & Keer 1999: the textbook baseline, two applications per iteration
 };
 
-/// Contact problem: a rigid flat is pressed on `height` with a given mean pressure.
+/// Control by the mean pressure P.
+struct MeanPressure {
+  double value = 0;  ///< [Pa], load / nominal area, > 0
+};
+/// Control by the force on the whole map, for a surface that does not repeat.
+struct Force {
+  double value = 0;  ///< [N], > 0
+};
+/// Given quantity of a contact: what presses the flat on the surface.
+using Control = std::variant<MeanPressure, Force>;
+
+/// Bounds on the pressure. The lower one is zero: no adhesion.
+struct Bounds {
+  double upper = kNoSaturation;  ///< p_sat [Pa]; must exceed P
+};
+
+/// Contact problem: a rigid flat is pressed on `height`.
 struct Problem {
-  Field height;                                ///< [m], asperities up, shape (ny, nx), no NaN
-  double mean_pressure = 0;                    ///< P [Pa], load / nominal area, > 0
-  double saturation_pressure = kNoSaturation;  ///< p_sat [Pa]; must exceed P
-  double tolerance = 1e-6;                     ///< on the certificate
+  Field height;       ///< [m], asperities up, shape (ny, nx), no NaN
+  Control control{};  ///< what is given: mean pressure or force
+  Bounds bounds{};
+  Field start{};            ///< pressure to start from, like that of a similar problem [Pa]; may be
+                            ///< empty. The answer is the same within the tolerance.
+  double tolerance = 1e-6;  ///< on the certificate
   int max_iterations = 5000;
 };
+
+/// Returns the mean pressure [Pa] that the control prescribes on a grid.
+double prescribed_pressure(const Problem& problem, const Grid& grid);
 
 /// Solution of a contact problem. gap = separation + displacement - height; gap < 0 only at
 /// saturated pixels, where -gap is the residual plastic indentation.
 struct State {
-  Field pressure;         ///< [Pa], 0 <= p <= p_sat, mean exactly P
-  Field displacement;     ///< [m]
-  Field gap;              ///< [m]
-  double separation = 0;  ///< [m]
-  double gap_error = 0;   ///< [m], largest gap or overlap where the contact conditions allow none
-  double gap_limit = 0;   ///< [m], the largest gap_error that counts as converged
+  Field pressure;            ///< [Pa], 0 <= p <= p_sat, mean exactly P
+  Field displacement;        ///< [m]
+  Field gap;                 ///< [m]
+  double mean_pressure = 0;  ///< P [Pa], that the pressure carries
+  double separation = 0;     ///< [m]
+  double gap_error = 0;  ///< [m], largest gap or overlap where the contact conditions allow none
+  double gap_limit = 0;  ///< [m], the largest gap_error that counts as converged
   Convergence convergence;
   /// Steps of the fast solver without the long-wave correction, because with it the bounds made the
   /// direction an ascent.

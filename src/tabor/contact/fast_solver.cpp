@@ -47,11 +47,11 @@ FieldF zeros(Index ny, Index nx) {
 /// solver").
 class ProjectedGradient {
  public:
-  ProjectedGradient(elastic::ElasticOperator& elasticity, const Problem& problem)
+  ProjectedGradient(elastic::ElasticOperator& elasticity, const LoadProblem& problem)
       : elasticity_(elasticity),
         problem_(problem),
         cap_(problem.saturation_pressure),
-        conditions_(elasticity, problem, problem.saturation_pressure),
+        conditions_(elasticity, problem),
         load_(conditions_.load()),
         preconditioner_(elasticity.grid(), elasticity.effective_modulus(), elasticity.drops_mean()),
         long_waves_(elasticity.grid(), elasticity.effective_modulus(), preconditioner_.plateau(),
@@ -81,7 +81,7 @@ class ProjectedGradient {
   double residual(std::size_t k) const { return candidates_.values.residual[places_[k]]; }
 
   elastic::ElasticOperator& elasticity_;
-  const Problem& problem_;
+  const LoadProblem& problem_;
   double cap_;  // [Pa]
   Conditions conditions_;
   double load_;  // sum of pressures [Pa]
@@ -380,7 +380,7 @@ State ProjectedGradient::run(const Observer& observer) {
 
 }  // namespace
 
-State solve_fast(elastic::ElasticOperator& elasticity, const Problem& problem,
+State solve_fast(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
                  const Observer& observer) {
   return ProjectedGradient(elasticity, problem).run(observer);
 }

@@ -17,10 +17,10 @@ namespace {
 /// Fields and scalars of the iteration, named as in the paper where it names them.
 class ConjugateGradient {
  public:
-  ConjugateGradient(elastic::ElasticOperator& elasticity, const Problem& problem)
+  ConjugateGradient(elastic::ElasticOperator& elasticity, const LoadProblem& problem)
       : elasticity_(elasticity),
         problem_(problem),
-        conditions_(elasticity, problem, problem.saturation_pressure),
+        conditions_(elasticity, problem),
         cap_(problem.saturation_pressure) {}
 
   State run(const Observer& observer);
@@ -35,7 +35,7 @@ class ConjugateGradient {
   void step(double length);
 
   elastic::ElasticOperator& elasticity_;
-  const Problem& problem_;
+  const LoadProblem& problem_;
   Conditions conditions_;
   double cap_;                // [Pa]
   Field pressure_;            // [Pa]
@@ -144,8 +144,13 @@ State ConjugateGradient::run(const Observer& observer) {
   State state;
   Convergence& convergence = state.convergence;
   convergence.tolerance = problem_.tolerance;
-  pressure_ =
-      Field::Constant(problem_.height.rows(), problem_.height.cols(), problem_.mean_pressure);
+  if (problem_.start.size() > 0) {
+    pressure_ = problem_.start;
+    fit_to_load(pressure_, problem_.mean_pressure, cap_);
+  } else {
+    pressure_ =
+        Field::Constant(problem_.height.rows(), problem_.height.cols(), problem_.mean_pressure);
+  }
   gap_.resizeLike(pressure_);
   direction_ = Field::Zero(pressure_.rows(), pressure_.cols());
   response_.resizeLike(pressure_);
@@ -178,7 +183,7 @@ State ConjugateGradient::run(const Observer& observer) {
 
 }  // namespace
 
-State solve_polonsky_keer(elastic::ElasticOperator& elasticity, const Problem& problem,
+State solve_polonsky_keer(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
                           const Observer& observer) {
   return ConjugateGradient(elasticity, problem).run(observer);
 }

@@ -7,7 +7,7 @@
 
 namespace tabor::contact {
 
-double length_scale(const elastic::ElasticOperator& elasticity, const Problem& problem) {
+double length_scale(const elastic::ElasticOperator& elasticity, const LoadProblem& problem) {
   const double* height = problem.height.data();
   const auto n = static_cast<double>(problem.height.size());
   const double mean = sum(problem.height) / n;

@@ -37,7 +37,7 @@ Field doubled(const Field& coarse, Index ny, Index nx) {
 
 /// Pressure on the highest pixels: p_sat where that saturates, else proportional to the height
 /// above the median.
-Field bearing_pressure(const Problem& problem) {
+Field bearing_pressure(const LoadProblem& problem) {
   const Field& height = problem.height;
   const bool saturates = std::isfinite(problem.saturation_pressure);
   const double share = saturates ? problem.mean_pressure / problem.saturation_pressure : 0.5;
@@ -72,13 +72,20 @@ void fit_to_load(Field& pressure, double mean_pressure, double saturation_pressu
   for_each(values.size(), [&](std::size_t k) { p[support[k]] = values[k]; });
 }
 
-Field starting_pressure(const elastic::ElasticOperator& elasticity, const Problem& problem,
+Field starting_pressure(const elastic::ElasticOperator& elasticity, const LoadProblem& problem,
                         const Observer& observer, Convergence& convergence) {
   const Grid& grid = elasticity.grid();
   Field pressure;
-  if (std::min(grid.nx, grid.ny) >= 2 * kCoarsestSize) {
-    const Problem coarse{halved(problem.height), problem.mean_pressure, problem.saturation_pressure,
-                         std::max(kCoarseTolerance, problem.tolerance), problem.max_iterations};
+  if (problem.start.size() > 0) {
+    pressure = problem.start;
+  } else if (std::min(grid.nx, grid.ny) >= 2 * kCoarsestSize) {
+    const Field height = halved(problem.height);
+    const LoadProblem coarse{height,
+                             problem.mean_pressure,
+                             problem.saturation_pressure,
+                             problem.start,
+                             std::max(kCoarseTolerance, problem.tolerance),
+                             problem.max_iterations};
     const Grid coarse_grid{coarse.height.cols(), coarse.height.rows(), grid.lx, grid.ly};
     const auto coarse_operator = elasticity.on_grid(coarse_grid);
     const Observer asked = [&](const Progress& progress) {

@@ -37,16 +37,16 @@ Summary summarise(const State& state, const Problem& problem, const Grid& grid, 
   const Mask contact = contact_mask(state);
   const Transitions transitions = count_transitions(contact, periodic);
   const Index n = grid.size();
-  const double cap = problem.saturation_pressure;
+  const double cap = problem.bounds.upper;
 
   Summary summary;
-  summary.mean_pressure = problem.mean_pressure;
+  summary.mean_pressure = state.mean_pressure;
   summary.contact_area_fraction_pixels =
       mean_of(n, [&](Index i) { return contact(i) ? 1.0 : 0.0; });
   summary.area_correction_valid = !runs_along_the_grid(contact, transitions, periodic);
   const double excess =
       kTransitionArea * static_cast<double>(transitions.total()) / static_cast<double>(n);
-  const double floor = std::isfinite(cap) ? problem.mean_pressure / cap : 0.0;
+  const double floor = std::isfinite(cap) ? state.mean_pressure / cap : 0.0;
   summary.contact_area_fraction = std::max(
       floor, summary.contact_area_fraction_pixels - (summary.area_correction_valid ? excess : 0.0));
   summary.saturated_area_fraction =

@@ -56,7 +56,7 @@ class Solver {
       : elasticity_(elasticity),
         problem_(problem),
         observer_(observer),
-        load_(problem.contact.mean_pressure),
+        load_(contact::prescribed_pressure(problem.contact, elasticity.grid())),
         roughness_(rms(problem.contact.height - mean(problem.contact.height))),
         felt_(Field::Zero(elasticity.grid().ny, elasticity.grid().nx)),
         deflection_(felt_) {}
@@ -99,7 +99,7 @@ class Solver {
     if (state.solid_pressure > kLeastSolidShare * load_) {
       contact::Problem solids = problem_.contact;
       solids.height = height;
-      solids.mean_pressure = state.solid_pressure;
+      solids.control = contact::MeanPressure{state.solid_pressure};
       state.contact = contact::solve(elasticity_, solids, contact::Solver::fast, observer_);
       if (state.contact.convergence.stopped()) state.convergence.status = Status::stopped;
       state.contact.displacement += deflection_;
@@ -108,6 +108,7 @@ class Solver {
     state.solid_pressure = 0;
     const double lift = std::max(-position, 0.0) * length();
     state.contact.pressure.setZero();
+    state.contact.mean_pressure = 0;
     state.contact.displacement = deflection_;
     state.contact.separation = lift + height.maxCoeff();
     state.contact.gap = state.contact.separation - height;
@@ -236,7 +237,7 @@ FluidFilmState solve_fluid_film(elastic::ElasticOperator& elasticity,
   check(elasticity, problem, dry);
   FluidFilmState state;
   state.contact = dry;
-  state.solid_pressure = problem.contact.mean_pressure;
+  state.solid_pressure = contact::prescribed_pressure(problem.contact, elasticity.grid());
   state.convergence.tolerance = problem.tolerance;
   const auto work = [&](Watch&) { Solver(elasticity, problem, observer).run(state); };
   if (!finishes(observer, "film", work)) state.convergence.status = Status::stopped;
