@@ -27,8 +27,14 @@ struct MeanPressure {
 struct Force {
   double value = 0;  ///< [N], > 0
 };
-/// Given quantity of a contact: what presses the flat on the surface.
-using Control = std::variant<MeanPressure, Force>;
+/// Control by the place of the flat: its separation, as State::separation. Below the highest point
+/// of the surface; above the mean height of an elastic surface that repeats, which the flat reaches
+/// in full contact.
+struct Separation {
+  double value = 0;  ///< [m]
+};
+/// Given quantity of a contact; the others follow.
+using Control = std::variant<MeanPressure, Force, Separation>;
 
 /// Bounds on the pressure. The lower one is zero: no adhesion.
 struct Bounds {
@@ -38,7 +44,7 @@ struct Bounds {
 /// Contact problem: a rigid flat is pressed on `height`.
 struct Problem {
   Field height;       ///< [m], asperities up, shape (ny, nx), no NaN
-  Control control{};  ///< what is given: mean pressure or force
+  Control control{};  ///< what is given: mean pressure, force or separation
   Bounds bounds{};
   Field start{};            ///< pressure to start from, like that of a similar problem [Pa]; may be
                             ///< empty. The answer is the same within the tolerance.
@@ -46,7 +52,8 @@ struct Problem {
   int max_iterations = 5000;
 };
 
-/// Returns the mean pressure [Pa] that the control prescribes on a grid.
+/// Returns the mean pressure [Pa] that the control prescribes on a grid; NaN where it prescribes
+/// the separation, so that the pressure is part of the solution.
 double prescribed_pressure(const Problem& problem, const Grid& grid);
 
 /// Solution of a contact problem. gap = separation + displacement - height; gap < 0 only at
@@ -56,7 +63,7 @@ struct State {
   Field displacement;        ///< [m]
   Field gap;                 ///< [m]
   double mean_pressure = 0;  ///< P [Pa], that the pressure carries
-  double separation = 0;     ///< [m]
+  double separation = 0;     ///< [m], height of the flat: its distance from the zero of heights
   double gap_error = 0;  ///< [m], largest gap or overlap where the contact conditions allow none
   double gap_limit = 0;  ///< [m], the largest gap_error that counts as converged
   Convergence convergence;

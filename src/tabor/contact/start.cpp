@@ -17,26 +17,8 @@ namespace {
 constexpr Index kCoarsestSize = 64;        // smaller grids start from the bearing area
 constexpr double kCoarseTolerance = 1e-3;  // tighter coarse solutions save nothing on the fine grid
 
-/// Means of 2 x 2 pixels; the last row and column of odd sizes stand for themselves.
-Field halved(const Field& fine) {
-  auto coarse = uninitialised_map<Field>((fine.rows() + 1) / 2, (fine.cols() + 1) / 2);
-  for_each_pixel(coarse.rows(), coarse.cols(), [&](Index y, Index x) {
-    const Index below = std::min(2 * y + 1, fine.rows() - 1);
-    const Index right = std::min(2 * x + 1, fine.cols() - 1);
-    coarse(y, x) =
-        0.25 * (fine(2 * y, 2 * x) + fine(2 * y, right) + fine(below, 2 * x) + fine(below, right));
-  });
-  return coarse;
-}
-
-Field doubled(const Field& coarse, Index ny, Index nx) {
-  auto fine = uninitialised_map<Field>(ny, nx);
-  for_each_pixel(ny, nx, [&](Index y, Index x) { fine(y, x) = coarse(y / 2, x / 2); });
-  return fine;
-}
-
-/// Pressure on the highest pixels: p_sat where that saturates, else proportional to the height
-/// above the median.
+/// Returns a pressure on the highest pixels: p_sat where that saturates, else proportional to the
+/// height above the median.
 Field bearing_pressure(const LoadProblem& problem) {
   const Field& height = problem.height;
   const bool saturates = std::isfinite(problem.saturation_pressure);
@@ -54,6 +36,27 @@ Field bearing_pressure(const LoadProblem& problem) {
 }
 
 }  // namespace
+
+bool has_coarser(const Grid& grid) { return std::min(grid.nx, grid.ny) >= 2 * kCoarsestSize; }
+
+Grid coarser(const Grid& grid) { return {(grid.nx + 1) / 2, (grid.ny + 1) / 2, grid.lx, grid.ly}; }
+
+Field halved(const Field& fine) {
+  auto coarse = uninitialised_map<Field>((fine.rows() + 1) / 2, (fine.cols() + 1) / 2);
+  for_each_pixel(coarse.rows(), coarse.cols(), [&](Index y, Index x) {
+    const Index below = std::min(2 * y + 1, fine.rows() - 1);
+    const Index right = std::min(2 * x + 1, fine.cols() - 1);
+    coarse(y, x) =
+        0.25 * (fine(2 * y, 2 * x) + fine(2 * y, right) + fine(below, 2 * x) + fine(below, right));
+  });
+  return coarse;
+}
+
+Field doubled(const Field& coarse, Index ny, Index nx) {
+  auto fine = uninitialised_map<Field>(ny, nx);
+  for_each_pixel(ny, nx, [&](Index y, Index x) { fine(y, x) = coarse(y / 2, x / 2); });
+  return fine;
+}
 
 void fit_to_load(Field& pressure, double mean_pressure, double saturation_pressure) {
   const double load = mean_pressure * static_cast<double>(pressure.size());
@@ -78,7 +81,7 @@ Field starting_pressure(const elastic::ElasticOperator& elasticity, const LoadPr
   Field pressure;
   if (problem.start.size() > 0) {
     pressure = problem.start;
-  } else if (std::min(grid.nx, grid.ny) >= 2 * kCoarsestSize) {
+  } else if (has_coarser(grid)) {
     const Field height = halved(problem.height);
     const LoadProblem coarse{height,
                              problem.mean_pressure,
@@ -86,7 +89,7 @@ Field starting_pressure(const elastic::ElasticOperator& elasticity, const LoadPr
                              problem.start,
                              std::max(kCoarseTolerance, problem.tolerance),
                              problem.max_iterations};
-    const Grid coarse_grid{coarse.height.cols(), coarse.height.rows(), grid.lx, grid.ly};
+    const Grid coarse_grid = coarser(grid);
     const auto coarse_operator = elasticity.on_grid(coarse_grid);
     const Observer asked = [&](const Progress& progress) {
       return !asks_to_stop(observer, {progress.stage});
