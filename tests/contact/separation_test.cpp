@@ -141,6 +141,20 @@ TEST(SolveSeparation, OfALonePixelIsItsCompliance) {
   EXPECT_NEAR(state.mean_pressure * 32 * 32 * compliance / 0.002, 1, 1e-5);
 }
 
+// Of a light contact the gap must close to a millionth of the rms height, whatever P is.
+TEST(SolveSeparation, ClosesTheGapOfLightContactsToo) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Field height = self_affine(64, 0.8, 1, 16, seed);
+    for (const double share : {0.999, 0.95, 0.8, 0.6}) {
+      for (const bool periodic : {true, false}) {
+        const contact::State state = solve_under(height, Separation{share * height.maxCoeff()},
+                                                 kNoSaturation, 1e-6, periodic);
+        EXPECT_TRUE(state.convergence.converged()) << seed << ' ' << share << ' ' << periodic;
+      }
+    }
+  }
+}
+
 // The zero of heights may be anywhere, far away too.
 TEST(SolveSeparation, MovesWithTheZeroOfHeights) {
   const Field height = self_affine(64, 0.8, 1, 16, 4);

@@ -52,26 +52,6 @@ void check_load(const Problem& problem, double mean_pressure) {
   }
 }
 
-/// A flat that touches nothing is no contact; one that repeats reaches the mean height at most.
-void check_separation(const elastic::ElasticOperator& elasticity, const Problem& problem,
-                      double separation) {
-  const double highest = extent_of(problem.height).highest;
-  if (!(separation < highest)) {
-    throw InputError("separation", format_si(separation, "m"),
-                     "less than the highest point, at " + format_si(highest, "m"),
-                     "the flat does not touch the surface there");
-  }
-  const double mean = sum(problem.height) / static_cast<double>(problem.height.size());
-  const bool is_bounded = elasticity.drops_mean() && !std::isfinite(problem.bounds.upper);
-  constexpr double rounding = 1e-12;  // of the range of heights
-  if (!std::isfinite(separation) ||
-      (is_bounded && !(separation - mean > rounding * (highest - mean)))) {
-    throw InputError("separation", format_si(separation, "m"),
-                     "more than the mean height, " + format_si(mean, "m"),
-                     "an elastic surface that repeats is flat there, under any higher pressure");
-  }
-}
-
 void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
   check_maps(elasticity, problem);
   if (std::holds_alternative<Force>(problem.control) && elasticity.drops_mean()) {
@@ -79,7 +59,7 @@ void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
                      "give a mean pressure");
   }
   if (const auto* separation = std::get_if<Separation>(&problem.control)) {
-    check_separation(elasticity, problem, separation->value);
+    require_reachable(elasticity, problem.height, problem.bounds, separation->value);
   } else {
     check_load(problem, prescribed_pressure(problem, elasticity.grid()));
   }
@@ -107,6 +87,25 @@ State solve_near_zero(elastic::ElasticOperator& elasticity, const Problem& probl
 }
 
 }  // namespace
+
+void require_reachable(const elastic::ElasticOperator& elasticity, const Field& height,
+                       const Bounds& bounds, double separation) {
+  const double highest = extent_of(height).highest;
+  if (!(separation < highest)) {
+    throw InputError("separation", format_si(separation, "m"),
+                     "less than the highest point, at " + format_si(highest, "m"),
+                     "the flat does not touch the surface there");
+  }
+  const double mean = sum(height) / static_cast<double>(height.size());
+  const bool is_bounded = elasticity.drops_mean() && !std::isfinite(bounds.upper);
+  constexpr double rounding = 1e-12;  // of the range of heights
+  if (!std::isfinite(separation) ||
+      (is_bounded && !(separation - mean > rounding * (highest - mean)))) {
+    throw InputError("separation", format_si(separation, "m"),
+                     "more than the mean height, " + format_si(mean, "m"),
+                     "an elastic surface that repeats is flat there, under any higher pressure");
+  }
+}
 
 double prescribed_pressure(const Problem& problem, const Grid& grid) {
   if (const auto* force = std::get_if<Force>(&problem.control)) return force->value / grid.area();

@@ -72,6 +72,11 @@ struct State {
   int compact_steps = 0;
 };
 
+/// Throws InputError where the flat at this separation [m] does not touch the heights [m], or where
+/// no pressure brings it so near.
+void require_reachable(const elastic::ElasticOperator& elasticity, const Field& height,
+                       const Bounds& bounds, double separation);
+
 /// Solves the contact problem. Throws InputError for invalid input (P >= p_sat, NaN, wrong shape).
 /// Not reaching the tolerance is returned, and so is being stopped: the pressure then carries the
 /// load within the bounds, and the certificate tells its quality.
@@ -87,6 +92,7 @@ struct Summary {
   double saturated_area_fraction = 0;
   double mean_gap = 0;           ///< [m], mean of max(gap, 0)
   double separation = 0;         ///< [m]
+  double approach = 0;           ///< of the flat since it first touched the surface [m]
   double contact_gap_error = 0;  ///< [m], State::gap_error
   double max_pressure = 0;       ///< [Pa]
   double elastic_energy = 0;     ///< [J/m^2]

@@ -93,7 +93,7 @@ Conditions::Settled ConjugateGradient::settle(Convergence& convergence) {
 /// t = g + delta G / G_old t on the free pixels; returns the step length <g, t> / <r, t>.
 double ConjugateGradient::update_direction() {
   double norm = 0;
-  for (Index i = 0; i < gap_.size(); ++i) {  // raw loop: as in mean_over_free()
+  for (Index i = 0; i < gap_.size(); ++i) {  // raw loop: as that of mean_over_free
     norm += is_free(i) ? gap_(i) * gap_(i) : 0;
   }
   const double ratio = conjugacy_ * norm / previous_norm_;

@@ -20,6 +20,7 @@ constexpr double kHertzSlope = 2.0 / 3;   // of ln(approach) against ln P
 constexpr double kLongestStep = 3.5;      // of ln P
 constexpr double kLeastApproach = 1e-12;  // of the one asked for
 constexpr double kNearCap = 1e-6;         // a mean pressure this close to the cap saturates all
+constexpr double kFiner = 1e-3;           // accuracy while gaps are not closed to their limit
 constexpr int kMostSolutions = 60;
 
 /// Where to look for the mean pressure.
@@ -40,6 +41,7 @@ class Search {
         solver_(solver),
         observer_(observer),
         highest_(extent_of(problem.height).highest),
+        separation_(separation),
         approach_(highest_ - separation),
         log_limit_(std::log((1 - kNearCap) * problem.saturation_pressure)) {}
 
@@ -51,6 +53,7 @@ class Search {
   const Convergence& work() const { return work_; }
 
  private:
+  bool is_near(const State& state) const;
   State solve_at(double log_pressure, const Field& start, double tolerance);
   double error_of(const State& state) const;
 
@@ -59,8 +62,9 @@ class Search {
   Solver solver_;
   const Observer& observer_;
   double highest_;
-  double approach_;   // asked for [m]
-  double log_limit_;  // of ln P
+  double separation_;  // asked for [m]
+  double approach_;    // the same from the highest point [m]
+  double log_limit_;   // of ln P
   bool is_out_of_reach_ = false;
   Convergence work_;
 };
@@ -80,6 +84,11 @@ double Search::error_of(const State& state) const {
   return std::log(std::max(kLeastApproach, (highest_ - state.separation) / approach_));
 }
 
+/// True where the state counts as converged at the separation that was asked for.
+bool Search::is_near(const State& state) const {
+  return state.gap_error + std::abs(state.separation - separation_) <= state.gap_limit;
+}
+
 State Search::run(Guess& guess, double tolerance, double accuracy) {
   numerics::BracketedSecant secant(guess.slope, kLongestStep);
   double place = std::min(guess.log_pressure, log_limit_);
@@ -90,7 +99,9 @@ State Search::run(Guess& guess, double tolerance, double accuracy) {
     is_out_of_reach_ = place == log_limit_ && error < 0;
     const double next = std::min(secant.next(place, error), log_limit_);
     guess = {.log_pressure = next, .slope = secant.slope(), .start = state.pressure};
-    if (is_out_of_reach_ || std::abs(next - place) <= accuracy || n == kMostSolutions) return state;
+    const double step = std::abs(next - place);
+    const bool is_done = step <= (is_near(state) ? 1 : kFiner) * accuracy;
+    if (is_out_of_reach_ || is_done || n == kMostSolutions) return state;
     place = next;
   }
 }

@@ -53,6 +53,7 @@ Summary summarise(const State& state, const Problem& problem, const Grid& grid, 
       mean_of(n, [&](Index i) { return at_cap(state.pressure(i), cap) ? 1.0 : 0.0; });
   summary.mean_gap = mean_of(n, [&](Index i) { return std::max(state.gap(i), 0.0); });
   summary.separation = state.separation;
+  summary.approach = extent_of(problem.height).highest - state.separation;
   summary.contact_gap_error = state.gap_error;
   summary.max_pressure = state.pressure.maxCoeff();
   summary.elastic_energy =

@@ -106,12 +106,10 @@ struct Extent {
 
 /// Returns the smallest and the largest of n numbers.
 inline Extent extent_over(Index n, const double* values) {
-  const double depth = parallel_max(n, [values](Index begin, Index end) {
-    return -block_of(values, begin, end).minCoeff();
-  });
-  const double highest = parallel_max(n, [values](Index begin, Index end) {
-    return block_of(values, begin, end).maxCoeff();
-  });
+  const double depth = parallel_max(
+      n, [values](Index begin, Index end) { return -block_of(values, begin, end).minCoeff(); });
+  const double highest = parallel_max(
+      n, [values](Index begin, Index end) { return block_of(values, begin, end).maxCoeff(); });
   return {-depth, highest};
 }
 

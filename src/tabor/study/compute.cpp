@@ -85,14 +85,17 @@ void compute_surface(const engine::Store& store, const engine::Task& task,
 
 contact::State solve_contact(const Study& study, const topography::Topography& topography,
                              double mean_pressure, const Observer& observer) {
-  return cases::contact_state(topography, study.settings.contact, mean_pressure, observer).state;
+  return cases::contact_state(topography, study.settings.contact,
+                              contact::MeanPressure{mean_pressure}, observer)
+      .state;
 }
 
 void compute_contact(const engine::Store& store, const engine::Task& task, const Study& study,
                      const topography::Topography& topography, double mean_pressure,
                      const Observer& observer) {
   write_contact(store, task, topography.grid, study.settings.contact.pressure_cap(),
-                cases::contact_state(topography, study.settings.contact, mean_pressure, observer));
+                cases::contact_state(topography, study.settings.contact,
+                                     contact::MeanPressure{mean_pressure}, observer));
 }
 
 void compute_film(const engine::Store& store, const engine::Task& task, const Study& study,

@@ -169,7 +169,7 @@ class ScanFriction {
         }
       };
       const auto elasticity = cases::make_operator(settings_.contact, coarse.grid);
-      cases::contact_states(*elasticity, coarse, settings_.contact, settings_.mean_pressures,
+      cases::contact_states(*elasticity, coarse, settings_.contact, cases::controls_of(settings_),
                             receive, monitor.own);
     };
     return job;
@@ -201,7 +201,8 @@ class ScanFriction {
     job.compute = [this, i](const engine::Monitor& monitor) {
       Pressure& pressure = pressures_[i];
       pressure.contact = cases::contact_state(*operators_.borrow(), surface_, settings_.contact,
-                                              settings_.mean_pressures[i], load_path_, monitor.own);
+                                              contact::MeanPressure{settings_.mean_pressures[i]},
+                                              load_path_, monitor.own);
       contact::State& state = pressure.contact.state;
       touching_[i] = cases::touching_of(pressure.contact);
       pressure.fluids.resize(n_densities());
