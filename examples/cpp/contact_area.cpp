@@ -17,7 +17,8 @@ int run() {
 
   const double modulus = tabor::material::effective_modulus({70e9, 0.33});  // aluminium: E, nu
   const double light = 0.02 * modulus * *recipe.rms_slope;                  // [Pa]
-  const tabor::contact::Problem problem{.height = surface.height, .mean_pressure = light};
+  const tabor::contact::Problem problem{.height = surface.height,
+                                        .control = tabor::contact::MeanPressure{light}};
   const auto elasticity = tabor::elastic::make_periodic(surface.grid, modulus);
   const auto state = tabor::contact::solve(*elasticity, problem);
   const auto summary = tabor::contact::summarise(state, problem, surface.grid, surface.periodic);

@@ -51,14 +51,21 @@ void check_contact(const ContactSettings& settings, const std::vector<double>& m
 std::vector<ContactRecord> contacts(const topography::Topography& surface,
                                     const ContactSettings& settings,
                                     const std::vector<double>& mean_pressures,
-                                    const nb::object& progress) {
+                                    const std::vector<double>& separations,
+                                    const std::vector<double>& forces, const nb::object& progress) {
+  const cases::CaseSettings asked{.mean_pressures = mean_pressures,
+                                  .separations = separations,
+                                  .forces = forces,
+                                  .contact = settings};
+  check(cases::objection_to_controls(asked, true, argument_of));
   check_contact(settings, mean_pressures);
   return watched(progress, [&](const Observer& observer) {
+    const std::vector<contact::Control> controls = cases::controls_of(asked);
     std::vector<ContactRecord> records;
-    records.reserve(mean_pressures.size());
+    records.reserve(controls.size());
     const auto elasticity = cases::make_operator(settings, surface.grid);
     cases::contact_states(
-        *elasticity, surface, settings, mean_pressures,
+        *elasticity, surface, settings, controls,
         [&records](ContactRecord&& record) { records.push_back(std::move(record)); }, observer);
     return records;
   });
@@ -92,6 +99,7 @@ void restore_contact(ContactRecord& self, const ContactState& saved) {
   state.pressure = field_of(std::get<4>(saved));
   state.displacement = field_of(std::get<5>(saved));
   state.gap = field_of(std::get<6>(saved));
+  state.mean_pressure = one.summary.mean_pressure;
   state.separation = one.summary.separation;
   state.convergence = one.convergence;
 }
@@ -147,8 +155,8 @@ void bind_contact(nb::module_& module) {
       "material", [](const std::string& name) { return row_of(material::find_solid(name)); },
       "name"_a);
   module.def("check_contact", &check_contact, "settings"_a, "mean_pressures"_a);
-  module.def("contacts", &contacts, "surface"_a, "settings"_a, "mean_pressures"_a,
-             "progress"_a.none());
+  module.def("contacts", &contacts, "surface"_a, "settings"_a, "mean_pressures"_a, "separations"_a,
+             "forces"_a, "progress"_a.none());
 }
 
 }  // namespace tabor::python

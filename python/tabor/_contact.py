@@ -177,15 +177,34 @@ def _settings(solid: Solid, options: Mapping[str, Any]) -> _tabor.ContactSetting
     return filled(solid._settings(), options)
 
 
+def _controls(given: Mapping[str, Any]) -> tuple[dict[str, list[float]], bool]:
+    """Pressures [Pa], separations [m] and forces [N], one of which is given, and whether that is one value alone."""
+    controls: dict[str, list[float]] = {name: [] for name in given}
+    single = True
+    for (name, value), dimension in zip(given.items(), ("pressure", "length", "force")):
+        if value is not None:
+            controls[name], single = si_list(value, dimension, name)
+    return controls, single
+
+
 @overload
 def contact(surface: Surface, pressure: Value, solid: Solid | str, *, edges: str | None = ..., check: bool = ...,
             progress: Progress = ..., **settings: Unpack[ContactSettings]) -> Contact: ...
 @overload
 def contact(surface: Surface, pressure: Iterable[Value], solid: Solid | str, *, edges: str | None = ..., check: bool = ...,
             progress: Progress = ..., **settings: Unpack[ContactSettings]) -> list[Contact]: ...
+@overload
+def contact(surface: Surface, *, solid: Solid | str, separation: Value | None = ..., force: Value | None = ...,
+            edges: str | None = ..., check: bool = ..., progress: Progress = ...,
+            **settings: Unpack[ContactSettings]) -> Contact: ...
+@overload
+def contact(surface: Surface, *, solid: Solid | str, separation: Iterable[Value] | None = ...,
+            force: Iterable[Value] | None = ..., edges: str | None = ..., check: bool = ..., progress: Progress = ...,
+            **settings: Unpack[ContactSettings]) -> list[Contact]: ...
 @takes(CONTACT)
-def contact(surface: Surface, pressure: Any, solid: Solid | str, *, edges: str | None = None, check: bool = True,
-            progress: Progress = None, **settings: Unpack[ContactSettings]) -> Any:
+def contact(surface: Surface, pressure: Any = None, solid: Solid | str | None = None, *, separation: Any = None,
+            force: Any = None, edges: str | None = None, check: bool = True, progress: Progress = None,
+            **settings: Unpack[ContactSettings]) -> Any:
     """Presses a rigid flat on a rough surface (docs/theory.md).
 
     Parameters
@@ -193,6 +212,9 @@ def contact(surface: Surface, pressure: Any, solid: Solid | str, *, edges: str |
     surface : Surface without holes.
     pressure : mean pressure [Pa], load over nominal area; several give a list of contacts.
     solid : Solid that the surface is of, or the name of a material, "aluminium-6016".
+    separation : in place of a pressure, the height of the flat [m] over the zero of heights, which is their mean once
+        levelled: ``values["separation_m"]`` of the contact. Below the highest point of the surface.
+    force : in place of a pressure, the force [N] on the whole surface, which must end: ``boundary="free"``.
     **settings
     edges : what the boundary is in other words: "tile", the surface repeats; "cut", it is a cut-out of a larger one, and its mirror
         images continue it (the contact is that of the mirrored surface, its ``surface``); "end", the body ends there.
@@ -202,11 +224,16 @@ def contact(surface: Surface, pressure: Any, solid: Solid | str, *, edges: str |
     Raises
     ------
     ValueError
-        For holes, a pressure that is not positive or that reaches the saturation pressure, unknown names.
+        For holes, a pressure that is not positive or that reaches the saturation pressure, a separation at which
+        nothing touches, two of pressure, separation and force, unknown names.
     NotConverged
         Unless ``check`` is False.
     """
-    pressures, single = si_list(pressure, "pressure", "pressure")
+    controls, single = _controls({"pressure": pressure, "separation": separation, "force": force})
+    if not any(controls.values()):
+        raise TypeError("contact: give one of pressure, separation and force")
+    if solid is None:
+        raise TypeError("contact: give the solid that the surface is of, or the name of a material")
     solid = solid_of(solid)
     options = complete(CONTACT, settings)
     asked = _settings(solid, options)
@@ -216,7 +243,7 @@ def contact(surface: Surface, pressure: Any, solid: Solid | str, *, edges: str |
     options["boundary"] = asked.boundary
     _tabor.require_no_holes(surface._topography)
     with watching(progress) as told:
-        records = _tabor.contacts(surface._topography, asked, pressures, told)
+        records = _tabor.contacts(surface._topography, asked, *controls.values(), told)
     found = [Contact(record, surface, solid, options) for record in records]
     for one in found if check else []:
         if not one.converged:

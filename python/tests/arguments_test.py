@@ -77,7 +77,7 @@ def calls(folder):
         "Solid": (tb.Solid, {"material": "aluminium-6016", "youngs_modulus": 7e10, "poissons_ratio": 0.3,
                              "saturation_pressure": "none", "shear_strength": 1e8, "counter_youngs_modulus": 7e10,
                              "counter_poissons_ratio": 0.3}),
-        "contact": (tb.contact, {"surface": t.surface, "pressure": 5e7, "solid": t.solid, "boundary": "periodic",
+        "contact": (tb.contact, {"surface": t.surface, "pressure": 5e7, "separation": None, "force": None, "solid": t.solid, "boundary": "periodic",
                                  "edges": "tile", "tolerance": 1e-6, "solver": "fast", "load_path": False, "check": True, "progress": None}),
         "rain": (tb.rain, {"surface": t.surface, "density": 1e-3, **rain, "droplet_height": 1e-7, "model": "droplets", "seed": 1}),
         "friction": (tb.friction, {"contact": t.contact, "film": t.film, **shear}),

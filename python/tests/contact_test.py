@@ -55,6 +55,38 @@ def test_several_pressures_give_a_list_of_the_same_contacts(rough, steel):
     np.testing.assert_array_equal(many[1].pressure, tb.contact(rough, 5e7, steel).pressure)
 
 
+def test_a_separation_stands_for_the_pressure_that_leads_to_it(rough, steel):
+    there = tb.contact(rough, "50 MPa", steel)
+    back = tb.contact(rough, solid=steel, separation=there.values["separation_m"])
+    assert back.mean_pressure == pytest.approx(5e7, rel=1e-4)
+    assert back.values["separation_m"] == there.values["separation_m"]
+    assert back.values["approach_m"] == pytest.approx(rough.height.max() - there.values["separation_m"], rel=1e-12)
+    many = tb.contact(rough, solid=steel, separation=[0.8 * rough.height.max(), 0.5 * rough.height.max()])
+    assert many[0].mean_pressure < many[1].mean_pressure
+    with pytest.raises(ValueError, match="does not touch"):
+        tb.contact(rough, solid=steel, separation=2 * rough.height.max())
+
+
+def test_a_force_is_a_pressure_on_the_whole_of_a_body_that_ends(rough, steel):
+    area = np.prod(rough.size)
+    found = tb.contact(rough, solid=steel, force=5e7 * area, boundary="free")
+    np.testing.assert_allclose(found.pressure, tb.contact(rough, 5e7, steel, boundary="free").pressure, rtol=1e-6, atol=1e3)
+    with pytest.raises(ValueError, match="boundary"):
+        tb.contact(rough, solid=steel, force="1 N", boundary="periodic")
+    with pytest.raises(ValueError, match="unit"):
+        tb.contact(rough, solid=steel, force="1", boundary="free")
+
+
+def test_one_of_pressure_separation_and_force_is_given(rough, steel):
+    with pytest.raises(TypeError, match="give one of pressure, separation and force"):
+        tb.contact(rough, solid=steel)
+    for given in ({"pressure": 5e7, "separation": 1e-7}, {"separation": 1e-7, "force": 1.0}):
+        with pytest.raises(ValueError, match="give only one of pressure, separation and force"):
+            tb.contact(rough, solid=steel, **given)
+    with pytest.raises(TypeError, match="solid"):
+        tb.contact(rough, 5e7)
+
+
 def test_edges_are_the_boundary_and_the_mirror_in_one_word(levelled, steel):
     part = levelled.crop(0, 0, 24, 20)
     for edges, surface, boundary in (("tile", part, "periodic"), ("cut", part.mirror(), "periodic"), ("end", part, "free")):

@@ -36,7 +36,7 @@ CaseSettings settings() {
 }
 
 ContactRecord pressed(const topography::Topography& surface) {
-  return contact_state(surface, settings().contact, 7e6);
+  return contact_state(surface, settings().contact, contact::MeanPressure{7e6});
 }
 
 FilmRecord rained_on(const topography::Topography& surface) {
@@ -111,7 +111,8 @@ TEST(Belonging, AContactOfALoadPathIsOfTheSurfaceThatItBeganWith) {
   soft.contact.load_path = true;
   std::vector<ContactRecord> path;
   const auto elasticity = make_operator(soft.contact, surface.grid);
-  contact_states(*elasticity, surface, soft.contact, {20e6, 7e6},
+  contact_states(*elasticity, surface, soft.contact,
+                 {contact::MeanPressure{20e6}, contact::MeanPressure{7e6}},
                  [&](ContactRecord&& one) { path.push_back(std::move(one)); });
   EXPECT_GT(rubbed(surface, path[1], rained_on(surface)).friction_dry, 0);
 }

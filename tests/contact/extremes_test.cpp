@@ -25,8 +25,8 @@ Solved solve_on(const Grid& grid, const Field& height, double mean_pressure, dou
                 bool periodic = true, int max_iterations = 5000) {
   const auto elasticity =
       periodic ? elastic::make_periodic(grid, kModulus) : elastic::make_free(grid, kModulus);
-  contact::Problem problem{.height = height, .mean_pressure = mean_pressure};
-  problem.saturation_pressure = cap;
+  contact::Problem problem{.height = height, .control = contact::MeanPressure{mean_pressure}};
+  problem.bounds.upper = cap;
   problem.max_iterations = max_iterations;
   Solved solved;
   solved.state = contact::solve(*elasticity, problem);

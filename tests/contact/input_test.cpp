@@ -45,7 +45,7 @@ TEST(SolveContact, RejectsAHeightOfAnotherShapeThanTheOperator) {
   const auto elasticity = elastic::make_periodic(square(16), 1.0);
   contact::Problem problem;
   problem.height = Field::Zero(16, 17);
-  problem.mean_pressure = 1;
+  problem.control = contact::MeanPressure{1};
   EXPECT_THAT(rejection([&] { contact::solve(*elasticity, problem); }), HasSubstr("17 x 16"));
 }
 
@@ -53,13 +53,13 @@ TEST(SolveContact, ReturnsANonConvergedStateWhenStopped) {
   const auto elasticity = elastic::make_periodic(square(64), 1.0);
   contact::Problem problem;
   problem.height = self_affine(64, 0.8, 1, 16, 1);
-  problem.mean_pressure = 0.02;
+  problem.control = contact::MeanPressure{0.02};
   int calls = 0;
   const auto state = contact::solve(*elasticity, problem, contact::Solver::fast,
                                     [&](const Progress&) { return ++calls < 3; });
   EXPECT_FALSE(state.convergence.converged());
   EXPECT_GT(state.convergence.certificate, 1e-6);
-  EXPECT_NEAR(state.pressure.mean() / problem.mean_pressure, 1, 1e-10);
+  EXPECT_NEAR(state.pressure.mean() / 0.02, 1, 1e-10);
 }
 
 // A large solve spends half its time on coarser grids: whoever watches is asked there too.
@@ -67,7 +67,7 @@ TEST(SolveContact, AsksItsObserverFromTheFirstMoment) {
   const auto elasticity = elastic::make_periodic(square(256), 1.0);
   contact::Problem problem;
   problem.height = self_affine(256, 0.8, 1, 64, 1);
-  problem.mean_pressure = 0.02;
+  problem.control = contact::MeanPressure{0.02};
   int before_fine_grid = 0;
   bool is_fine_grid = false;
   double transform_seconds_at_first = -1;
@@ -88,14 +88,14 @@ TEST(SolveContact, AsksItsObserverFromTheFirstMoment) {
                                       [&](const Progress&) { return ++calls != at; });
     EXPECT_EQ(calls, at);
     EXPECT_FALSE(state.convergence.converged());
-    EXPECT_NEAR(state.pressure.mean() / problem.mean_pressure, 1, 1e-10);
+    EXPECT_NEAR(state.pressure.mean() / 0.02, 1, 1e-10);
   }
 }
 
 contact::Problem rough_problem() {
   contact::Problem problem;
   problem.height = self_affine(128, 0.8, 1, 32, 1);
-  problem.mean_pressure = 0.02;
+  problem.control = contact::MeanPressure{0.02};
   return problem;
 }
 
@@ -104,11 +104,11 @@ TEST(SolveContact, StopsAtAnyQuestion) {
   const auto elasticity = elastic::make_periodic(square(128), 1.0);
   for (const double cap : {contact::kNoSaturation, 100.0, 1.0, 0.1}) {
     contact::Problem problem = rough_problem();
-    problem.saturation_pressure = cap;
+    problem.bounds.upper = cap;
     for (const auto solver : {contact::Solver::fast, contact::Solver::polonsky_keer}) {
       expect_to_stop_at_once([&](const Observer& observer) {
         const auto state = contact::solve(*elasticity, problem, solver, observer);
-        EXPECT_NEAR(state.pressure.mean() / problem.mean_pressure, 1, 1e-10);
+        EXPECT_NEAR(state.pressure.mean() / 0.02, 1, 1e-10);
         EXPECT_LE(state.pressure.maxCoeff(), cap);
         return state.convergence;
       });
@@ -131,7 +131,7 @@ TEST(SolveContact, SaysSoWhenItComesNoNearer) {
   const auto elasticity = elastic::make_periodic(square(32), 1.0);
   contact::Problem problem;
   problem.height = wave(32, 0.01, true);
-  problem.mean_pressure = 0.005;
+  problem.control = contact::MeanPressure{0.005};
   problem.tolerance = 1e-30;  // below rounding
   const Convergence ended = contact::solve(*elasticity, problem).convergence;
   EXPECT_EQ(ended.status, Status::stalled);

@@ -88,7 +88,7 @@ TEST(CandidateSet, LeavesOutNothingThatMatters) {
     const double threshold = candidate_threshold(set, load, cap, step);
     FieldF change = residual.cast<float>();
     collect_candidates(
-        residual, &change, threshold, [](Index, Index) {}, set);
+        residual, &change, threshold, [](Index) {}, set);
     EXPECT_LT(set.size(), static_cast<std::size_t>(n * n) / 2);
     EXPECT_NEAR(duality_gap(set.values, load, cap) / duality_gap(all, load, cap), 1, 1e-12);
     EXPECT_NEAR(separation(set.values, cap), separation(all, cap), 1e-12);

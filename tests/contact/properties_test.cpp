@@ -164,7 +164,7 @@ TEST(SolveContact, AgreesOnNonSquarePixels) {
   const auto elasticity = elastic::make_periodic(grid, 1.0);
   contact::Problem problem;
   problem.height = coarse;
-  problem.mean_pressure = 0.01;
+  problem.control = contact::MeanPressure{0.01};
   const auto state = contact::solve(*elasticity, problem);
   ASSERT_TRUE(state.convergence.converged());
   const double area = contact::contact_mask(state).cast<double>().mean();

@@ -23,8 +23,7 @@ struct Block {
 
   explicit Block(double cap) {
     problem.height = Field::Zero(8, 10);
-    problem.mean_pressure = 21.0 / 80;
-    problem.saturation_pressure = cap;
+    problem.bounds.upper = cap;
     state.pressure = state.displacement = Field::Zero(8, 10);
     state.gap = Field::Ones(8, 10);
     for (Index k = 0; k < 6; ++k) {
@@ -34,6 +33,7 @@ struct Block {
       state.displacement(y, x) = 0.1 * static_cast<double>(k + 1);
       state.gap(y, x) = state.pressure(y, x) < cap ? 0 : -0.25;
     }
+    state.mean_pressure = 21.0 / 80;
     state.separation = 7;
     state.convergence.status = Status::converged;
   }
@@ -68,7 +68,7 @@ TEST(Summary, OfACappedBlockCountsThePixelsAtTheCap) {
 
 TEST(Summary, AreaIsNeverBelowWhatTheCapMustHave) {
   Block block(6);
-  block.problem.mean_pressure = 0.45;  // 6 of 80 pixels at the cap would carry just that
+  block.state.mean_pressure = 0.45;  // 6 of 80 pixels at the cap would carry just that
   EXPECT_DOUBLE_EQ(block.summary().contact_area_fraction, 6.0 / 80);
 }
 
@@ -78,9 +78,9 @@ std::vector<contact::Summary> summaries_of(const Mask& contact) {
   for (const double cap : {kNoCap, 1.0}) {
     const Grid grid{contact.cols(), contact.rows(), 1, 1};
     contact::Problem problem;
-    problem.mean_pressure = 1e-6;
-    problem.saturation_pressure = cap;
+    problem.bounds.upper = cap;
     contact::State state;
+    state.mean_pressure = 1e-6;
     state.pressure = contact.cast<double>();
     state.displacement = Field::Zero(contact.rows(), contact.cols());
     state.gap = 1 - state.pressure;
@@ -200,8 +200,8 @@ TEST(SolveContact, CertificateHasNoUnit) {
     const auto elasticity = elastic::make_periodic(grid, modulus);
     contact::Problem problem;
     problem.height = height * length;
-    problem.mean_pressure = pressure * modulus;
-    problem.saturation_pressure = cap * modulus;
+    problem.control = contact::MeanPressure{pressure * modulus};
+    problem.bounds.upper = cap * modulus;
     return contact::solve(*elasticity, problem).convergence.certificate;
   };
   for (const double pressure : {0.02, 8.0}) {  // the second is full contact

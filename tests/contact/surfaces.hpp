@@ -76,8 +76,8 @@ inline Solved solve_unit(const Field& height, double mean_pressure,
       periodic ? elastic::make_periodic(grid, 1.0) : elastic::make_free(grid, 1.0);
   contact::Problem problem;
   problem.height = height;
-  problem.mean_pressure = mean_pressure;
-  problem.saturation_pressure = saturation_pressure;
+  problem.control = contact::MeanPressure{mean_pressure};
+  problem.bounds.upper = saturation_pressure;
   problem.tolerance = tolerance;
   Solved solved;
   solved.state = contact::solve(*elasticity, problem, solver);

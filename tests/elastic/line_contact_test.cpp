@@ -17,7 +17,8 @@ TEST(LineContact, OfACylinderIsHertz) {
   const auto hertz = reference::hertz_line_at_load(radius, 1.2e9, 5000);
   for (const Index n : {128, 1024}) {
     const Grid grid{n, 1, 6 * hertz.half_width, 1e-3};
-    contact::Problem problem{.height = Field(1, n), .mean_pressure = hertz.load / grid.lx};
+    contact::Problem problem{.height = Field(1, n),
+                             .control = contact::MeanPressure{hertz.load / grid.lx}};
     for (Index i = 0; i < n; ++i) {
       const double x = (static_cast<double>(i) - 0.5 * static_cast<double>(n - 1)) * grid.dx();
       problem.height(0, i) = -x * x / (2 * radius);
@@ -40,8 +41,8 @@ TEST(LineContact, SaturatesWhereThePressureIsCapped) {
   const auto hertz = reference::hertz_line_at_load(radius, 1.2e9, 5000);
   const Grid grid{512, 1, 6 * hertz.half_width, 1e-3};
   contact::Problem problem{.height = Field(1, 512),
-                           .mean_pressure = hertz.load / grid.lx,
-                           .saturation_pressure = 0.7 * hertz.max_pressure};
+                           .control = contact::MeanPressure{hertz.load / grid.lx},
+                           .bounds = {.upper = 0.7 * hertz.max_pressure}};
   for (Index i = 0; i < 512; ++i) {
     const double x = (static_cast<double>(i) - 255.5) * grid.dx();
     problem.height(0, i) = -x * x / (2 * radius);
@@ -49,9 +50,9 @@ TEST(LineContact, SaturatesWhereThePressureIsCapped) {
   const auto elasticity = make_line(grid, hertz.effective_modulus);
   const contact::State state = contact::solve(*elasticity, problem);
   EXPECT_TRUE(state.convergence.converged());
-  EXPECT_LE(state.pressure.maxCoeff(), problem.saturation_pressure);
-  EXPECT_NEAR(state.pressure.mean() / problem.mean_pressure, 1, 1e-9);
-  EXPECT_GT((state.pressure >= problem.saturation_pressure).count(), 50);
+  EXPECT_LE(state.pressure.maxCoeff(), problem.bounds.upper);
+  EXPECT_NEAR(state.pressure.mean() * grid.lx / hertz.load, 1, 1e-9);
+  EXPECT_GT((state.pressure >= problem.bounds.upper).count(), 50);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ Case pressed(const Field& height, double pressure, double oil, double speed,
   Case result;
   result.elasticity = elastic::make_periodic(grid, modulus);
   result.problem.contact.height = height;
-  result.problem.contact.mean_pressure = pressure;
+  result.problem.contact.control = contact::MeanPressure{pressure};
   result.problem.film = Field::Constant(height.rows(), height.cols(), oil);
   result.problem.sliding_speed = speed;
   result.problem.lubricant.viscosity = material::constant_viscosity(0.2);

@@ -67,7 +67,7 @@ struct Patch {
 
   Patch() {
     problem.contact.height = Field::Zero(4, 5);
-    problem.contact.mean_pressure = kLoad;
+    problem.contact.control = contact::MeanPressure{kLoad};
     problem.film = Field::Zero(4, 5);
     problem.film(1, 1) = 1e-6;
     problem.lubricant.viscosity = material::constant_viscosity(0.2);
@@ -76,6 +76,7 @@ struct Patch {
     state.contact.gap = Field::Constant(4, 5, 1e-6);
     state.contact.pressure.block(1, 1, 2, 2) = 12.5e6;
     state.contact.gap.block(1, 1, 2, 2) = 0;
+    state.contact.mean_pressure = 2.5e6;
     state.contact.convergence.status = Status::converged;
     state.solid_pressure = 2.5e6;
     state.fluid_pressure = 7.5e6;
@@ -136,9 +137,9 @@ TEST(FluidWarnings, SayWhetherTheOilStillMoves) {
 
 TEST(FluidWarnings, NameAnOilThatTheSolidsWouldNotBear) {
   Patch patch;
-  patch.problem.contact.saturation_pressure = 8e6;  // the film reaches 9 MPa
+  patch.problem.contact.bounds.upper = 8e6;  // the film reaches 9 MPa
   EXPECT_THAT(patch.warnings(), Contains(HasSubstr("reaches 9 MPa, more than the solids bear")));
-  patch.problem.contact.saturation_pressure = 9e6;
+  patch.problem.contact.bounds.upper = 9e6;
   EXPECT_THAT(patch.warnings(), IsEmpty());
 }
 

@@ -47,8 +47,10 @@ WetState closed_form(const Pocket& pocket, double level) {
 /// A body so stiff that its contact is its bearing area.
 contact::State press(const Field& height, const Grid& grid, double mean_pressure) {
   const auto elasticity = elastic::make_periodic(grid, 1e9 * kCap);
-  contact::State state = contact::solve(
-      *elasticity, {.height = height, .mean_pressure = mean_pressure, .saturation_pressure = kCap});
+  contact::State state =
+      contact::solve(*elasticity, {.height = height,
+                                   .control = contact::MeanPressure{mean_pressure},
+                                   .bounds = {.upper = kCap}});
   EXPECT_TRUE(state.convergence.converged());
   return state;
 }
@@ -140,8 +142,8 @@ double westergaard_error(Index n) {
                            (level * (wave.wavelength / 2 - shore) +
                             wave.amplitude * std::sin(wavevector * shore) / wavevector);
   const auto elasticity = elastic::make_periodic(grid, wave.effective_modulus);
-  const contact::State state =
-      contact::solve(*elasticity, {.height = height, .mean_pressure = mean_pressure});
+  const contact::State state = contact::solve(
+      *elasticity, {.height = height, .control = contact::MeanPressure{mean_pressure}});
   const Field film = film_of(height, grid, mean_film, deposition::Edge::periodic);
   const double expected = 1 - shore / wave.half_width(mean_pressure);
   return std::abs(lubricated_share(contact::contact_mask(state), film) - expected);

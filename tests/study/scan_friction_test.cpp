@@ -86,7 +86,7 @@ std::vector<std::string> states_in_turn(const cases::CaseSettings& asked) {
           text_of({.friction = friction, .contact = contact, .film = film, .fluid = nullptr}));
     }
   };
-  cases::contact_states(*elasticity, surface, asked.contact, asked.mean_pressures, receive);
+  cases::contact_states(*elasticity, surface, asked.contact, cases::controls_of(asked), receive);
   return texts;
 }
 

@@ -40,7 +40,7 @@ struct PressedSheet {
     const cases::CaseSettings settings = lubricated({});
     const auto elasticity = cases::make_operator(settings.contact, surface.grid);
     cases::contact_states(
-        *elasticity, surface, settings.contact, settings.mean_pressures,
+        *elasticity, surface, settings.contact, cases::controls_of(settings),
         [&](cases::ContactRecord&& contact) { contacts.push_back(std::move(contact)); });
   }
 };
@@ -113,7 +113,7 @@ double dry_friction_after_sliding(std::uint64_t seed, double pressure) {
   recipe.sliding_pressure = pressure;
   const auto surface = topography::apply({"lowpass=hann:4.5um"}, synthesis::edt(recipe));
   const cases::ContactSettings elastic{.youngs_modulus = 70e9, .poissons_ratio = 0.33};
-  const auto contact = cases::contact_state(surface, elastic, pressure);
+  const auto contact = cases::contact_state(surface, elastic, contact::MeanPressure{pressure});
   return cases::estimate_of(contact.summary, 0, elastic, {.shear_strength = 70e6}).friction_dry;
 }
 

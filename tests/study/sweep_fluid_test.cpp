@@ -93,7 +93,9 @@ TEST(FlowingSweep, AgreesWithTheSolverItself) {
   const ScanTasks tasks = tasks_of(study)[0];
   const topography::Topography surface = treated_surface(study, study.scans[0], tasks.sha256, {});
   const contact::State dry =
-      cases::contact_state(surface, study.settings.contact, study.settings.mean_pressures[0]).state;
+      cases::contact_state(surface, study.settings.contact,
+                           contact::MeanPressure{study.settings.mean_pressures[0]})
+          .state;
   const engine::Store store(example.results(), engine::Store::Use::alone);
   const cases::FluidRecord stored = read_fluid(store, tasks.fluids[0][1]);
   ASSERT_TRUE(stored.summary.convergence.converged());

@@ -147,8 +147,8 @@ PairSeconds seconds_of_pairs(Index n) {
 
 void run(Surface& surface, const Load& load, contact::Solver solver, const PairSeconds& pair) {
   const auto elasticity = elastic::make_periodic(surface.grid, aluminium());
-  surface.problem.mean_pressure = load.mean_pressure;
-  surface.problem.saturation_pressure = load.saturation_pressure;
+  surface.problem.control = contact::MeanPressure{load.mean_pressure};
+  surface.problem.bounds.upper = load.saturation_pressure;
   const Stopwatch watch;
   const contact::State state = contact::solve(*elasticity, surface.problem, solver);
   const double seconds = watch.seconds();

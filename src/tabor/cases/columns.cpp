@@ -23,6 +23,7 @@ const Columns<ContactRecord>& contact_columns() {
        kPercent},
       {"mean_gap_m", "m", "mean gap", &contact::Summary::mean_gap},
       {"separation_m", "m", "", &contact::Summary::separation},
+      {"approach_m", "m", "", &contact::Summary::approach, kObjectAlone},
       {"max_pressure_Pa", "Pa", "max pressure", &contact::Summary::max_pressure},
       {"elastic_energy_J_per_m2", "J/m^2", "", &contact::Summary::elastic_energy},
       {"n_patches", "", "patches", &contact::Summary::n_patches},

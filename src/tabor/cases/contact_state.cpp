@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "tabor/cases/states.hpp"
 #include "tabor/cases/warnings.hpp"
@@ -21,11 +22,11 @@ ContactStatistics statistics_of(elastic::ElasticOperator& elasticity, const cont
 }
 
 ContactRecord solve(elastic::ElasticOperator& elasticity, const Field& height,
-                    const ContactSettings& settings, double mean_pressure,
+                    const ContactSettings& settings, const contact::Control& control,
                     const Observer& observer) {
   const contact::Problem problem{.height = height,
-                                 .mean_pressure = mean_pressure,
-                                 .saturation_pressure = settings.pressure_cap(),
+                                 .control = control,
+                                 .bounds = {.upper = settings.pressure_cap()},
                                  .tolerance = settings.tolerance};
   const Stopwatch watch;
   const double fft_before = elasticity.fft_seconds();
@@ -43,9 +44,9 @@ ContactRecord solve(elastic::ElasticOperator& elasticity, const Field& height,
 
 /// `height` is that of the surface, or what a load path has made of it.
 ContactRecord state_of(elastic::ElasticOperator& elasticity, const topography::Topography& surface,
-                       const Field& height, const ContactSettings& settings, double mean_pressure,
-                       const Observer& observer) {
-  ContactRecord record = solve(elasticity, height, settings, mean_pressure, observer);
+                       const Field& height, const ContactSettings& settings,
+                       const contact::Control& control, const Observer& observer) {
+  ContactRecord record = solve(elasticity, height, settings, control, observer);
   record.surface = topography::digest_of(surface.height, surface.grid);
   record.warnings = of_surface(surface);
   record.references = references_of(settings);
@@ -67,31 +68,38 @@ std::unique_ptr<elastic::ElasticOperator> make_operator(const ContactSettings& s
 
 ContactRecord contact_state(elastic::ElasticOperator& elasticity,
                             const topography::Topography& surface, const ContactSettings& settings,
-                            double mean_pressure, const Observer& observer) {
-  return state_of(elasticity, surface, surface.height, settings, mean_pressure, observer);
+                            const contact::Control& control, const Observer& observer) {
+  return state_of(elasticity, surface, surface.height, settings, control, observer);
 }
 
 ContactRecord contact_state(const topography::Topography& surface, const ContactSettings& settings,
-                            double mean_pressure, const Observer& observer) {
-  return contact_state(*make_operator(settings, surface.grid), surface, settings, mean_pressure,
+                            const contact::Control& control, const Observer& observer) {
+  return contact_state(*make_operator(settings, surface.grid), surface, settings, control,
                        observer);
 }
 
 ContactRecord contact_state(elastic::ElasticOperator& elasticity,
                             const topography::Topography& surface, const ContactSettings& settings,
-                            double mean_pressure, LoadPath& path, const Observer& observer) {
+                            const contact::Control& control, LoadPath& path,
+                            const Observer& observer) {
   const Field& height = path.height.size() > 0 ? path.height : surface.height;
-  ContactRecord record = state_of(elasticity, surface, height, settings, mean_pressure, observer);
+  ContactRecord record = state_of(elasticity, surface, height, settings, control, observer);
   if (settings.load_path) path.height = contact::unloaded_height(height, record.state);
   return record;
 }
 
 void contact_states(elastic::ElasticOperator& elasticity, const topography::Topography& surface,
-                    const ContactSettings& settings, const std::vector<double>& mean_pressures,
+                    const ContactSettings& settings, const std::vector<contact::Control>& controls,
                     const std::function<void(ContactRecord&&)>& receive, const Observer& observer) {
+  for (const contact::Control& control : controls) {  // before the first of them takes its time
+    const auto* separation = std::get_if<contact::Separation>(&control);
+    if (separation == nullptr) continue;
+    contact::require_reachable(elasticity, surface.height, {.upper = settings.pressure_cap()},
+                               separation->value);
+  }
   LoadPath path;
-  for (const double pressure : mean_pressures) {
-    receive(contact_state(elasticity, surface, settings, pressure, path, observer));
+  for (const contact::Control& control : controls) {
+    receive(contact_state(elasticity, surface, settings, control, path, observer));
   }
 }
 

@@ -62,8 +62,8 @@ FluidRecord fluid_state(elastic::ElasticOperator& elasticity, const Field& heigh
                         const Observer& observer) {
   friction::FluidFilmProblem problem;
   problem.contact.height = height;
-  problem.contact.mean_pressure = mean_pressure;
-  problem.contact.saturation_pressure = contact.pressure_cap();
+  problem.contact.control = contact::MeanPressure{mean_pressure};
+  problem.contact.bounds.upper = contact.pressure_cap();
   problem.contact.tolerance = contact.tolerance;
   problem.film = film;
   problem.sliding_speed = settings.sliding_speed.value_or(0);

@@ -64,6 +64,7 @@ void lowpass_states(const topography::Topography& surface, const ContactSettings
                     const std::function<void(LowpassRecord&&, std::size_t pressure)>& receive,
                     const Observer& observer) {
   const auto elasticity = make_operator(settings, surface.grid);
+  const std::vector<contact::Control> controls = controls_of({.mean_pressures = mean_pressures});
   for (const double cutoff : cutoffs) {
     const std::string filter = fmt::format("lowpass=hann:{}/L", cutoff);
     const topography::Topography filtered = topography::apply({filter}, surface, observer);
@@ -77,7 +78,7 @@ void lowpass_states(const topography::Topography& surface, const ContactSettings
       if (friction) add_friction(settings, *friction, record);
       receive(std::move(record), pressure++);
     };
-    contact_states(*elasticity, filtered, settings, mean_pressures, receive_contact, observer);
+    contact_states(*elasticity, filtered, settings, controls, receive_contact, observer);
   }
 }
 

@@ -275,7 +275,22 @@ const Parameters<CaseSettings>& case_parameters() {
           .placeholder = "P[,P2,...]",
           .argument = "pressure",
           .needed = Needed::yes},
-         &CaseSettings::mean_pressures}};
+         &CaseSettings::mean_pressures},
+        {{.name = "separation",
+          .help = "in place of pressures: height of the flat over the zero of heights, which is "
+                  "their mean once levelled, a list or a range as for pressures",
+          .example = "0.5 um",
+          .dimension = dimension::length,
+          .placeholder = "D[,D2,...]"},
+         &CaseSettings::separations},
+        {{.name = "force",
+          .help = "in place of pressures: force on the whole surface, which must end (boundary "
+                  "free), a list or a range as for pressures",
+          .example = "1 N",
+          .dimension = dimension::force,
+          .bounds = bounds::above_zero,
+          .placeholder = "F[,F2,...]"},
+         &CaseSettings::forces}};
     for (const Parameters<CaseSettings>& part :
          {within(contact_parameters(), &CaseSettings::contact),
           within(film_parameters(), &CaseSettings::film),

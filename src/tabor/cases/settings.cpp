@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "tabor/cases/parameters.hpp"
@@ -29,6 +30,11 @@ std::optional<Objection> objection_to_pressure(double pressure, const ContactSet
                             "lower {} or raise {}",
                             spelling("mean_pressure"), spelling("saturation_pressure"))};
 }
+
+/// The lists of CaseSettings of which one is given, in the order of its members.
+constexpr std::array kControls{std::pair{"mean_pressure", &CaseSettings::mean_pressures},
+                               std::pair{"separation", &CaseSettings::separations},
+                               std::pair{"force", &CaseSettings::forces}};
 
 /// Settings of a film that flows, where none does.
 std::optional<Objection> objection_to_idle(const FluidSettings& settings,
@@ -100,6 +106,42 @@ std::optional<Objection> objection(const ContactSettings& settings,
     if (auto found = objection_to_pressure(pressure, settings, spelling)) return found;
   }
   return std::nullopt;
+}
+
+std::vector<contact::Control> controls_of(const CaseSettings& settings) {
+  std::vector<contact::Control> controls;
+  controls.reserve(settings.mean_pressures.size() + settings.separations.size() +
+                   settings.forces.size());
+  for (const double one : settings.mean_pressures) {
+    controls.emplace_back(contact::MeanPressure{one});
+  }
+  for (const double one : settings.separations) controls.emplace_back(contact::Separation{one});
+  for (const double one : settings.forces) controls.emplace_back(contact::Force{one});
+  return controls;
+}
+
+std::optional<Objection> objection_to_controls(const CaseSettings& settings, bool boundary_is_known,
+                                               const Spelling& spelling) {
+  const auto n_given = std::count_if(kControls.begin(), kControls.end(), [&](const auto& one) {
+    return !(settings.*one.second).empty();
+  });
+  if (n_given != 1) {
+    return use("mean_pressure",
+               fmt::format("give {} of {}, {} and {}", n_given == 0 ? "one" : "only one",
+                           spelling("mean_pressure"), spelling("separation"), spelling("force")));
+  }
+  for (const double force : settings.forces) {
+    if (bounds::above_zero.contain(force)) continue;
+    return Objection{
+        .setting = "force", .got = format_si(force, "N"), .expected = bounds::above_zero.text};
+  }
+  const bool repeats = settings.contact.is_periodic() &&
+                       (boundary_is_known || settings.contact.boundary.has_value());
+  if (settings.forces.empty() || !repeats) return std::nullopt;
+  return use("force",
+             fmt::format("{} presses a body that ends: use {} free, or {} for a surface "
+                         "that repeats",
+                         spelling("force"), spelling("boundary"), spelling("mean_pressure")));
 }
 
 std::optional<Objection> objection(const ContactSettings& settings,

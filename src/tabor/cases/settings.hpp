@@ -103,11 +103,16 @@ struct FrictionSettings {
 /// Settings for the friction of one surface under every pressure with every density.
 struct CaseSettings {
   std::vector<double> mean_pressures = {};  ///< [Pa]
+  std::vector<double> separations = {};     ///< of the flat, in place of pressures [m]
+  std::vector<double> forces = {};          ///< on the whole surface, in place of pressures [N]
   ContactSettings contact = {};
   FilmSettings film = {};
   FluidSettings fluid = {};
   FrictionSettings friction = {};
 };
+
+/// Returns what the contacts are solved under: the list that is given.
+std::vector<contact::Control> controls_of(const CaseSettings& settings);
 
 /// Takes the known values of a solid from the library; the other settings stay as they are. Throws
 /// InputError for an unknown name.
@@ -124,6 +129,10 @@ using Spelling = std::function<std::string(std::string_view setting)>;
 std::optional<Objection> objection(const ContactSettings& settings,
                                    const std::vector<double>& mean_pressures,
                                    const Spelling& spelling);
+/// Returns an objection unless exactly one of pressures, separations and forces is given, or to one
+/// of their values. `boundary_is_known`: the surface has been asked for its edges.
+std::optional<Objection> objection_to_controls(const CaseSettings& settings, bool boundary_is_known,
+                                               const Spelling& spelling);
 /// Returns an objection to a boundary that contradicts the known edges of the surface.
 std::optional<Objection> objection(const ContactSettings& settings,
                                    const std::optional<topography::Edges>& edges,

@@ -19,13 +19,13 @@ namespace tabor::cases {
 std::unique_ptr<elastic::ElasticOperator> make_operator(const ContactSettings& settings,
                                                         const Grid& grid);
 
-/// Solves one contact of the surface under a mean pressure [Pa]; the record has the warnings of
-/// both.
+/// Solves one contact of the surface under a mean pressure, a force or at a separation; the record
+/// has the warnings of both.
 ContactRecord contact_state(elastic::ElasticOperator& elasticity,
                             const topography::Topography& surface, const ContactSettings& settings,
-                            double mean_pressure, const Observer& observer = {});
+                            const contact::Control& control, const Observer& observer = {});
 ContactRecord contact_state(const topography::Topography& surface, const ContactSettings& settings,
-                            double mean_pressure, const Observer& observer = {});
+                            const contact::Control& control, const Observer& observer = {});
 
 /// Surface as the contacts of a load path have left it so far.
 struct LoadPath {
@@ -36,12 +36,13 @@ struct LoadPath {
 /// without a load path in the settings, on the surface as it is.
 ContactRecord contact_state(elastic::ElasticOperator& elasticity,
                             const topography::Topography& surface, const ContactSettings& settings,
-                            double mean_pressure, LoadPath& path, const Observer& observer = {});
+                            const contact::Control& control, LoadPath& path,
+                            const Observer& observer = {});
 
-/// Solves the contacts of all pressures, one after the other; hands each record on and then drops
+/// Solves the contacts of all controls, one after the other; hands each record on and then drops
 /// it. Along a load path, each contact is on the surface that the one before has left.
 void contact_states(elastic::ElasticOperator& elasticity, const topography::Topography& surface,
-                    const ContactSettings& settings, const std::vector<double>& mean_pressures,
+                    const ContactSettings& settings, const std::vector<contact::Control>& controls,
                     const std::function<void(ContactRecord&&)>& receive,
                     const Observer& observer = {});
 

@@ -34,21 +34,25 @@ io::Json statistics_json(const cases::ContactRecord& record) {
           {"patch_area_histogram", histogram_json(statistics.patch_area, "edge_m2")}};
 }
 
-void check_all(const Request& request) {
+void check_all(const Request& request, bool boundary_is_known) {
+  check(cases::objection_to_controls(request.settings, boundary_is_known, flag_of));
   check_contact(request.settings);
+  if (!request.cutoffs.empty() && request.settings.mean_pressures.empty()) {
+    throw UsageError("--lowpass-scan needs --pressure");
+  }
   if (request.file.output && !request.cutoffs.empty()) {
     throw UsageError("--lowpass-scan keeps no maps; leave out -o");
   }
 }
 
 int show(Request request, Context& context) {
-  check_all(request);
+  check_all(request, false);
   const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
   cases::ContactSettings& contact = request.settings.contact;  // a file may say its edges, too
   check(cases::objection(contact, scan.surface.edges, flag_of));
   contact.take_edges(scan.surface.edges);
-  check_all(request);
+  check_all(request, true);
   if (!request.cutoffs.empty()) {
     return run_lowpass_scan(scan, request.settings, request.cutoffs, request.shear_strength,
                             request.file.csv, context);
@@ -76,7 +80,7 @@ int show(Request request, Context& context) {
   };
   const int ended = until_interrupted(context, [&] {
     const auto elasticity = cases::make_operator(settings, scan.surface.grid);
-    cases::contact_states(*elasticity, scan.surface, settings, request.settings.mean_pressures,
+    cases::contact_states(*elasticity, scan.surface, settings, cases::controls_of(request.settings),
                           receive, context.observer());
   });
   if (ended == kInterrupted && records.empty()) throw Interrupted();
@@ -115,20 +119,25 @@ void declare_lowpass_scan(OptionSet& set, Request& request) {
 
 Verb contact_verb() {
   return {.name = "contact",
-          .arguments = "SCAN --pressure P --youngs-modulus E --poisson-ratio NU [options]",
+          .arguments =
+              "SCAN --pressure P|--separation D|--force F --youngs-modulus E --poisson-ratio NU "
+              "[options]",
           .summary = "real contact area, gap, patches and saturated share under a pressure",
           .details =
               "A rigid flat is pressed on the rough half-space. The certificate bounds the "
               "energy error. 'contact area' is corrected for the pixels of its perimeter, "
-              "'counted contact' is the share of the pixels that touch.",
+              "'counted contact' is the share of the pixels that touch. With --separation the flat "
+              "stands at a given height and the pressure follows.",
           .examples = {"tabor contact surfaces/edt_before.x3p --level plane --pressure 2MPa,7MPa "
                        "--youngs-modulus 70GPa --poisson-ratio 0.33 --saturation-pressure 240MPa",
                        "tabor contact surfaces/edt_before.x3p --level plane --lowpass gauss:8um "
-                       "--pressure 7MPa --youngs-modulus 70GPa --poisson-ratio 0.33 -o contact.h5"},
+                       "--pressure 7MPa --youngs-modulus 70GPa --poisson-ratio 0.33 -o contact.h5",
+                       "tabor contact surfaces/edt_before.x3p --level plane --lowpass gauss:8um "
+                       "--separation 1um,0.8um --youngs-modulus 70GPa --poisson-ratio 0.33"},
           .declare = [](OptionSet& set) -> Action {
             const auto request = std::make_shared<Request>();
             declare_scan(set, request->scan);
-            declare_contact(set, request->settings);
+            declare_contact(set, request->settings, Controls::all);
             declare_extras(set, request->settings.contact);
             declare_lowpass_scan(set, *request);
             declare_fields(set, request->file);

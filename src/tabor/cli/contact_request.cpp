@@ -39,9 +39,16 @@ void declare_all(OptionSet& set, const Parameters<Settings>& parameters, Setting
 
 }  // namespace
 
-void declare_contact(OptionSet& set, cases::CaseSettings& settings) {
+void declare_contact(OptionSet& set, cases::CaseSettings& settings, Controls controls) {
   set.group("Contact");
-  declare(set, parameter_of(cases::case_parameters(), "mean_pressure"), settings);
+  Option& pressure =
+      declare(set, parameter_of(cases::case_parameters(), "mean_pressure"), settings);
+  if (controls == Controls::all) {
+    pressure.required = false;
+    for (const char* other : {"separation", "force"}) {
+      declare(set, parameter_of(cases::case_parameters(), other), settings);
+    }
+  }
   declare_material(set, settings);
   declare_all(set, cases::contact_parameters(), settings.contact, {"load_path"});
 }

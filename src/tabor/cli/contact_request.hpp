@@ -19,8 +19,14 @@
 // them, and shows them with the results.
 namespace tabor::cli {
 
-/// Declares the pressures and the settings of their contacts.
-void declare_contact(OptionSet& set, cases::CaseSettings& settings);
+/// What contacts may be asked for under.
+enum class Controls {
+  pressures,  ///< one must be given
+  all         ///< pressures, separations or forces: objection_to_controls() tells if none is given
+};
+/// Declares what contacts are solved under and their settings.
+void declare_contact(OptionSet& set, cases::CaseSettings& settings,
+                     Controls controls = Controls::pressures);
 void declare_film(OptionSet& set, cases::FilmSettings& settings);
 void declare_fluid(OptionSet& set, cases::FluidSettings& settings);
 void declare_friction(OptionSet& set, cases::FrictionSettings& settings);

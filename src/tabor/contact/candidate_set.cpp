@@ -5,8 +5,9 @@
 #include <limits>
 #include <utility>
 
+#include "tabor/contact/contact.hpp"
 #include "tabor/contact/projection.hpp"
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
 
 namespace tabor::contact {
 namespace {
@@ -25,13 +26,13 @@ PixelList candidates_in(const CandidateSet& old, const double* v, double thresho
                         Index end) {
   PixelList pixels;
   std::size_t k = place_of(old, begin);
-  for (Index chunk = begin; chunk < end; chunk += kChunk) {
+  for (Index chunk = begin; chunk < end; chunk += kChunk) {  // raw loop: skips most chunks
     const Index n = std::min(kChunk, end - chunk);
     const bool has_old = k < old.size() && old.pixels[k] < chunk + n;
     if (!has_old && Eigen::Map<const Eigen::ArrayXd>(v + chunk, n).minCoeff() > threshold) continue;
-    for (Index i = chunk; i < chunk + n; ++i) {
+    for (Index i = chunk; i < chunk + n; ++i) {  // raw loop: of a chunk
       const bool is_old = k < old.size() && old.pixels[k] == i;
-      if (v[i] <= threshold || (is_old && old.values.pressure[k] > 0)) {
+      if (v[i] <= threshold || (is_old && touches(old.values.pressure[k]))) {
         pixels.push_back(static_cast<std::uint32_t>(i));
       }
       k += is_old ? 1 : 0;
@@ -65,18 +66,10 @@ void join(const PixelList& pixels, const CandidateSet& old, const double* v, con
 }
 
 double mean_residual_under_pressure(const Candidates& values) {
-  const auto n = static_cast<Index>(values.pressure.size());
-  const auto sum_pressed = [&](const auto& term) {
-    return deterministic_sum(n, [&](Index begin, Index end) {
-      double partial = 0;
-      for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-        partial += values.pressure[k] > 0 ? term(k) : 0.0;
-      }
-      return partial;
-    });
-  };
-  return sum_pressed([&](std::size_t k) { return values.residual[k]; }) /
-         sum_pressed([](std::size_t) { return 1.0; });
+  const std::size_t n = values.pressure.size();
+  const auto is_pressed = [&](std::size_t k) { return touches(values.pressure[k]); };
+  return sum_over(n, [&](std::size_t k) { return is_pressed(k) ? values.residual[k] : 0.0; }) /
+         static_cast<double>(count_where(n, is_pressed));
 }
 
 }  // namespace
@@ -84,32 +77,30 @@ double mean_residual_under_pressure(const Candidates& values) {
 CandidateSet pressed_pixels(const Field& pressure) {
   const double* p = pressure.data();
   CandidateSet set;
-  set.pixels = list_where(pressure.size(), [p](Index i) { return p[i] > 0; });
+  set.pixels = list_where(pressure.size(), [p](Index i) { return touches(p[i]); });
   resize(set, set.size());
   for_each(set.size(), [&](std::size_t k) { set.values.pressure[k] = p[set.pixels[k]]; });
   return set;
 }
 
 void spread_pressure(const CandidateSet& set, Field& map) {
-  parallel_for(map.size(), kBlock, [&](Index begin, Index end) {
-    std::fill(map.data() + begin, map.data() + end, 0.0);
-    for (std::size_t k = place_of(set, begin); k < set.size() && set.pixels[k] < end; ++k) {
-      map.data()[set.pixels[k]] = set.values.pressure[k];
-    }
-  });
+  double* p = map.data();
+  for_each(map.size(), [=](Index i) { p[i] = 0; });
+  for_each(set.size(), [&](std::size_t k) { p[set.pixels[k]] = set.values.pressure[k]; });
 }
 
 double candidate_threshold(const CandidateSet& set, double load, double saturation_pressure,
                            double diagonal_step) {
-  const auto& [pressure, residual] = set.values;
-  if (std::none_of(pressure.begin(), pressure.end(), [](double p) { return p > 0; })) {
+  const std::vector<double>& pressure = set.values.pressure;
+  const std::vector<double>& residual = set.values.residual;
+  if (std::none_of(pressure.begin(), pressure.end(), &touches)) {
     return std::numeric_limits<double>::infinity();
   }
   if (!std::isfinite(saturation_pressure)) return mean_residual_under_pressure(set.values);
-  std::vector<double> v;
-  for (std::size_t k = 0; k < set.size(); ++k) {
-    if (pressure[k] > 0) v.push_back(residual[k]);
-  }
+  const PixelList pressed =
+      list_where(std::ssize(pressure), [p = pressure.data()](Index k) { return touches(p[k]); });
+  std::vector<double> v(pressed.size());
+  for_each(v.size(), [&](std::size_t k) { v[k] = residual[pressed[k]]; });
   const double highest = *std::max_element(v.begin(), v.end());
   if (static_cast<double>(v.size()) * saturation_pressure <= load) return highest;
   const auto n_full =
@@ -118,16 +109,15 @@ double candidate_threshold(const CandidateSet& set, double load, double saturati
   std::nth_element(v.begin(), knapsack, v.end());
   const double threshold = *knapsack;
   std::vector<double>& wanted = v;
-  wanted.clear();
-  for (std::size_t k = 0; k < set.size(); ++k) {
-    if (pressure[k] > 0) wanted.push_back(pressure[k] - diagonal_step * residual[k]);
-  }
+  for_each(wanted.size(), [&](std::size_t k) {
+    wanted[k] = pressure[pressed[k]] - diagonal_step * residual[pressed[k]];
+  });
   const double separation = -shift_for_load(wanted, load, saturation_pressure) / diagonal_step;
   return std::min(highest, std::max(separation, threshold));
 }
 
-void collect_candidates(const Field& residual, FieldF* change, double threshold,
-                        const std::function<void(Index, Index)>& update, CandidateSet& set) {
+void collect_in_blocks(const Field& residual, FieldF* change, double threshold,
+                       const std::function<void(Index, Index)>& update, CandidateSet& set) {
   const double* v = residual.data();
   const Index n_blocks = (residual.size() + kBlock - 1) / kBlock;
   std::vector<PixelList> lists(static_cast<std::size_t>(n_blocks));

@@ -5,6 +5,7 @@
 
 #include "tabor/contact/certificate.hpp"
 #include "tabor/contact/preconditioner.hpp"
+#include "tabor/core/loops.hpp"
 #include "tabor/core/types.hpp"
 
 // Holds the pixels that one step of the fast solver updates, and collects them from a map.
@@ -35,11 +36,18 @@ void spread_pressure(const CandidateSet& set, Field& map);
 double candidate_threshold(const CandidateSet& set, double load, double saturation_pressure,
                            double diagonal_step);
 
-/// Collects the set anew: pixels with pressure and those whose v is at most `threshold`.
-/// update(begin, end) is called for every block of pixels first and brings v up to date. `change`
-/// is S dp of the last step, taken as the response and set to zero; where it is null, the responses
-/// of the old set stay.
+/// Collects the set as collect_candidates() does, with an update of blocks of pixels.
+void collect_in_blocks(const Field& residual, FieldF* change, double threshold,
+                       const std::function<void(Index begin, Index end)>& update,
+                       CandidateSet& set);
+
+/// Collects the set anew: pixels with pressure and those whose v is at most `threshold`. update(i)
+/// is called for every pixel first and brings its v up to date. `change` is S dp of the last step,
+/// taken as the response and set to zero; where it is null, the responses of the old set stay.
+template <typename Update>
 void collect_candidates(const Field& residual, FieldF* change, double threshold,
-                        const std::function<void(Index, Index)>& update, CandidateSet& set);
+                        const Update& update, CandidateSet& set) {
+  collect_in_blocks(residual, change, threshold, blockwise<Index>(update), set);
+}
 
 }  // namespace tabor::contact

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
 
 namespace tabor::contact {
 namespace {
@@ -39,22 +39,11 @@ double duality_gap(const Candidates& candidates, double load, double saturation_
   const Knapsack knapsack = fill_knapsack(candidates, load, saturation_pressure);
   // Measured from the threshold, both products are small where the pressure is nearly optimal.
   const double threshold = knapsack.threshold;
-  const double product = deterministic_sum(
-      static_cast<Index>(candidates.pressure.size()), [&](Index begin, Index end) {
-        double partial = 0;
-        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-          partial += candidates.pressure[i] * (candidates.residual[i] - threshold);
-        }
-        return partial;
-      });
+  const double product = sum_over(candidates.pressure.size(), [&](std::size_t i) {
+    return candidates.pressure[i] * (candidates.residual[i] - threshold);
+  });
   const double smallest =
-      deterministic_sum(static_cast<Index>(knapsack.full.size()), [&](Index begin, Index end) {
-        double partial = 0;
-        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-          partial += knapsack.full[i] - threshold;
-        }
-        return partial;
-      });
+      sum_over(knapsack.full.size(), [&](std::size_t i) { return knapsack.full[i] - threshold; });
   return knapsack.full.empty() ? product : product - saturation_pressure * smallest;
 }
 

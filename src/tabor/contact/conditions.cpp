@@ -5,10 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "tabor/contact/pixel_list.hpp"
 #include "tabor/contact/projection.hpp"
 #include "tabor/contact/scale.hpp"
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
 #include "tabor/elastic/half_space.hpp"
 
 namespace tabor::contact {
@@ -23,23 +22,11 @@ constexpr double kRelativeRounding = 1e-13;
 constexpr double kMostSettled = 1e-6;  // of the load: more is for the solver's iterations to move
 constexpr double kExactLoad = 1e-13;   // relative: no need to correct
 
-template <typename Term>
-double max_over(std::size_t n, const Term& term) {
-  return parallel_max(static_cast<Index>(n), [&](Index begin, Index end) {
-    double largest = -std::numeric_limits<double>::infinity();
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      largest = std::max(largest, term(i));
-    }
-    return largest;
-  });
-}
-
 }  // namespace
 
-Conditions::Conditions(const elastic::ElasticOperator& elasticity, const Problem& problem,
-                       double saturation_pressure)
+Conditions::Conditions(const elastic::ElasticOperator& elasticity, const LoadProblem& problem)
     : load_(problem.mean_pressure * static_cast<double>(problem.height.size())),
-      cap_(saturation_pressure) {
+      cap_(problem.saturation_pressure) {
   const Grid& grid = elasticity.grid();
   const double modulus = elasticity.effective_modulus();
   const double length = length_scale(elasticity, problem);
@@ -69,7 +56,7 @@ double Conditions::certificate(const Candidates& all) const {
 
 /// How far a pressure is inside its bounds [Pa]: itself without a cap.
 double Conditions::freedom(double p) const {
-  return p <= 0 || at_cap(p, cap_) ? 0.0 : p * (1 - p / cap_);
+  return !touches(p) || at_cap(p, cap_) ? 0.0 : p * (1 - p / cap_);
 }
 
 double Conditions::separation(std::span<const double> p, std::span<const double> v) const {
@@ -78,7 +65,7 @@ double Conditions::separation(std::span<const double> p, std::span<const double>
     return -sum_over(p.size(), [&](std::size_t i) { return freedom(p[i]) * v[i]; }) / total;
   }
   constexpr double none = -std::numeric_limits<double>::infinity();
-  return -max_over(p.size(), [&](std::size_t i) { return p[i] > 0 ? v[i] : none; });
+  return -max_over(p.size(), [&](std::size_t i) { return touches(p[i]) ? v[i] : none; });
 }
 
 double Conditions::gap_error(std::span<const double> p, std::span<const double> v,
@@ -86,7 +73,7 @@ double Conditions::gap_error(std::span<const double> p, std::span<const double> 
   return max_over(p.size(), [&](std::size_t i) {
     const double gap = v[i] + separation;
     const double overlap = at_cap(p[i], cap_) ? 0.0 : -gap;
-    const double opening = p[i] > 0 ? gap : 0.0;
+    const double opening = touches(p[i]) ? gap : 0.0;
     return std::max({overlap, opening, 0.0});
   });
 }
@@ -103,7 +90,7 @@ double Conditions::settled_pressure(double p, double gap) const {
   const auto is_false = [&](double pressure, double closing) {
     return closing > std::max(kFalseContact * pressure * pixel_compliance_, rounding_);
   };
-  if (p <= 0 || p >= cap_) return p;
+  if (!touches(p) || p >= cap_) return p;
   return is_false(p, gap) ? 0 : (at_cap(p, cap_) || is_false(cap_ - p, -gap) ? cap_ : p);
 }
 
@@ -111,7 +98,8 @@ double Conditions::settled_pressure(double p, double gap) const {
 /// it.
 bool Conditions::share_rest(std::span<double> p) const {
   const PixelList free = list_where(static_cast<Index>(p.size()), [&](Index i) {
-    return p[static_cast<std::size_t>(i)] > 0 && p[static_cast<std::size_t>(i)] < cap_;
+    const double pressure = p[static_cast<std::size_t>(i)];
+    return touches(pressure) && pressure < cap_;
   });
   std::vector<double> values(free.size());
   for_each(free.size(), [&](std::size_t k) { values[k] = p[free[k]]; });

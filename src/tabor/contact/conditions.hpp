@@ -3,18 +3,11 @@
 #include <span>
 
 #include "tabor/contact/certificate.hpp"
-#include "tabor/contact/contact.hpp"
+#include "tabor/contact/load_problem.hpp"
 
 // Tests whether a pressure satisfies load, bounds and complementarity; both contact solvers stop by
 // it.
 namespace tabor::contact {
-
-/// True where the pressure is at the cap but for rounding. Solvers, separation, gaps and summary
-/// all use this test.
-inline bool at_cap(double pressure, double saturation_pressure) {
-  constexpr double rounding = 1e-12;
-  return pressure >= (1 - rounding) * saturation_pressure;
-}
 
 /// Conditions of a solution, by which both solvers stop: it carries the load, its duality gap is
 /// small, and the gap is closed wherever the pressure is inside its bounds. The duality gap weighs
@@ -22,8 +15,7 @@ inline bool at_cap(double pressure, double saturation_pressure) {
 /// pressures p and residuals v = S p - z of all pixels that matter, in the same order.
 class Conditions {
  public:
-  Conditions(const elastic::ElasticOperator& elasticity, const Problem& problem,
-             double saturation_pressure);
+  Conditions(const elastic::ElasticOperator& elasticity, const LoadProblem& problem);
 
   double load() const { return load_; }  ///< sum of the pressures [Pa]
 

@@ -2,36 +2,26 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <span>
-#include <utility>
-#include <vector>
+#include <variant>
 
-#include "tabor/contact/conditions.hpp"
-#include "tabor/contact/fast_solver.hpp"
-#include "tabor/contact/pixel_list.hpp"
-#include "tabor/contact/polonsky_keer.hpp"
-#include "tabor/contact/scale.hpp"
+#include "tabor/contact/load_problem.hpp"
+#include "tabor/contact/separation.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/core/large_pages.hpp"
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/numerics/field_statistics.hpp"
 
 namespace tabor::contact {
 namespace {
 
 bool all_finite(const Field& map) {
-  const double n_finite = deterministic_sum(map.size(), [&](Index begin, Index end) {
-    const Eigen::Map<const Eigen::ArrayXd> block(map.data() + begin, end - begin);
-    return static_cast<double>(block.isFinite().count());
-  });
+  const double n_finite = sum_over_blocks(
+      map.size(), [](const auto& block) { return block.isFinite().count(); }, map.data());
   return n_finite == static_cast<double>(map.size());
 }
 
-void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
+void check_maps(const elastic::ElasticOperator& elasticity, const Problem& problem) {
   const Grid& grid = elasticity.grid();
   if (problem.height.rows() != grid.ny || problem.height.cols() != grid.nx) {
     throw InputError(
@@ -43,14 +33,35 @@ void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
     throw InputError("contact", "a surface with holes or infinite heights",
                      "a height at every pixel", "fill the holes first (--fill harmonic)");
   }
-  if (!(problem.mean_pressure > 0) || !std::isfinite(problem.mean_pressure)) {
-    throw InputError("mean pressure", format_si(problem.mean_pressure, "Pa"), "a positive pressure",
-                     "");
+  if (problem.start.size() == 0) return;
+  if (problem.start.rows() != grid.ny || problem.start.cols() != grid.nx ||
+      !all_finite(problem.start) || extent_of(problem.start).lowest < 0) {
+    throw InputError("contact", "a pressure to start from that is no pressure on this grid",
+                     "zero or more at every pixel of the heights", "");
   }
-  if (!(problem.saturation_pressure > problem.mean_pressure)) {
-    throw InputError("saturation pressure", format_si(problem.saturation_pressure, "Pa"),
-                     "more than the mean pressure of " + format_si(problem.mean_pressure, "Pa"),
+}
+
+void check_load(const Problem& problem, double mean_pressure) {
+  if (!(mean_pressure > 0) || !std::isfinite(mean_pressure)) {
+    throw InputError("mean pressure", format_si(mean_pressure, "Pa"), "a positive pressure", "");
+  }
+  if (!(problem.bounds.upper > mean_pressure)) {
+    throw InputError("saturation pressure", format_si(problem.bounds.upper, "Pa"),
+                     "more than the mean pressure of " + format_si(mean_pressure, "Pa"),
                      "no pressure field below the cap can carry this load");
+  }
+}
+
+void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
+  check_maps(elasticity, problem);
+  if (std::holds_alternative<Force>(problem.control) && elasticity.drops_mean()) {
+    throw InputError("force", "a surface that repeats without end", "one that ends: a free patch",
+                     "give a mean pressure");
+  }
+  if (const auto* separation = std::get_if<Separation>(&problem.control)) {
+    require_reachable(elasticity, problem.height, problem.bounds, separation->value);
+  } else {
+    check_load(problem, prescribed_pressure(problem, elasticity.grid()));
   }
   if (!(problem.tolerance > 0)) {
     throw InputError("tolerance", fmt::format("{}", problem.tolerance),
@@ -58,166 +69,60 @@ void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
   }
 }
 
-/// Rms slope by forward differences, without wrapping around; 0 along an axis of one pixel.
-double rms_slope(const Field& height, const Grid& grid) {
-  const numerics::SquareSlopes slopes = numerics::mean_square_slopes(height, grid);
-  const auto known = [](double value) { return std::isnan(value) ? 0 : value; };
-  return std::sqrt(known(slopes.along_x) + known(slopes.along_y));
-}
-
-/// What to take off heights before solving [m]: their highest where all lie farther from zero than
-/// from each other, which would cost them digits; else nothing.
+/// Returns what to take off heights before solving [m]: their highest where all lie farther from
+/// zero than from each other, which would cost them digits; else nothing.
 double offset_of(const Field& height) {
   const Extent extent = extent_of(height);
   return std::abs(extent.highest) > extent.highest - extent.lowest ? extent.highest : 0.0;
 }
 
-/// Rms pressure [Pa] that full contact needs to flatten the surface: E* / 2 * rms slope.
-double flattening_pressure(const elastic::ElasticOperator& elasticity, const Problem& problem) {
-  return 0.5 * elasticity.effective_modulus() * rms_slope(problem.height, elasticity.grid());
-}
-
-/// p = P + S^-1 z, the answer if it stays within the bounds (contact everywhere); one transform.
-/// Tried only where the pressure is not far below the flattening pressure.
-bool try_full_contact(elastic::ElasticOperator& elasticity, const Problem& problem, State& state) {
-  if (problem.mean_pressure < 0.25 * flattening_pressure(elasticity, problem) ||
-      !elasticity.apply_inverse(problem.height, state.pressure)) {
-    return false;
-  }
-  state.convergence.fft_pairs += 1;
-  state.pressure -= state.pressure.mean();
-  if (problem.mean_pressure + state.pressure.minCoeff() < 0 ||
-      problem.mean_pressure + state.pressure.maxCoeff() > problem.saturation_pressure) {
-    return false;
-  }
-  // The mean displaces nothing: left out, it costs the waves about it no digits.
-  elasticity.apply(state.pressure, state.displacement);
-  state.pressure += problem.mean_pressure;
-  state.convergence.operator_applications = 1;
-  state.convergence.fft_pairs += 1;
-  state.convergence.tolerance = problem.tolerance;
-  const Field residual = state.displacement - problem.height;
-  state.convergence.certificate =
-      Conditions(elasticity, problem, problem.saturation_pressure)
-          .certificate({{state.pressure.data(), state.pressure.data() + state.pressure.size()},
-                        {residual.data(), residual.data() + residual.size()}});
-  if (!(state.convergence.certificate <= problem.tolerance)) return false;
-  state.convergence.status = Status::converged;
-  return true;
-}
-
-State run(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
-          const Observer& observer) {
-  return solver == Solver::fast ? solve_fast(elasticity, problem, observer)
-                                : solve_polonsky_keer(elasticity, problem, observer);
-}
-
-/// Where the solver would have begun: what is left of a solution that was stopped before.
-State stopped_at_start(elastic::ElasticOperator& elasticity, const Problem& problem,
-                       Solver solver) {
-  Problem start = problem;
-  start.max_iterations = 0;
-  State state = run(elasticity, start, solver, {});
-  state.convergence.status = Status::stopped;
-  return state;
-}
-
-/// True where so few contact pixels are at the cap that the error of the certificate may have put
-/// them there.
-bool cap_may_be_idle(const State& state, double cap) {
-  constexpr double least_share = 0.005;  // of the contact pixels
-  return static_cast<double>(saturated_mask(state, cap).count()) <=
-         least_share * static_cast<double>((state.pressure > 0).count());
-}
-
-/// A cap that no pressure reaches leaves the elastic answer, to the bit: wherever the cap turns out
-/// idle, the answer is the one computed without it. Caps above what roughness usually reaches
-/// are tried without first.
-State run_capped(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
-                 const Observer& observer, bool& cap_is_idle) {
-  const double cap = problem.saturation_pressure;
-  double pairs_spent = 0;
-  const auto try_elastic = [&](State& state) {
-    Problem elastic_problem = problem;
-    elastic_problem.saturation_pressure = kNoSaturation;
-    state = run(elasticity, elastic_problem, solver, observer);
-    pairs_spent += state.convergence.fft_pairs;
-    cap_is_idle = extent_of(state.pressure).highest <= cap;
-    return cap_is_idle;
-  };
-  State state;
-  const bool probably_idle = cap > 10 * flattening_pressure(elasticity, problem);
-  if (!probably_idle || !try_elastic(state)) {
-    state = state.convergence.stopped() ? stopped_at_start(elasticity, problem, solver)
-                                        : run(elasticity, problem, solver, observer);
-    pairs_spent += state.convergence.fft_pairs;
-    if (!probably_idle && state.convergence.converged() && cap_may_be_idle(state, cap)) {
-      State elastic_state;
-      const bool is_idle = try_elastic(elastic_state);
-      if (elastic_state.convergence.stopped()) state.convergence.status = Status::stopped;
-      if (is_idle) state = std::move(elastic_state);
-    }
-  }
-  state.convergence.fft_pairs = pairs_spent;
-  return state;
-}
-
-/// Fixes the separation and makes pressure and gap exactly complementary, which moves either by no
-/// more than the error that is reported: gap_error, and rounding of pressures at the cap.
-void finish_state(const elastic::ElasticOperator& elasticity, const Problem& problem, double cap,
-                  State& state) {
-  const Conditions conditions(elasticity, problem, cap);
-  state.gap = uninitialised_map<Field>(state.pressure.rows(), state.pressure.cols());
-  double* p = state.pressure.data();
-  double* gap = state.gap.data();
-  const auto n = static_cast<std::size_t>(state.gap.size());
-  const double* displacement = state.displacement.data();
-  const double* height = problem.height.data();
-  for_each(n, [=](std::size_t i) { gap[i] = displacement[i] - height[i]; });
-  const std::span<const double> pressures(p, n);
-  const std::span<const double> residuals(gap, n);
-  state.separation = conditions.separation(pressures, residuals);
-  state.gap_error = conditions.gap_error(pressures, residuals, state.separation);
-  state.gap_limit = conditions.gap_limit();
-  const double separation = state.separation;
-  for_each(n, [=](std::size_t i) {
-    gap[i] += separation;
-    if (p[i] <= 0) {
-      gap[i] = std::max(gap[i], 0.0);
-    } else if (at_cap(p[i], cap)) {
-      p[i] = cap;
-      gap[i] = std::min(gap[i], 0.0);
-    } else {
-      gap[i] = 0;
-    }
-  });
+State solve_near_zero(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
+                      const Observer& observer) {
+  const LoadProblem under =
+      under_pressure(problem, prescribed_pressure(problem, elasticity.grid()));
+  const auto* separation = std::get_if<Separation>(&problem.control);
+  return separation != nullptr
+             ? solve_separation(elasticity, under, separation->value, solver, observer)
+             : solve_load(elasticity, under, solver, observer);
 }
 
 }  // namespace
+
+void require_reachable(const elastic::ElasticOperator& elasticity, const Field& height,
+                       const Bounds& bounds, double separation) {
+  const double highest = extent_of(height).highest;
+  if (!(separation < highest)) {
+    throw InputError("separation", format_si(separation, "m"),
+                     "less than the highest point, at " + format_si(highest, "m"),
+                     "the flat does not touch the surface there");
+  }
+  const double mean = sum(height) / static_cast<double>(height.size());
+  const bool is_bounded = elasticity.drops_mean() && !std::isfinite(bounds.upper);
+  constexpr double rounding = 1e-12;  // of the range of heights
+  if (!std::isfinite(separation) ||
+      (is_bounded && !(separation - mean > rounding * (highest - mean)))) {
+    throw InputError("separation", format_si(separation, "m"),
+                     "more than the mean height, " + format_si(mean, "m"),
+                     "an elastic surface that repeats is flat there, under any higher pressure");
+  }
+}
+
+double prescribed_pressure(const Problem& problem, const Grid& grid) {
+  if (const auto* force = std::get_if<Force>(&problem.control)) return force->value / grid.area();
+  const auto* mean_pressure = std::get_if<MeanPressure>(&problem.control);
+  return mean_pressure != nullptr ? mean_pressure->value : std::numeric_limits<double>::quiet_NaN();
+}
 
 State solve(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
             const Observer& observer) {
   check(elasticity, problem);
   const double offset = offset_of(problem.height);
-  if (offset != 0) {
-    Problem near_zero = problem;
-    near_zero.height -= offset;
-    State state = solve(elasticity, near_zero, solver, observer);
-    state.separation += offset;
-    return state;
-  }
-  State state;
-  bool cap_is_idle = !std::isfinite(problem.saturation_pressure);
-  if (asks_to_stop(observer, {"contact"})) {
-    state = stopped_at_start(elasticity, problem, solver);
-  } else if (!try_full_contact(elasticity, problem, state)) {
-    const double pairs_spent = state.convergence.fft_pairs;
-    state = cap_is_idle ? run(elasticity, problem, solver, observer)
-                        : run_capped(elasticity, problem, solver, observer, cap_is_idle);
-    state.convergence.fft_pairs += pairs_spent;
-  }
-  finish_state(elasticity, problem, cap_is_idle ? kNoSaturation : problem.saturation_pressure,
-               state);
+  if (offset == 0) return solve_near_zero(elasticity, problem, solver, observer);
+  Problem near_zero = problem;
+  near_zero.height -= offset;
+  if (auto* separation = std::get_if<Separation>(&near_zero.control)) separation->value -= offset;
+  State state = solve_near_zero(elasticity, near_zero, solver, observer);
+  state.separation += offset;
   return state;
 }
 
@@ -225,7 +130,9 @@ Field unloaded_height(const Field& height, const State& state) {
   return height + state.gap.min(0.0);
 }
 
-Mask contact_mask(const State& state) { return state.pressure > 0; }
+Mask contact_mask(const Field& pressure) { return pressure.unaryExpr(&touches); }
+
+Mask contact_mask(const State& state) { return contact_mask(state.pressure); }
 
 Mask saturated_mask(const State& state, double saturation_pressure) {
   return state.pressure.unaryExpr(

@@ -15,7 +15,7 @@ Histogram equal_bins(const Field& field, const Mask& selected, int n_bins) {
   const double largest = selected.any() ? selected.select(field, 0.0).maxCoeff() : 0.0;
   for (int k = 0; k <= n_bins; ++k) histogram.edges.push_back(largest * k / n_bins);
   histogram.counts.assign(static_cast<std::size_t>(n_bins), 0);
-  for (Index i = 0; i < field.size(); ++i) {
+  for (Index i = 0; i < field.size(); ++i) {  // raw loop: many pixels add to one count
     if (selected(i)) {
       const double position = largest > 0 ? field(i) / largest * n_bins : 0;
       histogram.counts[static_cast<std::size_t>(
@@ -44,7 +44,7 @@ Histogram patch_area_histogram(const State& state, const Grid& grid, bool period
     histogram.counts.resize(std::max(histogram.counts.size(), bin + 1), 0);
     histogram.counts[bin] += 1;
   }
-  for (std::size_t k = 0; k <= histogram.counts.size(); ++k) {
+  for (std::size_t k = 0; k <= histogram.counts.size(); ++k) {  // raw loop: edges, one per bin
     histogram.edges.push_back(grid.pixel_area() * static_cast<double>(std::uint64_t{1} << k));
   }
   return histogram;

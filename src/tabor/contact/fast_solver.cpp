@@ -10,12 +10,11 @@
 #include "tabor/contact/candidate_set.hpp"
 #include "tabor/contact/conditions.hpp"
 #include "tabor/contact/long_waves.hpp"
-#include "tabor/contact/pixel_list.hpp"
 #include "tabor/contact/preconditioner.hpp"
 #include "tabor/contact/projection.hpp"
 #include "tabor/contact/start.hpp"
 #include "tabor/core/large_pages.hpp"
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
 
 namespace tabor::contact {
 namespace {
@@ -33,8 +32,7 @@ constexpr int kPatience = 300;  // iterations without a better certificate befor
 FieldF zeros(Index ny, Index nx) {
   auto map = uninitialised_map<FieldF>(ny, nx);
   float* values = map.data();
-  parallel_for(map.size(), kBlock,
-               [&](Index begin, Index end) { std::fill(values + begin, values + end, 0.0F); });
+  for_each(map.size(), [=](Index i) { values[i] = 0; });
   return map;
 }
 
@@ -49,11 +47,11 @@ FieldF zeros(Index ny, Index nx) {
 /// solver").
 class ProjectedGradient {
  public:
-  ProjectedGradient(elastic::ElasticOperator& elasticity, const Problem& problem)
+  ProjectedGradient(elastic::ElasticOperator& elasticity, const LoadProblem& problem)
       : elasticity_(elasticity),
         problem_(problem),
         cap_(problem.saturation_pressure),
-        conditions_(elasticity, problem, problem.saturation_pressure),
+        conditions_(elasticity, problem),
         load_(conditions_.load()),
         preconditioner_(elasticity.grid(), elasticity.effective_modulus(), elasticity.drops_mean()),
         long_waves_(elasticity.grid(), elasticity.effective_modulus(), preconditioner_.plateau(),
@@ -77,14 +75,13 @@ class ProjectedGradient {
   double project_step();
   bool move();
   void accept(double length);
-  template <typename Residual>
-  void collect(const Residual& residual, FieldF* change,
-               const std::function<void(Index, Index)>& update);
+  template <typename Residual, typename Update>
+  void collect(const Residual& residual, FieldF* change, const Update& update);
   double pressure(std::size_t k) const { return candidates_.values.pressure[places_[k]]; }
   double residual(std::size_t k) const { return candidates_.values.residual[places_[k]]; }
 
   elastic::ElasticOperator& elasticity_;
-  const Problem& problem_;
+  const LoadProblem& problem_;
   double cap_;  // [Pa]
   Conditions conditions_;
   double load_;  // sum of pressures [Pa]
@@ -122,19 +119,16 @@ void ProjectedGradient::refresh() {
   double* v = residual_.data();
   const double* height = problem_.height.data();
   collect([&](std::uint32_t pixel) { return v[pixel] - height[pixel]; }, nullptr,
-          [&](Index begin, Index end) {
-            for (Index i = begin; i < end; ++i) v[i] -= height[i];
-          });
+          [=](Index i) { v[i] -= height[i]; });
   convergence_.operator_applications += 1;
   convergence_.fft_pairs += 1;
   residual_is_fresh_ = true;
 }
 
-/// Brings v up to date by update(begin, end) and collects the candidates in the same pass.
+/// Brings v up to date by update(pixel) and collects the candidates in the same pass.
 /// residual(pixel) is what v will be, change the S dp that it changes by.
-template <typename Residual>
-void ProjectedGradient::collect(const Residual& residual, FieldF* change,
-                                const std::function<void(Index, Index)>& update) {
+template <typename Residual, typename Update>
+void ProjectedGradient::collect(const Residual& residual, FieldF* change, const Update& update) {
   for (std::vector<float>* values : {&compact_direction_, &stiffness_, &moved_}) {
     *values = {};  // frees memory
   }
@@ -191,7 +185,7 @@ void ProjectedGradient::choose_active_set() {
     const auto k = static_cast<std::size_t>(i);
     const double p = candidates_.values.pressure[k];
     const double relaxed = trial_[k] - relaxed_shift_;
-    return (p > 0 || relaxed > 0) && (p < cap_ || relaxed < cap_);
+    return (touches(p) || touches(relaxed)) && (p < cap_ || relaxed < cap_);
   });
   active_.resize(places_.size());
   for_each(active_.size(), [&](std::size_t k) { active_[k] = candidates_.pixels[places_[k]]; });
@@ -311,16 +305,14 @@ void ProjectedGradient::accept(double length) {
   collect(
       [&](std::uint32_t pixel) { return v[pixel] + static_cast<double>(response[pixel] * factor); },
       &work_,
-      [&](Index begin, Index end) {
-        for (Index i = begin; i < end; ++i) {
-          response[i] *= factor;
-          v[i] += static_cast<double>(response[i]);
-        }
+      [=](Index i) {
+        response[i] *= factor;
+        v[i] += static_cast<double>(response[i]);
       });
   residual_is_fresh_ = false;
 }
 
-/// Whether this iteration is the last, and why.
+/// True where this iteration is the last; the status then says why.
 bool ProjectedGradient::ends(const Observer& observer) {
   if (convergence_.stopped()) return true;  // on a coarser grid
   if (meets_conditions()) {
@@ -388,7 +380,7 @@ State ProjectedGradient::run(const Observer& observer) {
 
 }  // namespace
 
-State solve_fast(elastic::ElasticOperator& elasticity, const Problem& problem,
+State solve_fast(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
                  const Observer& observer) {
   return ProjectedGradient(elasticity, problem).run(observer);
 }

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
+#include "tabor/core/rows.hpp"
 
 namespace tabor::contact {
 namespace {
@@ -21,11 +22,10 @@ Index block_count(Index n_pixels) {
 }
 
 double product(const FieldF& a, const FieldF& b) {
-  return deterministic_sum(a.size(), [&](Index begin, Index end) {
-    const Eigen::Map<const Eigen::ArrayXf> one(a.data() + begin, end - begin);
-    const Eigen::Map<const Eigen::ArrayXf> other(b.data() + begin, end - begin);
-    return (one.cast<double>() * other.cast<double>()).sum();
-  });
+  const auto dot = [](const auto& one, const auto& other) {
+    return (one.template cast<double>() * other.template cast<double>()).sum();
+  };
+  return sum_over_blocks(a.size(), dot, a.data(), b.data());
 }
 
 /// Row k of the 3 x 3 blocks around a block: (dy, dx), each -1, 0 or 1.
@@ -56,32 +56,30 @@ LongWaves::LongWaves(const Grid& grid, double effective_modulus, double plateau,
     return blocks_per_pixel * (1 / stiffness - 1 / std::hypot(stiffness, plateau));
   };
   compliance_.resize(nx / 2 + 1, ny / 2 + 1);
-  for (Index kx = 0; kx <= nx / 2; ++kx) {
-    for (Index ky = 0; ky <= ny / 2; ++ky) {
-      compliance_(kx, ky) = kx + ky == 0 ? 0.0F : static_cast<float>(compliance(ky, kx));
-    }
-  }
+  for_each_pixel(nx / 2 + 1, ny / 2 + 1, [&](Index kx, Index ky) {
+    compliance_(kx, ky) = kx + ky == 0 ? 0.0F : static_cast<float>(compliance(ky, kx));
+  });
   // A stiff answer to the mean keeps the load; stiffer than the longest wave slows the solution.
   compliance_(0, 0) = compliance_.maxCoeff();
 }
 
 std::vector<LongWaves::Neighbours> LongWaves::neighbours(Index n_pixels, Index n_blocks,
                                                          bool wraps) {
-  std::vector<Neighbours> list;
-  for (Index pixel = 0; pixel < n_pixels; ++pixel) {
+  std::vector<Neighbours> list(static_cast<std::size_t>(n_pixels));
+  for_each(n_pixels, [&](Index pixel) {
+    Neighbours& found = list[static_cast<std::size_t>(pixel)];
     const double position = (static_cast<double>(pixel) + 0.5) * static_cast<double>(n_blocks) /
                                 static_cast<double>(n_pixels) -
                             0.5;
     const auto lower = static_cast<Index>(std::floor(position));
     const auto weight = static_cast<float>(position - std::floor(position));
     if (wraps) {
-      list.push_back({(lower + n_blocks) % n_blocks, (lower + 1) % n_blocks, weight});
+      found = {(lower + n_blocks) % n_blocks, (lower + 1) % n_blocks, weight};
     } else {
       const Index inside = std::clamp<Index>(lower, 0, n_blocks - 2);
-      list.push_back(
-          {inside, inside + 1, lower == inside ? weight : (lower < inside ? 0.0F : 1.0F)});
+      found = {inside, inside + 1, lower == inside ? weight : (lower < inside ? 0.0F : 1.0F)};
     }
-  }
+  });
   return list;
 }
 
@@ -138,15 +136,16 @@ void LongWaves::gather(const PixelList& set, const std::vector<float>& stiffness
   load_ = FieldF::Zero(blocks_y_, blocks_x_);
   stiffness_ = FieldF::Zero(9 * blocks_y_, blocks_x_);
   std::vector<std::vector<Index>> bands(static_cast<std::size_t>(blocks_y_));
-  for (Index y = 0; y < grid_.ny; ++y) {
+  for (Index y = 0; y < grid_.ny; ++y) {  // raw loop: lists of rows grow in order
     bands[static_cast<std::size_t>(rows_[static_cast<std::size_t>(y)].lower)].push_back(y);
   }
   for (const Index colour : {0, 1}) {
-    parallel_for(blocks_y_ / 2, 1, [&](Index half, Index) {
+    const auto gather_band = [&](Index half) {
       for (const Index y : bands[static_cast<std::size_t>(2 * half + colour)]) {
         gather_row(set, stiffness, moved, compact, y);
       }
-    });
+    };
+    for_each(blocks_y_ / 2, gather_band, 1);
   }
 }
 
@@ -164,18 +163,15 @@ void LongWaves::apply_stiffness(const FieldF& displacement, FieldF& load) const 
   load.resize(blocks_y_, blocks_x_);
   const auto wrapped = [](Index k, Index n) { return k < 0 ? k + n : (k < n ? k : k - n); };
   const Index inside = blocks_x_ - 2;
-  parallel_for(blocks_y_, 16, [&](Index begin, Index end) {
-    for (Index y = begin; y < end; ++y) {
-      load.row(y).setZero();
-      for (Index dy = -1; dy <= 1; ++dy) {
-        const auto from = displacement.row(wrapped(y + dy, blocks_y_));
-        for (Index dx = -1; dx <= 1; ++dx) {
-          const auto weight = stiffness_.row(slot(dy, dx) * blocks_y_ + y);
-          load.row(y).segment(1, inside) +=
-              weight.segment(1, inside) * from.segment(1 + dx, inside);
-          for (const Index x : {Index{0}, blocks_x_ - 1}) {
-            load(y, x) += weight(x) * from(wrapped(x + dx, blocks_x_));
-          }
+  for_each_row(blocks_y_, [&](Index y) {
+    load.row(y).setZero();
+    for (Index dy = -1; dy <= 1; ++dy) {
+      const auto from = displacement.row(wrapped(y + dy, blocks_y_));
+      for (Index dx = -1; dx <= 1; ++dx) {
+        const auto weight = stiffness_.row(slot(dy, dx) * blocks_y_ + y);
+        load.row(y).segment(1, inside) += weight.segment(1, inside) * from.segment(1 + dx, inside);
+        for (const Index x : {Index{0}, blocks_x_ - 1}) {
+          load(y, x) += weight(x) * from(wrapped(x + dx, blocks_x_));
         }
       }
     }
@@ -238,17 +234,15 @@ void LongWaves::correct(const PixelList& set, const std::vector<float>& stiffnes
   gather(set, stiffness, moved, compact);
   solve(accuracy == Accuracy::rough ? kRoughTolerance : kTolerance);
   direction.resize(set.size());
-  parallel_for(static_cast<Index>(set.size()), kBlock, [&](Index begin, Index end) {
-    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-      const Neighbours& row = rows_[set[k] / static_cast<std::uint32_t>(grid_.nx)];
-      const Neighbours& column = columns_[set[k] % static_cast<std::uint32_t>(grid_.nx)];
-      const auto along_x = [&](Index y) {
-        return (1 - column.weight) * displacement_(y, column.lower) +
-               column.weight * displacement_(y, column.upper);
-      };
-      direction[k] = compact[k] - stiffness[k] * ((1 - row.weight) * along_x(row.lower) +
-                                                  row.weight * along_x(row.upper));
-    }
+  for_each(set.size(), [&](std::size_t k) {
+    const Neighbours& row = rows_[set[k] / static_cast<std::uint32_t>(grid_.nx)];
+    const Neighbours& column = columns_[set[k] % static_cast<std::uint32_t>(grid_.nx)];
+    const auto along_x = [&](Index y) {
+      return (1 - column.weight) * displacement_(y, column.lower) +
+             column.weight * displacement_(y, column.upper);
+    };
+    direction[k] = compact[k] - stiffness[k] * ((1 - row.weight) * along_x(row.lower) +
+                                                row.weight * along_x(row.upper));
   });
 }
 

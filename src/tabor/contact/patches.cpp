@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
 #include "tabor/numerics/disjoint_sets.hpp"
 
 namespace tabor::contact {
@@ -18,14 +18,14 @@ Patches find_patches(const Mask& contact, bool periodic) {
                       static_cast<std::uint32_t>(other_y * nx + other_x));
     }
   };
-  for (Index y = 0; y < ny; ++y) {
-    for (Index x = 0; x < nx; ++x) {
+  for (Index y = 0; y < ny; ++y) {    // raw loop: joins depend on those before
+    for (Index x = 0; x < nx; ++x) {  // raw loop: as above
       if (x + 1 < nx || periodic) join(y, x, y, (x + 1) % nx);
       if (y + 1 < ny || periodic) join(y, x, (y + 1) % ny, x);
     }
   }
   std::vector<std::uint32_t> counts(static_cast<std::size_t>(contact.size()), 0);
-  for (Index i = 0; i < contact.size(); ++i) {
+  for (Index i = 0; i < contact.size(); ++i) {  // raw loop: many pixels add to one count
     if (contact(i)) counts[components.root(static_cast<std::uint32_t>(i))] += 1;
   }
   Patches patches;
@@ -39,11 +39,7 @@ Transitions count_transitions(const Mask& contact, bool periodic) {
   const Index ny = contact.rows();
   const Index nx = contact.cols();
   const auto count = [&](auto&& differs) {
-    return static_cast<Index>(deterministic_sum(contact.size(), [&](Index begin, Index end) {
-      Index n = 0;
-      for (Index i = begin; i < end; ++i) n += differs(i / nx, i % nx) ? 1 : 0;
-      return static_cast<double>(n);
-    }));
+    return count_where(contact.size(), [&](Index i) { return differs(i / nx, i % nx); });
   };
   Transitions transitions;
   transitions.along_rows = count([&](Index y, Index x) {
@@ -66,13 +62,7 @@ Index count_corners(const Mask& contact, bool periodic) {
     if (n == 2) return a == d ? 2 : 0;  // two pixels that touch at the corner only
     return n % 2;
   };
-  return static_cast<Index>(deterministic_sum(ny, [&](Index begin, Index end) {
-    Index n = 0;
-    for (Index y = begin; y < end; ++y) {
-      for (Index x = 0; x < nx; ++x) n += corners_at(y, x);
-    }
-    return static_cast<double>(n);
-  }));
+  return static_cast<Index>(sum_over(ny * nx, [&](Index i) { return corners_at(i / nx, i % nx); }));
 }
 
 }  // namespace tabor::contact

@@ -9,6 +9,7 @@
 #include "tabor/contact/conditions.hpp"
 #include "tabor/contact/projection.hpp"
 #include "tabor/contact/start.hpp"
+#include "tabor/core/loops.hpp"
 
 namespace tabor::contact {
 namespace {
@@ -16,16 +17,16 @@ namespace {
 /// Fields and scalars of the iteration, named as in the paper where it names them.
 class ConjugateGradient {
  public:
-  ConjugateGradient(elastic::ElasticOperator& elasticity, const Problem& problem)
+  ConjugateGradient(elastic::ElasticOperator& elasticity, const LoadProblem& problem)
       : elasticity_(elasticity),
         problem_(problem),
-        conditions_(elasticity, problem, problem.saturation_pressure),
+        conditions_(elasticity, problem),
         cap_(problem.saturation_pressure) {}
 
   State run(const Observer& observer);
 
  private:
-  bool is_free(Index i) const { return pressure_(i) > 0 && !at_cap(pressure_(i), cap_); }
+  bool is_free(Index i) const { return touches(pressure_(i)) && !at_cap(pressure_(i), cap_); }
   double mean_over_free(const Field& field) const;
   double level() const;
   Conditions::Settled settle(Convergence& convergence);
@@ -34,7 +35,7 @@ class ConjugateGradient {
   void step(double length);
 
   elastic::ElasticOperator& elasticity_;
-  const Problem& problem_;
+  const LoadProblem& problem_;
   Conditions conditions_;
   double cap_;                // [Pa]
   Field pressure_;            // [Pa]
@@ -52,7 +53,7 @@ class ConjugateGradient {
 double ConjugateGradient::mean_over_free(const Field& field) const {
   double total = 0;
   double n = 0;
-  for (Index i = 0; i < field.size(); ++i) {
+  for (Index i = 0; i < field.size(); ++i) {  // raw loop: blocks would change the last digits
     if (is_free(i)) {
       total += field(i);
       n += 1;
@@ -66,9 +67,9 @@ double ConjugateGradient::mean_over_free(const Field& field) const {
 double ConjugateGradient::level() const {
   if (!std::isfinite(cap_)) return mean_over_free(gap_);
   std::vector<double> trial(static_cast<std::size_t>(gap_.size()));
-  for (Index i = 0; i < gap_.size(); ++i) {
+  for_each(gap_.size(), [&](Index i) {
     trial[static_cast<std::size_t>(i)] = pressure_(i) - step_length_ * gap_(i);
-  }
+  });
   const double load = problem_.mean_pressure * static_cast<double>(gap_.size());
   return -shift_for_load(trial, load, cap_) / step_length_;
 }
@@ -92,11 +93,12 @@ Conditions::Settled ConjugateGradient::settle(Convergence& convergence) {
 /// t = g + delta G / G_old t on the free pixels; returns the step length <g, t> / <r, t>.
 double ConjugateGradient::update_direction() {
   double norm = 0;
-  for (Index i = 0; i < gap_.size(); ++i) norm += is_free(i) ? gap_(i) * gap_(i) : 0;
-  const double ratio = conjugacy_ * norm / previous_norm_;
-  for (Index i = 0; i < gap_.size(); ++i) {
-    direction_(i) = is_free(i) ? gap_(i) + ratio * direction_(i) : 0;
+  for (Index i = 0; i < gap_.size(); ++i) {  // raw loop: as that of mean_over_free
+    norm += is_free(i) ? gap_(i) * gap_(i) : 0;
   }
+  const double ratio = conjugacy_ * norm / previous_norm_;
+  for_each(gap_.size(),
+           [&](Index i) { direction_(i) = is_free(i) ? gap_(i) + ratio * direction_(i) : 0; });
   previous_norm_ = norm;
   elasticity_.apply(direction_, response_);
   response_ -= mean_over_free(response_);
@@ -122,20 +124,19 @@ double ConjugateGradient::damping(const Convergence& convergence) {
 /// Moves the free pixels along t and those that violate the contact conditions along g, then
 /// restores bounds and load.
 void ConjugateGradient::step(double length) {
-  bool any_violation = false;
-  for (Index i = 0; i < gap_.size(); ++i) {
-    const bool free = is_free(i);
-    const bool overlaps = !free && (pressure_(i) <= 0 ? gap_(i) < 0 : gap_(i) > 0);
-    if (free) {
+  const auto violates = [&](Index i) {
+    return !is_free(i) && (touches(pressure_(i)) ? gap_(i) > 0 : gap_(i) < 0);
+  };
+  conjugacy_ = count_where(gap_.size(), violates) > 0 ? 0 : 1;
+  for_each(gap_.size(), [&](Index i) {
+    if (is_free(i)) {
       pressure_(i) -= length * direction_(i);
-    } else if (overlaps) {
+    } else if (violates(i)) {
       pressure_(i) -= length * gap_(i);
-      any_violation = true;
     }
     // What is beyond the cap stays there until the load is restored: that keeps it at the cap.
     pressure_(i) = std::max(pressure_(i), 0.0);
-  }
-  conjugacy_ = any_violation ? 0 : 1;
+  });
   fit_to_load(pressure_, problem_.mean_pressure, cap_);
 }
 
@@ -143,8 +144,13 @@ State ConjugateGradient::run(const Observer& observer) {
   State state;
   Convergence& convergence = state.convergence;
   convergence.tolerance = problem_.tolerance;
-  pressure_ =
-      Field::Constant(problem_.height.rows(), problem_.height.cols(), problem_.mean_pressure);
+  if (problem_.start.size() > 0) {
+    pressure_ = problem_.start;
+    fit_to_load(pressure_, problem_.mean_pressure, cap_);
+  } else {
+    pressure_ =
+        Field::Constant(problem_.height.rows(), problem_.height.cols(), problem_.mean_pressure);
+  }
   gap_.resizeLike(pressure_);
   direction_ = Field::Zero(pressure_.rows(), pressure_.cols());
   response_.resizeLike(pressure_);
@@ -177,7 +183,7 @@ State ConjugateGradient::run(const Observer& observer) {
 
 }  // namespace
 
-State solve_polonsky_keer(elastic::ElasticOperator& elasticity, const Problem& problem,
+State solve_polonsky_keer(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
                           const Observer& observer) {
   return ConjugateGradient(elasticity, problem).run(observer);
 }

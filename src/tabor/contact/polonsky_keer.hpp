@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tabor/contact/contact.hpp"
+#include "tabor/contact/load_problem.hpp"
 
 namespace tabor::contact {
 
@@ -9,7 +9,7 @@ namespace tabor::contact {
 /// clipping (Almqvist et al. 2007, doi:10.1016/j.triboint.2005.11.008) and two operator
 /// applications an iteration, all in double precision. Checks, certificate and load projection are
 /// those of the fast solver.
-State solve_polonsky_keer(elastic::ElasticOperator& elasticity, const Problem& problem,
+State solve_polonsky_keer(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
                           const Observer& observer);
 
 }  // namespace tabor::contact

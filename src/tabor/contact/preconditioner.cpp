@@ -6,7 +6,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
 #include "tabor/spectral/fft.hpp"
 
 namespace tabor::contact {
@@ -17,6 +17,7 @@ constexpr Index kSide = 2 * kRadius - 1;   // pixels with a weight, along each a
 constexpr Index kRowLength = 2 * kRadius;  // one vector register of floats; the last weight is zero
 constexpr Index kKernelGrid = 64;          // cell on which the short kernel is computed
 constexpr Index kNone = -1;
+constexpr Index kPixelsPerBlock = 2048;  // of a thread: each pixel is work
 
 double taper(Index offset) {
   return std::max(0.0, 1 - static_cast<double>(std::abs(offset)) / static_cast<double>(kRadius));
@@ -110,19 +111,17 @@ void Preconditioner::apply(const PixelList& set, const FieldF& residual, std::ve
   out.resize(set.size());
   row_sums.resize(set.size());
   const Index nx = grid_.nx;
-  parallel_for(static_cast<Index>(set.size()), 2048, [&](Index begin, Index end) {
-    for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
-      const Index y = set[k] / nx;
-      const Index x = set[k] % nx;
-      const bool inside =
-          x >= kRadius && x < nx - kRadius && y >= kRadius && y < grid_.ny - kRadius;
-      const Index corner = (y - (kRadius - 1)) * nx + x - (kRadius - 1);
-      const Sums sums =
-          inside ? sum_around(residual.data() + corner, nx) : sum_at_edge(residual, y, x);
-      out[k] = sums.product;
-      row_sums[k] = sums.row;
-    }
-  });
+  const auto apply_at = [&](std::size_t k) {
+    const Index y = set[k] / nx;
+    const Index x = set[k] % nx;
+    const bool inside = x >= kRadius && x < nx - kRadius && y >= kRadius && y < grid_.ny - kRadius;
+    const Index corner = (y - (kRadius - 1)) * nx + x - (kRadius - 1);
+    const Sums sums =
+        inside ? sum_around(residual.data() + corner, nx) : sum_at_edge(residual, y, x);
+    out[k] = sums.product;
+    row_sums[k] = sums.row;
+  };
+  for_each(set.size(), apply_at, kPixelsPerBlock);
 }
 
 }  // namespace tabor::contact

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "tabor/contact/pixel_list.hpp"
+#include "tabor/core/loops.hpp"
 #include "tabor/core/types.hpp"
 
 namespace tabor::contact {

@@ -4,42 +4,30 @@
 #include <cmath>
 #include <utility>
 
-#include "tabor/contact/pixel_list.hpp"
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
 
 namespace tabor::contact {
 namespace {
 
 /// Value of sum clip(x - shift, 0, cap) and number of terms strictly inside the bounds.
 std::pair<double, double> load_and_slope(const std::vector<double>& x, double shift, double cap) {
-  const auto n = static_cast<Index>(x.size());
-  const double load = deterministic_sum(n, [&](Index begin, Index end) {
-    const Eigen::Map<const Eigen::ArrayXd> block(x.data() + begin, end - begin);
+  const auto clipped_sum = [=](const auto& block) {
     return (block - shift).max(0.0).min(cap).sum();
-  });
-  const double n_inside = deterministic_sum(n, [&](Index begin, Index end) {
-    Index count = 0;
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      count += static_cast<Index>(x[i] > shift) & static_cast<Index>(x[i] - shift < cap);
-    }
-    return static_cast<double>(count);
-  });
-  return {load, n_inside};
+  };
+  const double load = sum_over_blocks(std::ssize(x), clipped_sum, x.data());
+  const auto is_inside = [=, values = x.data()](std::size_t i) {
+    return static_cast<Index>(values[i] > shift) & static_cast<Index>(values[i] - shift < cap);
+  };
+  return {load, static_cast<double>(count_where(x.size(), is_inside))};
 }
 
 }  // namespace
 
 double shift_for_load(const std::vector<double>& x, double load, double cap) {
-  const auto block = [&](Index begin, Index end) {
-    return Eigen::Map<const Eigen::ArrayXd>(x.data() + begin, end - begin);
-  };
-  const auto n = static_cast<Index>(x.size());
-  const double smallest =
-      -parallel_max(n, [&](Index begin, Index end) { return -block(begin, end).minCoeff(); });
+  const Extent extent = extent_over(std::ssize(x), x.data());
   // At `low` the sum is at least the load, at `high` it is zero.
-  double low = smallest - std::min(cap, load);
-  double high =
-      parallel_max(n, [&](Index begin, Index end) { return block(begin, end).maxCoeff(); });
+  double low = extent.lowest - std::min(cap, load);
+  double high = extent.highest;
   double shift = std::clamp(0.0, low, high);
   constexpr int most_steps = 200;
   for (int step = 0; step < most_steps; ++step) {
@@ -69,11 +57,7 @@ void project_on_load(std::vector<double>& x, double load, double cap) {
     for_each(x.size(), [&](std::size_t i) { x[i] -= shift; });
     shift = shift_for_load(x, load, cap);
   }
-  parallel_for(static_cast<Index>(x.size()), kBlock, [&](Index begin, Index end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      x[i] = std::clamp(x[i] - shift, 0.0, cap);
-    }
-  });
+  for_each(x.size(), [&](std::size_t i) { x[i] = std::clamp(x[i] - shift, 0.0, cap); });
 }
 
 }  // namespace tabor::contact

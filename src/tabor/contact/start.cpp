@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 #include <vector>
 
 #include "tabor/contact/fast_solver.hpp"
-#include "tabor/contact/pixel_list.hpp"
 #include "tabor/contact/projection.hpp"
 #include "tabor/core/large_pages.hpp"
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
+#include "tabor/core/rows.hpp"
 
 namespace tabor::contact {
 namespace {
@@ -18,35 +17,9 @@ namespace {
 constexpr Index kCoarsestSize = 64;        // smaller grids start from the bearing area
 constexpr double kCoarseTolerance = 1e-3;  // tighter coarse solutions save nothing on the fine grid
 
-/// Means of 2 x 2 pixels; the last row and column of odd sizes stand for themselves.
-Field halved(const Field& fine) {
-  auto coarse = uninitialised_map<Field>((fine.rows() + 1) / 2, (fine.cols() + 1) / 2);
-  parallel_for(coarse.rows(), 16, [&](Index begin, Index end) {
-    for (Index y = begin; y < end; ++y) {
-      const Index below = std::min(2 * y + 1, fine.rows() - 1);
-      for (Index x = 0; x < coarse.cols(); ++x) {
-        const Index right = std::min(2 * x + 1, fine.cols() - 1);
-        coarse(y, x) = 0.25 * (fine(2 * y, 2 * x) + fine(2 * y, right) + fine(below, 2 * x) +
-                               fine(below, right));
-      }
-    }
-  });
-  return coarse;
-}
-
-Field doubled(const Field& coarse, Index ny, Index nx) {
-  auto fine = uninitialised_map<Field>(ny, nx);
-  parallel_for(ny, 16, [&](Index begin, Index end) {
-    for (Index y = begin; y < end; ++y) {
-      for (Index x = 0; x < nx; ++x) fine(y, x) = coarse(y / 2, x / 2);
-    }
-  });
-  return fine;
-}
-
-/// Pressure on the highest pixels: p_sat where that saturates, else proportional to the height
-/// above the median.
-Field bearing_pressure(const Problem& problem) {
+/// Returns a pressure on the highest pixels: p_sat where that saturates, else proportional to the
+/// height above the median.
+Field bearing_pressure(const LoadProblem& problem) {
   const Field& height = problem.height;
   const bool saturates = std::isfinite(problem.saturation_pressure);
   const double share = saturates ? problem.mean_pressure / problem.saturation_pressure : 0.5;
@@ -64,19 +37,37 @@ Field bearing_pressure(const Problem& problem) {
 
 }  // namespace
 
+bool has_coarser(const Grid& grid) { return std::min(grid.nx, grid.ny) >= 2 * kCoarsestSize; }
+
+Grid coarser(const Grid& grid) { return {(grid.nx + 1) / 2, (grid.ny + 1) / 2, grid.lx, grid.ly}; }
+
+Field halved(const Field& fine) {
+  auto coarse = uninitialised_map<Field>((fine.rows() + 1) / 2, (fine.cols() + 1) / 2);
+  for_each_pixel(coarse.rows(), coarse.cols(), [&](Index y, Index x) {
+    const Index below = std::min(2 * y + 1, fine.rows() - 1);
+    const Index right = std::min(2 * x + 1, fine.cols() - 1);
+    coarse(y, x) =
+        0.25 * (fine(2 * y, 2 * x) + fine(2 * y, right) + fine(below, 2 * x) + fine(below, right));
+  });
+  return coarse;
+}
+
+Field doubled(const Field& coarse, Index ny, Index nx) {
+  auto fine = uninitialised_map<Field>(ny, nx);
+  for_each_pixel(ny, nx, [&](Index y, Index x) { fine(y, x) = coarse(y / 2, x / 2); });
+  return fine;
+}
+
 void fit_to_load(Field& pressure, double mean_pressure, double saturation_pressure) {
   const double load = mean_pressure * static_cast<double>(pressure.size());
   double* p = pressure.data();
-  PixelList support = list_where(pressure.size(), [p](Index i) { return p[i] > 0; });
+  PixelList support = list_where(pressure.size(), [p](Index i) { return touches(p[i]); });
   if (support.empty() || saturation_pressure * static_cast<double>(support.size()) <= load) {
     support = list_where(pressure.size(), [](Index) { return true; });
   }
   std::vector<double> values(support.size());
   for_each(values.size(), [&](std::size_t k) { values[k] = p[support[k]]; });
-  const auto n = static_cast<Index>(values.size());
-  const double carried = deterministic_sum(n, [&](Index begin, Index end) {
-    return std::accumulate(values.begin() + begin, values.begin() + end, 0.0);
-  });
+  const double carried = sum_over(values.size(), [&](std::size_t k) { return values[k]; });
   if (!std::isfinite(saturation_pressure) && carried > 0) {
     for_each(values.size(), [&](std::size_t k) { values[k] *= load / carried; });
   }
@@ -84,14 +75,21 @@ void fit_to_load(Field& pressure, double mean_pressure, double saturation_pressu
   for_each(values.size(), [&](std::size_t k) { p[support[k]] = values[k]; });
 }
 
-Field starting_pressure(const elastic::ElasticOperator& elasticity, const Problem& problem,
+Field starting_pressure(const elastic::ElasticOperator& elasticity, const LoadProblem& problem,
                         const Observer& observer, Convergence& convergence) {
   const Grid& grid = elasticity.grid();
   Field pressure;
-  if (std::min(grid.nx, grid.ny) >= 2 * kCoarsestSize) {
-    const Problem coarse{halved(problem.height), problem.mean_pressure, problem.saturation_pressure,
-                         std::max(kCoarseTolerance, problem.tolerance), problem.max_iterations};
-    const Grid coarse_grid{coarse.height.cols(), coarse.height.rows(), grid.lx, grid.ly};
+  if (problem.start.size() > 0) {
+    pressure = problem.start;
+  } else if (has_coarser(grid)) {
+    const Field height = halved(problem.height);
+    const LoadProblem coarse{height,
+                             problem.mean_pressure,
+                             problem.saturation_pressure,
+                             problem.start,
+                             std::max(kCoarseTolerance, problem.tolerance),
+                             problem.max_iterations};
+    const Grid coarse_grid = coarser(grid);
     const auto coarse_operator = elasticity.on_grid(coarse_grid);
     const Observer asked = [&](const Progress& progress) {
       return !asks_to_stop(observer, {progress.stage});

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tabor/contact/preconditioner.hpp"
+#include "tabor/core/loops.hpp"
 #include "tabor/numerics/conjugate_gradients.hpp"
 
 namespace tabor::contact {
@@ -13,13 +14,9 @@ namespace {
 constexpr int kMostIterations = 2000;
 
 PixelList free_pixels(const State& state, double saturation_pressure) {
-  PixelList pixels;
-  for (Index i = 0; i < state.pressure.size(); ++i) {
-    if (state.pressure(i) > 0 && state.pressure(i) < saturation_pressure) {
-      pixels.push_back(static_cast<std::uint32_t>(i));
-    }
-  }
-  return pixels;
+  return list_where(state.pressure.size(), [&](Index i) {
+    return touches(state.pressure(i)) && !at_cap(state.pressure(i), saturation_pressure);
+  });
 }
 
 /// S and M restricted to a set of pixels, as a system of conjugate gradients.
@@ -33,15 +30,14 @@ class Restricted {
         residual_(FieldF::Zero(elasticity.grid().ny, elasticity.grid().nx)) {}
 
   void apply(const std::vector<double>& pressure, std::vector<double>& displacement) {
-    for (std::size_t k = 0; k < set_.size(); ++k) pressure_(set_[k]) = pressure[k];
+    tabor::for_each(set_.size(), [&](std::size_t k) { pressure_(set_[k]) = pressure[k]; });
     elasticity_.apply(pressure_, displacement_);
-    for (std::size_t k = 0; k < set_.size(); ++k) displacement[k] = displacement_(set_[k]);
+    tabor::for_each(set_.size(), [&](std::size_t k) { displacement[k] = displacement_(set_[k]); });
   }
 
   const std::vector<float>& precondition(const std::vector<double>& residual) {
-    for (std::size_t k = 0; k < set_.size(); ++k) {
-      residual_(set_[k]) = static_cast<float>(residual[k]);
-    }
+    tabor::for_each(set_.size(),
+                    [&](std::size_t k) { residual_(set_[k]) = static_cast<float>(residual[k]); });
     std::vector<float> row_sums;
     preconditioner_.apply(set_, residual_, preconditioned_, row_sums);
     return preconditioned_;
@@ -50,13 +46,15 @@ class Restricted {
   template <typename Number>
   static double dot(const std::vector<double>& a, const std::vector<Number>& b) {
     double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k) sum += a[k] * static_cast<double>(b[k]);
+    for (std::size_t k = 0; k < a.size(); ++k) {  // raw loop: blocks would change the last digits
+      sum += a[k] * static_cast<double>(b[k]);
+    }
     return sum;
   }
 
   template <typename Body>
   static void for_each(std::size_t n, const Body& body) {
-    for (std::size_t k = 0; k < n; ++k) body(k);
+    tabor::for_each(n, body);
   }
 
  private:

@@ -1,12 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 #include "tabor/contact/conditions.hpp"
 #include "tabor/contact/contact.hpp"
 #include "tabor/contact/patches.hpp"
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
 
 namespace tabor::contact {
 namespace {
@@ -15,14 +14,9 @@ namespace {
 /// doi:10.1016/j.triboint.2017.04.023).
 constexpr double kTransitionArea = (std::numbers::pi - 1 + std::numbers::ln2) / 24;
 
-double mean_of(Index n, const std::function<double(Index)>& value) {
-  return deterministic_sum(n,
-                           [&](Index begin, Index end) {
-                             double partial = 0;
-                             for (Index i = begin; i < end; ++i) partial += value(i);
-                             return partial;
-                           }) /
-         static_cast<double>(n);
+template <typename Value>
+double mean_of(Index n, const Value& value) {
+  return sum_over(n, value) / static_cast<double>(n);
 }
 
 /// Corners per pixel edge of a contact line: 2 - sqrt 2 = 0.59 of one that runs in all directions
@@ -43,22 +37,23 @@ Summary summarise(const State& state, const Problem& problem, const Grid& grid, 
   const Mask contact = contact_mask(state);
   const Transitions transitions = count_transitions(contact, periodic);
   const Index n = grid.size();
-  const double cap = problem.saturation_pressure;
+  const double cap = problem.bounds.upper;
 
   Summary summary;
-  summary.mean_pressure = problem.mean_pressure;
+  summary.mean_pressure = state.mean_pressure;
   summary.contact_area_fraction_pixels =
       mean_of(n, [&](Index i) { return contact(i) ? 1.0 : 0.0; });
   summary.area_correction_valid = !runs_along_the_grid(contact, transitions, periodic);
   const double excess =
       kTransitionArea * static_cast<double>(transitions.total()) / static_cast<double>(n);
-  const double floor = std::isfinite(cap) ? problem.mean_pressure / cap : 0.0;
+  const double floor = std::isfinite(cap) ? state.mean_pressure / cap : 0.0;
   summary.contact_area_fraction = std::max(
       floor, summary.contact_area_fraction_pixels - (summary.area_correction_valid ? excess : 0.0));
   summary.saturated_area_fraction =
       mean_of(n, [&](Index i) { return at_cap(state.pressure(i), cap) ? 1.0 : 0.0; });
   summary.mean_gap = mean_of(n, [&](Index i) { return std::max(state.gap(i), 0.0); });
   summary.separation = state.separation;
+  summary.approach = extent_of(problem.height).highest - state.separation;
   summary.contact_gap_error = state.gap_error;
   summary.max_pressure = state.pressure.maxCoeff();
   summary.elastic_energy =

@@ -18,6 +18,14 @@ void for_each_row(Index n_rows, const Body& body) {
   });
 }
 
+/// Calls body(y, x) for every pixel, row by row, on all threads.
+template <typename Body>
+void for_each_pixel(Index n_rows, Index n_columns, const Body& body) {
+  for_each_row(n_rows, [&](Index y) {
+    for (Index x = 0; x < n_columns; ++x) body(y, x);
+  });
+}
+
 /// Returns the sum of of_row(y), an array of N numbers, added in the order of the rows: the same
 /// bits for any number of threads.
 template <int N, typename OfRow>

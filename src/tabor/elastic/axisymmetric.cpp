@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "tabor/core/error.hpp"
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/rows.hpp"
 #include "tabor/reference/elliptic_integrals.hpp"
 
 namespace tabor::elastic {
@@ -156,13 +156,11 @@ AxisymmetricHalfSpace::AxisymmetricHalfSpace(Eigen::ArrayXd radii, double effect
   const bool uniform = shape == PressureShape::uniform;
   load_weights_ = uniform ? uniform_weights(edges) : linear_weights(radii_);
   matrix_.resize(n, n);
-  parallel_for(n, 16, [&](Index begin, Index end) {
-    for (Index i = begin; i < end; ++i) {
-      if (uniform) {
-        fill_uniform(radii_[i], edges, effective_modulus_, matrix_.row(i));
-      } else {
-        fill_linear(radii_[i], radii_, effective_modulus_, matrix_.row(i));
-      }
+  for_each_row(n, [&](Index i) {
+    if (uniform) {
+      fill_uniform(radii_[i], edges, effective_modulus_, matrix_.row(i));
+    } else {
+      fill_linear(radii_[i], radii_, effective_modulus_, matrix_.row(i));
     }
   });
 }

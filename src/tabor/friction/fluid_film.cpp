@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "tabor/core/error.hpp"
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/friction/load_search.hpp"
 
@@ -23,11 +23,7 @@ constexpr double kLeastSolidShare = 1e-6;  // below it the surfaces are taken to
 
 double rms(const Field& field) {
   const double* value = field.data();
-  const double squares = deterministic_sum(field.size(), [&](Index begin, Index end) {
-    double partial = 0;
-    for (Index i = begin; i < end; ++i) partial += value[i] * value[i];
-    return partial;
-  });
+  const double squares = sum_over(field.size(), [=](Index i) { return value[i] * value[i]; });
   return std::sqrt(squares / static_cast<double>(field.size()));
 }
 
@@ -60,7 +56,7 @@ class Solver {
       : elasticity_(elasticity),
         problem_(problem),
         observer_(observer),
-        load_(problem.contact.mean_pressure),
+        load_(contact::prescribed_pressure(problem.contact, elasticity.grid())),
         roughness_(rms(problem.contact.height - mean(problem.contact.height))),
         felt_(Field::Zero(elasticity.grid().ny, elasticity.grid().nx)),
         deflection_(felt_) {}
@@ -103,7 +99,7 @@ class Solver {
     if (state.solid_pressure > kLeastSolidShare * load_) {
       contact::Problem solids = problem_.contact;
       solids.height = height;
-      solids.mean_pressure = state.solid_pressure;
+      solids.control = contact::MeanPressure{state.solid_pressure};
       state.contact = contact::solve(elasticity_, solids, contact::Solver::fast, observer_);
       if (state.contact.convergence.stopped()) state.convergence.status = Status::stopped;
       state.contact.displacement += deflection_;
@@ -112,6 +108,7 @@ class Solver {
     state.solid_pressure = 0;
     const double lift = std::max(-position, 0.0) * length();
     state.contact.pressure.setZero();
+    state.contact.mean_pressure = 0;
     state.contact.displacement = deflection_;
     state.contact.separation = lift + height.maxCoeff();
     state.contact.gap = state.contact.separation - height;
@@ -158,13 +155,13 @@ class Solver {
     patch.pressure_resolution = 0.1 * problem_.tolerance * load_;
     if (is_plain()) return patch;
     patch.viscosity_along = patch.viscosity_across = Field(patch.grid.ny, patch.grid.nx);
-    for (Index i = 0; i < patch.gap.size(); ++i) {
+    for_each(patch.gap.size(), [&](Index i) {
       const double gap = std::max(patch.gap(i), patch.thinnest_film);
       const material::FlowViscosity met = material::flow_viscosity(
           problem_.lubricant.shear, viscosity_at(felt_(i)), problem_.sliding_speed / gap, felt_(i));
       patch.viscosity_along(i) = met.along.value;
       patch.viscosity_across(i) = met.across.value;
-    }
+    });
     return patch;
   }
 
@@ -195,12 +192,12 @@ class Solver {
     last_gap_error_ = state.gap_error;
     const double softness =
         2 * caution_ * kPixelCompliance * side / elasticity_.effective_modulus();
-    for (Index i = 0; i < felt_.size(); ++i) {
+    for_each(felt_.size(), [&](Index i) {
       const double pressure = state.film.pressure(i);
       const double gap = std::max(state.contact.gap(i), 1e-9);
       const double share = 1 / (1 + softness * std::max(pressure, felt_(i)) / gap);
       felt_(i) += std::max(share, 0.05) * (pressure - felt_(i));
-    }
+    });
     elasticity_.apply(felt_, deflection_);
   }
 
@@ -208,18 +205,13 @@ class Solver {
   /// the power that the driven flow dissipates over the speed.
   double viscous_stress(const FluidFilmState& state) const {
     if (problem_.sliding_speed == 0) return 0;
-    const double carried = deterministic_sum(felt_.size(), [&](Index begin, Index end) {
-      double partial = 0;
-      for (Index i = begin; i < end; ++i) {
-        const double fill = state.film.fill(i);
-        if (!(fill > 0)) continue;
-        const double pressure = state.film.pressure(i);
-        partial +=
-            fill * material::shear_stress(problem_.lubricant.shear, viscosity_at(pressure),
-                                          problem_.sliding_speed / state.contact.gap(i), pressure)
-                       .value;
-      }
-      return partial;
+    const double carried = sum_over(felt_.size(), [&](Index i) {
+      const double fill = state.film.fill(i);
+      if (!(fill > 0)) return 0.0;
+      const double pressure = state.film.pressure(i);
+      return fill * material::shear_stress(problem_.lubricant.shear, viscosity_at(pressure),
+                                           problem_.sliding_speed / state.contact.gap(i), pressure)
+                        .value;
     });
     return carried / static_cast<double>(felt_.size()) +
            state.film.dissipation / problem_.sliding_speed;
@@ -245,7 +237,7 @@ FluidFilmState solve_fluid_film(elastic::ElasticOperator& elasticity,
   check(elasticity, problem, dry);
   FluidFilmState state;
   state.contact = dry;
-  state.solid_pressure = problem.contact.mean_pressure;
+  state.solid_pressure = contact::prescribed_pressure(problem.contact, elasticity.grid());
   state.convergence.tolerance = problem.tolerance;
   const auto work = [&](Watch&) { Solver(elasticity, problem, observer).run(state); };
   if (!finishes(observer, "film", work)) state.convergence.status = Status::stopped;

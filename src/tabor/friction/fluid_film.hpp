@@ -10,7 +10,7 @@ namespace tabor::friction {
 /// Problem of a smooth flat that slides over a rough surface at rest, with oil between them.
 /// docs/fluid_film.md has the equations and their limits.
 struct FluidFilmProblem {
-  contact::Problem contact;       ///< height, mean pressure P, saturation, tolerance of the contact
+  contact::Problem contact;       ///< height, load, saturation, tolerance of the contact
   Field film;                     ///< oil as deposited [m], shape of the height
   double sliding_speed = 0;       ///< u [m/s], along +x, >= 0
   material::Lubricant lubricant;  ///< viscosity and shear; the density plays no part

@@ -22,16 +22,14 @@ material::Lubricant lubricant_of(const FlowingOil& oil) {
 FluidSummary summarise(const FluidFilmState& state, const FluidFilmProblem& problem,
                        const Grid& grid) {
   const auto n = static_cast<double>(state.film.pressure.size());
-  const double load = problem.contact.mean_pressure;
+  const double load = contact::prescribed_pressure(problem.contact, grid);
   FluidSummary fluid;
   fluid.load_share = state.fluid_pressure / load;
   fluid.solid_share = state.solid_pressure / load;
   fluid.max_pressure = state.film.pressure.maxCoeff();
   if (state.solid_pressure > 0) {
-    contact::Problem solids;
-    solids.mean_pressure = state.solid_pressure;
-    solids.saturation_pressure = problem.contact.saturation_pressure;
-    const contact::Summary touching = contact::summarise(state.contact, solids, grid, true);
+    const contact::Summary touching =
+        contact::summarise(state.contact, problem.contact, grid, true);
     fluid.contact_area_fraction = touching.contact_area_fraction;
     fluid.contact_area_fraction_pixels = touching.contact_area_fraction_pixels;
     fluid.lubricated_share = lubricated_share(contact::contact_mask(state.contact), problem.film);
@@ -80,11 +78,11 @@ Warnings warnings(const FluidFilmState& state, const FluidFilmProblem& problem) 
   for (Warning& warning : material::warnings(problem.lubricant, highest)) {
     found.push_back(std::move(warning));
   }
-  if (highest > problem.contact.saturation_pressure) {
+  if (highest > problem.contact.bounds.upper) {
     found.push_back({"fluid-pressure",
                      "the oil's pressure reaches " + format_si(highest, "Pa") +
                          ", more than the solids bear: the film is too thin for its pixels there",
-                     highest / problem.contact.saturation_pressure});
+                     highest / problem.contact.bounds.upper});
   }
   return found;
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "tabor/core/error.hpp"
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/loops.hpp"
 
 namespace tabor::friction {
 namespace {
@@ -32,16 +32,10 @@ double lubricated_share(const Mask& contact, const Field& film) {
   check_sum(sum(film), "film");
   const bool* touches = contact.data();
   const double* thickness = film.data();
-  const auto count_where = [&](auto selected) {
-    return deterministic_sum(film.size(), [&](Index begin, Index end) {
-      double count = 0;
-      for (Index i = begin; i < end; ++i) count += selected(i) ? 1 : 0;
-      return count;
-    });
-  };
-  const double n_contact = count_where([&](Index i) { return touches[i]; });
-  const double n_wet = count_where([&](Index i) { return touches[i] && thickness[i] > 0; });
-  return n_contact > 0 ? n_wet / n_contact : 0;
+  const Index n_contact = count_where(film.size(), [=](Index i) { return touches[i]; });
+  const Index n_wet =
+      count_where(film.size(), [=](Index i) { return touches[i] && thickness[i] > 0; });
+  return n_contact > 0 ? static_cast<double>(n_wet) / static_cast<double>(n_contact) : 0;
 }
 
 double spill_over_fraction(const Field& film, const Field& gap) {
@@ -49,14 +43,10 @@ double spill_over_fraction(const Field& film, const Field& gap) {
   const double* thickness = film.data();
   const double* opening = gap.data();
   const double liquid = sum(film);
-  const double spilled = deterministic_sum(film.size(), [&](Index begin, Index end) {
-    double total = 0;
-    for (Index i = begin; i < end; ++i) {
-      const double space = opening[i] < 0 ? 0 : opening[i];  // keeps NaN, unlike std::max
-      const double excess = thickness[i] - space;
-      total += excess < 0 ? 0 : excess;
-    }
-    return total;
+  const double spilled = sum_over(film.size(), [=](Index i) {
+    const double gap_there = opening[i] < 0 ? 0 : opening[i];  // keeps NaN, unlike std::max
+    const double excess = thickness[i] - gap_there;
+    return excess < 0 ? 0 : excess;
   });
   check_sum(liquid, "film");
   check_sum(spilled, "gap");

@@ -25,6 +25,11 @@ double WestergaardWave::area_fraction(double mean_pressure) const {
   return 2 * half_width(mean_pressure) / wavelength;
 }
 
+double WestergaardWave::separation(double mean_pressure) const {
+  const double ratio = std::min(1.0, mean_pressure / full_contact_pressure());
+  return amplitude * (ratio > 0 ? 1 - ratio + ratio * std::log(ratio) : 1);
+}
+
 double WestergaardWave::pressure(double mean_pressure, double x) const {
   const double full = full_contact_pressure();
   const double psi = pi * x / wavelength;

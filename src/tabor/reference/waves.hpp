@@ -25,6 +25,11 @@ struct WestergaardWave {
   double half_width(double mean_pressure) const;
   double area_fraction(double mean_pressure) const;  ///< 2 a / L
 
+  /// Returns the height of the flat [m] over the mean plane of the surface, which is also the mean
+  /// gap: D (1 - r + r ln r), r = P / p*. It follows from p* and a: a further load dP meets a row
+  /// of flat punches of half-width a, whose compliance is 2 L / (pi E*) ln(1 / sin(pi a / L)).
+  double separation(double mean_pressure) const;
+
   /// Returns p(x) [Pa], x measured from a crest; P + p* cos(2 pi x / L) at full contact.
   double pressure(double mean_pressure, double x) const;
 };

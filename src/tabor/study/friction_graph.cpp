@@ -68,6 +68,9 @@ struct FrictionGraph::Shared {
   double mean_pressure(const FrictionPlace& place) const {
     return settings().mean_pressures[place.pressure];
   }
+  contact::Control control(const FrictionPlace& place) const {
+    return contact::MeanPressure{mean_pressure(place)};
+  }
   std::shared_ptr<Operators::Operator> operator_on(const Grid& grid) {
     return operators.borrow(settings().contact, grid);
   }
@@ -87,7 +90,7 @@ struct FrictionGraph::Shared {
     const auto surface = store->surface(monitor);
     store->store(place, surface,
                  cases::contact_state(*operator_on(surface->grid), *surface, settings().contact,
-                                      mean_pressure(place), load_path, monitor.own));
+                                      control(place), load_path, monitor.own));
   }
 
   void share_of_wet(const FrictionPlace& place) {
@@ -104,7 +107,7 @@ struct FrictionGraph::Shared {
     const auto surface = store->surface(monitor);
     const auto elasticity = operator_on(surface->grid);
     const auto solve_dry = [&] {
-      return cases::contact_state(*elasticity, *surface, settings().contact, mean_pressure(place),
+      return cases::contact_state(*elasticity, *surface, settings().contact, control(place),
                                   monitor.own)
           .state;
     };

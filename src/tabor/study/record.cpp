@@ -21,7 +21,7 @@ namespace tabor::study {
 namespace {
 
 io::ByteMap contact_states(const contact::State& state, double saturation_pressure) {
-  return (state.pressure > 0).cast<std::uint8_t>() +
+  return contact::contact_mask(state).cast<std::uint8_t>() +
          contact::saturated_mask(state, saturation_pressure).cast<std::uint8_t>();
 }
 

@@ -167,8 +167,8 @@ CoarsePixels coarse_pixels(const topography::Topography& surface,
     }
   };
   const auto elasticity = cases::make_operator(settings.contact, coarse.grid);
-  cases::contact_states(*elasticity, coarse, settings.contact, settings.mean_pressures, receive,
-                        observer);
+  cases::contact_states(*elasticity, coarse, settings.contact, cases::controls_of(settings),
+                        receive, observer);
   return result;
 }
 

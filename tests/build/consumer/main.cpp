@@ -12,7 +12,8 @@ int main() {
   const tabor::Grid grid{128, 4, length, length / 32};
 
   tabor::contact::Problem problem;
-  problem.mean_pressure = 0.3 * wave.full_contact_pressure();
+  const double mean_pressure = 0.3 * wave.full_contact_pressure();
+  problem.control = tabor::contact::MeanPressure{mean_pressure};
   problem.height.resize(grid.ny, grid.nx);
   for (tabor::Index x = 0; x < grid.nx; ++x) {
     const double phase =
@@ -22,7 +23,7 @@ int main() {
   const auto elasticity = tabor::elastic::make_periodic(grid, modulus);
   const auto state = tabor::contact::solve(*elasticity, problem);
 
-  const double expected = wave.pressure(problem.mean_pressure, 0);
+  const double expected = wave.pressure(mean_pressure, 0);
   const double found = state.pressure.maxCoeff();
   std::printf("largest pressure %.4g Pa, Westergaard %.4g Pa, certificate %.1e\n", found, expected,
               state.convergence.certificate);

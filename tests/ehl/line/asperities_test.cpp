@@ -43,9 +43,10 @@ Eigen::ArrayXd dry_pressure(const LineProblem& problem, const Eigen::ArrayXd& x,
   const double length = spacing * static_cast<double>(x.size());
   const auto elasticity =
       elastic::make_line({x.size(), 1, length, spacing}, problem.effective_modulus);
-  const contact::State dry = contact::solve(
-      *elasticity,
-      {.height = -gap.transpose(), .mean_pressure = load / length, .tolerance = 1e-10});
+  const contact::State dry =
+      contact::solve(*elasticity, {.height = -gap.transpose(),
+                                   .control = contact::MeanPressure{load / length},
+                                   .tolerance = 1e-10});
   EXPECT_TRUE(dry.convergence.converged());
   return dry.pressure.row(0).transpose();
 }

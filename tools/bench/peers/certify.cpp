@@ -38,6 +38,7 @@ struct Request {
   std::string pressure_file;
   double pixel = 0;              // [m]
   double effective_modulus = 0;  // [Pa]
+  double mean_pressure = 0;      // [Pa]
   contact::Problem problem;
   Grid grid;
 };
@@ -52,8 +53,9 @@ Request parse(const std::vector<std::string>& words) {
   request.pixel = std::stod(words[3]);
   request.effective_modulus = std::stod(words[4]);
   request.problem.height = bench::read_npy(words[1]);
-  request.problem.mean_pressure = std::stod(words[5]);
-  request.problem.saturation_pressure = std::stod(words[6]);
+  request.mean_pressure = std::stod(words[5]);
+  request.problem.control = contact::MeanPressure{request.mean_pressure};
+  request.problem.bounds.upper = std::stod(words[6]);
   const Field& height = request.problem.height;
   request.grid = {height.cols(), height.rows(), static_cast<double>(height.cols()) * request.pixel,
                   static_cast<double>(height.rows()) * request.pixel};
@@ -101,15 +103,16 @@ double load_error(const Field& pressure, double mean_pressure) {
 
 /// The duality gap is defined for pressures that carry the load: those in contact are shifted until
 /// they do, all of them where the pixels in contact cannot.
-void carry_load(Field& pressure, const contact::Problem& problem) {
-  const double load = problem.mean_pressure * static_cast<double>(pressure.size());
-  const auto n_contacts = static_cast<double>((pressure > 0).count());
-  const bool all = n_contacts * problem.saturation_pressure <= load;
-  const auto is_chosen = [all](double p) { return all || p > 0; };
+void carry_load(Field& pressure, const Request& request) {
+  const double cap = request.problem.bounds.upper;
+  const double load = request.mean_pressure * static_cast<double>(pressure.size());
+  const auto n_contacts = static_cast<double>(contact::contact_mask(pressure).count());
+  const bool all = n_contacts * cap <= load;
+  const auto is_chosen = [all](double p) { return all || contact::touches(p); };
   const std::span pixels(pressure.data(), static_cast<std::size_t>(pressure.size()));
   std::vector<double> chosen;
   std::copy_if(pixels.begin(), pixels.end(), std::back_inserter(chosen), is_chosen);
-  contact::project_on_load(chosen, load, problem.saturation_pressure);
+  contact::project_on_load(chosen, load, cap);
   auto next = chosen.begin();
   for (double& p : pixels) p = is_chosen(p) ? *next++ : 0;
 }
@@ -121,9 +124,10 @@ double certificate(const Request& request, const Field& pressure,
   const Field residual = displacement - request.problem.height;
   const contact::Candidates candidates{{pressure.data(), pressure.data() + pressure.size()},
                                        {residual.data(), residual.data() + residual.size()}};
-  const double load = request.problem.mean_pressure * static_cast<double>(pressure.size());
-  return contact::duality_gap(candidates, load, request.problem.saturation_pressure) /
-         (load * contact::length_scale(elasticity, request.problem));
+  const double load = request.mean_pressure * static_cast<double>(pressure.size());
+  return contact::duality_gap(candidates, load, request.problem.bounds.upper) /
+         (load * contact::length_scale(
+                     elasticity, contact::under_pressure(request.problem, request.mean_pressure)));
 }
 
 io::Json check(const Request& request) {
@@ -135,12 +139,12 @@ io::Json check(const Request& request) {
                                          request.grid.nx, request.grid.ny));
   }
   io::Json json;
-  json["contact_area"] = (pressure > 0).cast<double>().mean();
+  json["contact_area"] = contact::contact_mask(pressure).cast<double>().mean();
   json["lowest_pressure_Pa"] = pressure.minCoeff();
   json["highest_pressure_Pa"] = pressure.maxCoeff();
-  json["load_error"] = load_error(pressure, request.problem.mean_pressure);
-  carry_load(pressure, request.problem);
-  json["load_error_after_shift"] = load_error(pressure, request.problem.mean_pressure);
+  json["load_error"] = load_error(pressure, request.mean_pressure);
+  carry_load(pressure, request);
+  json["load_error_after_shift"] = load_error(pressure, request.mean_pressure);
   json["certificate"] = io::number(certificate(request, pressure, *elasticity));
   return json;
 }

@@ -34,8 +34,8 @@ PointResult solve_point_dry(const PointProblem& problem, const Observer& observe
   PointResult result;
   result.grid = point_grid(problem);
   const contact::Problem dry{.height = point_height(problem),
-                             .mean_pressure = problem.load / result.grid.area(),
-                             .saturation_pressure = problem.plastic_pressure,
+                             .control = contact::Force{problem.load},
+                             .bounds = {.upper = problem.plastic_pressure},
                              .tolerance = kCertificate * problem.tolerance};
   const auto half_space = elastic::make_free(result.grid, problem.effective_modulus);
   const contact::State state = contact::solve(*half_space, dry, contact::Solver::fast, observer);

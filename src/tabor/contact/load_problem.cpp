@@ -1,0 +1,167 @@
+#include "tabor/contact/load_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "tabor/contact/conditions.hpp"
+#include "tabor/contact/fast_solver.hpp"
+#include "tabor/contact/polonsky_keer.hpp"
+#include "tabor/core/large_pages.hpp"
+#include "tabor/core/loops.hpp"
+#include "tabor/numerics/field_statistics.hpp"
+
+namespace tabor::contact {
+namespace {
+
+/// Rms slope by forward differences, without wrapping around; 0 along an axis of one pixel.
+double rms_slope(const Field& height, const Grid& grid) {
+  const numerics::SquareSlopes slopes = numerics::mean_square_slopes(height, grid);
+  const auto known = [](double value) { return std::isnan(value) ? 0 : value; };
+  return std::sqrt(known(slopes.along_x) + known(slopes.along_y));
+}
+
+/// Rms pressure [Pa] that full contact needs to flatten the surface: E* / 2 * rms slope.
+double flattening_pressure(const elastic::ElasticOperator& elasticity, const LoadProblem& problem) {
+  return 0.5 * elasticity.effective_modulus() * rms_slope(problem.height, elasticity.grid());
+}
+
+/// Takes p = P + S^-1 z, the answer if it stays within the bounds (contact everywhere); one
+/// transform. Tried only where the pressure is not far below the flattening pressure.
+bool try_full_contact(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
+                      State& state) {
+  if (problem.mean_pressure < 0.25 * flattening_pressure(elasticity, problem) ||
+      !elasticity.apply_inverse(problem.height, state.pressure)) {
+    return false;
+  }
+  state.convergence.fft_pairs += 1;
+  state.pressure -= state.pressure.mean();
+  if (problem.mean_pressure + state.pressure.minCoeff() < 0 ||
+      problem.mean_pressure + state.pressure.maxCoeff() > problem.saturation_pressure) {
+    return false;
+  }
+  // The mean displaces nothing: left out, it costs the waves about it no digits.
+  elasticity.apply(state.pressure, state.displacement);
+  state.pressure += problem.mean_pressure;
+  state.convergence.operator_applications = 1;
+  state.convergence.fft_pairs += 1;
+  state.convergence.tolerance = problem.tolerance;
+  const Field residual = state.displacement - problem.height;
+  state.convergence.certificate =
+      Conditions(elasticity, problem)
+          .certificate({{state.pressure.data(), state.pressure.data() + state.pressure.size()},
+                        {residual.data(), residual.data() + residual.size()}});
+  if (!(state.convergence.certificate <= problem.tolerance)) return false;
+  state.convergence.status = Status::converged;
+  return true;
+}
+
+State run(elastic::ElasticOperator& elasticity, const LoadProblem& problem, Solver solver,
+          const Observer& observer) {
+  return solver == Solver::fast ? solve_fast(elasticity, problem, observer)
+                                : solve_polonsky_keer(elasticity, problem, observer);
+}
+
+/// Returns the state where the solver would have begun: all of a solution that was stopped before.
+State stopped_at_start(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
+                       Solver solver) {
+  LoadProblem start = problem;
+  start.max_iterations = 0;
+  State state = run(elasticity, start, solver, {});
+  state.convergence.status = Status::stopped;
+  return state;
+}
+
+/// True where so few contact pixels are at the cap that the error of the certificate may have put
+/// them there.
+bool cap_may_be_idle(const State& state, double cap) {
+  constexpr double least_share = 0.005;  // of the contact pixels
+  return static_cast<double>(saturated_mask(state, cap).count()) <=
+         least_share * static_cast<double>(contact_mask(state).count());
+}
+
+/// A cap that no pressure reaches leaves the elastic answer, to the bit: wherever the cap turns out
+/// idle, the answer is the one computed without it. Caps above what roughness usually reaches
+/// are tried without first.
+State run_capped(elastic::ElasticOperator& elasticity, const LoadProblem& problem, Solver solver,
+                 const Observer& observer, bool& cap_is_idle) {
+  const double cap = problem.saturation_pressure;
+  double pairs_spent = 0;
+  const auto try_elastic = [&](State& state) {
+    LoadProblem elastic_problem = problem;
+    elastic_problem.saturation_pressure = kNoSaturation;
+    state = run(elasticity, elastic_problem, solver, observer);
+    pairs_spent += state.convergence.fft_pairs;
+    cap_is_idle = extent_of(state.pressure).highest <= cap;
+    return cap_is_idle;
+  };
+  State state;
+  const bool probably_idle = cap > 10 * flattening_pressure(elasticity, problem);
+  if (!probably_idle || !try_elastic(state)) {
+    state = state.convergence.stopped() ? stopped_at_start(elasticity, problem, solver)
+                                        : run(elasticity, problem, solver, observer);
+    pairs_spent += state.convergence.fft_pairs;
+    if (!probably_idle && state.convergence.converged() && cap_may_be_idle(state, cap)) {
+      State elastic_state;
+      const bool is_idle = try_elastic(elastic_state);
+      if (elastic_state.convergence.stopped()) state.convergence.status = Status::stopped;
+      if (is_idle) state = std::move(elastic_state);
+    }
+  }
+  state.convergence.fft_pairs = pairs_spent;
+  return state;
+}
+
+}  // namespace
+
+void finish_state(const elastic::ElasticOperator& elasticity, const LoadProblem& problem,
+                  std::optional<double> given_separation, State& state) {
+  const Conditions conditions(elasticity, problem);
+  const double cap = problem.saturation_pressure;
+  state.gap = uninitialised_map<Field>(state.pressure.rows(), state.pressure.cols());
+  double* p = state.pressure.data();
+  double* gap = state.gap.data();
+  const auto n = static_cast<std::size_t>(state.gap.size());
+  const double* displacement = state.displacement.data();
+  const double* height = problem.height.data();
+  for_each(n, [=](std::size_t i) { gap[i] = displacement[i] - height[i]; });
+  const std::span<const double> pressures(p, n);
+  const std::span<const double> residuals(gap, n);
+  state.separation =
+      given_separation ? *given_separation : conditions.separation(pressures, residuals);
+  state.gap_error = conditions.gap_error(pressures, residuals, state.separation);
+  state.gap_limit = conditions.gap_limit();
+  const double separation = state.separation;
+  for_each(n, [=](std::size_t i) {
+    gap[i] += separation;
+    if (!touches(p[i])) {
+      gap[i] = std::max(gap[i], 0.0);
+    } else if (at_cap(p[i], cap)) {
+      p[i] = cap;
+      gap[i] = std::min(gap[i], 0.0);
+    } else {
+      gap[i] = 0;
+    }
+  });
+}
+
+State solve_load(elastic::ElasticOperator& elasticity, LoadProblem problem, Solver solver,
+                 const Observer& observer) {
+  State state;
+  bool cap_is_idle = !std::isfinite(problem.saturation_pressure);
+  if (asks_to_stop(observer, {"contact"})) {
+    state = stopped_at_start(elasticity, problem, solver);
+  } else if (!try_full_contact(elasticity, problem, state)) {
+    const double pairs_spent = state.convergence.fft_pairs;
+    state = cap_is_idle ? run(elasticity, problem, solver, observer)
+                        : run_capped(elasticity, problem, solver, observer, cap_is_idle);
+    state.convergence.fft_pairs += pairs_spent;
+  }
+  if (cap_is_idle) problem.saturation_pressure = kNoSaturation;
+  state.mean_pressure = problem.mean_pressure;
+  finish_state(elasticity, problem, {}, state);
+  return state;
+}
+
+}  // namespace tabor::contact
