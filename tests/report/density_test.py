@@ -11,8 +11,8 @@ from study_case import StudyCase, draw, rows_of
 from synthetic_single import write_single
 from synthetic_study import Recipe
 from synthetic_tables import DOSES, average_curves, density_curves
-from tabor_report import areas, build, page, page_single, page_study, style, units
-from tabor_report.figures import density_friction, single_curves
+from tabor.report import areas, build, page, page_single, page_study, style, units
+from tabor.report.figures import density_friction, single_curves
 
 NAME = "friction_against_density"
 CURVES = Recipe(density_curves=True)

@@ -11,8 +11,8 @@ import h5py
 import numpy as np
 
 from synthetic_file import new_file
-from tabor_report import build, page, page_ehl, style
-from tabor_report.figures import ehl_curves, ehl_impact, ehl_point, ehl_stribeck
+from tabor.report import build, page, page_ehl, style
+from tabor.report.figures import ehl_curves, ehl_impact, ehl_point, ehl_stribeck
 
 
 def impact_file(path):

@@ -7,9 +7,9 @@ import numpy as np
 from study_case import StudyCase, draw, rows_of
 from synthetic_study import Recipe
 from synthetic_tables import average, measured
-from tabor_report import errors, friction_series, style
-from tabor_report.example import choose
-from tabor_report.figures import contact_area, dry_friction, mixed_friction
+from tabor.report import errors, friction_series, style
+from tabor.report.example import choose
+from tabor.report.figures import contact_area, dry_friction, mixed_friction
 
 
 class Friction(StudyCase):

@@ -14,12 +14,12 @@ from unittest import mock
 
 import numpy as np
 
-from tabor_report import cli, dependencies, encoding, errors, live_page, maps, names, output, page, section, still, style, units
-from tabor_report.example import richest_window
-from tabor_report.figures import Drawn, psd
-from tabor_report.map_axes import round_length
-from tabor_report.page_single import show, words
-from tabor_report.table import Table, converged
+from tabor.report import cli, dependencies, encoding, errors, live_page, maps, names, output, page, section, still, style, units
+from tabor.report.example import richest_window
+from tabor.report.figures import Drawn, psd
+from tabor.report.map_axes import round_length
+from tabor.report.page_single import show, words
+from tabor.report.table import Table, converged
 
 
 class Names(unittest.TestCase):
@@ -203,7 +203,7 @@ class LiveCurves(unittest.TestCase):
     def test_a_second_axis_is_linear_beside_a_logarithmic_one(self):
         from bokeh.models import LinearScale, LogScale
 
-        from tabor_report import bokeh_curves
+        from tabor.report import bokeh_curves
 
         style.apply()
         figure, grid = style.new_figure(2.0)

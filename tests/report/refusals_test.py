@@ -15,7 +15,7 @@ import synthetic_study
 from report_test import run
 from synthetic_single import write_single
 from synthetic_study import Recipe
-from tabor_report import build, refusals
+from tabor.report import build, refusals
 
 PROGRAM = os.environ.get("TABOR")
 # Of a file of one scan: (pressure, density) of each state, its codes, and whether it converged.

@@ -1,4 +1,4 @@
-"""Whole runs of `python3 -m tabor_report`: the files, their sizes, the page."""
+"""Whole runs of the program behind `tabor report`: the files, their sizes, the page."""
 
 import contextlib
 import io
@@ -17,7 +17,7 @@ import h5py
 import synthetic_study
 from synthetic_single import write_single
 from synthetic_study import Recipe
-from tabor_report import cli
+from tabor.report import cli
 
 PACKAGE = Path(__file__).resolve().parents[2] / "python"
 ODD = Recipe(
@@ -39,7 +39,7 @@ def run(*arguments):
 
 
 def run_alone(*arguments):
-    """The program itself."""
+    """The program itself, by its former name."""
     return subprocess.run(
         [sys.executable, "-m", "tabor_report", *map(str, arguments)],
         capture_output=True,

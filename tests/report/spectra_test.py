@@ -10,8 +10,8 @@ import numpy as np
 from report_test import run
 from synthetic_file import new_file
 from study_case import rows_of
-from tabor_report import build, page_spectra, spectra
-from tabor_report.figures import spectra as figure
+from tabor.report import build, page_spectra, spectra
+from tabor.report.figures import spectra as figure
 
 SIDE, N = 1e-4, 128
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import synthetic_study
 from synthetic_study import Recipe
-from tabor_report import build, style
+from tabor.report import build, style
 
 OPTIONS = Namespace(html=False, scan=None, all_scans=False, pressure=None, density=None, error_bar="std")
 

@@ -1,0 +1,166 @@
+"""Results of `tabor ehl` that need no picture of their own: a roller's history, sweeps."""
+
+import numpy as np
+
+from tabor.report import ehl, hdf, style, units
+from tabor.report.figures import Drawn
+from tabor.report.output import table_text
+
+
+def squeeze(source):
+    """Force and film of a roller against time."""
+    history = source.curves("history")
+    if not history:
+        return
+    figure, grid = style.new_figure(3.2, width=5.6)
+    left = grid[0][0]
+    right = left.twinx()
+    time = history["time"] * 1e3
+    left.plot(time, history["force"] * 1e-3, color=style.COLOURS[1], label="force")
+    right.plot(time, history["min_film"] * 1e6, color=style.COLOURS[0], label="smallest film")
+    right.set_yscale("log")
+    style.log_axis(right.yaxis)
+    late = time[history["force"] > 0.01 * history["force"].max()]
+    left.set_xlim(late[0] if len(late) else time[0], time[-1])
+    left.set_xlabel("time (ms)")
+    left.set_ylabel("force per width (kN/m)")
+    right.set_ylabel("film thickness (µm)")
+    right.spines["right"].set_visible(True)
+    style.legend_on_top(figure, style.entries(left, right))
+    yield Drawn(
+        "squeeze",
+        "Force and film against time",
+        _squeeze_caption(history),
+        figure,
+        {"": table_text({f"{name}": values for name, values in history.items()})},
+    )
+
+
+def _squeeze_caption(history):
+    """When the force is largest and the film thinnest."""
+    time = history["time"] * 1e3
+    force, film = time[np.argmax(history["force"])], time[np.argmin(history["min_film"])]
+    text = f"The force is largest after {units.number(force)} ms, the film thinnest after {units.number(film)} ms"
+    return text + (": it goes on closing under a falling force." if film > force else ".")
+
+
+def sweep(source):
+    """One figure per computed number: curves over one swept value, a map over two."""
+    node = source.file["sweep"]
+    keys = swept_keys(node)
+    shape = [len(node["axes"][key]) for key in keys]
+    for name, column in source.columns.items():
+        if name == "newton_iterations":
+            continue
+        values = column[()].reshape(shape)
+        if np.isfinite(values).any() and values[np.isfinite(values)].any():  # a column of zeros says it in the table
+            yield _drawn(node, name, keys, values)
+
+
+def swept_keys(node):
+    """Of a sweep, the last one fastest."""
+    return [hdf.text(key) for key in np.atleast_1d(node.attrs["axes"])]
+
+
+def curves_along(node, keys, key):
+    """(index of one curve in an array over all axes, what tells it from the others)."""
+    others = [other for other in keys if other != key]
+    for place in np.ndindex(*[len(node["axes"][other]) for other in others]):
+        words = ", ".join(_word(node["axes"][other], index) for other, index in zip(others, place))
+        index = list(place)
+        index.insert(keys.index(key), slice(None))
+        yield tuple(index), words
+
+
+def _word(axis, index):
+    if "words" in axis.attrs:
+        return hdf.text(axis.attrs["words"][index])
+    return f"{hdf.text(axis.attrs['long_name']).split('.')[-1]} {axis[index]:g}"
+
+
+def _drawn(node, name, keys, values):
+    heading = hdf.text(node[name].attrs["long_name"])
+    factor, label = _scaled(values, hdf.text(node[name].attrs["units"]), heading)
+    axes_values = [node["axes"][key][()] for key in keys]
+    is_map = len(keys) == 2 and min(values.shape) > 1 and not _has_words(node)
+    figure, grid = style.new_figure(3.6 if is_map else 3.2, width=5.6)
+    if is_map:
+        _draw_map(figure, grid[0][0], node, keys, values * factor, label)
+    else:
+        _draw_curves(figure, grid[0][0], node, keys, values * factor, label)
+    data = {key: points.ravel() for key, points in zip(keys, np.meshgrid(*axes_values, indexing="ij"))}
+    own = {name: values.ravel()}
+    if codes := ehl.codes_of(node):
+        own["warnings"] = codes
+    return Drawn(
+        f"sweep_{name}",
+        heading[:1].upper() + heading[1:],
+        f"Over {' and '.join(keys)}.",
+        figure,
+        {"": table_text({**data, **own})},
+    )
+
+
+def _scaled(values, unit, what):
+    """(factor, label) in which values [unit] read well on an axis."""
+    finite = np.abs(values[np.isfinite(values)])
+    factor, unit = units.scale(finite.max() if finite.size else 0, unit)
+    return factor, f"{what} ({unit})" if unit not in ("", "1") else what
+
+
+def _scaled_axis(node, key):
+    """(values, label) of what a sweep varies."""
+    axis = node["axes"][key]
+    factor, label = _scaled(axis[()], hdf.text(axis.attrs.get("units", "SI")), key)
+    return axis[()] * factor, label
+
+
+def _has_words(node):
+    return any("words" in axis.attrs for axis in node["axes"].values())
+
+
+def _draw_curves(figure, axes, node, keys, values, label):
+    """Over the axis with most numbers, a curve for every value of the others."""
+    numeric = [key for key in keys if "words" not in node["axes"][key].attrs] or keys
+    key = max(numeric, key=lambda key: len(node["axes"][key]))
+    place, place_label = _scaled_axis(node, key)
+    curves = list(curves_along(node, keys, key))
+    are_ordered = all("words" not in node["axes"][other].attrs for other in keys)
+    styles = style.ordered_styles if are_ordered and len(curves) > 1 else style.curve_styles
+    for (index, words), look in zip(curves, styles(len(curves))):
+        axes.plot(place, values[index], label=words or None, **look)
+    finite = values[np.isfinite(values)]
+    if _scale(axes.set_xscale, place) and finite.min() > 0 and finite.max() > 10 * finite.min():
+        axes.set_yscale("log")
+    for side in (axes.xaxis, axes.yaxis):
+        if side.get_scale() == "log":
+            style.log_axis(side)
+    axes.set_xlabel(place_label)
+    axes.set_ylabel(label)
+    axes.grid(color="0.92", linewidth=0.6)
+    if len(curves) > 1:
+        style.legend_on_top(figure, style.entries(axes))
+
+
+def _draw_map(figure, axes, node, keys, plane, label):
+    (y, y_label), (x, x_label) = (_scaled_axis(node, key) for key in keys)
+    mesh = axes.contourf(x, y, plane, levels=16, cmap="viridis")
+    if np.nanmax(plane) > np.nanmin(plane):
+        lines = axes.contour(x, y, plane, levels=8, colors="white", linewidths=0.6)
+        axes.clabel(lines, fontsize=7, fmt="%.3g")
+    figure.colorbar(mesh, ax=axes).set_label(label)
+    for set_scale, side, values in ((axes.set_yscale, axes.yaxis, y), (axes.set_xscale, axes.xaxis, x)):
+        if _scale(set_scale, values):
+            style.log_axis(side)
+    axes.set_ylabel(y_label)
+    axes.set_xlabel(x_label)
+
+
+def _scale(set_scale, values):
+    """Logarithmic, and true, where the values are."""
+    if len(values) > 2 and (values > 0).all():
+        steps = np.diff(np.log(values))
+        if np.allclose(steps, steps[0], rtol=1e-3):
+            set_scale("log")
+            return True
+    return False
