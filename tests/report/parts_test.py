@@ -2,7 +2,6 @@
 
 import base64
 import contextlib
-import importlib.util
 import io
 import re
 import stat
@@ -196,23 +195,6 @@ class StillPictures(unittest.TestCase):
         style.close(figure)
         self.assertGreater(len(paths), 5)
         self.assertFalse([path for path in paths if re.search(rb"\.\d\d\d", path)])
-
-
-@unittest.skipIf(importlib.util.find_spec("bokeh") is None, "needs Bokeh (PyPI)")
-class LiveCurves(unittest.TestCase):
-    def test_a_second_axis_is_linear_beside_a_logarithmic_one(self):
-        from bokeh.models import LinearScale, LogScale
-
-        from tabor.report import bokeh_curves
-
-        style.apply()
-        figure, grid = style.new_figure(2.0)
-        grid[0][0].loglog([1, 10, 100], [1, 10, 100])
-        grid[0][0].twinx().plot([1, 10, 100], [0, 50, 90])
-        ((plot,),), _ = bokeh_curves.convert(figure, "both")
-        style.close(figure)
-        self.assertIsInstance(plot.y_scale, LogScale)
-        self.assertIsInstance(plot.extra_y_scales["right1"], LinearScale)
 
 
 def unpacked(array, shape, height):

@@ -47,6 +47,6 @@ def draw(source, **changes):
     """{name: Drawn}, with options of the command line changed as asked."""
     figures = {}
     for drawn in build.study_figures(source, Namespace(**{**vars(OPTIONS), **changes})):
-        style.close(drawn.figure)
+        drawn.close()
         figures[drawn.name] = drawn
     return figures

@@ -58,12 +58,11 @@ def build(source, folder, options, command):
     output.make_folder(folder / "figures" if options.figures else folder)
     shown, paths = [], []
     for drawn in _drawings(source, options, with_maps=bool(options.figures) or live is None):
-        pictures = {form: style.picture(drawn.figure, form) for form in options.figures}
+        pictures = {form: style.picture(drawn.drawing, form) for form in options.figures}
         paths.extend(_save(folder / "figures", drawn, pictures))
         if options.html and not (live and drawn.is_viewed):
             shown.append(page.Shown.of(drawn, live, pictures))
-        style.close(drawn.figure)
-        drawn.figure = None
+        drawn.close()
     if options.html:
         output.write(folder / "report.html", page.render(source, shown, command, live))
         paths.append(folder / "report.html")

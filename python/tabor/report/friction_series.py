@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tabor.report import style, units
+from tabor.report import chart, style, units
 from tabor.report.table import Table, converged
 
 DENSITY = "lubricant_density_g_per_m2"
@@ -81,49 +81,30 @@ def measured_label(density):
     return f"experiment {units.density(density)}" if np.isfinite(density) else "experiment"
 
 
-def draw(axes, series, error, **look):
-    """The curve with its bars, and a ring for every case that did not converge."""
+def curve(series, error, **look):
+    """The means with their bars."""
     shown = np.isfinite(series.mean)
-    drawn = axes.errorbar(
-        series.pressure[shown] * 1e-6,
-        series.mean[shown],
-        yerr=_bars(series.bar(error)[shown]),
-        capsize=2.5,
-        elinewidth=0.9,
-        **look,
+    values = series.pressure[shown] * 1e-6, series.mean[shown]
+    return chart.Curve(*values, error=series.bar(error)[shown], notes={"n": series.n[shown]}, **look)
+
+
+def rings(x, y):
+    """[] or one curve: cases that did not converge, ringed in the colour of a warning."""
+    look = {"dash": "", "marker": "o", "size": 9, "colour": style.WARNING, "face": "none", "edge": 1.4}
+    return [chart.Curve(x, y, "did not converge, in no mean", **look)] if len(x) else []
+
+
+def rings_of(all_series):
+    return rings(
+        np.concatenate([series.loose_pressure * 1e-6 for series in all_series]),
+        np.concatenate([series.loose_friction for series in all_series]),
     )
-    style.note(drawn[0], n=series.n[shown])
-    draw_loose(axes, series.loose_pressure * 1e-6, series.loose_friction)
 
 
-def draw_loose(axes, x, y):
-    """Cases that did not converge, ringed in the colour of a warning."""
-    if len(x):
-        axes.plot(
-            x,
-            y,
-            linestyle="none",
-            marker="o",
-            markersize=9,
-            markerfacecolor="none",
-            markeredgecolor=style.WARNING,
-            markeredgewidth=1.4,
-            label="did not converge, in no mean",
-        )
-
-
-def draw_experiment(axes, points, **look):
+def measured(points, **look):
     error = np.asarray(points.get("error", np.full(len(points), np.nan)), dtype=float)
-    axes.errorbar(
-        points["mean_pressure_Pa"] * 1e-6,
-        points["friction"],
-        yerr=_bars(error),
-        linestyle="none",
-        capsize=2.5,
-        elinewidth=0.8,
-        markerfacecolor="white",
-        **look,
-    )
+    values = points["mean_pressure_Pa"] * 1e-6, points["friction"]
+    return chart.Curve(*values, error=error, dash="", face="white", bar=(0.8, 2.5), **look)
 
 
 def csv_columns(study, all_series):
@@ -139,11 +120,6 @@ def csv_columns(study, all_series):
         where = (row.get("group", ""), row["mean_pressure_Pa"], row.get(DENSITY, float("nan")))
         _append(columns, ("experiment", *where, "", row["friction"], row.get("error", float("nan")), ""))
     return columns
-
-
-def _bars(lengths):
-    """matplotlib stumbles over bars that are all NaN."""
-    return lengths if np.isfinite(lengths).any() else None
 
 
 def _append(columns, values):

@@ -23,18 +23,17 @@ class Live:
 
     def curves(self, drawn):
         """{"rows": ids of the elements that show a figure's panels, "legend"}; None where it stays as it is."""
-        from tabor.report import bokeh_curves
+        from tabor.report import bokeh_looks, chart_bokeh
 
-        found = None if drawn.is_map else bokeh_curves.convert(drawn.figure, drawn.name)
-        if found is None:
+        rows = chart_bokeh.draw(drawn.figure, drawn.name) if drawn.is_declared else None
+        if rows is None:
             return None
-        rows, legend = found
         ids = []
         for number, row in enumerate(rows):
             ids.append([f"{drawn.name}_{number}_{place}" for place in range(len(row))])
             for name, plot in zip(ids[-1], row):
                 self.document.add(plot, name)
-        return {"rows": ids, "legend": legend}
+        return {"rows": ids, "legend": bokeh_looks.legend(drawn.figure)}
 
     def scripts(self):
         """{"library", "documents", "places", "viewer"}"""

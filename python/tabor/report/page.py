@@ -52,7 +52,7 @@ class Shown:
         """pictures: {format: bytes} that are drawn already."""
         # A map as SVG is a raster in a wrapper; as an <img> an SVG's ids cannot clash with another's.
         form, draw = ("png", style.quick_png) if drawn.is_map else ("svg", style.svg)
-        picture = pictures.get(form) or draw(drawn.figure)
+        picture = pictures.get(form) or draw(drawn.drawing)
         tables = drawn.tables()
         small = {name: text for name, text in tables.items() if not callable(text) and len(text) <= LARGEST_IN_PAGE}
         large = [name for name in tables if name not in small]

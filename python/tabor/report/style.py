@@ -11,7 +11,6 @@ matplotlib.use("Agg")
 import numpy as np
 from matplotlib import pyplot as plt
 from matplotlib.colors import to_hex
-from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, Locator, NullLocator, ScalarFormatter
 
 from tabor.report import units
@@ -26,6 +25,9 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#4
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 DRY, WET, LIQUID, SOLID, WARNING = "#E8862E", "#000000", "#3A86C8", "#B9B2A8", "#C1121F"
 FLATTENED = "#EBA39B"
+
+# Grey and dashed, over a curve that it coincides with.
+DRY_CURVE = {"colour": "0.35", "dash": "--", "marker": "s", "size": 4, "face": "white", "z": 4}
 
 _SETTINGS = {
     "font.size": 9,
@@ -72,29 +74,19 @@ def sequence(n):
 
 
 def curve_styles(n):
-    """n pairs of a colour, which no other has, and a marker.
+    """n looks of a chart.Curve: a colour, which no other has, and a marker.
 
     Symbols shrink from curve to curve, so that one drawn over another of the same values hides neither.
     """
     return [
-        {
-            "color": colour,
-            "marker": MARKERS[step % len(MARKERS)],
-            "linestyle": "-",
-            "markersize": max(4.0, 8.5 - 2 * (step % len(MARKERS))),
-        }
+        {"colour": colour, "marker": MARKERS[step % len(MARKERS)], "size": max(4.0, 8.5 - 2 * (step % len(MARKERS)))}
         for step, colour in enumerate(colours(n))
     ]
 
 
 def ordered_styles(n):
     """curve_styles of a family in the order of a quantity: darker for more of it."""
-    return [{**look, "color": colour} for look, colour in zip(curve_styles(n), sequence(n)[::-1])]
-
-
-def note(line, **columns):
-    """Numbers of a curve's points that an interactive page shows under the pointer, as n."""
-    line.tabor_notes = columns
+    return [{**look, "colour": colour} for look, colour in zip(curve_styles(n), sequence(n)[::-1])]
 
 
 def round_numbers(low, high):
@@ -145,23 +137,6 @@ def legend_on_top(figure, entries):
         borderaxespad=0.2,
         handlelength=2.2,
     )
-
-
-def entries(*panels):
-    """{label: handle} of one or more panels, in each curves before guide lines."""
-    return {label: handle for axes in panels for label, handle in _entries_of(axes).items()}
-
-
-def _entries_of(axes):
-    pairs = zip(*axes.get_legend_handles_labels())
-    ordered = sorted(pairs, key=lambda pair: isinstance(pair[0], Line2D))
-    return {label: handle for handle, label in ordered}
-
-
-def limits_from_zero(axes):
-    """Axes that begin at zero, with air above the highest symbol."""
-    axes.set_xlim(0, axes.get_xlim()[1])
-    axes.set_ylim(0, axes.get_ylim()[1] * 1.05)
 
 
 def legend_above(axes, n_columns, handles=None):

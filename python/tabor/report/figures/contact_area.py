@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from tabor.report import areas, style, units
+from tabor.report import areas, chart, style, units
 from tabor.report.figures import Drawn
-from tabor.report.friction_series import draw_loose, number_text
+from tabor.report.friction_series import number_text, rings
 from tabor.report.output import table_text
 from tabor.report.table import converged
 
@@ -14,23 +14,18 @@ def draw(study):
     groups = [(group, members) for group, members in groups if members]
     if not groups:
         return None
-    figure, grid = style.new_figure(3.4, width=5.6)
-    axes = grid[0][0]
-    for (group, states), look in zip(groups, style.curve_styles(len(groups))):
-        _draw_group(axes, group, states, look)
-    _draw_doubtful(axes, groups)
-    _draw_bound(axes, study)
-    axes.set_xlabel("mean pressure $P$ (MPa)")
     name = areas.NAMES[areas.of_study(study)]
-    axes.set_ylabel(f"{name} $A_{{real}}/A_0$ (%)")
-    axes.grid(color="0.92", linewidth=0.6)
-    style.limits_from_zero(axes)
-    style.legend_on_top(figure, style.entries(axes))
+    panel = chart.Panel(chart.from_zero("mean pressure $P$ (MPa)", air=1), chart.from_zero(f"{name} $A_{{real}}/A_0$ (%)"))
+    looks = [_named(*group, look) for group, look in zip(groups, style.curve_styles(len(groups)))]
+    for (_, states), look in zip(groups, looks):
+        panel.items += _curves(states, look)
+    others = _rings(groups) + _bound(study)
+    panel.items += others
     return Drawn(
         "contact_area",
         f"{name.capitalize()} against pressure",
         _caption(study),
-        figure,
+        chart.Figure([[panel]], 3.4, legend=tuple([chart.Curve(**look) for look in looks] + others)),
         {"": _csv(groups, areas.of_study(study))},
     )
 
@@ -67,40 +62,34 @@ def states_of(study, group):
     return [found[key] for key in sorted(found)]
 
 
-def _draw_group(axes, group, states, look):
+def _named(group, states, look):
+    """The look with the label of a group: its name and the number of scans."""
+    return {**look, "label": f"{style.literal(group) or 'mean'} ({number_text(means(states)[2])})"}
+
+
+def _curves(states, look):
+    """The means as a line, every scan as a symbol."""
     pressures, mean, n = means(states)
-    number = number_text(n)
-    (line,) = axes.plot(pressures * 1e-6, mean * 100, color=look["color"], linestyle=look["linestyle"])
-    style.note(line, n=n)
-    axes.plot([], [], **look, label=f"{style.literal(group) or 'mean'} ({number})")
-    axes.plot(
-        [state["pressure"] * 1e-6 for state in states],
-        [state["area"] * 100 for state in states],
-        linestyle="none",
-        marker=look["marker"],
-        markersize=look["markersize"],
-        color=look["color"],
-        alpha=0.75,
-    )
+    scans = [state["pressure"] * 1e-6 for state in states], [state["area"] * 100 for state in states]
+    return [
+        chart.Curve(pressures * 1e-6, mean * 100, look["label"], look["colour"], notes={"n": n}),
+        chart.Curve(*scans, dash="", alpha=0.75, **look),
+    ]
 
 
-def _draw_doubtful(axes, groups):
+def _rings(groups):
     loose = [state for _, states in groups for state in states if not state["sure"]]
     pressures, areas = ([state[name] for state in loose] for name in ("pressure", "area"))
-    draw_loose(axes, np.array(pressures) * 1e-6, np.array(areas) * 100)
+    return rings(np.array(pressures) * 1e-6, np.array(areas) * 100)
 
 
-def _draw_bound(axes, study):
+def _bound(study):
     cap = study.saturation_pressure
-    if cap:
-        top = float(np.max(study.table["mean_pressure_Pa"]))
-        axes.plot(
-            [0, top * 1e-6],
-            [0, top / cap * 100],
-            color="0.35",
-            linestyle=":",
-            label=f"$P/p_{{sat}}$, $p_{{sat}}$ = {units.pressure(cap)}",
-        )
+    if not cap:
+        return []
+    top = float(np.max(study.table["mean_pressure_Pa"]))
+    label = f"$P/p_{{sat}}$, $p_{{sat}}$ = {units.pressure(cap)}"
+    return [chart.Curve([0, top * 1e-6], [0, top / cap * 100], label, "0.35", ":")]
 
 
 def _caption(study):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tabor.report import friction_series as series_of
-from tabor.report import style, units
+from tabor.report import chart, style, units
 from tabor.report.density_curves import PRESSURE
 from tabor.report.figures import Drawn
 from tabor.report.friction_series import DENSITY
@@ -17,6 +17,7 @@ MAX_PANELS = 6
 MAX_NAMED = 8  # pressures in the legend
 TITLE_WIDTH = 44  # characters over a panel of half the page
 DRY = "dry (same colours)"  # in the legend
+DASHED = {"dash": (4, 3), "width": 0.8}
 LABEL_DECADES = 0.14  # asked densities nearer to each other than this share a label
 
 
@@ -107,12 +108,15 @@ def _draw(curves, asked, error_name):
     if not groups:
         return None
     shown = groups[:MAX_PANELS]
-    figure, axes = _grid(len(shown))
-    looks = _looks([curve for curve in curves if curve.group in shown])
-    for panel, group in zip(axes.ravel(), shown):
-        members = [curve for curve in curves if curve.group == group]
-        _draw_panel(panel, members, looks, asked.get(group, []), with_n=error_name is not None)
-    _finish(figure, axes, shown, [curve for curve in curves if curve.group in shown], looks)
+    drawn = [curve for curve in curves if curve.group in shown]
+    colours = _colours(drawn)
+    axes = _density_axis(drawn), chart.from_zero("friction coefficient $\\mu$")
+    panels = [
+        _panel(axes, [curve for curve in drawn if curve.group == group], colours, asked.get(group, []), with_n=error_name is not None)
+        for group in shown
+    ]
+    rows = chart.rows(panels, 2)
+    figure = chart.Figure(rows, 0.5 + 2.8 * len(rows), style.WIDTH if len(panels) > 1 else 5.6, shares_x=True, shares_y="all", legend=_legend(colours))
     return Drawn(
         "friction_against_density",
         "Friction against lubricant density",
@@ -122,88 +126,63 @@ def _draw(curves, asked, error_name):
     )
 
 
-def _grid(n_panels):
-    columns = min(n_panels, 2)
-    rows = math.ceil(n_panels / columns)
-    width = style.WIDTH if columns > 1 else 5.6
-    return style.new_figure(0.5 + 2.8 * rows, rows, columns, width=width, sharex=True, sharey=True)
-
-
-def _looks(curves):
+def _colours(curves):
     """{pressure: colour}, the same in all panels, darker for less."""
     pressures = sorted({curve.pressure for curve in curves})
     return dict(zip(pressures, style.sequence(len(pressures))))
 
 
-def _draw_panel(axes, curves, looks, asked, with_n):
-    for curve in sorted(curves, key=lambda curve: curve.pressure):
-        colour = looks[curve.pressure]
-        (line,) = axes.plot(curve.density, curve.friction, color=colour, label=units.pressure(curve.pressure))
-        if with_n:
-            style.note(line, n=curve.n)
-        axes.fill_between(
-            curve.density, curve.friction - curve.spread, curve.friction + curve.spread, color=colour, alpha=0.18, lw=0
-        )
-        if math.isfinite(curve.dry):
-            axes.axhline(curve.dry, color=colour, linestyle=(0, (4, 3)), linewidth=0.8).tabor_label = DRY
-    for curve in curves:
-        axes.plot(curve.asked, curve.found, linestyle="none", marker="o", markersize=3.5, color=looks[curve.pressure])
-    axes.set_xscale("log")
-    axes.grid(color="0.92", linewidth=0.6)
-    _mark(axes, asked)
-    n = series_of.number_text(np.concatenate([curve.n for curve in curves]))
-    title = f"{style.literal(curves[0].group)} ({n})" if with_n else ""
-    axes.set_title("\n".join(textwrap.wrap(title, TITLE_WIDTH)), pad=26)
-
-
-def _mark(axes, asked):
-    """Lines at the densities that were asked for, named above the panel, where no curve runs."""
-    last = 0.0
-    for density in asked:
-        axes.axvline(density, color="0.35", linestyle=":", linewidth=0.9, zorder=1)
-        if density < last * 10**LABEL_DECADES:
-            continue
-        last = density
-        axes.annotate(
-            units.number(density),
-            (density, 1),
-            xytext=(0, 2),
-            xycoords=("data", "axes fraction"),
-            textcoords="offset points",
-            rotation=90,
-            ha="center",
-            va="bottom",
-            fontsize=7,
-            color="0.35",
-        )
-
-
-def _finish(figure, axes, shown, curves, looks):
-    panels = axes.ravel()
+def _density_axis(curves):
     low, high = (pick(pick(curve.density) for curve in curves) for pick in (min, max))
     low, high = (low, high) if high > low else (low / 2, high * 2)
-    panels[0].set_xlim(low, high)
-    style.log_axis(panels[0].xaxis)
-    panels[0].set_ylim(0, panels[0].get_ylim()[1] * 1.02)
-    for index, panel in enumerate(panels):
-        panel.set_visible(index < len(shown))
-        panel.tick_params(labelbottom=index + axes.shape[1] >= len(shown))
-        if index + axes.shape[1] >= len(shown):
-            panel.set_xlabel("lubricant density (g/m²)")
-        if index % axes.shape[1] == 0:
-            panel.set_ylabel("friction coefficient $\\mu$")
-    style.legend_on_top(figure, _legend_entries(panels[: len(shown)], looks))
+    return chart.Axis("lubricant density (g/m²)", "log", float(low), float(high))
 
 
-def _legend_entries(panels, looks):
-    found = {label: handle for panel in panels for label, handle in style.entries(panel).items()}
-    steps = np.unique(np.linspace(0, len(looks) - 1, min(len(looks), MAX_NAMED)).round().astype(int))
-    named = [units.pressure(list(looks)[step]) for step in steps]
-    entries = {label: found[label] for label in named}
-    grey = {"color": "0.35"}
-    (dry,) = panels[0].plot([], [], linestyle=(0, (4, 3)), linewidth=0.8, **grey)
-    (asked,) = panels[0].plot([], [], linestyle=":", linewidth=0.9, marker="o", markersize=3.5, **grey)
-    return entries | {DRY: dry, "asked for": asked}
+def _panel(axes, curves, colours, asked, with_n):
+    panel = chart.Panel(*axes, title=_title(curves) if with_n else "")
+    curves = sorted(curves, key=lambda curve: curve.pressure)
+    for curve in curves:
+        panel.items += _items(curve, colours[curve.pressure], with_n)
+    panel.items += [chart.Guide(curve.dry, False, DRY, colours[curve.pressure], **DASHED) for curve in curves if math.isfinite(curve.dry)]
+    for curve in curves:
+        look = {"dash": "", "marker": "o", "size": 3.5, "colour": colours[curve.pressure]}
+        panel.items.append(chart.Curve(curve.asked, curve.found, units.pressure(curve.pressure), **look))
+    panel.items += _marks(asked)
+    return panel
+
+
+def _title(curves):
+    n = series_of.number_text(np.concatenate([curve.n for curve in curves]))
+    return "\n".join(textwrap.wrap(f"{style.literal(curves[0].group)} ({n})", TITLE_WIDTH))
+
+
+def _items(curve, colour, with_n):
+    """A curve with its band."""
+    label, notes = units.pressure(curve.pressure), {"n": curve.n} if with_n else {}
+    return [
+        chart.Curve(curve.density, curve.friction, label, colour, notes=notes),
+        chart.Band(curve.density, curve.friction - curve.spread, curve.friction + curve.spread, label, colour, 0.18),
+    ]
+
+
+def _marks(asked):
+    """Lines at the densities that were asked for, named above the panel, where no curve runs."""
+    items, last = [], 0.0
+    for density in asked:
+        items.append(chart.Guide(density, True, colour="0.35", width=0.9, z=1))
+        if density >= last * 10**LABEL_DECADES:
+            last = density
+            items.append(chart.Text(units.number(density), density, size=7, colour="0.35"))
+    return items
+
+
+def _legend(colours):
+    """Some of the pressures, and in grey what looks alike under all."""
+    pressures = list(colours)
+    steps = np.unique(np.linspace(0, len(pressures) - 1, min(len(pressures), MAX_NAMED)).round().astype(int))
+    named = [chart.Curve(label=units.pressure(pressures[step]), colour=colours[pressures[step]]) for step in steps]
+    dry = chart.Curve(label=DRY, colour="0.35", **DASHED)
+    return (*named, dry, chart.Curve(label="asked for", colour="0.35", dash=":", width=0.9, marker="o", size=3.5))
 
 
 def _caption(curves, error_name, n_left_out):

@@ -5,7 +5,7 @@ import itertools
 import numpy as np
 
 from tabor.report import friction_series as series_of
-from tabor.report import style, units
+from tabor.report import chart, style, units
 from tabor.report.figures import Drawn
 from tabor.report.output import table_text
 
@@ -18,23 +18,16 @@ def draw(study, error="std"):
     ]
     if not curves:
         return None
-    figure, grid = style.new_figure(3.4, width=5.6)
-    axes = grid[0][0]
+    panel = chart.Panel(chart.from_zero("mean pressure $P$ (MPa)", air=1), chart.from_zero("dry friction coefficient $\\mu$"))
     for series, look in zip(curves, style.curve_styles(len(curves))):
         label = f"{style.literal(series.group) or 'computed'} ({series.n_text})"
-        series_of.draw(axes, series, error, label=label, **look)
-    _draw_limit(axes, study)
-    _draw_experiment(axes, study)
-    axes.set_xlabel("mean pressure $P$ (MPa)")
-    axes.set_ylabel("dry friction coefficient $\\mu$")
-    axes.grid(color="0.92", linewidth=0.6)
-    style.limits_from_zero(axes)
-    style.legend_on_top(figure, style.entries(axes))
+        panel.items.append(series_of.curve(series, error, label=label, **look))
+    panel.items += _experiment(study) + series_of.rings_of(curves) + _limit(study)
     return Drawn(
         "dry_friction",
         "Dry friction against pressure",
         _caption(study, curves, error),
-        figure,
+        chart.Figure([[panel]], 3.4),
         {"": table_text(series_of.csv_columns(study, curves))},
     )
 
@@ -45,23 +38,17 @@ def limit(study):
     return strength / cap if strength and cap else None
 
 
-def _draw_limit(axes, study):
+def _limit(study):
     value = limit(study)
-    if value is not None:
-        axes.axhline(
-            value,
-            color="0.45",
-            linestyle=":",
-            linewidth=1.0,
-            label=f"all contact saturated, $\\mu$ = {value:.3g}",
-        )
+    return [] if value is None else [chart.Guide(value, label=f"all contact saturated, $\\mu$ = {value:.3g}")]
 
 
-def _draw_experiment(axes, study):
-    for density, marker in zip(series_of.measured_densities(study), itertools.cycle("dph*<>8")):
-        points = series_of.experiment(study, density=density)
-        label = series_of.measured_label(density)
-        series_of.draw_experiment(axes, points, color="0.1", marker=marker, label=label)
+def _experiment(study):
+    """A curve of symbols for each density."""
+    return [
+        series_of.measured(series_of.experiment(study, density=density), colour="0.1", marker=marker, label=series_of.measured_label(density))
+        for density, marker in zip(series_of.measured_densities(study), itertools.cycle("dph*<>8"))
+    ]
 
 
 def _caption(study, curves, error):

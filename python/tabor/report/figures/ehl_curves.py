@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tabor.report import ehl, hdf, style, units
+from tabor.report import chart, ehl, hdf, style, units
 from tabor.report.figures import Drawn
 from tabor.report.output import table_text
 
@@ -12,26 +12,22 @@ def squeeze(source):
     history = source.curves("history")
     if not history:
         return
-    figure, grid = style.new_figure(3.2, width=5.6)
-    left = grid[0][0]
-    right = left.twinx()
     time = history["time"] * 1e3
-    left.plot(time, history["force"] * 1e-3, color=style.COLOURS[1], label="force")
-    right.plot(time, history["min_film"] * 1e6, color=style.COLOURS[0], label="smallest film")
-    right.set_yscale("log")
-    style.log_axis(right.yaxis)
     late = time[history["force"] > 0.01 * history["force"].max()]
-    left.set_xlim(late[0] if len(late) else time[0], time[-1])
-    left.set_xlabel("time (ms)")
-    left.set_ylabel("force per width (kN/m)")
-    right.set_ylabel("film thickness (µm)")
-    right.spines["right"].set_visible(True)
-    style.legend_on_top(figure, style.entries(left, right))
+    panel = chart.Panel(
+        chart.Axis("time (ms)", low=late[0] if len(late) else time[0], high=time[-1]),
+        chart.Axis("force per width (kN/m)"),
+        [
+            chart.Curve(time, history["force"] * 1e-3, "force", style.COLOURS[1]),
+            chart.Curve(time, history["min_film"] * 1e6, "smallest film", style.COLOURS[0], is_right=True),
+        ],
+        right=chart.Axis("film thickness (µm)", "log"),
+    )
     yield Drawn(
         "squeeze",
         "Force and film against time",
         _squeeze_caption(history),
-        figure,
+        chart.Figure([[panel]], 3.2),
         {"": table_text({f"{name}": values for name, values in history.items()})},
     )
 
@@ -83,11 +79,8 @@ def _drawn(node, name, keys, values):
     factor, label = _scaled(values, hdf.text(node[name].attrs["units"]), heading)
     axes_values = [node["axes"][key][()] for key in keys]
     is_map = len(keys) == 2 and min(values.shape) > 1 and not _has_words(node)
-    figure, grid = style.new_figure(3.6 if is_map else 3.2, width=5.6)
-    if is_map:
-        _draw_map(figure, grid[0][0], node, keys, values * factor, label)
-    else:
-        _draw_curves(figure, grid[0][0], node, keys, values * factor, label)
+    draw = _map if is_map else _curves
+    figure = draw(node, keys, values * factor, label)
     data = {key: points.ravel() for key, points in zip(keys, np.meshgrid(*axes_values, indexing="ij"))}
     own = {name: values.ravel()}
     if codes := ehl.codes_of(node):
@@ -119,7 +112,7 @@ def _has_words(node):
     return any("words" in axis.attrs for axis in node["axes"].values())
 
 
-def _draw_curves(figure, axes, node, keys, values, label):
+def _curves(node, keys, values, label):
     """Over the axis with most numbers, a curve for every value of the others."""
     numeric = [key for key in keys if "words" not in node["axes"][key].attrs] or keys
     key = max(numeric, key=lambda key: len(node["axes"][key]))
@@ -127,22 +120,16 @@ def _draw_curves(figure, axes, node, keys, values, label):
     curves = list(curves_along(node, keys, key))
     are_ordered = all("words" not in node["axes"][other].attrs for other in keys)
     styles = style.ordered_styles if are_ordered and len(curves) > 1 else style.curve_styles
-    for (index, words), look in zip(curves, styles(len(curves))):
-        axes.plot(place, values[index], label=words or None, **look)
     finite = values[np.isfinite(values)]
-    if _scale(axes.set_xscale, place) and finite.min() > 0 and finite.max() > 10 * finite.min():
-        axes.set_yscale("log")
-    for side in (axes.xaxis, axes.yaxis):
-        if side.get_scale() == "log":
-            style.log_axis(side)
-    axes.set_xlabel(place_label)
-    axes.set_ylabel(label)
-    axes.grid(color="0.92", linewidth=0.6)
-    if len(curves) > 1:
-        style.legend_on_top(figure, style.entries(axes))
+    x = chart.Axis(place_label, _scale(place))
+    y = chart.Axis(label, "log" if x.scale == "log" and finite.min() > 0 and finite.max() > 10 * finite.min() else "linear")
+    items = [chart.Curve(place, values[index], words, **look) for (index, words), look in zip(curves, styles(len(curves)))]
+    return chart.Figure([[chart.Panel(x, y, items)]], 3.2, legend=None if len(curves) > 1 else ())
 
 
-def _draw_map(figure, axes, node, keys, plane, label):
+def _map(node, keys, plane, label):
+    """Of Matplotlib."""
+    figure, ((axes,),) = style.new_figure(3.6, width=5.6)
     (y, y_label), (x, x_label) = (_scaled_axis(node, key) for key in keys)
     mesh = axes.contourf(x, y, plane, levels=16, cmap="viridis")
     if np.nanmax(plane) > np.nanmin(plane):
@@ -150,17 +137,18 @@ def _draw_map(figure, axes, node, keys, plane, label):
         axes.clabel(lines, fontsize=7, fmt="%.3g")
     figure.colorbar(mesh, ax=axes).set_label(label)
     for set_scale, side, values in ((axes.set_yscale, axes.yaxis, y), (axes.set_xscale, axes.xaxis, x)):
-        if _scale(set_scale, values):
+        set_scale(_scale(values))
+        if _scale(values) == "log":
             style.log_axis(side)
     axes.set_ylabel(y_label)
     axes.set_xlabel(x_label)
+    return figure
 
 
-def _scale(set_scale, values):
-    """Logarithmic, and true, where the values are."""
+def _scale(values):
+    """Logarithmic where the values are."""
     if len(values) > 2 and (values > 0).all():
         steps = np.diff(np.log(values))
         if np.allclose(steps, steps[0], rtol=1e-3):
-            set_scale("log")
-            return True
-    return False
+            return "log"
+    return "linear"

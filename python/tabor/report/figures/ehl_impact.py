@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib.colors import LogNorm
 
-from tabor.report import hdf, style, units
+from tabor.report import chart, hdf, style, units
 from tabor.report.figures import Drawn
 from tabor.report.output import matrix_text, table_text
 
@@ -31,25 +31,23 @@ def dry_force(dry, time):
     return np.where(inside, dry["max_force_N"] * np.sin(np.pi * np.clip(phase, 0, 1)) ** 1.5, 0.0)
 
 
-def _axes(height=3.2, y=""):
-    figure, grid = style.new_figure(height, width=5.6)
-    axes = grid[0][0]
-    axes.grid(color="0.92", linewidth=0.6)
-    axes.set_xlabel("time since the ball touched the liquid (µs)")
-    axes.set_ylabel(y)
-    return figure, axes
+TIME = "time since the ball touched the liquid (µs)"
+
+
+def _figure(y, items):
+    """Of one panel against time."""
+    return chart.Figure([[chart.Panel(chart.from_zero(TIME, air=1), y, items)]], 3.2)
 
 
 def _force(source, history):
     time = history["time"]
     dry = hdf.attributes(source.file["dry"])
     dry_time = np.linspace(0, max(time[-1], dry["begin_s"] + 1.05 * dry["impact_time_s"]), 400)
-    figure, axes = _axes(y="force $w$ (N)")
-    axes.plot(time * US, history["force"], color=style.WET, label="lubricated")
-    axes.plot(dry_time * US, dry_force(dry, dry_time), color=style.DRY, linestyle="--", label="dry (Hertz)")
-    _mark_turning(axes, source)
-    style.limits_from_zero(axes)
-    style.legend_on_top(figure, style.entries(axes))
+    curves = [
+        chart.Curve(time * US, history["force"], "lubricated", style.WET),
+        chart.Curve(dry_time * US, dry_force(dry, dry_time), "dry (Hertz)", style.DRY, "--"),
+    ]
+    figure = _figure(chart.from_zero("force $w$ (N)"), curves + _turning(source))
     return Drawn(
         "impact_force",
         "Force against time",
@@ -59,24 +57,24 @@ def _force(source, history):
     )
 
 
-def _mark_turning(axes, source):
+def _turning(source):
     turning = source.scalars.get("turning_time_s")
-    if turning is not None and np.isfinite(turning):
-        axes.axvline(turning * US, color="0.6", linewidth=0.8, linestyle=":", label="ball turns")
+    if turning is None or not np.isfinite(turning):
+        return []
+    return [chart.Guide(turning * US, True, "ball turns", "0.6", width=0.8)]
 
 
 def _central_pressure(source, history):
     pressure = history["central_pressure"]
-    figure, axes = _axes(y="pressure in the centre (GPa)")
-    axes.plot(history["time"] * US, pressure * GPA, color=style.COLOURS[0], label="in the centre")
+    items = [chart.Curve(history["time"] * US, pressure * GPA, "in the centre", style.COLOURS[0])]
     # The spike at the end is as high as the grid is fine: it may leave the picture.
     first = source.scalars.get("primary_center_pressure_Pa")
     has_first = first is not None and np.isfinite(first)
+    y = chart.Axis("pressure in the centre (GPa)")
     if has_first:
-        axes.set_ylim(0, min(3 * first, 1.05 * pressure.max()) * GPA)
-        axes.axhline(first * GPA, color="0.6", linewidth=0.8, linestyle=":", label="first peak")
-    axes.set_xlim(left=0)
-    style.legend_on_top(figure, style.entries(axes))
+        y.low, y.high = 0.0, float(min(3 * first, 1.05 * pressure.max()) * GPA)
+        items.append(chart.Guide(first * GPA, label="first peak", colour="0.6", width=0.8))
+    figure = _figure(y, items)
     return Drawn(
         "impact_central_pressure",
         "Pressure in the centre against time",
@@ -109,13 +107,12 @@ def _thinnest(history):
 
 def _film(source, history):
     time = history["time"]
-    figure, axes = _axes(y="film thickness (µm)")
-    axes.plot(time * US, history["central_film"] * UM, color=style.COLOURS[0], label="in the centre")
-    axes.plot(time * US, history["min_film"] * UM, color=style.COLOURS[1], label="smallest")
-    _mark_turning(axes, source)
-    axes.set_ylim(0, min(4 * history["central_film"][len(time) // 2], history["central_film"].max()) * UM)
-    axes.set_xlim(left=0)
-    style.legend_on_top(figure, style.entries(axes))
+    highest = min(4 * history["central_film"][len(time) // 2], history["central_film"].max()) * UM
+    curves = [
+        chart.Curve(time * US, history["central_film"] * UM, "in the centre", style.COLOURS[0]),
+        chart.Curve(time * US, history["min_film"] * UM, "smallest", style.COLOURS[1]),
+    ]
+    figure = _figure(chart.Axis("film thickness (µm)", low=0.0, high=float(highest)), curves + _turning(source))
     return Drawn(
         "impact_film",
         "Film thickness against time",
@@ -141,23 +138,14 @@ def _profiles(source):
     times, radius = node["time"][()], node["radius"][()]
     pressure, film = node["pressure"][()], node["film"][()]
     rows = _shown_rows(times, history)
-    figure, grid = style.new_figure(5.4, n_rows=2, width=5.6, sharex=True)
-    top, bottom = grid[0][0], grid[1][0]
-    colours = style.plt.get_cmap("viridis")(np.linspace(0, 0.92, len(rows)))
-    for row, colour in zip(rows, colours):
-        label = f"{times[row] * US:.0f} µs"
-        _mirrored(top, radius, pressure[row] * GPA, colour, label)
-        _mirrored(bottom, radius, film[row] * UM, colour, label)
     reach = _reach(source, radius, pressure[rows])
-    bottom.set_xlim(-reach * UM, reach * UM)
-    bottom.set_ylim(0, 1.15 * max(film[rows][:, radius <= reach].max(axis=1).min(), film[rows, 0].max()) * UM)
-    top.set_ylabel("pressure (GPa)")
-    bottom.set_ylabel("film thickness (µm)")
-    bottom.set_xlabel("radius (µm)")
-    for axes in (top, bottom):
-        axes.grid(color="0.92", linewidth=0.6)
-    top.set_ylim(bottom=0)
-    style.legend_on_top(figure, style.entries(top))
+    highest = 1.15 * max(film[rows][:, radius <= reach].max(axis=1).min(), film[rows, 0].max()) * UM
+    x = chart.Axis("radius (µm)", low=-reach * UM, high=reach * UM)
+    top, bottom = chart.Panel(x, chart.from_zero("pressure (GPa)", air=1)), chart.Panel(x, chart.Axis("film thickness (µm)", low=0.0, high=highest))
+    for row, colour in zip(rows, style.sequence(len(rows))):
+        label = f"{times[row] * US:.0f} µs"
+        top.items.append(_mirrored(radius, pressure[row] * GPA, colour, label))
+        bottom.items.append(_mirrored(radius, film[row] * UM, colour, label))
     data = {"radius_m": radius}
     for row in rows:
         data[f"pressure_{times[row] * US:.1f}_us_Pa"] = pressure[row]
@@ -166,14 +154,14 @@ def _profiles(source):
         "impact_profiles",
         "Pressure and film along the radius",
         "At about equal times while the ball is carried.",
-        figure,
+        chart.Figure([[top], [bottom]], 5.4, shares_x=True),
         {"": table_text(data)},
     )
 
 
-def _mirrored(axes, radius, values, colour, label):
+def _mirrored(radius, values, colour, label):
     x = np.concatenate([-radius[::-1], radius[1:]]) * UM
-    axes.plot(x, np.concatenate([values[::-1], values[1:]]), color=colour, linewidth=1.1, label=label)
+    return chart.Curve(x, np.concatenate([values[::-1], values[1:]]), label, colour, width=1.1)
 
 
 def _reach(source, radius, pressure):
@@ -183,9 +171,12 @@ def _reach(source, radius, pressure):
 
 
 def _film_map(source, history):
+    """Of Matplotlib."""
     node = source.file["profiles"]
     times, radius, film = node["time"][()], node["radius"][()], node["film"][()]
-    figure, axes = _axes(height=3.6, y="radius (µm)")
+    figure, ((axes,),) = style.new_figure(3.6, width=5.6)
+    axes.set_xlabel(TIME)
+    axes.set_ylabel("radius (µm)")
     shown = film.clip(min=1e-12) * UM
     mesh = axes.pcolormesh(
         times * US, radius * UM, shown.T, norm=LogNorm(), cmap="viridis", shading="nearest", rasterized=True
@@ -197,7 +188,6 @@ def _film_map(source, history):
     axes.plot(history["time"] * US, edge * UM, color="white", linewidth=1.0, label="edge of the film")
     axes.set_xlim(times[0] * US, times[-1] * US)
     axes.set_ylim(0, radius[-1] * UM)
-    axes.grid(False)
     return Drawn(
         "impact_film_map",
         "Film against radius and time",

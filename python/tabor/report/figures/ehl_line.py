@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tabor.report import style, units
+from tabor.report import chart, style, units
 from tabor.report.figures import Drawn
 from tabor.report.output import table_text
 
@@ -35,30 +35,27 @@ def _reach(x, pressure, dry):
 def _profile(source, profile):
     x, pressure, film, dry = (profile[name] for name in ("x", "pressure", "film", "hertz_pressure"))
     factor, unit = units.scale(max(dry.max(), pressure.max()), "Pa")
-    figure, grid = style.new_figure(3.4, width=5.6)
-    left = grid[0][0]
-    right = left.twinx()
-    left.fill_between(x * UM, dry * factor, color="0.88", linewidth=0, label="Hertz, dry")
-    left.plot(x * UM, pressure * factor, color=style.COLOURS[1], label="pressure of the liquid")
+    items = [
+        chart.Band(x * UM, 0, dry * factor, "Hertz, dry", "0.88"),
+        chart.Curve(x * UM, pressure * factor, "pressure of the liquid", style.COLOURS[1]),
+    ]
     solid = profile.get("asperity_pressure")
     if solid is not None and solid.any():
-        left.plot(x * UM, solid * factor, color=style.COLOURS[3], linewidth=0.8, label="pressure of asperities")
-    right.plot(x * UM, film * NM, color=style.COLOURS[0], label="film thickness")
+        items.append(chart.Curve(x * UM, solid * factor, "pressure of asperities", style.COLOURS[3], width=0.8))
+    items.append(chart.Curve(x * UM, film * NM, "film thickness", style.COLOURS[0], is_right=True))
     reach = _reach(x, pressure if solid is None else pressure + solid, dry)
-    left.set_xlim(max(x[0], -reach) * UM, min(x[-1], reach) * UM)
-    left.set_ylim(bottom=0)
-    inside = np.abs(x) <= 0.5 * reach
-    right.set_ylim(0, min(FILMS_SHOWN * np.median(film[inside]), film.max()) * NM)
-    left.set_xlabel("position along the flow (µm), inlet on the left")
-    left.set_ylabel(f"pressure ({unit})")
-    right.set_ylabel("film thickness (nm)")
-    right.spines["right"].set_visible(True)
-    style.legend_on_top(figure, style.entries(left, right))
+    highest = min(FILMS_SHOWN * np.median(film[np.abs(x) <= 0.5 * reach]), film.max()) * NM
+    panel = chart.Panel(
+        chart.Axis("position along the flow (µm), inlet on the left", low=max(x[0], -reach) * UM, high=min(x[-1], reach) * UM),
+        chart.from_zero(f"pressure ({unit})", air=1),
+        items,
+        right=chart.Axis("film thickness (nm)", low=0.0, high=float(highest)),
+    )
     return Drawn(
         "line_profile",
         "Pressure and film along the flow",
         f"Grey: the pressure of the same cylinder without liquid. {_thinnest(profile, source.scalars.get('min_film_m'))}",
-        figure,
+        chart.Figure([[panel]], 3.4),
         {"": table_text({f"{name}_{unit}": profile[name] for name, unit in PROFILE.items() if name in profile})},
     )
 
@@ -96,19 +93,14 @@ def _wear_history(wear):
     time, unit = _time(wear["time"])
     depths, depth_unit = _length(np.stack([wear["mean_depth"], wear["max_depth"]]))
     film, film_unit = _length(wear["min_film"])
-    figure, grid = style.new_figure(4.8, n_rows=2, width=5.6, sharex=True)
-    top, bottom = grid[0][0], grid[1][0]
-    top.plot(time, depths[0], color=style.COLOURS[0], label="mean over the track")
-    top.plot(time, depths[1], color=style.COLOURS[1], linestyle="--", label="deepest place")
-    bottom.plot(time, film, color=style.COLOURS[2], label="smallest film")
-    for axes in (top, bottom):
-        axes.grid(color="0.92", linewidth=0.6)
-        axes.set_ylim(0, 1.08 * axes.dataLim.y1 or 1)
-    top.set_ylabel(f"worn depth ({depth_unit})")
-    bottom.set_ylabel(f"film thickness ({film_unit})")
-    bottom.set_xlabel(f"time ({unit})")
-    bottom.set_xlim(time[0], time[-1])
-    style.legend_on_top(figure, style.entries(top, bottom))
+    x = chart.Axis(f"time ({unit})", low=time[0], high=time[-1])
+    mean = chart.Curve(time, depths[0], "mean over the track", style.COLOURS[0])
+    deepest = chart.Curve(time, depths[1], "deepest place", style.COLOURS[1], "--")
+    smallest = chart.Curve(time, film, "smallest film", style.COLOURS[2])
+    rows = [
+        [chart.Panel(x, chart.Axis(f"{what} ({unit})", low=0.0, high=1.08 * np.nanmax(values) or 1.0), curves)]
+        for what, unit, values, curves in (("worn depth", depth_unit, depths, [mean, deepest]), ("film thickness", film_unit, film, [smallest]))
+    ]
     names = {
         "time": "time_s",
         "distance": "distance_m",
@@ -121,25 +113,22 @@ def _wear_history(wear):
         "line_wear",
         "Wear and film against time",
         "By Archard's law the mean depth grows with load and distance alone; the film follows the worn shape.",
-        figure,
+        chart.Figure(rows, 4.8, shares_x=True),
         {"": table_text({heading: wear[name] for name, heading in names.items() if name in wear})},
     )
 
 
 def _worn_track(wear):
     depth, unit = _length(wear["depth"])
-    figure, grid = style.new_figure(2.6, width=5.6)
-    axes = grid[0][0]
-    axes.plot(wear["track"] * MM, depth, color=style.COLOURS[0], linewidth=1)
-    axes.grid(color="0.92", linewidth=0.6)
-    axes.set_xlim(0, wear["track"][-1] * MM)
-    axes.set_ylim(max(1.15 * depth.max(), 1e-12), 0)  # downwards, as it is worn
-    axes.set_xlabel("place along the track (mm)")
-    axes.set_ylabel(f"worn depth ({unit})")
+    panel = chart.Panel(
+        chart.Axis("place along the track (mm)", low=0.0, high=wear["track"][-1] * MM),
+        chart.Axis(f"worn depth ({unit})", low=max(1.15 * depth.max(), 1e-12), high=0.0),  # downwards, as it is worn
+        [chart.Curve(wear["track"] * MM, depth, colour=style.COLOURS[0], width=1.0)],
+    )
     return Drawn(
         "line_track",
         "The track at the end",
         "Depth below the unworn surface.",
-        figure,
+        chart.Figure([[panel]], 2.6),
         {"": table_text({"track_m": wear["track"], "depth_m": wear["depth"]})},
     )

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib import patheffects
 
-from tabor.report import map_axes, style, units
+from tabor.report import chart, map_axes, style, units
 from tabor.report.figures import Drawn
 from tabor.report.output import matrix_text, table_text
 
@@ -108,65 +108,56 @@ def _centre_line(source, group, label):
     curves = source.curves(group)
     x, film, pressure = curves["place"], curves["film"], curves["pressure"]
     is_rough = "smooth_film" in curves
-    figure, grid = style.new_figure(3.4, width=5.6)
-    left = grid[0][0]
-    right = left.twinx()
-    left.fill_between(x * UM, curves["hertz_pressure"] * GPA, color="0.90", linewidth=0, label="Hertz, dry")
+    pressure_look, film_look = {"colour": style.COLOURS[1]}, {"colour": style.COLOURS[0], "is_right": True}
+    items = [chart.Band(x * UM, 0, curves["hertz_pressure"] * GPA, "Hertz, dry", "0.90")]
     if is_rough:
-        dotted = {"linestyle": ":", "linewidth": 1}
-        pressure_colour, film_colour = style.COLOURS[1], style.COLOURS[0]
-        smooth_pressure, smooth_film = curves["smooth_pressure"] * GPA, curves["smooth_film"] * NM
-        left.plot(x * UM, smooth_pressure, color=pressure_colour, label="pressure, smooth", **dotted)
-        right.plot(x * UM, smooth_film, color=film_colour, label="film, smooth", **dotted)
-    left.plot(x * UM, pressure * GPA, color=style.COLOURS[1], linewidth=1.1, label="pressure of the liquid")
+        dotted = {"dash": ":", "width": 1.0}
+        items.append(chart.Curve(x * UM, curves["smooth_pressure"] * GPA, "pressure, smooth", **pressure_look, **dotted))
+        items.append(chart.Curve(x * UM, curves["smooth_film"] * NM, "film, smooth", **film_look, **dotted))
+    items.append(chart.Curve(x * UM, pressure * GPA, "pressure of the liquid", width=1.1, **pressure_look))
     if curves["contact_pressure"].any():
         solids = np.where(curves["contact_pressure"] > 0, curves["contact_pressure"], np.nan) * GPA
-        dots = {"linestyle": "none", "marker": ".", "markersize": 3}
-        left.plot(x * UM, solids, color=style.COLOURS[6], label="pressure of solids", **dots)
-    right.plot(x * UM, film * NM, color=style.COLOURS[0], linewidth=1.1, label="film")
+        items.append(chart.Curve(x * UM, solids, "pressure of solids", style.COLOURS[6], "", marker=".", size=3))
+    items.append(chart.Curve(x * UM, film * NM, "film", width=1.1, **film_look))
     half_axis = np.abs(x[curves["hertz_pressure"] > 0]).max()
-    left.set_xlim(max(x[0], -REACH * half_axis) * UM, min(x[-1], REACH * half_axis) * UM)
-    left.set_ylim(bottom=0)
     inside = np.abs(x) <= 0.8 * half_axis
     behind = curves["smooth_film"][inside] if is_rough else film[inside]
-    right.set_ylim(0, min(max(FILMS_SHOWN * np.median(behind), 1.1 * film[inside].max()), film.max()) * NM)
-    left.set_xlabel(label)
-    left.set_ylabel("pressure (GPa)")
-    right.set_ylabel("film thickness (nm)")
-    right.spines["right"].set_visible(True)
-    style.legend_on_top(figure, style.entries(left, right))
+    highest = min(max(FILMS_SHOWN * np.median(behind), 1.1 * film[inside].max()), film.max()) * NM
+    panel = chart.Panel(
+        chart.Axis(label, low=max(x[0], -REACH * half_axis) * UM, high=min(x[-1], REACH * half_axis) * UM),
+        chart.from_zero("pressure (GPa)", air=1),
+        items,
+        right=chart.Axis("film thickness (nm)", low=0.0, high=float(highest)),
+    )
     return Drawn(
         f"point_{group}",
         f"Pressure and film {group} the flow",
         "Through the centre. Grey: the pressure of the same smooth bodies without liquid."
         + (" Dotted: the film without the roughness." if is_rough else ""),
-        figure,
+        chart.Figure([[panel]], 3.4),
         {"": table_text({f"{name}_{_unit(name)}": values for name, values in curves.items()})},
     )
 
 
 def _transient(history):
     """What a moving rough surface does to the film."""
-    figure, grid = style.new_figure(3.2, width=5.6)
-    left = grid[0][0]
-    right = left.twinx()
     time = history["time"] * MS
-    left.plot(time, history["max_pressure"] * GPA, color=style.COLOURS[1], label="largest pressure")
-    right.plot(time, history["central_film"] * NM, color=style.COLOURS[0], label="film in the centre")
-    right.plot(time, history["min_film"] * NM, color=style.COLOURS[0], linestyle="--", label="smallest film")
-    left.set_xlim(time[0], time[-1])
-    left.set_ylim(bottom=0)
-    right.set_ylim(bottom=0)
-    left.set_xlabel("time (ms)")
-    left.set_ylabel("pressure (GPa)")
-    right.set_ylabel("film thickness (nm)")
-    right.spines["right"].set_visible(True)
-    style.legend_on_top(figure, style.entries(left, right))
+    film_look = {"colour": style.COLOURS[0], "is_right": True}
+    panel = chart.Panel(
+        chart.Axis("time (ms)", low=time[0], high=time[-1]),
+        chart.from_zero("pressure (GPa)", air=1),
+        [
+            chart.Curve(time, history["max_pressure"] * GPA, "largest pressure", style.COLOURS[1]),
+            chart.Curve(time, history["central_film"] * NM, "film in the centre", **film_look),
+            chart.Curve(time, history["min_film"] * NM, "smallest film", dash="--", **film_look),
+        ],
+        right=chart.from_zero("film thickness (nm)", air=1),
+    )
     return Drawn(
         "point_history",
         "Film and pressure against time",
         "While the rough surface moves through the contact; the maps are of the last instant.",
-        figure,
+        chart.Figure([[panel]], 3.2),
         {"": table_text({f"{name}_{_unit(name) if name != 'time' else 's'}": values for name, values in history.items()})},
     )
 
@@ -278,19 +269,20 @@ def _slice_plane(curves):
     level, share = curves["level"], curves["share"]
     is_rough = "smooth_share" in curves
     factor, unit = units.length_scale(_shown_level(level, share))
-    figure, grid = style.new_figure(3.2, width=5.0)
-    axes = grid[0][0]
     x, y = level * factor, 100 * share
-    axes.fill_between(x, y, 100, color=style.LIQUID, alpha=0.25, linewidth=0, label="thicker film")
-    axes.fill_between(x, 0, y, color=style.SOLID, linewidth=0, label="thinner film or solid contact")
-    axes.plot(x, y, color="black", linewidth=1.2)
+    items = [
+        chart.Band(x, y, 100, "thicker film", style.LIQUID, 0.25),
+        chart.Band(x, 0, y, "thinner film or solid contact", style.SOLID),
+        chart.Curve(x, y, width=1.2),
+    ]
     if is_rough:
-        axes.plot(x, 100 * curves["smooth_share"], color="black", linestyle=":", linewidth=1.2, label="smooth")
-    axes.set_xlim(0, _shown_level(level, share) * factor)
-    axes.set_ylim(0, 100)
-    axes.set_xlabel(f"film thickness $h^*$ ({unit})")
-    axes.set_ylabel("share of the dry contact's area (%)")
-    style.legend_on_top(figure, style.entries(axes))
+        items.append(chart.Curve(x, 100 * curves["smooth_share"], "smooth", dash=":", width=1.2))
+    panel = chart.Panel(
+        chart.Axis(f"film thickness $h^*$ ({unit})", low=0.0, high=_shown_level(level, share) * factor),
+        chart.Axis("share of the dry contact's area (%)", low=0.0, high=100.0),
+        items,
+        grid="none",
+    )
     data = {"level_m": level, "share": share}
     if is_rough:
         data["smooth_share"] = curves["smooth_share"]
@@ -299,7 +291,7 @@ def _slice_plane(curves):
         "Slice-plane graph",
         "How much of the dry contact's area touches or has a film up to h*: at zero, solids touch. As figure 10 of "
         "Redlich et al.",
-        figure,
+        chart.Figure([[panel]], 3.2, 5.0),
         {"": table_text(data)},
     )
 

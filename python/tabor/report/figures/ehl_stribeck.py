@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tabor.report import style
+from tabor.report import chart, style
 from tabor.report.figures import Drawn
 from tabor.report.figures.ehl_curves import curves_along, swept_keys
 from tabor.report.output import table_text
@@ -23,13 +23,10 @@ def draw(source):
     key = next(key for key in keys if key in SPEEDS)
     curves = [_Curve(node, keys, key, index, label) for index, label in curves_along(node, keys, key)]
     has_ratio = any(curve.has_ratio for curve in curves)
-    heights = [3, 2, 2, 2] if has_ratio else [3, 2, 2]
-    figure, grid = style.new_figure(0.9 * sum(heights), n_rows=len(heights), width=6.2, sharex=True, height_ratios=heights)
-    panels = dict(zip(("friction", "film", "ratio", "share") if has_ratio else ("friction", "film", "share"), grid[:, 0]))
-    for curve, look in zip(curves, style.curve_styles(len(curves))):
-        curve.draw(panels, look["color"], look["marker"])
-    _label_stribeck(panels, "sliding" if key == SPEEDS[0] else "entrainment")
-    style.legend_on_top(figure, style.entries(panels["friction"], panels["share"]))
+    panels = _panels(curves, has_ratio, "sliding" if key == SPEEDS[0] else "entrainment")
+    heights = [3, *[2] * (len(panels) - 1)]
+    named = chart.Figure([[panels[0]], [panels[-1]]], 0).labelled()
+    figure = chart.Figure([[panel] for panel in panels], 0.9 * sum(heights), 6.2, heights, shares_x=True, legend=tuple(named.values()))
     warning = "" if all(curve.sure.all() for curve in curves) else " Red crosses: not converged."
     if any(np.isnan(curve.values["friction_coefficient"]).any() for curve in curves):
         warning += " Gaps: no friction is known there; the warnings say why."
@@ -77,44 +74,47 @@ class _Curve:
     def has_ratio(self):
         return np.isfinite(self.values.get("lambda_ratio", np.nan)).any()
 
-    def draw(self, panels, colour, marker):
-        top, share = panels["friction"], panels["share"]
-        prefix = f"{self.label}: " if self.label else ""
-        for name, text, look in (
-            ("friction_coefficient", "friction", {"marker": marker}),
-            ("friction_fluid", "of the film", {"linestyle": "--", "linewidth": 1}),
-            ("friction_solid", "of solids", {"linestyle": ":", "linewidth": 1}),
-        ):
-            top.plot(self.speed, self.values[name], color=colour, label=prefix + text, **look)
+    def friction(self, look):
+        named = (
+            ("friction_coefficient", "friction", {"marker": look["marker"]}),
+            ("friction_fluid", "of the film", {"dash": "--", "width": 1.0}),
+            ("friction_solid", "of solids", {"dash": ":", "width": 1.0}),
+        )
+        curves = [self._curve(self.values[name], text, look, **own) for name, text, own in named]
         unsure = np.where(self.sure, np.nan, self.values["friction_coefficient"])
-        top.plot(self.speed, unsure, color=style.WARNING, marker="x", linestyle="none", markersize=9)
-        film = self.values["central_film_m"] * NM
-        shown = np.where(film > 0, film, np.nan)  # no film has no place on a logarithmic axis
-        panels["film"].plot(self.speed, shown, color=colour, marker=marker, markersize=4, label=prefix + "central film")
-        if "ratio" in panels and self.has_ratio:
-            ratio = self.values["lambda_ratio"]
-            panels["ratio"].plot(self.speed, np.where(ratio > 0, ratio, np.nan), color=colour, marker=marker, markersize=4, label=prefix + "lambda")
-        for name, text, line in (("plastic_fraction", "plastic", "-."), ("solid_contact_fraction", "touching", (0, (1, 3)))):
-            if name in self.values:
-                share.plot(self.speed, 100 * self.values[name], color=colour, linestyle=line, linewidth=1, label=prefix + text)
+        return [*curves, chart.Curve(self.speed, unsure, colour=style.WARNING, dash="", marker="x", size=9)]
+
+    def film(self, look):
+        return [self._marked(self.values["central_film_m"] * NM, "central film", look)]
+
+    def ratio(self, look):
+        return [self._marked(self.values["lambda_ratio"], "lambda", look)] if self.has_ratio else []
+
+    def share(self, look):
+        named = (("plastic_fraction", "plastic", "-."), ("solid_contact_fraction", "touching", (1, 3)))
+        return [self._curve(100 * self.values[name], text, look, dash=dash, width=1.0) for name, text, dash in named if name in self.values]
+
+    def _curve(self, values, text, look, **own):
+        return chart.Curve(self.speed, values, f"{self.label}: {text}" if self.label else text, look["colour"], **own)
+
+    def _marked(self, values, text, look):
+        """On a logarithmic axis, where nothing has no place."""
+        return self._curve(np.where(values > 0, values, np.nan), text, look, marker=look["marker"], size=4)
 
 
-def _label_stribeck(panels, which):
-    top, share = panels["friction"], panels["share"]
-    top.set_xscale("log")
-    style.log_axis(share.xaxis)
-    for name in ("film", "ratio"):
-        if name in panels:
-            panels[name].set_yscale("log")
-            style.log_axis(panels[name].yaxis)
-    top.set_ylim(bottom=0)
-    highest = share.dataLim.y1
-    share.set_ylim(0, max(5, 1.05 * highest) if np.isfinite(highest) else 5)
-    labels = {"friction": "friction coefficient", "film": "central film (nm)", "ratio": "film / rms roughness", "share": "share of the contact (%)"}
-    for name, axes in panels.items():
-        axes.grid(color="0.92", linewidth=0.6)
-        axes.set_ylabel(labels[name])
-    if "ratio" in panels:
-        for bound in (1, 3):
-            panels["ratio"].axhline(bound, color="0.45", linestyle=":", linewidth=1.0)
-    share.set_xlabel(f"{which} speed (m/s)")
+def _panels(curves, has_ratio, which):
+    """Of friction, film, its ratio to the roughness, and share of the contact."""
+    looks = style.curve_styles(len(curves))
+    x = chart.Axis(f"{which} speed (m/s)", "log")
+
+    def panel(kind, y):
+        return chart.Panel(x, y, [item for curve, look in zip(curves, looks) for item in kind(curve, look)])
+
+    share = panel(_Curve.share, chart.Axis("share of the contact (%)", low=0.0))
+    highest = np.nanmax([np.nanmax(item.y) if np.isfinite(item.y).any() else 0.0 for item in share.items])
+    share.y.high = max(5.0, 1.05 * float(highest))
+    panels = [panel(_Curve.friction, chart.from_zero("friction coefficient", air=1)), panel(_Curve.film, chart.Axis("central film (nm)", "log"))]
+    if has_ratio:
+        panels.append(panel(_Curve.ratio, chart.Axis("film / rms roughness", "log")))
+        panels[-1].items += [chart.Guide(bound) for bound in (1, 3)]
+    return [*panels, share]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tabor.report import map_axes, style
+from tabor.report import chart, map_axes, style
 from tabor.report.figures import Drawn
 from tabor.report.output import table_text
 from tabor.report.surface_numbers import sorted_heights
@@ -22,17 +22,12 @@ def draw(single):
     ratio = np.linspace(0, 100, POINTS)
     curve = np.interp(ratio, np.linspace(0, 100, z.size), z * factor)
     label = f"{single.heading_of_heights} ({unit})" if single.is_difference else f"height $z$ about the mean ({unit})"
-    figure, ((left, right),) = style.new_figure(3.2, n_columns=2, width=7.4, sharey=True)
     middles = (edges[:-1] + edges[1:]) / 2
-    left.plot(density, middles, color=style.COLOURS[0], drawstyle="steps-mid", label="share of the area")
-    left.set_xlabel(f"share of the area per {unit}")
-    left.set_ylabel(label)
-    right.plot(ratio, curve, color=style.COLOURS[1], label="material ratio")
-    right.set_xlabel("material ratio (% of the area above $z$)")
-    right.set_xlim(0, 100)
-    for axes in (left, right):
-        axes.grid(color="0.92", linewidth=0.6)
-    left.set_xlim(left=0)
+    bins = chart.Curve(np.repeat(density, 2), np.repeat(edges, 2)[1:-1], "share of the area", style.COLOURS[0])
+    of_area = chart.Curve(ratio, curve, "material ratio", style.COLOURS[1])
+    left = chart.Panel(chart.from_zero(f"share of the area per {unit}", air=1), chart.Axis(label), [bins])
+    right = chart.Panel(chart.Axis("material ratio (% of the area above $z$)", low=0, high=100), chart.Axis(label), [of_area])
+    figure = chart.Figure([[left, right]], 3.2, 7.4, shares_y="all", legend=())
     ascii_unit = unit.replace("\N{MICRO SIGN}", "u")
     return Drawn(
         "heights",

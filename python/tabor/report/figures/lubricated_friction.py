@@ -1,12 +1,11 @@
 """Lubricated friction against pressure, one panel per group, one curve per density (Figure 9)."""
 
-import math
 import textwrap
 
 import numpy as np
 
 from tabor.report import friction_series as series_of
-from tabor.report import style, units
+from tabor.report import chart, style, units
 from tabor.report.figures import Drawn
 from tabor.report.output import table_text
 
@@ -19,22 +18,14 @@ def draw(study, error="std"):
     panels = [(group, curves) for group, curves in panels if curves]
     if not panels:
         return None
-    figure, axes = _grid(len(panels))
-    for panel, (group, curves) in zip(axes.ravel(), panels):
-        _draw_panel(panel, study, group, curves, error)
-    for unused in axes.ravel()[len(panels) :]:
-        unused.set_visible(False)
-    _label(axes, len(panels))
-    style.limits_from_zero(axes[0][0])
-    style.legend_on_top(
-        figure, {label: handle for panel in axes.ravel() for label, handle in style.entries(panel).items()}
-    )
+    rows = chart.rows([_panel(study, group, curves, error) for group, curves in panels], MAX_COLUMNS)
+    width = 5.6 if len(panels) == 1 else style.WIDTH
     every = [series for group, curves in panels for series in (series_of.dry(study, group), *curves)]
     return Drawn(
         "lubricated_friction",
         "Lubricated friction against pressure",
         _caption(study, every, error),
-        figure,
+        chart.Figure(rows, 0.5 + 2.8 * len(rows), width, shares_x=True, shares_y="all"),
         {"": table_text(series_of.csv_columns(study, every))},
     )
 
@@ -44,38 +35,18 @@ def _curves(study, group):
     return [series for series in curves if np.isfinite(series.mean).any()]
 
 
-def _grid(n_panels):
-    columns = min(n_panels, MAX_COLUMNS)
-    rows = math.ceil(n_panels / columns)
-    width = {1: 5.6}.get(columns, style.WIDTH)
-    return style.new_figure(0.5 + 2.8 * rows, rows, columns, width=width, sharex=True, sharey=True)
-
-
-def _draw_panel(axes, study, group, curves, error):
-    series_of.draw(
-        axes,
-        series_of.dry(study, group),
-        error,
-        label="dry",
-        color="0.35",
-        marker="s",
-        linestyle="--",
-        markersize=4,
-        markerfacecolor="white",
-        zorder=4,  # to be seen over a curve that it coincides with
-    )
-    looks = _looks(study)
-    for series in curves:
-        look = looks[series.density]
-        series_of.draw(axes, series, error, label=f"computed {units.density(series.density)}", **look)
+def _panel(study, group, curves, error):
+    title = "\n".join(textwrap.wrap(f"{style.literal(group)} ({curves[0].n_text})", TITLE_WIDTH))
+    dry, looks = series_of.dry(study, group), _looks(study)
+    items = [series_of.curve(dry, error, label="dry", **style.DRY_CURVE)]
+    items += [series_of.curve(series, error, label=f"computed {units.density(series.density)}", **looks[series.density]) for series in curves]
     for density, look in looks.items():
         points = series_of.experiment(study, group, density)
         if points:
-            series_of.draw_experiment(
-                axes, points, color=look["color"], marker="d", label=series_of.measured_label(density)
-            )
-    axes.set_title("\n".join(textwrap.wrap(f"{style.literal(group)} ({curves[0].n_text})", TITLE_WIDTH)))
-    axes.grid(color="0.92", linewidth=0.6)
+            items.append(series_of.measured(points, colour=look["colour"], marker="d", label=series_of.measured_label(density)))
+    items += series_of.rings_of([dry, *curves])
+    x, y = chart.from_zero("mean pressure $P$ (MPa)", air=1), chart.from_zero("friction coefficient $\\mu$")
+    return chart.Panel(x, y, items, title=title)
 
 
 def _looks(study):
@@ -85,16 +56,6 @@ def _looks(study):
     densities = computed + [density for density in measured if not np.isclose(density, computed, rtol=1e-9).any()]
     densities = sorted(densities, key=lambda density: (np.isnan(density), density))
     return dict(zip(densities, style.ordered_styles(len(densities))))
-
-
-def _label(axes, n_panels):
-    columns = axes.shape[1]
-    for index, panel in enumerate(axes.ravel()[:n_panels]):
-        if index + columns >= n_panels:
-            panel.set_xlabel("mean pressure $P$ (MPa)")
-            panel.tick_params(labelbottom=True)
-        if index % columns == 0:
-            panel.set_ylabel("friction coefficient $\\mu$")
 
 
 def _caption(study, curves, error):

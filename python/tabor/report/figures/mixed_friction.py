@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tabor.report import friction_series as series_of
-from tabor.report import style, units
+from tabor.report import chart, style, units
 from tabor.report.figures import Drawn
 from tabor.report.output import table_text
 from tabor.report.table import converged
@@ -31,17 +31,10 @@ def draw(study, error="std"):
     if not panels:
         return None
     shown = panels[:MAX_PANELS]
+    axis = _x_axis(x, [curve for _, curves in shown for curve in curves])
+    rows = [[_friction(axis, *panel, error) for panel in shown], [_load_share(axis, curves, error) for _, curves in shown]]
     width = style.WIDTH if len(shown) > 1 else 5.6
-    figure, grid = style.new_figure(
-        5.2, 2, len(shown), width=width, sharex=True, sharey="row", height_ratios=[3, 2]
-    )
-    for column, (group, curves) in enumerate(shown):
-        _draw_panel(grid[0][column], grid[1][column], curves, error)
-        n_text = series_of.number_text(np.concatenate([curve.n for curve in curves]))
-        grid[0][column].set_title(f"{style.literal(group, 28)} ({n_text})")
-        grid[1][column].set_xlabel(LABEL[x])
-    _label(grid, x, [curve for _, curves in shown for curve in curves])
-    style.legend_on_top(figure, style.entries(*grid[0]))
+    figure = chart.Figure(rows, 5.2, width, (3, 2), shares_x=True, shares_y="row")
     every = [curve for _, curves in panels for curve in curves]
     return Drawn(
         "mixed_friction",
@@ -69,9 +62,12 @@ class _Curve:
         return self.column("n")
 
     def bar(self, name, error):
-        """Half length of the error bars, None where no mean has one."""
-        bars = np.where(self.n > 1, self.column(f"{name}_{error}"), np.nan)
-        return bars if np.isfinite(bars).any() else None
+        """Half length of the error bars; NaN (none) where one scan gives no spread."""
+        return np.where(self.n > 1, self.column(f"{name}_{error}"), np.nan)
+
+    @property
+    def place(self):
+        return self.column(self.x) * SCALE[self.x]
 
 
 def _curves(study, group, x):
@@ -101,44 +97,45 @@ def _text(key, x):
     return f"{first}, {units.density(key[1])}"
 
 
-def _draw_panel(top, bottom, curves, error):
-    for curve, look in zip(curves, style.ordered_styles(len(curves))):
-        x = curve.column(curve.x) * SCALE[curve.x]
-        for axes, name in ((top, "friction_mixed"), (bottom, "fluid_load_share")):
-            drawn = axes.errorbar(
-                x,
-                curve.column(f"{name}_mean"),
-                yerr=curve.bar(name, error),
-                capsize=2.5,
-                elinewidth=0.9,
-                label=curve.label,
-                **look,
-            )
-            style.note(drawn[0], n=curve.n)
-        top.plot(x, curve.column("friction_viscous_mean"), color=look["color"], linestyle=":", linewidth=1)
-        where = [row[curve.x] * SCALE[curve.x] for row in curve.loose]
-        series_of.draw_loose(top, where, [row["friction_mixed"] for row in curve.loose])
-        series_of.draw_loose(bottom, where, [row["fluid_load_share"] for row in curve.loose])
-    for axes in (top, bottom):
-        axes.grid(color="0.92", linewidth=0.6)
+def _friction(axis, group, curves, error):
+    """Of solids and oil, and of the oil alone."""
+    panel = chart.Panel(axis, chart.from_zero("friction coefficient $\\mu$"), _means(curves, "friction_mixed", error))
+    for curve, drawn in zip(curves, list(panel.items)):
+        panel.items.append(chart.Curve(curve.place, curve.column("friction_viscous_mean"), curve.label, drawn.colour, ":", 1.0))
+    panel.items += _rings(curves, "friction_mixed")
+    n_text = series_of.number_text(np.concatenate([curve.n for curve in curves]))
+    panel.title = f"{style.literal(group, 28)} ({n_text})"
+    return panel
 
 
-def _label(grid, x, curves):
-    grid[0][0].set_ylabel("friction coefficient $\\mu$")
-    grid[1][0].set_ylabel("share of the load\nthat oil carries")
-    grid[0][0].set_ylim(0, grid[0][0].get_ylim()[1] * 1.05)
-    grid[1][0].set_ylim(0, grid[1][0].get_ylim()[1])
+def _load_share(axis, curves, error):
+    label = "share of the load\nthat oil carries"
+    return chart.Panel(axis, chart.from_zero(label, air=1), _means(curves, "fluid_load_share", error) + _rings(curves, "fluid_load_share"))
+
+
+def _means(curves, name, error):
+    return [
+        chart.Curve(curve.place, curve.column(f"{name}_mean"), curve.label, error=curve.bar(name, error), notes={"n": curve.n}, **look)
+        for curve, look in zip(curves, style.ordered_styles(len(curves)))
+    ]
+
+
+def _rings(curves, name):
+    rows = [(row[curve.x] * SCALE[curve.x], row[name]) for curve in curves for row in curve.loose]
+    return series_of.rings([x for x, _ in rows], [y for _, y in rows])
+
+
+def _x_axis(x, curves):
     values = np.concatenate([curve.column(x) for curve in curves])
     moving = values[values > 0]
     if x == PRESSURE or not moving.size:
-        grid[0][0].set_xlim(0, grid[0][0].get_xlim()[1])
-    elif moving.max() >= 10 * moving.min():
-        # A speed of zero has no place on a logarithmic axis: it stands left of the slowest.
-        scale = {"value": "symlog", "linthresh": moving.min()} if (values == 0).any() else {"value": "log"}
-        for axes in grid.ravel():
-            axes.set_xscale(**scale)
-        if scale["value"] == "log":
-            style.log_axis(grid[0][0].xaxis)
+        return chart.from_zero(LABEL[x], air=1)
+    slowest, fastest = float(moving.min()), float(moving.max())
+    if fastest < 10 * slowest:
+        return chart.Axis(LABEL[x])
+    if (values == 0).any():  # has no place on a logarithmic axis: it stands left of the slowest
+        return chart.Axis(LABEL[x], "symlog", -0.2 * slowest, 1.2 * fastest, linear_to=slowest)
+    return chart.Axis(LABEL[x], "log")
 
 
 def _caption(study, curves, x, error, n_left_out):

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from tabor.report import style
+from tabor.report import chart, style
 from tabor.report.figures import Drawn
 from tabor.report.output import table_text
 from tabor.report.page_parameters import scale, shown_first
@@ -17,41 +17,33 @@ def draw(source):
     names = shown_first(source)
     if not names or not source.is_grouped:
         return
-    n_rows = math.ceil(len(names) / COLUMNS)
-    figure, grid = style.new_figure(2.2 * n_rows, n_rows, min(COLUMNS, len(names)), width=1.9 * min(COLUMNS, len(names)))
-    for axes in grid.flat[len(names) :]:
-        axes.set_visible(False)
-    for axes, name in zip(grid.flat, names):
-        _draw_panel(axes, source, name)
-    style.legend_on_top(figure, style.entries(grid[0][0]))
+    rows = chart.rows([_panel(source, name) for name in names], COLUMNS)
+    figure = chart.Figure(rows, 2.2 * len(rows), 1.9 * len(rows[0]))
     yield Drawn("parameters", "Roughness parameters of the groups", _caption(), figure, {"": _csv(source)})
 
 
-def _draw_panel(axes, source, name):
+def _panel(source, name):
     factor, unit = scale(source, name)
-    for place, (group, look) in enumerate(zip(source.groups, style.curve_styles(len(source.groups)))):
-        _draw_scans(axes, source, name, factor, (place, group, look["color"]))
+    count = len(source.groups)
+    x = chart.Axis("", low=-0.6, high=count - 0.4, names={place: "" for place in range(count)})
+    panel = chart.Panel(x, chart.Axis(style.literal(f"{name} ({unit})" if unit else name)), grid="y")
+    for place, (group, look) in enumerate(zip(source.groups, style.curve_styles(count))):
         found = group.means.get(name)
-        if found is None or not math.isfinite(found.mean):
-            continue
-        spread = [found.deviation * factor] if math.isfinite(found.deviation) else None
-        bars = axes.errorbar([place], [found.mean * factor], yerr=spread, fmt=look["marker"], color=look["color"],
-                             markersize=6, capsize=4, label=_label(group))  # fmt: skip
-        style.note(bars.lines[0], n=np.array([found.n]))
-    axes.set_xlim(-0.6, len(source.groups) - 0.4)
-    axes.set_xticks([])
-    axes.tabor_x_names = {place: "" for place in range(len(source.groups))}
-    axes.set_ylabel(style.literal(f"{name} ({unit})" if unit else name))
-    axes.grid(axis="y", color="0.92", linewidth=0.6)
+        if found is not None and math.isfinite(found.mean):
+            spread, notes = np.array([found.deviation * factor]), {"n": np.array([found.n])}
+            look = {**look, "dash": "", "size": 6, "bar": (1.5, 4)}
+            panel.items.append(chart.Curve([place], np.array([found.mean * factor]), _label(group), error=spread, notes=notes, **look))
+        panel.items.append(_scans(source, name, factor, (place, group, look["colour"])))
+    return panel
 
 
-def _draw_scans(axes, source, name, factor, group):
+def _scans(source, name, factor, group):
     """Small rings, left of the mean so that its bar hides none."""
     place, members, colour = group
     values = [source.values[name][scan] * factor for scan in members.places]
-    (line,) = axes.plot([place - 0.25] * len(values), values, "o", color=colour, fillstyle="none", markersize=4)
-    line.tabor_label = _label(members)
-    style.note(line, scan=np.array([source.scans[scan] for scan in members.places]))
+    look = {"dash": "", "marker": "o", "size": 4, "face": "none", "colour": colour}
+    notes = {"scan": np.array([source.scans[scan] for scan in members.places])}
+    return chart.Curve([place - 0.25] * len(values), values, _label(members), notes=notes, **look)
 
 
 def _label(group):

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tabor.report import style, units
+from tabor.report import chart, style, units
 from tabor.report.figures import Drawn
 from tabor.report.output import table_text
 
@@ -15,14 +15,10 @@ def draw(study):
     curves = {axis: _curves(study, axis) for axis in ("x", "y")}
     if not curves["x"] and not curves["y"]:
         return None
-    figure, axes = style.new_figure(3.3, 1, 2, sharey=True)
-    for panel, axis in zip(axes[0], ("x", "y")):
-        _draw_panel(panel, axis, curves[axis])
-    axes[0][0].set_ylabel("$C^{1D}$ (µm³)")
-    _legend(figure, axes[0], curves)
-    return Drawn(
-        "psd", "Power spectral density along x and y", _caption(study), figure, {"": _csv(curves)}
-    )
+    labels = [_label(index, curves) for index in range(max(map(len, curves.values())))]
+    row = [_panel(axis, of_axis, labels) for axis, of_axis in curves.items()]
+    figure = chart.Figure([row], 3.3, style.WIDTH, shares_y="all")
+    return Drawn("psd", "Power spectral density along x and y", _caption(study), figure, {"": _csv(curves)})
 
 
 def mean_by_grid(members):
@@ -60,23 +56,17 @@ def _curves(study, axis):
     return [(group, *curve) for group, spectra in members.items() for curve in mean_by_grid(spectra)]
 
 
-def _draw_panel(axes, axis, curves):
-    for index, look in enumerate(style.curve_styles(len(curves))):
+def _panel(axis, curves, labels):
+    """Curves come in the same order in both panels, so that they share labels, which hold the Hurst exponents of both."""
+    panel = chart.Panel(chart.Axis(f"$q$ along ${axis}$ (rad/µm)", "log"), chart.Axis("$C^{1D}$ (µm³)", "log"))
+    for index, (look, label) in enumerate(zip(style.curve_styles(len(curves)), labels)):
         _, q, density, _, _ = curves[index]
         shown = density > density.max() * FLOOR
-        axes.loglog(
-            q[shown] * 1e-6,
-            density[shown] * 1e18,
-            color=look["color"],
-            linestyle=(0, (4, 4)) if _is_drawn(q, density, curves[:index]) else "-",
-            linewidth=1.1,
-        )
+        dash = (4, 4) if _is_drawn(q, density, curves[:index]) else "-"
+        panel.items.append(chart.Curve(q[shown] * 1e-6, density[shown] * 1e18, label, look["colour"], dash, 1.1))
     if curves:
-        _draw_slope(axes, curves)
-    for side in (axes.xaxis, axes.yaxis):
-        style.log_axis(side)
-    axes.set_xlabel(f"$q$ along ${axis}$ (rad/µm)")
-    axes.grid(which="major", color="0.92", linewidth=0.6)
+        panel.items += _slope(curves)
+    return panel
 
 
 def _is_drawn(q, density, curves):
@@ -85,7 +75,7 @@ def _is_drawn(q, density, curves):
     return any(np.allclose(density, other, rtol=0.1, atol=0) for other in same_grid)
 
 
-def _draw_slope(axes, curves):
+def _slope(curves):
     """A dashed line C ~ q^-(1 + 2H), three times above the highest curve in its range."""
     low, high = _slope_range(curves)
     q = np.array([low, high])
@@ -97,30 +87,18 @@ def _draw_slope(axes, curves):
         if inside.any()
     )
     line = 3 * highest * q**exponent
-    axes.loglog(q * 1e-6, line * 1e18, color="0.25", linestyle=(0, (4, 3)), linewidth=1.1)
     middle = np.sqrt(low * high)
-    axes.annotate(
-        f"$H$ = {REFERENCE_HURST}",
-        (middle * 1e-6, 3 * highest * middle**exponent * 1e18),
-        xytext=(6, 4),
-        textcoords="offset points",
-        fontsize=8,
-        color="0.25",
-    )
+    place = middle * 1e-6, 3 * highest * middle**exponent * 1e18
+    return [
+        chart.Curve(q * 1e-6, line * 1e18, colour="0.25", dash=(4, 3), width=1.1),
+        chart.Text(f"$H$ = {REFERENCE_HURST}", *place),
+    ]
 
 
 def _slope_range(curves):
     q = np.concatenate([grid[density > density.max() * FLOOR] for _, grid, density, _, _ in curves])
     span = np.log(q.max() / q.min())
     return q.min() * np.exp(0.35 * span), q.min() * np.exp(0.75 * span)
-
-
-def _legend(figure, panels, curves):
-    """One entry per curve with the Hurst exponents of both panels; curves come in the same order in both."""
-    longest = max(curves.values(), key=len)
-    lines = panels[list(curves).index("x" if longest is curves["x"] else "y")].get_lines()
-    labels = [_label(index, curves) for index in range(len(longest))]
-    style.legend_on_top(figure, dict(zip(labels, lines)))
 
 
 def _label(index, curves):

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from tabor.report import areas, style, units
+from tabor.report import areas, chart, style, units
 from tabor.report.figures import Drawn
-from tabor.report.friction_series import draw_loose
+from tabor.report.friction_series import rings
 from tabor.report.output import table_text
 
 DRY, LUBRICATED = "friction_dry", "friction_lubricated"
@@ -22,16 +22,13 @@ def draw(single):
     panels = [key for key in (area, DRY) if any(_has(state, key) for state in states)]
     if not panels:
         return None
-    figure, grid = style.new_figure(3.4, n_columns=len(panels), width=3.7 * len(panels))
-    for axes, key in zip(grid[0], panels):
-        _draw_panel(axes, key, states)
-    if DRY in panels:
-        style.legend_on_top(figure, style.entries(grid[0][-1]))
+    row = [_panel(key, states) for key in panels]
+    legend = tuple(chart.Figure([row[-1:]], 0).labelled().values()) if DRY in panels else ()
     return Drawn(
         "against_pressure",
         "Friction against pressure" if DRY in panels else f"{areas.NAMES[area].capitalize()} against pressure",
         _caption(single, panels, states, area),
-        figure,
+        chart.Figure([row], 3.4, 3.7 * len(panels), legend=legend),
         {"": table_text(_columns(states, area))},
     )
 
@@ -41,29 +38,24 @@ def _has(state, key):
     return isinstance(value, float) and np.isfinite(value)
 
 
-def _draw_panel(axes, key, states):
-    curves = _curves(key, states)
+def _panel(key, states):
+    curves, items, loose = _curves(key, states), [], []
     for (label, members), look in zip(curves, _looks(key, len(curves))):
         factor = 100 if key in areas.NAMES else 1
         if not any(state.visit for state, _ in members):  # a path of loads is drawn as it goes
             members = sorted(members, key=lambda pair: pair[0].pressure)
         sure = [(state, value) for state, value in members if state.facts.get("converged", True)]
-        loose = [(state, value) for state, value in members if not state.facts.get("converged", True)]
-        axes.plot(*_points(sure, factor), label=label, **look)
-        draw_loose(axes, *_points(loose, factor))
-    axes.set_xlabel("mean pressure $P$ (MPa)")
-    axes.set_ylabel(_LABELS[key])
-    axes.grid(color="0.92", linewidth=0.6)
-    style.limits_from_zero(axes)
+        loose += [(state, factor * value) for state, value in members if not state.facts.get("converged", True)]
+        items.append(chart.Curve(*_points(sure, factor), label=label, **look))
+    items += rings(*_points(loose, 1))
+    return chart.Panel(chart.from_zero("mean pressure $P$ (MPa)", air=1), chart.from_zero(_LABELS[key]), items)
 
 
 def _looks(key, n):
     """Grey and dashed without oil, then darker for more of it; the area has but one curve."""
     if key in areas.NAMES:
         return style.curve_styles(n)
-    symbols = style.curve_styles(n)
-    dry = {"color": "0.35", "linestyle": "--", "marker": "s", "markersize": 4, "markerfacecolor": "white", "zorder": 4}
-    return [dry, *({**symbol, "color": colour} for symbol, colour in zip(symbols, style.sequence(n - 1)[::-1]))]
+    return [style.DRY_CURVE, *style.ordered_styles(n - 1)]
 
 
 def _points(members, factor):

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from tabor.report import style, units
+from tabor.report import chart, style, units
 from tabor.report.figures import Drawn
 from tabor.report.figures.psd import FLOOR
 from tabor.report.output import table_text
@@ -19,10 +19,7 @@ def draw(source):
     panels = _panels(source)
     if not panels:
         return
-    figure, grid = style.new_figure(3.4, n_columns=len(panels), width=3.7 * len(panels))
-    for axes, lines in zip(grid[0], panels):
-        _draw_panel(axes, source, lines)
-    style.legend_on_top(figure, style.entries(*grid[0]))
+    figure = chart.Figure([[_panel(source, lines) for lines in panels]], 3.4, 3.7 * len(panels))
     yield Drawn("spectra", "Power spectral density", _caption(source), figure, {"": _csv(source)})
 
 
@@ -32,7 +29,7 @@ def _panels(source):
         (one,) = source.sets
         colours = dict(zip(NAMES, style.COLOURS))
         panels = [[axis for axis in axes if axis in one.curves] for axes in (("x", "y"), ("radial",))]
-        return [[(NAMES[axis], {"color": colours[axis]}, axis, one) for axis in panel] for panel in panels if panel]
+        return [[(NAMES[axis], {"colour": colours[axis]}, axis, one) for axis in panel] for panel in panels if panel]
     styles = _styles(source.sets)
     return [
         [(_label(one), look, axis, one) for one, look in zip(source.sets, styles) if axis in one.curves]
@@ -48,30 +45,30 @@ def _styles(sets):
     """Scans beside means are thin; each curve has a colour of its own."""
     has_means = any(one.is_mean for one in sets)
     widths = [2.2 if one.is_mean else 0.8 if has_means else 1.3 for one in sets]
-    return [{"color": colour, "linewidth": width} for colour, width in zip(style.colours(len(sets)), widths)]
+    return [{"colour": colour, "width": width} for colour, width in zip(style.colours(len(sets)), widths)]
 
 
-def _draw_panel(axes, source, lines):
-    for label, look, axis, one in lines:
-        q, density = one.curves[axis]
-        shown, scale = density > FLOOR * density.max(), _SCALES[UNITS[axis]]
-        axes.loglog(q[shown] * 1e-6, density[shown] * scale, label=label, zorder=1.9 if one.is_mean else 2, **look)  # scans on top
-        if one.is_mean:
-            _draw_band(axes, q[shown], density[shown] * scale, one.deviations[axis][shown] * scale, look["color"])
-    for place, label in zip(source.trusted or (), ("range to be trusted", None)):
-        axes.axvline(place * 1e-6, color="0.45", linestyle=":", linewidth=1.0, label=label)
-    for side in (axes.xaxis, axes.yaxis):
-        style.log_axis(side)
+def _panel(source, lines):
     axis = lines[0][2]
-    axes.set_xlabel("$q$ (rad/µm)" if len(source.sets) == 1 else f"$q$ {NAMES[axis]} (rad/µm)")
-    axes.set_ylabel(_LABELS[UNITS[axis]])
-    axes.grid(color="0.92", linewidth=0.6)
+    x = chart.Axis("$q$ (rad/µm)" if len(source.sets) == 1 else f"$q$ {NAMES[axis]} (rad/µm)", "log")
+    panel = chart.Panel(x, chart.Axis(_LABELS[UNITS[axis]], "log"))
+    for line in lines:
+        panel.items += _items(*line)
+    panel.items += [chart.Guide(place * 1e-6, True, "range to be trusted") for place in source.trusted or ()]
+    return panel
 
 
-def _draw_band(axes, q, mean, deviation, colour):
-    """One standard deviation; below, where the logarithm of mean minus deviation ends, down to a tenth of the mean."""
-    spread = np.nan_to_num(deviation)
-    axes.fill_between(q * 1e-6, np.maximum(mean - spread, 0.1 * mean), mean + spread, color=colour, alpha=0.2, linewidth=0)
+def _items(label, look, axis, one):
+    """A spectrum, of a mean with a band of one standard deviation; below, where the logarithm of mean minus deviation ends,
+    down to a tenth of the mean."""
+    q, density = one.curves[axis]
+    shown, scale = density > FLOOR * density.max(), _SCALES[UNITS[axis]]
+    q, mean = q[shown] * 1e-6, density[shown] * scale
+    curve = chart.Curve(q, mean, label, z=1.9 if one.is_mean else 2, **look)  # scans on top
+    if not one.is_mean:
+        return [curve]
+    spread = np.nan_to_num(one.deviations[axis][shown] * scale)
+    return [curve, chart.Band(q, np.maximum(mean - spread, 0.1 * mean), mean + spread, label, look["colour"], 0.2)]
 
 
 def _caption(source):
