@@ -305,9 +305,9 @@ class OfOneScan(unittest.TestCase):
 
     def test_of_several_states_the_range_stands_first(self):
         found = dict(page_single.sections(self.single())["highlights"])
-        self.assertEqual(found["mean pressures"], "5 MPa to 10 MPa")
-        self.assertEqual(found["lubricant densities"], "0.45 g/m² to 0.9 g/m²")
-        self.assertEqual(found["dry friction"], "0.3")
+        self.assertEqual(found["pressure"], "5 MPa to 10 MPa")
+        self.assertEqual(found["lubricant"], "0.45 g/m² to 0.9 g/m²")
+        self.assertEqual(found["friction dry"], "0.3")
 
     def test_friction_against_pressure_is_drawn_dry_and_by_rising_density(self):
         drawn = single_curves.draw(self.single())

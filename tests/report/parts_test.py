@@ -17,7 +17,6 @@ from tabor.report import cli, dependencies, encoding, errors, live_page, maps, n
 from tabor.report.example import richest_window
 from tabor.report.figures import Drawn, psd
 from tabor.report.map_axes import round_length
-from tabor.report.page_single import show, words
 from tabor.report.table import Table, converged
 
 
@@ -75,19 +74,6 @@ class Units(unittest.TestCase):
         self.assertEqual(units.si(0.0, "m"), "0 m")
         self.assertEqual(units.si(-3e-6, "m"), "−3 µm")
         self.assertEqual(units.si(float("nan"), "m"), "–")
-
-    def test_keys_are_read_with_the_whole_unit_they_end_in(self):
-        for key, value, name, text in (
-            ("sliding_speed_m_per_s", 0.05, "sliding speed", "50 mm/s"),
-            ("viscosity_Pa_s", 0.225, "viscosity", "0.225 Pa s"),
-            ("max_force_N_per_m", 6.018e4, "max force", "60.18 kN/m"),
-            ("load_N", 16.6, "load", "16.6 N"),
-            ("lag_s", 5e-5, "lag", "50 µs"),
-            ("converged", 1, "converged", "yes"),
-            ("fluid_converged", 0, "fluid converged", "no"),
-            ("newton_iterations", 77, "newton iterations", "77"),
-        ):
-            self.assertEqual((words(key), show(key, value)), (name, text))
 
     def test_a_pressure_without_its_unit_is_rejected_with_the_corrected_form(self):
         self.assertEqual(units.parse_pressure("7 MPa"), 7e6)

@@ -126,7 +126,7 @@ class OnThePage(unittest.TestCase):
         for sign, code in zip("†‡§¶", ("not-converged", "flood", "frictionless", "implausible-friction")):
             self.assertIn(f"{sign} <code>tabor table</code> leaves out this number: {code}.", page)
         results = self.rows(page, '<section id="results">')
-        self.assertEqual([cell[-1] for cell in results["friction lubricated"]], [results["friction lubricated"][0][-1], "§", "‡", "†", "¶", "§"])
+        self.assertEqual([cell[-1] for cell in results["friction wet"]], [results["friction wet"][0][-1], "§", "‡", "†", "¶", "§"])
 
     def test_rows_and_means_of_a_study(self):
         page = self.page(lambda folder: study(folder, CODES))

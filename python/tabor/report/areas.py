@@ -1,7 +1,7 @@
 """The two shares of a scan that touch, and which of them friction was computed with: one of them per table."""
 
 CORRECTED, PIXELS = "contact_area_fraction", "contact_area_fraction_pixels"
-NAMES = {CORRECTED: "contact area", PIXELS: "counted contact"}
+KEYS = (CORRECTED, PIXELS)
 MEANINGS = {CORRECTED: "contact area (perimeter-corrected)", PIXELS: "counted contact (pixels that touch)"}
 _OF_SETTING = {"corrected": CORRECTED, "pixels": PIXELS}
 

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import numpy as np
 
-from tabor.report import hdf, remarks
+from tabor.report import columns, hdf, remarks
+from tabor.report.columns import Columns
 from tabor.report.errors import readable
 
 
@@ -19,6 +20,7 @@ class Ehl:
     path: Path
     file: object
     facts: dict
+    column: Columns  # what its numbers are called
     warnings: list = field(default_factory=list)
 
     kind = "ehl"
@@ -53,7 +55,7 @@ class Ehl:
         return {name: hdf.attributes(node[name]) for name in node}
 
     @property
-    def columns(self):
+    def numbers(self):
         """{name: dataset} of what a sweep computed, one number per case."""
         node = self.file["sweep"]
         return {name: node[name] for name in node if name not in _NO_COLUMNS}
@@ -89,7 +91,7 @@ def is_ehl(file):
 
 
 def load(path, file):
-    source = Ehl(path, file, hdf.attributes(file))
+    source = Ehl(path, file, hdf.attributes(file), columns.of_file(file))
     if source.is_sweep and "converged" in file["sweep"]:
         converged = file["sweep/converged"][()] > 0
         if not converged.all():

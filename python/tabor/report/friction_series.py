@@ -8,6 +8,7 @@ from tabor.report import chart, style, units
 from tabor.report.table import Table, converged
 
 DENSITY = "lubricant_density_g_per_m2"
+PRESSURE, FRICTION = "mean pressure $P$ (MPa)", "friction coefficient $\\mu$"  # labels of axes
 ERROR_NAMES = {"std": "standard deviation", "sem": "standard error of the mean"}
 
 

@@ -5,7 +5,7 @@ import re
 import numpy as np
 
 from tabor.report import hdf, units
-from tabor.report.page_single import show, words
+from tabor.report.columns import Column, words
 
 _HIGHLIGHTS = (
     "restitution",
@@ -25,19 +25,12 @@ _FIRST = (
     "solid_contact_fraction", "plastic_fraction",
 )  # fmt: skip
 _LAST = ("Hc", "Hm", "newton_iterations")
-# As the program prints them.
-_PRINTED = {
-    "max": "largest", "min": "smallest", "hertz": "Hertz", "moes": "Moes", "nijenbanning": "Nijenbanning", "hamrock dowson": "Hamrock\N{EN DASH}Dowson",
-    "friction fluid": "fluid friction", "friction solid": "solid friction", "n products": "products of the operator", "n steps": "steps",
-    "newton iterations": "iterations",
-}  # fmt: skip
-_TO_PRINT = re.compile(rf"\b({'|'.join(_PRINTED)})\b")
 
 
 def sections(source):
     scalars = source.scalars
     return {
-        "highlights": [(_name(key), show(key, scalars[key])) for key in _HIGHLIGHTS if key in scalars],
+        "highlights": _shown_all(source, {key: scalars[key] for key in _HIGHLIGHTS if key in scalars}),
         "settings": list(_settings(source)),
         "results": _cases(source) if source.is_sweep else _numbers(source),
     }
@@ -45,38 +38,38 @@ def sections(source):
 
 def _numbers(source):
     """One row per number of a case, those of its parts behind its own."""
-    cells = _rows(source.scalars)
+    cells = _rows(source, source.scalars)
     for name, scalars in source.parts.items():
-        cells += [[f"{words(name)}: {key}", value] for key, value in _rows(scalars)]
+        cells += [[f"{words(name)}: {key}", value] for key, value in _rows(source, scalars)]
     rows = [{"sure": True, "cells": row} for row in cells]
     return {"intro": "", "header": ["", "value"], "rows": rows, "n_total": len(rows), "n_text": 1}
 
 
-def _rows(scalars):
-    rows = [[_name(key), show(key, value)] for key, value in scalars.items()]
-    return sorted(rows, key=lambda row: row[0].casefold())
+def _rows(source, scalars):
+    return sorted(map(list, _shown_all(source, scalars)), key=lambda row: row[0].casefold())
 
 
-def _name(key):
-    return _TO_PRINT.sub(lambda found: _PRINTED[found[0]], words(key))
+def _shown_all(source, scalars):
+    return [(source.column[key].heading, source.column[key].show(value)) for key, value in scalars.items()]
 
 
-def _in_order(columns):
+def _in_order(names):
     known = {**{name: place - len(_FIRST) for place, name in enumerate(_FIRST)}, **{name: 1 + place for place, name in enumerate(_LAST)}}
-    return [columns[name] for name in sorted(columns, key=lambda name: known.get(name, 0))]
+    return sorted(names, key=lambda name: known.get(name, 0))
 
 
 def _cases(source):
     """One row per case of a sweep."""
     node, axes = source.file["sweep"], source.axes
-    columns = _in_order(source.columns)
+    numbers = source.numbers
+    columns = [source.column[name] for name in _in_order(numbers)]
     sure = node["converged"][()] > 0 if "converged" in node else np.ones(node["shape"][()].prod(), dtype=bool)
     rows = []
     for number, place in enumerate(np.ndindex(*node["shape"][()])):
         values = [_at(axis, index) for axis, index in zip(axes.values(), place)]
-        cells = [_shown(column[number], column.attrs["units"]) for column in columns]
+        cells = [column.show(numbers[column.key][number]) for column in columns]
         rows.append({"sure": bool(sure[number]), "cells": values + source.codes[number : number + 1] + cells})
-    header = [*axes, *["warnings"] * bool(source.codes), *(hdf.text(column.attrs["long_name"]) for column in columns)]
+    header = [*axes, *["warnings"] * bool(source.codes), *(column.heading for column in columns)]
     intro = "" if sure.all() else "Rows in red did not converge."
     return {"intro": intro, "header": header, "rows": rows, "n_total": len(rows), "n_text": len(axes) + bool(source.codes)}
 
@@ -119,4 +112,4 @@ def _flat(values, path=""):
         if isinstance(value, dict):
             yield from _flat(value, f"{path}{key}.")
         elif path:
-            yield f"{path}{key}", ", ".join(map(str, value)) if isinstance(value, list) else show("", value)
+            yield f"{path}{key}", Column("", "").show(value)

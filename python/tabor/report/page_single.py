@@ -2,18 +2,19 @@
 
 
 from tabor.report import areas, hdf, refusals, units
+from tabor.report.columns import Columns
 from tabor.report.surface_numbers import amplitudes
 
 
 def sections(single):
     marks = _Marks(single.states)
     return {
-        "answer": _combined(single.combination) if single.combination else answer(single.states, marks),
+        "answer": _combined(single.combination) if single.combination else answer(single.states, single.column, marks),
         "highlights": _highlights(single),
         "scans": [_scan(single)],
         "treatments": [(tuple(hdf.text_list(single.surface_facts.get("treatment"))), [single.title])],
         "settings": _settings(single),
-        "results": _results(single.states, marks),
+        "results": _results(single.states, single.column, marks),
     }
 
 
@@ -62,37 +63,33 @@ def _length(facts, key):
     return units.length(facts[key]) if key in facts else "–"
 
 
-_HIGHLIGHTS = {
-    **{key: (name, areas.share) for key, name in areas.NAMES.items()},
-    "mean_film_m": ("mean film", units.length),
-    "friction_dry": ("dry friction", lambda value: units.number(value, 3)),
-    "friction_lubricated": ("lubricated friction", lambda value: units.number(value, 3)),
-    "friction_mixed": ("friction while oil flows", lambda value: units.number(value, 3)),
-}
+_ASKED = (*areas.KEYS, "friction_dry", "friction_lubricated", "friction_mixed")
+_HIGHLIGHTS = (*areas.KEYS, "mean_film_m", *_ASKED[2:])
 
 
 MOST_COLUMNS = 8  # pressures of the answer
 MOST_STATES = 6  # columns of one table of results
 
 
-def answer(states, marks=None):
+def answer(states, column=Columns(), marks=None):
     """One line per question, one column per pressure; None where nothing is asked of a pressure."""
     pressures = list(dict.fromkeys(state.pressure_text for state in states if state.pressure is not None))
     shown = [pressures[place] for place in evenly(len(pressures), MOST_COLUMNS)]
     marks, rows, met = marks or _Marks(states), {}, set()
     area = areas.of_states(states)
     for state in states:
-        for name, key, text in _questions(state, area):
-            cells = rows.setdefault(name, {})
+        for name, key, text in _questions(state, column, area):
+            cells = rows.setdefault((_ASKED.index(key), name), {})
             if state.pressure_text not in cells:
                 cells[state.pressure_text] = marks.mark(state, key, text, met if state.pressure_text in shown else set())
-    lines = [(name, [cells.get(pressure, "\N{EN DASH}") for pressure in shown]) for name, cells in rows.items()]
+    ordered = sorted(rows, key=lambda place: place[0])
+    lines = [(place[1], [rows[place].get(pressure, "\N{EN DASH}") for pressure in shown]) for place in ordered]
     if not shown or not lines:
         return None
     return {
         "caption": _answer_caption(states, area),
         "header": shown,
-        "rows": sorted(lines, key=lambda line: _ORDER.index(line[0].split(",")[0])),
+        "rows": lines,
         "note": _left_out(len(pressures) - len(shown)),
         "left_out": marks.notes(met),
     }
@@ -116,16 +113,13 @@ def evenly(count, most):
     return [round(place * (count - 1) / max(1, steps - 1)) for place in range(steps)]
 
 
-_ORDER = (*areas.NAMES.values(), "friction dry", "friction", "friction while oil flows")
-
-
-def _questions(state, area):
+def _questions(state, column, area):
     """(question, key, answer) of one state, as far as it has them."""
     facts, oil = state.facts, f", {units.density(state.density)}" if state.density else ""
     speed = facts.get("sliding_speed_m_per_s")
     known = {
-        areas.NAMES[area]: (area, areas.share),
-        "friction dry": ("friction_dry", _three_digits),
+        column[area].heading: (area, areas.share),
+        column["friction_dry"].heading: ("friction_dry", _three_digits),
         f"friction{oil}": ("friction_lubricated" if oil else "", _three_digits),
         f"friction while oil flows{oil}, {units.si(speed, 'm/s')}": ("friction_mixed", _three_digits),
     }
@@ -138,31 +132,29 @@ def _three_digits(value):
 
 def _highlights(single):
     """What a reader wants first: of one or two states their numbers, of more the range."""
-    shown = _highlights_of(single.states)
+    columns = [single.column[key] for key in _highlighted(single.states)]
     if len(single.states) > 2:
-        return _ranges(single.states, shown)
+        return _ranges(single, columns)
     return [
-        (f"{name}, {state.name}", show_value(state.facts[key]))
+        (f"{column.heading}, {state.name}", column.show(state.facts[column.key]))
         for state in single.states
-        for key, (name, show_value) in shown.items()
-        if isinstance(state.facts.get(key), float)
+        for column in columns
+        if isinstance(state.facts.get(column.key), float)
     ]
 
 
-def _highlights_of(states):
+def _highlighted(states):
     """With one of the two areas."""
     area = areas.of_states(states)
-    return {key: shown for key, shown in _HIGHLIGHTS.items() if key not in areas.NAMES or key == area}
+    return [key for key in _HIGHLIGHTS if key not in areas.KEYS or key == area]
 
 
-def _ranges(states, highlights):
-    shown = {
-        "mean_pressure_Pa": ("mean pressures", units.pressure),
-        "lubricant_density_g_per_m2": ("lubricant densities", units.density),
-        **highlights,
-    }
-    values = {key: [state.facts[key] for state in states if isinstance(state.facts.get(key), float)] for key in shown}
-    return [(name, units.span(values[key], show_value)) for key, (name, show_value) in shown.items() if values[key]]
+def _ranges(single, columns):
+    found = []
+    for column in (single.column["mean_pressure_Pa"], single.column["lubricant_density_g_per_m2"], *columns):
+        values = [state.facts[column.key] for state in single.states if isinstance(state.facts.get(column.key), float)]
+        found += [(column.heading, units.span(values, column.show))] if values else []
+    return found
 
 
 def _scan(single):
@@ -189,79 +181,33 @@ def _scan(single):
 
 
 def _settings(single):
-    return [
-        (words(key), show(key, value))
-        for key, value in single.settings.items()
-        if not isinstance(value, dict)
-    ]
+    return [(single.column[key].heading, single.column[key].show(value)) for key, value in single.settings.items() if not isinstance(value, dict)]
 
 
-def _results(states, marks):
+def _results(states, column, marks):
     """One row per quantity, one column per state: few states, many quantities. More states make more tables."""
-    keys = [key for key in dict.fromkeys(key for state in states for key in state.scalars) if key != "converged"]
+    known = {key: place for place, key in enumerate(column)}  # in the order of the file, where it has one
+    keys = dict.fromkeys(key for state in states for key in state.scalars if key != "converged")
+    keys = sorted(keys, key=lambda key: known.get(key, len(known)))
     parts = [states[start : start + MOST_STATES] for start in range(0, len(states), MOST_STATES)]
     return {
         **({} if "certificate" in keys else {"intro": ""}),
         "header": [],
         "rows": [],
-        "tables": [_table(part, keys, marks) for part in parts],
+        "tables": [_table(part, [column[key] for key in keys], marks) for part in parts],
         "n_total": 0,
         "n_text": 1,
     }
 
 
-def _table(states, keys, marks):
+def _table(states, columns, marks):
     met = set()
     rows = []
-    for key in keys:
-        cells = [marks.mark(state, key, show(key, state.scalars.get(key)), met) for state in states]
-        rows.append({"sure": True, "cells": [words(key), *cells]})
+    for column in columns:
+        cells = [marks.mark(state, column.key, column.show(state.scalars.get(column.key)), met) for state in states]
+        rows.append({"sure": True, "cells": [areas.MEANINGS.get(column.key, column.heading), *cells]})
     sure = [bool(state.facts["converged"]) for state in states if "converged" in state.facts]
     if sure:
         answers = ["yes" if state.facts.get("converged", True) else "NO" for state in states]
         rows.append({"sure": all(sure), "cells": ["converged", *answers]})
     return {"header": ["", *(state.name for state in states)], "rows": rows, "left_out": marks.notes(met)}
-
-
-# Endings of keys: how a value is shown with that unit. Longer endings first.
-_UNITS = {
-    "_m_per_s": lambda value: units.si(value, "m/s"),
-    "_N_per_m": lambda value: units.si(value, "N/m"),
-    "_per_Pa": lambda value: units.si(value, "1/Pa"),
-    "_Pa_s": lambda value: units.si(value, "Pa s"),
-    "_kg_per_m3": lambda value: f"{units.number(value)} kg/m³",
-    "_g_per_m2": units.density,
-    "_J_per_m2": lambda value: f"{units.number(value)} J/m²",
-    "_bytes": lambda value: f"{units.number(value / 2**20)} MiB",
-    "_m3": lambda value: f"{units.number(value)} m³",
-    "_m2": lambda value: f"{units.number(value)} m²",
-    "_Pa": units.pressure,
-    "_kg": lambda value: units.si(value, "kg"),
-    "_N": lambda value: units.si(value, "N"),
-    "_m": units.length,
-    "_s": lambda value: units.si(value, "s"),
-}
-_ANSWERS = ("converged", "dry_at_bound", "flooded", "gap_closing_at_turning", "load_path")  # ends of keys that are yes or no
-
-
-def words(key):
-    """'effective_modulus_Pa' -> 'effective modulus': the value is shown with its unit."""
-    if key in areas.MEANINGS:
-        return areas.MEANINGS[key]
-    text = key.removesuffix(_ending(key)).replace("_", " ")
-    return text.replace("youngs", "Young's").replace("poissons", "Poisson's")
-
-
-def show(key, value):
-    """A value in a readable multiple of the SI unit its key ends in."""
-    if isinstance(value, list):
-        return ", ".join(show(key, item) for item in value)
-    if isinstance(value, bool) or (isinstance(value, int) and key.endswith(_ANSWERS)):
-        return "yes" if value else "no"
-    if isinstance(value, str) or value is None:
-        return units.number(value)
-    return _UNITS[_ending(key)](float(value)) if _ending(key) else units.number(value)
-
-
-def _ending(key):
-    return next((ending for ending in _UNITS if key.endswith(ending)), "")

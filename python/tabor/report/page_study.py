@@ -16,11 +16,11 @@ def sections(study):
     return {
         "answer": answer(study, marks),
         "highlights": _highlights(study),
-        "scans": [_scan(scan, _own_settings(study.scans)) for scan in study.scans],
+        "scans": [_scan(study, scan) for scan in study.scans],
         "treatments": _treatments(study.scans),
-        "settings": _settings(study.facts, _own_settings(study.scans)),
-        "results": _results(study.table, study.names, marks),
-        "averages": _averages(study.averages, marks),
+        "settings": _settings(study),
+        "results": _results(study, marks),
+        "averages": _averages(study, marks),
     }
 
 
@@ -72,7 +72,7 @@ def _lines(study, group, pressures):
     name = f" ({group})" if len(study.groups) > 1 else ""
     known, area, _ = contact_area.means(contact_area.states_of(study, group))
     shares = [(areas.share(value), "", None) for value in area]
-    found = [(f"{areas.NAMES[areas.of_study(study)]}{name}", known, shares)]
+    found = [(f"{study.column[areas.of_study(study)].heading}{name}", known, shares)]
     curves = {"friction dry": (refusals.DRY, series_of.dry(study, group))}
     for density in series_of.densities(study):
         curves[f"friction, {units.density(density)}"] = refusals.LUBRICATED, series_of.lubricated(study, group, density)
@@ -100,19 +100,11 @@ def _at(known, cells, pressure):
 
 def _highlights(study):
     """What a reader wants first: pressures, densities, range of friction, how much to trust."""
-    table, area = study.table, areas.of_study(study)
-    found = [
-        ("mean pressures", _range(table, "mean_pressure_Pa", units.pressure)),
-        ("lubricant densities", _range(table, "lubricant_density_g_per_m2", units.density)),
-        (areas.NAMES[area], _range(table, area, areas.share)),
-        ("dry friction", _range(table, "friction_dry", lambda value: units.number(value, 3))),
-        ("lubricated friction", _range(table, "friction_lubricated", lambda value: units.number(value, 3))),
-        ("sliding speeds", _range(table, "sliding_speed_m_per_s", lambda value: f"{units.number(value)} m/s")),
-        ("load on the oil", _range(table, "fluid_load_share", lambda value: f"{value:.2%}")),
-        ("friction with flowing oil", _range(table, "friction_mixed", lambda value: units.number(value, 3))),
-    ]
-    sure = len(table) - table.not_converged()
-    found.append(("converged", f"{sure} of {len(table)} rows"))
+    table = study.table
+    keys = ("mean_pressure_Pa", "lubricant_density_g_per_m2", areas.of_study(study), "friction_dry", "friction_lubricated",
+            "sliding_speed_m_per_s", "fluid_load_share", "friction_mixed")  # fmt: skip
+    found = [(study.column[key].heading, _range(table, key, study.column[key].show)) for key in keys]
+    found.append(("converged", f"{len(table) - table.not_converged()} of {len(table)} rows"))
     return [(name, text) for name, text in found if text]
 
 
@@ -121,7 +113,9 @@ def _range(table, name, show):
     return units.span(values, show) if values else ""
 
 
-_SETTINGS_OF_SCANS = {"contact": "contact", "area": "area used for friction", "reading": "reading of the droplet rule"}
+_SETTINGS_OF_SCANS = ("contact", "area", "reading")
+_SETTINGS = ("youngs_modulus_Pa", "poissons_ratio", "effective_modulus_Pa", "shear_strength_Pa", "oil_density_kg_per_m3", "area",
+             "viscosity_Pa_s", "pressure_viscosity_per_Pa", "eyring_stress_Pa", "saturation_pressure_Pa")  # fmt: skip
 
 
 def _own_settings(scans):
@@ -129,11 +123,11 @@ def _own_settings(scans):
     return [name for name in _SETTINGS_OF_SCANS if len({scan.facts.get(name) for scan in scans}) > 1]
 
 
-def _scan(scan, own):
+def _scan(study, scan):
     facts = scan.facts
     rows = [("file", scan.file)] * (scan.name != scan.file)
     rows += _surface_rows(scan) if scan.is_treated else [("surface", "not treated yet")]
-    rows += [(_SETTINGS_OF_SCANS[name], facts[name]) for name in own if name in facts]
+    rows += [(study.column[name].heading, facts[name]) for name in _own_settings(study.scans) if name in facts]
     return {
         "file": scan.name,
         "group": scan.group,
@@ -182,117 +176,86 @@ def _treatments(scans):
     ]
 
 
-def _settings(facts, own):
-    cap = facts.get("saturation_pressure_Pa")
-    rows = [
-        ("Young's modulus E", facts.get("youngs_modulus_Pa"), units.pressure),
-        ("Poisson's ratio ν", facts.get("poissons_ratio"), units.number),
-        ("effective modulus E*", facts.get("effective_modulus_Pa"), units.pressure),
-        ("shear strength τ_y", facts.get("shear_strength_Pa"), units.pressure),
-        ("oil density", facts.get("oil_density_kg_per_m3"), lambda value: f"{units.number(value)} kg/m³"),
-        ("area used for friction", "as each scan says" if "area" in own else facts.get("area"), str),
-        ("oil viscosity η", facts.get("viscosity_Pa_s"), lambda value: f"{units.number(value)} Pa s"),
-        (
-            "pressure-viscosity coefficient α",
-            facts.get("pressure_viscosity_per_Pa"),
-            lambda value: f"{units.number(value * 1e9)} 1/GPa",
-        ),
-        ("Eyring stress", facts.get("eyring_stress_Pa"), units.pressure),
-    ]
-    shown = [(name, show(value)) for name, value, show in rows if value is not None]
-    return shown + [("saturation pressure p_sat", units.pressure(cap) if cap else "none (elastic)")]
+def _settings(study):
+    facts = {**study.facts}
+    facts.setdefault("saturation_pressure_Pa", "none (elastic)")
+    if "area" in _own_settings(study.scans):
+        facts["area"] = "as each scan says"
+    return [(study.column[key].heading, study.column[key].show(facts[key])) for key in _SETTINGS if facts.get(key) is not None]
 
 
 # What a reader looks for stands first: a narrow page cuts the rest off until it is scrolled.
-_RESULT_COLUMNS = (
-    ("scan", "scan", str),
-    ("group", "group", str),
-    ("P (MPa)", "mean_pressure_Pa", lambda value: units.number(value * 1e-6)),
-    ("lubricant (g/m²)", "lubricant_density_g_per_m2", units.number),
-    ("μ dry", "friction_dry", units.number),
-    ("μ lubricated", "friction_lubricated", units.number),
-    ("u (m/s)", "sliding_speed_m_per_s", units.number),
-    ("μ flowing", "friction_mixed", units.number),
-    ("of oil", "friction_viscous", units.number),
-    ("load on oil", "fluid_load_share", units.number),
-    ("contact area A/A₀", areas.CORRECTED, units.number),
-    ("wet share", "lubricated_share", units.number),
-    ("certificate", "certificate", lambda value: units.number(value, 2)),
-    ("converged", None, lambda sure: "yes" if sure else "NO"),
-    ("counted contact A/A₀", areas.PIXELS, units.number),
-    ("saturated A/A₀", "saturated_area_fraction", units.number),
-    ("mean gap (µm)", "mean_gap_m", lambda value: units.number(value * 1e6)),
-    ("spill-over", "spill_over_fraction", units.number),
-)
+_FIRST_OF_RESULTS = ("scan", "group")
+_RESULTS = (
+    "mean_pressure_Pa", "lubricant_density_g_per_m2", "friction_dry", "friction_lubricated", "sliding_speed_m_per_s", "friction_mixed",
+    "friction_viscous", "fluid_load_share", areas.CORRECTED, "lubricated_share", "certificate", "converged", areas.PIXELS,
+    "saturated_area_fraction", "mean_gap_m", "spill_over_fraction",
+)  # fmt: skip
 
 
-def _results(table, names, marks):
-    columns = [column for column in _RESULT_COLUMNS if column[1] is None or column[1] in table]
-    sure = converged(table)
-
-    def value(index, name):
-        found = _value((table[name] if name else sure)[index])
-        return names.get(found, found) if name == "scan" else found
-
+def _results(study, marks):
+    table, sure = study.table, converged(study.table)
+    texts = [name for name in _FIRST_OF_RESULTS if name in table]
+    numbers = [_numbers(study, name, table[name]) for name in _RESULTS if name in table]
     order = list(range(len(table)))
     if len(order) > MAX_ROWS:
         loose = [index for index in order if not sure[index]]
         order = sorted(set(loose + order[:MAX_ROWS]))
-    met = set()
-    rows = [
-        {
-            "sure": bool(sure[index]),
-            "cells": [marks.of_row(index, name, show(value(index, name)), met) for _, name, show in columns],
-        }
-        for index in order
-    ]
+    met, rows, names = set(), [], study.names
+    for index in order:
+        cells = [names.get(table[name][index], table[name][index]) if name == "scan" else table[name][index] for name in texts]
+        for title, name, show in numbers:
+            text = ("yes" if sure[index] else "NO") if name == "converged" else show(_value(table[name][index]))
+            cells.append(marks.of_row(index, name, text, met))
+        rows.append({"sure": bool(sure[index]), "cells": cells})
     return {
-        "header": [title for title, _, _ in columns],
+        "header": [*texts, *(title for title, _, _ in numbers)],
         "rows": rows,
         "left_out": marks.notes(met),
         "n_total": len(table),
-        "n_text": sum(name in ("scan", "group") for _, name, _ in columns),
+        "n_text": len(texts),
     }
 
 
-_STATISTICS = (
-    ("", "_mean", units.number),
-    (", std", "_std", lambda value: units.number(value, 2)),
-    (", sem", "_sem", lambda value: units.number(value, 2)),
-)
+def _numbers(study, name, values):
+    """(title with the unit, name, what shows one of its numbers) of a column of plain numbers."""
+    column = study.column[name]
+    if name == "converged":
+        return column.heading, name, str
+    factor, unit = column.scale(values)
+    return column.title(unit), name, lambda value: column.number(value, factor)
 
 
-def _averages(table, marks):
-    columns = [
-        (title, name, show)
-        for title, name, show in (
-            ("group", "group", str),
-            ("P (MPa)", "mean_pressure_Pa", lambda value: units.number(value * 1e-6)),
-            ("lubricant (g/m²)", "lubricant_density_g_per_m2", units.number),
-            ("u (m/s)", "sliding_speed_m_per_s", units.number),
-            ("n", "n", lambda value: str(int(value))),
-        )
-        if name in table
-    ]
-    kinds = (
-        ("friction_dry", "μ dry"),
-        ("friction_lubricated", "μ lubricated"),
-        ("friction_mixed", "μ flowing"),
-        ("friction_viscous", "of oil"),
-        ("fluid_load_share", "load on oil"),
-    )
-    for kind, title in kinds:
-        columns += [
-            (f"{title}{part}", f"{kind}{suffix}", show)
-            for part, suffix, show in _STATISTICS
-            if f"{kind}{suffix}" in table
-        ]
-    met = set()
+_PLACES = ("mean_pressure_Pa", "lubricant_density_g_per_m2", "sliding_speed_m_per_s")
+_MEANS = ("friction_dry", "friction_lubricated", "friction_mixed", "friction_viscous", "fluid_load_share")
+
+
+def _averages(study, marks):
+    table, met = study.averages, set()
+    columns = [("group", "group", str)] if "group" in table else []
+    columns += [_numbers(study, name, table[name]) for name in _PLACES if name in table]
+    columns += [("n", "n", lambda value: str(int(value)))] if "n" in table else []
+    for name in _MEANS:
+        columns += _statistics(study, name)
     rows = [
         [marks.of_mean(row, name.removesuffix("_mean"), show(_value(row[name])), met) for _, name, show in columns]
         for row in table.rows()
     ]
     return {"header": [title for title, _, _ in columns], "rows": rows, "n_text": 1, "left_out": marks.notes(met)}
+
+
+def _statistics(study, name):
+    """Mean, standard deviation and standard error, in one unit."""
+    table, column = study.averages, study.column[name]
+    if f"{name}_mean" not in table:
+        return []
+    factor, unit = column.scale(table[f"{name}_mean"])
+
+    def spread(value):
+        return units.number(value * factor, 2)
+
+    parts = (("", "_mean", lambda value: column.number(value, factor)), (", std", "_std", spread), (", sem", "_sem", spread))
+    return [(column.title(unit) + part, f"{name}{ending}", show) for part, ending, show in parts if f"{name}{ending}" in table]
 
 
 def _value(value):

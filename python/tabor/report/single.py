@@ -5,7 +5,8 @@ import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tabor.report import density_curves, hdf, remarks
+from tabor.report import columns, density_curves, hdf, remarks
+from tabor.report.columns import Columns
 from tabor.report.density_curves import Places
 from tabor.report.errors import InputError, readable
 from tabor.report.states import SingleState, count_visits
@@ -20,6 +21,7 @@ class Single:
     settings: dict
     surface: object
     states: list
+    column: Columns  # what its numbers are called
     warnings: list = field(default_factory=list)
     density_curves: Table = field(default_factory=lambda: Table({}))  # empty where a file has none
     density_places: Places = field(default_factory=Places)
@@ -97,7 +99,7 @@ def load(path, file):
     for state in states:
         _add_speed(state, settings)
     count_visits(states)
-    single = Single(path, file, facts, settings, file["surface"], states)
+    single = Single(path, file, facts, settings, file["surface"], states, columns.of_file(file))
     single.density_curves = density_curves.load(file, "density_curves", ("friction_lubricated",), single.warnings)
     single.density_places = density_curves.load_places(file, single.warnings)
     single.warnings.extend(dict.fromkeys(_warnings_about(single)))

@@ -3,7 +3,8 @@
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tabor.report import density_curves, guard, hdf, names, remarks
+from tabor.report import columns, density_curves, guard, hdf, names, remarks
+from tabor.report.columns import Columns
 from tabor.report.errors import InputError, readable
 from tabor.report.states import Film, Flow, StudyContact
 from tabor.report.table import Table
@@ -108,6 +109,7 @@ class Study:
     experiment: Table
     density_averages: Table  # empty where a study has none
     density_places: density_curves.Places
+    column: Columns  # what its numbers are called
     warnings: list = field(default_factory=list)
 
     kind = "study"
@@ -157,6 +159,7 @@ def load(path, file):
         experiment=_experiment(file),
         density_averages=density_curves.load(file, "density_averages", _DENSITY_COLUMNS, warnings),
         density_places=density_curves.load_places(file, warnings),
+        column=columns.of_file(file),
         warnings=warnings,
     )
     study.warnings.extend(list(_warnings_about(study)))

@@ -7,7 +7,7 @@ from tabor.report.errors import InputError
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""))
 _SMALL_PREFIXES = ((1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
-_WHOLE_UNITS = ("", "1", "SI", "kg", "K", "1/Pa", "Pa s")  # shown without a prefix
+_WHOLE_UNITS = ("", "1", "SI", "kg", "K", "Pa s")  # shown without a prefix
 _PRESSURES = {"pa": 1.0, "kpa": 1e3, "mpa": 1e6, "gpa": 1e9}
 
 
@@ -53,7 +53,9 @@ def length(value):
 def scale(largest, unit):
     """(factor from SI, unit with its prefix) in which `largest` [unit] reads well."""
     largest = abs(largest)
-    if unit in _WHOLE_UNITS or not 0 < largest < math.inf:
+    if unit == "1/Pa":
+        return 1e9, "1/GPa"
+    if unit in _WHOLE_UNITS or any(sign in unit for sign in "²³^") or not 0 < largest < math.inf:
         return 1.0, unit
     pairs = (*_PREFIXES, *_SMALL_PREFIXES)
     if unit.startswith("m"):

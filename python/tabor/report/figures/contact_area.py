@@ -4,7 +4,7 @@ import numpy as np
 
 from tabor.report import areas, chart, style, units
 from tabor.report.figures import Drawn
-from tabor.report.friction_series import number_text, rings
+from tabor.report.friction_series import PRESSURE, number_text, rings
 from tabor.report.output import table_text
 from tabor.report.table import converged
 
@@ -14,8 +14,8 @@ def draw(study):
     groups = [(group, members) for group, members in groups if members]
     if not groups:
         return None
-    name = areas.NAMES[areas.of_study(study)]
-    panel = chart.Panel(chart.from_zero("mean pressure $P$ (MPa)", air=1), chart.from_zero(f"{name} $A_{{real}}/A_0$ (%)"))
+    name = study.column[areas.of_study(study)].heading
+    panel = chart.Panel(chart.from_zero(PRESSURE, air=1), chart.from_zero(f"{name} $A_{{real}}/A_0$ (%)"))
     looks = [_named(*group, look) for group, look in zip(groups, style.curve_styles(len(groups)))]
     for (_, states), look in zip(groups, looks):
         panel.items += _curves(states, look)

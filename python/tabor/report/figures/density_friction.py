@@ -110,7 +110,7 @@ def _draw(curves, asked, error_name):
     shown = groups[:MAX_PANELS]
     drawn = [curve for curve in curves if curve.group in shown]
     colours = _colours(drawn)
-    axes = _density_axis(drawn), chart.from_zero("friction coefficient $\\mu$")
+    axes = _density_axis(drawn), chart.from_zero(series_of.FRICTION)
     panels = [
         _panel(axes, [curve for curve in drawn if curve.group == group], colours, asked.get(group, []), with_n=error_name is not None)
         for group in shown

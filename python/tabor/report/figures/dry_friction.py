@@ -18,7 +18,7 @@ def draw(study, error="std"):
     ]
     if not curves:
         return None
-    panel = chart.Panel(chart.from_zero("mean pressure $P$ (MPa)", air=1), chart.from_zero("dry friction coefficient $\\mu$"))
+    panel = chart.Panel(chart.from_zero(series_of.PRESSURE, air=1), chart.from_zero(f"dry {series_of.FRICTION}"))
     for series, look in zip(curves, style.curve_styles(len(curves))):
         label = f"{style.literal(series.group) or 'computed'} ({series.n_text})"
         panel.items.append(series_of.curve(series, error, label=label, **look))

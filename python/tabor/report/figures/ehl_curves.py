@@ -3,6 +3,7 @@
 import numpy as np
 
 from tabor.report import chart, ehl, hdf, style, units
+from tabor.report.columns import Column
 from tabor.report.figures import Drawn
 from tabor.report.output import table_text
 
@@ -45,12 +46,12 @@ def sweep(source):
     node = source.file["sweep"]
     keys = swept_keys(node)
     shape = [len(node["axes"][key]) for key in keys]
-    for name, column in source.columns.items():
+    for name, numbers in source.numbers.items():
         if name == "newton_iterations":
             continue
-        values = column[()].reshape(shape)
+        values = numbers[()].reshape(shape)
         if np.isfinite(values).any() and values[np.isfinite(values)].any():  # a column of zeros says it in the table
-            yield _drawn(node, name, keys, values)
+            yield _drawn(node, source.column[name], keys, values)
 
 
 def swept_keys(node):
@@ -74,38 +75,32 @@ def _word(axis, index):
     return f"{hdf.text(axis.attrs['long_name']).split('.')[-1]} {axis[index]:g}"
 
 
-def _drawn(node, name, keys, values):
-    heading = hdf.text(node[name].attrs["long_name"])
-    factor, label = _scaled(values, hdf.text(node[name].attrs["units"]), heading)
+def _drawn(node, column, keys, values):
+    factor, unit = column.scale(values)
+    label = column.title(unit)
     axes_values = [node["axes"][key][()] for key in keys]
     is_map = len(keys) == 2 and min(values.shape) > 1 and not _has_words(node)
     draw = _map if is_map else _curves
     figure = draw(node, keys, values * factor, label)
     data = {key: points.ravel() for key, points in zip(keys, np.meshgrid(*axes_values, indexing="ij"))}
-    own = {name: values.ravel()}
+    own = {column.key: values.ravel()}
     if codes := ehl.codes_of(node):
         own["warnings"] = codes
     return Drawn(
-        f"sweep_{name}",
-        heading[:1].upper() + heading[1:],
+        f"sweep_{column.key}",
+        column.heading[:1].upper() + column.heading[1:],
         f"Over {' and '.join(keys)}.",
         figure,
         {"": table_text({**data, **own})},
     )
 
 
-def _scaled(values, unit, what):
-    """(factor, label) in which values [unit] read well on an axis."""
-    finite = np.abs(values[np.isfinite(values)])
-    factor, unit = units.scale(finite.max() if finite.size else 0, unit)
-    return factor, f"{what} ({unit})" if unit not in ("", "1") else what
-
-
 def _scaled_axis(node, key):
     """(values, label) of what a sweep varies."""
     axis = node["axes"][key]
-    factor, label = _scaled(axis[()], hdf.text(axis.attrs.get("units", "SI")), key)
-    return axis[()] * factor, label
+    column = Column(key, key, hdf.text(axis.attrs.get("units", "SI")))
+    factor, unit = column.scale(axis[()])
+    return axis[()] * factor, column.title(unit)
 
 
 def _has_words(node):

@@ -45,7 +45,7 @@ def _panel(study, group, curves, error):
         if points:
             items.append(series_of.measured(points, colour=look["colour"], marker="d", label=series_of.measured_label(density)))
     items += series_of.rings_of([dry, *curves])
-    x, y = chart.from_zero("mean pressure $P$ (MPa)", air=1), chart.from_zero("friction coefficient $\\mu$")
+    x, y = chart.from_zero(series_of.PRESSURE, air=1), chart.from_zero(series_of.FRICTION)
     return chart.Panel(x, y, items, title=title)
 
 

@@ -12,7 +12,7 @@ from tabor.report.table import converged
 
 SPEED, PRESSURE, DENSITY = "sliding_speed_m_per_s", "mean_pressure_Pa", series_of.DENSITY
 SCALE = {SPEED: 1.0, PRESSURE: 1e-6}
-LABEL = {SPEED: "sliding speed $u$ (m/s)", PRESSURE: "mean pressure $P$ (MPa)"}
+LABEL = {SPEED: "sliding speed $u$ (m/s)", PRESSURE: series_of.PRESSURE}
 MEANS = ("friction_mixed", "friction_viscous", "fluid_load_share")
 MAX_PANELS = 3
 
@@ -99,7 +99,7 @@ def _text(key, x):
 
 def _friction(axis, group, curves, error):
     """Of solids and oil, and of the oil alone."""
-    panel = chart.Panel(axis, chart.from_zero("friction coefficient $\\mu$"), _means(curves, "friction_mixed", error))
+    panel = chart.Panel(axis, chart.from_zero(series_of.FRICTION), _means(curves, "friction_mixed", error))
     for curve, drawn in zip(curves, list(panel.items)):
         panel.items.append(chart.Curve(curve.place, curve.column("friction_viscous_mean"), curve.label, drawn.colour, ":", 1.0))
     panel.items += _rings(curves, "friction_mixed")

@@ -4,13 +4,10 @@ import numpy as np
 
 from tabor.report import areas, chart, style, units
 from tabor.report.figures import Drawn
-from tabor.report.friction_series import rings
+from tabor.report.friction_series import FRICTION, PRESSURE, rings
 from tabor.report.output import table_text
 
 DRY, LUBRICATED = "friction_dry", "friction_lubricated"
-_LABELS = {key: f"{name} $A_{{real}}/A_0$ (%)" for key, name in areas.NAMES.items()} | {
-    DRY: "friction coefficient $\\mu$"
-}
 
 
 def draw(single):
@@ -22,11 +19,13 @@ def draw(single):
     panels = [key for key in (area, DRY) if any(_has(state, key) for state in states)]
     if not panels:
         return None
-    row = [_panel(key, states) for key in panels]
+    name = single.column[area].heading
+    labels = {area: f"{name} $A_{{real}}/A_0$ (%)", DRY: FRICTION}
+    row = [_panel(key, labels[key], _curves(key, name, states)) for key in panels]
     legend = tuple(chart.Figure([row[-1:]], 0).labelled().values()) if DRY in panels else ()
     return Drawn(
         "against_pressure",
-        "Friction against pressure" if DRY in panels else f"{areas.NAMES[area].capitalize()} against pressure",
+        "Friction against pressure" if DRY in panels else f"{name.capitalize()} against pressure",
         _caption(single, panels, states, area),
         chart.Figure([row], 3.4, 3.7 * len(panels), legend=legend),
         {"": table_text(_columns(states, area))},
@@ -38,22 +37,22 @@ def _has(state, key):
     return isinstance(value, float) and np.isfinite(value)
 
 
-def _panel(key, states):
-    curves, items, loose = _curves(key, states), [], []
-    for (label, members), look in zip(curves, _looks(key, len(curves))):
-        factor = 100 if key in areas.NAMES else 1
+def _panel(key, label, curves):
+    items, loose = [], []
+    for (name, members), look in zip(curves, _looks(key, len(curves))):
+        factor = 100 if key in areas.KEYS else 1
         if not any(state.visit for state, _ in members):  # a path of loads is drawn as it goes
             members = sorted(members, key=lambda pair: pair[0].pressure)
         sure = [(state, value) for state, value in members if state.facts.get("converged", True)]
         loose += [(state, factor * value) for state, value in members if not state.facts.get("converged", True)]
-        items.append(chart.Curve(*_points(sure, factor), label=label, **look))
+        items.append(chart.Curve(*_points(sure, factor), label=name, **look))
     items += rings(*_points(loose, 1))
-    return chart.Panel(chart.from_zero("mean pressure $P$ (MPa)", air=1), chart.from_zero(_LABELS[key]), items)
+    return chart.Panel(chart.from_zero(PRESSURE, air=1), chart.from_zero(label), items)
 
 
 def _looks(key, n):
     """Grey and dashed without oil, then darker for more of it; the area has but one curve."""
-    if key in areas.NAMES:
+    if key in areas.KEYS:
         return style.curve_styles(n)
     return [style.DRY_CURVE, *style.ordered_styles(n - 1)]
 
@@ -62,7 +61,7 @@ def _points(members, factor):
     return [state.pressure * 1e-6 for state, _ in members], [factor * value for _, value in members]
 
 
-def _curves(key, states):
+def _curves(key, name, states):
     """[(label, [(state, value)])]: the area and dry friction once, lubricated friction per density."""
     once = {}
     for state in states:
@@ -70,7 +69,7 @@ def _curves(key, states):
             once.setdefault((state.pressure, state.visit), state)
     first = [(state, state.facts[key]) for state in once.values()]
     if key != DRY:
-        return [(areas.NAMES[key], first)]
+        return [(name, first)]
     curves = [("dry", first)]
     densities = sorted({state.density for state in states if state.density and _has(state, LUBRICATED)})
     for density in densities:
