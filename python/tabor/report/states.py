@@ -124,11 +124,16 @@ class SingleState:
         pressure = self.raw("pressure")
         if pressure is None:
             return None, None
+        stored = self.raw("state")
+        return (self._state_of(pressure) if stored is None else stored), pressure
+
+    def _state_of(self, pressure):
+        """For files that do not hold it."""
         state = np.where(pressure > 0, CONTACT, NO_CONTACT).astype(np.uint8)
         if self.saturation_pressure:
             # The solver clips at the cap, so only rounding to float32 separates a saturated pixel from it.
             state[pressure >= self.saturation_pressure * (1 - PRESSURE_ROUNDING)] = SATURATED
-        return state, pressure
+        return state
 
 
 def count_visits(states):
