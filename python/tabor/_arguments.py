@@ -132,16 +132,9 @@ def _executor(value: Any, name: str) -> Any:
     return value
 
 
-def _solid(value: Any, name: str) -> Any:
-    from ._contact import Solid  # which asks here for its own arguments
-    if not isinstance(value, (Solid, str)):
-        raise wrong(name, value, _SUCH_AS["Solid"])
-    return value
-
-
 _CHECKS: dict[str, _Check] = {
     "str": plain_text, "bool": flag, "float": _real, "Path": path, "str | int": _channel, "Axes": _axes,
-    "Sequence[str]": texts, "Iterable[str]": texts, "Executor": _executor, "Solid | str": _solid,
+    "Sequence[str]": texts, "Iterable[str]": texts, "Executor": _executor,
     "int": lambda value, name: whole(value, name, -2**31, 2**31 - 1),
     "Count": lambda value, name: whole(value, name, 0, 2**31 - 1),
     "Seed": lambda value, name: whole(value, name, 0, 2**64 - 1),
@@ -149,13 +142,14 @@ _CHECKS: dict[str, _Check] = {
 
 
 def _instance_check(annotation: str, names: Mapping[str, Any]) -> _Check | None:
-    """Of a class that is known where the function stands, by the time that it is called."""
-    if annotation not in _SUCH_AS:
+    """Of a class, or a text instead, that is known where the function stands, by the time that it is called."""
+    kind = annotation.removesuffix(" | str")
+    if kind not in _SUCH_AS:
         return None
 
     def check(value: Any, name: str) -> Any:
-        if not isinstance(value, names[annotation]):
-            raise wrong(name, value, _SUCH_AS[annotation])
+        if not (isinstance(value, names[kind]) or kind != annotation and isinstance(value, str)):
+            raise wrong(name, value, _SUCH_AS[kind])
         return value
 
     return check

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
+from . import _tabor
 from ._arguments import Path, typed
 
 
@@ -60,6 +61,7 @@ class Record:
 
     _facts: tuple[tuple[str, str, str], ...] = ()  #: heading, key, unit of what repr shows
     _record: Any
+    _write: Callable[..., None]  #: ``tabor.save``, which knows all kinds of records and puts itself here
 
     @property
     def values(self) -> Mapping[str, Any]:
@@ -88,11 +90,9 @@ class Record:
     @typed
     def save(self, file: Path, *, fields: str = "all", double: bool = False) -> None:
         """Writes it as ``tabor.save`` does."""
-        from ._save import save
-        save(file, self, fields=fields, double=double)
+        self._write(file, self, fields=fields, double=double)
 
     def _lines(self) -> list[tuple[str, str]]:
-        from . import _tabor
         lines = []
         for heading, key, unit in self._facts:
             value = self.values[key]

@@ -1,4 +1,4 @@
-"""Figures and a page from results, drawn by tabor_report as `tabor report` does."""
+"""Figures and a page from results, drawn by tabor.report as `tabor report` does."""
 
 from __future__ import annotations
 
@@ -21,10 +21,12 @@ from .ehl import Solution
 
 #: Runs beside this process: the report sets Matplotlib up for itself, and tries files in copies of its process.
 _PROGRAM = """
-import json, sys
+import json, sys, types
 given = json.load(sys.stdin)
 sys.path[:] = given["path"]
-from tabor_report import cli, errors
+bare = sys.modules["tabor"] = types.ModuleType("tabor")  # drawing needs nothing else of the package
+bare.__path__ = [given["package"]]
+from tabor.report import cli, errors
 try:
     answer = {"files": [str(file) for file in cli.make(**given["make"])]}
 except errors.ReportError as error:
@@ -69,8 +71,8 @@ def _file_of(result: Any, out: Path | None) -> pathlib.Path:
 
 def _made(arguments: dict[str, Any]) -> list[str]:
     done = subprocess.run([sys.executable, "-P", "-B", "-X", "utf8", "-W", "ignore", "-c", _PROGRAM], text=True,
-                          input=json.dumps({"path": sys.path, "make": arguments}), capture_output=True, check=False,
-                          encoding="utf-8", errors="surrogateescape")
+                          input=json.dumps({"path": sys.path, "package": os.path.dirname(__file__), "make": arguments}),
+                          capture_output=True, check=False, encoding="utf-8", errors="surrogateescape")
     if done.returncode != 0:
         raise RuntimeError(f"report: the drawing program ended with {done.returncode}: {done.stderr.strip()[-300:]}")
     answer = json.loads(done.stdout.splitlines()[-1])

@@ -112,3 +112,6 @@ def save(file: Path, results: Record | Iterable[Record], *, fields: str = "all",
     else:
         with watching(progress) as told:
             _save_frictions(target, surface, several, told)
+
+
+Record._write = staticmethod(save)

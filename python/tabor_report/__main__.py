@@ -1,6 +1,6 @@
-import sys
+"""Runs the file that `tabor report` runs, which needs no other part of tabor."""
 
-from tabor_report.cli import main
+import runpy
+from pathlib import Path
 
-sys.stdout.reconfigure(errors="surrogateescape")  # names of files are bytes
-sys.exit(main(sys.argv[1:]))
+runpy.run_path(str(Path(__file__).resolve().parents[1] / "tabor/report/__main__.py"), run_name="__main__")

@@ -1,6 +1,8 @@
 """A report of Python is that of the command line."""
 
+import pathlib
 import subprocess
+import sys
 
 import pytest
 
@@ -90,3 +92,18 @@ def test_missing_libraries_are_named(monkeypatch, pressed, tmp_path):
                         lambda name: None if name in ("jinja2", "matplotlib") else found(name))
     with pytest.raises(ImportError, match=r"report needs matplotlib and jinja2; pip install tabor\[report\]"):
         tb.report(pressed, tmp_path)
+
+
+@pytest.mark.parametrize("line", ["import tabor.report.cli", "from tabor_report import cli", "from tabor.report import cli"])
+def test_the_function_stays_callable_beside_the_package_of_its_name(line, tmp_path):
+    lines = f"import tabor as tb\n{line}\ntry:\n    tb.report({str(tmp_path / 'none.h5')!r})\nexcept ValueError as error:\n    print(error)"
+    run = subprocess.run([sys.executable, "-c", lines], capture_output=True, text=True, check=True)
+    assert "none.h5: no such file" in run.stdout
+
+
+def test_drawing_imports_nothing_of_the_package_around_it():
+    package = pathlib.Path(tb.__file__).parent
+    program = ("import sys, types; sys.modules['tabor'] = types.ModuleType('tabor'); sys.modules['tabor'].__path__ = [sys.argv[1]]\n"
+               "import tabor.report.build, tabor.report.live_page; print(*(name for name in sys.modules if name.startswith('tabor')))")
+    run = subprocess.run([sys.executable, "-c", program, package], capture_output=True, text=True, check=True)
+    assert [name for name in run.stdout.split() if not name.startswith("tabor.report")] == ["tabor"]

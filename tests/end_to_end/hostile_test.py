@@ -56,8 +56,8 @@ class Folder(Hostile):
     def put_traps(self, folder):
         mark = self.folder / "mark"
         code = f"open({str(mark)!r}, 'a').write(__file__ + '\\n')\n"
-        (folder / "tabor_report").mkdir(parents=True)
-        for name in ["tabor_report/__init__", "tabor_report/__main__", "tabor_report/cli", *MODULES]:
+        (folder / "tabor/report").mkdir(parents=True)
+        for name in ["tabor/__init__", "tabor/report/__init__", "tabor/report/__main__", "tabor/report/cli", *MODULES]:
             (folder / f"{name}.py").write_text(code)
         for name in ["python3", "python", "gwyddion", "sh"]:
             (folder / name).write_text(f"#!/bin/sh\necho {name} >> {mark}\n")
@@ -102,8 +102,8 @@ class Folder(Hostile):
         prefix = self.folder / "prefix"
         (prefix / "bin").mkdir(parents=True)
         shutil.copy(TABOR, prefix / "bin")
-        package = prefix / "share/tabor/python/tabor_report"
-        shutil.copytree(SOURCE / "python/tabor_report", package)
+        package = prefix / "share/tabor/python/tabor/report"
+        shutil.copytree(SOURCE / "python/tabor/report", package)
         shutil.copy(SOURCE / "src/tabor/results/references.bib", package)
         (package / "cli.py").write_text((package / "cli.py").read_text() + "\nprint('the installed one')\n")
         done = subprocess.run([prefix / "bin/tabor", "report", self.generate("scan.h5")], capture_output=True, text=True,

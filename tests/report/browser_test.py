@@ -18,7 +18,7 @@ from report_test import run
 from synthetic_single import write_single
 from synthetic_study import Recipe
 import synthetic_study
-from tabor_report import interactive, live_page, refusals
+from tabor.report import interactive, live_page, refusals
 
 ROOT = Path(__file__).resolve().parents[2]
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser")
@@ -274,7 +274,7 @@ class Size(unittest.TestCase):
     def test_a_page_of_many_pressures_stays_below_its_budget(self):
         if not interactive.is_possible():
             self.skipTest("no Bokeh")
-        from tabor_report import viewer
+        from tabor.report import viewer
 
         rng = np.random.default_rng(3)
         noise = rng.standard_normal((900, 900)).astype(np.float32) * np.float32(1e-6)

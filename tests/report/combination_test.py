@@ -7,7 +7,7 @@ from pathlib import Path
 
 from report_test import run
 from synthetic_single import write_single
-from tabor_report import build, hdf
+from tabor.report import build, hdf
 
 FACTS = {
     "mode": "wear", "rms_height_first_m": 1.1e-6, "rms_height_second_m": 1.06e-6, "rms_height_m": 7.4e-8, "shift_x_m": 2e-7,

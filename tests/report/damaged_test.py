@@ -6,7 +6,7 @@ import h5py
 
 from study_case import StudyCase, draw
 from synthetic_study import Recipe
-from tabor_report import friction_series, page, page_study, remarks
+from tabor.report import friction_series, page, page_study, remarks
 
 
 class Damaged(StudyCase):

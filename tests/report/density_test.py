@@ -11,8 +11,8 @@ from study_case import StudyCase, draw, rows_of
 from synthetic_single import write_single
 from synthetic_study import Recipe
 from synthetic_tables import DOSES, average_curves, density_curves
-from tabor_report import areas, build, page, page_single, page_study, style, units
-from tabor_report.figures import density_friction, single_curves
+from tabor.report import areas, build, chart, page, page_single, page_study, style, units
+from tabor.report.figures import density_friction, single_curves
 
 NAME = "friction_against_density"
 CURVES = Recipe(density_curves=True)
@@ -22,43 +22,38 @@ class OfAStudy(StudyCase):
     def test_plotted_means_and_bands_are_those_of_the_file(self):
         source = self.study(CURVES)
         drawn = density_friction.of_study(source)
-        panel = drawn.figure.axes[0]
+        panel = drawn.figure.panels[0]
+        curves = [item for item in panel.items if isinstance(item, chart.Curve)]
         expected = [row for row in average_curves(density_curves(CURVES)) if row["group"] == "side A"]
-        for curve, pressure in zip(panel.get_lines()[:8:2], CURVES.pressures):
+        for curve, pressure in zip(curves, CURVES.pressures):
             means = [row["friction_lubricated_mean"] for row in expected if row["mean_pressure_Pa"] == pressure]
-            np.testing.assert_array_equal(curve.get_xdata(), DOSES)
-            np.testing.assert_array_equal(curve.get_ydata(), means)
-        band = panel.collections[0].get_paths()[0].vertices
+            np.testing.assert_array_equal(curve.x, DOSES)
+            np.testing.assert_array_equal(curve.y, means)
+        band = next(item for item in panel.items if isinstance(item, chart.Band))
         first = expected[0]
         low = first["friction_lubricated_mean"] - first["friction_lubricated_std"]
-        self.assertAlmostEqual(band[band[:, 0] == DOSES[0], 1].min(), low, places=14)
+        self.assertAlmostEqual(band.low[0], low, places=14)
         self.assertEqual(len(rows_of(drawn.data[""])), 2 * 4 * len(DOSES))
-        self.assertIn("n = 2", panel.get_title(loc="left"))
-        style.close(drawn.figure)
+        self.assertIn("n = 2", panel.title)
 
     def test_dry_friction_and_the_densities_asked_for_are_marked(self):
         drawn = density_friction.of_study(self.study(CURVES))
-        lines = [line for line in drawn.figure.axes[0].get_lines() if len(line.get_xdata()) == 2]
-        upright = sorted(line.get_xdata()[0] for line in lines if line.get_xdata()[0] == line.get_xdata()[1])
-        self.assertEqual(upright, list(CURVES.densities))
-        level = sorted(line.get_ydata()[0] for line in lines if line.get_ydata()[0] == line.get_ydata()[1])
+        guides = [item for item in drawn.figure.panels[0].items if isinstance(item, chart.Guide)]
+        self.assertEqual([guide.at for guide in guides if guide.is_upright], list(CURVES.densities))
         series = density_friction.series_of.dry(self.study(CURVES), "side A")
-        np.testing.assert_allclose(level, sorted(series.mean))
-        style.close(drawn.figure)
+        np.testing.assert_allclose([guide.at for guide in guides if not guide.is_upright], series.mean)
 
     def test_one_scan_has_no_band_and_says_so(self):
         drawn = density_friction.of_study(self.study(Recipe(groups=("one",), density_curves=True)))
         self.assertIn("n = 1", drawn.caption)
         self.assertTrue(all(row["spread"] == "nan" for row in rows_of(drawn.data[""])))
-        style.close(drawn.figure)
 
     def test_of_many_groups_six_are_drawn_and_all_are_in_the_table(self):
         groups = tuple(f"side {letter}" for letter in "ABCDEFGH")
         drawn = density_friction.of_study(self.study(Recipe(groups, (2e6, 5e6), density_curves=True)))
-        self.assertEqual(sum(panel.get_visible() for panel in drawn.figure.axes), 6)
+        self.assertEqual([len(row) for row in drawn.figure.rows], [2, 2, 2])
         self.assertEqual({row["group"] for row in rows_of(drawn.data[""])}, set(groups))
         self.assertIn("2 more groups", drawn.caption)
-        style.close(drawn.figure)
 
     def test_the_logarithmic_axis_has_several_labels_whatever_it_spans(self):
         for low, high in ((0.001, 10), (0.001, 0.05), (0.4, 0.9), (0.41, 0.46), (0.45, 0.450001)):
@@ -69,10 +64,10 @@ class OfAStudy(StudyCase):
 
     def test_the_drawn_axis_carries_them(self):
         drawn = density_friction.of_study(self.study(CURVES))
-        drawn.figure.canvas.draw()
-        labels = [label.get_text() for label in drawn.figure.axes[0].get_xticklabels()]
+        drawn.drawing.canvas.draw()
+        labels = [label.get_text() for label in drawn.drawing.axes[0].get_xticklabels()]
         self.assertEqual(labels, ["0.001", "0.01", "0.1", "1", "10"])
-        style.close(drawn.figure)
+        drawn.close()
 
     def test_groups_with_pressures_of_their_own_share_the_colours(self):
         def forget(folder):
@@ -85,9 +80,8 @@ class OfAStudy(StudyCase):
                     table[name] = values
 
         drawn = density_friction.of_study(self.study(CURVES, forget))
-        left, right = drawn.figure.axes[:2]
-        self.assertEqual(right.get_lines()[0].get_color(), left.get_lines()[2].get_color())
-        style.close(drawn.figure)
+        left, right = ([item for item in panel.items if isinstance(item, chart.Curve)] for panel in drawn.figure.panels)
+        self.assertEqual((right[0].label, right[0].colour), (left[1].label, left[1].colour))
 
 
 class Answers(StudyCase):
@@ -204,7 +198,6 @@ class Damaged(StudyCase):
         self.assertTrue(any("3 of 40 rows hold no usable number" in warning for warning in source.warnings))
         drawn = density_friction.of_study(source)
         self.assertEqual(len(rows_of(drawn.data[""])), 37)
-        style.close(drawn.figure)
 
     def test_rows_that_are_all_spoiled_leave_no_figure(self):
         def spoil(file):
@@ -292,12 +285,10 @@ class OfOneScan(unittest.TestCase):
         )
         self.assertEqual({row["friction_dry"] for row in rows}, {f"{0.3:.17g}"})
         self.assertNotIn("Means over", drawn.caption)
-        dots = [line for line in drawn.figure.axes[0].get_lines() if line.get_marker() == "o" and len(line.get_xdata())]
-        found = sorted(zip(np.concatenate([line.get_xdata() for line in dots]),
-                           np.concatenate([line.get_ydata() for line in dots])))
+        dots = [item for item in drawn.figure.panels[0].items if isinstance(item, chart.Curve) and item.marker == "o"]
+        found = sorted(zip(np.concatenate([dot.x for dot in dots]), np.concatenate([dot.y for dot in dots])))
         states = self.single().states
         self.assertEqual(found, sorted((state.density, state.facts["friction_lubricated"]) for state in states))
-        style.close(drawn.figure)
 
     def test_both_figures_come_first_and_the_answers_are_said(self):
         source = self.single()
@@ -305,7 +296,6 @@ class OfOneScan(unittest.TestCase):
         names = []
         for figure in (next(drawn), next(drawn)):
             names.append(figure.name)
-            style.close(figure.figure)
         self.assertEqual(names, ["against_pressure", NAME])
         self.assertEqual(source.answers[0], [f"At {p} MPa: full from 0.1 g/m²" for p in (5, 10)])
 
@@ -315,15 +305,13 @@ class OfOneScan(unittest.TestCase):
 
     def test_of_several_states_the_range_stands_first(self):
         found = dict(page_single.sections(self.single())["highlights"])
-        self.assertEqual(found["mean pressures"], "5 MPa to 10 MPa")
-        self.assertEqual(found["lubricant densities"], "0.45 g/m² to 0.9 g/m²")
-        self.assertEqual(found["dry friction"], "0.3")
+        self.assertEqual(found["pressure"], "5 MPa to 10 MPa")
+        self.assertEqual(found["lubricant"], "0.45 g/m² to 0.9 g/m²")
+        self.assertEqual(found["friction dry"], "0.3")
 
     def test_friction_against_pressure_is_drawn_dry_and_by_rising_density(self):
         drawn = single_curves.draw(self.single())
-        labels = [line.get_label() for line in drawn.figure.axes[1].get_lines()]
-        self.assertEqual(labels, ["dry", "0.45 g/m²", "0.9 g/m²"])
-        style.close(drawn.figure)
+        self.assertEqual([item.label for item in drawn.figure.panels[1].items], ["dry", "0.45 g/m²", "0.9 g/m²"])
 
     def test_a_file_without_curves_is_drawn_without(self):
         source = self.single(density_curves=False)

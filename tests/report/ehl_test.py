@@ -11,8 +11,8 @@ import h5py
 import numpy as np
 
 from synthetic_file import new_file
-from tabor_report import build, page, page_ehl, style
-from tabor_report.figures import ehl_curves, ehl_impact, ehl_point, ehl_stribeck
+from tabor.report import build, page, page_ehl, style
+from tabor.report.figures import ehl_curves, ehl_impact, ehl_point, ehl_stribeck
 
 
 def impact_file(path):
@@ -181,7 +181,10 @@ class Ehl(unittest.TestCase):
         self.addCleanup(source.file.close)
         drawn = {drawing.name: drawing for drawing in figures(source)}
         for drawing in drawn.values():
-            style.close(drawing.figure)
+            if drawing.is_declared:
+                drawing.close()
+            else:
+                style.close(drawing.figure)
         return drawn
 
     def curves(self, make):
@@ -236,11 +239,10 @@ class Ehl(unittest.TestCase):
     def test_no_two_of_many_curves_look_alike(self):
         for n in (1, 7, 8, 9, 30):
             looks = style.curve_styles(n)
-            self.assertEqual(len({look["color"] for look in looks}), n)
+            self.assertEqual(len({look["colour"] for look in looks}), n)
         drawn = {**self.drawings(many_file), **self.curves(many_file)}
         for name in ("stribeck", "sweep_friction_coefficient"):
-            lines = [line for line in drawn[name].figure.axes[0].get_lines() if line.get_linestyle() == "-"]
-            self.assertEqual(len({line.get_color() for line in lines}), 9)
+            self.assertEqual(len({curve.colour for curve in drawn[name].figure.panels[0].items if curve.dash == "-"}), 9)
 
     def test_a_sweep_marks_the_cases_of_its_warnings_and_leaves_gaps(self):
         text = self.page(many_file)
@@ -265,9 +267,9 @@ class Ehl(unittest.TestCase):
         self.assertAlmostEqual(float(rows[500]["hertz_pressure_Pa"]) / 25e6, 1)
         self.assertAlmostEqual(float(rows[500]["pressure_Pa"]) / 25e6, 0.99)
         self.assertAlmostEqual(float(self.rows(drawn["line_wear"])[-1]["mean_depth_m"]) / 2.88e-6, 1)
-        top, bottom = drawn["line_wear"].figure.axes
-        self.assertEqual(bottom.get_xlabel(), "time (h)")
-        self.assertGreater(*drawn["line_track"].figure.axes[0].get_ylim())
+        self.assertEqual(drawn["line_wear"].figure.panels[1].x.label, "time (h)")
+        track = drawn["line_track"].figure.panels[0].y
+        self.assertGreater(track.low, track.high)
 
     def test_a_point_contact_has_its_maps_and_curves(self):
         drawn = self.drawings(point_file)
@@ -279,7 +281,7 @@ class Ehl(unittest.TestCase):
         rows = self.rows(drawn["point_along"])
         self.assertAlmostEqual(float(rows[40]["smooth_film_m"]), 5e-8)
         self.assertEqual(float(rows[36]["contact_pressure_Pa"]), float(rows[36]["hertz_pressure_Pa"]))
-        self.assertIn("pressure of solids", style.entries(drawn["point_along"].figure.axes[0]))
+        self.assertIn("pressure of solids", drawn["point_along"].figure.labelled())
         self.assertEqual(float(self.rows(drawn["point_slice_plane"])[0]["share"]), 0.5)
         # Of liquid and solids together the pressure is that of Hertz on either side.
         self.assertAlmostEqual(drawn["point_pressure"].figure.axes[0].images[0].get_array().max(), 1.0)
@@ -309,25 +311,24 @@ class Ehl(unittest.TestCase):
         for make, n_panels in ((stribeck_file, 3), (with_ratio, 4)):
             drawn = self.drawings(make)
             self.assertEqual(set(drawn), {"stribeck"})
-            axes = drawn["stribeck"].figure.axes
-            self.assertEqual(len(axes), n_panels)
-            self.assertEqual(len({panel.get_xlim() for panel in axes}), 1)
-            self.assertEqual(len({round(panel.get_position().x0, 6) for panel in axes}), 1)
-        ratio = axes[2].get_lines()[0]
-        self.assertEqual(axes[2].get_ylabel(), "film / rms roughness")
-        np.testing.assert_allclose(ratio.get_ydata(), axes[1].get_lines()[0].get_ydata() / 50)
+            figure = drawn["stribeck"].figure
+            self.assertEqual([len(row) for row in figure.rows], [1] * n_panels)
+            self.assertEqual(len({(axis.low, axis.high) for axis in (figure.settled(panel, "x") for panel in figure.panels)}), 1)
+        _, film, ratio, _ = figure.panels
+        self.assertEqual(ratio.y.label, "film / rms roughness")
+        np.testing.assert_allclose(ratio.items[0].y, film.items[0].y / 50)
 
     def test_a_stribeck_curve_names_the_shares_of_the_contact(self):
         figure = self.drawings(stribeck_file)["stribeck"].figure
-        self.assertLessEqual({"lapped: touching", "polished: touching"}, set(style.entries(*figure.axes)))
+        self.assertLessEqual({"lapped: touching", "polished: touching"}, set(figure.samples()))
 
     def test_quantities_of_a_case_have_the_signs_of_print(self):
         for text, shown in (("20 um", "20 µm"), ("2.8e-15 m^2/N", "2.8e-15 m²/N"), ("950 kg/m^3", "950 kg/m³"), ("barus", "barus")):
             self.assertEqual(page_ehl._readable(text), shown)
 
     def test_words_make_curves_not_maps(self):
-        axes = self.curves(stribeck_file)["sweep_central_film_m"].figure.axes[0]
-        self.assertEqual(set(style.entries(axes)), {"lapped", "polished"})
+        figure = self.curves(stribeck_file)["sweep_central_film_m"].figure
+        self.assertEqual(set(figure.samples()), {"lapped", "polished"})
 
     def test_the_page_of_a_point_contact_shows_tables_in_tables(self):
         text = self.page(point_file)
@@ -353,10 +354,9 @@ class Ehl(unittest.TestCase):
         self.assertIn("hot (1 of 6 cases) thin (2 of 6 cases)", text)
 
     def test_axes_of_a_sweep_have_units_that_read_well(self):
-        axes = self.curves(stribeck_file)["sweep_central_film_m"].figure.axes[0]
-        self.assertEqual(axes.get_xlabel(), "motion.speed (m/s)")
-        self.assertEqual(axes.get_ylabel(), "central film (nm)")
-        self.assertAlmostEqual(axes.lines[0].get_ydata()[0], 800)
+        (panel,) = self.curves(stribeck_file)["sweep_central_film_m"].figure.panels
+        self.assertEqual((panel.x.label, panel.y.label), ("motion.speed (m/s)", "central film (nm)"))
+        self.assertAlmostEqual(panel.items[0].y[0], 800)
 
     def test_lines_of_equal_film_only_where_the_film_is_smooth(self):
         def rough_file(path):
@@ -387,8 +387,7 @@ class Ehl(unittest.TestCase):
 
         drawing = self.drawings(mixed_file)["line_profile"]
         self.assertAlmostEqual(float(self.rows(drawing)[500]["asperity_pressure_Pa"]) / 12.5e6, 1)
-        labels = [text.get_text() for text in drawing.figure.legends[0].get_texts()]
-        self.assertIn("pressure of asperities", labels)
+        self.assertIn("pressure of asperities", drawing.figure.samples())
 
     def test_the_page_of_an_impact_is_written(self):
         text = self.page(impact_file)

@@ -7,9 +7,9 @@ import numpy as np
 from study_case import StudyCase, draw, rows_of
 from synthetic_study import Recipe
 from synthetic_tables import average, measured
-from tabor_report import errors, friction_series, style
-from tabor_report.example import choose
-from tabor_report.figures import contact_area, dry_friction, mixed_friction
+from tabor.report import errors, friction_series
+from tabor.report.example import choose
+from tabor.report.figures import contact_area, dry_friction, mixed_friction
 
 
 class Friction(StudyCase):
@@ -35,21 +35,19 @@ class Friction(StudyCase):
         source = self.default
         drawn = dry_friction.draw(source)
         series = friction_series.dry(source, "side A")
-        curve = drawn.figure.axes[0].containers[0]
-        np.testing.assert_array_equal(curve.lines[0].get_xdata(), series.pressure * 1e-6)
-        np.testing.assert_array_equal(curve.lines[0].get_ydata(), series.mean)
-        lower, upper = (cap.get_ydata() for cap in curve.lines[1])
-        np.testing.assert_allclose(upper - lower, 2 * series.std, rtol=1e-12)
-        style.close(drawn.figure)
+        curve = drawn.figure.panels[0].items[0]
+        np.testing.assert_array_equal(curve.x, series.pressure * 1e-6)
+        np.testing.assert_array_equal(curve.y, series.mean)
+        np.testing.assert_array_equal(curve.error, series.std)
+        np.testing.assert_array_equal(curve.notes["n"], series.n)
 
     def test_one_scan_has_no_error_bar_and_says_so(self):
         source = self.study(Recipe(groups=("only",), experiment=False))
         series = friction_series.dry(source, "only")
         self.assertTrue(np.isnan(series.bar("std")).all())
         drawn = dry_friction.draw(source)
-        self.assertFalse(drawn.figure.axes[0].containers[0].has_yerr)
+        self.assertFalse(drawn.figure.panels[0].items[0].has_bars)
         self.assertIn("n = 1", drawn.caption)
-        style.close(drawn.figure)
 
     def test_experiment_points_are_plotted_as_measured(self):
         source = self.default
@@ -82,9 +80,7 @@ class FlowingOil(StudyCase):
 
     def figure(self, recipe):
         self.source = self.study(recipe)
-        drawn = mixed_friction.draw(self.source)
-        style.close(drawn.figure)
-        return drawn
+        return mixed_friction.draw(self.source)
 
     def test_a_study_without_flow_has_no_such_figure(self):
         self.assertNotIn("mixed_friction", self.default_figures)
@@ -109,7 +105,7 @@ class FlowingOil(StudyCase):
     def test_at_one_speed_it_is_drawn_against_pressure(self):
         drawn = self.figure(Recipe(speeds=(0.1,), shape=(24, 32)))
         self.assertEqual(drawn.title, "Friction with oil that flows")
-        self.assertIn("mean pressure", drawn.figure.axes[-1].get_xlabel())
+        self.assertIn("mean pressure", drawn.figure.panels[-1].x.label)
 
     def test_the_other_curves_hold_each_pressure_once(self):
         source = self.study(self.recipe)

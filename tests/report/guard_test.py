@@ -12,7 +12,7 @@ import h5py
 import numpy as np
 
 from study_case import StudyCase, draw
-from tabor_report import errors, guard, hdf, output
+from tabor.report import errors, guard, hdf, output
 
 
 class Guard(StudyCase):

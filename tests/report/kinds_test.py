@@ -10,7 +10,7 @@ import spectra_test
 import synthetic_study
 from synthetic_single import write_single
 from synthetic_study import Recipe
-from tabor_report import cli
+from tabor.report import cli
 
 
 def params(path):

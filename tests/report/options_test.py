@@ -11,8 +11,8 @@ import h5py
 import synthetic_study
 from synthetic_single import write_single
 from synthetic_study import Recipe
-from tabor_report import applicable, build, cli
-from tabor_report.errors import UsageError
+from tabor.report import applicable, build, cli
+from tabor.report.errors import UsageError
 from ehl_test import impact_file, sweep_file
 
 OF_STUDIES = (["--scan", "0"], ["--all-scans"], ["--pressure", "5MPa"], ["--density", "0.9g/m^2"],

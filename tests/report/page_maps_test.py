@@ -12,7 +12,7 @@ from browser_test import WithMaps
 from synthetic_maps import PIXEL, SATURATION
 from synthetic_single import write_single
 from synthetic_study import Recipe
-from tabor_report import viewer
+from tabor.report import viewer
 
 UNITS = {"mm": 1e-3, "µm": 1e-6, "nm": 1e-9, "Pa": 1.0, "MPa": 1e6, "GPa": 1e9}
 FIELDS = {"height": None, "film": "film_thickness", "gap": "gap", "pressure": "pressure"}

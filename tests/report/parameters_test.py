@@ -8,8 +8,8 @@ import unittest
 from pathlib import Path
 
 from report_test import run
-from tabor_report import parameters
-from tabor_report.errors import InputError
+from tabor.report import parameters
+from tabor.report.errors import InputError
 
 TABLE = """scan,treatment,failure,N [1],Sa [m],Sq [m],Sdq [1],Vm(p) [m^3/m^2]
 scans/a.x3p,level=plane,,262144,8.6e-07,1.07e-06,0.21,3e-08

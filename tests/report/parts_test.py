@@ -2,7 +2,6 @@
 
 import base64
 import contextlib
-import importlib.util
 import io
 import re
 import stat
@@ -14,12 +13,11 @@ from unittest import mock
 
 import numpy as np
 
-from tabor_report import cli, dependencies, encoding, errors, live_page, maps, names, output, page, section, still, style, units
-from tabor_report.example import richest_window
-from tabor_report.figures import Drawn, psd
-from tabor_report.map_axes import round_length
-from tabor_report.page_single import show, words
-from tabor_report.table import Table, converged
+from tabor.report import cli, dependencies, encoding, errors, live_page, maps, names, output, page, section, still, style, units
+from tabor.report.example import richest_window
+from tabor.report.figures import Drawn, psd
+from tabor.report.map_axes import round_length
+from tabor.report.table import Table, converged
 
 
 class Names(unittest.TestCase):
@@ -76,19 +74,6 @@ class Units(unittest.TestCase):
         self.assertEqual(units.si(0.0, "m"), "0 m")
         self.assertEqual(units.si(-3e-6, "m"), "−3 µm")
         self.assertEqual(units.si(float("nan"), "m"), "–")
-
-    def test_keys_are_read_with_the_whole_unit_they_end_in(self):
-        for key, value, name, text in (
-            ("sliding_speed_m_per_s", 0.05, "sliding speed", "50 mm/s"),
-            ("viscosity_Pa_s", 0.225, "viscosity", "0.225 Pa s"),
-            ("max_force_N_per_m", 6.018e4, "max force", "60.18 kN/m"),
-            ("load_N", 16.6, "load", "16.6 N"),
-            ("lag_s", 5e-5, "lag", "50 µs"),
-            ("converged", 1, "converged", "yes"),
-            ("fluid_converged", 0, "fluid converged", "no"),
-            ("newton_iterations", 77, "newton iterations", "77"),
-        ):
-            self.assertEqual((words(key), show(key, value)), (name, text))
 
     def test_a_pressure_without_its_unit_is_rejected_with_the_corrected_form(self):
         self.assertEqual(units.parse_pressure("7 MPa"), 7e6)
@@ -196,23 +181,6 @@ class StillPictures(unittest.TestCase):
         style.close(figure)
         self.assertGreater(len(paths), 5)
         self.assertFalse([path for path in paths if re.search(rb"\.\d\d\d", path)])
-
-
-@unittest.skipIf(importlib.util.find_spec("bokeh") is None, "needs Bokeh (PyPI)")
-class LiveCurves(unittest.TestCase):
-    def test_a_second_axis_is_linear_beside_a_logarithmic_one(self):
-        from bokeh.models import LinearScale, LogScale
-
-        from tabor_report import bokeh_curves
-
-        style.apply()
-        figure, grid = style.new_figure(2.0)
-        grid[0][0].loglog([1, 10, 100], [1, 10, 100])
-        grid[0][0].twinx().plot([1, 10, 100], [0, 50, 90])
-        ((plot,),), _ = bokeh_curves.convert(figure, "both")
-        style.close(figure)
-        self.assertIsInstance(plot.y_scale, LogScale)
-        self.assertIsInstance(plot.extra_y_scales["right1"], LinearScale)
 
 
 def unpacked(array, shape, height):

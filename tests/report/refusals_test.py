@@ -15,7 +15,7 @@ import synthetic_study
 from report_test import run
 from synthetic_single import write_single
 from synthetic_study import Recipe
-from tabor_report import build, refusals
+from tabor.report import build, refusals
 
 PROGRAM = os.environ.get("TABOR")
 # Of a file of one scan: (pressure, density) of each state, its codes, and whether it converged.
@@ -126,7 +126,7 @@ class OnThePage(unittest.TestCase):
         for sign, code in zip("†‡§¶", ("not-converged", "flood", "frictionless", "implausible-friction")):
             self.assertIn(f"{sign} <code>tabor table</code> leaves out this number: {code}.", page)
         results = self.rows(page, '<section id="results">')
-        self.assertEqual([cell[-1] for cell in results["friction lubricated"]], [results["friction lubricated"][0][-1], "§", "‡", "†", "¶", "§"])
+        self.assertEqual([cell[-1] for cell in results["friction wet"]], [results["friction wet"][0][-1], "§", "‡", "†", "¶", "§"])
 
     def test_rows_and_means_of_a_study(self):
         page = self.page(lambda folder: study(folder, CODES))

@@ -1,4 +1,4 @@
-"""Whole runs of `python3 -m tabor_report`: the files, their sizes, the page."""
+"""Whole runs of the program behind `tabor report`: the files, their sizes, the page."""
 
 import contextlib
 import io
@@ -13,11 +13,12 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import h5py
+import numpy as np
 
 import synthetic_study
 from synthetic_single import write_single
 from synthetic_study import Recipe
-from tabor_report import cli
+from tabor.report import build, cli
 
 PACKAGE = Path(__file__).resolve().parents[2] / "python"
 ODD = Recipe(
@@ -39,7 +40,7 @@ def run(*arguments):
 
 
 def run_alone(*arguments):
-    """The program itself."""
+    """The program itself, by its former name."""
     return subprocess.run(
         [sys.executable, "-m", "tabor_report", *map(str, arguments)],
         capture_output=True,
@@ -264,6 +265,20 @@ class SingleReport(unittest.TestCase):
         self.assertTrue({f"fluid_{what}_5MPa_0.9g_per_m2_5mm_per_s" for what in ("pressure", "fill")} <= names)
         self.assertIn("Fluid pressure map: P = 5 MPa, 0.9 g/m², 5 mm/s", page)
         self.assertIn("friction while oil flows", page)
+
+    def test_what_saturates_is_as_the_file_says_else_told_from_pressures(self):
+        write_single(self.folder / "one.h5", Recipe(shape=(20, 24), pressures=(5e6,)), film=False)
+
+        def found():
+            source = build.open_result(self.folder / "one.h5")
+            with source.file:
+                return source.states[0].state()
+
+        told = found()
+        self.assertEqual(set(np.unique(told)), {0, 1, 2})
+        with h5py.File(self.folder / "one.h5", "a") as file:
+            file["states/0000/state"] = np.minimum(told, 1)
+        np.testing.assert_array_equal(found(), np.minimum(told, 1))
 
     def test_oil_that_flows_at_one_speed_has_it_from_the_settings(self):
         write_single(self.folder / "one.h5", Recipe(shape=(70, 90), pressures=(5e6,), densities=(0.9,)))

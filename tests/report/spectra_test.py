@@ -10,8 +10,8 @@ import numpy as np
 from report_test import run
 from synthetic_file import new_file
 from study_case import rows_of
-from tabor_report import build, page_spectra, spectra
-from tabor_report.figures import spectra as figure
+from tabor.report import build, chart, page_spectra, spectra
+from tabor.report.figures import spectra as figure
 
 SIDE, N = 1e-4, 128
 
@@ -45,11 +45,11 @@ class Spectra(unittest.TestCase):
     def test_what_is_drawn_is_what_the_file_holds(self):
         source = self.source()
         (drawn,) = figure.draw(source)
-        lines = [line for axes in drawn.figure.axes for line in axes.lines if len(line.get_xdata()) > 2]
-        for line, (q, density) in zip(lines, source.sets[0].curves.values()):
-            scale = 1e24 if line.get_label() == "radial" else 1e18
-            np.testing.assert_allclose(line.get_xdata(), q * 1e-6)
-            np.testing.assert_allclose(line.get_ydata(), density * scale)
+        curves = [item for panel in drawn.figure.panels for item in panel.items if isinstance(item, chart.Curve)]
+        self.assertEqual(len(curves), 3)
+        for curve, (q, density) in zip(curves, source.sets[0].curves.values()):
+            np.testing.assert_allclose(curve.x, q * 1e-6)
+            np.testing.assert_allclose(curve.y, density * (1e24 if curve.label == "radial" else 1e18))
         self.assertEqual(len(rows_of(drawn.data[""])), 3 * N // 2)
 
     def test_exponents_of_the_file_stand_on_the_page(self):
@@ -67,7 +67,7 @@ class Spectra(unittest.TestCase):
     def test_one_direction_alone_is_drawn_too(self):
         source = self.source(axes=("y",))
         self.assertEqual(list(source.sets[0].curves), ["y"])
-        self.assertEqual(len(next(figure.draw(source)).figure.axes), 1)
+        self.assertEqual(len(next(figure.draw(source)).figure.panels), 1)
 
     def test_values_that_no_logarithm_has_are_left_out(self):
         source = self.source(power=-400)  # underflows to zero
@@ -96,10 +96,11 @@ class Spectra(unittest.TestCase):
         source = build.open_result(self.path)
         self.addCleanup(source.file.close)
         (drawn,) = figure.draw(source)
-        (axes,) = drawn.figure.axes
-        labels = [line.get_label() for line in axes.lines]
-        self.assertEqual(labels[:3], ["a", "b", "all, mean of 2"])
-        np.testing.assert_allclose(axes.lines[2].get_ydata(), 1.5e-2 * q / q[0])
+        (panel,) = drawn.figure.panels
+        _, _, mean, band = panel.items[:4]
+        self.assertEqual(list(drawn.figure.labelled()), ["a", "b", "all, mean of 2", "range to be trusted"])
+        np.testing.assert_allclose(mean.y, 1.5e-2 * q / q[0])
+        np.testing.assert_allclose([band.low, band.high], [0.8e-2 * q / q[0], 2.2e-2 * q / q[0]])
         self.assertEqual(len(rows_of(drawn.data[""])), 3 * N // 2)
         done = run(self.path, "-o", self.path.parent / "page")
         self.assertEqual((done.returncode, done.stderr), (0, ""))

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import synthetic_study
 from synthetic_study import Recipe
-from tabor_report import build, style
+from tabor.report import build, style
 
 OPTIONS = Namespace(html=False, scan=None, all_scans=False, pressure=None, density=None, error_bar="std")
 
@@ -47,6 +47,6 @@ def draw(source, **changes):
     """{name: Drawn}, with options of the command line changed as asked."""
     figures = {}
     for drawn in build.study_figures(source, Namespace(**{**vars(OPTIONS), **changes})):
-        style.close(drawn.figure)
+        drawn.close()
         figures[drawn.name] = drawn
     return figures

@@ -27,7 +27,7 @@ struct Request {
   bool all_scans = false;
   std::string error_bar;  ///< "" if not given
   std::optional<std::string> output;
-  std::vector<std::string> passed_on;  ///< options with values, as tabor_report takes them
+  std::vector<std::string> passed_on;  ///< options with values, as tabor.report takes them
 };
 
 /// That of a complete environment made for reports: beside an installed program, or in the build
@@ -58,32 +58,25 @@ fs::path python() {
 }
 
 // Beside an installed program, or in the source tree this program was built from.
-fs::path package_folder() {
+fs::path drawing_program() {
   std::error_code error;
   const fs::path self = fs::read_symlink("/proc/self/exe", error);
   for (const fs::path& folder :
        {self.parent_path().parent_path() / "share/tabor/python", fs::path(TABOR_SOURCE_PYTHON)}) {
-    if (fs::exists(folder / "tabor_report/__main__.py", error)) return folder;
+    const fs::path file = folder / "tabor/report/__main__.py";
+    if (fs::exists(file, error)) return file;
   }
-  throw InputError("tabor report", "no Python package tabor_report beside the program", "",
+  throw InputError("tabor report", "no Python package tabor/report beside the program", "",
                    "install tabor with 'cmake --install'");
 }
 
 /// -I: neither the folder somebody works in, perhaps one with files of others, nor variables of
 /// the environment nor packages of the user say what is run; only the interpreter's own packages
-/// and this one. -X utf8: names of files are bytes in any locale.
+/// and the one that the file belongs to. -X utf8: names of files are bytes in any locale.
 std::vector<std::string> python_words(const Request& request) {
-  std::vector<std::string> words{
-      "-I",
-      "-B",
-      "-X",
-      "utf8",
-      "-W",
-      "ignore",
-      "-c",
-      "import sys; sys.path.insert(0, sys.argv.pop(1)); import tabor_report.__main__",
-      package_folder().string(),
-      request.result};
+  std::vector<std::string> words{"-I", "-B", "-X", "utf8", "-W", "ignore"};
+  words.push_back(drawing_program().string());
+  words.push_back(request.result);
   words.insert(words.end(), request.passed_on.begin(), request.passed_on.end());
   if (request.output) words.push_back("--output=" + *request.output);
   if (!request.error_bar.empty()) words.push_back("--error-bar=" + request.error_bar);
@@ -138,7 +131,7 @@ int report(const Request& request, Context& context) {
 
 using Check = std::function<std::string(const std::string&)>;
 
-/// An option that tabor_report takes: `checked` gives the value in the form that it reads.
+/// An option that tabor.report takes: `checked` gives the value in the form that it reads.
 void pass_on(OptionSet& set, Request& request, const std::string& flag,
              const std::string& placeholder, const std::string& help, const Check& checked) {
   set.add({.flag = flag,

@@ -1,0 +1,133 @@
+"""Maps as small texts for a page: the numbers of one grid of pixels, and pictures of every pixel where the grid has fewer."""
+
+import base64
+import io
+import math
+import zlib
+
+import numpy as np
+from PIL import Image
+
+from tabor.report.still import uri
+
+LARGEST_GRID = 1024  # pixels along a side of which all are kept
+LARGEST_SIDE = 8192  # pixels of a picture; a larger map is thinned
+LARGEST_CODE = 2**26  # of a map's range: sums of a few stay within 32 bits
+DIGITS = 5  # a step is at most 10^-5 of the range of nearly all values
+
+# A contact picture is two layers: where film is, in the colours of contact, and on it what hides all that is no contact.
+WET_COLOURS = ((232, 134, 46), (0, 0, 0))  # dry, wet
+VEILS = (255, 110, 0)  # opacity of white over: no contact, contact below saturation, saturated contact
+ELASTIC_COLOURS = ((240, 176, 116), (90, 90, 90))  # the two colours under that veil
+CLASS_COLOURS = ((255, 255, 255), ELASTIC_COLOURS[0], WET_COLOURS[0], ELASTIC_COLOURS[1], WET_COLOURS[1])
+
+
+def thinning(shape, largest=LARGEST_SIDE):
+    """Every how many pixels of a map are kept, so that no side has more than `largest`."""
+    return max(1, math.ceil(max(shape) / largest))
+
+
+def coloured(values, limits, colours, ground, quality):
+    """A data: URI of a WebP picture of a map; values that are NaN have the colour `ground`.
+
+    values: (ny, nx); limits: the values of the first and last of the 255 colours; colours: uint8 (256, 3), of which
+    the first is not used.
+    """
+    step = thinning(values.shape)
+    table = np.array(colours, dtype=np.uint8)
+    table[0] = ground
+    return _webp(table[_steps(values[::step, ::step], *limits)], quality)
+
+
+def contact_layer(state):
+    """A data: URI of a PNG that hides what does not touch, and half hides what is elastic; state: 0 none, 1 elastic, 2 saturated."""
+    return _png(_palette(state, ((255, 255, 255),) * 3), 2, transparency=bytes(VEILS))
+
+
+def wet_layer(wet):
+    """A data: URI of a PNG of the colours of contact, wet or dry."""
+    return _png(_palette(wet, WET_COLOURS), 1)
+
+
+def _palette(classes, colours):
+    step = thinning(classes.shape)
+    picture = Image.fromarray(np.ascontiguousarray(classes[::step, ::step], dtype=np.uint8), "P")
+    picture.putpalette([part for colour in colours for part in colour])
+    return picture
+
+
+def _png(picture, bits, **keywords):
+    stream = io.BytesIO()
+    picture.save(stream, "PNG", bits=bits, compress_level=6, **keywords)
+    return uri("image/png", stream.getvalue())
+
+
+def power_of(usual, span=0.0):
+    """The exponent of the decimal step in which a map is kept.
+
+    usual: the range of nearly all values, of which the step is at most 10^-DIGITS; span: of all values, at most LARGEST_CODE steps.
+    """
+    fine = math.floor(math.log10(usual)) - DIGITS if usual > 0 else -300
+    coarsest = math.ceil(math.log10(span / LARGEST_CODE)) if span > 0 else fine
+    return max(fine, coarsest)
+
+
+def codes_of(values, power):
+    """(int64 (ny, nx): values rounded to whole steps 10^power, the code of holes or None)."""
+    known = np.isfinite(values)
+    values = np.asarray(values, dtype=float)
+    steps = values * 10.0**-power if power <= 0 else values / 10.0**power
+    if known.all():
+        return np.rint(steps).astype(np.int64), None
+    codes = np.rint(np.where(known, steps, 0)).astype(np.int64)
+    hole = int(codes[known].min() if known.any() else 0) - 1
+    return np.where(known, codes, hole), hole
+
+
+def packed(codes, height=None, is_level=False):
+    """{"data", "planes", "on_height", "is_level"}: integers without loss, as what a guess from pixels before lacks; viewer.js unpacks them.
+
+    height: codes on which those of a gap or of a film stand: their sum is what is smooth. Of a map the guess goes on with the plane through three
+    neighbours, of a film with the level beside or above. What is lacking is folded to 0, -1, 1, -2 ..., and its bytes are stored low ones first,
+    a plane each.
+    """
+    lacking = codes - (_level(codes, height) if is_level else _plane(codes, height))
+    folded = ((lacking << 1) ^ (lacking >> 63)).astype(np.uint32)
+    planes = max(1, (int(folded.max(initial=0)).bit_length() + 7) // 8)
+    # Runs and frequencies are all there is to find; longer matches cost time and bring nothing.
+    packer = zlib.compressobj(1, zlib.DEFLATED, 15, 9, zlib.Z_RLE)
+    parts = [packer.compress((folded >> np.uint32(8 * plane)).astype(np.uint8).tobytes()) for plane in range(planes)]
+    data = base64.b64encode(b"".join([*parts, packer.flush()])).decode("ascii")
+    return {"data": data, "planes": planes, "on_height": height is not None, "is_level": is_level}
+
+
+def _plane(codes, height):
+    total = codes if height is None else codes + height
+    guess = np.zeros_like(total)
+    guess[:, 1:] = total[:, :-1]
+    guess[1:, :] += total[:-1, :]
+    guess[1:, 1:] -= total[:-1, :-1]
+    return guess if height is None else guess - height
+
+
+def _level(codes, height):
+    """The level of the liquid to the left, else of that above; zero where neither is or the ground is higher."""
+    guess = np.zeros_like(codes)
+    above, beside = codes[:-1], codes[:, :-1]
+    guess[1:] = np.where(above > 0, above + height[:-1] - height[1:], 0)
+    guess[:, 1:] = np.where(beside > 0, beside + height[:, :-1] - height[:, 1:], guess[:, 1:])
+    return np.maximum(guess, 0)
+
+
+def _steps(values, low, high):
+    """uint8 of 1 to 255 for values between the limits, 0 for holes."""
+    scaled = (values - np.float32(low)) * np.float32(254 / ((high - low) or 1))
+    holes = ~np.isfinite(scaled)
+    scaled[holes] = -1
+    return (np.clip(scaled, np.where(holes, -1, 0), 254) + 1).astype(np.uint8)
+
+
+def _webp(picture, quality):
+    stream = io.BytesIO()
+    Image.fromarray(picture, "RGB").save(stream, "WEBP", quality=quality, method=2)
+    return uri("image/webp", stream.getvalue())

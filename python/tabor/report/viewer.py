@@ -1,0 +1,324 @@
+"""What the interactive maps of a page hold: height, every contact and film of a scan, and gaps as far as they fit."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tabor.report import encoding, map_axes, names, units
+from tabor.report.example import richest_window, shores
+
+BUDGET = 7.6e6  # bytes of the maps of a page of at most 10 MB
+QUALITIES = {92: 2.0, 80: 1.0, 60: 0.68, 40: 0.52}  # of WebP, with the size of a picture by that of the second
+SMALLEST_GRID = 128  # pixels along a side, where several scans share a page
+LOW, HIGH = 0.5, 99.5  # percentiles at which colours end
+
+COLOURS = {
+    "height": map_axes.HEIGHT_COLOURS,
+    "pressure": map_axes.PRESSURE_COLOURS,
+    "gap": map_axes.GAP_COLOURS,
+    "film": map_axes.FILM_COLOURS,
+}
+HOLE, DRY = (191, 191, 191), (244, 240, 230)
+GROUNDS = {"height": HOLE, "pressure": (255, 255, 255), "gap": HOLE, "film": DRY}
+
+
+@dataclass
+class Choice:
+    """One contact (`contact`: (state, pressure or None), and `gap`) or one film: `load` reads its maps, by name."""
+
+    label: str
+    load: dict
+
+
+@dataclass
+class Maps:
+    """A scan with its contacts and films; pixel (x, y) [m]; heights [m]."""
+
+    name: str
+    title: str
+    file: str  # in names of files
+    pixel: tuple
+    height: np.ndarray
+    contacts: list = field(default_factory=list)
+    films: list = field(default_factory=list)
+    first: tuple = (0, 0)  # contact and film shown at first
+    is_difference: bool = False  # heights about zero, not about their mean
+    heading: str = "Height about the mean"
+    group: str = ""  # of the scan of a study, where its title does not say it
+
+
+def of_single(single):
+    contacts, films = {}, {}
+    for state in single.states:
+        if state.has("pressure") and state.pressure_label not in contacts:
+            gap = {"gap": (lambda state=state: state.raw("gap"))} if state.has("gap") else {}
+            contacts[state.pressure_label] = Choice(state.pressure_label, {"contact": state.contact, **gap})
+        if state.has("film_thickness") and state.density_label not in films:
+            films[state.density_label] = Choice(
+                state.density_label, {"film": lambda state=state: state.raw("film_thickness")}
+            )
+    height = single.raw_height()
+    chosen = len(contacts) // 2, 0
+    file = names.in_a_file(single.title if single.combination else names.short([single.title])[single.title])
+    maps = Maps("maps", single.title, file, single.pixel, height, [*contacts.values()], [*films.values()], chosen)
+    maps.is_difference, maps.heading = single.is_difference, single.heading_of_heights
+    return maps
+
+
+def of_example(example, name="maps"):
+    """All states of the scan that a study's example shows, the example's own at first."""
+    scan = example.scan
+    contacts, films = scan.contacts(), [film for film in scan.films() if film.density > 0]
+    chosen = [
+        next((place for place, state in enumerate(states) if shown and state.node == shown.node), 0)
+        for states, shown in ((contacts, example.contact), (films, example.film))
+    ]
+    return Maps(
+        name,
+        scan.name,
+        names.in_a_file(scan.name),
+        scan.pixel,
+        example.height,
+        [
+            Choice(f"P = {units.pressure(item.pressure)}", {"contact": (lambda item=item: (item.state(), None)), "gap": item.gap})
+            for item in contacts
+        ],
+        [Choice(units.density(item.density), {"film": item.thickness}) for item in films],
+        tuple(chosen),
+        group="" if scan.name.endswith(f"({scan.group})") else scan.group,
+    )
+
+
+def encoded(maps, share=1.0, budget=None):
+    """The JSON object that templates/viewer.js reads, and the pictures by their ids: ({...}, {id: data URI}).
+
+    share: of a page that several scans share; budget: bytes, where they are not that share of BUDGET.
+    """
+    return _Encoder(maps, share, share * BUDGET if budget is None else budget).run()
+
+
+class _Encoder:
+    """One grid of numbers, from which a page draws, reads and saves; where it has not every pixel, pictures that have.
+
+    First what must be there, then the quality of pictures, then as many gaps as fit.
+    """
+
+    def __init__(self, maps, share, budget):
+        self.maps, self.left = maps, budget
+        self.pictures = {}
+        self.last = -1, None
+        self.with_gap = [place for place, choice in enumerate(maps.contacts) if "gap" in choice.load]
+        self.step = encoding.thinning(maps.height.shape, max(SMALLEST_GRID, int(encoding.LARGEST_GRID * math.sqrt(share))))
+
+    def run(self):
+        height = self.maps.height
+        has_mean = np.isfinite(height).any() and not self.maps.is_difference
+        self.mean = float(np.nanmean(height, dtype=float)) if has_mean else 0.0
+        self.films = [np.asarray(choice.load["film"]()) for choice in self.maps.films]
+        self._choose_steps()
+        contacts, line = self._contacts()
+        films = [self._film(place) for place in range(len(self.films))]
+        height_part = self._height()
+        self._paint(height_part, films)
+        rows, columns = height.shape
+        return {
+            "name": self.maps.name,
+            "file": self.maps.file,
+            "heading": self.maps.heading,
+            "size": [columns, rows],
+            "pixel": list(self.maps.pixel),
+            "step": self.step,
+            "grid": list(self._on_grid(height).shape[::-1]),
+            "saturates": self.saturates,
+            "classes": [_hex(colour) for colour in encoding.CLASS_COLOURS],
+            "colours": {panel: _panel_colours(panel) for panel in COLOURS},
+            "height": height_part,
+            "films": films,
+            "contacts": contacts,
+            "first": list(self.maps.first),
+            "line": line,
+            "left_out": self._add_gaps(contacts),
+        }, self.pictures
+
+    def _on_grid(self, values):
+        return values[:: self.step, :: self.step]
+
+    @property
+    def _is_thinned(self):
+        return self.step > 1
+
+    def _choose_steps(self):
+        """One decimal step for heights, gaps and films, which stand on another: fine enough for each; self.codes are those of the heights."""
+        sample = self._on_grid(self.maps.height)
+        heights = np.asarray(sample, dtype=float) - self.mean
+        self.height_limits = self._limits(heights)
+        usual = [self.height_limits[1] - self.height_limits[0]]
+        usual += [10 * top for film in self.films if (top := self._limits(film[film > 0])[1]) > 0 and (film > 0).any()]
+        finite = heights[np.isfinite(heights)]
+        self.power = encoding.power_of(min(usual), float(np.ptp(finite)) if finite.size else 0.0)
+        self.codes, self.height_hole = encoding.codes_of(heights, self.power)
+
+    def _height(self):
+        return self._part(self.height_limits, self._kept(encoding.packed(self.codes), self.height_hole))
+
+    def _contacts(self):
+        """([{"label", "state", "pressure", "picture"}], the ends of the first section)."""
+        contacts, line, self.saturates = [], None, False
+        touched = np.zeros(self.maps.height.shape, dtype=bool)
+        for place, choice in enumerate(self.maps.contacts):
+            state, pressure = choice.load["contact"]()
+            contact = {"label": choice.label, "file": names.of_state(choice.label), "state": self._classes(state)}
+            if pressure is not None:
+                contact["pressure"] = self._pressure(pressure)
+            if self._is_thinned:
+                contact["picture"] = self._keep(f"contact{place}", encoding.contact_layer(state))
+            contacts.append(contact)
+            touched |= state > 0
+            self.saturates = self.saturates or bool((state > 1).any())
+            if place == self.maps.first[0]:
+                line = self._line(state > 0)
+        self.touched = touched
+        return contacts, line or self._line(touched)
+
+    def _classes(self, classes):
+        return self._kept(encoding.packed(self._on_grid(classes).astype(np.int64)), None)
+
+    def _pressure(self, pressure):
+        """In a step of its own [Pa]."""
+        values = np.asarray(self._on_grid(pressure), dtype=float)
+        limits = 0.0, self._limits(values[values > 0])[1] if (values > 0).any() else 1.0
+        power = encoding.power_of(limits[1], float(values.max(initial=0.0)))
+        codes, hole = encoding.codes_of(values, power)
+        return self._part(limits, self._kept(encoding.packed(codes), hole), power, units.scale(limits[1], "Pa"))
+
+    def _film(self, place):
+        """Thickness, and where there is any, however thin."""
+        film = self.films[place]
+        codes, hole = encoding.codes_of(self._on_grid(film), self.power)
+        limits = 0.0, self._limits(film[film > 0])[1]
+        part = self._part(limits, self._kept(encoding.packed(codes, self.codes, is_level=True), hole))
+        label = self.maps.films[place].label
+        return {"label": label, "file": names.of_state(label), "wet": self._classes(film > 0), **part}
+
+    def _part(self, limits, array, power=None, scale=None):
+        """Numbers with the ends of their colours and their unit."""
+        factor, unit = scale or units.length_scale(max(map(abs, limits)))
+        return {"limits": list(limits), "unit": [factor, unit], "power": self.power if power is None else power, "array": array}
+
+    def _paint(self, height, films):
+        """Pictures of all pixels, where the grid has not all, of the best quality with which everything fits, else of the least."""
+        if not self._is_thinned:
+            return
+        shown = (self.maps.height - np.float32(self.mean)).astype(np.float32, copy=False)
+        if self.maps.contacts and not films:
+            self._keep("wet", encoding.wet_layer(np.zeros((1, 1))))
+        for place, (part, film) in enumerate(zip(films, self.films)):
+            part["wet_picture"] = self._keep(f"wet{place}", encoding.wet_layer(self.touched & (film > 0)))
+        self.quality = self._quality(shown, height)
+        height["picture"] = self._picture("height", "height", shown, height)
+
+    def _quality(self, shown, height):
+        second = 80
+        pictures, arrays, count = len(_picture("height", shown, height["limits"], second)), 0, len(self.with_gap)
+        if count:
+            gap, array = self._gap_array(self.with_gap[0])
+            pictures += count * len(_picture("gap", gap, self._gap_limits(gap), second))
+            arrays = count * len(array["data"])
+        fitting = [quality for quality, size in QUALITIES.items() if size * pictures + arrays <= self.left]
+        return max(fitting, default=min(QUALITIES))
+
+    def _gap_array(self, place):
+        """(gap, its array); the gap is read once: it is asked for twice in a row."""
+        if self.last[0] != place:
+            gap = np.asarray(self.maps.contacts[place].load["gap"]())
+            codes, hole = encoding.codes_of(self._on_grid(gap), self.power)
+            self.last = place, (gap, {**encoding.packed(codes, self.codes), "hole": hole})
+        return self.last[1]
+
+    def _gap_limits(self, gap):
+        return 0.0, self._limits(gap)[1]
+
+    def _add_gaps(self, contacts):
+        """The gap shown first, whatever its size, then those that fit; labels of the contacts whose gap does not."""
+        cost, left_out = 0, []
+        for place in self._order(self.with_gap):
+            if cost and self.left < cost:
+                left_out.append(place)
+                continue
+            before = self.left
+            gap, array = self._gap_array(place)
+            part = self._part(self._gap_limits(gap), array)
+            self.left -= len(array["data"])
+            if self._is_thinned:
+                part["picture"] = self._picture(f"gap{place}", "gap", gap, part)
+            contacts[place]["gap"] = part
+            cost = before - self.left
+        return [contacts[place]["label"] for place in sorted(left_out)]
+
+    def _order(self, places):
+        """That shown first, then the ends, then those between."""
+        preferred = [self.maps.first[0], *places[:1], *places[-1:], *places]
+        return [place for place in dict.fromkeys(preferred) if place in places]
+
+    def _picture(self, name, panel, values, part):
+        return self._keep(name, _picture(panel, values, part["limits"], self.quality))
+
+    def _kept(self, array, hole):
+        self.left -= len(array["data"])
+        return {**array, "hole": hole}
+
+    def _keep(self, name, picture):
+        self.left -= len(picture)
+        name = f"{self.maps.name}_{name}"
+        self.pictures[name] = picture
+        return name
+
+    def _limits(self, values):
+        """Percentiles of a sample: all pixels would take long."""
+        picked = values.ravel()[:: max(1, values.size // 500_000)]
+        finite = picked[np.isfinite(picked)]
+        if not finite.size:
+            return 0.0, 1e-9
+        low, high = (float(value) for value in np.percentile(finite, [LOW, HIGH]))
+        return (low, high) if high > low else (low, low + 1e-9)
+
+    def _line(self, touching):
+        """Ends of the first section, in pixels: along x through the most wet contact, without contact the most shores, of the richest window."""
+        wet = touching & (self.films[self.maps.first[1]] > 0) if self.films else touching
+        interest = wet if wet.any() else touching
+        if self.films and not interest.any():
+            interest = shores(self.films[self.maps.first[1]] > 0)
+        window = richest_window(interest)
+        counts = window.of(interest).sum(axis=1)
+        row = window.y0 + (int(np.argmax(counts)) if counts.max() > 0 else len(counts) // 2)
+        return [[window.x0, row], [window.x1 - 1, row]]
+
+
+def _picture(panel, values, limits, quality):
+    return encoding.coloured(values, limits, _table(COLOURS[panel]), HOLE, quality)
+
+
+def _table(colours):
+    """uint8 (256, 3)"""
+    from matplotlib import colormaps
+
+    colour_map = colormaps[colours] if isinstance(colours, str) else colours
+    return np.rint(255 * colour_map(np.linspace(0, 1, 256))[:, :3]).astype(np.uint8)
+
+
+def _panel_colours(panel):
+    """What viewer.js paints with: 256 colours, of which the first is that of what has no value."""
+    table = _table(COLOURS[panel])
+    table[0] = GROUNDS[panel]
+    return table.tobytes().hex()
+
+
+def _hex(colour):
+    return "#" + bytes(colour).hex()
+
+
+def css_gradient(colours):
+    """The colours from low to high for a style sheet."""
+    table = _table(colours)[::32].tolist() + [_table(colours)[-1].tolist()]
+    return f"linear-gradient(to right, {', '.join('rgb(' + ','.join(map(str, colour)) + ')' for colour in table)})"
