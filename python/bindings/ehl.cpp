@@ -147,7 +147,7 @@ study::EhlOutcome run_sweep(study::EhlSeries& series,
   return outcome;
 }
 
-/// Each film starts from the one before; in a folder, if there is one, finished cases are kept.
+/// Each film starts from the one before; in a folder, if there is one, finished cases are stored.
 Swept sweep(const FilmCase& one, const Axes& given, std::uint64_t seed,
             const std::optional<std::filesystem::path>& folder, int jobs, bool retry,
             const nb::object& progress) {
@@ -232,7 +232,7 @@ ShownWarnings sweep_warnings(const Swept& swept) {
   return list;
 }
 
-/// (key, unit, usual value, meaning)
+/// (key, unit, default, meaning)
 using KeyRow = std::tuple<std::string, std::string, std::string, std::string>;
 std::vector<KeyRow> keys_of(const std::string& program) {
   std::vector<KeyRow> rows;

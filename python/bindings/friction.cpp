@@ -124,7 +124,7 @@ std::pair<FluidRecord, FrictionRecord> fluid_film(
 
 using Numbers = std::vector<double>;
 /// (pressure [Pa], dry friction, densities [kg/m^2], wet shares, friction, plateau)
-/// Of the plateau: its ends, its dry share, and the densities beside it that the curve has.
+/// Numbers of the plateau: its ends, its dry share, and the densities beside it that the curve has.
 using PlateauRow = std::tuple<double, double, double, std::optional<double>, std::optional<double>>;
 using CurveRow = std::tuple<double, double, Numbers, Numbers, Numbers, std::optional<PlateauRow>>;
 CurveRow row_of(const DensityCurve& curve) {
@@ -176,7 +176,7 @@ void check_lubricant(const FluidSettings& settings) {
   tabor::friction::lubricant_of(settings.oil());
 }
 
-/// Of densities [kg/m^2] with wet shares, or those of the curve.
+/// Returns the sentence of densities [kg/m^2] with wet shares, or those of the curve.
 std::string sentence(const CurveRow& row,
                      const std::vector<std::pair<double, std::optional<double>>>& densities) {
   const DensityCurve curve = curve_of(row);

@@ -178,7 +178,7 @@ comparison::CombineOptions combine_options(const std::string& mode, const std::s
   return options;
 }
 
-/// (map, numbers as JSON, reasons to doubt them)
+/// (map, numbers as JSON, warnings)
 using CombinedRow = std::tuple<Topography, Text, Texts>;
 CombinedRow combine(const Topography& first, const Topography& second,
                     const comparison::CombineOptions& options, const nb::object& progress) {

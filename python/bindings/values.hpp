@@ -32,7 +32,7 @@ nb::dict dict_of(const NamedCells& cells);
 /// (code, text, weight) of each.
 using WarningTexts = std::vector<std::tuple<std::string, std::string, double>>;
 WarningTexts texts_of(const Warnings& warnings);
-/// What a user reads, doubts first: (code, text, class), what it advises spelled as arguments.
+/// Warnings before information: (code, text, class), with settings spelled as arguments.
 using ShownWarnings = std::vector<std::tuple<std::string, std::string, std::string>>;
 ShownWarnings shown(Warnings warnings);
 /// How Python writes what a warning advises: treat("level=plane"), boundary='free'.

@@ -34,12 +34,13 @@ double mean(double a, double b);
 """
 
 
-def run_check(text):
+def run_check(text, source=""):
     with tempfile.TemporaryDirectory() as folder:
         root = pathlib.Path(folder)
         (root / "src/tabor/core").mkdir(parents=True)
         if text is not None:
             (root / "src/tabor/core/a.hpp").write_text(text)
+            (root / "src/tabor/core/a.cpp").write_text(source)
         return subprocess.run([sys.executable, CHECK, "--root", root], capture_output=True, text=True, check=False)
 
 
@@ -90,6 +91,13 @@ class Headers(unittest.TestCase):
         self.assert_accepted(self.replaced("Returns the mean of the values.", 'Returns "doubt", `kept`, Doubts::usual, room() or kept_values.'))
         self.assert_accepted(self.replaced("double mean(", "double kept("))
         self.assert_accepted(self.replaced("namespace tabor {\n", 'namespace tabor {\nconst char* const kPage = "https://tabor/kept";\n'))
+
+    def test_comments_of_sources_count_too(self):
+        self.assertEqual(run_check(SOUND, "// Opens no header.\n").returncode, 0)
+        for comment in ("/// Whether the values scatter.\n", "int n = 0;  // kept for later\n"):
+            result = run_check(SOUND, comment)
+            self.assertEqual(result.returncode, 1, comment)
+            self.assertIn("src/tabor/core/a.cpp:1: ", result.stdout)
 
     def test_an_empty_tree_is_not_a_success(self):
         self.assertEqual(run_check(None).returncode, 1)

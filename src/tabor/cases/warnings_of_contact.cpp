@@ -25,7 +25,7 @@ constexpr double kEdgeBand = 0.05;
 constexpr double kEdgeLoad = 0.1;
 /// As much of the load stands near seams by chance where only a few contacts bear it.
 constexpr double kSeamLoad = 0.5;
-/// Of an area at its bound.
+/// Relative rounding of an area at its bound.
 constexpr double kRoundingOfBound = 1e-12;
 /// Transforms of a solution times their pixels: beyond, those of a slow size take a minute or so.
 constexpr double kManyTransforms = 3e8;

@@ -11,7 +11,8 @@
 namespace tabor::cases {
 namespace {
 
-/// Of Sq: a tilt that changes it less has a range of a sixth of Sq over the scan, or less.
+/// Relative change of Sq: a tilt that changes it less has a range of a sixth of Sq over the scan,
+/// or less.
 constexpr double kNegligibleTilt = 1e-3;
 
 bool is_levelled(const topography::Topography& surface) {

@@ -24,7 +24,7 @@ using Words = std::vector<std::string>;
 constexpr const char* kFlag = "--defaults";
 constexpr const char* kFile = "tabor.toml";
 
-/// Those that say what one command reads, writes or prints.
+/// False for options that say what one command reads, writes or prints.
 bool may_have_default(const Option& option) {
   return !option.is_positional() && option.names == FileRole::none && option.flag != kFlag &&
          option.flag != "--json" && option.flag != kExplain;

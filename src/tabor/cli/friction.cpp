@@ -89,7 +89,7 @@ struct PixelPair {
   }
 };
 
-/// Those of the states that are there, in their order: the densities of the first pressure first.
+/// Returns the pairs of the states that are there: the densities of the first pressure first.
 std::vector<PixelPair> pixel_pairs(const Solved& solved) {
   std::vector<PixelPair> pairs;
   std::size_t i = 0;

@@ -34,7 +34,7 @@ struct Request {
   std::optional<std::string> output;
 };
 
-/// Of the files that hold a deck for a program.
+/// Returns the extensions of decks for a program.
 std::vector<std::string> extensions_for(Program program) {
   switch (program) {
     case Program::abaqus:

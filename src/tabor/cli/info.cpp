@@ -75,7 +75,7 @@ void describe(const FileInfo& file, const std::string& path, const std::string& 
   }
 }
 
-/// Doubts before information, with the options that the verb has.
+/// Returns the warnings, then information, with settings spelled as options of the verb.
 std::vector<std::string> warnings_about(const Scan& scan, const Context& context) {
   std::vector<results::Finding> findings;
   for (const Warning& warning : scan.surface.warnings) {
@@ -143,7 +143,7 @@ std::string text_of(const Context& context, const Scan& scan, const FileInfo& fi
   return facts.text();
 }
 
-/// Whether all channels have as many pixels, so that their number is known whichever is meant.
+/// True if all channels have as many pixels, so that their number is known whichever is meant.
 bool have_one_size(const std::vector<scan::Channel>& channels) {
   return !channels.empty() &&
          std::all_of(channels.begin(), channels.end(), [&](const scan::Channel& channel) {

@@ -23,7 +23,7 @@ constexpr double kFirstRefresh = 1e-6;  // certificate below which v is computed
 constexpr double kNextRefresh = 1e-4;   // ... and again each time it fell by this factor
 constexpr int kBlockRounds = 3;         // solutions for the long waves of one direction, at most
 constexpr double kSettledShare = 1e-4;  // of the pixels changing between free and held: settled
-// Of a step, as a share of what its direction wanted: below, the direction followed pixels whose
+// Length of a step over what its direction wanted: below, the direction followed pixels whose
 // gap is far too large to be felt by others, and the next one looks at each pixel alone.
 constexpr double kLeastLength = 1e-4;
 constexpr int kPatience = 300;  // iterations without a better certificate before giving up

@@ -38,7 +38,7 @@ std::optional<Place> next_place(std::string_view text, std::size_t from) {
   return std::nullopt;
 }
 
-/// Whether every setting of a part has a spelling.
+/// True if every setting of a part has a spelling.
 bool can_be_said(std::string_view part, const AdviceSpelling& spelling) {
   for (auto place = next_place(part, 0); place; place = next_place(part, place->end)) {
     if (spelling(place->advice).empty()) return false;

@@ -21,7 +21,7 @@ struct Ordinary {
   std::array<std::string_view, 4> units;  ///< the likeliest first, the example's
 };
 
-// Of names that end alike the longer one stands first. What a dimension has in common comes last.
+// The longer of names that end alike stands first, and what a dimension has in common last.
 constexpr std::array kOrdinary{
     Ordinary{"youngs modulus", dimension::pressure, 1e5, 1.3e12, "70", {"GPa", "Pa", "MPa"}},
     Ordinary{"e prime", dimension::pressure, 1e5, 2e12, "230", {"GPa", "Pa", "MPa"}},

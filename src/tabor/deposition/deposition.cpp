@@ -18,7 +18,7 @@
 namespace tabor::deposition {
 namespace {
 
-constexpr double kMostVolume = 4e18;  // quanta * pixels, fits 63 bits with room for a last droplet
+constexpr double kMostVolume = 4e18;  // quanta * pixels, fits 63 bits with a last droplet
 
 void check(const Field& height, const Grid& grid, const Dose& dose) {
   if (height.rows() != grid.ny || height.cols() != grid.nx) {

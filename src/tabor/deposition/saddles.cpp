@@ -11,7 +11,7 @@ namespace {
 /// Order of a heap with the lowest on top.
 bool is_after(const Candidate& a, const Candidate& b) { return b.before(a); }
 
-/// Of candidates wet by the same pool keeps the one before the others: so it stays.
+/// Keeps the first of the candidates that one pool wets: it stays first.
 void keep_one_a_pool(std::vector<Candidate>& candidates) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.wet_by != b.wet_by ? a.wet_by < b.wet_by : a.pixel < b.pixel;

@@ -134,7 +134,7 @@ class SlopeFinder {
     return kFirstStep + lower.front();
   }
 
-  /// Of two pixels, ascending: true if water that reaches b covers a too. Not if b is one of
+  /// True if water that reaches b covers a too; a is the lower pixel. Not if b is one of
   /// several equal pixels of a saddle: full up to there, the pool of a may be as high as b, still
   /// dry.
   bool is_nested(Pixel a, Pixel b) const {
@@ -150,7 +150,7 @@ class SlopeFinder {
     return {.height = height(q), .pool = pool_at(q), .pixel = q};
   }
 
-  /// Of the lower neighbours in lower_; makes p known and returns it.
+  /// Makes a fork of the lower neighbours in lower_; makes p known and returns it.
   Pixel make_fork(Pixel p) {
     std::sort(lower_.begin(), lower_.end());
     lower_.erase(std::unique(lower_.begin(), lower_.end()), lower_.end());

@@ -17,7 +17,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Of modulus k, 0 <= k < 1.
+/// Returns the integrals of modulus k, 0 <= k < 1.
 reference::EllipticIntegrals integrals_of(double k) {
   return reference::elliptic_integrals(k, std::sqrt((1 - k) * (1 + k)));
 }

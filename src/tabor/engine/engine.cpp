@@ -92,7 +92,7 @@ class Engine {
   }
 
  private:
-  /// Those that are not to be done, or brief, need no time.
+  /// Returns the kind of each job; "" for jobs without work, or brief ones, which need no time.
   std::vector<std::string> kinds() const {
     std::vector<std::string> kinds;
     for (std::size_t i = 0; i < jobs_.size(); ++i) {

@@ -13,9 +13,8 @@
 namespace tabor::io {
 namespace {
 
-/// Whether a spreadsheet would take the cell for a formula or a command: what begins so and is no
-/// number. An apostrophe before it says that it is text; so it gets one, and one more if it has
-/// any.
+/// True if a spreadsheet would take the cell for a formula or a command: it begins like one and is
+/// no number. Such a cell gets an apostrophe, which marks text, and one more if it has any.
 bool is_command(std::string_view cell) {
   const std::string_view content = cell.substr(std::min(cell.find_first_not_of('\''), cell.size()));
   constexpr std::string_view beginnings = "=+-@\t\r\n";

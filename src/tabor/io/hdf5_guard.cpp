@@ -34,7 +34,7 @@ struct Limits {
   unsigned wait;   ///< [s] by the clock: what works for nobody any more ends too
 };
 
-/// Room for the library's own tables and buffers.
+/// Memory for the library's own tables and buffers.
 constexpr rlim_t kLibraryBytes = rlim_t{256} << 20;
 /// The tables of a sound file are read in milliseconds; a forged global heap keeps HDF5 1.10 busy
 /// for ever.

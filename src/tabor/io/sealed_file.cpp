@@ -35,7 +35,7 @@ bool read_all(const RegularFile& file, char* bytes, std::size_t size) {
   return true;
 }
 
-/// Of the first `size` bytes; nothing if there are fewer.
+/// Returns the digest of the first `size` bytes; nothing if there are fewer.
 std::optional<std::string> digest_of_first(const RegularFile& file, std::uintmax_t size) {
   RunningDigest digest(DigestKind::sha256);
   std::vector<char> block(std::size_t{1} << 20);

@@ -10,7 +10,7 @@
 namespace tabor::io {
 namespace {
 
-/// Whether an element has this name, whatever prefix its namespace has.
+/// True if an element has this name, whatever prefix its namespace has.
 bool is_called(const pugi::xml_node& node, std::string_view name) {
   const std::string_view full = node.name();
   return full.substr(full.find(':') + 1) == name;

@@ -16,7 +16,7 @@ constexpr double kLeastHeight = 0.1;    ///< of a hill or dale, share of a heigh
 constexpr double kLeastSpacing = 0.01;  ///< share of the section, ISO 4287
 constexpr double kLeastValid = 0.5;     ///< share of a section's points
 
-/// Of the valid points of a section or of the whole evaluation length.
+/// Moments of the valid points of a section or of the whole evaluation length.
 struct Moments {
   double mean_abs = kNan, rms = kNan, skewness = kNan, kurtosis = kNan;
   double highest = kNan, lowest = kNan;

@@ -48,7 +48,7 @@ std::string key_part(const std::string& unit) {
   return part;
 }
 
-/// Whether "k" before the unit means a thousand of it: not before kg, 1/Pa and m^2/N.
+/// True if "k" before the unit means a thousand of it: not before kg, 1/Pa and m^2/N.
 bool takes_prefix(const std::string& unit) {
   return !unit.starts_with("kg") && !unit.starts_with("1/") && unit.find('^') != 1;
 }

@@ -9,7 +9,7 @@
 namespace tabor::reference {
 namespace {
 
-/// Of an ellipse of half axes 1 and k.
+/// Returns the integrals of an ellipse of half axes 1 and k.
 EllipticIntegrals integrals_of(double k) {
   return elliptic_integrals(std::sqrt((1 - k) * (1 + k)), k);
 }

@@ -42,8 +42,8 @@ bool is_ambiguous(const Combination& c) {
   return c.registration && c.registration->runner_up > suspicious;
 }
 
-/// Of the overlap. Interpolation widens every hole by some pixels, and what lies there counts
-/// nowhere.
+/// Returns the share of holes in the overlap. Interpolation widens every hole by some pixels, and
+/// what lies there counts nowhere.
 double share_of_holes(const Combination& c) {
   return static_cast<double>(topography::count_holes(c.map)) /
          static_cast<double>(c.map.grid.size());

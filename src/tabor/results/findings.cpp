@@ -120,7 +120,7 @@ std::string end_of(const std::string& path, std::size_t n_folders) {
   return begin == std::string::npos ? path : path.substr(begin + 1);
 }
 
-/// Whether the word is the path of a file in a folder: "cases/ball.toml:", not "g/m^2".
+/// True if the word is the path of a file in a folder: "cases/ball.toml:", not "g/m^2".
 bool is_path(std::string_view word) {
   const std::size_t slash = word.rfind('/');
   const std::size_t dot = word.rfind('.');

@@ -106,7 +106,7 @@ std::string label_of(const Hdf5Reader& reader, const StateGroups& groups) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// Whether every contact was solved on the surface as the one before has left it.
+/// True if every contact was solved on the surface as the one before has left it.
 bool has_load_path(const Hdf5Reader& reader) {
   if (!reader.has_attribute("/", "config_toml")) return false;
   const io::Config config = io::Config::parse(reader.text("/", "config_toml"), "config_toml");

@@ -29,7 +29,7 @@ struct NamedDimension {
   const char* unit;
 };
 
-/// Of the keys that cases have.
+/// Units of the keys that cases have.
 constexpr NamedDimension kUnits[] = {
     {dimension::none, ""},          {dimension::length, "m"},
     {dimension::pressure, "Pa"},    {dimension::speed, "m/s"},

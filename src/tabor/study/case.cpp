@@ -66,7 +66,7 @@ std::string text_of(const Parameters<Settings>& parameters, const Settings& sett
   return lines;
 }
 
-/// The same of these parameters alone.
+/// Returns the text of these parameters alone.
 template <typename Settings>
 std::string text_of(const Parameters<Settings>& parameters, const Settings& settings,
                     std::initializer_list<std::string_view> names) {

@@ -51,7 +51,7 @@ bool begins_like_one_of(const std::string& key, const std::vector<std::string>& 
                      [&](const std::string& beginning) { return key.starts_with(beginning); });
 }
 
-/// Whether the second of two cases cannot start from the first.
+/// True if the second of two cases cannot start from the first.
 bool ends_chain(const ehl::Program& program, const std::vector<SweepAxis>& axes, const Places& a,
                 const Places& b) {
   if (!program.make_chain) return true;

@@ -55,8 +55,8 @@ io::Json json_of(const ehl::CaseResult& result) {
 struct Chain {
   ehl::CaseChain solver;
   std::optional<std::size_t> behind = {};
-  /// Of a chain with a gap, where a kept case was damaged, two jobs are ready at once: the solver
-  /// serves one at a time.
+  /// Lets the solver serve one job at a time: where a stored case of a chain was damaged, two are
+  /// ready at once.
   std::mutex mutex = {};
 
   bool keeps_starts() const { return solver.write_start != nullptr; }
@@ -81,8 +81,8 @@ struct SeriesOfJobs {
 };
 using Shared = std::shared_ptr<SeriesOfJobs>;
 
-/// Whether the start that a case has left is there, to the last byte; only then is it opened at
-/// all. A damaged one is named and removed.
+/// True if the start that a case has left is there, to the last byte; only then is it opened. A
+/// damaged one is named and removed.
 bool has_start(SeriesOfJobs& shared, std::size_t i) {
   const fs::path file = shared.start_of(i);
   if (!fs::exists(file)) return false;  // the next case has been solved from there

@@ -9,8 +9,9 @@
 namespace tabor::study {
 namespace {
 
-/// Of a job with its surface; tools/bench/study prints it. With oil that flows, what the peak of
-/// `tabor friction --fluid reynolds` grows by with the pixels of a flooded scan, and a little.
+/// Memory of a job with its surface; tools/bench/study prints it. With oil that flows, what the
+/// peak of `tabor friction --fluid reynolds` grows by with the pixels of a flooded scan, and a
+/// little.
 constexpr std::size_t kBytesPerPixel = 80;
 constexpr std::size_t kBytesPerFlowingPixel = 500;
 

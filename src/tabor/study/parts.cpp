@@ -23,7 +23,7 @@ std::vector<std::size_t> places_of_pressures(const Study& study) {
   return places;
 }
 
-/// Those of one scan wait for its films, so that all scans begin first.
+/// Puts the first pressures of all scans first: the parts of one scan wait for its films.
 void sort_by_pressure(const Study& study, std::vector<std::size_t>& parts) {
   const std::vector<std::size_t> places = places_of_pressures(study);
   std::stable_sort(parts.begin(), parts.end(),

@@ -34,7 +34,7 @@ void read_material(const io::Config& config, cases::CaseSettings& settings) {
   });
 }
 
-/// Those that a file gives with one value.
+/// Returns the parameters that a file gives with one value.
 Parameters<cases::CaseSettings> single_parameters() {
   Parameters<cases::CaseSettings> all = cases::case_parameters();
   std::erase_if(all,

@@ -55,7 +55,7 @@ std::string line_of(const ParameterHead& parameter, const Cell& cell) {
   return fmt::format("{} = {}\n", key, unit.empty() ? decimal(*number) : quantity(*number, unit));
 }
 
-/// The same of numbers, of one alone where all are alike.
+/// Returns the line of a list of numbers, of one alone where all are alike.
 std::string line_of(const ParameterHead& parameter, const std::vector<double>& numbers) {
   if (numbers.empty()) return "";
   const bool are_alike = std::count(numbers.begin(), numbers.end(), numbers.front()) ==
@@ -114,7 +114,7 @@ std::string scan_table(const Scan& scan) {
   return text + lines_of("treatment", scan::read_parameters(), scan.read) + own_lines(scan.own);
 }
 
-/// Whether any treatment says what lies beyond the edges.
+/// True if any treatment says what lies beyond the edges.
 bool steps_say_edges(const Study& study) {
   return topography::edges_of(study.treatment) ||
          std::any_of(study.scans.begin(), study.scans.end(), [](const Scan& scan) {

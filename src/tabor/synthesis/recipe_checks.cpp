@@ -13,7 +13,7 @@ namespace tabor::synthesis {
 
 namespace {
 
-/// Of a pixel, and of heights, as scan files are read. [m]
+/// Limits of a pixel and of heights, as scan files are read [m].
 constexpr double kSmallestPixel = 1e-15;
 constexpr double kLargest = 1e6;
 

@@ -98,7 +98,7 @@ struct Parts {
   Places bad;
 };
 
-/// Whether no size at the seam exceeds the largest but one of those inside.
+/// True if no size at the seam exceeds the largest but one of those inside.
 bool fits(const std::vector<Sizes>& lines, const Parts& parts, double slack, double rounding) {
   const auto is_in = [](const Places& places, std::size_t i) {
     return std::find(places.begin(), places.end(), i) != places.end();

@@ -20,7 +20,7 @@ bool inside(const PixelWindow& w, const Grid& grid) {
          w.nx <= grid.nx - w.x0 && w.ny <= grid.ny - w.y0;
 }
 
-/// Those of a part are others, unless the body ends there.
+/// Forgets the edges: those of a part are others, unless the body ends there.
 void lose_edges(Topography& topography) {
   topography.periodic = false;
   topography.edges_match = false;

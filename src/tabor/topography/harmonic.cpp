@@ -253,7 +253,7 @@ class Network {
  public:
   explicit Network(std::vector<Level> levels) : levels_(std::move(levels)) {}
 
-  /// Of the finest level.
+  /// Returns the diagonal of the finest level.
   double diagonal(std::size_t i) const { return levels_[0].diagonal[i]; }
 
   void apply(const std::vector<double>& x, std::vector<double>& image) const {

@@ -108,7 +108,7 @@ Parameters<PointSettings> body_parameters() {
           &Settings::duration)};
 }
 
-/// Those of finishes(), and ground.
+/// Returns the names of finishes(), and ground.
 std::vector<std::string> kinds() {
   std::vector<std::string> names;
   for (const Finish& finish : finishes()) names.push_back(finish.name);

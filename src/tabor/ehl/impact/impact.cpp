@@ -30,7 +30,7 @@ constexpr double kLongestStep = 8;
 constexpr double kNoForce = 1e-4;         // of the maximum: the impact is over
 constexpr double kNoPressure = 1e-9;      // of the largest
 constexpr double kNoSpeed = 1e-3;         // of the speed of approach: the ball has stopped
-constexpr double kWideDomain = 2;         // dry contact radii: less makes a result doubtful
+constexpr double kWideDomain = 2;         // dry contact radii: less is warned of
 constexpr double kLongestContacts = 100;  // dry contact times until we give up waiting
 
 reference::DryImpact dry_impact(const ImpactProblem& problem) {

@@ -63,7 +63,7 @@ LineFilm::Outcome LineFilm::solve_touching(LineState& state, const LineCondition
   return outcome;
 }
 
-/// Whether the equations hold: less well on the way to the last mu.
+/// True if the equations hold: less well on the way to the last mu.
 bool LineFilm::Equations::is_balanced() const {
   const double error = std::max(outcome_.mass_error, outcome_.load_error);
   if (!touches()) return error <= kLineTolerance;

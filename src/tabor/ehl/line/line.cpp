@@ -104,7 +104,7 @@ LineFilm::Outcome solve_as_shaped(const LineProblem& problem, const LineFilm& fi
   return outcome + lead(film, state, thicken, observer);
 }
 
-/// Of rough bodies that fail so, from the film of smooth ones.
+/// Solves from the film of smooth bodies where rough ones fail.
 LineFilm::Outcome solve_cold(const LineProblem& problem, const LineFilm& film, LineState& state,
                              const Observer& observer) {
   const LineConditions& asked = film.conditions();

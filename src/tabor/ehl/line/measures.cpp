@@ -25,7 +25,7 @@ double inlet_nodes(const LineProblem& problem, double film, double spacing) {
   return std::min(elastic, std::sqrt(2 * problem.radius * film)) / spacing;
 }
 
-/// Whether the pressure bends between the neighbours of a node by more than a grid can show.
+/// True if the pressure bends between the neighbours of a node by more than a grid can show.
 bool is_sharp(const Eigen::ArrayXd& pressure, Index i) {
   if (i == 0 || i + 1 >= pressure.size()) return false;
   const double mean = (pressure[i - 1] + pressure[i + 1]) / 2;

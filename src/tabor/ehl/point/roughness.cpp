@@ -26,7 +26,7 @@ struct MapAxis {
   double centre = 0;   // [m]
 
   double half() const { return 0.5 * spacing * static_cast<double>(n_points - 1); }
-  /// Of a coordinate [m], in points, 0 being the first.
+  /// Returns the place of a coordinate [m] among the points, from 0.
   double place(double at) const { return (at - centre + half()) / spacing; }
   /// 1 inside, 0 from the border of the map on.
   double taper(double at) const {

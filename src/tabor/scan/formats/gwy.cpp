@@ -112,13 +112,13 @@ void add_metadata(Document& document, const GwyObject& root, int id) {
   }
 }
 
-/// Whether Gwyddion made up this side of a map: it puts 1 m where a file that it reads states none.
+/// True if Gwyddion made up this side of a map: it puts 1 m where a file that it reads states none.
 bool is_invented(const std::optional<double>& pixel, Index n) {
   constexpr double kRounding = 1e-12;
   return pixel && std::abs(*pixel * static_cast<double>(n) - 1) < kRounding;
 }
 
-/// Whether write_gwy() has written the file, so that its sizes are those of its map.
+/// True if write_gwy() has written the file, so that its sizes are those of its map.
 bool is_own(const GwyObject& root) {
   const GwyObject* meta = root.object("/0/meta", "GwyContainer");
   return meta != nullptr && meta->items.contains(kSource) && meta->items.contains(kInstrument);

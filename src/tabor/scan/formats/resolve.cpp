@@ -14,7 +14,7 @@ bool is_length(const std::string& unit) { return unit_factor(unit, dimension::le
 
 bool is_height(const Layer& layer) { return !layer.is_picture && is_length(layer.unit); }
 
-/// Whether heights could be in it if the user names the unit.
+/// True if the layer may hold heights once the user names the unit.
 bool may_be_height(const Layer& layer) {
   return !layer.is_picture && (layer.unit.empty() || is_length(layer.unit));
 }

@@ -14,7 +14,7 @@ constexpr double kGridTolerance = 0.05;
 /// Nodes of a line at most for each coordinate that lies on it: finer steps say nothing.
 constexpr std::size_t kMostNodes = 3;
 
-/// What of a range counts as the same coordinate.
+/// Share of a range within which coordinates count as the same.
 constexpr double kSameShare = 1e-9;
 
 bool holds_all(const GridLine& line, const TextColumn& column) {

@@ -31,7 +31,7 @@ std::vector<std::string> column_labels(std::string_view line, char separator) {
   return labels;
 }
 
-/// Whether the text may stand where a unit does: "um", not "512" or "of my own".
+/// True if the text may stand where a unit does: "um", not "512" or "of my own".
 bool is_unit_like(std::string_view text) {
   return text.empty() ||
          (text.find(' ') == std::string_view::npos && text.front() > '9' && text.front() != ':');

@@ -23,7 +23,7 @@ bool is_missing(std::string_view field) {
   return std::find(std::begin(words), std::end(words), word) != std::end(words);
 }
 
-/// Whether a number that no double can hold is too small, not too large.
+/// True if a number that no double can hold is too small, not too large.
 bool is_below_range(std::string_view number) {
   const std::size_t exponent = number.find_first_of("eE");
   if (exponent != std::string_view::npos) return number.substr(exponent + 1).starts_with('-');
@@ -297,9 +297,9 @@ void append(TextNumbers& numbers, Block& block, std::size_t first_line) {
   }
 }
 
-/// Room for the numbers of these blocks and, so that they are not copied again, for all that the
-/// rest of the text will give if it goes on like the `share` that is parsed.
-void make_room(TextNumbers& numbers, const std::vector<Block>& blocks, double share) {
+/// Reserves memory for the numbers of these blocks and, so that they are not copied again, for all
+/// that the rest of the text will give if it goes on like the `share` that is parsed.
+void reserve_numbers(TextNumbers& numbers, const std::vector<Block>& blocks, double share) {
   constexpr double kMargin = 1.02;
   std::size_t n = numbers.values.size();
   for (const Block& block : blocks) n += block.numbers.values.size();
@@ -387,7 +387,7 @@ TextNumbers parse_numbers(const Contents& contents, std::string_view text, const
       parse(blocks[static_cast<std::size_t>(begin)], separators, line_end, hints);
     });
     const double share = 1 - static_cast<double>(text.size()) / n_bytes;
-    if (blocks.size() > 1 || !text.empty()) make_room(numbers, blocks, share);
+    if (blocks.size() > 1 || !text.empty()) reserve_numbers(numbers, blocks, share);
     for (Block& block : blocks) {
       if (!block.wrong.empty()) reject_line(contents, block, first_line);
       append(numbers, block, first_line);

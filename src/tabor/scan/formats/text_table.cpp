@@ -193,7 +193,7 @@ std::optional<std::size_t> x_by_look(const TextNumbers& numbers) {
   return is_numbered ? std::optional<std::size_t>(1) : std::nullopt;
 }
 
-/// Whether a narrow table begins with coordinates in uneven steps, beside columns that are none.
+/// True if a narrow table begins with coordinates in uneven steps, beside columns that are none.
 bool has_uneven_coordinates(const TextNumbers& numbers) {
   constexpr std::size_t least_rows = 8, most_columns = 4;
   const std::size_t n_columns = numbers.n_columns();
@@ -202,7 +202,7 @@ bool has_uneven_coordinates(const TextNumbers& numbers) {
          !is_strictly_monotone(column_of(numbers, n_columns - 1));
 }
 
-/// Whether a table is rather a list of points than a map: by its header or its shape.
+/// True if a table is rather a list of points than a map: by its header or its shape.
 bool is_list_of_points(const TextNumbers& numbers, const TextHeader& header) {
   constexpr std::size_t longest_map = 20;  // times its width
   const std::size_t n_columns = numbers.n_columns();
@@ -210,7 +210,7 @@ bool is_list_of_points(const TextNumbers& numbers, const TextHeader& header) {
          (n_columns >= 3 && n_columns <= 4 && numbers.n_rows() > longest_map * n_columns);
 }
 
-/// Whether the first two of three columns lie on a grid that they visit again and again, where the
+/// True if the first two of three columns lie on a grid that they visit again and again, where the
 /// third does not: points with most of their nodes missing.
 bool looks_like_sparse_points(const TextNumbers& numbers) {
   constexpr std::size_t least_rows = 8;

@@ -205,7 +205,7 @@ Field unpack(const Archive& archive, const Links& links, const Matrix& matrix, I
   return field;
 }
 
-/// Whether the file turns its axes in space; heights over the matrix are the same.
+/// True if the file turns its axes in space; heights over the matrix are the same.
 bool is_rotated(const Contents& contents, const io::XmlElement& root) {
   const io::XmlElement rotation = root.at("Record1/Axes/Rotation");
   for (int row = 1; row <= 3; ++row) {
