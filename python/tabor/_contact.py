@@ -243,7 +243,7 @@ def contact(surface: Surface, pressure: Any = None, solid: Solid | str | None = 
     options["boundary"] = asked.boundary
     _tabor.require_no_holes(surface._topography)
     with watching(progress) as told:
-        records = _tabor.contacts(surface._topography, asked, *controls.values(), told)
+        records = _tabor.contacts(surface._topography, asked, controls["pressure"], controls["separation"], controls["force"], told)
     found = [Contact(record, surface, solid, options) for record in records]
     for one in found if check else []:
         if not one.converged:

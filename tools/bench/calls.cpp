@@ -41,7 +41,8 @@ const std::map<std::string, std::function<void(const Topography&)>> kCalls = {
     {"level", [](const Topography& s) { topography::apply({"level=plane"}, s); }},
     {"psd", [](const Topography& s) { metrology::power_spectra(s, {}); }},
     {"rain", [](const Topography& s) { cases::film_state(s, oil()); }},
-    {"contact", [](const Topography& s) { cases::contact_state(s, solid(), 7e6); }}};
+    {"contact",
+     [](const Topography& s) { cases::contact_state(s, solid(), contact::MeanPressure{7e6}); }}};
 
 }  // namespace
 

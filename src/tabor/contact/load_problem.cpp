@@ -47,11 +47,7 @@ bool try_full_contact(elastic::ElasticOperator& elasticity, const LoadProblem& p
   state.convergence.operator_applications = 1;
   state.convergence.fft_pairs += 1;
   state.convergence.tolerance = problem.tolerance;
-  const Field residual = state.displacement - problem.height;
-  state.convergence.certificate =
-      Conditions(elasticity, problem)
-          .certificate({{state.pressure.data(), state.pressure.data() + state.pressure.size()},
-                        {residual.data(), residual.data() + residual.size()}});
+  state.convergence.certificate = certificate_of(elasticity, problem, state);
   if (!(state.convergence.certificate <= problem.tolerance)) return false;
   state.convergence.status = Status::converged;
   return true;
@@ -114,6 +110,14 @@ State run_capped(elastic::ElasticOperator& elasticity, const LoadProblem& proble
 }
 
 }  // namespace
+
+double certificate_of(const elastic::ElasticOperator& elasticity, const LoadProblem& problem,
+                      const State& state) {
+  const Field residual = state.displacement - problem.height;
+  return Conditions(elasticity, problem)
+      .certificate({{state.pressure.data(), state.pressure.data() + state.pressure.size()},
+                    {residual.data(), residual.data() + residual.size()}});
+}
 
 void finish_state(const elastic::ElasticOperator& elasticity, const LoadProblem& problem,
                   std::optional<double> given_separation, State& state) {

@@ -28,6 +28,10 @@ inline LoadProblem under_pressure(const Problem& problem, double mean_pressure) 
 State solve_load(elastic::ElasticOperator& elasticity, LoadProblem problem, Solver solver,
                  const Observer& observer);
 
+/// Returns the certificate of the pressure and displacement of a state.
+double certificate_of(const elastic::ElasticOperator& elasticity, const LoadProblem& problem,
+                      const State& state);
+
 /// Fixes the separation, unless it is given, and makes pressure and gap exactly complementary,
 /// which moves either by no more than the error that is reported: gap_error, and rounding of
 /// pressures at the cap.

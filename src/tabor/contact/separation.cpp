@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "tabor/contact/start.hpp"
 #include "tabor/core/error.hpp"
@@ -21,7 +22,15 @@ constexpr double kLongestStep = 3.5;      // of ln P
 constexpr double kLeastApproach = 1e-12;  // of the one asked for
 constexpr double kNearCap = 1e-6;         // a mean pressure this close to the cap saturates all
 constexpr double kFiner = 1e-3;           // accuracy while gaps are not closed to their limit
+constexpr double kFalseContact = 1000;    // as in Conditions
 constexpr int kMostSolutions = 60;
+
+/// True where the pressure is right for its load; at another separation than the solver's own, gaps
+/// tell the rest.
+bool is_certified(const State& state) {
+  return !state.convergence.stopped() &&
+         state.convergence.certificate <= state.convergence.tolerance;
+}
 
 /// Where to look for the mean pressure.
 struct Guess {
@@ -48,13 +57,16 @@ class Search {
   /// Finds ln P within an accuracy, from a guess that it improves.
   State run(Guess& guess, double tolerance, double accuracy);
 
+  /// Puts pixels on the bound that the flat presses them against, where that is all they lack.
+  void settle(State& state);
+
   /// True where the surface carries no more, and the flat is still not as near as it should be.
   bool is_out_of_reach() const { return is_out_of_reach_; }
   const Convergence& work() const { return work_; }
 
  private:
   bool is_near(const State& state) const;
-  State solve_at(double log_pressure, const Field& start, double tolerance);
+  State solve_at(double mean_pressure, const Field& start, double tolerance);
   double error_of(const State& state) const;
 
   elastic::ElasticOperator& elasticity_;
@@ -69,10 +81,9 @@ class Search {
   Convergence work_;
 };
 
-State Search::solve_at(double log_pressure, const Field& start, double tolerance) {
-  const LoadProblem problem{
-      problem_.height, std::exp(log_pressure), problem_.saturation_pressure, start,
-      tolerance,       problem_.max_iterations};
+State Search::solve_at(double mean_pressure, const Field& start, double tolerance) {
+  const LoadProblem problem{problem_.height, mean_pressure, problem_.saturation_pressure,
+                            start,           tolerance,     problem_.max_iterations};
   State state = solve_load(elasticity_, problem, solver_, observer_);
   work_ = after(work_, state.convergence);
   return state;
@@ -93,8 +104,8 @@ State Search::run(Guess& guess, double tolerance, double accuracy) {
   numerics::BracketedSecant secant(guess.slope, kLongestStep);
   double place = std::min(guess.log_pressure, log_limit_);
   for (int n = 1;; ++n) {
-    State state = solve_at(place, guess.start, tolerance);
-    if (!state.convergence.converged()) return state;
+    State state = solve_at(std::exp(place), guess.start, tolerance);
+    if (!is_certified(state)) return state;
     const double error = error_of(state);
     is_out_of_reach_ = place == log_limit_ && error < 0;
     const double next = std::min(secant.next(place, error), log_limit_);
@@ -104,6 +115,35 @@ State Search::run(Guess& guess, double tolerance, double accuracy) {
     if (is_out_of_reach_ || is_done || n == kMostSolutions) return state;
     place = next;
   }
+}
+
+// Where all contact is saturated, the load is that of a whole number of pixels and one load holds
+// the flat anywhere in an interval: the search ends within rounding of that load.
+void Search::settle(State& state) {
+  if (is_near(state)) return;
+  const Grid& grid = elasticity_.grid();
+  const double cap = problem_.saturation_pressure;
+  const double compliance =
+      elastic::love_coefficient(0, 0, grid.dx(), grid.dy(), elasticity_.effective_modulus());
+  Field settled = state.pressure;
+  for_each(settled.size(), [&](Index i) {
+    double& p = settled(i);
+    if (!touches(p) || at_cap(p, cap)) return;
+    const double gap = state.displacement(i) - problem_.height(i) + separation_;
+    if (gap > kFalseContact * p * compliance) p = 0;
+    if (-gap > kFalseContact * (cap - p) * compliance) p = cap;
+  });
+  if ((settled == 0).all()) return;
+  state.pressure = std::move(settled);
+  state.mean_pressure = sum(state.pressure) / static_cast<double>(state.pressure.size());
+  elasticity_.apply(state.pressure, state.displacement);
+  LoadProblem carried = problem_;
+  carried.mean_pressure = state.mean_pressure;
+  state.convergence.certificate = certificate_of(elasticity_, carried, state);
+  state.convergence.operator_applications = 1;
+  state.convergence.fft_pairs = 1;
+  state.convergence.iterations = 0;
+  work_ = after(work_, state.convergence);
 }
 
 /// Returns the pressure of pixels that each follow their own overlap, divided by what a patch of
@@ -169,6 +209,7 @@ State solve_separation(elastic::ElasticOperator& elasticity, const LoadProblem& 
   if (!state.convergence.stopped()) {
     state = search.run(guess, problem.tolerance, kAccuracy * problem.tolerance);
   }
+  if (is_certified(state)) search.settle(state);
   if (search.is_out_of_reach()) {
     throw InputError(
         "separation", format_si(separation, "m"),
@@ -179,8 +220,9 @@ State solve_separation(elastic::ElasticOperator& elasticity, const LoadProblem& 
     LoadProblem found = problem;
     found.mean_pressure = state.mean_pressure;
     finish_state(elasticity, found, separation, state);
-    if (state.convergence.converged() && !(state.gap_error <= state.gap_limit)) {
-      state.convergence.status = Status::stalled;
+    if (is_certified(state)) {
+      state.convergence.status =
+          state.gap_error <= state.gap_limit ? Status::converged : Status::stalled;
     }
   }
   Convergence whole = search.work();
