@@ -39,6 +39,7 @@ _PRINTED = {
     "friction fluid": "fluid friction", "friction solid": "solid friction", "n products": "products of the operator", "n steps": "steps",
     "newton iterations": "iterations",
 }  # fmt: skip
+_CURVES = {"time": "s", "force": "N", "friction": "", "share": ""}  # ends of names
 _TO_PRINT = re.compile(rf"\b({'|'.join(_PRINTED)})\b")
 
 
@@ -100,7 +101,7 @@ class Columns(dict):
     def describe(self, key, heading="", unit="", style=""):
         """What is empty, its name says."""
         named = self.__missing__(key)
-        unit = _signs(unit) or named.unit
+        unit = units.signs(unit) or named.unit
         self[key] = Column(key, heading or named.heading, unit, style.replace("-", "_") or _style(key, unit))
 
 
@@ -150,6 +151,8 @@ def _style(key, unit):
     return _STYLES.get(key, UNSCALED if unit == "g/m²" else BY_UNIT)
 
 
-def _signs(unit):
-    """The unit in signs of print, "" for a number without one."""
-    return "" if unit == "1" else re.sub(r"\^([23])", lambda power: {"2": "²", "3": "³"}[power[1]], unit)
+def unit_of_curve(name, dataset):
+    """Of values along a curve, as its file says, else by its name."""
+    if "units" in dataset.attrs:
+        return hdf.text(dataset.attrs["units"]).removeprefix("1")
+    return "Pa" if name.endswith("pressure") else next((unit for end, unit in _CURVES.items() if name.endswith(end)), "m")
