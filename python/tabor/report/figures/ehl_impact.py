@@ -35,7 +35,7 @@ TIME = "time since the ball touched the liquid (µs)"
 
 
 def _figure(y, items):
-    """Of one panel against time."""
+    """A figure of one panel against time."""
     return chart.Figure([[chart.Panel(chart.from_zero(TIME, air=1), y, items)]], 3.2)
 
 
@@ -167,7 +167,7 @@ def _reach(source, radius, pressure):
 
 
 def _film_map(source, history):
-    """Of Matplotlib."""
+    """Returns a figure of Matplotlib."""
     node = source.file["profiles"]
     times, radius, film = node["time"][()], node["radius"][()], node["film"][()]
     figure, ((axes,),) = style.new_figure(3.6, width=5.6)
