@@ -61,10 +61,10 @@ class Legends(unittest.TestCase):
 
     def test_samples_stand_in_their_place(self):
         figure = declared.figure()
-        figure.legend = (chart.Curve(label="b"), chart.Curve(label="grey"))
-        self.assertEqual(list(figure.samples()), ["b", "grey"])
+        figure.legend = (chart.Curve(label="b"), chart.Guide(0.0, label="grey"), chart.Band([], [], [], "area"))
+        self.assertEqual(list(figure.samples()), ["b", "grey", "area"])
         drawing = chart_matplotlib.draw(figure)
-        self.assertEqual([text.get_text() for text in drawing.legends[0].get_texts()], ["b", "grey"])
+        self.assertEqual([text.get_text() for text in drawing.legends[0].get_texts()], ["b", "grey", "area"])
         style.close(drawing)
         figure.legend = ()
         drawing = chart_matplotlib.draw(figure)

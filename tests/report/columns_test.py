@@ -20,7 +20,7 @@ class ByKeys(unittest.TestCase):
             ("viscosity_Pa_s", 0.225, "oil viscosity η", "0.225 Pa s"),
             ("pressure_viscosity_per_Pa", 2.2e-8, "pressure-viscosity coefficient α", "22 1/GPa"),
             ("max_force_N_per_m", 6.018e4, "max force", "60.18 kN/m"),
-            ("deposited_volume_m3", 3e-15, "deposited volume", "3×10⁻¹⁵ m³"),
+            ("deposited_volume_m3", 3e-15, "deposited volume", "3000 µm³"),
             ("oil_density_kg_per_m3", 900.0, "oil density", "900 kg/m³"),
             ("peak_memory_bytes", 3 * 2**20, "peak memory", "3 MiB"),
             ("load_N", 16.6, "load", "16.6 N"),
@@ -79,7 +79,7 @@ class ByTheFile(unittest.TestCase):
                 file[f"columns/{name}"] = list(column)
 
         described = self.described(write)
-        self.assertEqual((described["volume"].heading, described["volume"].show(2e-12)), ("oil held", "2×10⁻¹² m³"))
+        self.assertEqual((described["volume"].heading, described["volume"].show(2e-12)), ("oil held", "0.002 mm³"))
         self.assertEqual(described["share"].show(0.5), "50 %")
         self.assertEqual(described["mean_gap_m"].heading, "mean gap")
 

@@ -389,6 +389,16 @@ class Ehl(unittest.TestCase):
         self.assertAlmostEqual(float(self.rows(drawing)[500]["asperity_pressure_Pa"]) / 12.5e6, 1)
         self.assertIn("pressure of asperities", drawing.figure.samples())
 
+    def test_curves_have_the_units_of_their_file_else_those_of_their_names(self):
+        path = self.folder / "line.h5"
+        line_file(path)
+        with h5py.File(path, "a") as file:
+            file["wear/depth"].attrs["units"], file["wear/friction"].attrs["units"] = "um", "1"
+        source = build.open_result(path)
+        with source.file:
+            self.assertEqual(list(source.table("wear", ("time", "friction", "depth", "none"))), ["time_s", "friction", "depth_um"])
+            self.assertEqual(list(source.table("profile")), ["film_m", "hertz_pressure_Pa", "pressure_Pa", "x_m"])
+
     def test_the_page_of_an_impact_is_written(self):
         text = self.page(impact_file)
         self.assertIn("restitution", text)

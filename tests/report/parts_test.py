@@ -74,6 +74,16 @@ class Units(unittest.TestCase):
         self.assertEqual(units.si(0.0, "m"), "0 m")
         self.assertEqual(units.si(-3e-6, "m"), "−3 µm")
         self.assertEqual(units.si(float("nan"), "m"), "–")
+        self.assertEqual(units.si(2e-8, "1/Pa"), "20 1/GPa")
+        self.assertEqual(units.si(30.0, "%"), "30 %")
+
+    def test_powers_of_lengths_take_the_length_that_suits_them(self):
+        for value, unit, text in (
+            (3e-12, "m²", "3 µm²"), (5e-12, "m³", "0.005 mm³"), (3e-15, "m³", "3000 µm³"), (2e6, "1/m", "2 1/µm"), (3e9, "1/m²", "3000 1/mm²"),
+            (4e-8, "m³/m²", "40 nm³/nm²"), (900.0, "kg/m³", "900 kg/m³"), (0.0, "m³", "0 m³"),
+        ):  # fmt: skip
+            self.assertEqual(units.si(value, unit), text)
+        self.assertEqual([units.signs(text) for text in ("m^3/m^2", "deg", "1", "")], ["m³/m²", "°", "", ""])
 
     def test_a_pressure_without_its_unit_is_rejected_with_the_corrected_form(self):
         self.assertEqual(units.parse_pressure("7 MPa"), 7e6)

@@ -51,17 +51,13 @@ class Curve:
     is_right: bool = False  # along the axis on the right
 
     @property
-    def is_drawn(self):
-        return len(self.x) > 0
-
-    @property
     def has_bars(self):
         return self.error is not None and bool(np.isfinite(self.error).any())
 
 
 @dataclass
 class Band:
-    """What lies between two curves."""
+    """An area between two curves."""
 
     x: object
     low: object

@@ -68,8 +68,7 @@ def _label(panel, axes, has_x, has_y):
 def _look(curve):
     face = {} if curve.face is None else {"markerfacecolor": curve.face}
     return {
-        "color": curve.colour, "linestyle": _dash(curve.dash), "linewidth": curve.width, "marker": curve.marker or "None",
-        "markersize": curve.size, "markeredgewidth": curve.edge, "alpha": curve.alpha, "zorder": curve.z, **face,
+        **_stroke(curve), "marker": curve.marker or "None", "markersize": curve.size, "markeredgewidth": curve.edge, "alpha": curve.alpha, **face,
     }  # fmt: skip
 
 
@@ -87,9 +86,9 @@ def _curve(axes, curve):
 
 def _sample(axes, item):
     """The handle of an entry that is drawn nowhere."""
-    if isinstance(item, chart.Curve):
-        return axes.plot([], [], **_look(item))[0]
-    return axes.fill_between([], [], color=item.colour, alpha=item.alpha, linewidth=0)
+    if isinstance(item, chart.Band):
+        return axes.fill_between([], [], color=item.colour, alpha=item.alpha, linewidth=0)
+    return axes.plot([], [], **(_look(item) if isinstance(item, chart.Curve) else _stroke(item)))[0]
 
 
 def _band(axes, band):
@@ -97,8 +96,11 @@ def _band(axes, band):
 
 
 def _guide(axes, guide):
-    look = {"color": guide.colour, "linestyle": _dash(guide.dash), "linewidth": guide.width, "zorder": guide.z}
-    return axes.axvline(guide.at, **look) if guide.is_upright else axes.axhline(guide.at, **look)
+    return axes.axvline(guide.at, **_stroke(guide)) if guide.is_upright else axes.axhline(guide.at, **_stroke(guide))
+
+
+def _stroke(item):
+    return {"color": item.colour, "linestyle": _dash(item.dash), "linewidth": item.width, "zorder": item.z}
 
 
 def _text(axes, text):

@@ -39,6 +39,7 @@ _PRINTED = {
     "friction fluid": "fluid friction", "friction solid": "solid friction", "n products": "products of the operator", "n steps": "steps",
     "newton iterations": "iterations",
 }  # fmt: skip
+_CURVES = {"time": "s", "force": "N", "friction": "", "share": ""}  # ends of names
 _TO_PRINT = re.compile(rf"\b({'|'.join(_PRINTED)})\b")
 
 
@@ -50,7 +51,7 @@ class Column:
     style: str = BY_UNIT
 
     def show(self, value):
-        """A value in a readable multiple of its unit."""
+        """Returns the text of a value in a readable multiple of its unit."""
         value = value.item() if isinstance(value, np.generic) else value
         if isinstance(value, list):
             return ", ".join(map(self.show, value))
@@ -65,7 +66,7 @@ class Column:
         return f"{self.number(value)} {self.unit}" if self.style == UNSCALED else units.si(float(value), self.unit) if self.unit else self.number(value)
 
     def number(self, value, factor=1):
-        """A value without its unit."""
+        """Returns the text of a value without its unit."""
         return units.number(value * factor if factor != 1 else value, 2 if self.style == EXPONENT else 4)
 
     def scale(self, values):
@@ -98,9 +99,9 @@ class Columns(dict):
         return _TO_PRINT.sub(lambda found: _PRINTED[found[0]], text) if self._is_ehl else text
 
     def describe(self, key, heading="", unit="", style=""):
-        """What is empty, its name says."""
+        """Adds a column; what is empty is taken from its key."""
         named = self.__missing__(key)
-        unit = _signs(unit) or named.unit
+        unit = units.signs(unit) or named.unit
         self[key] = Column(key, heading or named.heading, unit, style.replace("-", "_") or _style(key, unit))
 
 
@@ -130,7 +131,7 @@ def _describe(found, name, facts):
 
 
 def _rows(node):
-    """(key, heading, unit, style) of each column; nothing of a table that is damaged."""
+    """Returns (key, heading, unit, style) of each column, nothing where the table is damaged."""
     names = ("key", "heading", "units", "style")
     if not isinstance(node, h5py.Group) or not all(isinstance(node.get(name), h5py.Dataset) for name in names):
         return []
@@ -150,6 +151,8 @@ def _style(key, unit):
     return _STYLES.get(key, UNSCALED if unit == "g/m²" else BY_UNIT)
 
 
-def _signs(unit):
-    """The unit in signs of print, "" for a number without one."""
-    return "" if unit == "1" else re.sub(r"\^([23])", lambda power: {"2": "²", "3": "³"}[power[1]], unit)
+def unit_of_curve(name, dataset):
+    """Returns the unit of values along a curve: as its file says, else by its name."""
+    if "units" in dataset.attrs:
+        return hdf.text(dataset.attrs["units"]).removeprefix("1")
+    return "Pa" if name.endswith("pressure") else next((unit for end, unit in _CURVES.items() if name.endswith(end)), "m")

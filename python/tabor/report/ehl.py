@@ -79,6 +79,12 @@ class Ehl:
         node = self.file.get(group)
         return {name: node[name][()] for name in node if node[name].ndim == 1} if node else {}
 
+    def table(self, group, names=None):
+        """{name with its unit: values} of curves of a group [all], for CSV."""
+        curves = self.curves(group)
+        units = {name: columns.unit_of_curve(name, self.file[group][name]) for name in names or curves if name in curves}
+        return {f"{name}_{unit}".removesuffix("_"): curves[name] for name, unit in units.items()}
+
 
 def codes_of(sweep):
     """The codes of the warnings of each case of a group /sweep; marks in files of version 1 to 3, [] in older ones."""

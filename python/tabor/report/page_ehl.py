@@ -102,7 +102,7 @@ def _settings(source):
 
 def _readable(text):
     """A quantity as it stands in a case, with the signs of print: '2.8e-15 m²/N', '20 µm'."""
-    text = re.sub(r"(?<=[A-Za-z)])\^([23])", lambda power: {"2": "²", "3": "³"}[power[1]], text)
+    text = re.sub(r"(?<=[A-Za-z)])\^[23]", lambda power: units.signs(power[0]), text)
     return re.sub(r"(?<=[0-9 ])u(?=[mNsg])", "µ", text)
 
 

@@ -6,7 +6,6 @@ from tabor.report import units
 from tabor.report.parameters import Mean
 
 MOST_SCANS = 6  # columns of one table
-_LENGTHS = {"m": (1, "{0}"), "m^2": (2, "{0}²"), "m^3": (3, "{0}³"), "1/m": (-1, "1/{0}"), "1/m^2": (-2, "1/{0}²"), "m^3/m^2": (1, "{0}³/{0}²")}
 FIRST = ("Sa", "Sq", "Sz", "Sdq", "Sdr", "Ssk", "Sku")  # of the answer
 
 
@@ -37,19 +36,7 @@ def scale(source, name):
     """(factor, unit with prefix) of a row: one for all its numbers, in which the largest reads well."""
     means = [group.means[name].mean for group in source.groups if name in group.means]
     known = [abs(value) for value in (*source.values[name], *means) if math.isfinite(value)]
-    unit = source.units[name]
-    power, shown = _LENGTHS.get(unit, (0, unit.replace("deg", "°").removeprefix("1")))
-    if power == 0 or not any(known):
-        return 1.0, shown.format("m")
-    return _scaled(max(known), power, shown)
-
-
-def _scaled(largest, power, shown):
-    """A length, area, volume is at least one in the largest unit that allows it, a density in the smallest."""
-    metres = [(1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm")]
-    ordered = metres if power > 0 else metres[::-1]
-    size, prefixed = next((pair for pair in ordered if largest >= 0.9995 * pair[0] ** power), ordered[-1])
-    return size**-power, shown.format(prefixed)
+    return units.scale(max(known, default=0), units.signs(source.units[name]))
 
 
 def _answer(source):

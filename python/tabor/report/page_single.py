@@ -36,7 +36,7 @@ class _Marks:
 def _combined(facts):
     """What `tabor combine` found: volumes with their uncertainty, or the heights of both scans and of the map."""
     rows = [
-        (name, [_volume(facts[f"{key}_volume_m3"]), _volume(facts[f"{key}_uncertainty_m3"])])
+        (name, [units.si(facts[f"{key}_{what}_m3"], "m³") for what in ("volume", "uncertainty")])
         for key, name in (("worn", "worn"), ("piled_up", "piled up"), ("net", "net, whole overlap"))
         if f"{key}_volume_m3" in facts
     ]
@@ -51,12 +51,6 @@ def _combined(facts):
     correlation = facts.get("correlation")
     note = "" if correlation is None else f"Correlation of both over the overlap: {units.number(correlation, 4)}."
     return {"caption": "Of both scans", "header": ["value", "± (1 sigma)"], "rows": rows, "note": note}
-
-
-def _volume(value):
-    """[m^3] in mm³ from a thousandth of one on, else in µm³."""
-    factor, unit = (1e9, "mm³") if abs(value) >= 1e-12 else (1e18, "µm³")
-    return f"{units.number(value * factor, 4)} {unit}"
 
 
 def _length(facts, key):

@@ -7,7 +7,9 @@ from tabor.report.errors import InputError
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""))
 _SMALL_PREFIXES = ((1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
-_WHOLE_UNITS = ("", "1", "SI", "kg", "K", "Pa s")  # shown without a prefix
+_WHOLE_UNITS = ("", "1", "SI", "%", "°", "kg", "K", "Pa s")  # shown without a prefix
+_METRES = ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
+_POWERS = {"m": (1, "{0}"), "m²": (2, "{0}²"), "m³": (3, "{0}³"), "1/m": (-1, "1/{0}"), "1/m²": (-2, "1/{0}²"), "m³/m²": (1, "{0}³/{0}²")}
 _PRESSURES = {"pa": 1.0, "kpa": 1e3, "mpa": 1e6, "gpa": 1e9}
 
 
@@ -50,18 +52,36 @@ def length(value):
     return f"{number(value * factor)} {unit}"
 
 
+def signs(unit):
+    """The unit as it is printed: 'm^2' -> 'm²'; "" for a number without one."""
+    unit = re.sub(r"\^([23])", lambda power: {"2": "²", "3": "³"}[power[1]], unit)
+    return "" if unit == "1" else unit.replace("deg", "°")
+
+
 def scale(largest, unit):
     """(factor from SI, unit with its prefix) in which `largest` [unit] reads well."""
     largest = abs(largest)
     if unit == "1/Pa":
         return 1e9, "1/GPa"
-    if unit in _WHOLE_UNITS or any(sign in unit for sign in "²³^") or not 0 < largest < math.inf:
+    if unit in _WHOLE_UNITS or not 0 < largest < math.inf:
+        return 1.0, unit
+    if unit in _POWERS:
+        return _power_scale(largest, *_POWERS[unit])
+    if "²" in unit or "³" in unit:
         return 1.0, unit
     pairs = (*_PREFIXES, *_SMALL_PREFIXES)
     if unit.startswith("m"):
         pairs = pairs[3:]  # nobody reads kilometres here
     size, prefix = next((pair for pair in pairs if largest >= pair[0] * 0.9995), pairs[-1])
     return 1 / size, prefix + unit
+
+
+def _power_scale(largest, power, shown):
+    """A length or area is at least one in the largest unit that allows it, a volume a thousandth, a density one in the smallest."""
+    ordered = _METRES if power > 0 else _METRES[::-1]
+    least = 0.9995e-3 if power == 3 else 0.9995
+    size, prefixed = next((pair for pair in ordered if largest >= least * pair[0] ** power), ordered[-1])
+    return size**-power, shown.format(prefixed)
 
 
 def si(value, unit):

@@ -108,7 +108,7 @@ def _has_words(node):
 
 
 def _curves(node, keys, values, label):
-    """Over the axis with most numbers, a curve for every value of the others."""
+    """Returns curves over the axis with most numbers, one for every value of the others."""
     numeric = [key for key in keys if "words" not in node["axes"][key].attrs] or keys
     key = max(numeric, key=lambda key: len(node["axes"][key]))
     place, place_label = _scaled_axis(node, key)
@@ -123,7 +123,7 @@ def _curves(node, keys, values, label):
 
 
 def _map(node, keys, plane, label):
-    """Of Matplotlib."""
+    """Returns a figure of Matplotlib."""
     figure, ((axes,),) = style.new_figure(3.6, width=5.6)
     (y, y_label), (x, x_label) = (_scaled_axis(node, key) for key in keys)
     mesh = axes.contourf(x, y, plane, levels=16, cmap="viridis")

@@ -35,7 +35,7 @@ TIME = "time since the ball touched the liquid (µs)"
 
 
 def _figure(y, items):
-    """Of one panel against time."""
+    """A figure of one panel against time."""
     return chart.Figure([[chart.Panel(chart.from_zero(TIME, air=1), y, items)]], 3.2)
 
 
@@ -53,7 +53,7 @@ def _force(source, history):
         "Force against time",
         "Force on the ball with and without the liquid. The dry ball touches the flat where the layer would end.",
         figure,
-        {"": table_text({"time_s": time, "force_N": history["force"], "dry_force_N": dry_force(dry, time)})},
+        {"": table_text({**source.table("history", ("time", "force")), "dry_force_N": dry_force(dry, time)})},
     )
 
 
@@ -80,7 +80,7 @@ def _central_pressure(source, history):
         "Pressure in the centre against time",
         _peaks(first if has_first else None, pressure.max()),
         figure,
-        {"": table_text({"time_s": history["time"], "central_pressure_Pa": pressure})},
+        {"": table_text(source.table("history", ("time", "central_pressure")))},
     )
 
 
@@ -118,11 +118,7 @@ def _film(source, history):
         "Film thickness against time",
         _thinnest(history),
         figure,
-        {
-            "": table_text(
-                {"time_s": time, "central_film_m": history["central_film"], "min_film_m": history["min_film"]}
-            )
-        },
+        {"": table_text(source.table("history", ("time", "central_film", "min_film")))},
     )
 
 
@@ -171,7 +167,7 @@ def _reach(source, radius, pressure):
 
 
 def _film_map(source, history):
-    """Of Matplotlib."""
+    """Returns a figure of Matplotlib."""
     node = source.file["profiles"]
     times, radius, film = node["time"][()], node["radius"][()], node["film"][()]
     figure, ((axes,),) = style.new_figure(3.6, width=5.6)

@@ -8,7 +8,8 @@ from tabor.report.output import table_text
 
 MM, UM, NM = 1e3, 1e6, 1e9
 REACH = 2.2  # half widths of the dry contact
-PROFILE = {"x": "m", "pressure": "Pa", "asperity_pressure": "Pa", "film": "m", "hertz_pressure": "Pa"}
+PROFILE = ("x", "pressure", "asperity_pressure", "film", "hertz_pressure")
+WEAR = ("time", "distance", "mean_depth", "max_depth", "min_film", "friction")
 FILMS_SHOWN = 6  # over the film in the contact
 
 
@@ -19,8 +20,8 @@ def draw(source):
         yield _profile(source, profile)
     wear = source.curves("wear")
     if wear:
-        yield _wear_history(wear)
-        yield _worn_track(wear)
+        yield _wear_history(source, wear)
+        yield _worn_track(source, wear)
 
 
 def _reach(x, pressure, dry):
@@ -56,7 +57,7 @@ def _profile(source, profile):
         "Pressure and film along the flow",
         f"Grey: the pressure of the same cylinder without liquid. {_thinnest(profile, source.scalars.get('min_film_m'))}",
         chart.Figure([[panel]], 3.4),
-        {"": table_text({f"{name}_{unit}": profile[name] for name, unit in PROFILE.items() if name in profile})},
+        {"": table_text(source.table("profile", PROFILE))},
     )
 
 
@@ -89,7 +90,7 @@ def _length(metres):
     return (metres * UM, "µm") if largest >= 1e-6 else (metres * NM, "nm")
 
 
-def _wear_history(wear):
+def _wear_history(source, wear):
     time, unit = _time(wear["time"])
     depths, depth_unit = _length(np.stack([wear["mean_depth"], wear["max_depth"]]))
     film, film_unit = _length(wear["min_film"])
@@ -101,24 +102,16 @@ def _wear_history(wear):
         [chart.Panel(x, chart.Axis(f"{what} ({unit})", low=0.0, high=1.08 * np.nanmax(values) or 1.0), curves)]
         for what, unit, values, curves in (("worn depth", depth_unit, depths, [mean, deepest]), ("film thickness", film_unit, film, [smallest]))
     ]
-    names = {
-        "time": "time_s",
-        "distance": "distance_m",
-        "mean_depth": "mean_depth_m",
-        "max_depth": "max_depth_m",
-        "min_film": "min_film_m",
-        "friction": "friction",
-    }
     return Drawn(
         "line_wear",
         "Wear and film against time",
         "By Archard's law the mean depth grows with load and distance alone; the film follows the worn shape.",
         chart.Figure(rows, 4.8, shares_x=True),
-        {"": table_text({heading: wear[name] for name, heading in names.items() if name in wear})},
+        {"": table_text(source.table("wear", WEAR))},
     )
 
 
-def _worn_track(wear):
+def _worn_track(source, wear):
     depth, unit = _length(wear["depth"])
     panel = chart.Panel(
         chart.Axis("place along the track (mm)", low=0.0, high=wear["track"][-1] * MM),
@@ -130,5 +123,5 @@ def _worn_track(wear):
         "The track at the end",
         "Depth below the unworn surface.",
         chart.Figure([[panel]], 2.6),
-        {"": table_text({"track_m": wear["track"], "depth_m": wear["depth"]})},
+        {"": table_text(source.table("wear", ("track", "depth")))},
     )

@@ -29,9 +29,9 @@ def draw(source):
         yield _plastic_map(contact)
     if contact.has("roughness"):
         yield _roughness_map(contact)
-    yield _slice_plane(source.curves("slice_plane"))
+    yield _slice_plane(source, source.curves("slice_plane"))
     if history := source.curves("history"):
-        yield _transient(history)
+        yield _transient(source, history)
 
 
 class _Contact:
@@ -135,11 +135,11 @@ def _centre_line(source, group, label):
         "Through the centre. Grey: the pressure of the same smooth bodies without liquid."
         + (" Dotted: the film without the roughness." if is_rough else ""),
         chart.Figure([[panel]], 3.4),
-        {"": table_text({f"{name}_{_unit(name)}": values for name, values in curves.items()})},
+        {"": table_text(source.table(group))},
     )
 
 
-def _transient(history):
+def _transient(source, history):
     """What a moving rough surface does to the film."""
     time = history["time"] * MS
     film_look = {"colour": style.COLOURS[0], "is_right": True}
@@ -158,12 +158,8 @@ def _transient(history):
         "Film and pressure against time",
         "While the rough surface moves through the contact; the maps are of the last instant.",
         chart.Figure([[panel]], 3.2),
-        {"": table_text({f"{name}_{_unit(name) if name != 'time' else 's'}": values for name, values in history.items()})},
+        {"": table_text(source.table("history"))},
     )
-
-
-def _unit(name):
-    return "Pa" if name.endswith("pressure") else "m"
 
 
 def interference(film):
@@ -265,7 +261,7 @@ def _roughness_map(contact):
     )
 
 
-def _slice_plane(curves):
+def _slice_plane(source, curves):
     level, share = curves["level"], curves["share"]
     is_rough = "smooth_share" in curves
     factor, unit = units.length_scale(_shown_level(level, share))
@@ -283,16 +279,13 @@ def _slice_plane(curves):
         items,
         grid="none",
     )
-    data = {"level_m": level, "share": share}
-    if is_rough:
-        data["smooth_share"] = curves["smooth_share"]
     return Drawn(
         "point_slice_plane",
         "Slice-plane graph",
         "How much of the dry contact's area touches or has a film up to h*: at zero, solids touch. As figure 10 of "
         "Redlich et al.",
         chart.Figure([[panel]], 3.2, 5.0),
-        {"": table_text(data)},
+        {"": table_text(source.table("slice_plane", ("level", "share", "smooth_share")))},
     )
 
 

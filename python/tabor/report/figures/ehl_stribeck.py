@@ -98,12 +98,12 @@ class _Curve:
         return chart.Curve(self.speed, values, f"{self.label}: {text}" if self.label else text, look["colour"], **own)
 
     def _marked(self, values, text, look):
-        """On a logarithmic axis, where nothing has no place."""
+        """Returns a curve for a logarithmic axis, which has no place for zero."""
         return self._curve(np.where(values > 0, values, np.nan), text, look, marker=look["marker"], size=4)
 
 
 def _panels(curves, has_ratio, which):
-    """Of friction, film, its ratio to the roughness, and share of the contact."""
+    """Returns panels of friction, film, its ratio to the roughness where it is known, and share of the contact."""
     looks = style.curve_styles(len(curves))
     x = chart.Axis(f"{which} speed (m/s)", "log")
 

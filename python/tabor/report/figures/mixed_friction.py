@@ -98,7 +98,7 @@ def _text(key, x):
 
 
 def _friction(axis, group, curves, error):
-    """Of solids and oil, and of the oil alone."""
+    """Returns the panel of friction: of solids and oil together, and of the oil alone."""
     panel = chart.Panel(axis, chart.from_zero(series_of.FRICTION), _means(curves, "friction_mixed", error))
     for curve, drawn in zip(curves, list(panel.items)):
         panel.items.append(chart.Curve(curve.place, curve.column("friction_viscous_mean"), curve.label, drawn.colour, ":", 1.0))
