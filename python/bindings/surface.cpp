@@ -7,6 +7,8 @@
 #include <nanobind/stl/vector.h>
 
 #include "parameters.hpp"
+#include "tabor/cases/spectra.hpp"
+#include "tabor/cases/surface_parameters.hpp"
 #include "tabor/cases/warnings.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/metrology/parameters.hpp"
@@ -115,7 +117,7 @@ StepTexts treatment_steps() {
 using ParameterRow = std::tuple<Text, double, Text, Text, Text, Text>;
 std::vector<ParameterRow> parameters(const Topography& surface, const nb::object& progress) {
   const auto all = watched(progress, [&](const Observer& observer) {
-    return metrology::parameters(surface, {}, observer);
+    return cases::parameters_of(surface, {}, observer).parameters;
   });
   std::vector<ParameterRow> rows;
   rows.reserve(all.size());
@@ -147,14 +149,16 @@ metrology::PsdOptions psd_options(const std::string& convention,
 
 nb::dict psd(const Topography& surface, const metrology::PsdOptions& options,
              const nb::object& progress) {
-  const auto spectra = watched(
-      progress, [&](const Observer&) { return metrology::power_spectra(surface, options); });
+  const cases::SpectraRecord record = watched(progress, [&](const Observer& observer) {
+    return cases::spectra_of(surface, {.psd = options}, observer);
+  });
+  const metrology::PowerSpectra& spectra = *record.spectra;
   nb::dict all;
   all["x"] = row_of(spectra.x);
   all["y"] = row_of(spectra.y);
   all["radial"] = row_of(spectra.radial);
   all["window"] = std::string(metrology::name_of(spectra.window));
-  all["warnings"] = shown(cases::of_spectra(spectra));
+  all["warnings"] = shown(record.warnings);
   return all;
 }
 

@@ -189,9 +189,10 @@ TEST_F(LubricantVerbs, FilesKeepTheMapsAskedForInThePrecisionAskedFor) {
     EXPECT_EQ(run_tabor(friction("7MPa", "0.9g/m^2") + Words{"-o", file("out.h5")} + more).code, 0);
     return io::Hdf5Reader(file("out.h5")).children("/states/0000");
   };
-  EXPECT_EQ(kept({}), (Words{"film_thickness", "gap", "pressure", "x", "y"}));
+  EXPECT_EQ(kept({}), (Words{"film_thickness", "gap", "pressure", "state", "x", "y"}));
   const Field rounded = io::Hdf5Reader(file("out.h5")).field("/states/0000/gap");
-  EXPECT_EQ(kept({"--fields", "contact"}), (Words{"film_thickness", "pressure", "x", "y"}));
+  EXPECT_EQ(kept({"--fields", "contact"}),
+            (Words{"film_thickness", "pressure", "state", "x", "y"}));
   EXPECT_EQ(kept({"--fields", "none"}), Words{});
   EXPECT_FALSE(io::Hdf5Reader(file("out.h5")).exists("/surface"));
   EXPECT_GT(io::Hdf5Reader(file("out.h5")).number("/states/0000", "friction_dry"), 0);

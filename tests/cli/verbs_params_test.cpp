@@ -3,7 +3,7 @@
 
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
-#include "tabor/cli/params_result.hpp"
+#include "tabor/cli/params_text.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/csv.hpp"
 

@@ -152,6 +152,32 @@ TEST(Columns, WriteDatasetsOfTheirKindEvenWithoutRecords) {
   EXPECT_TRUE(reader.integers("/none/converged").empty());
 }
 
+TEST(Columns, SayWhatADatasetIs) {
+  const tabor::test::Folder folder;
+  {
+    Hdf5Writer writer(folder / "a.h5");
+    writer.write("/t/share", std::vector<double>{0.5});
+    describe(writer, "/t/share", {"share", "", "wet", {.shown = Shown::percent}});
+    writer.write("/t/gap_m", std::vector<double>{1});
+    describe(writer, "/t/gap_m", {"gap_m", "m", ""});
+    write_column_table(writer, {{"gap_m", "m", "mean gap"},
+                                {"share", "", "wet", {.shown = Shown::percent}},
+                                {"gap_m", "m", "mean gap"}});
+    writer.commit();
+  }
+  const Hdf5Reader reader(folder / "a.h5");
+  EXPECT_EQ(reader.text("/t/share", "heading"), "wet");
+  EXPECT_EQ(reader.text("/t/share", "style"), "percent");
+  EXPECT_FALSE(reader.has_attribute("/t/share", "units"));
+  EXPECT_EQ(reader.text("/t/gap_m", "units"), "m");
+  EXPECT_FALSE(reader.has_attribute("/t/gap_m", "heading"));  // the terminal does not show it
+  EXPECT_FALSE(reader.has_attribute("/t/gap_m", "style"));
+  EXPECT_EQ(reader.texts("/columns/key"), (std::vector<std::string>{"gap_m", "share"}));
+  EXPECT_EQ(reader.texts("/columns/heading"), (std::vector<std::string>{"mean gap", "wet"}));
+  EXPECT_EQ(reader.texts("/columns/units"), (std::vector<std::string>{"m", ""}));
+  EXPECT_EQ(reader.texts("/columns/style"), (std::vector<std::string>{"by_unit", "percent"}));
+}
+
 TEST(Columns, MakeATableOfCommas) {
   Record other = full();
   other.flow.reset();

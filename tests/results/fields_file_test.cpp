@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "support/folder.hpp"
 #include "tabor/cases/states.hpp"
 #include "tabor/io/toml.hpp"
@@ -81,6 +84,92 @@ TEST(FieldsFile, BeginsWithItsHead) {
   EXPECT_EQ(reader.text("/", "input_sha256"), "abc");
   EXPECT_EQ(reader.text("/surface", "source"), "scan.h5");
   EXPECT_EQ(reader.attribute_texts("/", "methods"), std::vector<std::string>{"rey2017"});
+}
+
+topography::Topography flat() {
+  topography::Topography surface;
+  surface.height = Field::Zero(2, 3);
+  surface.grid = {3, 2, 3e-6, 2e-6};
+  return surface;
+}
+
+cases::ContactSettings steel(std::optional<double> saturation_pressure) {
+  cases::ContactSettings settings;
+  settings.youngs_modulus = 210e9;
+  settings.poissons_ratio = 0.3;
+  settings.saturation_pressure = saturation_pressure;
+  return settings;
+}
+
+/// One pixel apart, one in contact, one just below saturation, one at it.
+cases::ContactRecord saturated_contact(double cap) {
+  cases::ContactRecord record = contact_at(7e6);
+  record.state.pressure << 0, 1e6, cap * (1 - 1e-9), cap, 0, 0;
+  return record;
+}
+
+std::vector<int> states_in(const std::filesystem::path& file, const std::string& path) {
+  const io::ByteMap map = io::Hdf5Reader(file).bytes(path);
+  return {map.data(), map.data() + map.size()};
+}
+
+TEST(FieldsFile, StoresWhichPixelsAreSaturated) {
+  const tabor::test::Folder folder;
+  const topography::Topography surface = flat();
+  FieldsFile file({folder / "a.h5", {}, "a command", {}}, surface, steel(240e6));
+  file.add(0, saturated_contact(240e6));
+  file.commit({});
+  // In single precision the third pressure is the saturation pressure; the map is not of it.
+  EXPECT_EQ(states_in(folder / "a.h5", "/states/0000/state"), (std::vector<int>{0, 1, 1, 2, 0, 0}));
+  FieldsFile elastic({folder / "b.h5", {}, "a command", {}}, surface, steel(std::nullopt));
+  elastic.add(0, saturated_contact(240e6));
+  elastic.commit({});
+  EXPECT_EQ(states_in(folder / "b.h5", "/states/0000/state"), (std::vector<int>{0, 1, 1, 1, 0, 0}));
+}
+
+TEST(FieldsFile, StoresNoStateWithoutMaps) {
+  const tabor::test::Folder folder;
+  const topography::Topography surface = flat();
+  FieldsFile file({folder / "a.h5", {.fields = Fields::none}, "a command", {}}, surface,
+                  steel(std::nullopt));
+  file.add(0, contact_at(7e6));
+  file.commit({});
+  EXPECT_FALSE(io::Hdf5Reader(folder / "a.h5").exists("/states/0000/state"));
+}
+
+TEST(FieldsFile, SharesTheStateOfAContactUnderAllFilms) {
+  const tabor::test::Folder folder;
+  const topography::Topography surface = flat();
+  cases::CaseSettings settings;
+  settings.contact = steel(240e6);
+  FieldsFile file({folder / "a.h5", {}, "a command", {}}, surface, settings);
+  const cases::ContactRecord contact = saturated_contact(240e6);
+  file.add(0, {}, contact, film_of(1e-4), nullptr);
+  file.add(1, {}, contact, film_of(1e-3), nullptr);
+  file.commit({});
+  for (const char* path : {"/states/0000/state", "/states/0001/state"}) {
+    EXPECT_EQ(states_in(folder / "a.h5", path), (std::vector<int>{0, 1, 1, 2, 0, 0})) << path;
+  }
+}
+
+TEST(FieldsFile, DescribesTheNumbersOfItsStates) {
+  const tabor::test::Folder folder;
+  const topography::Topography surface = flat();
+  FieldsFile file({folder / "a.h5", {}, "a command", {}}, surface, steel(std::nullopt));
+  file.add(0, contact_at(7e6));
+  file.add(1, contact_at(8e6));
+  file.commit({});
+  const io::Hdf5Reader reader(folder / "a.h5");
+  const std::vector<std::string> keys = reader.texts("/columns/key");
+  std::vector<std::string> expected;
+  for (const auto& column : cases::contact_columns()) {
+    if (column.is_in(cases::media::kObject)) expected.push_back(column.key);
+  }
+  EXPECT_EQ(keys, expected);  // each once, in the order of the columns
+  const auto place = std::find(keys.begin(), keys.end(), "contact_area_fraction") - keys.begin();
+  EXPECT_EQ(reader.texts("/columns/heading").at(place), "contact area");
+  EXPECT_EQ(reader.texts("/columns/units").at(0), "Pa");
+  EXPECT_EQ(reader.texts("/columns/style").at(place), "percent");
 }
 
 }  // namespace

@@ -291,6 +291,9 @@ TEST(Sweep, ResultsFileLeadsToEveryMap) {
   EXPECT_EQ(results.number("/", "saturation_pressure_Pa"), 240e6);
   EXPECT_EQ(results.integer("/", "n_cases_done"), 8);
   EXPECT_EQ(results.numbers("/table/friction_dry").size(), 8u);
+  EXPECT_EQ(results.text("/table/friction_dry", "heading"), "friction dry");
+  EXPECT_EQ(results.text("/table/lubricated_share", "style"), "percent");
+  EXPECT_EQ(results.text("/averages/mean_pressure_Pa", "units"), "Pa");
   EXPECT_EQ(results.texts("/table/scan").front(), "scan_1.h5");
   EXPECT_EQ(results.integers("/averages/n").front(), 2);
   EXPECT_THAT(results.children("/scans"), ElementsAre("0000", "0001"));

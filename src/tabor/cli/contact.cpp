@@ -58,20 +58,19 @@ int show(Request request, Context& context) {
                             request.file.csv, context);
   }
   const cases::ContactSettings& settings = request.settings.contact;
-  const io::Json in_force = results::settings_json(settings);
-  auto file = fields_file(request.file, context, scan, in_force, cases::references_of(settings));
+  auto file = fields_file(request.file, context, scan, settings);
   io::Json object = json_head(context, scan);
   object["nx"] = scan.surface.grid.nx;
   object["ny"] = scan.surface.grid.ny;
-  object.update(in_force);
+  object.update(results::settings_json(settings));
   object["states"] = io::Json::array();
   std::vector<cases::ContactRecord> records;  // without their maps
   std::vector<results::Case> cases;
   int code = kDone;
   const auto receive = [&](cases::ContactRecord&& record) {
-    const NamedCells cells = cells_of(cases::contact_columns(), record, cases::media::kObject);
-    if (file) file->add_state(object["states"].size(), cells, results::fields_of(record));
-    object["states"].push_back(io::json_of(cells));
+    if (file) file->add(records.size(), record);
+    object["states"].push_back(
+        io::json_of(cases::contact_columns(), record, cases::media::kObject));
     object["states"].back().update(statistics_json(record));
     cases.push_back(results::case_of(record));
     if (!record.convergence.converged()) code = kNotConverged;

@@ -79,15 +79,6 @@ void declare_fields(OptionSet& set, FieldsRequest& request) {
   declare_csv(set, "one row per state with the keys of --json", request.csv);
 }
 
-std::optional<results::FieldsFile> fields_file(const FieldsRequest& request, const Context& context,
-                                               const Scan& scan, const io::Json& settings,
-                                               const std::vector<std::string>& methods) {
-  if (!request.output) return std::nullopt;
-  return results::FieldsFile(*request.output, request.options,
-                             head_of(context, results::toml_of(settings), methods), scan.surface,
-                             {scan.path, scan.sha256});
-}
-
 std::string flag_of(std::string_view setting) {
   if (const ParameterHead* found = cases::find_parameter(setting)) return found->option();
   return ParameterHead{.name = std::string(setting), .help = ""}.option();

@@ -57,9 +57,7 @@ Solved solve_all(const Request& request, const topography::Topography& surface,
   const auto receive = [&](const study::FrictionState& state) {
     solved.records.push_back(state.friction);
     if (file == nullptr) return;
-    file->add_state(solved.records.size() - 1,
-                    cells_of(cases::friction_columns(), state.friction, cases::media::kObject),
-                    results::fields_of(state.contact, state.film, state.fluid));
+    file->add(solved.records.size() - 1, state.friction, state.contact, state.film, state.fluid);
   };
   engine::RunOptions options;
   options.observer = context.observer();
@@ -207,9 +205,7 @@ int show(Request request, Context& context) {
   check(cases::objection(contact, scan.surface.edges, flag_of));
   contact.take_edges(scan.surface.edges);
   check_all(request.settings);
-  const io::Json settings = results::settings_json(request.settings);
-  auto file =
-      fields_file(request.file, context, scan, settings, cases::references_of(request.settings));
+  auto file = fields_file(request.file, context, scan, request.settings);
   const Solved solved = solve_all(request, scan.surface, file ? &*file : nullptr, context);
   if (solved.code == kInterrupted && solved.records.empty()) throw Interrupted();
   std::vector<results::Case> cases;
@@ -221,7 +217,7 @@ int show(Request request, Context& context) {
     file->commit(context.warnings);
   }
   io::Json object = json_head(context, scan);
-  object.update(settings);
+  object.update(results::settings_json(request.settings));
   object["states"] = states_json(cases::friction_columns(), solved.records);
   if (!solved.coarse.lubricated_shares.empty()) {
     object["pixel_dependence"] = pixels_json(solved, scan.surface.grid);

@@ -2,50 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
+#include "tabor/cases/surface_summary.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/table.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/metrology/parameters.hpp"
-#include "tabor/topography/edges.hpp"
-#include "tabor/topography/warnings.hpp"
+#include "tabor/io/columns.hpp"
 
 namespace tabor::cli {
 
 namespace {
 
+using cases::SurfaceRecord;
 using scan::FileInfo;
-using topography::Topography;
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-struct Heights {
-  double min = kNone;  ///< [m]
-  double max = kNone;
-  double rms = kNone;
-  double quantum = kNone;
-};
-
-Heights heights_of(const Topography& surface) {
-  Heights heights;
-  const Index n = surface.height.size();
-  if (topography::count_holes(surface) == n) return heights;
-  heights.min = std::numeric_limits<double>::infinity();
-  heights.max = -heights.min;
-  for (Index i = 0; i < n; ++i) {
-    const double z = surface.height.data()[i];
-    if (!std::isfinite(z)) continue;
-    heights.min = std::min(heights.min, z);
-    heights.max = std::max(heights.max, z);
-  }
-  heights.rms = metrology::rms_height(surface);
-  const double quantum = topography::height_quantum(surface.height);
-  if (quantum > 0) heights.quantum = quantum;
-  return heights;
-}
 
 io::Json channels_of(const FileInfo& file) {
   io::Json channels = io::Json::array();
@@ -91,54 +62,34 @@ std::vector<std::string> warnings_about(const Scan& scan, const Context& context
 }
 
 io::Json json_of(const Context& context, const Scan& scan, const FileInfo& file,
-                 const Heights& heights) {
-  const Topography& surface = scan.surface;
-  const Grid& grid = surface.grid;
-  const auto missing = topography::count_holes(surface);
+                 const SurfaceRecord& record) {
   io::Json object = json_head(context);
   object["scan"] = {{"path", scan.path}, {"sha256", scan.sha256}};
-  object.update(
-      {{"file", scan.path},
-       {"format", file.format},
-       {"instrument", surface.instrument},
-       {"channels", channels_of(file)},
-       {"channel", surface.channel},
-       {"nx", grid.nx},
-       {"ny", grid.ny},
-       {"pixel_x_m", grid.dx()},
-       {"pixel_y_m", grid.dy()},
-       {"size_x_m", grid.lx},
-       {"size_y_m", grid.ly},
-       {"periodic", topography::repeats(surface)},
-       {"missing_pixels", missing},
-       {"missing_fraction", static_cast<double>(missing) / static_cast<double>(grid.size())},
-       {"height_min_m", io::number(heights.min)},
-       {"height_max_m", io::number(heights.max)},
-       {"height_rms_m", io::number(heights.rms)},
-       {"height_quantum_m", io::number(heights.quantum)},
-       {"metadata", surface.metadata},
-       {"doubts", warnings_about(scan, context)}});
+  object.update({{"file", scan.path},
+                 {"format", file.format},
+                 {"instrument", scan.surface.instrument},
+                 {"channels", channels_of(file)}});
+  object.update(io::json_of(cases::surface_columns(), record));
+  object.update({{"metadata", scan.surface.metadata}, {"doubts", warnings_about(scan, context)}});
   return object;
 }
 
 std::string text_of(const Context& context, const Scan& scan, const FileInfo& file,
-                    const Heights& heights) {
-  const Topography& surface = scan.surface;
-  const Grid& grid = surface.grid;
-  const auto missing = topography::count_holes(surface);
+                    const SurfaceRecord& record) {
+  const Grid& grid = record.grid;
   Facts facts;
-  describe(file, scan.path, surface.instrument, facts);
+  describe(file, scan.path, scan.surface.instrument, facts);
   facts.fact("pixels", fmt::format("{} x {}", grid.nx, grid.ny));
   facts.fact("pixel", si(grid.dx(), "m") + " x " + si(grid.dy(), "m"));
   facts.fact("size", si(grid.lx, "m") + " x " + si(grid.ly, "m"));
-  facts.fact("periodic", topography::repeats(surface) ? "yes" : "no");
-  facts.fact("missing", missing == 0 ? "none"
-                                     : fmt::format("{} pixels ({})", missing,
-                                                   percent(static_cast<double>(missing) /
-                                                           static_cast<double>(grid.size()))));
-  facts.fact("heights", si(heights.min, "m") + " to " + si(heights.max, "m"));
-  facts.fact("rms height", si(heights.rms, "m") + " about the mean");
-  if (!std::isnan(heights.quantum)) facts.fact("height step", si(heights.quantum, "m"));
+  facts.fact("periodic", record.periodic ? "yes" : "no");
+  facts.fact("missing", record.missing_pixels == 0
+                            ? "none"
+                            : fmt::format("{} pixels ({})", record.missing_pixels,
+                                          percent(record.missing_fraction())));
+  facts.fact("heights", si(record.min, "m") + " to " + si(record.max, "m"));
+  facts.fact("rms height", si(record.rms, "m") + " about the mean");
+  if (!std::isnan(record.quantum)) facts.fact("height step", si(record.quantum, "m"));
   for (const std::string& text : warnings_about(scan, context)) facts.fact("warning", text);
   return facts.text();
 }
@@ -164,10 +115,8 @@ int show_incomplete(const ScanRequest& request, const scan::ScanFile& scan_file,
                  {"format", file.format},
                  {"instrument", file.instrument},
                  {"channels", channels_of(file)}});
-  for (const char* key :
-       {"channel", "nx", "ny", "pixel_x_m", "pixel_y_m", "size_x_m", "size_y_m", "missing_pixels",
-        "missing_fraction", "height_min_m", "height_max_m", "height_rms_m", "height_quantum_m"}) {
-    object[key] = nullptr;
+  for (const auto& column : cases::surface_columns()) {
+    if (!std::holds_alternative<bool>(column.kind)) object[column.key] = nullptr;
   }
   object["doubts"] = {warning};
   Facts facts;
@@ -187,9 +136,9 @@ int show(const ScanRequest& request, Context& context) {
   const FileInfo file = scan_file.info();
   try {
     const Scan scan = read_scan(scan_file, request, context);
-    const Heights heights = heights_of(scan.surface);
-    return finish(context, json_of(context, scan, file, heights),
-                  text_of(context, scan, file, heights));
+    const SurfaceRecord record = cases::summary_of(scan.surface);
+    return finish(context, json_of(context, scan, file, record),
+                  text_of(context, scan, file, record));
   } catch (const IncompleteError& error) {
     return show_incomplete(request, scan_file, error.what(), context);
   }

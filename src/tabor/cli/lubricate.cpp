@@ -25,9 +25,7 @@ int show(const Request& request, Context& context) {
   check(cases::objection(settings));
   const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
-  const io::Json in_force = results::settings_json(settings);
-  auto file = fields_file(request.file, context, scan, in_force, cases::references_of(settings));
-
+  auto file = fields_file(request.file, context, scan, settings);
   const Warnings about_surface = cases::of_surface(scan.surface);
   std::map<std::size_t, cases::FilmRecord> films;  // they come in rising order of dose
   const auto receive = [&](cases::FilmRecord&& record) {
@@ -35,10 +33,7 @@ int show(const Request& request, Context& context) {
     add(record.warnings, warnings);
     record.warnings = std::move(warnings);
     const std::size_t place = record.film.request;
-    if (file) {
-      file->add_state(place, cells_of(cases::film_columns(), record, cases::media::kObject),
-                      results::fields_of(record));
-    }
+    if (file) file->add(place, record);
     record.film.thickness = {};
     films.emplace(place, std::move(record));
   };
@@ -56,7 +51,7 @@ int show(const Request& request, Context& context) {
   if (file) file->commit(context.warnings);
 
   io::Json object = json_head(context, scan);
-  object.update(in_force);
+  object.update(results::settings_json(settings));
   object["states"] = states_json(cases::film_columns(), records);
   Facts facts;
   describe(scan, facts);

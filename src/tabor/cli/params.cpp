@@ -8,7 +8,7 @@
 #include <ostream>
 
 #include "tabor/cli/csv_output.hpp"
-#include "tabor/cli/params_result.hpp"
+#include "tabor/cli/params_text.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/scan_groups.hpp"
 #include "tabor/cli/table.hpp"
@@ -17,7 +17,7 @@
 #include "tabor/core/text.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/csv.hpp"
-#include "tabor/metrology/parameters.hpp"
+#include "tabor/results/parameter_tables.hpp"
 
 namespace tabor::cli {
 
@@ -43,7 +43,7 @@ struct Request {
 
 /// One scan read, treated and measured, ready for every kind of output.
 struct Measured {
-  ScanParameters row;
+  cases::ParametersRecord row;
   io::Json object;
   std::string facts;
   results::Case doubts;
@@ -103,11 +103,11 @@ std::string chain_of(const Scan& scan) {
   return scan.treatment.empty() ? "none" : fmt::format("{}", fmt::join(scan.treatment, ", "));
 }
 
-std::string facts_of(const Scan& scan) {
+std::string facts_of(const Scan& scan, Index valid_points) {
   Facts facts;
   describe(scan, facts);
-  const Index n = scan.surface.grid.size(), holes = topography::count_holes(scan.surface);
-  facts.fact("valid points", fmt::format("{} of {} pixels", n - holes, n));
+  facts.fact("valid points",
+             fmt::format("{} of {} pixels", valid_points, scan.surface.grid.size()));
   return facts.text();
 }
 
@@ -115,15 +115,16 @@ Measured measure(const Request& request, const std::string& file, Context& conte
   ScanRequest one = request.scan;
   one.file = file;
   const Scan scan = read_scan(one, context);
-  Measured measured{.row = {.path = file, .treatment = chain_of(scan)},
-                    .object = json_head(context, scan),
-                    .facts = facts_of(scan),
-                    .doubts = doubts_of(scan)};
-  measured.row.parameters =
-      metrology::parameters(scan.surface, options_of(request, context), context.observer());
-  const Index holes = topography::count_holes(scan.surface);
-  measured.object["valid_points"] = scan.surface.grid.size() - holes;
-  measured.object["parameters"] = json_of(measured.row.parameters);
+  Measured measured{
+      .row = cases::parameters_of(scan.surface, options_of(request, context), context.observer()),
+      .object = json_head(context, scan),
+      .facts = {},
+      .doubts = doubts_of(scan)};
+  measured.row.path = file;
+  measured.row.treatment = chain_of(scan);
+  measured.facts = facts_of(scan, measured.row.valid_points);
+  measured.object["valid_points"] = measured.row.valid_points;
+  measured.object["parameters"] = results::json_of(measured.row.parameters);
   return measured;
 }
 
@@ -167,10 +168,11 @@ void warn_of(const std::vector<Measured>& all, Context& context) {
 int show_one(const Request& request, Context& context) {
   const Measured measured = measure(request, request.files.front(), context);
   warn_of({measured}, context);
-  if (request.output) io::write_file(*request.output, csv_table({measured.row}));
+  if (request.output) io::write_file(*request.output, results::csv_of({measured.row}));
   const std::string text =
       measured.facts + '\n' + grouped_table(measured.row.parameters) + other_sets(request, context);
-  return finish(context, measured.object, write_csv(request.csv, csv_table({measured.row}), text));
+  return finish(context, measured.object,
+                write_csv(request.csv, results::csv_of({measured.row}), text));
 }
 
 io::Json json_of(const std::vector<Measured>& all, const Context& context) {
@@ -185,7 +187,8 @@ io::Json json_of(const std::vector<Measured>& all, const Context& context) {
   return object;
 }
 
-std::string text_of(const std::vector<Measured>& all, const std::vector<ScanParameters>& rows) {
+std::string text_of(const std::vector<Measured>& all,
+                    const std::vector<cases::ParametersRecord>& rows) {
   std::string text;
   for (const Measured& measured : all) {
     if (!measured.facts.empty()) text += measured.facts + '\n';
@@ -193,27 +196,15 @@ std::string text_of(const std::vector<Measured>& all, const std::vector<ScanPara
   return text + comparison_table(rows);
 }
 
-/// The means over the scans that were measured.
-std::vector<GroupParameters> means_of(const std::vector<GroupMembers>& groups,
-                                      const std::vector<ScanParameters>& rows) {
-  std::vector<GroupParameters> means;
+std::vector<cases::GroupParameters> means_of(const std::vector<GroupMembers>& groups,
+                                             const std::vector<cases::ParametersRecord>& rows) {
+  std::vector<cases::GroupParameters> means;
   for (const GroupMembers& group : groups) {
-    GroupParameters& mean = means.emplace_back(GroupParameters{group.name, {}, {}});
-    std::vector<std::vector<metrology::Parameter>> measured;
-    for (const std::size_t place : group.places) {
-      if (!rows[place].failure.empty()) continue;
-      mean.scans.push_back(rows[place].path);
-      measured.push_back(rows[place].parameters);
-    }
-    mean.means = metrology::parameter_means(measured);
+    std::vector<const cases::ParametersRecord*> members;
+    for (const std::size_t place : group.places) members.push_back(&rows[place]);
+    means.push_back(cases::mean_of(group.name, members));
   }
   return means;
-}
-
-/// With groups the scans stand behind their means in a CSV.
-std::string csv_of(const std::vector<ScanParameters>& rows,
-                   const std::vector<GroupParameters>& groups) {
-  return groups.empty() ? csv_table(rows) : csv_table(groups, rows);
 }
 
 int show_many(const Request& request, Context& context) {
@@ -222,25 +213,25 @@ int show_many(const Request& request, Context& context) {
   all.reserve(request.files.size());
   for (const std::string& file : request.files) all.push_back(try_measure(request, file, context));
   warn_of(all, context);
-  std::vector<ScanParameters> rows;
+  std::vector<cases::ParametersRecord> rows;
   rows.reserve(all.size());
   for (const Measured& measured : all) rows.push_back(measured.row);
-  const std::vector<GroupParameters> groups = means_of(members, rows);
-  if (request.output) io::write_file(*request.output, csv_of(rows, groups));
+  const std::vector<cases::GroupParameters> groups = means_of(members, rows);
+  if (request.output) io::write_file(*request.output, results::csv_of(groups, rows));
   int code = kDone;
-  for (const ScanParameters& row : rows) {
+  for (const cases::ParametersRecord& row : rows) {
     if (row.failure.empty()) continue;
     code = kInput;
     if (!context.json) context.warn("not measured: " + row.failure);
   }
   std::string text = text_of(all, rows);
   io::Json object = json_of(all, context);
-  for (const GroupParameters& group : groups) {
+  for (const cases::GroupParameters& group : groups) {
     text += '\n' + group_table(group);
-    object["groups"].push_back(json_of(group));
+    object["groups"].push_back(results::json_of(group));
   }
   text += other_sets(request, context);
-  return finish(context, object, write_csv(request.csv, csv_of(rows, groups), text), code);
+  return finish(context, object, write_csv(request.csv, results::csv_of(groups, rows), text), code);
 }
 
 int show(const Request& request, Context& context) {

@@ -3,14 +3,14 @@
 #include <memory>
 #include <optional>
 
-#include "tabor/cases/warnings.hpp"
 #include "tabor/cli/csv_output.hpp"
-#include "tabor/cli/psd_result.hpp"
+#include "tabor/cli/psd_text.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/scan_groups.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/metrology/parameters.hpp"
+#include "tabor/results/parameter_tables.hpp"
+#include "tabor/results/spectra_curves.hpp"
 
 namespace tabor::cli {
 
@@ -33,64 +33,41 @@ struct Request {
 
 /// One scan of a run.
 struct Measured {
-  PsdCurves curves;
+  cases::SpectraRecord record;
   io::Json object;
   std::string text;
   results::Case doubts;
 };
 
-metrology::PsdOptions options_of(const Request& request) {
+cases::SpectraSettings settings_of(const Request& request) {
   if (request.fit_min && request.fit_max && !(*request.fit_min < *request.fit_max)) {
     throw UsageError("--fit-min and --fit-max: expected a range, the smaller one first");
   }
-  return {.convention = *metrology::psd_convention_from(request.convention),
-          .window = metrology::psd_window_from(request.window),
-          .fit_q_min = request.fit_min,
-          .fit_q_max = request.fit_max};
-}
-
-PsdCurves compute(const Request& request, const Scan& scan, Context& context) {
-  const topography::Topography& surface = scan.surface;
-  const bool holes = topography::count_holes(surface) > 0;
-  if (!request.acf && !request.hdf) require_no_holes(scan);
-  PsdCurves curves;
-  curves.trusted = metrology::trusted_range(surface.height, surface.grid, request.tip_radius);
-  curves.with_tip = request.tip_radius.has_value();
-  if (holes) {
-    context.warn("no power spectra: they need every height (--fill harmonic)");
-  } else {
-    curves.spectra = metrology::power_spectra(surface, options_of(request));
-  }
-  if (request.acf) curves.acf = metrology::autocorrelation(surface.height, surface.grid);
-  if (request.hdf) {
-    curves.hdf = metrology::height_differences(surface.height, surface.grid, context.observer());
-    const double rms = metrology::rms_height(surface);
-    curves.mean_square = rms * rms;
-  }
-  return curves;
-}
-
-/// Keys of references.bib.
-std::vector<std::string> methods_of(const PsdCurves& curves) {
-  std::vector<std::string> methods;
-  if (curves.spectra) methods = {"jacobs2017", "frigo2005"};
-  if (curves.with_tip) methods.emplace_back("sanner2022");
-  return methods;
+  return {.psd = {.convention = *metrology::psd_convention_from(request.convention),
+                  .window = metrology::psd_window_from(request.window),
+                  .fit_q_min = request.fit_min,
+                  .fit_q_max = request.fit_max},
+          .tip_radius = request.tip_radius,
+          .autocorrelation = request.acf,
+          .height_differences = request.hdf};
 }
 
 Measured measure(const Request& request, const std::string& file, Context& context) {
   ScanRequest one = request.scan;
   one.file = file;
   const Scan scan = read_scan(one, context);
-  Measured measured{.curves = compute(request, scan, context),
+  const cases::SpectraSettings settings = settings_of(request);
+  if (!request.acf && !request.hdf) require_no_holes(scan);
+  Measured measured{.record = cases::spectra_of(scan.surface, settings, context.observer()),
                     .object = json_head(context, scan),
                     .text = {},
                     .doubts = doubts_of(scan)};
-  if (measured.curves.spectra) {
-    add(cases::of_spectra(*measured.curves.spectra), measured.doubts.warnings);
+  if (!measured.record.spectra) {
+    context.warn("no power spectra: they need every height (--fill harmonic)");
   }
-  add_curves(measured.object, measured.curves);
-  measured.text = text_of(scan, measured.curves);
+  add(measured.record.warnings, measured.doubts.warnings);
+  measured.object.update(results::json_of(measured.record));
+  measured.text = text_of(scan, measured.record);
   return measured;
 }
 
@@ -102,17 +79,18 @@ void warn_of(const std::vector<Measured>& all, Context& context) {
   context.warn(results::findings_of(cases));
 }
 
-std::vector<GroupSpectra> means_of(const std::vector<GroupMembers>& groups, const Request& request,
-                                   const std::vector<Measured>& all) {
-  std::vector<GroupSpectra> means;
+std::vector<cases::GroupSpectra> means_of(const std::vector<GroupMembers>& groups,
+                                          const Request& request,
+                                          const std::vector<Measured>& all) {
+  std::vector<cases::GroupSpectra> means;
   for (const GroupMembers& group : groups) {
     std::vector<std::string> scans;
-    std::vector<const PsdCurves*> curves;
+    std::vector<const cases::SpectraRecord*> records;
     for (const std::size_t place : group.places) {
       scans.push_back(request.files[place]);
-      curves.push_back(&all[place].curves);
+      records.push_back(&all[place].record);
     }
-    means.push_back(mean_of(group.name, scans, curves));
+    means.push_back(cases::mean_of(group.name, scans, records));
   }
   return means;
 }
@@ -120,27 +98,27 @@ std::vector<GroupSpectra> means_of(const std::vector<GroupMembers>& groups, cons
 bool is_one(const Request& request) { return request.files.size() == 1 && request.groups.empty(); }
 
 /// Those of each scan and of each group.
-std::vector<CurveSet> curve_sets(const Request& request, const std::vector<Measured>& all,
-                                 const std::vector<GroupSpectra>& groups) {
-  if (is_one(request)) return {{.curves = columns_of(all.front().curves)}};
-  std::vector<CurveSet> sets;
-  const std::vector<std::string> names = headings(request.files);
+std::vector<results::CurveSet> curve_sets(const Request& request, const std::vector<Measured>& all,
+                                          const std::vector<cases::GroupSpectra>& groups) {
+  if (is_one(request)) return {{.curves = results::curves_of(all.front().record)}};
+  std::vector<results::CurveSet> sets;
+  const std::vector<std::string> names = results::headings(request.files);
   for (std::size_t i = 0; i < all.size(); ++i) {
     sets.push_back({.place = fmt::format("/scans/{:04}", i),
                     .heading = names[i],
                     .attributes = {{"file", {request.files[i]}}},
-                    .curves = columns_of(all[i].curves)});
+                    .curves = results::curves_of(all[i].record)});
   }
   for (std::size_t i = 0; i < groups.size(); ++i) {
     sets.push_back({.place = fmt::format("/groups/{:04}", i),
                     .heading = groups[i].name,
                     .attributes = {{"group", {groups[i].name}}, {"scans", groups[i].scans}},
-                    .curves = columns_of(groups[i])});
+                    .curves = results::curves_of(groups[i])});
   }
   return sets;
 }
 
-io::Json json_of(const std::vector<Measured>& all, const std::vector<GroupSpectra>& groups,
+io::Json json_of(const std::vector<Measured>& all, const std::vector<cases::GroupSpectra>& groups,
                  const Context& context) {
   io::Json object = json_head(context);
   for (Measured one : all) {
@@ -148,7 +126,9 @@ io::Json json_of(const std::vector<Measured>& all, const std::vector<GroupSpectr
     one.object.erase("command");
     object["scans"].push_back(one.object);
   }
-  for (const GroupSpectra& group : groups) object["groups"].push_back(json_of(group));
+  for (const cases::GroupSpectra& group : groups) {
+    object["groups"].push_back(results::json_of(group));
+  }
   return object;
 }
 
@@ -161,16 +141,17 @@ int show(const Request& request, Context& context) {
     text += (text.empty() ? "" : "\n") + all.back().text;
   }
   warn_of(all, context);
-  const std::vector<GroupSpectra> groups = means_of(members, request, all);
+  const std::vector<cases::GroupSpectra> groups = means_of(members, request, all);
   io::Json object = is_one(request) ? all.front().object : json_of(all, groups, context);
   if (!groups.empty()) text += '\n' + text_of(groups);
-  const std::vector<CurveSet> sets = curve_sets(request, all, groups);
+  const std::vector<results::CurveSet> sets = curve_sets(request, all, groups);
   if (request.output) {
-    write_curves(sets, *request.output, context, methods_of(all.front().curves));
+    results::write_curves(sets, *request.output,
+                          head_of(context, "", all.front().record.references), context.warnings);
     object["output"] = *request.output;
     text += "written " + *request.output + '\n';
   }
-  const std::string csv = request.csv.is_asked() ? csv_of(sets) : "";
+  const std::string csv = request.csv.is_asked() ? results::csv_of(sets) : "";
   return finish(context, object, write_csv(request.csv, csv, text));
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/glob.hpp"
@@ -63,16 +62,6 @@ std::vector<GroupMembers> members_of(const std::vector<ScanGroup>& groups,
                      fmt::format("a pattern of one of: {}", fmt::join(files, ", ")), "");
   }
   return all;
-}
-
-std::vector<std::string> headings(const std::vector<std::string>& files) {
-  std::vector<std::string> names;
-  std::set<std::string> known;
-  for (const std::string& file : files) {
-    names.push_back(std::filesystem::path(file).filename().string());
-    known.insert(names.back());
-  }
-  return known.size() == names.size() ? names : files;
 }
 
 }  // namespace tabor::cli

@@ -29,8 +29,4 @@ struct GroupMembers {
 std::vector<GroupMembers> members_of(const std::vector<ScanGroup>& groups,
                                      const std::vector<std::string>& files);
 
-/// Returns headings for scans that stand side by side: file names, or whole paths where names are
-/// the same.
-std::vector<std::string> headings(const std::vector<std::string>& files);
-
 }  // namespace tabor::cli

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/names.hpp"
 
 namespace tabor {
 namespace {
@@ -23,6 +24,12 @@ void require_number(const Cell& cell) {
 }
 
 }  // namespace
+
+std::string_view name_of(Shown style) {
+  static constexpr auto kStyles =
+      names<Shown>("by_unit", "unscaled", "percent", "exponent", "alarm");
+  return kStyles.of(style);
+}
 
 double number_in(const Cell& cell) {
   if (!is_number(cell)) return kNone;

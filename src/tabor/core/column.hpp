@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -29,6 +30,7 @@ enum class Shown {
   exponent,  ///< "2.1e-07"
   alarm      ///< a switch that should be off, as no or YES
 };
+std::string_view name_of(Shown style);  ///< "by_unit", ...
 
 /// Outputs in which a column appears, as bits. A table of columns may serve several outputs that do
 /// not all hold the same numbers; the meaning of the bits stands beside the columns of a record.

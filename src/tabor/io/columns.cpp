@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
@@ -123,6 +124,39 @@ void write_dataset(Hdf5Writer& writer, const std::string& path, const std::vecto
     for (const Cell& cell : cells) values.push_back(number_in(cell));
     writer.write(path, values);
   }
+}
+
+namespace {
+
+/// A number that the terminal does not show has no style.
+std::string style_of(const ColumnHead& head) {
+  return head.heading.empty() ? "" : std::string(name_of(head.style.shown));
+}
+
+}  // namespace
+
+void describe(Hdf5Writer& writer, const std::string& path, const ColumnHead& head) {
+  if (!head.unit.empty()) writer.attribute(path, "units", head.unit);
+  if (head.heading.empty()) return;
+  writer.attribute(path, "heading", head.heading);
+  writer.attribute(path, "style", style_of(head));
+}
+
+void write_column_table(Hdf5Writer& writer, const std::vector<ColumnHead>& heads) {
+  std::set<std::string> known;
+  std::vector<std::string> keys, headings, units, styles;
+  for (const ColumnHead& head : heads) {
+    if (!known.insert(head.key).second) continue;
+    keys.push_back(head.key);
+    headings.push_back(head.heading);
+    units.push_back(head.unit);
+    styles.push_back(style_of(head));
+  }
+  if (keys.empty()) return;
+  writer.write("/columns/key", keys);
+  writer.write("/columns/heading", headings);
+  writer.write("/columns/units", units);
+  writer.write("/columns/style", styles);
 }
 
 std::string csv_line_of(const std::vector<Cell>& cells) {

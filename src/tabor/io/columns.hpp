@@ -28,6 +28,14 @@ void write_members(Hdf5Writer& writer, const std::string& path, const Json& obje
 void write_dataset(Hdf5Writer& writer, const std::string& path, const std::vector<Cell>& cells,
                    const Cell& kind);
 
+/// Writes what is known of a column as attributes of its dataset: `units`, `heading` and `style`
+/// (core/column.hpp); what it does not have is left out.
+void describe(Hdf5Writer& writer, const std::string& path, const ColumnHead& head);
+
+/// Writes the same of numbers that stand as attributes: the texts `key`, `heading`, `units` and
+/// `style` below /columns, each key once.
+void write_column_table(Hdf5Writer& writer, const std::vector<ColumnHead>& heads);
+
 /// Returns a line of a CSV file; the cell of a value that does not exist is empty, a list of texts
 /// has blanks between them.
 std::string csv_line_of(const std::vector<Cell>& cells);
@@ -59,18 +67,19 @@ std::vector<Cell> cells_down(const Column<Record>& column, const std::vector<Rec
   return cells;
 }
 
-/// Writes a dataset per column below `group`, one entry per record.
+/// Writes a dataset per column below `group`, one entry per record, and describes it.
 template <typename Record>
 void write_datasets(Hdf5Writer& writer, const std::string& group, const Columns<Record>& columns,
                     const std::vector<Record>& records, Media media = kEverywhere) {
   for (const Column<Record>& column : columns) {
     if (!column.is_in(media)) continue;
-    write_dataset(writer, group + "/" + column.key, cells_down(column, records), column.kind);
+    const std::string path = group + "/" + column.key;
+    write_dataset(writer, path, cells_down(column, records), column.kind);
+    describe(writer, path, column);
   }
 }
 
-/// Writes the curves of a history: such datasets with units and headings as `units` and
-/// `long_name`.
+/// Writes the curves of a history: such datasets with their headings as `long_name`, too.
 template <typename Record>
 void write_curves(Hdf5Writer& writer, const std::string& group, const Columns<Record>& columns,
                   const std::vector<Record>& records) {

@@ -42,6 +42,10 @@ void write_case(const std::filesystem::path& file, const std::string& command,
   write_result_head(writer, {command, config.to_text(), program.methods});
   writer.attribute("/", "kind", "ehl " + program.name);
   write_numbers(writer, "/result", result.numbers);
+  std::vector<ColumnHead> heads;
+  heads.reserve(result.numbers.size());
+  for (const NamedCell& number : result.numbers) heads.push_back(number.head);
+  io::write_column_table(writer, heads);
   write_warnings(writer, warnings);
   if (result.write) result.write(writer);
   writer.commit();

@@ -41,6 +41,8 @@ bool is_vti(const std::filesystem::path& file) {
 
 }  // namespace
 
+std::string state_group(std::size_t number) { return fmt::format("/states/{:04}", number); }
+
 void write_result_head(io::Hdf5Writer& writer, const ResultHead& head) {
   writer.attribute("/", "format", "tabor");
   writer.attribute("/", "format_version", kFormatVersion);
@@ -99,37 +101,6 @@ std::string toml_of(const io::Json& settings) {
 
 std::string density_text(double density) { return plain(in_g_per_m2(density)) + " g/m^2"; }
 
-std::vector<StateField> fields_of(const cases::ContactRecord& record) {
-  return {{"pressure", "Pa", "contact pressure", record.state.pressure},
-          {"gap", "m", "gap between the deformed surface and the flat", record.state.gap}};
-}
-
-std::vector<StateField> fields_of(const cases::FilmRecord& record) {
-  return {{"film_thickness", "m", "thickness of the lubricant film", record.film.thickness}};
-}
-
-std::vector<StateField> fields_of(const cases::FluidRecord& record) {
-  return {
-      {"fluid_pressure", "Pa", "pressure of the oil", record.state.film.pressure},
-      {"fluid_fill", "1", "share of the gap that oil fills while sliding", record.state.film.fill},
-      {"fluid_gap", "m", "gap while sliding", record.state.contact.gap},
-      {"fluid_solid_pressure", "Pa", "contact pressure while sliding",
-       record.state.contact.pressure}};
-}
-
-std::vector<StateField> fields_of(const cases::ContactRecord& contact,
-                                  const cases::FilmRecord& film, const cases::FluidRecord* fluid) {
-  std::vector<StateField> fields = fields_of(contact);
-  for (StateField& field : fields) field.owner = fmt::format("{}", contact.summary.mean_pressure);
-  for (StateField& field : fields_of(film)) {
-    field.owner = fmt::format("{}", film.lubricant_density);
-    fields.push_back(field);
-  }
-  if (fluid == nullptr) return fields;
-  for (const StateField& field : fields_of(*fluid)) fields.push_back(field);
-  return fields;
-}
-
 Case case_of(const cases::ContactRecord& record) {
   return {.pressure = si(record.summary.mean_pressure, "Pa"), .warnings = record.warnings};
 }
@@ -173,12 +144,18 @@ void FieldsFile::write_axes(const std::string& group) {
   for (const char* axis : {"/x", "/y"}) writer_.link(group + axis, first->second + axis);
 }
 
+/// True for a map to be written; makes a second name for one that is in the file.
+bool FieldsFile::is_first(const std::string& name, const std::string& owner,
+                          const std::string& path) {
+  if (owner.empty()) return true;
+  const auto [first, is_new] = stored_.try_emplace(name + ' ' + owner, path);
+  if (!is_new) writer_.link(path, first->second);
+  return is_new;
+}
+
 void FieldsFile::write_map(const std::string& group, const StateField& field) {
   const std::string path = group + "/" + field.name;
-  if (!field.owner.empty()) {
-    const auto [first, is_first] = stored_.try_emplace(field.name + ' ' + field.owner, path);
-    if (!is_first) return writer_.link(path, first->second);
-  }
+  if (!is_first(field.name, field.owner, path)) return;
   writer_.write(path, field.map, precision());
   writer_.describe(path, field.unit, field.long_name);
   writer_.attach_axes(path);
@@ -187,7 +164,8 @@ void FieldsFile::write_map(const std::string& group, const StateField& field) {
 void FieldsFile::add_state(std::size_t number, const NamedCells& scalars,
                            const std::vector<StateField>& fields) {
   ++n_states_;
-  const std::string group = fmt::format("/states/{:04}", number);
+  for (const NamedCell& scalar : scalars) heads_.push_back(scalar.head);
+  const std::string group = state_group(number);
   writer_.group(group);
   const std::vector<StateField> kept = kept_of(fields, options_.fields);
   if (!kept.empty()) {
@@ -200,6 +178,7 @@ void FieldsFile::add_state(std::size_t number, const NamedCells& scalars,
 
 void FieldsFile::commit(const std::vector<Finding>& warnings) {
   if (n_states_ == 0) return;
+  io::write_column_table(writer_, heads_);
   write_warnings(writer_, warnings);
   if (!is_vti(file_)) return writer_.commit();
   const std::filesystem::path& maps = writer_.close();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -49,6 +50,9 @@ struct StateField {
   std::string owner = {};  ///< maps of one name and owner are the same one, stored once; "": none
 };
 
+/// Returns the group of a state: "/states/0000".
+std::string state_group(std::size_t number);
+
 /// Maps that a result file stores.
 enum class Fields {
   none,     ///< numbers alone
@@ -86,14 +90,46 @@ Case case_of(const cases::ContactRecord& record);
 Case case_of(const cases::FilmRecord& record);
 Case case_of(const cases::FrictionRecord& record);
 
-/// The `-o` file of contact, lubricate and friction (docs/results.md): HDF5, or by the extension
-/// .vti the maps alone, for ParaView. Nothing appears under its name before commit().
+/// Returns the map that a file has of each contact: 0 no contact, 1 contact below saturation, 2
+/// saturated.
+inline constexpr const char* kContactMap = "0 no contact, 1 contact below saturation, 2 saturated";
+io::ByteMap contact_map(const contact::State& state, double saturation_pressure);
+
+/// Returns the pressure [Pa] above which contacts of these settings saturate; infinity if none.
+double cap_of(const cases::ContactSettings& settings);
+
+/// File of results to be written, and what they are of.
+struct FieldsTarget {
+  std::filesystem::path file;
+  FieldsOptions options;
+  std::string command;  ///< that makes it
+  ScanOrigin origin;
+};
+
+/// The `-o` file of contact, lubricate and friction, and that of tabor.save (docs/results.md):
+/// HDF5, or by the extension .vti the maps alone, for ParaView. Nothing appears under its name
+/// before commit().
 class FieldsFile {
  public:
-  /// Throws InputError for a .vti without maps.
+  /// Open the file of contacts, of films or of frictions under these settings. Throw InputError for
+  /// a .vti without maps.
+  FieldsFile(const FieldsTarget& target, const topography::Topography& surface,
+             const cases::ContactSettings& settings);
+  FieldsFile(const FieldsTarget& target, const topography::Topography& surface,
+             const cases::FilmSettings& settings);
+  FieldsFile(const FieldsTarget& target, const topography::Topography& surface,
+             const cases::CaseSettings& settings);
+  /// Opens a file of any numbers and maps.
   FieldsFile(const std::filesystem::path& file, const FieldsOptions& options,
              const ResultHead& head, const topography::Topography& surface,
              const ScanOrigin& origin);
+
+  /// Add the state NNNN of a contact, of a film or of a friction.
+  void add(std::size_t number, const cases::ContactRecord& record);
+  void add(std::size_t number, const cases::FilmRecord& record);
+  void add(std::size_t number, const cases::FrictionRecord& record,
+           const cases::ContactRecord& contact, const cases::FilmRecord& film,
+           const cases::FluidRecord* fluid);
 
   /// Adds /states/NNNN: scalars as attributes, the first field as what viewers plot.
   void add_state(std::size_t number, const NamedCells& scalars,
@@ -115,12 +151,16 @@ class FieldsFile {
   io::Precision precision() const;
   void write_axes(const std::string& group);
   void write_map(const std::string& group, const StateField& field);
+  void write_contact(std::size_t number, const contact::State& state, const std::string& owner);
+  bool is_first(const std::string& name, const std::string& owner, const std::string& path);
 
   std::filesystem::path file_;
   io::Hdf5Writer writer_;
   Grid grid_;
   FieldsOptions options_;
-  std::map<std::string, std::string> stored_;  ///< path of each stored map, by its owner
+  double cap_ = std::numeric_limits<double>::infinity();  ///< saturation pressure [Pa]
+  std::vector<ColumnHead> heads_;                         ///< of the numbers of all states
+  std::map<std::string, std::string> stored_;             ///< path of each stored map, by its owner
   std::size_t n_states_ = 0;
 };
 

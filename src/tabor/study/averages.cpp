@@ -128,14 +128,14 @@ std::vector<Average> averages(const std::vector<Row>& rows) {
 Columns<Average> average_columns(bool oil_flows) {
   Columns<Average> columns{
       {"group", "", "", &Average::group},
-      {"mean_pressure_Pa", "", "", &Average::mean_pressure},
-      {"lubricant_density_g_per_m2", "", "",
+      {"mean_pressure_Pa", "Pa", "", &Average::mean_pressure},
+      {"lubricant_density_g_per_m2", "g/m²", "",
        [](const Average& average) { return in_g_per_m2(average.lubricant_density); }},
       {"n", "", "", &Average::n}};
   add_mean("friction_dry", &Average::friction_dry, columns);
   add_mean("friction_lubricated", &Average::friction_lubricated, columns);
   if (!oil_flows) return columns;
-  Columns<FluidAverage> fluid{{"sliding_speed_m_per_s", "", "", &FluidAverage::sliding_speed}};
+  Columns<FluidAverage> fluid{{"sliding_speed_m_per_s", "m/s", "", &FluidAverage::sliding_speed}};
   add_mean("fluid_load_share", &FluidAverage::load_share, fluid);
   add_mean("friction_viscous", &FluidAverage::friction_viscous, fluid);
   add_mean("friction_mixed", &FluidAverage::friction_mixed, fluid);

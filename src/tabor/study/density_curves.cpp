@@ -195,8 +195,8 @@ const Columns<CurvePoint>& curve_columns() {
   static const Columns<CurvePoint> all = {
       {"scan", "", "", &CurvePoint::scan},
       {"group", "", "", &CurvePoint::group},
-      {"mean_pressure_Pa", "", "", &CurvePoint::mean_pressure},
-      {"lubricant_density_g_per_m2", "", "", density_in_grams},
+      {"mean_pressure_Pa", "Pa", "", &CurvePoint::mean_pressure},
+      {"lubricant_density_g_per_m2", "g/m²", "", density_in_grams},
       {"lubricated_share", "", "", &CurvePoint::lubricated_share},
       {"friction_lubricated", "", "", &CurvePoint::friction_lubricated}};
   return all;
@@ -206,14 +206,14 @@ const Columns<GroupCurve>& plateau_columns() {
   using results::beside_plateau;
   static const Columns<GroupCurve> all = {
       {"group", "", "", &GroupCurve::group},
-      {"mean_pressure_Pa", "", "", [](const GroupCurve& one) { return one.curve.mean_pressure; }},
-      {"below_plateau_g_per_m2", "", "",
+      {"mean_pressure_Pa", "Pa", "", [](const GroupCurve& one) { return one.curve.mean_pressure; }},
+      {"below_plateau_g_per_m2", "g/m²", "",
        [](const GroupCurve& one) { return in_grams(beside_plateau(one.curve).below); }},
-      {"plateau_from_g_per_m2", "", "",
+      {"plateau_from_g_per_m2", "g/m²", "",
        [](const GroupCurve& one) { return plateau_number(one, &Plateau::first); }},
-      {"plateau_to_g_per_m2", "", "",
+      {"plateau_to_g_per_m2", "g/m²", "",
        [](const GroupCurve& one) { return plateau_number(one, &Plateau::last); }},
-      {"beyond_plateau_g_per_m2", "", "",
+      {"beyond_plateau_g_per_m2", "g/m²", "",
        [](const GroupCurve& one) { return in_grams(beside_plateau(one.curve).beyond); }},
       {"lubricated_share", "", "", [](const GroupCurve& one) {
          return one.curve.plateau ? 1 - one.curve.plateau->value : std::nan("");
@@ -224,8 +224,8 @@ const Columns<GroupCurve>& plateau_columns() {
 const Columns<PlacePoint>& place_columns() {
   static const Columns<PlacePoint> all = {
       {"group", "", "", &PlacePoint::group},
-      {"mean_pressure_Pa", "", "", &PlacePoint::mean_pressure},
-      {"lubricant_density_g_per_m2", "", "",
+      {"mean_pressure_Pa", "Pa", "", &PlacePoint::mean_pressure},
+      {"lubricant_density_g_per_m2", "g/m²", "",
        [](const PlacePoint& point) { return in_g_per_m2(point.lubricant_density); }},
       {"lubricated_share", "", "", &PlacePoint::lubricated_share},
       {"place", "", "", &PlacePoint::place}};
@@ -236,8 +236,8 @@ const Columns<AveragePoint>& average_curve_columns() {
   static const Columns<AveragePoint> all = [] {
     Columns<AveragePoint> columns = {
         {"group", "", "", &AveragePoint::group},
-        {"mean_pressure_Pa", "", "", &AveragePoint::mean_pressure},
-        {"lubricant_density_g_per_m2", "", "", average_density_in_grams},
+        {"mean_pressure_Pa", "Pa", "", &AveragePoint::mean_pressure},
+        {"lubricant_density_g_per_m2", "g/m²", "", average_density_in_grams},
         {"n", "", "", &AveragePoint::n}};
     add_mean("lubricated_share", &AveragePoint::lubricated_share, columns);
     add_mean("friction_lubricated", &AveragePoint::friction_lubricated, columns);

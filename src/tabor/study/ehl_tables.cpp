@@ -36,17 +36,18 @@ void write_axes(io::Hdf5Writer& writer, const std::vector<SweepAxis>& axes) {
 void write_columns(io::Hdf5Writer& writer, const ehl::CaseColumns& columns,
                    const Results& results) {
   std::vector<double> values(results.size());
-  const auto write = [&](const std::string& name, const std::string& unit,
-                         const std::string& heading) {
-    writer.write("/sweep/" + name, values);
-    writer.describe("/sweep/" + name, unit, heading);
+  const auto write = [&](const ColumnHead& column) {
+    const std::string path = "/sweep/" + column.key;
+    writer.write(path, values);
+    writer.describe(path, column.unit, column.heading);
+    io::describe(writer, path, column);
   };
   for (const ColumnHead& column : columns) {
     for (std::size_t i = 0; i < results.size(); ++i) values[i] = results[i].number(column.key);
-    write(column.key, column.unit, column.heading);
+    write(column);
   }
   for (std::size_t i = 0; i < results.size(); ++i) values[i] = results[i].converged() ? 1 : 0;
-  write("converged", "", "converged");
+  write({"converged", "", "converged"});
 }
 
 std::string with_unit(const SweepAxis& axis) {

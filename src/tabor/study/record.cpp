@@ -13,17 +13,13 @@
 #include "tabor/io/hdf5_guard.hpp"
 #include "tabor/io/json.hpp"
 #include "tabor/io/sealed_file.hpp"
+#include "tabor/results/fields_file.hpp"
 #include "tabor/study/task_file.hpp"
 #include "tabor/study/wet_shares.hpp"
 #include "tabor/topography/surface_group.hpp"
 
 namespace tabor::study {
 namespace {
-
-io::ByteMap contact_states(const contact::State& state, double saturation_pressure) {
-  return contact::contact_mask(state).cast<std::uint8_t>() +
-         contact::saturated_mask(state, saturation_pressure).cast<std::uint8_t>();
-}
 
 void write_spectrum(io::Hdf5Writer& writer, const std::string& axis, const std::string& density,
                     const metrology::Spectrum& spectrum) {
@@ -147,8 +143,8 @@ void write_contact(const engine::Store& store, const engine::Task& task, const G
   io::Hdf5Writer writer = task_writer(store, task, "contact");
   writer.axes("/contact", grid);
   const std::string path = "/contact/state";
-  writer.write(path, contact_states(record.state, saturation_pressure));
-  writer.describe(path, "1", "0 no contact, 1 contact below saturation, 2 saturated");
+  writer.write(path, results::contact_map(record.state, saturation_pressure));
+  writer.describe(path, "1", results::kContactMap);
   writer.attach_axes(path);
   write_map(writer, "/contact", {"gap", "m", "gap between the surfaces"}, record.state.gap);
   writer.nxdata("/contact", "state");

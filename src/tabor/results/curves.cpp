@@ -1,16 +1,15 @@
-#include "tabor/cli/psd_curves.hpp"
+#include "tabor/results/curves.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 
-#include "tabor/cli/result.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/io/atomic_file.hpp"
 #include "tabor/io/csv.hpp"
 #include "tabor/io/hdf5.hpp"
 
-namespace tabor::cli {
+namespace tabor::results {
 
 namespace {
 
@@ -29,7 +28,7 @@ void make_plot(const CurveSet& set, io::Hdf5Writer& writer) {
                    R"({"axes_scale_types": ["log"], "signal_scale_type": "log"})");
 }
 
-void write_set(const CurveSet& set, io::Hdf5Writer& writer) {
+void write_curve_set(const CurveSet& set, io::Hdf5Writer& writer) {
   writer.group(set.place);
   for (const auto& [name, texts] : set.attributes) {
     if (texts.size() == 1) {
@@ -79,17 +78,17 @@ std::string csv_of(const std::vector<CurveSet>& sets) {
 }
 
 void write_curves(const std::vector<CurveSet>& sets, const std::filesystem::path& file,
-                  const Context& context, const std::vector<std::string>& methods) {
+                  const ResultHead& head, const std::vector<Finding>& warnings) {
   if (lower(file.extension().string()) == ".csv") {
     io::write_file(file, csv_of(sets));
     return;
   }
   io::Hdf5Writer writer(file);
-  results::write_result_head(writer, head_of(context, "", methods));
-  for (const CurveSet& set : sets) write_set(set, writer);
+  write_result_head(writer, head);
+  for (const CurveSet& set : sets) write_curve_set(set, writer);
   if (!sets.empty()) make_default(sets.front(), writer);
-  results::write_warnings(writer, context.warnings);
+  write_warnings(writer, warnings);
   writer.commit();
 }
 
-}  // namespace tabor::cli
+}  // namespace tabor::results

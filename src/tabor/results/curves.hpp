@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
-#include "tabor/cli/verb.hpp"
+#include "tabor/results/fields_file.hpp"
 
 // Writes tables of curves, such as power spectra, as CSV or HDF5.
-namespace tabor::cli {
+namespace tabor::results {
 
 /// One column of a table of curves. Curves of one table may have different lengths.
 struct Curve {
@@ -31,9 +31,9 @@ struct CurveSet {
 /// Returns all curves side by side; short ones end in empty cells.
 std::string csv_of(const std::vector<CurveSet>& sets);
 
-/// Writes them as CSV or as datasets of an HDF5 file, by the extension: .csv or another. `methods`
-/// are keys of references.bib.
+/// Writes them as CSV or, with this head and these warnings, as datasets of an HDF5 file, by the
+/// extension: .csv or another.
 void write_curves(const std::vector<CurveSet>& sets, const std::filesystem::path& file,
-                  const Context& context, const std::vector<std::string>& methods);
+                  const ResultHead& head, const std::vector<Finding>& warnings);
 
-}  // namespace tabor::cli
+}  // namespace tabor::results

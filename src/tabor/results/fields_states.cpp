@@ -1,0 +1,110 @@
+#include <fmt/format.h>
+
+#include <cstdint>
+
+#include "tabor/cases/states.hpp"
+#include "tabor/contact/contact.hpp"
+#include "tabor/results/fields_file.hpp"
+
+// Fills the result file of contacts, films and frictions.
+namespace tabor::results {
+
+namespace {
+
+std::string owner_of(const cases::ContactRecord& record) {
+  return fmt::format("{}", record.summary.mean_pressure);
+}
+
+template <typename Settings>
+ResultHead head_of(const FieldsTarget& target, const Settings& settings) {
+  return {target.command, toml_of(settings_json(settings)), cases::references_of(settings)};
+}
+
+}  // namespace
+
+std::vector<StateField> fields_of(const cases::ContactRecord& record) {
+  return {{"pressure", "Pa", "contact pressure", record.state.pressure},
+          {"gap", "m", "gap between the deformed surface and the flat", record.state.gap}};
+}
+
+std::vector<StateField> fields_of(const cases::FilmRecord& record) {
+  return {{"film_thickness", "m", "thickness of the lubricant film", record.film.thickness}};
+}
+
+std::vector<StateField> fields_of(const cases::FluidRecord& record) {
+  return {
+      {"fluid_pressure", "Pa", "pressure of the oil", record.state.film.pressure},
+      {"fluid_fill", "1", "share of the gap that oil fills while sliding", record.state.film.fill},
+      {"fluid_gap", "m", "gap while sliding", record.state.contact.gap},
+      {"fluid_solid_pressure", "Pa", "contact pressure while sliding",
+       record.state.contact.pressure}};
+}
+
+std::vector<StateField> fields_of(const cases::ContactRecord& contact,
+                                  const cases::FilmRecord& film, const cases::FluidRecord* fluid) {
+  std::vector<StateField> fields = fields_of(contact);
+  for (StateField& field : fields) field.owner = owner_of(contact);
+  for (StateField& field : fields_of(film)) {
+    field.owner = fmt::format("{}", film.lubricant_density);
+    fields.push_back(field);
+  }
+  if (fluid == nullptr) return fields;
+  for (const StateField& field : fields_of(*fluid)) fields.push_back(field);
+  return fields;
+}
+
+io::ByteMap contact_map(const contact::State& state, double saturation_pressure) {
+  return (state.pressure > 0).cast<std::uint8_t>() +
+         contact::saturated_mask(state, saturation_pressure).cast<std::uint8_t>();
+}
+
+double cap_of(const cases::ContactSettings& settings) {
+  return settings.saturation_pressure.value_or(std::numeric_limits<double>::infinity());
+}
+
+FieldsFile::FieldsFile(const FieldsTarget& target, const topography::Topography& surface,
+                       const cases::ContactSettings& settings)
+    : FieldsFile(target.file, target.options, head_of(target, settings), surface, target.origin) {
+  cap_ = cap_of(settings);
+}
+
+FieldsFile::FieldsFile(const FieldsTarget& target, const topography::Topography& surface,
+                       const cases::FilmSettings& settings)
+    : FieldsFile(target.file, target.options, head_of(target, settings), surface, target.origin) {}
+
+FieldsFile::FieldsFile(const FieldsTarget& target, const topography::Topography& surface,
+                       const cases::CaseSettings& settings)
+    : FieldsFile(target.file, target.options, head_of(target, settings), surface, target.origin) {
+  cap_ = cap_of(settings.contact);
+}
+
+void FieldsFile::write_contact(std::size_t number, const contact::State& state,
+                               const std::string& owner) {
+  if (options_.fields == Fields::none) return;
+  const std::string path = state_group(number) + "/state";
+  if (!is_first("state", owner, path)) return;
+  writer_.write(path, contact_map(state, cap_));
+  writer_.describe(path, "1", kContactMap);
+  writer_.attach_axes(path);
+}
+
+void FieldsFile::add(std::size_t number, const cases::ContactRecord& record) {
+  add_state(number, cells_of(cases::contact_columns(), record, cases::media::kObject),
+            fields_of(record));
+  write_contact(number, record.state, "");
+}
+
+void FieldsFile::add(std::size_t number, const cases::FilmRecord& record) {
+  add_state(number, cells_of(cases::film_columns(), record, cases::media::kObject),
+            fields_of(record));
+}
+
+void FieldsFile::add(std::size_t number, const cases::FrictionRecord& record,
+                     const cases::ContactRecord& contact, const cases::FilmRecord& film,
+                     const cases::FluidRecord* fluid) {
+  add_state(number, cells_of(cases::friction_columns(), record, cases::media::kObject),
+            fields_of(contact, film, fluid));
+  write_contact(number, contact.state, owner_of(contact));
+}
+
+}  // namespace tabor::results
