@@ -154,7 +154,7 @@ TEST_F(Defaults, LieInTheWorkingFolder) {
   EXPECT_EQ(found.code, 0) << found.err;
   EXPECT_THAT(found.err, HasSubstr("defaults of tabor.toml"));
   EXPECT_EQ(none.code, 2);
-  EXPECT_THAT(none.err, HasSubstr("--pressure"));
+  EXPECT_THAT(none.err, HasSubstr("--youngs-modulus E is missing"));
 }
 
 TEST_F(Defaults, BehindALinkThatLeadsNowhereAreRejectedInOneLine) {

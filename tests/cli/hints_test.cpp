@@ -44,6 +44,7 @@ const std::map<std::string, Plausible>& plausible_options() {
       {"--viscosity", kOilViscosity},
       {"--pressure-viscosity", kOilPressureViscosity},
       {"--speed", {dimension::speed, 1e-7, 100}},
+      {"--force", {dimension::force, 1e-6, 1e7}},  // of a microscope, of a press
       {"--fit-min", {dimension::wavevector, 1, 1e12}},
       {"--fit-max", {dimension::wavevector, 1, 1e12}},
       {"--profile-cutoff", {dimension::length, 1e-6, 0.1}}};
