@@ -49,7 +49,7 @@ struct Measured {
   results::Case doubts;
 };
 
-/// Those of a table for people; files and JSON objects have all of them.
+/// Sets in a table for people; files and JSON objects have all of them.
 constexpr std::array kShown{ParameterSet::height, ParameterSet::hybrid, ParameterSet::function};
 
 std::vector<ParameterSet> sets_from(const std::string& text) {
@@ -84,7 +84,7 @@ metrology::ProfileOptions profile_options_of(const Request& request) {
   return options;
 }
 
-/// Whether the result is a table for people that nobody chose the sets of.
+/// True if the result is a table for people that nobody chose the sets of.
 bool is_short(const Request& request, const Context& context) {
   return !request.sets && !request.csv.is_asked() && !request.output && !context.json;
 }

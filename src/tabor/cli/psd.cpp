@@ -97,7 +97,7 @@ std::vector<cases::GroupSpectra> means_of(const std::vector<GroupMembers>& group
 
 bool is_one(const Request& request) { return request.files.size() == 1 && request.groups.empty(); }
 
-/// Those of each scan and of each group.
+/// Returns the curves of each scan and of each group.
 std::vector<results::CurveSet> curve_sets(const Request& request, const std::vector<Measured>& all,
                                           const std::vector<cases::GroupSpectra>& groups) {
   if (is_one(request)) return {{.curves = results::curves_of(all.front().record)}};

@@ -17,7 +17,7 @@ using metrology::Parameter;
 
 namespace {
 
-/// Those of any group.
+/// Returns the scans that are in any group.
 std::vector<ParametersRecord> scans_in(const std::vector<GroupParameters>& groups,
                                        const std::vector<ParametersRecord>& scans) {
   std::vector<ParametersRecord> members;
