@@ -13,8 +13,8 @@
 
 #include "tabor/cases/ehl_surfaces.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/io/atomic_file.hpp"
 #include "tabor/io/columns.hpp"
+#include "tabor/io/files/atomic_file.hpp"
 #include "tabor/results/ehl_file.hpp"
 #include "tabor/study/ehl_sweep.hpp"
 #include "tabor/study/ehl_tables.hpp"

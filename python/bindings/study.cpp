@@ -7,8 +7,8 @@
 
 #include "bindings.hpp"
 #include "tabor/forming/deck.hpp"
-#include "tabor/io/atomic_file.hpp"
-#include "tabor/io/hdf5_guard.hpp"
+#include "tabor/io/files/atomic_file.hpp"
+#include "tabor/io/hdf5/guard.hpp"
 #include "tabor/results/citations.hpp"
 #include "tabor/study/friction_table.hpp"
 #include "tabor/study/sweep.hpp"

@@ -21,7 +21,7 @@
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/core/version.hpp"
-#include "tabor/io/protection.hpp"
+#include "tabor/io/files/protection.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::python {

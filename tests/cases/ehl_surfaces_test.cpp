@@ -7,7 +7,7 @@
 
 #include "support/folder.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/io/digest.hpp"
+#include "tabor/io/files/digest.hpp"
 #include "tabor/scan/file.hpp"
 
 namespace tabor::cases {

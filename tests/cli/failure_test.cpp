@@ -11,7 +11,7 @@
 #include "tabor/cli/exit_code.hpp"
 #include "tabor/cli/interrupt.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/io/atomic_file.hpp"
+#include "tabor/io/files/atomic_file.hpp"
 
 namespace tabor::test {
 namespace {

@@ -11,7 +11,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/likely_unit.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/io/toml.hpp"
+#include "tabor/io/text/toml.hpp"
 
 namespace tabor::test {
 namespace {

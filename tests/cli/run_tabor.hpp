@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "tabor/cli/app.hpp"
-#include "tabor/io/json.hpp"
+#include "tabor/io/text/json.hpp"
 
 namespace tabor::test {
 

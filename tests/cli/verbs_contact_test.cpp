@@ -3,7 +3,7 @@
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
 #include "tabor/cli/interrupt.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
 
 namespace tabor::test {
 namespace {

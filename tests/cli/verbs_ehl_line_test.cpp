@@ -5,8 +5,8 @@
 
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
-#include "tabor/io/atomic_file.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/files/atomic_file.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
 
 namespace tabor::cli {
 namespace {

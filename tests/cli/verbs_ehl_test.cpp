@@ -6,7 +6,7 @@
 #include "tabor/cli/axis_option.hpp"
 #include "tabor/cli/interrupt.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
 
 namespace tabor::cli {
 namespace {

@@ -4,8 +4,8 @@
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
 #include "tabor/cli/params_text.hpp"
-#include "tabor/io/atomic_file.hpp"
-#include "tabor/io/csv.hpp"
+#include "tabor/io/files/atomic_file.hpp"
+#include "tabor/io/text/csv.hpp"
 
 namespace tabor::test {
 namespace {

@@ -4,8 +4,8 @@
 #include "run_tabor.hpp"
 #include "small_ball.hpp"
 #include "support/folder.hpp"
-#include "tabor/io/csv.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
+#include "tabor/io/text/csv.hpp"
 
 namespace tabor::test {
 namespace {

@@ -45,6 +45,12 @@ TEST_F(SeparationVerb, LeadsBackToThePressure) {
   }
 }
 
+TEST_F(SeparationVerb, StandsInTheTableWhereItIsAskedFor) {
+  EXPECT_THAT(run_tabor(contact({"--separation", "0.1um"})).out, HasSubstr("separation"));
+  EXPECT_THAT(run_tabor(contact({"--pressure", "50MPa"})).out,
+              testing::Not(HasSubstr("separation")));
+}
+
 TEST_F(SeparationVerb, TakesAListAndARange) {
   const double highest = state_of({"--pressure", "1MPa"}).at("approach_m").get<double>() +
                          state_of({"--pressure", "1MPa"}).at("separation_m").get<double>();

@@ -3,8 +3,8 @@
 
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
-#include "tabor/io/csv.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
+#include "tabor/io/text/csv.hpp"
 #include "tabor/scan/file.hpp"
 
 namespace tabor::test {

@@ -7,7 +7,7 @@
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/io/csv.hpp"
+#include "tabor/io/text/csv.hpp"
 #include "tabor/scan/file.hpp"
 
 namespace tabor::test {

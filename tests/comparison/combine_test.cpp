@@ -7,7 +7,7 @@
 #include "support/sample_surfaces.hpp"
 #include "support/validation.hpp"
 #include "tabor/comparison/robust_fit.hpp"
-#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
 #include "tabor/topography/geometry.hpp"
 #include "tabor/topography/levelling.hpp"
 

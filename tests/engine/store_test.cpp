@@ -9,7 +9,7 @@
 #include "support/folder.hpp"
 #include "support/rejection.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/io/atomic_file.hpp"
+#include "tabor/io/files/atomic_file.hpp"
 
 namespace tabor::engine {
 namespace {

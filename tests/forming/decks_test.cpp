@@ -6,7 +6,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/forming/darmstad.hpp"
 #include "tabor/forming/deck.hpp"
-#include "tabor/io/csv.hpp"
+#include "tabor/io/text/csv.hpp"
 
 namespace tabor::forming {
 namespace {

@@ -12,7 +12,7 @@
 #include "tabor/elastic/half_space.hpp"
 #include "tabor/friction/load_search.hpp"
 #include "tabor/friction/mixed_friction.hpp"
-#include "tabor/reynolds/reynolds_film.hpp"
+#include "tabor/reynolds/line/reynolds_film.hpp"
 
 namespace tabor::friction {
 namespace {

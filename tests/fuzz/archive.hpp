@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tabor/io/zip.hpp"
+#include "tabor/io/files/zip.hpp"
 
 namespace tabor::fuzz {
 

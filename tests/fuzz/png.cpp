@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "tabor/io/deflate.hpp"
+#include "tabor/io/files/deflate.hpp"
 
 namespace tabor::fuzz {
 namespace {

@@ -8,7 +8,7 @@
 #include "fuzz/seeds.hpp"
 #include "fuzz/targets.hpp"
 #include "support/folder.hpp"
-#include "tabor/io/png.hpp"
+#include "tabor/io/image/png.hpp"
 
 namespace tabor::fuzz {
 namespace {

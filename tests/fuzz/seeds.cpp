@@ -9,7 +9,7 @@
 #include "support/folder.hpp"
 #include "support/instrument_files.hpp"
 #include "support/sample_map.hpp"
-#include "tabor/io/png.hpp"
+#include "tabor/io/image/png.hpp"
 #include "tabor/scan/file.hpp"
 #include "tabor/topography/treatment.hpp"
 

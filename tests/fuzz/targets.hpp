@@ -14,7 +14,7 @@ struct Target {
   std::function<void(std::string_view)> run;
   bool packed = false;  ///< may unpack compressed data: a small input may rightly need much memory
   /// What a foreign library may ask for before it notices that a file lies [bytes]: users' files
-  /// are read in a copy of the process with such a limit (io/hdf5_guard.cpp).
+  /// are read in a copy of the process with such a limit (io/hdf5/guard.cpp).
   std::size_t library_bytes = 0;
 };
 

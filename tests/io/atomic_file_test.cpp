@@ -1,4 +1,4 @@
-#include "tabor/io/atomic_file.hpp"
+#include "tabor/io/files/atomic_file.hpp"
 
 #include <sys/stat.h>
 

@@ -1,4 +1,4 @@
-#include "tabor/io/csv.hpp"
+#include "tabor/io/text/csv.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "tabor/io/digest.hpp"
+#include "tabor/io/files/digest.hpp"
 
 #include "support/folder.hpp"
 #include "tabor/core/error.hpp"

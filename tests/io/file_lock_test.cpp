@@ -1,4 +1,4 @@
-#include "tabor/io/file_lock.hpp"
+#include "tabor/io/files/file_lock.hpp"
 
 #include <gtest/gtest.h>
 

@@ -15,9 +15,9 @@
 #include "support/folder.hpp"
 #include "support/sanitizers.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/io/file_lock.hpp"
-#include "tabor/io/hdf5_guard.hpp"
-#include "tabor/io/protection.hpp"
+#include "tabor/io/files/file_lock.hpp"
+#include "tabor/io/files/protection.hpp"
+#include "tabor/io/hdf5/guard.hpp"
 
 namespace tabor::io {
 namespace {

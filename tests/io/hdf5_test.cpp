@@ -1,4 +1,4 @@
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@
 #include "support/rejection.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
-#include "tabor/io/atomic_file.hpp"
+#include "tabor/io/files/atomic_file.hpp"
 
 namespace tabor::io {
 namespace {

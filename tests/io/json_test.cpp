@@ -1,4 +1,4 @@
-#include "tabor/io/json.hpp"
+#include "tabor/io/text/json.hpp"
 
 #include <cmath>
 #include <limits>

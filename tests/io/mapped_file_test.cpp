@@ -1,4 +1,4 @@
-#include "tabor/io/mapped_file.hpp"
+#include "tabor/io/files/mapped_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 #include "support/folder.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/io/protection.hpp"
+#include "tabor/io/files/protection.hpp"
 
 namespace tabor::io {
 namespace {

@@ -1,4 +1,4 @@
-#include "tabor/io/png.hpp"
+#include "tabor/io/image/png.hpp"
 
 #include <cmath>
 #include <span>

@@ -1,5 +1,5 @@
 // A library leaves the process it is linked into as it is, until the program asks for protection.
-#include "tabor/io/protection.hpp"
+#include "tabor/io/files/protection.hpp"
 
 #include <gtest/gtest.h>
 #include <pthread.h>
@@ -10,8 +10,8 @@
 
 #include "support/folder.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/io/hdf5_guard.hpp"
-#include "tabor/io/mapped_file.hpp"
+#include "tabor/io/files/mapped_file.hpp"
+#include "tabor/io/hdf5/guard.hpp"
 
 namespace tabor::io {
 namespace {

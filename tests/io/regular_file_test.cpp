@@ -1,5 +1,5 @@
 // Every file of a user is opened in one way, which neither waits nor reads without end.
-#include "tabor/io/regular_file.hpp"
+#include "tabor/io/files/regular_file.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/socket.h>
@@ -12,14 +12,14 @@
 
 #include "support/folder.hpp"
 #include "support/rejection.hpp"
-#include "tabor/io/atomic_file.hpp"
-#include "tabor/io/csv.hpp"
-#include "tabor/io/digest.hpp"
-#include "tabor/io/hdf5.hpp"
-#include "tabor/io/json.hpp"
-#include "tabor/io/mapped_file.hpp"
-#include "tabor/io/png.hpp"
-#include "tabor/io/toml.hpp"
+#include "tabor/io/files/atomic_file.hpp"
+#include "tabor/io/files/digest.hpp"
+#include "tabor/io/files/mapped_file.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
+#include "tabor/io/image/png.hpp"
+#include "tabor/io/text/csv.hpp"
+#include "tabor/io/text/json.hpp"
+#include "tabor/io/text/toml.hpp"
 
 namespace tabor::io {
 namespace {

@@ -1,10 +1,10 @@
-#include "tabor/io/sealed_file.hpp"
+#include "tabor/io/files/sealed_file.hpp"
 
 #include <gmock/gmock.h>
 
 #include "support/folder.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
 
 namespace tabor::io {
 namespace {

@@ -1,4 +1,4 @@
-#include "tabor/io/toml.hpp"
+#include "tabor/io/text/toml.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "tabor/metrology/correlation.hpp"
+#include "tabor/metrology/spectra/correlation.hpp"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@
 #include "support/validation.hpp"
 #include "support/worst.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/metrology/height_differences.hpp"
+#include "tabor/metrology/spectra/height_differences.hpp"
 #include "tabor/scan/file.hpp"
 #include "tabor/topography/levelling.hpp"
 

@@ -1,4 +1,4 @@
-#include "tabor/metrology/features.hpp"
+#include "tabor/metrology/features/features.hpp"
 
 #include <gmock/gmock.h>
 

@@ -5,8 +5,8 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/glob.hpp"
-#include "tabor/metrology/mean_spectrum.hpp"
-#include "tabor/metrology/parameter_means.hpp"
+#include "tabor/metrology/areal/parameter_means.hpp"
+#include "tabor/metrology/spectra/mean_spectrum.hpp"
 
 namespace tabor::metrology {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "support/sample_surfaces.hpp"
-#include "tabor/metrology/profile.hpp"
+#include "tabor/metrology/profile/profile.hpp"
 
 namespace tabor::metrology::test {
 

@@ -1,4 +1,4 @@
-#include "tabor/metrology/profile.hpp"
+#include "tabor/metrology/profile/profile.hpp"
 
 #include <gmock/gmock.h>
 
@@ -11,9 +11,9 @@
 #include "support/synthetic.hpp"
 #include "support/validation.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/metrology/parameters.hpp"
-#include "tabor/metrology/profile_elements.hpp"
-#include "tabor/metrology/profile_filter.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
+#include "tabor/metrology/profile/profile_elements.hpp"
+#include "tabor/metrology/profile/profile_filter.hpp"
 
 namespace tabor::metrology::test {
 

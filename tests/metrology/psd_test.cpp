@@ -1,4 +1,4 @@
-#include "tabor/metrology/psd.hpp"
+#include "tabor/metrology/spectra/psd.hpp"
 
 #include <gmock/gmock.h>
 
@@ -9,7 +9,7 @@
 #include "support/sample_surfaces.hpp"
 #include "support/validation.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
 #include "tabor/topography/filters.hpp"
 #include "tabor/topography/geometry.hpp"
 

@@ -1,11 +1,11 @@
-#include "tabor/metrology/reliability.hpp"
+#include "tabor/metrology/spectra/reliability.hpp"
 
 #include <gmock/gmock.h>
 
 #include "support/rejection.hpp"
 #include "support/rough_recipe.hpp"
 #include "support/sample_surfaces.hpp"
-#include "tabor/metrology/psd.hpp"
+#include "tabor/metrology/spectra/psd.hpp"
 #include "tabor/synthesis/synthesis.hpp"
 
 namespace tabor::metrology::test {

@@ -1,4 +1,4 @@
-#include "tabor/metrology/watershed.hpp"
+#include "tabor/metrology/features/watershed.hpp"
 
 #include <gmock/gmock.h>
 

@@ -8,7 +8,7 @@
 #include "support/folder.hpp"
 #include "tabor/cases/states.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
 
 namespace tabor::results::test {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "support/folder.hpp"
 #include "support/sample_surfaces.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
 
 namespace tabor::results {
 namespace {

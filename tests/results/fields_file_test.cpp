@@ -8,7 +8,7 @@
 
 #include "support/folder.hpp"
 #include "tabor/cases/states.hpp"
-#include "tabor/io/toml.hpp"
+#include "tabor/io/text/toml.hpp"
 
 namespace tabor::results::test {
 namespace {

@@ -1,5 +1,5 @@
 // Oil that a sliding flat carries over a rough patch.
-#include "tabor/reynolds/patch_flow.hpp"
+#include "tabor/reynolds/patch/patch_flow.hpp"
 
 #include <gtest/gtest.h>
 

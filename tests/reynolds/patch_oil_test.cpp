@@ -1,5 +1,5 @@
 // Where oil goes when surfaces close on it.
-#include "tabor/reynolds/patch_oil.hpp"
+#include "tabor/reynolds/patch/patch_oil.hpp"
 
 #include <gtest/gtest.h>
 

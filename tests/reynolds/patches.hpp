@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "tabor/reynolds/patch_flow.hpp"
+#include "tabor/reynolds/patch/patch_flow.hpp"
 
 namespace tabor::test {
 

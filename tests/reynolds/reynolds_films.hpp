@@ -3,7 +3,7 @@
 #include <cmath>
 #include <functional>
 
-#include "tabor/reynolds/reynolds_film.hpp"
+#include "tabor/reynolds/line/reynolds_film.hpp"
 
 namespace tabor::test {
 

@@ -14,7 +14,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/engine/checkpoint.hpp"
 #include "tabor/io/columns.hpp"
-#include "tabor/io/digest.hpp"
+#include "tabor/io/files/digest.hpp"
 
 // Sweeps of a program that adds numbers, stopped, damaged, shared out and repeated in all ways.
 namespace tabor::study {

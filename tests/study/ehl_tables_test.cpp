@@ -7,7 +7,7 @@
 
 #include "support/folder.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
 
 // The numbers of a sweep of two cases as a table and as a result file.
 namespace tabor::study {

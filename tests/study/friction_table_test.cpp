@@ -6,8 +6,8 @@
 
 #include "example_study.hpp"
 #include "tabor/cases/warning.hpp"
-#include "tabor/io/csv.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
+#include "tabor/io/text/csv.hpp"
 
 namespace tabor::study {
 namespace {

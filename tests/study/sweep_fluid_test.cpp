@@ -3,9 +3,9 @@
 #include "study/example_study.hpp"
 #include "tabor/cases/states.hpp"
 #include "tabor/contact/contact.hpp"
-#include "tabor/io/csv.hpp"
-#include "tabor/io/hdf5.hpp"
-#include "tabor/io/json.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
+#include "tabor/io/text/csv.hpp"
+#include "tabor/io/text/json.hpp"
 #include "tabor/study/record.hpp"
 #include "tabor/study/treated_scan.hpp"
 

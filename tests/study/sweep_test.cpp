@@ -5,8 +5,8 @@
 
 #include "study/example_study.hpp"
 #include "tabor/engine/plan.hpp"
-#include "tabor/io/csv.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
+#include "tabor/io/text/csv.hpp"
 #include "tabor/study/record.hpp"
 
 namespace tabor::study {

@@ -4,7 +4,7 @@
 
 #include "support/byte_file.hpp"
 #include "support/sample_map.hpp"
-#include "tabor/io/zip.hpp"
+#include "tabor/io/files/zip.hpp"
 
 namespace tabor::test {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "support/byte_file.hpp"
 #include "support/sample_map.hpp"
-#include "tabor/io/deflate.hpp"
+#include "tabor/io/files/deflate.hpp"
 
 namespace tabor::test {
 namespace {

@@ -1,6 +1,6 @@
 // Linked into programs of tests that give broken files to the readers: they are protected as the
 // command line program is.
-#include "tabor/io/protection.hpp"
+#include "tabor/io/files/protection.hpp"
 
 namespace {
 

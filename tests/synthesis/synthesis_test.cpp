@@ -12,8 +12,8 @@
 #include "support/rejection.hpp"
 #include "support/sample_surfaces.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/metrology/parameters.hpp"
-#include "tabor/metrology/psd.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
+#include "tabor/metrology/spectra/psd.hpp"
 
 namespace tabor::synthesis::test {
 

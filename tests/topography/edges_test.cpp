@@ -11,7 +11,7 @@
 #include "support/sample_surfaces.hpp"
 #include "support/scans.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/metrology/psd.hpp"
+#include "tabor/metrology/spectra/psd.hpp"
 #include "tabor/scan/file.hpp"
 #include "tabor/synthesis/synthesis.hpp"
 #include "tabor/topography/geometry.hpp"

@@ -4,7 +4,7 @@
 
 #include "support/sample_surfaces.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::topography::test {

@@ -6,7 +6,7 @@
 
 #include "support/sample_surfaces.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
 #include "tabor/topography/geometry.hpp"
 
 namespace tabor::topography::test {

@@ -11,7 +11,7 @@
 #include "support/sample_surfaces.hpp"
 #include "support/scans.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
 #include "tabor/scan/file.hpp"
 #include "tabor/topography/levelling.hpp"
 #include "tabor/topography/treatment.hpp"

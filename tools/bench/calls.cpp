@@ -14,7 +14,7 @@
 
 #include "tabor/cases/states.hpp"
 #include "tabor/core/resources.hpp"
-#include "tabor/metrology/psd.hpp"
+#include "tabor/metrology/spectra/psd.hpp"
 #include "tabor/scan/file.hpp"
 #include "tabor/topography/treatment.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/resources.hpp"
-#include "tabor/reynolds/patch_flow.hpp"
+#include "tabor/reynolds/patch/patch_flow.hpp"
 #include "tabor/synthesis/synthesis.hpp"
 
 namespace {

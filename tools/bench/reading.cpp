@@ -15,8 +15,8 @@
 
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/resources.hpp"
-#include "tabor/io/hdf5.hpp"
-#include "tabor/io/zip.hpp"
+#include "tabor/io/files/zip.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
 #include "tabor/scan/file.hpp"
 #include "tabor/topography/warnings.hpp"
 

@@ -68,7 +68,7 @@ def _cell(value):
 
 
 def _harmless(text):
-    """Text that no spreadsheet computes: an apostrophe says that it is text (as src/tabor/io/csv.cpp)."""
+    """Text that no spreadsheet computes: an apostrophe says that it is text (as src/tabor/io/text/csv.cpp)."""
     return "'" + text if text.lstrip("'")[:1] in tuple("=+-@\t\r\n") and not _is_number(text) else text
 
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "tabor/cases/states.hpp"
-#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
 #include "tabor/topography/filters.hpp"
 #include "tabor/topography/treatment.hpp"
 

@@ -4,7 +4,7 @@
 
 #include "tabor/cases/warnings.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
 
 namespace tabor::cases {
 

@@ -7,11 +7,11 @@
 #include "tabor/cases/warning.hpp"
 #include "tabor/core/convergence.hpp"
 #include "tabor/core/mean.hpp"
-#include "tabor/metrology/correlation.hpp"
-#include "tabor/metrology/height_differences.hpp"
-#include "tabor/metrology/mean_spectrum.hpp"
-#include "tabor/metrology/psd.hpp"
-#include "tabor/metrology/reliability.hpp"
+#include "tabor/metrology/spectra/correlation.hpp"
+#include "tabor/metrology/spectra/height_differences.hpp"
+#include "tabor/metrology/spectra/mean_spectrum.hpp"
+#include "tabor/metrology/spectra/psd.hpp"
+#include "tabor/metrology/spectra/reliability.hpp"
 #include "tabor/topography/topography.hpp"
 
 // Computes the spectra and correlations of a surface and averages the spectra of several.

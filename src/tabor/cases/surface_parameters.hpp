@@ -5,8 +5,8 @@
 
 #include "tabor/core/column.hpp"
 #include "tabor/core/convergence.hpp"
-#include "tabor/metrology/parameter_means.hpp"
-#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/areal/parameter_means.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
 
 // Measures the roughness parameters of a surface and averages those of several.
 namespace tabor::cases {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
 #include "tabor/topography/edges.hpp"
 #include "tabor/topography/warnings.hpp"
 

@@ -11,7 +11,7 @@
 #include "tabor/deposition/deposition.hpp"
 #include "tabor/friction/bowden_tabor.hpp"
 #include "tabor/friction/mixed_friction.hpp"
-#include "tabor/metrology/psd.hpp"
+#include "tabor/metrology/spectra/psd.hpp"
 #include "tabor/topography/topography.hpp"
 
 // What a user must be told about each number. Verbs and studies ask the same functions, so that a

@@ -4,7 +4,7 @@
 
 #include "tabor/cases/warnings.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
 #include "tabor/topography/edges.hpp"
 #include "tabor/topography/levelling.hpp"
 

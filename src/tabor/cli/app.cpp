@@ -23,7 +23,7 @@
 #include "tabor/core/text.hpp"
 #include "tabor/core/version.hpp"
 #include "tabor/core/watch.hpp"
-#include "tabor/io/protection.hpp"
+#include "tabor/io/files/protection.hpp"
 
 namespace tabor::cli {
 

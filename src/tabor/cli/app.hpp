@@ -15,7 +15,8 @@ int run(const std::vector<std::string>& args, std::ostream& out, std::ostream& e
         ProgressStyle style = ProgressStyle::none);
 
 /// Sets up the process (idle threads sleep, Ctrl-C is caught, files of unknown origin do no harm,
-/// see io/protection.hpp) and runs the program. May replace the process image once, see app.cpp.
+/// see io/files/protection.hpp) and runs the program. May replace the process image once, see
+/// app.cpp.
 int run(int argc, char** argv);
 
 }  // namespace tabor::cli

@@ -9,7 +9,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/io/atomic_file.hpp"
+#include "tabor/io/files/atomic_file.hpp"
 
 namespace tabor::cli {
 

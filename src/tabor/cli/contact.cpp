@@ -34,6 +34,16 @@ io::Json statistics_json(const cases::ContactRecord& record) {
           {"patch_area_histogram", histogram_json(statistics.patch_area, "edge_m2")}};
 }
 
+/// Returns the columns of the table; the separation is one where it is asked for.
+Columns<cases::ContactRecord> shown_columns(const Request& request) {
+  Columns<cases::ContactRecord> columns = cases::contact_columns();
+  for (Column<cases::ContactRecord>& column : columns) {
+    const bool is_asked = column.key == "separation_m" && !request.settings.separations.empty();
+    if (is_asked) column.heading = "separation";
+  }
+  return columns;
+}
+
 void check_all(const Request& request, bool boundary_is_known) {
   check(cases::objection_to_controls(request.settings, boundary_is_known, flag_of));
   check_contact(request.settings);
@@ -88,7 +98,7 @@ int show(Request request, Context& context) {
   Facts facts;
   describe(scan, facts);
   describe(settings, facts);
-  const std::string text = facts.text() + '\n' + table_of(cases::contact_columns(), records).text();
+  const std::string text = facts.text() + '\n' + table_of(shown_columns(request), records).text();
   return finish(context, object,
                 write_csv(request.file.csv, states_csv(cases::contact_columns(), records), text),
                 ended == kInterrupted ? ended : code);

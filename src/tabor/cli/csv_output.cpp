@@ -1,6 +1,6 @@
 #include "tabor/cli/csv_output.hpp"
 
-#include "tabor/io/atomic_file.hpp"
+#include "tabor/io/files/atomic_file.hpp"
 
 namespace tabor::cli {
 

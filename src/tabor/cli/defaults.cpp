@@ -13,7 +13,7 @@
 #include "tabor/cli/failure.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/io/toml.hpp"
+#include "tabor/io/text/toml.hpp"
 
 namespace tabor::cli {
 

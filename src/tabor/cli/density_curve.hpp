@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tabor/cli/table.hpp"
-#include "tabor/io/json.hpp"
+#include "tabor/io/text/json.hpp"
 #include "tabor/results/density_answer.hpp"
 #include "tabor/study/density_curves.hpp"
 

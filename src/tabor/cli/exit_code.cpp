@@ -4,7 +4,7 @@
 #include <new>
 
 #include "tabor/core/error.hpp"
-#include "tabor/io/regular_file.hpp"
+#include "tabor/io/files/regular_file.hpp"
 
 namespace tabor::cli {
 

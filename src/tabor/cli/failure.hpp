@@ -3,7 +3,7 @@
 #include <string>
 
 #include "tabor/cli/verb.hpp"
-#include "tabor/io/json.hpp"
+#include "tabor/io/text/json.hpp"
 
 // Reports a run that ends without a result: one line on stderr and, with --json, an error object.
 namespace tabor::cli {

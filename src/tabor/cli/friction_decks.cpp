@@ -14,7 +14,7 @@
 #include "tabor/core/units.hpp"
 #include "tabor/forming/darmstad.hpp"
 #include "tabor/forming/deck.hpp"
-#include "tabor/io/atomic_file.hpp"
+#include "tabor/io/files/atomic_file.hpp"
 #include "tabor/study/friction_table.hpp"
 
 namespace tabor::cli {

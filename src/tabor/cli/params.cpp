@@ -15,8 +15,8 @@
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/io/atomic_file.hpp"
-#include "tabor/io/csv.hpp"
+#include "tabor/io/files/atomic_file.hpp"
+#include "tabor/io/text/csv.hpp"
 #include "tabor/results/parameter_tables.hpp"
 
 namespace tabor::cli {

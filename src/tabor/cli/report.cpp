@@ -12,7 +12,7 @@
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/io/subprocess.hpp"
+#include "tabor/io/files/subprocess.hpp"
 
 namespace tabor::cli {
 

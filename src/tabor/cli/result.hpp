@@ -7,7 +7,7 @@
 #include "tabor/cli/exit_code.hpp"
 #include "tabor/cli/scan.hpp"
 #include "tabor/cli/verb.hpp"
-#include "tabor/io/json.hpp"
+#include "tabor/io/text/json.hpp"
 #include "tabor/results/fields_file.hpp"
 
 // Begins and ends the output of every verb: JSON head, warnings, result files, templates.

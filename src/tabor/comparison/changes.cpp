@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "tabor/comparison/robust_fit.hpp"
-#include "tabor/metrology/correlation.hpp"
+#include "tabor/metrology/spectra/correlation.hpp"
 #include "tabor/topography/filters.hpp"
 
 namespace tabor::comparison {

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "tabor/core/error.hpp"
-#include "tabor/io/atomic_file.hpp"
-#include "tabor/io/sealed_file.hpp"
+#include "tabor/io/files/atomic_file.hpp"
+#include "tabor/io/files/sealed_file.hpp"
 
 namespace tabor::engine {
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "tabor/engine/store.hpp"
-#include "tabor/io/json.hpp"
+#include "tabor/io/text/json.hpp"
 
 // Writes and reads checkpoints: JSON files with the numbers of one finished task.
 namespace tabor::engine {

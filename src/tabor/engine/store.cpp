@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "tabor/core/error.hpp"
-#include "tabor/io/atomic_file.hpp"
+#include "tabor/io/files/atomic_file.hpp"
 
 namespace tabor::engine {
 namespace {

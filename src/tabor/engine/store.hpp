@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tabor/engine/task.hpp"
-#include "tabor/io/file_lock.hpp"
+#include "tabor/io/files/file_lock.hpp"
 
 namespace tabor::engine {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tabor/io/digest.hpp"
+#include "tabor/io/files/digest.hpp"
 
 namespace tabor::engine {
 

@@ -1,6 +1,6 @@
 #include "tabor/forming/comments.hpp"
 #include "tabor/forming/deck.hpp"
-#include "tabor/io/csv.hpp"
+#include "tabor/io/text/csv.hpp"
 
 namespace tabor::forming {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "tabor/contact/contact.hpp"
 #include "tabor/material/lubricant.hpp"
-#include "tabor/reynolds/patch_flow.hpp"
+#include "tabor/reynolds/patch/patch_flow.hpp"
 
 // Shares the load between a rough contact and an oil film that flows in its gap.
 namespace tabor::friction {
@@ -39,11 +39,11 @@ struct FluidFilmState {
 
 /// Shares the load between the solids and the oil: the solids are in dry contact under the load
 /// that the film does not carry, on the surface as the film's pressure has deformed it; the film
-/// flows in the remaining gap (reynolds/patch_flow.hpp). Where the oil alone carries the load, the
-/// surfaces separate. `dry` is the contact's state at P without oil: the search starts there, and
-/// it is the solution where the oil carries less than the tolerance. The operator must be periodic.
-/// Throws InputError for invalid input; not converging is returned, and so is being stopped: with
-/// what was reached, in which the film has no fields before its first step.
+/// flows in the remaining gap (reynolds/patch/patch_flow.hpp). Where the oil alone carries the
+/// load, the surfaces separate. `dry` is the contact's state at P without oil: the search starts
+/// there, and it is the solution where the oil carries less than the tolerance. The operator must
+/// be periodic. Throws InputError for invalid input; not converging is returned, and so is being
+/// stopped: with what was reached, in which the film has no fields before its first step.
 FluidFilmState solve_fluid_film(elastic::ElasticOperator& elasticity,
                                 const FluidFilmProblem& problem, const contact::State& dry,
                                 const Observer& observer = {});

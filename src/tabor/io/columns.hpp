@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "tabor/core/column.hpp"
-#include "tabor/io/hdf5.hpp"
-#include "tabor/io/json.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
+#include "tabor/io/text/json.hpp"
 
 // Converts records to JSON objects, to attributes and tables of HDF5 files, and to CSV files, and
 // reads them back.

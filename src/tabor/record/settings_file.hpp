@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "tabor/core/error.hpp"
-#include "tabor/io/toml.hpp"
+#include "tabor/io/text/toml.hpp"
 #include "tabor/record/parameter.hpp"
 
 // Settings out of study and case files, by the tables of their parameters.

@@ -4,7 +4,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/version.hpp"
-#include "tabor/io/hdf5_guard.hpp"
+#include "tabor/io/hdf5/guard.hpp"
 #include "tabor/results/bibliography.hpp"
 
 namespace tabor::results {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "tabor/comparison/combine.hpp"
-#include "tabor/io/json.hpp"
+#include "tabor/io/text/json.hpp"
 #include "tabor/results/fields_file.hpp"
 
 // Turns the combination of two scans into numbers by name, warnings and a result file.

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "tabor/core/text.hpp"
-#include "tabor/io/atomic_file.hpp"
-#include "tabor/io/csv.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/files/atomic_file.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
+#include "tabor/io/text/csv.hpp"
 
 namespace tabor::results {
 

@@ -11,8 +11,8 @@
 #include "tabor/core/column.hpp"
 #include "tabor/core/names.hpp"
 #include "tabor/io/columns.hpp"
-#include "tabor/io/hdf5.hpp"
-#include "tabor/io/json.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
+#include "tabor/io/text/json.hpp"
 #include "tabor/results/findings.hpp"
 #include "tabor/topography/topography.hpp"
 

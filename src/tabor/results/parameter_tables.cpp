@@ -7,7 +7,7 @@
 #include <set>
 
 #include "tabor/io/columns.hpp"
-#include "tabor/io/csv.hpp"
+#include "tabor/io/text/csv.hpp"
 
 namespace tabor::results {
 

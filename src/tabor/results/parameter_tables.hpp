@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "tabor/cases/surface_parameters.hpp"
-#include "tabor/io/json.hpp"
+#include "tabor/io/text/json.hpp"
 
 // Writes the roughness parameters of scans and of groups of scans as CSV and JSON.
 namespace tabor::results {

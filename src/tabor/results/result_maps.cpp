@@ -8,8 +8,8 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/io/hdf5_guard.hpp"
-#include "tabor/io/toml.hpp"
+#include "tabor/io/hdf5/guard.hpp"
+#include "tabor/io/text/toml.hpp"
 #include "tabor/results/fields_file.hpp"
 
 namespace tabor::results {

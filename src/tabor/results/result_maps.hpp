@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
 #include "tabor/scan/maps.hpp"
 
 // Lists the maps of a result file by name: those that are stored and those that follow from them.

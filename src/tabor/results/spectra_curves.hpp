@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "tabor/cases/spectra.hpp"
-#include "tabor/io/json.hpp"
+#include "tabor/io/text/json.hpp"
 #include "tabor/results/curves.hpp"
 
 // Writes the spectra and correlations of one surface or of a group as curves and as JSON.

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tabor/core/types.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
 
 // Writes maps of any quantity for other programs.
 namespace tabor::scan {

@@ -9,7 +9,7 @@
 #include "tabor/cases/density_curve.hpp"
 #include "tabor/cases/parameters.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/io/digest.hpp"
+#include "tabor/io/files/digest.hpp"
 
 namespace tabor::study {
 namespace {

@@ -12,7 +12,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/core/version.hpp"
-#include "tabor/io/digest.hpp"
+#include "tabor/io/files/digest.hpp"
 
 namespace tabor::study {
 namespace {

@@ -11,8 +11,8 @@
 #include "tabor/core/error.hpp"
 #include "tabor/engine/checkpoint.hpp"
 #include "tabor/io/columns.hpp"
-#include "tabor/io/digest.hpp"
-#include "tabor/io/hdf5_guard.hpp"
+#include "tabor/io/files/digest.hpp"
+#include "tabor/io/hdf5/guard.hpp"
 
 namespace tabor::study {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/io/csv.hpp"
+#include "tabor/io/text/csv.hpp"
 
 namespace tabor::study {
 namespace {

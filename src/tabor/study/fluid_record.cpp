@@ -1,5 +1,5 @@
 #include "tabor/io/columns.hpp"
-#include "tabor/io/hdf5_guard.hpp"
+#include "tabor/io/hdf5/guard.hpp"
 #include "tabor/study/task_file.hpp"
 
 namespace tabor::study {

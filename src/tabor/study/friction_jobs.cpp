@@ -8,7 +8,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/engine/made_once.hpp"
-#include "tabor/io/hdf5_guard.hpp"
+#include "tabor/io/hdf5/guard.hpp"
 #include "tabor/study/friction_graph.hpp"
 #include "tabor/study/record.hpp"
 #include "tabor/study/treated_scan.hpp"

@@ -4,8 +4,8 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/io/hdf5_guard.hpp"
-#include "tabor/io/toml.hpp"
+#include "tabor/io/hdf5/guard.hpp"
+#include "tabor/io/text/toml.hpp"
 #include "tabor/study/friction_table.hpp"
 
 namespace tabor::study {

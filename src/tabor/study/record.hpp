@@ -10,8 +10,8 @@
 #include "tabor/contact/contact.hpp"
 #include "tabor/deposition/deposition.hpp"
 #include "tabor/engine/store.hpp"
-#include "tabor/io/hdf5.hpp"
-#include "tabor/metrology/psd.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
+#include "tabor/metrology/spectra/psd.hpp"
 #include "tabor/study/case.hpp"
 #include "tabor/topography/topography.hpp"
 

@@ -12,7 +12,7 @@
 #include "tabor/core/advice.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/io/toml.hpp"
+#include "tabor/io/text/toml.hpp"
 #include "tabor/record/settings_file.hpp"
 #include "tabor/study/study.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "tabor/core/error.hpp"
-#include "tabor/io/hdf5_guard.hpp"
+#include "tabor/io/hdf5/guard.hpp"
 
 namespace tabor::study {
 namespace {

@@ -11,9 +11,9 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/io/atomic_file.hpp"
 #include "tabor/io/columns.hpp"
-#include "tabor/io/hdf5_guard.hpp"
+#include "tabor/io/files/atomic_file.hpp"
+#include "tabor/io/hdf5/guard.hpp"
 #include "tabor/results/fields_file.hpp"
 #include "tabor/study/study_keys.hpp"
 #include "tabor/study/wet_shares.hpp"

@@ -1,7 +1,7 @@
 #include "tabor/study/treated_scan.hpp"
 
 #include "tabor/core/error.hpp"
-#include "tabor/io/digest.hpp"
+#include "tabor/io/files/digest.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::study {

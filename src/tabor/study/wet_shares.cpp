@@ -4,9 +4,9 @@
 #include <utility>
 
 #include "tabor/core/error.hpp"
-#include "tabor/io/atomic_file.hpp"
-#include "tabor/io/json.hpp"
-#include "tabor/io/sealed_file.hpp"
+#include "tabor/io/files/atomic_file.hpp"
+#include "tabor/io/files/sealed_file.hpp"
+#include "tabor/io/text/json.hpp"
 #include "tabor/study/case.hpp"
 #include "tabor/study/record.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
 #include "tabor/topography/topography.hpp"
 
 namespace tabor::topography {

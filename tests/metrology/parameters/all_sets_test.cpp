@@ -8,7 +8,7 @@
 
 #include "support/sample_surfaces.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/metrology/psd.hpp"
+#include "tabor/metrology/spectra/psd.hpp"
 #include "tabor/synthesis/synthesis.hpp"
 #include "tabor/topography/treatment.hpp"
 #include "tabor/topography/warnings.hpp"

@@ -11,7 +11,7 @@
 #include "support/validation.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/random.hpp"
-#include "tabor/metrology/parameters/abbott.hpp"
+#include "tabor/metrology/areal/abbott.hpp"
 #include "values.hpp"
 
 namespace tabor::metrology::test {

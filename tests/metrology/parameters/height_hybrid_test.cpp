@@ -1,4 +1,4 @@
-#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
 
 #include <gmock/gmock.h>
 

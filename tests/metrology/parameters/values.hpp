@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
 
 namespace tabor::metrology::test {
 

@@ -5,8 +5,8 @@
 
 #include "quirks.hpp"
 #include "tabor/core/parallel.hpp"
-#include "tabor/metrology/profile.hpp"
-#include "tabor/metrology/psd.hpp"
+#include "tabor/metrology/profile/profile.hpp"
+#include "tabor/metrology/spectra/psd.hpp"
 #include "tabor/topography/filters.hpp"
 #include "tabor/topography/geometry.hpp"
 #include "tabor/topography/holes.hpp"

@@ -6,7 +6,7 @@
 
 #include "support/scans.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/io/csv.hpp"
+#include "tabor/io/text/csv.hpp"
 
 namespace tabor::scan::test {
 

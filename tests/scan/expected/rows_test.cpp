@@ -10,7 +10,7 @@
 #include "support/scans.hpp"
 #include "support/synthetic.hpp"
 #include "support/validation.hpp"
-#include "tabor/io/subprocess.hpp"
+#include "tabor/io/files/subprocess.hpp"
 #include "tabor/scan/file.hpp"
 
 namespace tabor::scan::test {

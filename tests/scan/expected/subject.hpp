@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tabor/metrology/parameters.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
 #include "tabor/topography/levelling.hpp"
 #include "tabor/topography/topography.hpp"
 

@@ -4,8 +4,8 @@
 #include <cstdlib>
 
 #include "scan/formats/sample.hpp"
-#include "tabor/io/subprocess.hpp"
-#include "tabor/io/zip.hpp"
+#include "tabor/io/files/subprocess.hpp"
+#include "tabor/io/files/zip.hpp"
 
 namespace tabor::scan {
 namespace {

@@ -6,8 +6,8 @@
 #include "support/container_files.hpp"
 #include "support/instrument_files.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/io/hdf5.hpp"
-#include "tabor/io/zip.hpp"
+#include "tabor/io/files/zip.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
 #include "tabor/scan/formats/gwy_object.hpp"
 
 namespace tabor::scan {

@@ -2,7 +2,7 @@
 
 #include "scan/formats/sample.hpp"
 #include "support/scans.hpp"
-#include "tabor/io/subprocess.hpp"
+#include "tabor/io/files/subprocess.hpp"
 #include "tabor/scan/formats/gwy_object.hpp"
 
 namespace tabor::scan {

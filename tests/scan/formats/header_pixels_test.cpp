@@ -7,8 +7,8 @@
 #include "scan/formats/sample.hpp"
 #include "support/container_files.hpp"
 #include "support/instrument_files.hpp"
-#include "tabor/io/hdf5.hpp"
-#include "tabor/io/zip.hpp"
+#include "tabor/io/files/zip.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
 
 namespace tabor::scan {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstdlib>
 
 #include "scan/formats/sample.hpp"
-#include "tabor/io/zip.hpp"
+#include "tabor/io/files/zip.hpp"
 
 namespace tabor::scan {
 namespace {

@@ -9,7 +9,7 @@
 #include "support/container_files.hpp"
 #include "support/instrument_files.hpp"
 #include "tabor/core/resources.hpp"
-#include "tabor/io/zip.hpp"
+#include "tabor/io/files/zip.hpp"
 
 namespace tabor::scan {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "scan/formats/sample.hpp"
-#include "tabor/io/csv.hpp"
+#include "tabor/io/text/csv.hpp"
 
 namespace tabor::scan {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "scan/formats/sample.hpp"
-#include "tabor/io/hdf5.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
 #include "tabor/topography/edges.hpp"
 #include "tabor/topography/holes.hpp"
 #include "tabor/topography/surface_group.hpp"

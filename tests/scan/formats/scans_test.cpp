@@ -3,7 +3,7 @@
 // ../expected.
 #include "support/scans.hpp"
 #include "scan/formats/sample.hpp"
-#include "tabor/io/subprocess.hpp"
+#include "tabor/io/files/subprocess.hpp"
 
 namespace tabor::scan {
 namespace {

@@ -1,5 +1,5 @@
 #include "scan/formats/sample.hpp"
-#include "tabor/io/zip.hpp"
+#include "tabor/io/files/zip.hpp"
 
 namespace tabor::scan {
 namespace {

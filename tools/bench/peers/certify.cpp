@@ -27,7 +27,7 @@
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/resources.hpp"
 #include "tabor/elastic/half_space.hpp"
-#include "tabor/io/json.hpp"
+#include "tabor/io/text/json.hpp"
 
 namespace {
 

@@ -7,7 +7,7 @@
 
 #include "tabor/cases/ehl/program.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/io/toml.hpp"
+#include "tabor/io/text/toml.hpp"
 
 /// What the cases of all elastohydrodynamic programs have in common.
 namespace tabor::ehl {

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "tabor/ehl/asperities.hpp"
-#include "tabor/io/toml.hpp"
+#include "tabor/io/text/toml.hpp"
 #include "tabor/material/lubricant.hpp"
 #include "tabor/record/parameter.hpp"
 

@@ -12,8 +12,8 @@
 #include "tabor/core/convergence.hpp"
 #include "tabor/core/names.hpp"
 #include "tabor/core/warning.hpp"
-#include "tabor/io/hdf5.hpp"
-#include "tabor/io/toml.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
+#include "tabor/io/text/toml.hpp"
 #include "tabor/record/parameter.hpp"
 
 // From a case, as a TOML file states it, to its numbers: impact, squeeze, line and point contact.

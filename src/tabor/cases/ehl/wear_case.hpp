@@ -4,8 +4,8 @@
 
 #include "tabor/cases/ehl/line_record.hpp"
 #include "tabor/cases/ehl/program.hpp"
-#include "tabor/io/hdf5.hpp"
-#include "tabor/io/toml.hpp"
+#include "tabor/io/hdf5/hdf5.hpp"
+#include "tabor/io/text/toml.hpp"
 
 /// The worn track of `tabor ehl line`.
 namespace tabor::ehl {

@@ -6,7 +6,7 @@
 
 #include "tabor/material/lubricant.hpp"
 #include "tabor/numerics/lagged_factorisation.hpp"
-#include "tabor/reynolds/reynolds.hpp"
+#include "tabor/reynolds/line/reynolds.hpp"
 
 // Advances ball and film of an impact by one time step.
 namespace tabor::ehl {

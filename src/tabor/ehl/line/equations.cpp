@@ -7,7 +7,7 @@
 
 #include "tabor/ehl/line/inverse.hpp"
 #include "tabor/numerics/gmres.hpp"
-#include "tabor/reynolds/reynolds.hpp"
+#include "tabor/reynolds/line/reynolds.hpp"
 
 namespace tabor::ehl {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "tabor/reynolds/reynolds.hpp"
+#include "tabor/reynolds/line/reynolds.hpp"
 
 namespace tabor::ehl {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "tabor/io/zip.hpp"
+#include "tabor/io/files/zip.hpp"
 #include "tabor/scan/formats/format.hpp"
 
 // Reads scan formats that are ZIP archives around one main document.

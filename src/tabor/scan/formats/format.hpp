@@ -12,7 +12,7 @@
 
 #include "tabor/core/convergence.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/io/mapped_file.hpp"
+#include "tabor/io/files/mapped_file.hpp"
 #include "tabor/scan/file.hpp"
 
 // Defines what a reader returns for a file, and the table of formats.

@@ -6,7 +6,7 @@
 
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/io/atomic_file.hpp"
+#include "tabor/io/files/atomic_file.hpp"
 #include "tabor/scan/formats/bytes.hpp"
 #include "tabor/scan/formats/readers.hpp"
 

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "tabor/core/text.hpp"
-#include "tabor/io/subprocess.hpp"
+#include "tabor/io/files/subprocess.hpp"
 #include "tabor/scan/formats/readers.hpp"
 
 namespace tabor::scan::format {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "tabor/io/hdf5_guard.hpp"
+#include "tabor/io/hdf5/guard.hpp"
 #include "tabor/scan/formats/format.hpp"
 
-// Reads HDF5 scan files through io/hdf5_guard.hpp and rejects files that break its copy of the
+// Reads HDF5 scan files through io/hdf5/guard.hpp and rejects files that break its copy of the
 // process.
 namespace tabor::scan::format {
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "tabor/core/text.hpp"
-#include "tabor/io/xml.hpp"
+#include "tabor/io/text/xml.hpp"
 #include "tabor/scan/formats/archive.hpp"
 #include "tabor/scan/formats/bytes.hpp"
 #include "tabor/scan/formats/readers.hpp"

@@ -1,5 +1,5 @@
 // PNG with grey values as counts: the user must say what a count and a pixel are.
-#include "tabor/io/png.hpp"
+#include "tabor/io/image/png.hpp"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "tabor/core/text.hpp"
-#include "tabor/io/atomic_file.hpp"
+#include "tabor/io/files/atomic_file.hpp"
 #include "tabor/scan/formats/bytes.hpp"
 #include "tabor/scan/formats/readers.hpp"
 #include "tabor/scan/formats/text_numbers.hpp"

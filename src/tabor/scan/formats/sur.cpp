@@ -5,7 +5,7 @@
 
 #include "tabor/core/text.hpp"
 #include "tabor/core/units.hpp"
-#include "tabor/io/deflate.hpp"
+#include "tabor/io/files/deflate.hpp"
 #include "tabor/scan/formats/bytes.hpp"
 #include "tabor/scan/formats/readers.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "tabor/io/atomic_file.hpp"
-#include "tabor/io/csv.hpp"
+#include "tabor/io/files/atomic_file.hpp"
+#include "tabor/io/text/csv.hpp"
 #include "tabor/scan/formats/bytes.hpp"
 #include "tabor/scan/formats/readers.hpp"
 

@@ -1,5 +1,5 @@
 // TIFF with grey values as counts: the user must say what a count and a pixel are.
-#include "tabor/io/tiff.hpp"
+#include "tabor/io/image/tiff.hpp"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // VTI, VTK's ImageData, for ParaView: maps as point data at the pixel centres.
 #include <fmt/format.h>
 
-#include "tabor/io/atomic_file.hpp"
+#include "tabor/io/files/atomic_file.hpp"
 #include "tabor/scan/formats/bytes.hpp"
 #include "tabor/scan/formats/readers.hpp"
 

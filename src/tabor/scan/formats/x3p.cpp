@@ -8,8 +8,8 @@
 
 #include "tabor/core/rows.hpp"
 #include "tabor/core/text.hpp"
-#include "tabor/io/digest.hpp"
-#include "tabor/io/xml.hpp"
+#include "tabor/io/files/digest.hpp"
+#include "tabor/io/text/xml.hpp"
 #include "tabor/scan/formats/archive.hpp"
 #include "tabor/scan/formats/bytes.hpp"
 #include "tabor/scan/formats/readers.hpp"

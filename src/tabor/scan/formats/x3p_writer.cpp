@@ -5,10 +5,10 @@
 #include <cmath>
 #include <string_view>
 
-#include "tabor/io/atomic_file.hpp"
-#include "tabor/io/digest.hpp"
-#include "tabor/io/xml.hpp"
-#include "tabor/io/zip.hpp"
+#include "tabor/io/files/atomic_file.hpp"
+#include "tabor/io/files/digest.hpp"
+#include "tabor/io/files/zip.hpp"
+#include "tabor/io/text/xml.hpp"
 #include "tabor/scan/formats/bytes.hpp"
 #include "tabor/scan/formats/readers.hpp"
 

@@ -1,0 +1,255 @@
+#include "tabor/reynolds/patch/aggregation_multigrid.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace tabor::reynolds {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr Index kCoarsestSize = 100;
+constexpr double kStrong = 0.25;         // of a node's largest coupling
+constexpr double kLeastShrinking = 0.8;  // coarsening that gains less than this has ended
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+template <typename Visit>
+void for_neighbours(const CouplingMatrix& matrix, Index node, const Visit& visit) {
+  const auto begin = at(matrix.begin[at(node)]);
+  const auto end = at(matrix.begin[at(node) + 1]);
+  for (std::size_t k = begin; k < end; ++k) visit(matrix.neighbour[k], matrix.coupling[k]);
+}
+
+/// Groups of nodes, counted from zero in the order of their first nodes.
+struct Aggregates {
+  std::vector<std::int32_t> of;
+  Index count = 0;
+};
+
+/// Each node with its free neighbour of strongest coupling; one that finds none free joins the
+/// group of the strongest.
+Aggregates pairs_of(const CouplingMatrix& matrix) {
+  const Index n = matrix.size();
+  Aggregates groups{std::vector<std::int32_t>(at(n), -1), 0};
+  for (Index node = 0; node < n; ++node) {
+    if (groups.of[at(node)] >= 0) continue;
+    double strongest = 0;
+    double strongest_free = 0;
+    std::int32_t partner = -1;
+    std::int32_t free_partner = -1;
+    for_neighbours(matrix, node, [&](std::int32_t other, double coupling) {
+      if (other == node) return;
+      if (coupling > strongest) {
+        strongest = coupling;
+        partner = other;
+      }
+      if (groups.of[at(other)] < 0 && coupling > strongest_free) {
+        strongest_free = coupling;
+        free_partner = other;
+      }
+    });
+    if (free_partner >= 0 && strongest_free >= kStrong * strongest) {
+      groups.of[at(free_partner)] = static_cast<std::int32_t>(groups.count);
+    } else if (partner >= 0 && groups.of[at(partner)] >= 0) {
+      groups.of[at(node)] = groups.of[at(partner)];
+      continue;
+    }
+    groups.of[at(node)] = static_cast<std::int32_t>(groups.count++);
+  }
+  return groups;
+}
+
+/// Members of each group, one group after the other.
+std::vector<std::int32_t> members_of(const Aggregates& groups, std::vector<std::int32_t>& begin) {
+  begin.assign(at(groups.count) + 1, 0);
+  for (const std::int32_t group : groups.of) ++begin[at(group) + 1];
+  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+  std::vector<std::int32_t> place(begin.begin(), begin.end() - 1);
+  std::vector<std::int32_t> members(groups.of.size());
+  for (std::size_t node = 0; node < groups.of.size(); ++node) {
+    members[at(place[at(groups.of[node])]++)] = static_cast<std::int32_t>(node);
+  }
+  return members;
+}
+
+/// Galerkin with piecewise constants: couplings between groups add up, those inside vanish.
+CouplingMatrix coarsened(const CouplingMatrix& fine, const Aggregates& groups) {
+  std::vector<std::int32_t> begin;
+  const std::vector<std::int32_t> members = members_of(groups, begin);
+  CouplingMatrix coarse;
+  coarse.diagonal = VectorXd::Zero(groups.count);
+  coarse.begin.reserve(at(groups.count) + 1);
+  coarse.neighbour.reserve(fine.neighbour.size() / 2);
+  coarse.coupling.reserve(fine.coupling.size() / 2);
+  VectorXd lost = coarse.diagonal;                        // by the members one by one
+  std::vector<std::int32_t> place(at(groups.count), -1);  // of a neighbour in the row being made
+  for (Index group = 0; group < groups.count; ++group) {
+    const auto row_begin = static_cast<std::int32_t>(coarse.neighbour.size());
+    for (auto k = at(begin[at(group)]); k < at(begin[at(group) + 1]); ++k) {
+      const std::int32_t node = members[k];
+      coarse.diagonal[group] += fine.diagonal[node];
+      lost[group] += fine.diagonal[node];
+      for_neighbours(fine, node, [&](std::int32_t other, double coupling) {
+        const std::int32_t to = groups.of[at(other)];
+        if (to == group) {
+          coarse.diagonal[group] -= coupling;
+        } else if (place[at(to)] >= row_begin) {
+          coarse.coupling[at(place[at(to)])] += coupling;
+        } else {
+          place[at(to)] = static_cast<std::int32_t>(coarse.neighbour.size());
+          coarse.neighbour.push_back(to);
+          coarse.coupling.push_back(coupling);
+        }
+      });
+    }
+    coarse.begin.push_back(static_cast<std::int32_t>(coarse.neighbour.size()));
+  }
+  // What is left of a group that loses nothing may cancel to nothing.
+  for (Index group = 0; group < groups.count; ++group) {
+    if (!(coarse.diagonal[group] > 1e-14 * lost[group])) coarse.diagonal[group] = lost[group];
+  }
+  return coarse;
+}
+
+/// Puts the neighbours that come before their node first, and returns where in each row the others
+/// begin.
+std::vector<std::int32_t> split_rows(CouplingMatrix& matrix) {
+  std::vector<std::int32_t> middle(at(matrix.size()));
+  std::vector<std::pair<std::int32_t, double>> row;
+  for (Index node = 0; node < matrix.size(); ++node) {
+    row.clear();
+    for_neighbours(matrix, node,
+                   [&](std::int32_t other, double coupling) { row.emplace_back(other, coupling); });
+    const auto split = std::stable_partition(row.begin(), row.end(),
+                                             [&](const auto& link) { return link.first < node; });
+    const std::int32_t begin = matrix.begin[at(node)];
+    middle[at(node)] = begin + static_cast<std::int32_t>(split - row.begin());
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      matrix.neighbour[at(begin) + i] = row[i].first;
+      matrix.coupling[at(begin) + i] = row[i].second;
+    }
+  }
+  return middle;
+}
+
+/// A forward sweep that begins with x = 0 meets only the first parts of the rows, and what it
+/// leaves over, right - A x, is made by the second parts alone: together they read the matrix once.
+void smooth_from_zero(const CouplingMatrix& matrix, const std::vector<std::int32_t>& middle,
+                      const VectorXd& right, VectorXd& x, VectorXd& rest) {
+  x.resize(matrix.size());
+  for (Index node = 0; node < matrix.size(); ++node) {
+    double total = right[node];
+    for (auto k = at(matrix.begin[at(node)]); k < at(middle[at(node)]); ++k) {
+      total += matrix.coupling[k] * x[matrix.neighbour[k]];
+    }
+    x[node] = total / matrix.diagonal[node];
+  }
+  rest.resize(matrix.size());
+  for (Index node = 0; node < matrix.size(); ++node) {
+    double total = 0;
+    for (auto k = at(middle[at(node)]); k < at(matrix.begin[at(node) + 1]); ++k) {
+      total += matrix.coupling[k] * x[matrix.neighbour[k]];
+    }
+    rest[node] = total;
+  }
+}
+
+void smooth_forward(const CouplingMatrix& matrix, const VectorXd& right, VectorXd& x) {
+  for (Index node = 0; node < matrix.size(); ++node) {
+    double total = right[node];
+    for_neighbours(matrix, node,
+                   [&](std::int32_t other, double coupling) { total += coupling * x[other]; });
+    x[node] = total / matrix.diagonal[node];
+  }
+}
+
+void smooth_backward(const CouplingMatrix& matrix, const VectorXd& right, VectorXd& x) {
+  for (Index node = matrix.size() - 1; node >= 0; --node) {
+    double total = right[node];
+    for_neighbours(matrix, node,
+                   [&](std::int32_t other, double coupling) { total += coupling * x[other]; });
+    x[node] = total / matrix.diagonal[node];
+  }
+}
+
+Eigen::MatrixXd dense(const CouplingMatrix& matrix) {
+  Eigen::MatrixXd full = matrix.diagonal.asDiagonal();
+  for (Index node = 0; node < matrix.size(); ++node) {
+    for_neighbours(matrix, node,
+                   [&](std::int32_t other, double coupling) { full(node, other) -= coupling; });
+  }
+  return full;
+}
+
+}  // namespace
+
+void CouplingMatrix::multiply(const VectorXd& x, VectorXd& y) const {
+  y.resize(size());
+  for (Index node = 0; node < size(); ++node) {
+    double total = diagonal[node] * x[node];
+    for_neighbours(*this, node,
+                   [&](std::int32_t other, double value) { total -= value * x[other]; });
+    y[node] = total;
+  }
+}
+
+AggregationMultigrid::AggregationMultigrid(CouplingMatrix matrix) {
+  add_level(std::move(matrix));
+  while (levels_.back().matrix.size() > kCoarsestSize) {
+    const CouplingMatrix& fine = levels_.back().matrix;
+    const Aggregates first = pairs_of(fine);
+    const CouplingMatrix between = coarsened(fine, first);
+    const Aggregates second = pairs_of(between);
+    if (static_cast<double>(second.count) > kLeastShrinking * static_cast<double>(fine.size())) {
+      break;
+    }
+    std::vector<std::int32_t> both(first.of.size());
+    for (std::size_t i = 0; i < both.size(); ++i) both[i] = second.of[at(first.of[i])];
+    levels_.back().coarse = std::move(both);
+    add_level(coarsened(between, second));
+  }
+  const CouplingMatrix& last = levels_.back().matrix;
+  if (last.size() > 0 && last.size() <= kCoarsestSize) coarsest_.compute(dense(last));
+}
+
+void AggregationMultigrid::add_level(CouplingMatrix matrix) {
+  std::vector<std::int32_t> middle = split_rows(matrix);
+  levels_.push_back({std::move(matrix), std::move(middle), {}, {}, {}, {}, {}});
+}
+
+void AggregationMultigrid::cycle(std::size_t number, const VectorXd& r, VectorXd& z) {
+  Level& level = levels_[number];
+  const Index n = level.matrix.size();
+  if (n == 0) return;
+  if (level.coarse.empty()) {
+    if (n <= kCoarsestSize) {
+      z = coarsest_.solve(r);
+      return;
+    }
+    z.setZero(n);
+    for (int sweep = 0; sweep < 10; ++sweep) {
+      smooth_forward(level.matrix, r, z);
+      smooth_backward(level.matrix, r, z);
+    }
+    return;
+  }
+  Level& next = levels_[number + 1];
+  smooth_from_zero(level.matrix, level.middle, r, z, level.rest);
+  next.right.setZero(next.matrix.size());
+  for (Index i = 0; i < n; ++i) next.right[level.coarse[at(i)]] += level.rest[i];
+  cycle(number + 1, next.right, next.solution);
+  if (!next.coarse.empty()) {
+    next.matrix.multiply(next.solution, next.rest);
+    next.right -= next.rest;
+    cycle(number + 1, next.right, next.second_solution);
+    next.solution += next.second_solution;
+  }
+  for (Index i = 0; i < n; ++i) z[i] += next.solution[level.coarse[at(i)]];
+  smooth_backward(level.matrix, r, z);
+}
+
+void AggregationMultigrid::apply(const VectorXd& r, VectorXd& z) { cycle(0, r, z); }
+
+}  // namespace tabor::reynolds
