@@ -57,6 +57,7 @@ std::vector<std::string> warnings_about(const Scan& scan, const Context& context
   results::put_doubts_first(findings);
   results::spell(context.spelling, findings);
   std::vector<std::string> texts;
+  texts.reserve(findings.size());
   for (const results::Finding& finding : findings) texts.push_back(finding.text);
   return texts;
 }

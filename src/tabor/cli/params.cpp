@@ -42,7 +42,7 @@ struct Request {
 };
 
 /// One scan read, treated and measured, ready for every kind of output.
-struct Measured {
+struct Measured {  // NOLINT(bugprone-exception-escape): moving JSON checks an assertion
   cases::ParametersRecord row;
   io::Json object;
   std::string facts;

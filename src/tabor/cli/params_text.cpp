@@ -97,6 +97,7 @@ std::string change(const Parameter& first, const Parameter& second, const Readab
 
 std::vector<std::string> paths_of(const std::vector<ParametersRecord>& scans) {
   std::vector<std::string> paths;
+  paths.reserve(scans.size());
   for (const ParametersRecord& scan : scans) paths.push_back(scan.path);
   return paths;
 }
