@@ -156,3 +156,14 @@ def test_maps_for_paraview_are_those_of_the_result_file(tile, program, tmp_path)
     subprocess.run([program, "convert", tmp_path / "a.h5", tmp_path / "b.vti", "--field", "all"], check=True,
                    capture_output=True)
     assert (tmp_path / "a.vti").read_bytes() == (tmp_path / "b.vti").read_bytes()
+
+
+def test_maps_of_a_load_path_are_those_of_their_own_state(rough, tmp_path):
+    soft = tb.Solid(youngs_modulus="210 GPa", poissons_ratio=0.3, saturation_pressure="400 MPa", shear_strength="70 MPa")
+    path = tb.contact(rough, [5e7, 2e8, 5e7], soft, load_path=True)
+    film = tb.rain(rough, "0.05 g/m^2")
+    tb.save(tmp_path / "path.h5", [tb.friction(one, film) for one in path])
+    with h5py.File(tmp_path / "path.h5") as file:
+        for state, contact in zip(file["states"].values(), path, strict=True):
+            np.testing.assert_allclose(state["gap"][()], contact.gap, rtol=1e-6, atol=1e-12)
+            np.testing.assert_array_equal(state["state"][()] > 0, contact.pressure > 0)

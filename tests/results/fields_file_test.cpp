@@ -63,6 +63,15 @@ TEST(FieldsFile, AContactIsTheSameUnderAllFilms) {
   EXPECT_EQ(owner_of("film_thickness", under_thick), owner_of("film_thickness", of_other));
 }
 
+TEST(FieldsFile, ContactsOfOnePressureAlongALoadPathDiffer) {
+  const cases::ContactRecord loading = contact_at(7e6);
+  cases::ContactRecord unloading = loading;
+  unloading.summary.separation = -1e-7;
+  const cases::FilmRecord film = film_of(1e-4);
+  EXPECT_NE(owner_of("gap", fields_of(loading, film, nullptr)),
+            owner_of("gap", fields_of(unloading, film, nullptr)));
+}
+
 TEST(FieldsFile, CasesSayWhatAWarningIsAbout) {
   EXPECT_EQ(case_of(contact_at(7e6)).pressure, "7 MPa");
   EXPECT_THAT(case_of(contact_at(7e6)).density, IsEmpty());

@@ -95,9 +95,6 @@ Case case_of(const cases::FrictionRecord& record);
 inline constexpr const char* kContactMap = "0 no contact, 1 contact below saturation, 2 saturated";
 io::ByteMap contact_map(const contact::State& state, double saturation_pressure);
 
-/// Returns the pressure [Pa] above which contacts of these settings saturate; infinity if none.
-double cap_of(const cases::ContactSettings& settings);
-
 /// File of results to be written, and what they are of.
 struct FieldsTarget {
   std::filesystem::path file;

@@ -11,8 +11,10 @@ namespace tabor::results {
 
 namespace {
 
+/// Returns what tells a contact from the others of its surface: along a load path, two of one
+/// pressure differ in their separation.
 std::string owner_of(const cases::ContactRecord& record) {
-  return fmt::format("{}", record.summary.mean_pressure);
+  return fmt::format("{} {}", record.summary.mean_pressure, record.summary.separation);
 }
 
 template <typename Settings>
@@ -54,18 +56,14 @@ std::vector<StateField> fields_of(const cases::ContactRecord& contact,
 }
 
 io::ByteMap contact_map(const contact::State& state, double saturation_pressure) {
-  return (state.pressure > 0).cast<std::uint8_t>() +
+  return contact::contact_mask(state).cast<std::uint8_t>() +
          contact::saturated_mask(state, saturation_pressure).cast<std::uint8_t>();
-}
-
-double cap_of(const cases::ContactSettings& settings) {
-  return settings.saturation_pressure.value_or(std::numeric_limits<double>::infinity());
 }
 
 FieldsFile::FieldsFile(const FieldsTarget& target, const topography::Topography& surface,
                        const cases::ContactSettings& settings)
     : FieldsFile(target.file, target.options, head_of(target, settings), surface, target.origin) {
-  cap_ = cap_of(settings);
+  cap_ = settings.pressure_cap();
 }
 
 FieldsFile::FieldsFile(const FieldsTarget& target, const topography::Topography& surface,
@@ -75,7 +73,7 @@ FieldsFile::FieldsFile(const FieldsTarget& target, const topography::Topography&
 FieldsFile::FieldsFile(const FieldsTarget& target, const topography::Topography& surface,
                        const cases::CaseSettings& settings)
     : FieldsFile(target.file, target.options, head_of(target, settings), surface, target.origin) {
-  cap_ = cap_of(settings.contact);
+  cap_ = settings.contact.pressure_cap();
 }
 
 void FieldsFile::write_contact(std::size_t number, const contact::State& state,
