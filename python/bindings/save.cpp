@@ -55,13 +55,12 @@ void save_films(const FieldsTarget& target, const Topography& surface, const Cas
                 const std::vector<const FilmRecord*>& films) {
   watched(nb::none(), [&](const Observer&) {
     FieldsFile file(of(target, surface), surface, settings.film);
+    const Warnings about_surface = cases::of_surface(surface);
     std::vector<results::Case> cases;
     cases.reserve(films.size());
     for (const FilmRecord* film : films) {
       FilmRecord one = *film;
-      Warnings warnings = cases::of_surface(surface);
-      add(one.warnings, warnings);
-      one.warnings = std::move(warnings);
+      one.warnings = cases::joined(about_surface, one.warnings);
       file.add(cases.size(), one);
       cases.push_back(results::case_of(one));
     }

@@ -164,14 +164,8 @@ std::vector<DensityCurve> density_curves(const topography::Topography& surface,
                                          const std::vector<Touching>& contacts,
                                          const CaseSettings& settings, const Observer& observer) {
   for (const Touching& contact : contacts) require_contact_of(surface, contact.surface);
-  return density_curves(
-      wetting_doses(surface, settings.film, touched_by(contacts, surface), observer), contacts,
-      settings);
-}
-
-std::vector<DensityCurve> density_curves(const WettingDoses& doses,
-                                         const std::vector<Touching>& contacts,
-                                         const CaseSettings& settings) {
+  const WettingDoses doses =
+      wetting_doses(surface, settings.film, touched_by(contacts, surface), observer);
   std::vector<DensityCurve> curves;
   if (doses.lubricant_densities.empty()) return curves;
   curves.reserve(contacts.size());

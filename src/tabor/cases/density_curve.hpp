@@ -84,9 +84,5 @@ std::vector<DensityCurve> density_curves(const topography::Topography& surface,
                                          const std::vector<Touching>& contacts,
                                          const CaseSettings& settings,
                                          const Observer& observer = {});
-/// Returns the same curves from known first wetting doses.
-std::vector<DensityCurve> density_curves(const WettingDoses& doses,
-                                         const std::vector<Touching>& contacts,
-                                         const CaseSettings& settings);
 
 }  // namespace tabor::cases

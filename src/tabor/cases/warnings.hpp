@@ -24,6 +24,9 @@ std::optional<Warning> not_levelled(const topography::Topography& surface);
 /// Warnings about a treated surface, whatever is computed with it.
 Warnings of_surface(const topography::Topography& surface);
 
+/// Returns the warnings of a surface, then those of a result on it that are not among them.
+Warnings joined(Warnings of_surface, const Warnings& of_result);
+
 /// Warns of exponents more than their error outside 0 to 1.
 Warnings of_spectra(const metrology::PowerSpectra& spectra);
 

@@ -52,6 +52,11 @@ Warnings of_surface(const topography::Topography& surface) {
   return list;
 }
 
+Warnings joined(Warnings of_surface, const Warnings& of_result) {
+  add(of_result, of_surface);
+  return of_surface;
+}
+
 Warnings of_spectra(const metrology::PowerSpectra& spectra) {
   std::string strange;
   double farthest = 0;

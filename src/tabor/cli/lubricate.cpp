@@ -29,9 +29,7 @@ int show(const Request& request, Context& context) {
   const Warnings about_surface = cases::of_surface(scan.surface);
   std::map<std::size_t, cases::FilmRecord> films;  // they come in rising order of dose
   const auto receive = [&](cases::FilmRecord&& record) {
-    Warnings warnings = about_surface;
-    add(record.warnings, warnings);
-    record.warnings = std::move(warnings);
+    record.warnings = cases::joined(about_surface, record.warnings);
     const std::size_t place = record.film.request;
     if (file) file->add(place, record);
     record.film.thickness = {};
