@@ -53,19 +53,20 @@ std::vector<ContactRecord> contacts(const topography::Topography& surface,
                                     const std::vector<double>& mean_pressures,
                                     const std::vector<double>& separations,
                                     const std::vector<double>& forces, const nb::object& progress) {
-  const cases::CaseSettings asked{.mean_pressures = mean_pressures,
-                                  .separations = separations,
-                                  .forces = forces,
-                                  .contact = settings};
+  cases::CaseSettings asked{.mean_pressures = mean_pressures,
+                            .separations = separations,
+                            .forces = forces,
+                            .contact = settings};
   check(cases::objection_to_controls(asked, true, argument_of));
   check_contact(settings, mean_pressures);
+  cases::find_tool(asked.contact.tool, {});
   return watched(progress, [&](const Observer& observer) {
     const std::vector<contact::Control> controls = cases::controls_of(asked);
     std::vector<ContactRecord> records;
     records.reserve(controls.size());
-    const auto elasticity = cases::make_operator(settings, surface.grid);
+    const auto elasticity = cases::make_operator(asked.contact, surface.grid);
     cases::contact_states(
-        *elasticity, surface, settings, controls,
+        *elasticity, surface, asked.contact, controls,
         [&records](ContactRecord&& record) { records.push_back(std::move(record)); }, observer);
     return records;
   });
@@ -73,7 +74,14 @@ std::vector<ContactRecord> contacts(const topography::Topography& surface,
 
 using Scalars = std::tuple<int, double, double, double, int, std::uint64_t>;
 using ContactState = std::tuple<nb::dict, Scalars, WarningTexts, std::vector<std::string>,
-                                MapArgument, MapArgument, MapArgument>;
+                                MapArgument, MapArgument, MapArgument, std::optional<MapArgument>>;
+
+/// Returns the heights of the tool over the surface; None under a flat.
+std::optional<MapView> tool_of(nb::handle_t<ContactRecord> self) {
+  const auto& one = nb::cast<const ContactRecord&>(self);
+  if (!one.tool) return std::nullopt;
+  return view_of(*one.tool, self);
+}
 
 nb::object saved_contact(nb::handle_t<ContactRecord> self) {
   const auto& one = nb::cast<const ContactRecord&>(self);
@@ -83,7 +91,7 @@ nb::object saved_contact(nb::handle_t<ContactRecord> self) {
                       Scalars{static_cast<int>(one.convergence.status), one.convergence.fft_pairs,
                               state.gap_error, state.gap_limit, state.compact_steps, one.surface},
                       python::texts_of(one.warnings), one.references, view_of(state.pressure, self),
-                      view_of(state.displacement, self), view_of(state.gap, self)));
+                      view_of(state.displacement, self), view_of(state.gap, self), tool_of(self)));
 }
 
 void restore_contact(ContactRecord& self, const ContactState& saved) {
@@ -99,6 +107,9 @@ void restore_contact(ContactRecord& self, const ContactState& saved) {
   state.pressure = field_of(std::get<4>(saved));
   state.displacement = field_of(std::get<5>(saved));
   state.gap = field_of(std::get<6>(saved));
+  if (const auto& tool = std::get<7>(saved)) {
+    one.tool = std::make_shared<const Field>(field_of(*tool));
+  }
   state.mean_pressure = one.summary.mean_pressure;
   state.separation = one.summary.separation;
   state.convergence = one.convergence;
@@ -149,7 +160,8 @@ void bind_contact(nb::module_& module) {
       .def_prop_ro("gap_limit", [](const ContactRecord& self) { return self.state.gap_limit; })
       .def_prop_ro("pressure", &map_of<&State::pressure>)
       .def_prop_ro("displacement", &map_of<&State::displacement>)
-      .def_prop_ro("gap", &map_of<&State::gap>);
+      .def_prop_ro("gap", &map_of<&State::gap>)
+      .def_prop_ro("tool", &tool_of);
   module.def("materials", &materials);
   module.def(
       "material", [](const std::string& name) { return row_of(material::find_solid(name)); },

@@ -41,21 +41,26 @@ FrictionRecord friction_of(const Pair& pair, const FluidRecord* fluid,
                                pair.film, fluid, contact, settings);
 }
 
-/// (numbers, whether oil flows, area, warnings, references)
-using FrictionState =
-    std::tuple<nb::dict, bool, std::string, WarningTexts, std::vector<std::string>>;
+/// (numbers, (oil flows, a tool presses), area, warnings, references)
+using FrictionState = std::tuple<nb::dict, std::pair<bool, bool>, std::string, WarningTexts,
+                                 std::vector<std::string>>;
 
 FrictionState saved_friction(const FrictionRecord& one) {
-  const bool flows = one.fluid.has_value();
-  return {saved(cases::friction_columns(flows), one), flows,
-          std::string(tabor::friction::kAreas.of(one.area)), python::texts_of(one.warnings),
+  const cases::FrictionParts parts = cases::parts_of(one);
+  return {saved(cases::friction_columns(parts), one),
+          {parts.fluid, parts.tool},
+          std::string(tabor::friction::kAreas.of(one.area)),
+          python::texts_of(one.warnings),
           one.references};
 }
 
 void restore_friction(FrictionRecord& self, const FrictionState& saved) {
   auto& one = *new (&self) FrictionRecord();
-  if (std::get<1>(saved)) one.fluid.emplace();
-  restore(cases::friction_columns(std::get<1>(saved)), std::get<0>(saved), one);
+  const cases::FrictionParts parts{.fluid = std::get<1>(saved).first,
+                                   .tool = std::get<1>(saved).second};
+  if (parts.fluid) one.fluid.emplace();
+  if (parts.tool) one.tool.emplace();
+  restore(cases::friction_columns(parts), std::get<0>(saved), one);
   one.area = tabor::friction::kAreas.parse(std::get<2>(saved), "area");
   one.warnings = warnings_of(std::get<3>(saved));
   one.references = std::get<4>(saved);

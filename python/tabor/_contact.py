@@ -122,9 +122,14 @@ class Contact(Record):
 
     @property
     def gap(self) -> Array:
-        """Gap between the deformed surface and the flat [m]; below zero only where the contact saturates,
+        """Gap between the deformed surface and what presses on it [m]; below zero only where the contact saturates,
         by the residual plastic indentation."""
         return self._record.gap
+
+    @property
+    def tool(self) -> Array | None:
+        """Heights of the tool over the surface [m], towards it; None under a flat."""
+        return self._record.tool
 
     @property
     def mean_pressure(self) -> float:

@@ -105,12 +105,13 @@ def _is_of_solid(one: Setting) -> bool:
 
 
 SOLID = tuple(sorted(filter(_is_of_solid, _of("contact", "friction")), key=lambda one: not one.is_of_material))
-CONTACT = tuple(one for one in _of("contact") if not _is_of_solid(one))
+CONTACT = tuple(one for one in _of("contact", without=("tool_places",)) if not _is_of_solid(one))
 RAIN = _of("film")
 SHEAR = _of("friction")
 CURVE = SHEAR + tuple(one for one in RAIN if one.name not in ("model", "droplet_height", "seed"))  # of vanishing droplets
 OIL = _of("fluid", without=("fluid", "sliding_speed"))  # a lubricant flows; a speed is what happens to it
-STUDY = tuple(one for one in SHEAR + RAIN + CONTACT if one.study_key)
+PLACES = tuple(one for one in _of("contact") if one.name == "tool_places")  # of the tool: studies average over them
+STUDY = tuple(one for one in SHEAR + RAIN + CONTACT + PLACES if one.study_key)
 PIXELS = tuple(one for one in _ALL if one.table == "pixels")
 RECIPE = _of("recipe")
 READ = tuple(one for one in _ALL if one.table == "read")

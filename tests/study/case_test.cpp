@@ -57,7 +57,7 @@ TEST(Tasks, TextOfACaseWithoutFlowIsWhatItWasBeforeOilCouldFlow) {
   engine::Task film;
   film.key = "f";
   const Scan scan{"", "one", "all", {}};
-  EXPECT_EQ(case_task(study, scan, contact, film, 9e-4).text,
+  EXPECT_EQ(case_task(study, scan, {contact}, film, 9e-4).text,
             "tabor case 5\nscan = 3:one\ngroup = 3:all\ncontact = 1:c\nfilm = 1:f\n"
             "lubricant_density_kg_per_m2 = 0.00089999999999999998\n"
             "shear_strength_Pa = 70000000\narea = 9:corrected\n");

@@ -52,6 +52,12 @@ cases::CaseSettings flowing() {
   return flow;
 }
 
+cases::CaseSettings under_a_tool() {
+  cases::CaseSettings rough = settings();
+  rough.contact.tool = {.tool = "ground:Sa=0.1um,groove-length=20um", .tool_places = 3};
+  return rough;
+}
+
 /// What a state says, and a sum over its film.
 std::string text_of(const FrictionState& state) {
   const io::Json numbers =
@@ -97,11 +103,54 @@ TEST(FrictionOf, HandsOnWhatTheStatesGiveOneAfterTheOther) {
 }
 
 TEST(FrictionOf, DoesNotDependOnTheNumberOfJobs) {
-  for (const cases::CaseSettings& asked : {settings(), along_a_load_path(), flowing()}) {
+  for (const cases::CaseSettings& asked :
+       {settings(), along_a_load_path(), flowing(), under_a_tool()}) {
     const std::vector<std::string> alone = states_of(asked, 1);
     EXPECT_EQ(states_of(asked, 4), alone);
     EXPECT_EQ(states_of(asked, 4, ContactMaps::dropped), alone);
   }
+}
+
+TEST(FrictionOf, IsTheMeanOverThePlacesOfATool) {
+  std::vector<cases::FrictionRecord> means;
+  friction_of(rough(), under_a_tool(),
+              [&](const FrictionState& state) { means.push_back(state.friction); });
+  std::vector<double> sums(means.size(), 0);
+  for (const double x : {0.0, 16e-6, 32e-6}) {
+    cases::CaseSettings at_x = under_a_tool();
+    at_x.contact.tool.tool_places = 1;
+    at_x.contact.tool.tool_x = x;
+    std::size_t i = 0;
+    friction_of(rough(), at_x, [&](const FrictionState& state) {
+      EXPECT_DOUBLE_EQ(state.friction.tool->place->x, x);
+      sums[i++] += state.friction.friction_lubricated;
+    });
+  }
+  double spread = 0;
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    EXPECT_NEAR(means[i].friction_lubricated, sums[i] / 3, 1e-14);
+    spread += means[i].tool->spread->friction_lubricated;
+  }
+  EXPECT_GT(spread, 0);
+}
+
+TEST(FrictionOf, AlongALoadPathEachPlaceOfTheToolHasAPathOfItsOwn) {
+  cases::CaseSettings path = under_a_tool();
+  path.contact.load_path = true;
+  path.mean_pressures = {15e6, 7e6};
+  const auto last = [&] {
+    cases::FrictionRecord record;
+    friction_of(rough(), path, [&](const FrictionState& state) { record = state.friction; });
+    return record;
+  };
+  const cases::FrictionRecord mean = last();
+  double sum = 0;
+  path.contact.tool.tool_places = 1;
+  for (const double x : {0.0, 16e-6, 32e-6}) {
+    path.contact.tool.tool_x = x;
+    sum += last().contact_area_fraction_pixels;
+  }
+  EXPECT_NEAR(mean.contact_area_fraction_pixels, sum / 3, 1e-14);
 }
 
 TEST(FrictionOf, GoesThroughPressuresAndDensitiesAsTheyWereGiven) {

@@ -1,4 +1,5 @@
 #include "tabor/cases/records.hpp"
+#include "tabor/cases/settings.hpp"
 #include "tabor/core/units.hpp"
 
 namespace tabor::cases {
@@ -7,6 +8,11 @@ namespace {
 constexpr ColumnStyle kPercent{.shown = Shown::percent};
 constexpr ColumnStyle kObjectAlone{.media = media::kObject};
 constexpr ColumnStyle kStoreAlone{.media = media::kStore};
+
+const Columns<ToolPlace>& place_columns() {
+  static const Columns<ToolPlace> all{{"tool_x_m", "m", "tool at", &ToolPlace::x}};
+  return all;
+}
 
 }  // namespace
 
@@ -50,7 +56,8 @@ const Columns<ContactRecord>& contact_columns() {
         member_of(&Record::convergence, &Convergence::operator_applications)},
        {"fft_seconds", "s", "", &Record::fft_seconds},
        {"seconds", "s", "time", &Record::seconds},
-       {"peak_memory_bytes", "", "", &Record::peak_memory}});
+       {"peak_memory_bytes", "", "", &Record::peak_memory}},
+      within(place_columns(), &Record::tool_place));
   return all;
 }
 
@@ -148,6 +155,18 @@ const Columns<FlowingFriction>& flowing_columns() {
   return all;
 }
 
+const Columns<ToolFriction>& tool_columns() {
+  using Record = ToolFriction;
+  static const Columns<ToolSpread> spread{
+      {"friction_area_fraction_std", "", "± area", &ToolSpread::area_fraction, kPercent},
+      {"friction_dry_std", "", "± dry", &ToolSpread::friction_dry},
+      {"friction_lubricated_std", "", "± wet", &ToolSpread::friction_lubricated}};
+  static const Columns<Record> all =
+      joined<Record>({{"tool_places", "", "", &Record::n_places}},
+                     within(place_columns(), &Record::place), within(spread, &Record::spread));
+  return all;
+}
+
 Columns<FrictionRecord> columns_before_the_film() {
   using Record = FrictionRecord;
   constexpr ColumnStyle stored_and_tabled{.media = media::kStore | media::kTable};
@@ -163,7 +182,13 @@ Columns<FrictionRecord> columns_before_the_film() {
           {"saturated_area_fraction", "", "", &Record::saturated_area_fraction},
           {"mean_gap_m", "m", "", &Record::mean_gap},
           {"separation_m", "m", "", &Record::separation, kObjectAlone},
-          {"mean_film_m", "m", "", &Record::mean_film, kObjectAlone},
+          {"mean_film_m",
+           "m",
+           "",
+           &Record::mean_film,
+           {.media = media::kObject | media::kStore | media::kTable}},
+          {"", "", "film / gap", [](const Record& one) { return one.mean_film / one.mean_gap; },
+           kPercent},
           friction_area_columns()[0],
           friction_area_columns()[1],
           {"lubricated_share", "", "wet share", &Record::lubricated_share, kPercent},
@@ -188,10 +213,19 @@ Columns<FrictionRecord> columns_before_the_film() {
 
 }  // namespace
 
-Columns<FrictionRecord> friction_columns(bool oil_flows) {
+FrictionParts parts_of(const CaseSettings& settings) {
+  return {.fluid = settings.fluid.flows(), .tool = settings.contact.tool.is_rough()};
+}
+
+FrictionParts parts_of(const FrictionRecord& record) {
+  return {.fluid = record.fluid.has_value(), .tool = record.tool.has_value()};
+}
+
+Columns<FrictionRecord> friction_columns(const FrictionParts& parts) {
   using Record = FrictionRecord;
   Columns<Record> all = columns_before_the_film();
-  if (oil_flows) all = joined<Record>(all, within(flowing_columns(), &Record::fluid));
+  if (parts.tool) all = joined<Record>(all, within(tool_columns(), &Record::tool));
+  if (parts.fluid) all = joined<Record>(all, within(flowing_columns(), &Record::fluid));
   return joined<Record>(
       all, {{"", "", "certificate", &Record::certificate, {.shown = Shown::exponent}},
             {"", "", "converged", &Record::converged},

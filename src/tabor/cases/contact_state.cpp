@@ -42,13 +42,28 @@ ContactRecord solve(elastic::ElasticOperator& elasticity, const Field& height,
   return record;
 }
 
-/// `height` is that of the surface, or what a load path has made of it.
+const Field& pressed_height(const topography::Topography& surface, const Pressing& pressing) {
+  return pressing.height.size() > 0 ? pressing.height : surface.height;
+}
+
+/// Puts the tool of the settings at its first place.
+Pressing first_pressing(const topography::Topography& surface, const ContactSettings& settings,
+                        const Observer& observer) {
+  if (!settings.tool.is_rough()) return {};
+  const Tool tool = make_tool(settings.tool, surface.grid, observer);
+  return pressing(surface, tool, places_of(settings.tool, tool).front());
+}
+
 ContactRecord state_of(elastic::ElasticOperator& elasticity, const topography::Topography& surface,
-                       const Field& height, const ContactSettings& settings,
+                       const Pressing& pressing, const ContactSettings& settings,
                        const contact::Control& control, const Observer& observer) {
-  ContactRecord record = solve(elasticity, height, settings, control, observer);
+  ContactRecord record =
+      solve(elasticity, pressed_height(surface, pressing), settings, control, observer);
   record.surface = topography::digest_of(surface.height, surface.grid);
+  record.tool = pressing.tool;
+  record.tool_place = pressing.place;
   record.warnings = of_surface(surface);
+  add(pressing.warnings, record.warnings);
   record.references = references_of(settings);
   add(of_contact(surface, settings, record.state, record.summary), record.warnings);
   if (settings.statistics) {
@@ -66,10 +81,19 @@ std::unique_ptr<elastic::ElasticOperator> make_operator(const ContactSettings& s
                                 : elastic::make_free(grid, settings.effective_modulus());
 }
 
+Pressing pressing(const topography::Topography& surface, const Tool& tool, Index place) {
+  auto over = std::make_shared<const Field>(height_at(tool, place, surface.grid));
+  return {.height = surface.height + *over,
+          .place = ToolPlace{static_cast<double>(place) * tool.grid.dx()},
+          .tool = std::move(over),
+          .warnings = of_tool(surface, tool)};
+}
+
 ContactRecord contact_state(elastic::ElasticOperator& elasticity,
                             const topography::Topography& surface, const ContactSettings& settings,
                             const contact::Control& control, const Observer& observer) {
-  return state_of(elasticity, surface, surface.height, settings, control, observer);
+  return state_of(elasticity, surface, first_pressing(surface, settings, observer), settings,
+                  control, observer);
 }
 
 ContactRecord contact_state(const topography::Topography& surface, const ContactSettings& settings,
@@ -80,26 +104,27 @@ ContactRecord contact_state(const topography::Topography& surface, const Contact
 
 ContactRecord contact_state(elastic::ElasticOperator& elasticity,
                             const topography::Topography& surface, const ContactSettings& settings,
-                            const contact::Control& control, LoadPath& path,
+                            const contact::Control& control, Pressing& pressing,
                             const Observer& observer) {
-  const Field& height = path.height.size() > 0 ? path.height : surface.height;
-  ContactRecord record = state_of(elasticity, surface, height, settings, control, observer);
-  if (settings.load_path) path.height = contact::unloaded_height(height, record.state);
+  ContactRecord record = state_of(elasticity, surface, pressing, settings, control, observer);
+  if (settings.load_path) {
+    pressing.height = contact::unloaded_height(pressed_height(surface, pressing), record.state);
+  }
   return record;
 }
 
 void contact_states(elastic::ElasticOperator& elasticity, const topography::Topography& surface,
                     const ContactSettings& settings, const std::vector<contact::Control>& controls,
                     const std::function<void(ContactRecord&&)>& receive, const Observer& observer) {
+  Pressing pressing = first_pressing(surface, settings, observer);
   for (const contact::Control& control : controls) {  // before the first of them takes its time
     const auto* separation = std::get_if<contact::Separation>(&control);
     if (separation == nullptr) continue;
-    contact::require_reachable(elasticity, surface.height, {.upper = settings.pressure_cap()},
-                               separation->value);
+    contact::require_reachable(elasticity, pressed_height(surface, pressing),
+                               {.upper = settings.pressure_cap()}, separation->value);
   }
-  LoadPath path;
   for (const contact::Control& control : controls) {
-    receive(contact_state(elasticity, surface, settings, control, path, observer));
+    receive(contact_state(elasticity, surface, settings, control, pressing, observer));
   }
 }
 

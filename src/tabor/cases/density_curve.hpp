@@ -36,7 +36,7 @@ struct WettingDoses {
 };
 
 /// True where the settings have oil that runs downhill, so that it fills depressions first and then
-/// valleys, and does not flow on.
+/// valleys, and does not flow on, and one place of the tool.
 bool has_density_curve(const CaseSettings& settings);
 
 /// Finds the first wetting doses of the pixels of `where`, in the shape of the surface; the others

@@ -20,6 +20,7 @@ FrictionRecord numbers_of(const ContactRecord& contact, const FilmRecord& film) 
   record.certificate = contact.convergence.certificate;
   record.contact_gap_error = contact.summary.contact_gap_error;
   record.converged = contact.convergence.converged();
+  if (contact.tool_place) record.tool = ToolFriction{.place = contact.tool_place};
   record.warnings = contact.warnings;
   add(film.warnings, record.warnings);
   record.references = contact.references;
@@ -102,6 +103,7 @@ FrictionRecord friction_state(const ContactRecord& contact, const Closed& closed
   const friction::Estimate estimate =
       dry_friction(contact, record.lubricated_share, record.spill_over_fraction, contact_settings,
                    settings, record.warnings);
+  add(of_film_in_gap(record.mean_film, record.mean_gap), record.warnings);
   add(references_of(settings), record.references);
   record.area = estimate.area;
   record.boundary_shear_strength = settings.boundary_strength();

@@ -99,7 +99,9 @@ const Parameters<ContactSettings>& contact_parameters() {
            .help = "the pressures are one history: the plastic indentation a state leaves is kept "
                    "in the next, so that reloading below the largest is elastic"},
           &Settings::load_path)};
-  return all;
+  static const Parameters<Settings> with_tool =
+      joined(all, {within(tool_parameters(), &Settings::tool)});
+  return with_tool;
 }
 
 const Parameters<FilmSettings>& film_parameters() {

@@ -43,6 +43,11 @@ struct ContactStatistics {
   contact::Histogram patch_area;
 };
 
+/// Place of a tool over the surface.
+struct ToolPlace {
+  double x = 0;  ///< [m]
+};
+
 /// One solved contact.
 struct ContactRecord {
   /// topography::digest_of() the pressed surface; 0 where it is not known, as in a record that was
@@ -55,9 +60,11 @@ struct ContactRecord {
   double seconds = 0;
   std::size_t peak_memory = 0;  ///< of the program so far [bytes]
   std::optional<ContactStatistics> statistics;
-  Warnings warnings;                    ///< of its surface and its own
-  std::vector<std::string> references;  ///< to cite: keys of references.bib; not stored
-  contact::State state;                 ///< maps; empty in a record that was read from a store
+  Warnings warnings;                         ///< of its surface and its own
+  std::vector<std::string> references;       ///< to cite: keys of references.bib; not stored
+  std::optional<ToolPlace> tool_place = {};  ///< absent under a flat
+  std::shared_ptr<const Field> tool = {};    ///< heights of the tool [m]; null under a flat
+  contact::State state;                      ///< maps; empty in a record that was read from a store
 };
 const Columns<ContactRecord>& contact_columns();
 
@@ -104,6 +111,20 @@ struct FlowingFriction {
   bool converged = false;  ///< film and load balance
 };
 
+/// Standard deviations of a friction over the places of a tool.
+struct ToolSpread {
+  double area_fraction = 0;  ///< of the area that friction is computed with
+  double friction_dry = 0;
+  double friction_lubricated = 0;
+};
+
+/// What a rough tool adds to the friction of a contact: its place, or the spread over its places.
+struct ToolFriction {
+  std::uint64_t n_places = 1;
+  std::optional<ToolPlace> place = {};    ///< absent for a mean over several places
+  std::optional<ToolSpread> spread = {};  ///< absent for one place
+};
+
 /// The friction of one contact with one film. Numbers are NaN where there are none.
 struct FrictionRecord {
   double mean_pressure = 0;      ///< [Pa]
@@ -128,13 +149,22 @@ struct FrictionRecord {
   double contact_gap_error = kNoValue;   ///< [m]
   bool converged = false;                ///< contact, and film if it flows
   std::optional<FlowingFriction> fluid;  ///< absent where the oil does not flow
+  std::optional<ToolFriction> tool;      ///< absent under a flat
   Warnings warnings;                     ///< of its surface, contact, film and friction
   std::vector<std::string> references;   ///< of all of them, to cite; not stored
 };
 /// Columns for tables on the terminal: the area that friction was computed with, under the name of
 /// its count, so that a table has one of the two areas and says which.
 const Columns<FrictionRecord>& friction_area_columns();
-/// Columns of friction, with or without those of a flowing film.
-Columns<FrictionRecord> friction_columns(bool oil_flows = true);
+struct CaseSettings;
+
+/// Parts of a friction that not every case has, and their columns.
+struct FrictionParts {
+  bool fluid = true;  ///< the oil flows
+  bool tool = true;   ///< a rough tool presses
+};
+FrictionParts parts_of(const CaseSettings& settings);
+FrictionParts parts_of(const FrictionRecord& record);
+Columns<FrictionRecord> friction_columns(const FrictionParts& parts = {});
 
 }  // namespace tabor::cases

@@ -102,6 +102,7 @@ std::optional<Objection> objection(const ContactSettings& settings,
                            spelling("counter_youngs_modulus"), spelling("counter_poissons_ratio")));
   }
   if (auto found = objection_to_bounds(contact_parameters(), settings)) return found;
+  if (auto found = objection(settings.tool, spelling)) return found;
   for (const double pressure : mean_pressures) {
     if (auto found = objection_to_pressure(pressure, settings, spelling)) return found;
   }
@@ -178,6 +179,12 @@ std::optional<Objection> objection(const FluidSettings& settings, const ContactS
     return found;
   }
   friction::lubricant_of(settings.oil());
+  if (contact.tool.is_rough()) {
+    return use("tool",
+               fmt::format("{}is solved under a flat: a rough tool changes the gap while it "
+                           "slides; leave out one of them",
+                           asked));
+  }
   if (contact.is_periodic()) return std::nullopt;
   return use("boundary", fmt::format("{}is solved on a patch that repeats: use {} periodic", asked,
                                      spelling("boundary")));

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tabor/cases/tool.hpp"
 #include "tabor/contact/contact.hpp"
 #include "tabor/core/names.hpp"
 #include "tabor/deposition/deposition.hpp"
@@ -26,7 +27,7 @@ enum class Boundary {
 inline constexpr auto kBoundaries = names<Boundary>("periodic", "free");
 inline constexpr auto kSolvers = names<contact::Solver>("fast", "polonsky-keer");
 
-/// Settings for the contact of a rough body with a flat one.
+/// Settings for the contact of a rough body with a flat or a rough tool.
 struct ContactSettings {
   std::string material = {};  ///< name in the library, "" if it is not from there
   double youngs_modulus = 0;  ///< of the rough body [Pa]
@@ -39,6 +40,7 @@ struct ContactSettings {
   double tolerance = 1e-6;  ///< on the certificate
   bool load_path = false;   ///< the next state starts with the plastic indentation of this one
   bool statistics = false;  ///< stiffness and histograms, too
+  ToolSettings tool = {};   ///< in place of the flat
 
   /// Returns the boundary in force: the surface repeats unless something else is set.
   Boundary boundary_in_force() const { return boundary.value_or(Boundary::periodic); }

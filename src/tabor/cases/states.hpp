@@ -7,6 +7,7 @@
 
 #include "tabor/cases/records.hpp"
 #include "tabor/cases/settings.hpp"
+#include "tabor/cases/tool.hpp"
 #include "tabor/elastic/operator.hpp"
 #include "tabor/topography/topography.hpp"
 
@@ -19,24 +20,31 @@ namespace tabor::cases {
 std::unique_ptr<elastic::ElasticOperator> make_operator(const ContactSettings& settings,
                                                         const Grid& grid);
 
-/// Solves one contact of the surface under a mean pressure, a force or at a separation; the record
-/// has the warnings of both.
+/// Solves one contact of the surface under a mean pressure, a force or at a separation, with the
+/// tool of the settings at its first place; the record has the warnings of both.
 ContactRecord contact_state(elastic::ElasticOperator& elasticity,
                             const topography::Topography& surface, const ContactSettings& settings,
                             const contact::Control& control, const Observer& observer = {});
 ContactRecord contact_state(const topography::Topography& surface, const ContactSettings& settings,
                             const contact::Control& control, const Observer& observer = {});
 
-/// Surface as the contacts of a load path have left it so far.
-struct LoadPath {
-  Field height;  ///< unloaded [m]; empty before the first contact
+/// What presses on a surface, and what the contacts of a load path have left of it so far.
+struct Pressing {
+  /// Heights of the surface and of the tool, unloaded [m]; empty for the surface as it is under a
+  /// flat.
+  Field height = {};
+  std::optional<ToolPlace> place = {};     ///< absent for a flat
+  std::shared_ptr<const Field> tool = {};  ///< its heights over the surface [m]; null: a flat
+  Warnings warnings = {};                  ///< of pressing with it
 };
+/// Puts a tool over the surface at a place [pixels].
+Pressing pressing(const topography::Topography& surface, const Tool& tool, Index place);
 
-/// Solves the next contact of a load path, on the surface that the contacts before it have left;
-/// without a load path in the settings, on the surface as it is.
+/// Solves the next contact: of a load path on the surface that the contacts before it have left,
+/// else on the surface as it is.
 ContactRecord contact_state(elastic::ElasticOperator& elasticity,
                             const topography::Topography& surface, const ContactSettings& settings,
-                            const contact::Control& control, LoadPath& path,
+                            const contact::Control& control, Pressing& pressing,
                             const Observer& observer = {});
 
 /// Solves the contacts of all controls, one after the other; hands each record on and then drops
@@ -83,6 +91,10 @@ FrictionRecord friction_state(const ContactRecord& contact, const Closed& closed
                               const FilmRecord& film, const FluidRecord* fluid,
                               const ContactSettings& contact_settings,
                               const FrictionSettings& settings);
+
+/// Returns the means over the places of a tool, with their standard deviations and the warnings of
+/// all; the record itself where there is one.
+FrictionRecord mean_over_places(const std::vector<FrictionRecord>& records);
 
 /// Estimates the friction of the solids, of which liquid covers a share.
 friction::Estimate estimate_of(const contact::Summary& contact, double lubricated_share,

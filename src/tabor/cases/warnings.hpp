@@ -45,6 +45,9 @@ Warnings of_film(const topography::Topography& surface, const deposition::Film& 
 Warnings of_friction(const friction::Contact& contact, const friction::Estimate& estimate,
                      double spill_over_fraction, const FrictionSettings& settings);
 
+/// Warns of a film that is thicker than the gap on average [m].
+Warnings of_film_in_gap(double mean_film, double mean_gap);
+
 /// Warns of a wet share that pixels twice as large [m] change by more than a fifth.
 Warnings of_pixel(double coarse_pixel, double coarse_share, double pixel, double share);
 

@@ -57,6 +57,7 @@ void check_all(const Request& request, bool boundary_is_known) {
 
 int show(Request request, Context& context) {
   check_all(request, false);
+  find_tool(request.settings.contact, context);
   const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
   cases::ContactSettings& contact = request.settings.contact;  // a file may say its edges, too

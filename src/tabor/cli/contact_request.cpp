@@ -37,6 +37,13 @@ void declare_all(OptionSet& set, const Parameters<Settings>& parameters, Setting
   }
 }
 
+/// A contact has one place of the tool; friction is averaged over several.
+void declare_tool(OptionSet& set, cases::ToolSettings& settings, bool has_one_place) {
+  set.group("Tool");
+  if (has_one_place) return declare_all(set, cases::tool_parameters(), settings, {"tool_places"});
+  declare_all(set, cases::tool_parameters(), settings);
+}
+
 }  // namespace
 
 void declare_contact(OptionSet& set, cases::CaseSettings& settings, Controls controls) {
@@ -50,7 +57,9 @@ void declare_contact(OptionSet& set, cases::CaseSettings& settings, Controls con
     }
   }
   declare_material(set, settings);
-  declare_all(set, cases::contact_parameters(), settings.contact, {"load_path"});
+  declare_all(set, cases::contact_parameters(), settings.contact,
+              {"load_path", "tool_places", "tool", "tool_x", "tool_lowpass", "tool_repeats"});
+  declare_tool(set, settings.contact.tool, controls == Controls::all);
 }
 
 void declare_film(OptionSet& set, cases::FilmSettings& settings) {
@@ -100,6 +109,11 @@ void take_edges(const ScanRequest& scan, cases::ContactSettings& settings) {
   settings.take_edges(edges);
 }
 
+void find_tool(cases::ContactSettings& settings, Context& context) {
+  if (settings.tool.is_scan()) context.files.reads(settings.tool.file());
+  cases::find_tool(settings.tool, {});
+}
+
 void check_contact(const cases::CaseSettings& settings) {
   check(cases::objection(settings.contact, settings.mean_pressures, flag_of));
 }
@@ -116,6 +130,17 @@ void describe(const cases::ContactSettings& settings, Facts& facts) {
                                         : std::string("elastic"),
                                     cases::kBoundaries.of(settings.boundary_in_force()),
                                     cases::kSolvers.of(settings.solver)));
+  describe(settings.tool, facts);
+}
+
+void describe(const cases::ToolSettings& settings, Facts& facts) {
+  if (!settings.is_rough()) return;
+  std::string text = *settings.tool;
+  if (settings.tool_lowpass) text += ", lowpass " + *settings.tool_lowpass;
+  text += settings.tool_places > 1
+              ? fmt::format(", mean over {} places along x", settings.tool_places)
+              : fmt::format(", at x = {}", si(settings.tool_x.value_or(0), "m"));
+  facts.fact("tool", text);
 }
 
 void describe(const cases::FilmSettings& settings, Facts& facts) {

@@ -54,10 +54,13 @@ std::string flag_of(std::string_view setting);
 /// Throws the objection, if there is one. To be called before a scan is read.
 void check(const std::optional<cases::Objection>& objection);
 void check_contact(const cases::CaseSettings& settings);
+/// Looks for the tool where it is a file, which no output may replace.
+void find_tool(cases::ContactSettings& settings, Context& context);
 /// Takes the boundary from --edges. Throws UsageError where options contradict each other.
 void take_edges(const ScanRequest& scan, cases::ContactSettings& settings);
 
 void describe(const cases::ContactSettings& settings, Facts& facts);
+void describe(const cases::ToolSettings& settings, Facts& facts);
 void describe(const cases::FilmSettings& settings, Facts& facts);
 void describe(const cases::FluidSettings& settings, Facts& facts);
 

@@ -48,7 +48,8 @@ bool compares(const Request& request) {
   const std::vector<double>& densities = request.settings.film.lubricant_densities;
   const bool has_oil =
       std::any_of(densities.begin(), densities.end(), [](double density) { return density > 0; });
-  return has_oil && !request.settings.fluid.flows() && !request.resolution_scan;
+  return has_oil && !request.settings.fluid.flows() && !request.resolution_scan &&
+         request.settings.contact.tool.n_places() == 1;
 }
 
 Solved solve_all(const Request& request, const topography::Topography& surface,
@@ -199,6 +200,7 @@ std::string text_of(const Scan& scan, const Request& request, const Solved& solv
 int show(Request request, Context& context) {
   request.settings.film.seed = context.seed_or_default();
   check_all(request.settings);
+  find_tool(request.settings.contact, context);
   const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
   cases::ContactSettings& contact = request.settings.contact;  // a file may say its edges, too
@@ -226,7 +228,7 @@ int show(Request request, Context& context) {
   if (request.resolution_scan) {
     object["resolution"] = states_json(study::resolution_columns(), solved.resolution);
   }
-  const auto columns = cases::friction_columns(request.settings.fluid.flows());
+  const auto columns = cases::friction_columns(cases::parts_of(request.settings));
   return finish(context, object,
                 write_csv(request.file.csv, states_csv(columns, solved.records),
                           text_of(scan, request, solved)),

@@ -67,6 +67,9 @@ io::Json settings_json(const cases::ContactSettings& settings) {
   io::Json object = io::Json::object();
   if (!settings.material.empty()) object["material"] = settings.material;
   object.update(io::json_of(columns_of(cases::contact_parameters()), settings));
+  if (!settings.tool.is_rough()) {
+    for (const ParameterHead& one : cases::tool_parameters()) object.erase(one.json_key());
+  }
   object["effective_modulus_Pa"] = settings.effective_modulus();
   object["threads"] = thread_count();
   return object;

@@ -11,10 +11,15 @@ namespace tabor::results {
 
 namespace {
 
+double x_of(const cases::ContactRecord& record) {
+  return record.tool_place ? record.tool_place->x : 0;
+}
+
 /// Returns what tells a contact from the others of its surface: along a load path, two of one
 /// pressure differ in their separation.
 std::string owner_of(const cases::ContactRecord& record) {
-  return fmt::format("{} {}", record.summary.mean_pressure, record.summary.separation);
+  return fmt::format("{} {} {}", record.summary.mean_pressure, record.summary.separation,
+                     x_of(record));
 }
 
 template <typename Settings>
@@ -25,8 +30,14 @@ ResultHead head_of(const FieldsTarget& target, const Settings& settings) {
 }  // namespace
 
 std::vector<StateField> fields_of(const cases::ContactRecord& record) {
-  return {{"pressure", "Pa", "contact pressure", record.state.pressure},
-          {"gap", "m", "gap between the deformed surface and the flat", record.state.gap}};
+  std::vector<StateField> fields{
+      {"pressure", "Pa", "contact pressure", record.state.pressure},
+      {"gap", "m", "gap between the deformed surface and what presses on it", record.state.gap}};
+  if (record.tool) {
+    fields.push_back({"tool", "m", "heights of the tool, towards the surface", *record.tool,
+                      fmt::format("{}", x_of(record))});
+  }
+  return fields;
 }
 
 std::vector<StateField> fields_of(const cases::FilmRecord& record) {
@@ -45,7 +56,9 @@ std::vector<StateField> fields_of(const cases::FluidRecord& record) {
 std::vector<StateField> fields_of(const cases::ContactRecord& contact,
                                   const cases::FilmRecord& film, const cases::FluidRecord* fluid) {
   std::vector<StateField> fields = fields_of(contact);
-  for (StateField& field : fields) field.owner = owner_of(contact);
+  for (StateField& field : fields) {
+    if (field.owner.empty()) field.owner = owner_of(contact);
+  }
   for (StateField& field : fields_of(film)) {
     field.owner = fmt::format("{}", film.lubricant_density);
     fields.push_back(field);

@@ -86,6 +86,11 @@ void add_displacement(const Hdf5Reader& reader, const std::string& group, Result
   map.load = [gap = map.load, height = result.surface.front().load, separation]() -> Field {
     return gap() + height() - *separation;
   };
+  if (const std::string tool = group + "/tool"; reader.exists(tool)) {
+    map.load = [under_flat = map.load, over = stored(reader, result, tool).load]() -> Field {
+      return under_flat() + over();
+    };
+  }
   result.states.back().maps.push_back(std::move(map));
 }
 

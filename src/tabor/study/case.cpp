@@ -21,20 +21,23 @@ engine::Task task_of(std::string_view kind, std::string_view extension, const st
 
 /// The contact under one pressure, and what is computed from it.
 void add_pressure(const Study& study, const Scan& scan, double pressure, ScanTasks& tasks) {
-  const engine::Task contact = contact_task(study, tasks.surface, pressure);
+  std::vector<engine::Task> contacts;
+  for (std::size_t i = 0; i < study.settings.contact.tool.n_places(); ++i) {
+    contacts.push_back(contact_task(study, tasks.surface, pressure, i));
+  }
   const std::vector<Condition> conditions = study.conditions();
   std::vector<engine::Task> cases;
   std::vector<engine::Task> fluids;
   cases.reserve(conditions.size());
   fluids.reserve(conditions.size());
   for (const Condition& condition : conditions) {
-    if (study.flows()) fluids.push_back(fluid_task(study, contact, tasks.film, condition));
-    cases.push_back(case_task(study, scan, contact, tasks.film, study.lubricant_density(condition),
+    if (study.flows()) fluids.push_back(fluid_task(study, contacts.front(), tasks.film, condition));
+    cases.push_back(case_task(study, scan, contacts, tasks.film, study.lubricant_density(condition),
                               study.flows() ? &fluids.back() : nullptr));
   }
-  tasks.contacts.push_back(contact);
+  tasks.contacts.insert(tasks.contacts.end(), contacts.begin(), contacts.end());
   if (cases::has_density_curve(study.settings)) {
-    tasks.wet_shares.push_back(wet_shares_task(study, contact));
+    tasks.wet_shares.push_back(wet_shares_task(study, contacts.front()));
   }
   tasks.cases.push_back(std::move(cases));
   tasks.fluids.push_back(std::move(fluids));
@@ -87,13 +90,18 @@ engine::Task surface_task(const Study& study, const Scan& scan, const std::strin
   return task_of("surface", "h5", body);
 }
 
-engine::Task contact_task(const Study& study, const engine::Task& surface, double mean_pressure) {
+engine::Task contact_task(const Study& study, const engine::Task& surface, double mean_pressure,
+                          std::size_t place) {
+  const std::size_t n_places = study.settings.contact.tool.n_places();
   const cases::ContactSettings& settings = study.settings.contact;
-  return task_of("contact", "h5",
-                 engine::text_line("surface", surface.key) +
-                     engine::text_line("mean_pressure_Pa", mean_pressure) +
-                     engine::text_line("effective_modulus_Pa", settings.effective_modulus()) +
-                     text_of(cases::contact_parameters(), settings));
+  return task_of(
+      "contact", "h5",
+      engine::text_line("surface", surface.key) +
+          engine::text_line("mean_pressure_Pa", mean_pressure) +
+          engine::text_line("effective_modulus_Pa", settings.effective_modulus()) +
+          text_of(cases::contact_parameters(), settings) +
+          (place > 0 ? engine::text_line("tool_place", fmt::format("{}/{}", place, n_places))
+                     : ""));
 }
 
 engine::Task film_task(const Study& study, const engine::Task& surface) {
@@ -128,13 +136,17 @@ engine::Task fluid_task(const Study& study, const engine::Task& contact, const e
   return task_of("fluid", "h5", body);
 }
 
-engine::Task case_task(const Study& study, const Scan& scan, const engine::Task& contact,
-                       const engine::Task& film, double lubricant_density,
-                       const engine::Task* fluid) {
+engine::Task case_task(const Study& study, const Scan& scan,
+                       const std::vector<engine::Task>& contacts, const engine::Task& film,
+                       double lubricant_density, const engine::Task* fluid) {
+  std::string contact_lines;
+  for (const engine::Task& contact : contacts) {
+    contact_lines += engine::text_line("contact", contact.key);
+  }
   return task_of(
       "case", "json",
       engine::text_line("scan", scan.label) + engine::text_line("group", scan.group) +
-          engine::text_line("contact", contact.key) + engine::text_line("film", film.key) +
+          contact_lines + engine::text_line("film", film.key) +
           engine::text_line("lubricant_density_kg_per_m2", lubricant_density) +
           text_of(cases::friction_parameters(), study.settings.friction) +
           engine::text_line(

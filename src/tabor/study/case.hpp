@@ -19,8 +19,9 @@ inline constexpr int kWetSharesAlgorithms = 2;  ///< the same for wet shares ove
 /// Makes the task of the treated scan; `scan_sha256` is of the scan file's bytes.
 engine::Task surface_task(const Study& study, const Scan& scan, const std::string& scan_sha256);
 
-/// Makes the task of one contact: surface and pressure.
-engine::Task contact_task(const Study& study, const engine::Task& surface, double mean_pressure);
+/// Makes the task of one contact: surface, pressure and place of the tool.
+engine::Task contact_task(const Study& study, const engine::Task& surface, double mean_pressure,
+                          std::size_t place = 0);
 
 /// Makes the task of the films of all densities on one surface.
 engine::Task film_task(const Study& study, const engine::Task& surface);
@@ -30,10 +31,11 @@ engine::Task fluid_task(const Study& study, const engine::Task& contact, const e
                         const Condition& condition);
 
 /// Makes the task of one row of the results. Names of scan and group belong to it: they are
-/// columns. `fluid` is null where the oil does not flow.
-engine::Task case_task(const Study& study, const Scan& scan, const engine::Task& contact,
-                       const engine::Task& film, double lubricant_density,
-                       const engine::Task* fluid = nullptr);
+/// columns. `contacts`: one for each place of the tool; `fluid` is null where the oil does not
+/// flow.
+engine::Task case_task(const Study& study, const Scan& scan,
+                       const std::vector<engine::Task>& contacts, const engine::Task& film,
+                       double lubricant_density, const engine::Task* fluid = nullptr);
 
 /// Kind of the tasks of wet shares: the share of one contact that each of many densities wets,
 /// those of the study among them.
@@ -45,8 +47,8 @@ struct ScanTasks {
   std::string sha256;
   engine::Task surface;
   engine::Task film;
-  std::vector<engine::Task> contacts;            ///< one per pressure
-  std::vector<engine::Task> wet_shares;          ///< the same; empty where there are none
+  std::vector<engine::Task> contacts;    ///< pressure by pressure, one per place of the tool
+  std::vector<engine::Task> wet_shares;  ///< the same; empty where there are none
   std::vector<std::vector<engine::Task>> cases;  ///< [pressure][condition]
   std::vector<std::vector<engine::Task>>
       fluids;  ///< the same; empty lists where the oil does not flow

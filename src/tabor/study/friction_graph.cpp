@@ -5,6 +5,7 @@
 
 #include "tabor/cases/states.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/engine/made_once.hpp"
 
 namespace tabor::study {
 namespace {
@@ -62,12 +63,13 @@ FrictionStore::FrictionStore(cases::CaseSettings settings, std::vector<FilmCondi
 struct FrictionGraph::Shared {
   std::shared_ptr<FrictionStore> store;
   Operators operators = {};
-  cases::LoadPath load_path = {};  // contacts of a load path wait for each other
+  engine::MadeOnce<cases::Tool> tool = {};
+  std::vector<cases::Pressing> load_paths = {};  // contacts of a load path wait for each other
   cases::WettingDoses doses = {};
 
   const cases::CaseSettings& settings() const { return store->settings(); }
   double mean_pressure(const FrictionPlace& place) const {
-    return settings().mean_pressures[place.pressure];
+    return store->mean_pressure_of(place.contact);
   }
   contact::Control control(const FrictionPlace& place) const {
     return contact::MeanPressure{mean_pressure(place)};
@@ -87,15 +89,31 @@ struct FrictionGraph::Shared {
     doses = cases::wetting_doses(*store->surface(monitor), settings().film, monitor.own);
   }
 
+  /// Puts the tool over the surface, where a contact has it.
+  cases::Pressing pressing_at(const topography::Topography& surface, std::size_t contact) {
+    const cases::ToolSettings& asked = settings().contact.tool;
+    const auto made = tool.get([&] { return cases::make_tool(asked, surface.grid); });
+    return cases::pressing(surface, *made,
+                           cases::places_of(asked, *made)[contact % store->n_places()]);
+  }
+
   void solve_contact(const FrictionPlace& place, const engine::Monitor& monitor) {
     const auto surface = store->surface(monitor);
+    const std::size_t n_places = store->n_places();
+    cases::Pressing own;
+    const bool continues = settings().contact.load_path && place.contact >= n_places;
+    cases::Pressing& pressing =
+        settings().contact.load_path ? load_paths[place.contact % n_places] : own;
+    if (!continues && settings().contact.tool.is_rough()) {
+      pressing = pressing_at(*surface, place.contact);
+    }
     store->store(place, surface,
                  cases::contact_state(*operator_on(surface->grid), *surface, settings().contact,
-                                      control(place), load_path, monitor.own));
+                                      control(place), pressing, monitor.own));
   }
 
   void share_of_wet(const FrictionPlace& place) {
-    const auto touching = store->touching(place.pressure);
+    const auto touching = store->touching(place.contact);
     if (!doses.first.empty() && doses.first.size() != static_cast<std::size_t>(touching->size())) {
       throw InputError("the store", "a surface and a contact of two sizes", "both of one surface",
                        "remove the folder store and run the sweep again");
@@ -112,7 +130,7 @@ struct FrictionGraph::Shared {
                                   monitor.own)
           .state;
     };
-    const auto dry = store->dry_contact(place.pressure, solve_dry);
+    const auto dry = store->dry_contact(place.contact, solve_dry);
     const FilmCondition& condition = store->conditions()[place.condition];
     store->store(place, surface,
                  cases::fluid_state(*elasticity, surface->height, *dry, mean_pressure(place),
@@ -121,15 +139,22 @@ struct FrictionGraph::Shared {
   }
 
   void estimate_friction(const FrictionPlace& place) {
-    const FrictionInputs in = store->inputs(place);
-    store->store(place,
-                 cases::friction_state(*in.contact, {*in.touching, *in.gap, in.grid}, *in.film,
-                                       in.fluid.get(), settings().contact, settings().friction));
+    std::vector<cases::FrictionRecord> at_places;
+    FrictionPlace one = place;
+    for (std::size_t i = 0; i < store->n_places(); ++i, ++one.contact) {
+      const FrictionInputs in = store->inputs(one);
+      at_places.push_back(cases::friction_state(*in.contact, {*in.touching, *in.gap, in.grid},
+                                                *in.film, in.fluid.get(), settings().contact,
+                                                settings().friction));
+    }
+    store->store(place, cases::mean_over_places(at_places));
   }
 };
 
 FrictionGraph::FrictionGraph(std::shared_ptr<FrictionStore> store, std::vector<engine::Job>& jobs)
-    : shared_(new Shared{std::move(store)}), jobs_(jobs) {}
+    : shared_(new Shared{std::move(store)}), jobs_(jobs) {
+  shared_->load_paths.resize(shared_->store->n_places());
+}
 
 std::size_t FrictionGraph::add(engine::Job job, std::vector<std::size_t> needs) {
   job.needs = std::move(needs);
@@ -170,13 +195,20 @@ void FrictionGraph::add_rain(bool has_wet_shares) {
   doses_ = add(std::move(doses), {});
 }
 
-void FrictionGraph::add_contact(std::size_t pressure, std::vector<std::size_t> needs) {
-  const FrictionPlace place{FrictionJob::contact, pressure};
-  if (shared_->settings().contact.load_path && pressure > 0) needs.push_back(contacts_.back());
-  contacts_.push_back(add(
-      job_of(place, [shared = shared_, place](
-                        const engine::Monitor& monitor) { shared->solve_contact(place, monitor); }),
-      std::move(needs)));
+void FrictionGraph::add_contact(std::size_t pressure, const std::vector<std::size_t>& needs) {
+  const std::size_t n_places = shared_->store->n_places();
+  for (std::size_t i = 0; i < n_places; ++i) {
+    const FrictionPlace place{FrictionJob::contact, pressure * n_places + i};
+    std::vector<std::size_t> own_needs = needs;
+    if (shared_->settings().contact.load_path && pressure > 0) {
+      own_needs.push_back(contacts_[place.contact - n_places]);
+    }
+    contacts_.push_back(add(job_of(place,
+                                   [shared = shared_, place](const engine::Monitor& monitor) {
+                                     shared->solve_contact(place, monitor);
+                                   }),
+                            std::move(own_needs)));
+  }
 }
 
 std::size_t FrictionGraph::add_wet_shares(std::size_t pressure) {
@@ -191,15 +223,18 @@ std::size_t FrictionGraph::add_flow(const FrictionPlace& place) {
     shared->solve_flow(place, monitor);
   });
   job.restarts = true;  // with a contact within each step of the film
-  return add(std::move(job), {contacts_[place.pressure], film_});
+  return add(std::move(job), {contacts_[place.contact], film_});
 }
 
 std::vector<std::size_t> FrictionGraph::add_frictions(std::size_t pressure) {
   std::vector<std::size_t> places;
+  const std::size_t n_places = shared_->store->n_places();
+  const std::size_t first = pressure * n_places;
   for (std::size_t i = 0; i < shared_->store->conditions().size(); ++i) {
-    std::vector<std::size_t> needs = {contacts_[pressure], film_};
-    if (shared_->store->flows()) needs.push_back(add_flow({FrictionJob::fluid, pressure, i}));
-    const FrictionPlace place{FrictionJob::friction, pressure, i};
+    std::vector<std::size_t> needs = {film_};
+    for (std::size_t k = 0; k < n_places; ++k) needs.push_back(contacts_[first + k]);
+    if (shared_->store->flows()) needs.push_back(add_flow({FrictionJob::fluid, first, i}));
+    const FrictionPlace place{FrictionJob::friction, first, i};
     places.push_back(add(
         brief_job_of(place, [shared = shared_,
                              place](const engine::Monitor&) { shared->estimate_friction(place); }),

@@ -25,10 +25,12 @@ inline constexpr auto kFrictionJobs =
 /// Returns the kind of an engine's job, by which a report counts what was computed.
 inline std::string kind_of(FrictionJob job) { return std::string(kFrictionJobs.of(job)); }
 
-/// One job of the graph: its kind, and its pressure and condition where the kind has them.
+/// One job of the graph: its kind, and its contact and condition where the kind has them. Flows and
+/// frictions stand at the first contact of their pressure.
 struct FrictionPlace {
   FrictionJob kind = FrictionJob::film;
-  std::size_t pressure = 0;   ///< place among the mean pressures
+  std::size_t contact =
+      0;  ///< place among the contacts: the places of the tool, pressure by pressure
   std::size_t condition = 0;  ///< place among the conditions
 };
 
@@ -64,17 +66,24 @@ class FrictionStore {
   const cases::CaseSettings& settings() const { return settings_; }
   const std::vector<FilmCondition>& conditions() const { return conditions_; }
   bool flows() const { return settings_.fluid.flows(); }
+  /// Returns the number of contacts under each pressure: the places of the tool.
+  std::size_t n_places() const { return settings_.contact.tool.n_places(); }
+  /// Returns the place of a contact's pressure among the mean pressures.
+  std::size_t pressure_of(std::size_t contact) const { return contact / n_places(); }
+  double mean_pressure_of(std::size_t contact) const {
+    return settings_.mean_pressures[pressure_of(contact)];
+  }
 
   /// Completes a job that has its kind, memory and computation: its stage, and for a folder its
   /// task, part and quality.
   virtual void describe(const FrictionPlace& place, engine::Job& job) = 0;
 
   virtual Surface surface(const engine::Monitor& monitor) = 0;
-  virtual std::shared_ptr<const Mask> touching(std::size_t pressure) = 0;
+  virtual std::shared_ptr<const Mask> touching(std::size_t contact) = 0;
   /// Returns a contact with all its maps, for the films that flow in it; `solve` makes it again
   /// where the store has dropped maps.
   virtual std::shared_ptr<const contact::State> dry_contact(
-      std::size_t pressure, const std::function<contact::State()>& solve) = 0;
+      std::size_t contact, const std::function<contact::State()>& solve) = 0;
   virtual std::shared_ptr<const Field> film(std::size_t density) = 0;  ///< thickness [m]
   virtual FrictionInputs inputs(const FrictionPlace& place) = 0;
 
@@ -102,10 +111,11 @@ class FrictionGraph {
   /// Appends the rain and, where wet shares will be asked for, the doses that wet each pixel. Most
   /// of both is serial: they come first, as the engine takes the first of the jobs that are ready.
   void add_rain(bool has_wet_shares);
-  /// Appends the contact under one pressure, which waits for `needs`, and with a load path for the
-  /// contact before it; pressures come in their order.
-  void add_contact(std::size_t pressure, std::vector<std::size_t> needs = {});
-  /// Appends the wet shares of a contact and returns their place.
+  /// Appends the contacts under one pressure, one for each place of the tool, which wait for
+  /// `needs`, and with a load path for the contact before it at their place; pressures come in
+  /// their order.
+  void add_contact(std::size_t pressure, const std::vector<std::size_t>& needs = {});
+  /// Appends the wet shares of the one contact under a pressure and returns their place.
   std::size_t add_wet_shares(std::size_t pressure);
   /// Appends the flows and frictions of one pressure and returns the places of the frictions.
   std::vector<std::size_t> add_frictions(std::size_t pressure);
@@ -122,7 +132,7 @@ class FrictionGraph {
   std::vector<engine::Job>& jobs_;
   std::size_t film_ = 0;  // places in the list
   std::size_t doses_ = 0;
-  std::vector<std::size_t> contacts_;
+  std::vector<std::size_t> contacts_;  // places in the list
 };
 
 /// Returns the memory of one job with its surface [bytes].

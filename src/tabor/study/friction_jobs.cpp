@@ -59,9 +59,8 @@ class FrictionInFolder : public FrictionStore,
     if (const engine::Task* task = task_of(place)) attach(*task, job);
     const bool is_of_scan =
         place.kind == FrictionJob::film || place.kind == FrictionJob::wetting_doses;
-    job.stage =
-        stage_name(job.kind, scan_, is_of_scan ? 0 : settings().mean_pressures[place.pressure]);
-    if (!is_of_scan) job.part = first_part_ + place.pressure;
+    job.stage = stage_name(job.kind, scan_, is_of_scan ? 0 : mean_pressure_of(place.contact));
+    if (!is_of_scan) job.part = first_part_ + pressure_of(place.contact);
     add_quality(place, job);
     if (place.kind == FrictionJob::friction) describe_row(place, job);
   }
@@ -90,13 +89,13 @@ class FrictionInFolder : public FrictionStore,
                              monitor.shared(stage_name("read", scan_)));
     });
   }
-  std::shared_ptr<const Mask> touching(std::size_t pressure) override {
-    return std::make_shared<const Mask>(read_contact_mask(folder_, tasks_.contacts[pressure]));
+  std::shared_ptr<const Mask> touching(std::size_t contact) override {
+    return std::make_shared<const Mask>(read_contact_mask(folder_, tasks_.contacts[contact]));
   }
   /// The folder holds no displacements: the contact is solved once more for all films in it.
   std::shared_ptr<const contact::State> dry_contact(
-      std::size_t pressure, const std::function<contact::State()>& solve) override {
-    return dry_contacts_[pressure].get(solve);
+      std::size_t contact, const std::function<contact::State()>& solve) override {
+    return dry_contacts_[contact].get(solve);
   }
   std::shared_ptr<const Field> film(std::size_t density) override {
     return std::make_shared<const Field>(read_film(folder_, tasks_.film, density));
@@ -110,17 +109,18 @@ class FrictionInFolder : public FrictionStore,
   }
   void store(const FrictionPlace& place, const Surface& surface,
              cases::ContactRecord&& contact) override {
-    write_contact(folder_, tasks_.contacts[place.pressure], surface->grid,
+    write_contact(folder_, tasks_.contacts[place.contact], surface->grid,
                   settings().contact.pressure_cap(), contact);
   }
   void store(const FrictionPlace& place, WetShares&& shares) override {
-    write_wet_shares(folder_, tasks_.wet_shares[place.pressure], shares);
+    write_wet_shares(folder_, tasks_.wet_shares[place.contact], shares);
   }
   void store(const FrictionPlace& place, const Surface& surface,
              cases::FluidRecord&& fluid) override {
     const Condition under = study_.conditions().at(place.condition);
-    write_fluid(folder_, tasks_.fluids[place.pressure][place.condition], surface->grid, fluid,
-                {{"mean_pressure_Pa", settings().mean_pressures[place.pressure]},
+    write_fluid(folder_, tasks_.fluids[pressure_of(place.contact)][place.condition], surface->grid,
+                fluid,
+                {{"mean_pressure_Pa", mean_pressure_of(place.contact)},
                  {"lubricant_density_g_per_m2", in_g_per_m2(study_.lubricant_density(under))},
                  {"sliding_speed_m_per_s", fluid.sliding_speed}});
   }
@@ -138,13 +138,13 @@ class FrictionInFolder : public FrictionStore,
       case FrictionJob::wetting_doses:
         return nullptr;  // for wet shares that are missing
       case FrictionJob::contact:
-        return &tasks_.contacts[place.pressure];
+        return &tasks_.contacts[place.contact];
       case FrictionJob::wet_shares:
-        return &tasks_.wet_shares[place.pressure];
+        return &tasks_.wet_shares[place.contact];
       case FrictionJob::fluid:
-        return &tasks_.fluids[place.pressure][place.condition];
+        return &tasks_.fluids[pressure_of(place.contact)][place.condition];
       case FrictionJob::friction:
-        return &tasks_.cases[place.pressure][place.condition];
+        return &tasks_.cases[pressure_of(place.contact)][place.condition];
     }
     return nullptr;
   }
@@ -187,12 +187,12 @@ class FrictionInFolder : public FrictionStore,
 
   /// Stores a row under its case.
   void store_row(const FrictionPlace& place, Row&& row) const {
-    const engine::Task& task = tasks_.cases[place.pressure][place.condition];
+    const engine::Task& task = tasks_.cases[pressure_of(place.contact)][place.condition];
     const Condition under = study_.conditions().at(place.condition);
     row.case_id = task.key;
     row.scan = scan_.label;
     row.group = scan_.group;
-    row.mean_pressure = settings().mean_pressures[place.pressure];
+    row.mean_pressure = mean_pressure_of(place.contact);
     if (row.failed()) {
       row.lubricant_density = study_.lubricant_density(under);
       if (flows()) row.fluid.emplace().sliding_speed = study_.sliding_speeds[under.speed];
@@ -213,7 +213,7 @@ class FrictionInFolder : public FrictionStore,
 FrictionInputs FrictionInFolder::inputs(const FrictionPlace& place) {
   const Condition under = study_.conditions().at(place.condition);
   const auto contact =
-      std::make_shared<const StoredContact>(read_contact(folder_, tasks_.contacts[place.pressure]));
+      std::make_shared<const StoredContact>(read_contact(folder_, tasks_.contacts[place.contact]));
   const auto film =
       std::make_shared<cases::FilmRecord>(read_film_record(folder_, tasks_.film, under.density));
   film->lubricant_density = study_.lubricant_density(under);
@@ -225,7 +225,7 @@ FrictionInputs FrictionInFolder::inputs(const FrictionPlace& place) {
   std::shared_ptr<cases::FluidRecord> fluid;
   if (flows()) {
     fluid = std::make_shared<cases::FluidRecord>(
-        read_fluid(folder_, tasks_.fluids[place.pressure][place.condition]));
+        read_fluid(folder_, tasks_.fluids[pressure_of(place.contact)][place.condition]));
     fluid->sliding_speed = study_.sliding_speeds[under.speed];
   }
   return {contact, {contact, &contact->contact}, {contact, &contact->gap}, contact->grid, film,
@@ -256,7 +256,7 @@ std::vector<engine::Job> friction_jobs(const engine::Store& store, const Study& 
     add_scan(std::make_shared<FrictionInFolder>(store, study.of(study.scans[i]), study.scans[i],
                                                 tasks[i], n_parts),
              jobs);
-    n_parts += tasks[i].contacts.size();
+    n_parts += tasks[i].cases.size();
   }
   return jobs;
 }

@@ -109,8 +109,10 @@ Row read_row(const engine::Store& store, const engine::Task& task) {
     row.scan = json.at("scan").get<std::string>();
     row.group = json.at("group").get<std::string>();
     io::read_json<cases::FrictionRecord>(
-        json, cases::friction_columns(json.contains("sliding_speed_m_per_s")), row,
-        cases::media::kStore);
+        json,
+        cases::friction_columns({.fluid = json.contains("sliding_speed_m_per_s"),
+                                 .tool = json.contains("tool_places")}),
+        row, cases::media::kStore);
     for (const io::Json& warning : json.at("warnings")) {
       row.warnings.push_back({warning.at("code").get<std::string>(),
                               warning.at("text").get<std::string>(),
@@ -147,6 +149,10 @@ void write_contact(const engine::Store& store, const engine::Task& task, const G
   writer.describe(path, "1", results::kContactMap);
   writer.attach_axes(path);
   write_map(writer, "/contact", {"gap", "m", "gap between the surfaces"}, record.state.gap);
+  if (record.tool) {
+    write_map(writer, "/contact", {"tool", "m", "heights of the tool, towards the surface"},
+              *record.tool);
+  }
   writer.nxdata("/contact", "state");
   io::write_attributes(writer, "/contact", cases::contact_columns(), record, cases::media::kStore);
   write_attributes(writer, "/contact", {{"size_x_m", grid.lx}, {"size_y_m", grid.ly}});

@@ -38,10 +38,10 @@ std::vector<FilmCondition> conditions_of(const cases::CaseSettings& settings) {
   return conditions;
 }
 
-/// Results of one surface in memory. The lists of a pressure have one element per density.
+/// Results of one surface in memory. The lists of a contact have one element per density.
 class FrictionInMemory : public FrictionStore {
  public:
-  struct Pressure {
+  struct Solved {
     cases::ContactRecord contact;
     std::shared_ptr<const Mask> touching;
     std::vector<std::optional<cases::FluidRecord>> fluids;
@@ -57,29 +57,29 @@ class FrictionInMemory : public FrictionStore {
       : FrictionStore(settings, conditions_of(settings)),
         surface_(surface),
         drops_maps_(drops_maps),
-        pressures_(settings.mean_pressures.size()),
-        summaries_(settings.mean_pressures.size()),
-        wet_shares_(settings.mean_pressures.size()) {}
+        contacts_(settings.mean_pressures.size() * n_places()),
+        summaries_(contacts_.size()),
+        wet_shares_(contacts_.size()) {}
 
   void describe(const FrictionPlace& place, engine::Job& job) override {
     job.stage = job.kind;
     if (place.kind == FrictionJob::film || place.kind == FrictionJob::wetting_doses) return;
-    job.stage += " " + format_si(settings().mean_pressures[place.pressure], "Pa");
+    job.stage += " " + format_si(mean_pressure_of(place.contact), "Pa");
   }
 
   Surface surface(const engine::Monitor&) override { return lent(surface_); }
-  std::shared_ptr<const Mask> touching(std::size_t pressure) override {
-    return pressures_[pressure].touching;
+  std::shared_ptr<const Mask> touching(std::size_t contact) override {
+    return contacts_[contact].touching;
   }
   std::shared_ptr<const contact::State> dry_contact(
-      std::size_t pressure, const std::function<contact::State()>&) override {
-    return lent(pressures_[pressure].contact.state);
+      std::size_t contact, const std::function<contact::State()>&) override {
+    return lent(contacts_[contact].contact.state);
   }
   std::shared_ptr<const Field> film(std::size_t density) override {
     return lent(films_[density].film.thickness);
   }
   FrictionInputs inputs(const FrictionPlace& place) override {
-    const Pressure& one = pressures_[place.pressure];
+    const Solved& one = contacts_[place.contact];
     const cases::FluidRecord* fluid = one.fluid(place.condition);
     return {lent(one.contact),
             one.touching,
@@ -94,31 +94,36 @@ class FrictionInMemory : public FrictionStore {
     lay([this](cases::FilmRecord&& film) { films_[film.film.request] = std::move(film); });
   }
   void store(const FrictionPlace& place, const Surface&, cases::ContactRecord&& contact) override {
-    Pressure& one = pressures_[place.pressure];
+    Solved& one = contacts_[place.contact];
     one.contact = std::move(contact);
     one.touching = std::make_shared<const Mask>(contact::contact_mask(one.contact.state));
     one.fluids.resize(conditions().size());
     one.frictions.resize(conditions().size());
-    summaries_[place.pressure] = one.contact.summary;
+    summaries_[place.contact] = one.contact.summary;
     contact::State& state = one.contact.state;
-    if (drops_maps_) state.pressure = state.displacement = Field();
+    if (!drops_maps_) return;
+    state.pressure = state.displacement = Field();
+    one.contact.tool.reset();
   }
   void store(const FrictionPlace& place, WetShares&& shares) override {
-    wet_shares_[place.pressure] = std::move(shares);
+    wet_shares_[place.contact] = std::move(shares);
   }
   void store(const FrictionPlace& place, const Surface&, cases::FluidRecord&& fluid) override {
-    Pressure& one = pressures_[place.pressure];
+    Solved& one = contacts_[place.contact];
     fluid.surface = one.contact.surface;
     one.fluids[place.condition] = std::move(fluid);
   }
   void store(const FrictionPlace& place, cases::FrictionRecord&& friction) override {
-    pressures_[place.pressure].frictions[place.condition] = std::move(friction);
+    contacts_[place.contact].frictions[place.condition] = std::move(friction);
   }
 
   const std::vector<cases::FilmRecord>& films() const { return films_; }
-  Pressure take(std::size_t pressure) {
-    if (drops_maps_) pressures_[pressure].contact.state.gap = Field();
-    return std::exchange(pressures_[pressure], {});
+  /// Takes what was computed under a pressure, with the contact at the first place of the tool.
+  Solved take(std::size_t pressure) {
+    const std::size_t first = pressure * n_places();
+    for (std::size_t i = 1; i < n_places(); ++i) contacts_[first + i] = {};
+    if (drops_maps_) contacts_[first].contact.state.gap = Field();
+    return std::exchange(contacts_[first], {});
   }
 
   /// Returns one curve for each pressure, none for a surface without heights.
@@ -137,7 +142,7 @@ class FrictionInMemory : public FrictionStore {
   const topography::Topography& surface_;
   bool drops_maps_;
   std::vector<cases::FilmRecord> films_;
-  std::vector<Pressure> pressures_;
+  std::vector<Solved> contacts_;
   std::vector<contact::Summary> summaries_;  // they outlive the contacts
   std::vector<WetShares> wet_shares_;
 };
@@ -177,7 +182,7 @@ engine::Job hand_on_job(const std::shared_ptr<FrictionInMemory>& store, std::siz
   engine::Job job;
   job.kind = job.stage = "hand on";
   job.compute = [store, pressure, &receive](const engine::Monitor&) {
-    const FrictionInMemory::Pressure one = store->take(pressure);
+    const FrictionInMemory::Solved one = store->take(pressure);
     for (std::size_t d = 0; d < one.frictions.size(); ++d) {
       receive({.friction = *one.frictions[d],
                .contact = one.contact,
@@ -209,7 +214,8 @@ ScanFrictionResult friction_of(const topography::Topography& surface,
   const bool drops_maps = maps == ContactMaps::dropped && !settings.fluid.flows();
   const auto store = std::make_shared<FrictionInMemory>(surface, settings, drops_maps);
   const bool has_curves = cases::has_density_curve(settings);
-  const std::size_t window = n_waiting(surface.grid, !drops_maps);
+  const std::size_t window =
+      std::max<std::size_t>(1, n_waiting(surface.grid, !drops_maps) / store->n_places());
   std::vector<engine::Job> jobs;
   FrictionGraph graph(store, jobs);
   graph.add_rain(has_curves);

@@ -135,6 +135,11 @@ Study study_of(const io::Config& config, const fs::path& file) {
   if (config.has("contact.edges")) study.edges = named(config, "contact.edges", topography::kEdges);
   read_material(config, settings);
   read_case(config, settings);
+  if (config.has("contact.tool")) {
+    at_key(config, "contact.tool", [&](const std::string&) {
+      return cases::find_tool(settings.contact.tool, folder), true;
+    });
+  }
   read_sweep(config, settings);
   read_flowing_oil(config, study);
   if (config.has("treatment.steps")) study.treatment = read_steps(config, "treatment.steps");

@@ -33,13 +33,13 @@ std::string warning_texts(const Row& row) {
 std::string warning_codes(const Row& row) { return results::codes_text(row.warnings); }
 
 /// What is not in results.csv, so that it keeps its agreed columns, is in results.h5 alone. Columns
-/// of a film that flows come after the others, so that these stay where they are.
-Columns<Row> row_columns(bool oil_flows) {
+/// of a tool and of a film that flows come after the others, so that these stay where they are.
+Columns<Row> row_columns(const cases::FrictionParts& parts) {
   constexpr ColumnStyle tabled{.media = cases::media::kTable};
   return joined<Row>(joined<Row>({{"case_id", "", "", &Row::case_id},
                                   {"scan", "", "", &Row::scan},
                                   {"group", "", "", &Row::group}},
-                                 inherited<Row>(cases::friction_columns(oil_flows))),
+                                 inherited<Row>(cases::friction_columns(parts))),
                      {{"error", "", "", &Row::error, tabled},
                       {"warnings", "", "", warning_texts, tabled},
                       {"warning_codes", "", "", warning_codes, tabled}});
@@ -82,8 +82,11 @@ void write_links(io::Hdf5Writer& writer, const std::string& group, const engine:
   };
   link("surface", tasks.surface, "/surface");
   link("psd", tasks.surface, "/psd");
-  for (std::size_t i = 0; i < tasks.contacts.size(); ++i) {
-    link(fmt::format("contact/{:04}", i), tasks.contacts[i], "/contact");
+  // Of several places of a tool, the maps of the first.
+  const std::size_t n_pressures = tasks.cases.size();
+  for (std::size_t i = 0; i < n_pressures; ++i) {
+    link(fmt::format("contact/{:04}", i), tasks.contacts[i * tasks.contacts.size() / n_pressures],
+         "/contact");
   }
   for (std::size_t i = 0; i < n_films; ++i) {
     link(fmt::format("films/{:04}", i), tasks.film, film_group(i));
@@ -167,8 +170,8 @@ std::vector<results::Finding> findings_in(const std::vector<Row>& rows) {
   return findings;
 }
 
-std::string results_csv(const std::vector<Row>& rows, bool oil_flows) {
-  return io::csv_of(row_columns(oil_flows), rows, cases::media::kCsv);
+std::string results_csv(const std::vector<Row>& rows, const cases::FrictionParts& parts) {
+  return io::csv_of(row_columns(parts), rows, cases::media::kCsv);
 }
 
 std::string averages_csv(const std::vector<Average>& averages, bool oil_flows) {
@@ -223,7 +226,8 @@ void write_tables(const engine::Store& store, const Study& study,
                   const std::string& command) {
   const std::vector<Row>& rows = tables.rows;
   const std::vector<Average>& means = tables.averages;
-  io::write_file(store.directory() / "results.csv", results_csv(rows, study.flows()));
+  io::write_file(store.directory() / "results.csv",
+                 results_csv(rows, cases::parts_of(study.settings)));
   io::write_file(store.directory() / "averages.csv", averages_csv(means, study.flows()));
   if (!tables.curves.empty()) {
     io::write_file(store.directory() / "density_curves.csv",
@@ -238,7 +242,8 @@ void write_tables(const engine::Store& store, const Study& study,
   const std::vector<results::Finding> of_rows = findings_in(rows);
   findings.insert(findings.end(), of_rows.begin(), of_rows.end());
   results::write_warnings(writer, findings);
-  io::write_datasets(writer, "/table", row_columns(study.flows()), rows, cases::media::kTable);
+  io::write_datasets(writer, "/table", row_columns(cases::parts_of(study.settings)), rows,
+                     cases::media::kTable);
   io::write_datasets(writer, "/averages", average_columns(study.flows()), means);
   if (!tables.curves.empty()) {
     io::write_datasets(writer, "/density_curves", curve_columns(), points_of(tables.curves));

@@ -1,0 +1,215 @@
+#include "tabor/cases/tool.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "tabor/core/error.hpp"
+#include "tabor/core/rows.hpp"
+#include "tabor/core/units.hpp"
+#include "tabor/io/files/digest.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
+#include "tabor/scan/file.hpp"
+#include "tabor/synthesis/recipe_text.hpp"
+#include "tabor/topography/treatment.hpp"
+
+namespace tabor::cases {
+namespace {
+
+constexpr double kSamePixel = 1e-3;  // relative, as scan files round theirs
+
+[[noreturn]] void reject(const ToolSettings& settings, const std::string& got,
+                         const std::string& expected, const std::string& remedy) {
+  throw InputError("tool " + *settings.tool, got, expected, remedy);
+}
+
+std::string pixels_of(const Grid& grid) {
+  return fmt::format("pixels of {} x {}", format_si(grid.dx(), "m"), format_si(grid.dy(), "m"));
+}
+
+/// Returns how many pixels of the tool make one of the sheet along an axis; 0 where it is no whole
+/// number.
+Index pixels_in(double sheet, double tool) {
+  const double ratio = sheet / tool;
+  const double whole = std::round(ratio);
+  return whole >= 1 && std::abs(ratio - whole) <= kSamePixel * whole ? static_cast<Index>(whole)
+                                                                     : 0;
+}
+
+topography::Topography read_tool(const ToolSettings& settings, const Observer& observer) {
+  const scan::ScanFile file(settings.file(), observer);
+  if (!settings.sha256.empty() && file.sha256() != settings.sha256) {
+    throw Error(*settings.tool + ": replaced or changed while it was in use; start again");
+  }
+  topography::Topography tool = file.read();
+  tool.source = *settings.tool;
+  topography::require_no_holes(tool, "tool " + *settings.tool,
+                               "fill them: tabor convert TOOL OUT --fill harmonic");
+  return tool;
+}
+
+/// Averages the tool onto the pixels of the sheet.
+topography::Topography on_pixels_of(const Grid& sheet, const ToolSettings& settings,
+                                    topography::Topography tool, const Observer& observer) {
+  const Index nx = pixels_in(sheet.dx(), tool.grid.dx());
+  const Index ny = pixels_in(sheet.dy(), tool.grid.dy());
+  if (nx == 0 || ny == 0) {
+    reject(settings, pixels_of(tool.grid), "those of the sheet, " + pixels_of(sheet),
+           "resample it first: tabor convert TOOL OUT --resample NX,NY");
+  }
+  if (nx == 1 && ny == 1) return tool;
+  return topography::apply({fmt::format("resample={},{}", tool.grid.nx / nx, tool.grid.ny / ny)},
+                           std::move(tool), observer);
+}
+
+/// Settings of a tool where there is none.
+std::optional<Objection> objection_without_tool(
+    const ToolSettings& settings, const std::function<std::string(std::string_view)>& spelling) {
+  const std::pair<const char*, bool> given[] = {{"tool_x", settings.tool_x.has_value()},
+                                                {"tool_places", settings.tool_places != 1},
+                                                {"tool_lowpass", settings.tool_lowpass.has_value()},
+                                                {"tool_repeats", settings.tool_repeats}};
+  for (const auto& [setting, is_given] : given) {
+    if (!is_given) continue;
+    return Objection{.setting = setting,
+                     .got = "",
+                     .expected = "",
+                     .remedy = fmt::format("{} needs {}, e.g. {} ground:Sa=0.1um",
+                                           spelling(setting), spelling("tool"), spelling("tool")),
+                     .is_about_use = true};
+  }
+  return std::nullopt;
+}
+
+void check_size(const Grid& sheet, const ToolSettings& settings, const Grid& tool) {
+  if (tool.ny != sheet.ny) {
+    reject(settings, fmt::format("{} rows", tool.ny),
+           fmt::format("as many as the sheet has, {}", sheet.ny),
+           "crop it first: tabor convert TOOL OUT --crop X,Y,NX,NY");
+  }
+  if (tool.nx >= sheet.nx || settings.tool_repeats) return;
+  reject(settings, fmt::format("{} columns", tool.nx),
+         fmt::format("at least as many as the sheet has, {}", sheet.nx),
+         "give a longer tool, or let it repeat (--tool-repeats)");
+}
+
+}  // namespace
+
+bool ToolSettings::is_scan() const { return is_rough() && !synthesis::is_recipe(*tool); }
+
+const Parameters<ToolSettings>& tool_parameters() {
+  using Settings = ToolSettings;
+  using One = tabor::Parameter<Settings>;
+  static const Parameters<Settings> all{
+      One({.name = "tool",
+           .help = "rough tool in place of the flat: a scan, or a generator with its numbers",
+           .example = "ground:Sa=0.1um",
+           .study_key = "contact.tool",
+           .placeholder = "SCAN|RECIPE",
+           .absent = "flat",
+           .identity = Identity::unless_default},
+          &Settings::tool)
+          .with_identifying_value([](const Settings& one) {
+            if (!one.is_rough()) return Cell();
+            return Cell(one.sha256.empty() ? *one.tool : one.sha256);
+          }),
+      One({.name = "tool_x",
+           .help = "place of the tool along x, rounded to whole pixels",
+           .example = "100 um",
+           .dimension = dimension::length,
+           .study_key = "contact.tool_x",
+           .placeholder = "X",
+           .absent = "0 um",
+           .identity = Identity::unless_default},
+          &Settings::tool_x),
+      One({.name = "tool_places",
+           .help = "places of the tool, evenly along it, over which friction is averaged",
+           .example = "1",
+           .study_key = "contact.tool_places",
+           .placeholder = "N"},
+          &Settings::tool_places),
+      One({.name = "tool_lowpass",
+           .help = "low-pass filter of the tool, as of a scan",
+           .example = "gauss:8um",
+           .study_key = "contact.tool_lowpass",
+           .placeholder = "FILTER",
+           .absent = "none",
+           .identity = Identity::unless_default},
+          &Settings::tool_lowpass),
+      One({.name = "tool_repeats",
+           .help = "a tool shorter than the sheet is put down again and again",
+           .study_key = "contact.tool_repeats",
+           .identity = Identity::unless_default},
+          &Settings::tool_repeats)};
+  return all;
+}
+
+std::optional<Objection> objection(const ToolSettings& settings,
+                                   const std::function<std::string(std::string_view)>& spelling) {
+  if (!settings.is_rough()) return objection_without_tool(settings, spelling);
+  if (settings.tool_places == 0) {
+    return Objection{.setting = "tool_places", .got = "0", .expected = "one or more"};
+  }
+  if (!settings.is_scan()) synthesis::parse_recipe(*settings.tool);
+  if (settings.tool_lowpass) topography::check({"lowpass=" + *settings.tool_lowpass});
+  return std::nullopt;
+}
+
+void find_tool(ToolSettings& settings, const std::filesystem::path& folder) {
+  if (!settings.is_scan()) return;
+  settings.folder = folder;
+  const bool is_there = std::filesystem::exists(settings.file());
+  if (!is_there && settings.tool->find(':') != std::string::npos) {
+    synthesis::parse_recipe(*settings.tool);  // throws: it names no generator
+  }
+  settings.sha256 = io::sha256_of_file(settings.file());
+}
+
+Tool make_tool(const ToolSettings& settings, const Grid& sheet, const Observer& observer) {
+  topography::Topography made =
+      settings.is_scan() ? on_pixels_of(sheet, settings, read_tool(settings, observer), observer)
+                         : synthesis::generate(synthesis::parse_recipe(*settings.tool), sheet);
+  if (settings.tool_lowpass) {
+    made = topography::apply({"lowpass=" + *settings.tool_lowpass}, std::move(made), observer);
+  }
+  check_size(sheet, settings, made.grid);
+  Tool tool;
+  made.height -= made.height.mean();
+  tool.rms_height = metrology::rms_height(made);
+  tool.mean_abs_height = made.height.abs().mean();
+  tool.height = std::move(made.height);
+  tool.grid = made.grid;
+  tool.source = made.source;
+  return tool;
+}
+
+std::vector<Index> places_of(const ToolSettings& settings, const Tool& tool) {
+  const auto first = static_cast<Index>(std::llround(settings.tool_x.value_or(0) / tool.grid.dx()));
+  const auto n = static_cast<Index>(settings.tool_places);
+  std::vector<Index> places;
+  for (Index i = 0; i < n; ++i) places.push_back(first + i * tool.grid.nx / n);
+  return places;
+}
+
+Field height_at(const Tool& tool, Index place, const Grid& sheet) {
+  const Index period = tool.grid.nx;
+  const Index first = ((place % period) + period) % period;
+  Field height(sheet.ny, sheet.nx);
+  for_each_pixel(sheet.ny, sheet.nx, [&](Index y, Index x) {
+    height(y, x) = tool.height(y, (x - first + period * (1 + sheet.nx / period)) % period);
+  });
+  return height;
+}
+
+Warnings of_tool(const topography::Topography& sheet, const Tool& tool) {
+  const double own = metrology::rms_height(sheet);
+  if (!(tool.rms_height > own)) return {};
+  return {{"rough-tool",
+           fmt::format("the tool (Sq {}) is rougher than the sheet (Sq {}): the softer body is the "
+                       "one that yields, here the sheet",
+                       format_si(tool.rms_height, "m"), format_si(own, "m")),
+           tool.rms_height / own}};
+}
+
+}  // namespace tabor::cases
