@@ -74,13 +74,12 @@ std::vector<ContactRecord> contacts(const topography::Topography& surface,
 
 using Scalars = std::tuple<int, double, double, double, int, std::uint64_t>;
 using ContactState = std::tuple<nb::dict, Scalars, WarningTexts, std::vector<std::string>,
-                                MapArgument, MapArgument, MapArgument, std::optional<MapArgument>>;
+                                MapArgument, MapArgument, MapArgument, nb::object>;
 
 /// Returns the heights of the tool over the surface; None under a flat.
-std::optional<MapView> tool_of(nb::handle_t<ContactRecord> self) {
+nb::object tool_of(nb::handle_t<ContactRecord> self) {
   const auto& one = nb::cast<const ContactRecord&>(self);
-  if (!one.tool) return std::nullopt;
-  return view_of(*one.tool, self);
+  return one.tool ? nb::cast(view_of(*one.tool, self)) : nb::none();
 }
 
 nb::object saved_contact(nb::handle_t<ContactRecord> self) {
@@ -107,8 +106,8 @@ void restore_contact(ContactRecord& self, const ContactState& saved) {
   state.pressure = field_of(std::get<4>(saved));
   state.displacement = field_of(std::get<5>(saved));
   state.gap = field_of(std::get<6>(saved));
-  if (const auto& tool = std::get<7>(saved)) {
-    one.tool = std::make_shared<const Field>(field_of(*tool));
+  if (const nb::object& tool = std::get<7>(saved); !tool.is_none()) {
+    one.tool = std::make_shared<const Field>(field_of(nb::cast<MapArgument>(tool)));
   }
   state.mean_pressure = one.summary.mean_pressure;
   state.separation = one.summary.separation;
@@ -161,7 +160,10 @@ void bind_contact(nb::module_& module) {
       .def_prop_ro("pressure", &map_of<&State::pressure>)
       .def_prop_ro("displacement", &map_of<&State::displacement>)
       .def_prop_ro("gap", &map_of<&State::gap>)
-      .def_prop_ro("tool", &tool_of);
+      .def_prop_ro(
+          "tool", &tool_of,
+          nb::for_getter(nb::sig("def tool(self) -> Annotated[NDArray[numpy.float64], "
+                                 "dict(shape=(None, None), order='C', writable=False)] | None")));
   module.def("materials", &materials);
   module.def(
       "material", [](const std::string& name) { return row_of(material::find_solid(name)); },

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <variant>
 
 #include "values.hpp"
 
@@ -15,7 +17,10 @@ template <typename Record>
 nb::dict saved(const Columns<Record>& columns, const Record& record) {
   NamedCells cells;
   for (const Column<Record>& column : columns) {
-    if (column.assign && !column.key.empty()) cells.push_back({column, column.value(record)});
+    if (!column.assign || column.key.empty()) continue;
+    Cell cell = column.value(record);
+    const bool is_of_absent_part = std::holds_alternative<std::monostate>(cell);
+    if (!is_of_absent_part) cells.push_back({column, std::move(cell)});
   }
   return dict_of(cells);
 }
@@ -24,7 +29,7 @@ nb::dict saved(const Columns<Record>& columns, const Record& record) {
 template <typename Record>
 void restore(const Columns<Record>& columns, const nb::dict& numbers, Record& record) {
   for (const Column<Record>& column : columns) {
-    if (!column.assign || column.key.empty()) continue;
+    if (!column.assign || !numbers.contains(column.key.c_str())) continue;
     column.assign(record, cell_of(numbers[column.key.c_str()], column.kind));
   }
 }

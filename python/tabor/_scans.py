@@ -31,8 +31,11 @@ def quantity(value: float, unit: str) -> str:
 
 def line(setting: Setting, value: Any) -> str:
     """A plain value of a setting as a study file has it."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
     if isinstance(value, str):
-        return text(value)
+        is_file = setting.name == "tool" and os.path.exists(value)
+        return text(os.path.abspath(value) if is_file else value)
     if isinstance(value, list):
         return quantities(value, setting.unit) if len(value) > 1 else quantity(value[0], setting.unit)
     return quantity(value, setting.unit) if setting.unit else repr(value)

@@ -315,3 +315,20 @@ def test_xarray_has_maps_units_and_numbers(rough, steel):
     data = found.to_xarray()
     np.testing.assert_array_equal(data.gap.values, found.gap)
     assert data.pressure.attrs["units"] == "Pa" and data.attrs["mean_pressure_Pa"] == 5e7
+
+
+def test_a_rough_tool_presses_as_the_sum_of_both_under_a_flat(rough, steel):
+    under = tb.contact(rough, "50 MPa", steel, tool="self-affine:Sa=20nm,seed=3", tool_x=3 * 1e-6)
+    flat = tb.contact(tb.Surface(rough.height + under.tool, pixel=1e-6, periodic=True), "50 MPa", steel)
+    np.testing.assert_array_equal(under.pressure, flat.pressure)
+    assert under.values["tool_x_m"] == pytest.approx(3 * 1e-6) and flat.tool is None
+    assert "tool_x_m" not in flat.values
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(under)).tool, under.tool)
+
+
+def test_a_tool_that_makes_no_sense_is_rejected(rough, steel):
+    for tool, message in (("grond:Sa=1um", "ground"), ("ground:Sa=1", "unit"), ("nowhere.x3p", "nowhere.x3p")):
+        with pytest.raises(ValueError, match=message):
+            tb.contact(rough, "50 MPa", steel, tool=tool)
+    with pytest.raises(ValueError, match="needs tool"):
+        tb.contact(rough, "50 MPa", steel, tool_x="1 um")

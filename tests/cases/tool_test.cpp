@@ -138,6 +138,8 @@ TEST(Tool, SettingsWithoutAToolAreRejected) {
   }
   EXPECT_FALSE(objection(ToolSettings{}, same));
   EXPECT_TRUE(objection(ToolSettings{.tool = "ground", .tool_places = 0}, same));
+  EXPECT_TRUE(objection(ToolSettings{.tool = ""}, same));
+  EXPECT_TRUE(objection(ToolSettings{.tool = "ground", .tool_lowpass = "gauss"}, same));
   EXPECT_FALSE(objection(ToolSettings{.tool = "ground", .tool_x = 0.0}, same));
 }
 

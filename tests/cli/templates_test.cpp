@@ -1,6 +1,8 @@
 // Files to start from: they have every key there is, and they work as they are printed.
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
 #include "tabor/cases/ehl/program.hpp"
@@ -46,19 +48,31 @@ TEST_F(Templates, OfAStudyRuns) {
   EXPECT_EQ(done.value("n_done", 0), 6) << done;
 }
 
-TEST_F(Templates, OfAStudyHasEveryKeyWithAValueThatIsTaken) {
-  make_scan();
+/// The template of a study with all keys in force but for those that begin so.
+std::string template_without(const std::vector<std::string>& left_out) {
   std::string text;
   for (const std::string& line : split(study::study_template(), '\n')) {
     const std::string bare = without_comment_sign(line);
-    const bool is_other_form = bare.starts_with("boundary_shear_share");
-    text += (is_other_form ? line : bare) + '\n';
+    const bool is_left_out =
+        std::any_of(left_out.begin(), left_out.end(),
+                    [&](const std::string& key) { return bare.starts_with(key); });
+    text += (is_left_out ? line : bare) + '\n';
   }
+  return text;
+}
+
+TEST_F(Templates, OfAStudyHasEveryKeyWithAValueThatIsTaken) {
+  make_scan();
+  const std::string text = template_without({"boundary_shear_share", "tool"});
   put_bytes(folder_ / "study.toml", text);
   put_bytes(folder_ / "measured.csv", "mean_pressure_Pa,friction\n7e6,0.2\n");
   const study::Study study = study::read_study(folder_ / "study.toml");
   EXPECT_TRUE(study.flows());
   EXPECT_TRUE(study.experiment.has_value());
+  put_bytes(folder_ / "rough.toml",  // a tool excludes oil that flows
+            template_without({"boundary_shear_share", "fluid", "viscosity", "pressure_viscosity",
+                              "eyring_stress", "sliding_speed"}));
+  EXPECT_TRUE(study::read_study(folder_ / "rough.toml").settings.contact.tool.is_rough());
   for (const std::string& key : study::known_keys()) {
     const std::string word = key.substr(key.find_last_of('.') + 1);
     EXPECT_THAT(text, HasSubstr(word + " =")) << key;

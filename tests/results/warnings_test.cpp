@@ -424,6 +424,10 @@ Warnings one_of_each() {
   add(cases::of_friction(touching, estimate, 0.123456, settings), all);
   estimate.at_bound = true;
   add(cases::of_friction(touching, estimate, 0.123456, settings), all);
+  add(cases::of_film_in_gap(1.2345e-6, 0.98765e-6), all);
+  cases::Tool tool;
+  tool.rms_height = 1.2345e-3;
+  add(cases::of_tool(rough(), tool), all);
   add(cases::of_pixel(1.2345e-6, 0.12345, 6.1725e-7, 0.45678), all);
   add(cases::of_mixed_friction({.friction_mixed = 12.3456}), all);
   return all;

@@ -82,11 +82,12 @@ std::unique_ptr<elastic::ElasticOperator> make_operator(const ContactSettings& s
 }
 
 Pressing pressing(const topography::Topography& surface, const Tool& tool, Index place) {
-  auto over = std::make_shared<const Field>(height_at(tool, place, surface.grid));
-  return {.height = surface.height + *over,
-          .place = ToolPlace{static_cast<double>(place) * tool.grid.dx()},
-          .tool = std::move(over),
-          .warnings = of_tool(surface, tool)};
+  Pressing made;
+  made.tool = std::make_shared<const Field>(height_at(tool, place, surface.grid));
+  made.height = surface.height + *made.tool;
+  made.place = ToolPlace{static_cast<double>(place) * tool.grid.dx()};
+  made.warnings = of_tool(surface, tool);
+  return made;
 }
 
 ContactRecord contact_state(elastic::ElasticOperator& elasticity,

@@ -59,8 +59,8 @@ topography::Topography on_pixels_of(const Grid& sheet, const ToolSettings& setti
            "resample it first: tabor convert TOOL OUT --resample NX,NY");
   }
   if (nx == 1 && ny == 1) return tool;
-  return topography::apply({fmt::format("resample={},{}", tool.grid.nx / nx, tool.grid.ny / ny)},
-                           std::move(tool), observer);
+  const std::string step = fmt::format("resample={},{}", tool.grid.nx / nx, tool.grid.ny / ny);
+  return topography::apply({step}, std::move(tool), observer);
 }
 
 /// Settings of a tool where there is none.
@@ -151,8 +151,20 @@ std::optional<Objection> objection(const ToolSettings& settings,
   if (settings.tool_places == 0) {
     return Objection{.setting = "tool_places", .got = "0", .expected = "one or more"};
   }
+  if (settings.tool->empty()) {
+    return Objection{.setting = "tool",
+                     .got = "''",
+                     .expected = "a scan file, or a generator such as ground:Sa=0.1um"};
+  }
   if (!settings.is_scan()) synthesis::parse_recipe(*settings.tool);
-  if (settings.tool_lowpass) topography::check({"lowpass=" + *settings.tool_lowpass});
+  if (!settings.tool_lowpass) return std::nullopt;
+  try {
+    topography::check({"lowpass=" + *settings.tool_lowpass});
+  } catch (const InputError&) {
+    return Objection{.setting = "tool_lowpass",
+                     .got = "'" + *settings.tool_lowpass + "'",
+                     .expected = "a low-pass filter and its cutoff, such as gauss:8um"};
+  }
   return std::nullopt;
 }
 

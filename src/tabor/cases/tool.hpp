@@ -32,9 +32,11 @@ struct ToolSettings {
   std::filesystem::path folder = {};  ///< that the name of a scan file is relative to
   std::string sha256 = {};            ///< of that file, once it is known
 
+  /// True where there is a tool.
   bool is_rough() const { return tool.has_value(); }
   /// True where the tool is a file.
   bool is_scan() const;
+  /// Returns the path of a tool that is a file.
   std::filesystem::path file() const { return folder / *tool; }
 };
 const Parameters<ToolSettings>& tool_parameters();

@@ -128,34 +128,38 @@ void declare_lowpass_scan(OptionSet& set, Request& request) {
 }  // namespace
 
 Verb contact_verb() {
-  return {.name = "contact",
-          .arguments =
-              "SCAN --pressure P|--separation D|--force F --youngs-modulus E --poisson-ratio NU "
-              "[options]",
-          .summary = "real contact area, gap, patches and saturated share under a pressure",
-          .details =
-              "A rigid flat is pressed on the rough half-space. The certificate bounds the "
-              "energy error. 'contact area' is corrected for the pixels of its perimeter, "
-              "'counted contact' is the share of the pixels that touch. With --separation the flat "
-              "stands at a given height and the pressure follows.",
-          .examples = {"tabor contact surfaces/edt_before.x3p --level plane --pressure 2MPa,7MPa "
-                       "--youngs-modulus 70GPa --poisson-ratio 0.33 --saturation-pressure 240MPa",
-                       "tabor contact surfaces/edt_before.x3p --level plane --lowpass gauss:8um "
-                       "--pressure 7MPa --youngs-modulus 70GPa --poisson-ratio 0.33 -o contact.h5",
-                       "tabor contact surfaces/edt_before.x3p --level plane --lowpass gauss:8um "
-                       "--separation 1um,0.8um --youngs-modulus 70GPa --poisson-ratio 0.33"},
-          .declare = [](OptionSet& set) -> Action {
-            const auto request = std::make_shared<Request>();
-            declare_scan(set, request->scan);
-            declare_contact(set, request->settings, Controls::all);
-            declare_extras(set, request->settings.contact);
-            declare_lowpass_scan(set, *request);
-            declare_fields(set, request->file);
-            return [request](Context& context) {
-              take_edges(request->scan, request->settings.contact);
-              return show(*request, context);
-            };
-          }};
+  return {
+      .name = "contact",
+      .arguments =
+          "SCAN --pressure P|--separation D|--force F --youngs-modulus E --poisson-ratio NU "
+          "[options]",
+      .summary = "real contact area, gap, patches and saturated share under a pressure",
+      .details =
+          "A rigid flat is pressed on the rough half-space. The certificate bounds the "
+          "energy error. 'contact area' is corrected for the pixels of its perimeter, "
+          "'counted contact' is the share of the pixels that touch. With --separation the flat "
+          "stands at a given height and the pressure follows. With --tool a rough tool presses in "
+          "place of the flat.",
+      .examples = {"tabor contact surfaces/edt_before.x3p --level plane --pressure 2MPa,7MPa "
+                   "--youngs-modulus 70GPa --poisson-ratio 0.33 --saturation-pressure 240MPa",
+                   "tabor contact surfaces/edt_before.x3p --level plane --lowpass gauss:8um "
+                   "--pressure 7MPa --youngs-modulus 70GPa --poisson-ratio 0.33 -o contact.h5",
+                   "tabor contact surfaces/edt_before.x3p --level plane --lowpass gauss:8um "
+                   "--separation 1um,0.8um --youngs-modulus 70GPa --poisson-ratio 0.33",
+                   "tabor contact surfaces/edt_before.x3p --level plane --pressure 7MPa "
+                   "--material aluminium-6016 --tool ground:Sa=0.1um"},
+      .declare = [](OptionSet& set) -> Action {
+        const auto request = std::make_shared<Request>();
+        declare_scan(set, request->scan);
+        declare_contact(set, request->settings, Controls::all);
+        declare_extras(set, request->settings.contact);
+        declare_lowpass_scan(set, *request);
+        declare_fields(set, request->file);
+        return [request](Context& context) {
+          take_edges(request->scan, request->settings.contact);
+          return show(*request, context);
+        };
+      }};
 }
 
 }  // namespace tabor::cli

@@ -249,7 +249,8 @@ Verb friction_verb() {
           "contact that stands in liquid carries no shear, or that of --boundary-shear-strength. "
           "'--density 0g/m^2' asks for dry friction alone. One sentence per pressure says from "
           "which density the pockets under the contacts are full and above which the oil level "
-          "reaches the contacts. With --fluid reynolds the deposited oil flows while the flat "
+          "reaches the contacts. With --tool a rough tool presses in place of the flat. With "
+          "--fluid reynolds the deposited oil flows while the flat "
           "slides: it carries "
           "part of the load and adds viscous shear.",
       .examples =
@@ -259,6 +260,9 @@ Verb friction_verb() {
            "--youngs-modulus 70GPa --poisson-ratio 0.33 --saturation-pressure 240MPa "
            "--density 0.9g/m^2 --model bottom-fill --shear-strength 70MPa --area pixels "
            "--json",
+           "tabor friction surfaces/edt_before.x3p --level plane --pressure 2MPa,15MPa "
+           "--material aluminium-6016 --density 0.9g/m^2 --tool ground:Sa=0.1um,length=1mm "
+           "--tool-places 3",
            "tabor friction surfaces/edt_before.x3p --level plane --crop 96,96,128,128 --mirror "
            "--pressure 2MPa --youngs-modulus 70GPa --poisson-ratio 0.33 "
            "--saturation-pressure 240MPa --density 0.9g/m^2 --shear-strength 70MPa "

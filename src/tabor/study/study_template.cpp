@@ -26,7 +26,9 @@ std::string line_of(const ParameterHead& parameter) {
   }
   // A choice that is none by default shows the word that turns it on.
   const bool is_off = !parameter.words.empty() && parameter.words.front() == "none";
-  const std::string& value = is_off ? parameter.words.at(1) : parameter.example;
+  const std::string value = parameter.kind == ValueKind::flag ? "true"
+                            : is_off                          ? parameter.words.at(1)
+                                                              : parameter.example;
   return with_comment(fmt::format("# {} = {}", key, parameter.in_toml(value)), comment);
 }
 

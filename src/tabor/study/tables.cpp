@@ -82,7 +82,7 @@ void write_links(io::Hdf5Writer& writer, const std::string& group, const engine:
   };
   link("surface", tasks.surface, "/surface");
   link("psd", tasks.surface, "/psd");
-  // Of several places of a tool, the maps of the first.
+  // Links the maps of the first place of a tool.
   const std::size_t n_pressures = tasks.cases.size();
   for (std::size_t i = 0; i < n_pressures; ++i) {
     link(fmt::format("contact/{:04}", i), tasks.contacts[i * tasks.contacts.size() / n_pressures],
