@@ -189,10 +189,8 @@ Tool make_tool(const ToolSettings& settings, const Grid& sheet, const Observer& 
   Tool tool;
   made.height -= made.height.mean();
   tool.rms_height = metrology::rms_height(made);
-  tool.mean_abs_height = made.height.abs().mean();
   tool.height = std::move(made.height);
   tool.grid = made.grid;
-  tool.source = made.source;
   return tool;
 }
 

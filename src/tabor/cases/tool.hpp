@@ -52,12 +52,9 @@ void find_tool(ToolSettings& settings, const std::filesystem::path& folder);
 
 /// A tool on the pixels of a sheet: T(x, y), which repeats along x.
 struct Tool {
-  Field height;                ///< [m], positive towards the sheet, mean 0, shape (ny, nx_T)
-  Grid grid;                   ///< of all of the tool
-  std::string source;          ///< file name or recipe
-  double rms_height = 0;       ///< [m]
-  double mean_abs_height = 0;  ///< Sa [m]
-  Warnings warnings;           ///< of the tool itself
+  Field height;           ///< [m], positive towards the sheet, mean 0, shape (ny, nx_T)
+  Grid grid;              ///< of all of the tool
+  double rms_height = 0;  ///< [m]
 };
 
 /// Makes the tool of settings that name one on the pixels of a sheet. A scan whose pixels are a

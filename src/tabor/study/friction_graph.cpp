@@ -15,6 +15,8 @@ namespace {
 /// little.
 constexpr std::size_t kBytesPerPixel = 80;
 constexpr std::size_t kBytesPerFlowingPixel = 500;
+/// The tool, its heights over the surface, and the sum of both.
+constexpr std::size_t kBytesPerPixelOfTool = 3 * sizeof(double);
 
 /// Elastic operators of one half-space, each lent to one job at a time.
 class Operators {
@@ -51,9 +53,11 @@ class Operators {
 
 }  // namespace
 
-std::size_t bytes_of_job(const Grid& grid, bool oil_flows) {
-  return static_cast<std::size_t>(grid.nx * grid.ny) *
-         (oil_flows ? kBytesPerFlowingPixel : kBytesPerPixel);
+std::size_t bytes_of_job(const Grid& grid, const cases::CaseSettings& settings) {
+  const std::size_t bytes_per_pixel =
+      (settings.fluid.flows() ? kBytesPerFlowingPixel : kBytesPerPixel) +
+      (settings.contact.tool.is_rough() ? kBytesPerPixelOfTool : 0);
+  return static_cast<std::size_t>(grid.nx * grid.ny) * bytes_per_pixel;
 }
 
 FrictionStore::FrictionStore(cases::CaseSettings settings, std::vector<FilmCondition> conditions)
@@ -168,7 +172,7 @@ engine::Job FrictionGraph::job_of(const FrictionPlace& place,
   job.kind = kind_of(place.kind);
   job.compute = std::move(compute);
   job.memory = [shared = shared_](const engine::Monitor& monitor) {
-    return bytes_of_job(shared->store->surface(monitor)->grid, shared->store->flows());
+    return bytes_of_job(shared->store->surface(monitor)->grid, shared->settings());
   };
   shared_->store->describe(place, job);
   return job;

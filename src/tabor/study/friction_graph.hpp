@@ -136,6 +136,6 @@ class FrictionGraph {
 };
 
 /// Returns the memory of one job with its surface [bytes].
-std::size_t bytes_of_job(const Grid& grid, bool oil_flows);
+std::size_t bytes_of_job(const Grid& grid, const cases::CaseSettings& settings);
 
 }  // namespace tabor::study

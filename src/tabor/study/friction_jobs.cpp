@@ -72,7 +72,7 @@ class FrictionInFolder : public FrictionStore,
     job.kind = "surface";
     job.stage = stage_name(job.kind, scan_);
     job.memory = [self = shared_from_this()](const engine::Monitor& monitor) {
-      return bytes_of_job(self->surface(monitor)->grid, self->flows());
+      return bytes_of_job(self->surface(monitor)->grid, self->settings());
     };
     job.compute = [self = shared_from_this()](const engine::Monitor& monitor) {
       const Surface treated = self->surface(monitor);

@@ -197,7 +197,9 @@ engine::Job coarse_job(const std::shared_ptr<FrictionInMemory>& store, const Gri
                        CoarsePixels& result) {
   engine::Job job;
   job.kind = job.stage = "coarse pixels";
-  job.memory = [&grid](const engine::Monitor&) { return bytes_of_job(grid, false); };
+  job.memory = [store, &grid](const engine::Monitor&) {
+    return bytes_of_job(grid, store->settings());
+  };
   job.compute = [store, &result](const engine::Monitor& monitor) {
     result = coarse_pixels(*store->surface(monitor), store->settings(), monitor.own);
   };
