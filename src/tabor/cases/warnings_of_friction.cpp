@@ -113,12 +113,11 @@ Warnings of_friction(const friction::Contact& contact, const friction::Estimate&
 
 Warnings of_film_in_gap(double mean_film, double mean_gap) {
   if (!(mean_film > mean_gap)) return {};
-  return {
-      {"flooded",
-       fmt::format("a mean film of {} in a mean gap of {}: the oil does not fit; it flows away or "
-                   "carries load, which the wet share leaves out",
-                   format_si(mean_film, "m"), format_si(mean_gap, "m")),
-       mean_film / mean_gap}};
+  return {{"flooded",
+           fmt::format("a mean film of {} in a mean gap of {}: oil that does not fit flows away or "
+                       "carries load",
+                       format_si(mean_film, "m"), format_si(mean_gap, "m")),
+           mean_film / mean_gap}};
 }
 
 Warnings of_pixel(double coarse_pixel, double coarse_share, double pixel, double share) {
