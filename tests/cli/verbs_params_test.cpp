@@ -36,8 +36,11 @@ TEST_F(Params, OfOneScanAreGroupedBySet) {
       run_tabor({"params", file("a.sdf"), "--level", "plane", "--set", "volume,height"});
   ASSERT_EQ(one.code, 0) << one.err;
   EXPECT_THAT(one.out, AllOf(HasSubstr("768 of 768 pixels"), HasSubstr("µm³/µm²")));
-  EXPECT_LT(one.out.find("Vmp"), one.out.find("Sq"));
-  EXPECT_THAT(one.out, testing::Not(HasSubstr("Sdq")));
+  const std::size_t volume = one.out.find("\nVmp");
+  const std::size_t height = one.out.find("\nSq");
+  ASSERT_NE(volume, std::string::npos) << one.out;
+  EXPECT_LT(volume, height) << one.out;
+  EXPECT_THAT(one.out, testing::Not(HasSubstr("\nSdq")));
 }
 
 TEST_F(Params, OfOneScanKeepTheContract) {
