@@ -19,6 +19,7 @@ using cases::ContactRecord;
 using cases::FilmRecord;
 using cases::FluidRecord;
 using cases::FrictionRecord;
+using cases::TrappedRecord;
 using results::FieldsFile;
 using results::FieldsTarget;
 using topography::Topography;
@@ -89,12 +90,19 @@ void add_curves(const Topography& surface, const CaseSettings& settings,
                       records, file);
 }
 
-/// Lists of one length; `fluids` may be empty.
+/// The records of one kind of oil; null where there are none.
+template <typename Record>
+const Record* at(const std::vector<const Record*>& records, std::size_t i) {
+  return records.empty() ? nullptr : records[i];
+}
+
+/// Lists of one length; `trapped` and `fluids` may be empty.
 void save_frictions(const FieldsTarget& target, const Topography& surface,
                     const CaseSettings& settings,
                     const std::vector<const FrictionRecord*>& frictions,
                     const std::vector<const ContactRecord*>& contacts,
                     const std::vector<const FilmRecord*>& films,
+                    const std::vector<const TrappedRecord*>& trapped,
                     const std::vector<const FluidRecord*>& fluids, const nb::object& progress) {
   watched(progress, [&](const Observer& observer) {
     FieldsFile file(of(target, surface), surface, settings);
@@ -102,7 +110,7 @@ void save_frictions(const FieldsTarget& target, const Topography& surface,
     std::vector<results::Case> cases;
     cases.reserve(frictions.size());
     for (std::size_t i = 0; i < frictions.size(); ++i) {
-      file.add(i, *frictions[i], *contacts[i], *films[i], fluids.empty() ? nullptr : fluids[i]);
+      file.add(i, *frictions[i], *contacts[i], {*films[i], at(trapped, i), at(fluids, i)});
       cases.push_back(results::case_of(*frictions[i]));
     }
     commit(cases, file);
@@ -129,12 +137,13 @@ void bind_save(nb::module_& module) {
       .def(nb::init<>())
       .def_rw("contact", &CaseSettings::contact)
       .def_rw("film", &CaseSettings::film)
+      .def_rw("trapped", &CaseSettings::trapped)
       .def_rw("fluid", &CaseSettings::fluid)
       .def_rw("friction", &CaseSettings::friction);
   module.def("save_contacts", &save_contacts, "target"_a, "surface"_a, "settings"_a, "contacts"_a);
   module.def("save_films", &save_films, "target"_a, "surface"_a, "settings"_a, "films"_a);
   module.def("save_frictions", &save_frictions, "target"_a, "surface"_a, "settings"_a,
-             "frictions"_a, "contacts"_a, "films"_a, "fluids"_a, "progress"_a.none());
+             "frictions"_a, "contacts"_a, "films"_a, "trapped"_a, "fluids"_a, "progress"_a.none());
 }
 
 }  // namespace tabor::python

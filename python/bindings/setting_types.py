@@ -59,7 +59,7 @@ def main():
     package.__path__ = [str(folder)]
     sys.modules["tabor"] = package
     from tabor import _settings as tables
-    parts = {"ContactSettings": tables.CONTACT, "RainSettings": tables.RAIN, "FrictionSettings": tables.SHEAR,
+    parts = {"ContactSettings": tables.CONTACT, "RainSettings": tables.RAIN, "FrictionSettings": tables.SHEAR, "TrappedFrictionSettings": tables.SHEAR + tables.DRY_BELOW + tables.TRAPPED,
              "CurveSettings": tables.CURVE, "SolidSettings": tables.SOLID, "StudySettings": tables.STUDY,
              "ReadSettings": [one for one in tables.READ if one.name != "channel"],  # which may be a number, too
              "ScanSettings": [one for one in tables.OF_SCANS if one.name != "channel"], "LubricantSettings": tables.OIL[1:], "GenerateSettings": tables.PIXELS + tables.RECIPE}

@@ -65,6 +65,7 @@ nb::list settings() {
   nb::list rows;
   add_rows("contact", cases::contact_parameters(), rows);
   add_rows("film", cases::film_parameters(), rows);
+  add_rows("trapped", cases::trapped_parameters(), rows);
   add_rows("fluid", cases::fluid_parameters(), rows);
   add_rows("friction", cases::friction_parameters(), rows);
   add_rows("read", scan::read_parameters(), rows);

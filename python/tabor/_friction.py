@@ -14,8 +14,15 @@ from ._contact import Contact, NotConverged
 from ._optional import needs
 from ._progress import Progress, watching
 from ._records import Record, attributes
-from ._setting_types import CurveSettings, FrictionSettings, LubricantSettings, LubricantValues, RainSettings
-from ._settings import CURVE, OIL, RAIN, SHEAR, complete, documented, filled, takes
+from ._setting_types import (
+    CurveSettings,
+    FrictionSettings,
+    LubricantSettings,
+    LubricantValues,
+    RainSettings,
+    TrappedFrictionSettings,
+)
+from ._settings import CURVE, DRY_BELOW, OIL, RAIN, SHEAR, TRAPPED, complete, documented, filled, takes
 from ._surface import Array, Surface, map_to_xarray, plot_map
 from ._values import Value, si, si_list
 
@@ -119,9 +126,12 @@ class Friction(Record):
     film: Film
     _record: _tabor.FrictionRecord
     _options: dict[str, Any]
+    _trapped: _tabor.TrappedRecord | None  #: None unless trapped oil carries load
+    _oil: dict[str, Any] | None  #: its settings
 
-    def __init__(self, record: _tabor.FrictionRecord, contact: Contact, film: Film, options: dict[str, Any]) -> None:
-        self.__dict__.update(_record=record, contact=contact, film=film, _options=options)
+    def __init__(self, record: _tabor.FrictionRecord, contact: Contact, film: Film, options: dict[str, Any],
+                 trapped: _tabor.TrappedRecord | None = None, oil: dict[str, Any] | None = None) -> None:
+        self.__dict__.update(_record=record, contact=contact, film=film, _options=options, _trapped=trapped, _oil=oil)
 
     @property
     def dry(self) -> float:
@@ -138,24 +148,59 @@ class Friction(Record):
         """Share of the contact that stands in oil."""
         return float(self.values["lubricated_share"])
 
+    @property
+    def liquid_pressure(self) -> Array | None:
+        """Of the oil in each closed pocket [Pa], shape (ny, nx), zero elsewhere; None unless trapped oil carries load."""
+        return None if self._trapped is None else self._trapped.liquid_pressure
 
-@takes(SHEAR)
-def friction(contact: Contact, film: Film, **settings: Unpack[FrictionSettings]) -> Friction:
+    @property
+    def trapped_pressure(self) -> Array | None:
+        """Of solids and trapped oil together [Pa]; None unless trapped oil carries load."""
+        return None if self._trapped is None else self._trapped.pressure
+
+    @property
+    def trapped_gap(self) -> Array | None:
+        """Over the trapped oil [m]; None unless trapped oil carries load."""
+        return None if self._trapped is None else self._trapped.gap
+
+    @property
+    def converged(self) -> bool:
+        """Contact, and the oil where it carries load."""
+        return bool(self.values["converged"])
+
+
+@takes(SHEAR + DRY_BELOW + TRAPPED)
+def friction(contact: Contact, film: Film, *, check: bool = True, progress: Progress = None,
+             **settings: Unpack[TrappedFrictionSettings]) -> Friction:
     """Friction is the real contact area times the shear strength over the load; contact that stands in oil
-    carries none, or that of a boundary film (Bowden & Tabor; docs/theory.md).
+    carries none, or that of a boundary film (Bowden & Tabor; docs/theory.md). With ``trapped``, the oil in closed
+    pockets of the gap carries part of the load (docs/trapped_liquid.md).
 
     Parameters
     ----------
     **settings
+    check : raise NotConverged where trapped oil does not converge; its ``result`` is what was reached.
+    progress : see ``tabor.Progress``.
 
     Raises
     ------
     ValueError
         Without a shear strength, for one out of range, for a film on another surface.
+    NotConverged
+        Unless ``check`` is False.
     """
-    options = _shear(contact, settings)
-    return Friction(_tabor.friction(contact.surface._topography, contact._record, film._record, contact._settings(),
-                                    shear_settings(options)), contact, film, options)
+    oil = complete(TRAPPED, settings)
+    options = {**_shear(contact, settings), **complete(DRY_BELOW, settings)}
+    given = (contact.surface._topography, contact._record, film._record, contact._settings())
+    if not oil["trapped"]:
+        _tabor.check_trapped(filled(_tabor.TrappedSettings(), oil))
+        return Friction(_tabor.friction(*given, shear_settings(options)), contact, film, options)
+    with watching(progress) as told:
+        trapped, record = _tabor.trapped_oil(*given, filled(_tabor.TrappedSettings(), oil), shear_settings(options), told)
+    found = Friction(record, contact, film, options, trapped, oil)
+    if check and not bool(found.values["trapped_converged"]):
+        raise NotConverged("friction: the trapped oil did not converge; check=False returns it all the same", found)
+    return found
 
 
 class Plateau(NamedTuple):
@@ -332,11 +377,6 @@ class FluidFilm(Friction):
     def load_share(self) -> float:
         """Share of the load that the oil carries."""
         return float(self.values["fluid_load_share"])
-
-    @property
-    def converged(self) -> bool:
-        """Contact, film and load balance."""
-        return bool(self.values["converged"])
 
 
 @takes(SHEAR)

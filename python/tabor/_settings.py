@@ -5,6 +5,7 @@ table; ``_setting_types``, which type checkers read, is made of the lists below 
 from __future__ import annotations
 
 import inspect
+import math
 import textwrap
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, NamedTuple, TypeVar, cast
@@ -20,7 +21,7 @@ _Settings = TypeVar("_Settings")
 class Setting(NamedTuple):
     """One line of a table."""
 
-    table: str  #: "contact", "film", "fluid", "friction", "read", "pixels" or "recipe"
+    table: str  #: "contact", "film", "trapped", "fluid", "friction", "read", "pixels" or "recipe"
     name: str  #: of the property of the settings of the extension module
     argument: str  #: of functions
     kind: str  #: "number", "numbers", "count", "flag", "word" or "text"
@@ -30,7 +31,7 @@ class Setting(NamedTuple):
     help: str
     example: str
     absent: str  #: what holds where it has no default and is not given
-    none: str  #: the word that takes away the value of a material
+    none: str  #: the word that takes away the value of a material, or a bound: "inf"
     study_key: str
     is_of_material: bool
     default: Any
@@ -59,6 +60,8 @@ class Setting(NamedTuple):
         if value is None and self.default is None:
             return None
         if self.kind == "number":
+            if self.none and self.default is not None and value == self.none:
+                return math.inf
             return si(value, self.dimension, self.argument)
         if self.kind == "numbers":
             return si_list(value, self.dimension, self.argument)[0]
@@ -107,18 +110,20 @@ def _is_of_solid(one: Setting) -> bool:
 SOLID = tuple(sorted(filter(_is_of_solid, _of("contact", "friction")), key=lambda one: not one.is_of_material))
 CONTACT = tuple(one for one in _of("contact", without=("tool_places",)) if not _is_of_solid(one))
 RAIN = _of("film")
-SHEAR = _of("friction")
+TRAPPED = _of("trapped")
+SHEAR = _of("friction", without=("dry_below",))
+DRY_BELOW = tuple(one for one in _of("friction") if one.name == "dry_below")  # of oil that stays where it was laid
 CURVE = SHEAR + tuple(one for one in RAIN if one.name not in ("model", "droplet_height", "seed"))  # of vanishing droplets
 OIL = _of("fluid", without=("fluid", "sliding_speed"))  # a lubricant flows; a speed is what happens to it
 PLACES = tuple(one for one in _of("contact") if one.name == "tool_places")  # of the tool: studies average over them
-STUDY = tuple(one for one in SHEAR + RAIN + CONTACT + PLACES if one.study_key)
+STUDY = tuple(one for one in SHEAR + RAIN + DRY_BELOW + TRAPPED + CONTACT + PLACES if one.study_key)
 PIXELS = tuple(one for one in _ALL if one.table == "pixels")
 RECIPE = _of("recipe")
 READ = tuple(one for one in _ALL if one.table == "read")
 OF_SCANS = tuple(one for one in READ if one.study_key)  # that scans of a study may have for themselves
 
 #: Lines of studies, in their order.
-OF_STUDIES = _of("contact", "film", "fluid", "friction")
+OF_STUDIES = _of("contact", "film", "trapped", "fluid", "friction")
 
 
 def complete(settings: Sequence[Setting], given: Mapping[str, Any]) -> dict[str, Any]:

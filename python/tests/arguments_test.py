@@ -56,6 +56,7 @@ def calls(folder):
     shear = {"shear_strength": "300 MPa", "boundary_shear_strength": None, "boundary_shear_share": None, "area": None}
     table = tb.FrictionTable(folder / "results")
     deck = {"file": folder / "deck.k", "units": "mm,s,t"}
+    oil = {"dry_below": 1e-9, "trapped": True, "bulk_modulus": 1.5e9}
     rain = {"oil_density": 900, "reading": "conserving", "edge": "closed"}
     study = tb.Study({"a": str(file)}, t.solid, pressure="20 MPa")
     return {
@@ -81,7 +82,7 @@ def calls(folder):
                                  "edges": "tile", "tolerance": 1e-6, "solver": "fast", "load_path": False, "tool": "ground:Sa=10nm", "tool_x": 0,
                                  "tool_lowpass": "gauss:8um", "tool_repeats": False, "check": True, "progress": None}),
         "rain": (tb.rain, {"surface": t.surface, "density": 1e-3, **rain, "droplet_height": 1e-7, "model": "droplets", "seed": 1}),
-        "friction": (tb.friction, {"contact": t.contact, "film": t.film, **shear}),
+        "friction": (tb.friction, {"contact": t.contact, "film": t.film, **shear, **oil, "check": True, "progress": None}),
         "fluid_film": (tb.fluid_film, {"contact": t.contact, "film": t.film, "lubricant": t.oil, "speed": 1e-3, **shear,
                                        "check": True, "progress": None}),
         "density_curve": (tb.density_curve, {"contact": t.contact, "density": 1e-3, **shear, **rain, "progress": None}),
@@ -102,7 +103,7 @@ def calls(folder):
         "Scans": (tb.Scans, {"files": file, "pressure": 1e6, "density": 0, "treatment": ["level=plane"], "contact": "elastic",
                              "reading": "literal", "channel": None, "pixel": None, "unit": None}),
         "Study": (tb.Study, {"scans": {"a": file}, "solid": t.solid, "pressure": 1e6, "density": 0, "treatment": (),
-                             **shear, **rain, "solver": "fast", "tool": "ground:Sa=10nm", "tool_x": 0,
+                             **shear, **oil, **rain, "solver": "fast", "tool": "ground:Sa=10nm", "tool_x": 0,
                              "tool_lowpass": "gauss:8um", "tool_repeats": False, "tool_places": 2,
                              "droplet_height": 1e-7, "model": "droplets", "seed": 1, "lubricant": None, "speed": None,
                              "boundary": "periodic", "edges": "tile", "tolerance": 1e-6, "title": "study"}),

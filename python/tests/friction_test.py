@@ -262,3 +262,30 @@ def test_the_digest_of_a_surface_takes_milliseconds():
         tb._tabor.digest_of(surface._topography)
         seconds.append(time.perf_counter() - begin)
     assert min(seconds) < 0.05  # 1 to 2 ms of one processor
+
+
+def test_trapped_oil_carries_load_and_takes_friction_from_the_solids(rough, steel):
+    dry, film = tb.contact(rough, "50 MPa", steel), tb.rain(rough, "0.5 g/m^2")
+    without = tb.friction(dry, film, boundary_shear_share=0.1)
+    found = tb.friction(dry, film, boundary_shear_share=0.1, trapped=True)
+    assert without.liquid_pressure is None and "liquid_load_share" not in without.values
+    assert found.dry == without.dry and found.converged
+    assert found.lubricated == pytest.approx(found.values["friction_solid"] + found.values["friction_boundary"], rel=1e-15)
+    assert found.liquid_pressure.max() == pytest.approx(found.values["max_liquid_pressure_Pa"])
+    assert found.trapped_pressure.mean() == pytest.approx(50e6, rel=1e-9)
+    incompressible = tb.friction(dry, film, boundary_shear_share=0.1, trapped=True, bulk_modulus="inf")
+    assert incompressible.values["liquid_load_share"] >= found.values["liquid_load_share"]
+    copy = pickle.loads(pickle.dumps(found))
+    np.testing.assert_array_equal(copy.liquid_pressure, found.liquid_pressure)
+    assert copy.values == found.values
+
+
+@pytest.mark.parametrize("settings, text", [
+    ({"bulk_modulus": "2 GPa"}, "bulk_modulus.*needs.*trapped"),
+    ({"trapped": True, "bulk_modulus": 0}, "bulk_modulus"),
+    ({"trapped": True, "bulk_modulus": "2 m"}, "bulk_modulus"),
+])
+def test_trapped_oil_that_does_not_exist_is_rejected(rough, steel, settings, text):
+    dry, film = tb.contact(rough, "50 MPa", steel), tb.rain(rough, "0.5 g/m^2")
+    with pytest.raises(ValueError, match=text):
+        tb.friction(dry, film, **settings)

@@ -46,7 +46,7 @@ FilmRecord rained_on(const topography::Topography& surface) {
 FrictionRecord rubbed(const topography::Topography& surface, const ContactRecord& contact,
                       const FilmRecord& film, const FluidRecord* fluid = nullptr) {
   const Mask mask = contact::contact_mask(contact.state);
-  return friction_state(contact, {mask, contact.state.gap, surface.grid}, film, fluid,
+  return friction_state(contact, {mask, contact.state.gap, surface.grid}, {film, nullptr, fluid},
                         settings().contact, settings().friction);
 }
 

@@ -62,7 +62,7 @@ cases::CaseSettings under_a_tool() {
 std::string text_of(const FrictionState& state) {
   const io::Json numbers =
       io::json_of(cases::friction_columns(), state.friction, cases::media::kObject);
-  return fmt::format("{} {}", io::to_text(numbers, -1), state.film.film.thickness.sum());
+  return fmt::format("{} {}", io::to_text(numbers, -1), state.oil.film.film.thickness.sum());
 }
 
 std::vector<std::string> states_of(const cases::CaseSettings& asked, int jobs,
@@ -86,10 +86,10 @@ std::vector<std::string> states_in_turn(const cases::CaseSettings& asked) {
     const Mask touching = contact::contact_mask(contact.state);
     for (const cases::FilmRecord& film : films) {
       const cases::FrictionRecord friction =
-          cases::friction_state(contact, {touching, contact.state.gap, surface.grid}, film, nullptr,
+          cases::friction_state(contact, {touching, contact.state.gap, surface.grid}, {film},
                                 asked.contact, asked.friction);
       texts.push_back(
-          text_of({.friction = friction, .contact = contact, .film = film, .fluid = nullptr}));
+          text_of({.friction = friction, .contact = contact, .oil = {film}}));
     }
   };
   cases::contact_states(*elasticity, surface, asked.contact, cases::controls_of(asked), receive);

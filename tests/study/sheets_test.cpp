@@ -56,8 +56,8 @@ Frictions friction_of(const PressedSheet& sheet, deposition::Reading reading) {
     const Mask touching = contact::contact_mask(contact.state);
     for (const cases::FilmRecord& film : films) {
       const auto record =
-          cases::friction_state(contact, {touching, contact.state.gap, sheet.surface.grid}, film,
-                                nullptr, settings.contact, settings.friction);
+          cases::friction_state(contact, {touching, contact.state.gap, sheet.surface.grid}, {film},
+                                settings.contact, settings.friction);
       friction[record.lubricant_density][record.mean_pressure] = record.friction_lubricated;
     }
   }

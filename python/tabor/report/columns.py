@@ -23,7 +23,7 @@ _HEADINGS = {
     "mean_pressure_Pa": "pressure", "lubricant_density_g_per_m2": "lubricant", "sliding_speed_m_per_s": "sliding speed",
     "contact_area_fraction": "contact area", "contact_area_fraction_pixels": "counted contact", "saturated_area_fraction": "saturated",
     "contact_gap_error_m": "gap error", "n_patches": "patches", "n_pools": "pools", "wet_fraction": "wet", "lubricated_share": "wet share",
-    "spill_over_fraction": "spill-over", "friction_lubricated": "friction wet", "fluid_load_share": "oil carries", "friction_viscous": "viscous",
+    "spill_over_fraction": "spill-over", "friction_lubricated": "friction wet", "fluid_load_share": "oil carries", "liquid_load_share": "oil carries", "friction_viscous": "viscous",
     "seconds": "time", "youngs_modulus_Pa": "Young's modulus E", "poissons_ratio": "Poisson's ratio ν", "effective_modulus_Pa": "effective modulus E*",
     "shear_strength_Pa": "shear strength τ_y", "saturation_pressure_Pa": "saturation pressure p_sat", "viscosity_Pa_s": "oil viscosity η",
     "pressure_viscosity_per_Pa": "pressure-viscosity coefficient α", "eyring_stress_Pa": "Eyring stress", "area": "area used for friction",
@@ -31,7 +31,7 @@ _HEADINGS = {
 }  # fmt: skip
 _STYLES = {
     "contact_area_fraction": PERCENT, "contact_area_fraction_pixels": PERCENT, "saturated_area_fraction": PERCENT, "wet_fraction": PERCENT,
-    "lubricated_share": PERCENT, "spill_over_fraction": PERCENT, "fluid_load_share": PERCENT, "certificate": EXPONENT,
+    "lubricated_share": PERCENT, "spill_over_fraction": PERCENT, "fluid_load_share": PERCENT, "liquid_load_share": PERCENT, "certificate": EXPONENT,
 }  # fmt: skip
 # Words of keys of films under load, as the program prints them.
 _PRINTED = {

@@ -102,7 +102,7 @@ def _highlights(study):
     """What a reader wants first: pressures, densities, range of friction, how much to trust."""
     table = study.table
     keys = ("mean_pressure_Pa", "lubricant_density_g_per_m2", areas.of_study(study), "friction_dry", "friction_lubricated",
-            "sliding_speed_m_per_s", "fluid_load_share", "friction_mixed")  # fmt: skip
+            "liquid_load_share", "sliding_speed_m_per_s", "fluid_load_share", "friction_mixed")  # fmt: skip
     found = [(study.column[key].heading, _range(table, key, study.column[key].show)) for key in keys]
     found.append(("converged", f"{len(table) - table.not_converged()} of {len(table)} rows"))
     return [(name, text) for name, text in found if text]
@@ -188,7 +188,7 @@ def _settings(study):
 _FIRST_OF_RESULTS = ("scan", "group")
 _RESULTS = (
     "mean_pressure_Pa", "lubricant_density_g_per_m2", "friction_dry", "friction_lubricated", "sliding_speed_m_per_s", "friction_mixed",
-    "friction_viscous", "fluid_load_share", areas.CORRECTED, "lubricated_share", "certificate", "converged", areas.PIXELS,
+    "friction_viscous", "fluid_load_share", "friction_solid", "friction_boundary", "liquid_load_share", "n_pockets", "n_at_seal", areas.CORRECTED, "lubricated_share", "certificate", "converged", areas.PIXELS,
     "saturated_area_fraction", "mean_gap_m", "spill_over_fraction",
 )  # fmt: skip
 

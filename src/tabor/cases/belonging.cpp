@@ -24,7 +24,7 @@ void require_one_shape(const Field& gap, const Field& film) {
 }  // namespace
 
 void require_one_surface(const ContactRecord& contact, const FilmRecord& film,
-                         const FluidRecord* fluid) {
+                         const FluidRecord* fluid, const TrappedRecord* trapped) {
   require_one_shape(contact.state.gap, film.film.thickness);
   if (differ(contact.surface, film.surface)) {
     throw InputError("film", "a film on another surface, or on this one treated in another way",
@@ -33,6 +33,10 @@ void require_one_surface(const ContactRecord& contact, const FilmRecord& film,
   if (fluid != nullptr && differ(contact.surface, fluid->surface)) {
     throw InputError("flowing film", "one over another surface", "one over that of the contact",
                      "let the oil flow between the surfaces of this contact");
+  }
+  if (trapped != nullptr && differ(contact.surface, trapped->surface)) {
+    throw InputError("trapped oil", "oil on another surface", "oil in the gap of the contact",
+                     "press the oil between the surfaces of this contact");
   }
 }
 

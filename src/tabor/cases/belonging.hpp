@@ -12,7 +12,8 @@ namespace tabor::cases {
 /// Throws InputError unless the film, and the flowing film (null: none), lies on the surface of the
 /// contact.
 void require_one_surface(const ContactRecord& contact, const FilmRecord& film,
-                         const FluidRecord* fluid = nullptr);
+                         const FluidRecord* fluid = nullptr,
+                         const TrappedRecord* trapped = nullptr);
 
 /// Throws InputError unless `contact`, the digest of a contact's surface, is that of `surface`.
 void require_contact_of(const topography::Topography& surface, std::uint64_t contact);

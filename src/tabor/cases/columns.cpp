@@ -116,6 +116,32 @@ const Columns<FluidRecord>& fluid_columns() {
   return all;
 }
 
+const Columns<TrappedRecord>& trapped_columns() {
+  using contact::LiquidSummary;
+  using contact::Summary;
+  using Record = TrappedRecord;
+  static const Columns<Summary> solids{
+      {"solid_pressure_Pa", "Pa", "", &Summary::mean_pressure},
+      {"contact_area_fraction", "", "", &Summary::contact_area_fraction},
+      {"contact_area_fraction_pixels", "", "", &Summary::contact_area_fraction_pixels}};
+  static const Columns<LiquidSummary> liquid{
+      {"liquid_load_share", "", "", &LiquidSummary::load_share},
+      {"max_liquid_pressure_Pa", "Pa", "", &LiquidSummary::max_pressure},
+      {"n_pockets", "", "", &LiquidSummary::n_pockets},
+      {"n_squeezed", "", "", &LiquidSummary::n_squeezed},
+      {"n_at_seal", "", "", &LiquidSummary::n_at_seal},
+      {"leaked_fraction", "", "", &LiquidSummary::leaked_fraction},
+      {"seals_settled", "", "", &LiquidSummary::seals_settled}};
+  static const Columns<Record> all = joined<Record>(
+      within(solids, &Record::solids), within(liquid, &Record::liquid),
+      Columns<Record>{
+          {"lubricated_share", "", "", &Record::lubricated_share},
+       {"mean_gap_m", "m", "", &Record::mean_gap},
+       {"certificate", "", "", member_of(&Record::convergence, &Convergence::certificate)},
+       {"converged", "", "", [](const Record& one) { return one.convergence.converged(); }}});
+  return all;
+}
+
 const Columns<FrictionRecord>& friction_area_columns() {
   const auto used_as = [](friction::Area area) {
     return [area](const FrictionRecord& record) {
@@ -132,6 +158,26 @@ const Columns<FrictionRecord>& friction_area_columns() {
 }
 
 namespace {
+
+const Columns<TrappedFriction>& trapped_friction_columns() {
+  using Record = TrappedFriction;
+  static const Columns<Record> all{
+      {"liquid_load_share", "", "oil carries", &Record::load_share, kPercent},
+      {"max_liquid_pressure_Pa", "Pa", "max oil pressure", &Record::max_pressure},
+      {"n_pockets", "", "pockets", &Record::n_pockets},
+      {"n_squeezed", "", "squeezed", &Record::n_squeezed},
+      {"n_at_seal", "", "at seal", &Record::n_at_seal},
+      {"leaked_fraction", "", "leaked", &Record::leaked_fraction, kPercent},
+      {"trapped_contact_area_fraction", "", "solid contact", &Record::contact_area_fraction,
+       kPercent},
+      {"trapped_lubricated_share", "", "of it wet", &Record::lubricated_share, kPercent},
+      {"trapped_mean_gap_m", "m", "", &Record::mean_gap},
+      {"friction_solid", "", "solid", &Record::friction_solid},
+      {"friction_boundary", "", "boundary", &Record::friction_boundary},
+      {"trapped_certificate", "", "", &Record::certificate},
+      {"trapped_converged", "", "", &Record::converged}};
+  return all;
+}
 
 const Columns<FlowingFriction>& flowing_columns() {
   using Record = FlowingFriction;
@@ -214,17 +260,24 @@ Columns<FrictionRecord> columns_before_the_film() {
 }  // namespace
 
 FrictionParts parts_of(const CaseSettings& settings) {
-  return {.fluid = settings.fluid.flows(), .tool = settings.contact.tool.is_rough()};
+  return {.trapped = settings.trapped.is_asked(),
+          .fluid = settings.fluid.flows(),
+          .tool = settings.contact.tool.is_rough()};
 }
 
 FrictionParts parts_of(const FrictionRecord& record) {
-  return {.fluid = record.fluid.has_value(), .tool = record.tool.has_value()};
+  return {.trapped = record.trapped.has_value(),
+          .fluid = record.fluid.has_value(),
+          .tool = record.tool.has_value()};
 }
 
 Columns<FrictionRecord> friction_columns(const FrictionParts& parts) {
   using Record = FrictionRecord;
   Columns<Record> all = columns_before_the_film();
   if (parts.tool) all = joined<Record>(all, within(tool_columns(), &Record::tool));
+  if (parts.trapped) {
+    all = joined<Record>(all, within(trapped_friction_columns(), &Record::trapped));
+  }
   if (parts.fluid) all = joined<Record>(all, within(flowing_columns(), &Record::fluid));
   return joined<Record>(
       all, {{"", "", "certificate", &Record::certificate, {.shown = Shown::exponent}},

@@ -73,7 +73,9 @@ bool has_density_curve(const CaseSettings& settings) {
       film.model == deposition::Model::droplets || film.model == deposition::Model::limit;
   const bool is_wet = std::any_of(film.lubricant_densities.begin(), film.lubricant_densities.end(),
                                   [](double density) { return density > 0; });
-  return runs_down && is_wet && !settings.fluid.flows() && settings.contact.tool.n_places() == 1;
+  const bool only_wets = !settings.fluid.flows() && !settings.trapped.is_asked();
+  return runs_down && is_wet && only_wets && settings.friction.dry_below == 0 &&
+         settings.contact.tool.n_places() == 1;
 }
 
 WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,

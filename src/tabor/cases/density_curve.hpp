@@ -36,7 +36,8 @@ struct WettingDoses {
 };
 
 /// True where the settings have oil that runs downhill, so that it fills depressions first and then
-/// valleys, and does not flow on, and one place of the tool.
+/// valleys, and only wets: it neither flows on nor carries load, and every film counts; and one
+/// place of the tool.
 bool has_density_curve(const CaseSettings& settings);
 
 /// Finds the first wetting doses of the pixels of `where`, in the shape of the surface; the others

@@ -29,13 +29,53 @@ FrictionRecord numbers_of(const ContactRecord& contact, const FilmRecord& film) 
 }
 
 /// Where the liquid is when the surfaces are closed.
-void add_liquid(const Closed& closed, const Field& film, bool periodic, FrictionRecord& record) {
-  record.lubricated_share = friction::lubricated_share(closed.contact, film);
+void add_liquid(const Closed& closed, const Field& film, bool periodic, double dry_below,
+                FrictionRecord& record) {
+  record.lubricated_share = friction::lubricated_share(closed.contact, film, dry_below);
   record.spill_over_fraction = friction::spill_over_fraction(film, closed.gap);
   const friction::TrappedLiquid liquid =
       friction::trapped_liquid(closed.contact, film, closed.gap, closed.grid, periodic);
   record.trapped_fraction = liquid.trapped_fraction;
   record.escaping_fraction = liquid.escaping_fraction;
+}
+
+/// The solids carry what the oil does not; friction is that of their dry and of their wet contact,
+///
+///   mu = tau_y A_dry/(A0 P) + tau_b A_wet/(A0 P).
+TrappedFriction friction_of(const TrappedRecord& trapped, double mean_pressure,
+                            const ContactSettings& contact, const FrictionSettings& settings) {
+  const contact::LiquidSummary& liquid = trapped.liquid;
+  TrappedFriction friction{.load_share = liquid.load_share,
+                           .max_pressure = liquid.max_pressure,
+                           .n_pockets = liquid.n_pockets,
+                           .n_squeezed = liquid.n_squeezed,
+                           .n_at_seal = liquid.n_at_seal,
+                           .leaked_fraction = liquid.leaked_fraction,
+                           .contact_area_fraction = 0,
+                           .lubricated_share = trapped.lubricated_share,
+                           .mean_gap = trapped.mean_gap,
+                           .friction_solid = 0,
+                           .friction_boundary = 0,
+                           .certificate = trapped.convergence.certificate,
+                           .converged = trapped.converged()};
+  if (!(trapped.solids.mean_pressure > 0)) return friction;
+  const friction::Estimate solids =
+      estimate_of(trapped.solids, trapped.lubricated_share, contact, settings);
+  const double carried = trapped.solids.mean_pressure / mean_pressure;
+  const double wet = trapped.lubricated_share * settings.boundary_strength();
+  friction.contact_area_fraction = solids.area_fraction;
+  friction.friction_solid = carried * solids.friction_dry * (1 - trapped.lubricated_share);
+  friction.friction_boundary = carried * solids.friction_dry * wet / settings.shear_strength;
+  return friction;
+}
+
+void add_trapped(const TrappedRecord& trapped, const ContactSettings& contact,
+                 const FrictionSettings& settings, FrictionRecord& record) {
+  record.trapped = friction_of(trapped, record.mean_pressure, contact, settings);
+  record.friction_lubricated = record.trapped->friction_solid + record.trapped->friction_boundary;
+  record.converged = record.converged && record.trapped->converged;
+  add(trapped.warnings, record.warnings);
+  add(trapped.references, record.references);
 }
 
 void add_flow(const FluidRecord& fluid, const friction::MixedEstimate& mixed,
@@ -93,16 +133,17 @@ friction::Estimate dry_friction(const ContactRecord& contact, double lubricated_
   return estimate;
 }
 
-FrictionRecord friction_state(const ContactRecord& contact, const Closed& closed,
-                              const FilmRecord& film, const FluidRecord* fluid,
+FrictionRecord friction_state(const ContactRecord& contact, const Closed& closed, const Oil& oil,
                               const ContactSettings& contact_settings,
                               const FrictionSettings& settings) {
-  require_one_surface(contact, film, fluid);
-  FrictionRecord record = numbers_of(contact, film);
-  add_liquid(closed, film.film.thickness, contact_settings.is_periodic(), record);
+  require_one_surface(contact, oil.film, oil.fluid, oil.trapped);
+  FrictionRecord record = numbers_of(contact, oil.film);
+  add_liquid(closed, oil.film.film.thickness, contact_settings.is_periodic(), settings.dry_below,
+             record);
   const friction::Estimate estimate =
-      dry_friction(contact, record.lubricated_share, record.spill_over_fraction, contact_settings,
-                   settings, record.warnings);
+      dry_friction(contact, record.lubricated_share,
+                   oil.trapped == nullptr ? record.spill_over_fraction : 0,  // it is accounted for
+                   contact_settings, settings, record.warnings);
   add(of_film_in_gap(record.mean_film, record.mean_gap), record.warnings);
   add(references_of(settings), record.references);
   record.area = estimate.area;
@@ -111,9 +152,10 @@ FrictionRecord friction_state(const ContactRecord& contact, const Closed& closed
   record.dry_at_bound = estimate.at_bound;
   record.friction_dry = estimate.friction_dry;
   record.friction_lubricated = estimate.friction_lubricated;
-  if (fluid != nullptr) {
-    add_flow(*fluid,
-             friction::estimate(fluid->summary, record.mean_pressure,
+  if (oil.trapped != nullptr) add_trapped(*oil.trapped, contact_settings, settings, record);
+  if (oil.fluid != nullptr) {
+    add_flow(*oil.fluid,
+             friction::estimate(oil.fluid->summary, record.mean_pressure,
                                 contact_settings.pressure_cap(), settings.shear_strength,
                                 settings.area_of(contact_settings), settings.boundary_strength()),
              record);

@@ -8,6 +8,8 @@ namespace {
 const Bounds kPoissonsRatio{
     .least = -1, .most = 0.5, .least_is_out = true, .text = "above -1 and at most 0.5"};
 const Bounds kTolerance{.least = 1e-12, .most = 1e-4, .text = "1e-12 to 1e-4"};
+const Bounds kBulkModulus{
+    .least = 0, .least_is_out = true, .infinity_is_in = true, .text = "more than zero, or inf"};
 const Bounds kShare{.least = 0, .most = 1, .text = "a share of the shear strength, 0 to 1"};
 
 Cell tau_of_wet_contact(const FrictionSettings& one) {
@@ -167,6 +169,27 @@ const Parameters<FilmSettings>& film_parameters() {
   return all;
 }
 
+const Parameters<TrappedSettings>& trapped_parameters() {
+  using Settings = TrappedSettings;
+  using One = Parameter<Settings>;
+  static const Parameters<Settings> all{
+      One({.name = "trapped",
+           .help = "oil in closed pockets of the gap carries load as far as their seals hold",
+           .study_key = "lubricant.trapped"},
+          &Settings::trapped),
+      One({.name = "bulk_modulus",
+           .help = "of the trapped oil (inf: incompressible)",
+           .example = "1.5 GPa",
+           .dimension = dimension::pressure,
+           .bounds = kBulkModulus,
+           .study_key = "lubricant.bulk_modulus",
+           .placeholder = "K",
+           .none = "inf",
+           .identity = Identity::yes},
+          &Settings::bulk_modulus)};
+  return all;
+}
+
 const Parameters<FluidSettings>& fluid_parameters() {
   using Settings = FluidSettings;
   using One = Parameter<Settings>;
@@ -259,7 +282,17 @@ const Parameters<FrictionSettings>& friction_parameters() {
            .example = "pixels",
            .study_key = "area",
            .absent = "pixels with a saturation pressure, else corrected"},
-          &Settings::area, friction::kAreas)};
+          &Settings::area, friction::kAreas),
+      One({.name = "dry_below",
+           .help = "a film no thicker than this does not count as wet",
+           .example = "2 nm",
+           .dimension = dimension::length,
+           .bounds = bounds::zero_or_more,
+           .study_key = "lubricant.dry_below",
+           .placeholder = "T",
+           .absent = "0 nm",
+           .identity = Identity::unless_default},
+          &Settings::dry_below)};
   return all;
 }
 
@@ -296,6 +329,7 @@ const Parameters<CaseSettings>& case_parameters() {
     for (const Parameters<CaseSettings>& part :
          {within(contact_parameters(), &CaseSettings::contact),
           within(film_parameters(), &CaseSettings::film),
+          within(trapped_parameters(), &CaseSettings::trapped),
           within(fluid_parameters(), &CaseSettings::fluid),
           within(friction_parameters(), &CaseSettings::friction)}) {
       list.insert(list.end(), part.begin(), part.end());

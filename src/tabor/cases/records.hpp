@@ -12,6 +12,7 @@
 #include "tabor/contact/contact.hpp"
 #include "tabor/contact/distributions.hpp"
 #include "tabor/contact/stiffness.hpp"
+#include "tabor/contact/trapped_liquid.hpp"
 #include "tabor/core/column.hpp"
 #include "tabor/deposition/deposition.hpp"
 #include "tabor/friction/bowden_tabor.hpp"
@@ -79,6 +80,24 @@ struct FilmRecord {
 };
 const Columns<FilmRecord>& film_columns();
 
+/// One film in one contact, whose closed pockets carry load.
+struct TrappedRecord {
+  std::uint64_t surface = 0;      ///< digest of the surface below it
+  contact::Summary solids;        ///< of the solids alone
+  contact::LiquidSummary liquid;  ///< of the pockets
+  double lubricated_share = 0;    ///< of the solid contact
+  double mean_gap = 0;            ///< [m]
+  Convergence convergence;
+  Warnings warnings;
+  std::vector<std::string> references;  ///< to cite; not stored
+  contact::TrappedState state;          ///< maps; empty in a record that was read from a store
+
+  /// True for the pressures of contact and pockets, and the seals between them.
+  bool converged() const { return convergence.converged() && liquid.seals_settled; }
+};
+/// Columns for the store alone: a user sees these numbers as numbers of friction.
+const Columns<TrappedRecord>& trapped_columns();
+
 /// One film that flows between the surfaces of one contact.
 struct FluidRecord {
   std::uint64_t surface = 0;  ///< digest of the surface below it
@@ -90,6 +109,13 @@ struct FluidRecord {
 };
 /// Columns for the store alone: a user sees these numbers as numbers of friction.
 const Columns<FluidRecord>& fluid_columns();
+
+/// A film in a contact, and what it does there beside wetting; null: it does not.
+struct Oil {
+  const FilmRecord& film;
+  const TrappedRecord* trapped = nullptr;
+  const FluidRecord* fluid = nullptr;
+};
 
 /// Numbers that a flowing film adds to the friction of a contact.
 struct FlowingFriction {
@@ -109,6 +135,23 @@ struct FlowingFriction {
   int evaluations = 0;
   int iterations = 0;
   bool converged = false;  ///< film and load balance
+};
+
+/// Numbers that trapped oil adds to the friction of a contact.
+struct TrappedFriction {
+  double load_share = kNoValue;             ///< of the load, that the oil carries
+  double max_pressure = kNoValue;           ///< of the oil [Pa]
+  Index n_pockets = 0;                      ///< closed, with oil
+  Index n_squeezed = 0;                     ///< of these, with pressure
+  Index n_at_seal = 0;                      ///< of these, leaking through their seals
+  double leaked_fraction = kNoValue;        ///< of the oil in pockets
+  double contact_area_fraction = kNoValue;  ///< of the solids, that friction is computed with
+  double lubricated_share = kNoValue;       ///< of that contact
+  double mean_gap = kNoValue;               ///< [m]
+  double friction_solid = kNoValue;         ///< of dry contact
+  double friction_boundary = kNoValue;      ///< of wet contact
+  double certificate = kNoValue;
+  bool converged = false;
 };
 
 /// Standard deviations of a friction over the places of a tool.
@@ -148,7 +191,8 @@ struct FrictionRecord {
   double certificate = kNoValue;
   double contact_gap_error = kNoValue;   ///< [m]
   bool converged = false;                ///< contact, and film if it flows
-  std::optional<FlowingFriction> fluid;  ///< absent where the oil does not flow
+  std::optional<TrappedFriction> trapped;  ///< absent where trapped oil carries nothing
+  std::optional<FlowingFriction> fluid;    ///< absent where the oil does not flow
   std::optional<ToolFriction> tool;      ///< absent under a flat
   Warnings warnings;                     ///< of its surface, contact, film and friction
   std::vector<std::string> references;   ///< of all of them, to cite; not stored
@@ -160,6 +204,7 @@ struct CaseSettings;
 
 /// Parts of a friction that not every case has, and their columns.
 struct FrictionParts {
+  bool trapped = true;  ///< trapped oil carries load
   bool fluid = true;  ///< the oil flows
   bool tool = true;   ///< a rough tool presses
 };

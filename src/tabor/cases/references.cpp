@@ -17,6 +17,11 @@ std::vector<std::string> references_of(const FilmSettings& settings) {
   return {"costagliola2021"};
 }
 
+std::vector<std::string> references_of(const TrappedSettings& settings) {
+  if (!settings.is_asked()) return {};
+  return {"costagliola2021"};
+}
+
 std::vector<std::string> references_of(const FluidSettings& settings) {
   if (!settings.flows()) return {};
   return {"elrod1981"};
@@ -28,6 +33,7 @@ std::vector<std::string> references_of(const CaseSettings& settings) {
   std::vector<std::string> all = references_of(settings.contact);
   add(references_of(settings.film), all);
   add(references_of(settings.friction), all);
+  add(references_of(settings.trapped), all);
   add(references_of(settings.fluid), all);
   return all;
 }

@@ -190,6 +190,30 @@ std::optional<Objection> objection(const FluidSettings& settings, const ContactS
                                      spelling("boundary")));
 }
 
+std::optional<Objection> objection_to_trapped(const CaseSettings& all, const Spelling& spelling) {
+  const TrappedSettings& settings = all.trapped;
+  if (auto found = objection_to_bounds(trapped_parameters(), settings)) return found;
+  const std::string trapped = spelling("trapped");
+  if (all.friction.dry_below > 0 && all.fluid.flows()) {
+    return use("dry_below", fmt::format("{} is for oil that stays where it was laid; leave out {}",
+                                        spelling("dry_below"), spelling("fluid")));
+  }
+  if (!settings.is_asked()) {
+    if (settings.bulk_modulus == TrappedSettings::kOilBulkModulus) return std::nullopt;
+    return use("bulk_modulus", fmt::format("{} needs {}", spelling("bulk_modulus"), trapped));
+  }
+  if (all.fluid.flows()) {
+    return use("trapped", fmt::format("oil is trapped or flows: leave out {} or {}", trapped,
+                                      spelling("fluid")));
+  }
+  if (all.contact.load_path) {
+    return use("trapped", fmt::format("{} is solved on the surface as it is, not on what a load "
+                                      "path has left of it; leave out {}",
+                                      trapped, spelling("load_path")));
+  }
+  return std::nullopt;
+}
+
 std::optional<Objection> objection(const FrictionSettings& settings, const Spelling& spelling,
                                    std::string_view material) {
   if (settings.shear_strength == 0 && !material.empty()) {

@@ -82,12 +82,24 @@ struct FluidSettings {
   friction::FlowingOil oil() const;
 };
 
+/// Settings for the oil in closed pockets of the gap: it only separates wet contacts, or it is
+/// squeezed and carries part of the load.
+struct TrappedSettings {
+  bool trapped = false;
+  double bulk_modulus = kOilBulkModulus;  ///< K of the oil [Pa]; infinite: incompressible
+
+  /// True where trapped oil carries load.
+  bool is_asked() const { return trapped; }
+  static constexpr double kOilBulkModulus = 1.5e9;  ///< of mineral oil [Pa]
+};
+
 /// Settings that turn contact into friction.
 struct FrictionSettings {
   double shear_strength = 0;                           ///< tau_y [Pa]
   std::optional<double> boundary_shear_strength = {};  ///< tau_b of wet contact [Pa]
   std::optional<double> boundary_shear_share = {};     ///< the same over tau_y
   std::optional<friction::Area> area = {};             ///< absent: as area_of() chooses
+  double dry_below = 0;                                ///< a film no thicker is no film [m]
 
   /// Returns the area that friction is computed with. Default: counted pixels with a saturation
   /// pressure, as Costagliola et al. 2021 count, since the corrected area is bounded by P / p_sat
@@ -109,6 +121,7 @@ struct CaseSettings {
   std::vector<double> forces = {};          ///< on the whole surface, in place of pressures [N]
   ContactSettings contact = {};
   FilmSettings film = {};
+  TrappedSettings trapped = {};
   FluidSettings fluid = {};
   FrictionSettings friction = {};
 };
@@ -142,6 +155,9 @@ std::optional<Objection> objection(const ContactSettings& settings,
 std::optional<Objection> objection(const FilmSettings& settings);
 std::optional<Objection> objection(const FluidSettings& settings, const ContactSettings& contact,
                                    const Spelling& spelling);
+/// Returns an objection to the settings of trapped oil, or to others that exclude it.
+std::optional<Objection> objection_to_trapped(const CaseSettings& settings,
+                                              const Spelling& spelling);
 /// `material` names the solid of the library that the settings were taken from, if any; the
 /// objection names it where it has no shear strength.
 std::optional<Objection> objection(const FrictionSettings& settings, const Spelling& spelling,

@@ -65,6 +65,21 @@ void film_state(const topography::Topography& surface, const FilmSettings& setti
 std::vector<FilmRecord> film_state(const topography::Topography& surface,
                                    const FilmSettings& settings, const Observer& observer = {});
 
+/// Returns the height that a contact was solved on: the surface and, where there is one, the tool.
+Field pressed_height(const topography::Topography& surface, const ContactRecord& contact);
+
+/// Computes a film [m] whose closed pockets carry load in a contact of this height [m]; `dry`: its
+/// state without oil.
+TrappedRecord trapped_state(elastic::ElasticOperator& elasticity, const Field& height,
+                            const contact::State& dry, const Field& film,
+                            const CaseSettings& settings, const Observer& observer = {});
+
+/// Computes the same from records, which must be of this surface.
+TrappedRecord trapped_state(elastic::ElasticOperator& elasticity,
+                            const topography::Topography& surface, const ContactRecord& dry,
+                            const FilmRecord& film, const CaseSettings& settings,
+                            const Observer& observer = {});
+
 /// Computes the flow of a film [m] between the surfaces of `dry`, a contact of this height [m]
 /// under this mean pressure [Pa].
 FluidRecord fluid_state(elastic::ElasticOperator& elasticity, const Field& height,
@@ -85,10 +100,8 @@ struct Closed {
   const Grid& grid;
 };
 
-/// Computes the friction of a contact with a film and, where it flows, with its flow (else null),
-/// all on one surface.
-FrictionRecord friction_state(const ContactRecord& contact, const Closed& closed,
-                              const FilmRecord& film, const FluidRecord* fluid,
+/// Computes the friction of a contact with the oil in it, all on one surface.
+FrictionRecord friction_state(const ContactRecord& contact, const Closed& closed, const Oil& oil,
                               const ContactSettings& contact_settings,
                               const FrictionSettings& settings);
 
@@ -109,6 +122,7 @@ friction::Estimate dry_friction(const ContactRecord& contact, double lubricated_
 /// Returns what to cite, as keys of references.bib.
 std::vector<std::string> references_of(const ContactSettings& settings);
 std::vector<std::string> references_of(const FilmSettings& settings);
+std::vector<std::string> references_of(const TrappedSettings& settings);
 std::vector<std::string> references_of(const FluidSettings& settings);
 std::vector<std::string> references_of(const FrictionSettings& settings);
 std::vector<std::string> references_of(const CaseSettings& settings);

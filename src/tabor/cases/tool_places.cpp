@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "tabor/cases/states.hpp"
 #include "tabor/core/error.hpp"
@@ -21,11 +22,45 @@ constexpr std::array kAveraged{&FrictionRecord::contact_area_fraction,
                                &FrictionRecord::friction_dry,
                                &FrictionRecord::friction_lubricated};
 
-Mean mean_over(const std::vector<FrictionRecord>& records, double FrictionRecord::*value) {
+constexpr std::array kAveragedOfTrapped{
+    &TrappedFriction::load_share,       &TrappedFriction::max_pressure,
+    &TrappedFriction::leaked_fraction,  &TrappedFriction::contact_area_fraction,
+    &TrappedFriction::lubricated_share, &TrappedFriction::mean_gap,
+    &TrappedFriction::friction_solid,   &TrappedFriction::friction_boundary};
+
+constexpr std::array kCountsOfTrapped{&TrappedFriction::n_pockets, &TrappedFriction::n_squeezed,
+                                      &TrappedFriction::n_at_seal};
+
+template <typename Value>
+Mean mean_of_each(const std::vector<FrictionRecord>& records, const Value& value) {
   std::vector<double> values;
   values.reserve(records.size());
-  for (const FrictionRecord& one : records) values.push_back(one.*value);
+  for (const FrictionRecord& one : records) values.push_back(static_cast<double>(value(one)));
   return mean_of(values);
+}
+
+Mean mean_over(const std::vector<FrictionRecord>& records, double FrictionRecord::*value) {
+  return mean_of_each(records, [value](const FrictionRecord& one) { return one.*value; });
+}
+
+/// Counts are rounded.
+TrappedFriction mean_of_trapped(const std::vector<FrictionRecord>& records) {
+  TrappedFriction mean = *records.front().trapped;
+  for (const auto member : kAveragedOfTrapped) {
+    mean.*member =
+        mean_of_each(records, [=](const FrictionRecord& one) { return (*one.trapped).*member; })
+            .mean;
+  }
+  for (const auto member : kCountsOfTrapped) {
+    mean.*member = std::llround(
+        mean_of_each(records, [=](const FrictionRecord& one) { return (*one.trapped).*member; })
+            .mean);
+  }
+  for (const FrictionRecord& one : records) {
+    mean.certificate = std::max(mean.certificate, one.trapped->certificate);
+    mean.converged = mean.converged && one.trapped->converged;
+  }
+  return mean;
 }
 
 double deviation_over(const std::vector<FrictionRecord>& records, double FrictionRecord::*value) {
@@ -49,6 +84,7 @@ FrictionRecord mean_over_places(const std::vector<FrictionRecord>& records) {
   if (records.size() == 1) return mean;
   for (const auto member : kAveraged) mean.*member = mean_over(records, member).mean;
   for (const FrictionRecord& one : records) add_quality(one, mean);
+  if (mean.trapped) mean.trapped = mean_of_trapped(records);
   mean.tool = ToolFriction{
       .n_places = records.size(),
       .spread = ToolSpread{deviation_over(records, &FrictionRecord::friction_area_fraction),

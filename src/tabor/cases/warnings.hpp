@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "tabor/cases/records.hpp"
 #include "tabor/cases/settings.hpp"
 #include "tabor/cases/warning.hpp"
 #include "tabor/contact/contact.hpp"
@@ -50,6 +51,9 @@ Warnings of_film_in_gap(double mean_film, double mean_gap);
 
 /// Warns of a wet share that pixels twice as large [m] change by more than a fifth.
 Warnings of_pixel(double coarse_pixel, double coarse_share, double pixel, double share);
+
+/// Warns of trapped oil: not converged, and what leaks out of pockets.
+Warnings of_trapped(const TrappedRecord& trapped);
 
 /// Warns of the friction of solids and oil together.
 Warnings of_mixed_friction(const friction::MixedEstimate& mixed);

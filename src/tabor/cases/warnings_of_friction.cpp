@@ -131,6 +131,33 @@ Warnings of_pixel(double coarse_pixel, double coarse_share, double pixel, double
            change}};
 }
 
+Warnings of_trapped(const TrappedRecord& trapped) {
+  Warnings list;
+  const Convergence& convergence = trapped.convergence;
+  if (convergence.failed()) {
+    list.push_back({"trapped-oil",
+                    fmt::format("trapped oil NOT CONVERGED ({}), certificate {:.1e} instead of "
+                                "{:.0e}",
+                                name_of(convergence.status), convergence.certificate,
+                                convergence.tolerance),
+                    convergence.certificate});
+  } else if (!trapped.liquid.seals_settled) {
+    list.push_back({"trapped-oil",
+                    fmt::format("the seals of pockets still weaken after {} solutions: their oil "
+                                "carries less than is said",
+                                trapped.liquid.seal_rounds),
+                    trapped.liquid.load_share});
+  }
+  if (const double leaked = trapped.liquid.leaked_fraction; leaked > kSpillOver) {
+    list.push_back({"leaked",
+                    fmt::format("{} of the oil in pockets leaks out through their seals; where it "
+                                "goes is not followed",
+                                percent(leaked)),
+                    leaked});
+  }
+  return list;
+}
+
 Warnings of_mixed_friction(const friction::MixedEstimate& mixed) {
   Warnings list;
   warn_of_size("mixed", mixed.friction_mixed, list);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <initializer_list>
 #include <string_view>
 
@@ -67,6 +68,11 @@ void declare_film(OptionSet& set, cases::FilmSettings& settings) {
   declare_all(set, cases::film_parameters(), settings, {"seed"});  // all verbs have --seed
 }
 
+void declare_trapped(OptionSet& set, cases::CaseSettings& settings) {
+  declare_all(set, cases::trapped_parameters(), settings.trapped);
+  declare(set, parameter_of(cases::friction_parameters(), "dry_below"), settings.friction);
+}
+
 void declare_fluid(OptionSet& set, cases::FluidSettings& settings) {
   set.group("Fluid film");
   declare_all(set, cases::fluid_parameters(), settings);
@@ -74,7 +80,7 @@ void declare_fluid(OptionSet& set, cases::FluidSettings& settings) {
 
 void declare_friction(OptionSet& set, cases::FrictionSettings& settings) {
   set.group("Friction");
-  declare_all(set, cases::friction_parameters(), settings);
+  declare_all(set, cases::friction_parameters(), settings, {"dry_below"});  // among those of oil
 }
 
 void declare_fields(OptionSet& set, FieldsRequest& request) {
@@ -152,6 +158,13 @@ void describe(const cases::FilmSettings& settings, Facts& facts) {
   facts.fact("lubricant",
              fmt::format("{}, {} edge, oil {} kg/m^3", text, deposition::kEdges.of(settings.edge),
                          plain(settings.oil_density)));
+}
+
+void describe(const cases::TrappedSettings& settings, Facts& facts) {
+  if (!settings.is_asked()) return;
+  facts.fact("trapped oil", std::isinf(settings.bulk_modulus)
+                                ? "incompressible"
+                                : "bulk modulus " + si(settings.bulk_modulus, "Pa"));
 }
 
 void describe(const cases::FluidSettings& settings, Facts& facts) {

@@ -28,6 +28,7 @@ enum class Controls {
 void declare_contact(OptionSet& set, cases::CaseSettings& settings,
                      Controls controls = Controls::pressures);
 void declare_film(OptionSet& set, cases::FilmSettings& settings);
+void declare_trapped(OptionSet& set, cases::CaseSettings& settings);
 void declare_fluid(OptionSet& set, cases::FluidSettings& settings);
 void declare_friction(OptionSet& set, cases::FrictionSettings& settings);
 
@@ -62,6 +63,7 @@ void take_edges(const ScanRequest& scan, cases::ContactSettings& settings);
 void describe(const cases::ContactSettings& settings, Facts& facts);
 void describe(const cases::ToolSettings& settings, Facts& facts);
 void describe(const cases::FilmSettings& settings, Facts& facts);
+void describe(const cases::TrappedSettings& settings, Facts& facts);
 void describe(const cases::FluidSettings& settings, Facts& facts);
 
 /// Runs `make_states`; after Ctrl-C the finished states remain. Returns the exit code: done or

@@ -30,6 +30,7 @@ struct Request {
 void check_all(const cases::CaseSettings& settings) {
   check_contact(settings);
   check(cases::objection(settings.film));
+  check(cases::objection_to_trapped(settings, flag_of));
   check(cases::objection(settings.fluid, settings.contact, flag_of));
   check(cases::objection(settings.friction, flag_of, settings.contact.material));
 }
@@ -58,7 +59,7 @@ Solved solve_all(const Request& request, const topography::Topography& surface,
   const auto receive = [&](const study::FrictionState& state) {
     solved.records.push_back(state.friction);
     if (file == nullptr) return;
-    file->add(solved.records.size() - 1, state.friction, state.contact, state.film, state.fluid);
+    file->add(solved.records.size() - 1, state.friction, state.contact, state.oil);
   };
   engine::RunOptions options;
   options.observer = context.observer();
@@ -180,6 +181,7 @@ std::string text_of(const Scan& scan, const Request& request, const Solved& solv
   describe(scan, facts);
   describe(settings.contact, facts);
   describe(settings.film, facts);
+  describe(settings.trapped, facts);
   describe(settings.fluid, facts);
   const double boundary = settings.friction.boundary_strength();
   facts.fact(
@@ -250,6 +252,7 @@ Verb friction_verb() {
           "'--density 0g/m^2' asks for dry friction alone. One sentence per pressure says from "
           "which density the pockets under the contacts are full and above which the oil level "
           "reaches the contacts. With --tool a rough tool presses in place of the flat. With "
+          "--trapped oil in closed pockets of the gap is squeezed and carries part of the load. With "
           "--fluid reynolds the deposited oil flows while the flat "
           "slides: it carries "
           "part of the load and adds viscous shear.",
@@ -263,6 +266,9 @@ Verb friction_verb() {
            "tabor friction surfaces/edt_before.x3p --level plane --pressure 2MPa,15MPa "
            "--material aluminium-6016 --density 0.9g/m^2 --tool ground:Sa=0.1um,length=1mm "
            "--tool-places 3",
+           "tabor friction surfaces/edt_before.x3p --level plane --pressure 2MPa,15MPa "
+           "--material aluminium-6016 --density 0.9g/m^2 --trapped "
+           "--boundary-shear-strength 5MPa",
            "tabor friction surfaces/edt_before.x3p --level plane --crop 96,96,128,128 --mirror "
            "--pressure 2MPa --youngs-modulus 70GPa --poisson-ratio 0.33 "
            "--saturation-pressure 240MPa --density 0.9g/m^2 --shear-strength 70MPa "
@@ -273,6 +279,7 @@ Verb friction_verb() {
         cases::CaseSettings& settings = request->settings;
         declare_contact(set, settings);
         declare_film(set, settings.film);
+        declare_trapped(set, settings);
         declare_fluid(set, settings.fluid);
         declare_friction(set, settings.friction);
         set.toggle("--resolution-scan",

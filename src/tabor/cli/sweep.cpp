@@ -107,9 +107,11 @@ std::string outcome_text(const Request& request, const study::Outcome& outcome) 
   facts.fact("results", request.folder().string());
   facts.fact("cases", fmt::format("{} of {} done, {} failed, {} not converged", outcome.n_done,
                                   outcome.n_cases, outcome.n_failed, outcome.n_not_converged));
-  facts.fact("computed now", fmt::format("{} surfaces, {} contacts, {} films, {} flowing, {} cases",
-                                         outcome.n_surfaces, outcome.n_contacts, outcome.n_films,
-                                         outcome.n_fluids, outcome.n_rows));
+  facts.fact("computed now",
+             fmt::format("{} surfaces, {} contacts, {} films, {}{} flowing, {} cases",
+                         outcome.n_surfaces, outcome.n_contacts, outcome.n_films,
+                         outcome.n_trapped > 0 ? fmt::format("{} trapped, ", outcome.n_trapped) : "",
+                         outcome.n_fluids, outcome.n_rows));
   return facts.text();
 }
 
@@ -128,6 +130,7 @@ io::Json outcome_json(const Context& context, const Request& request,
                  {"n_computed_surfaces", outcome.n_surfaces},
                  {"n_computed_contacts", outcome.n_contacts},
                  {"n_computed_films", outcome.n_films},
+                 {"n_computed_trapped", outcome.n_trapped},
                  {"n_computed_fluids", outcome.n_fluids},
                  {"n_computed_cases", outcome.n_rows},
                  {"failures", outcome.failures}});

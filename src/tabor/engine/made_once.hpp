@@ -29,6 +29,12 @@ class MadeOnce {
     return value_;
   }
 
+  /// Lets go of the value; whoever asks later makes it again.
+  void drop() {
+    const std::lock_guard lock(mutex_);
+    value_.reset();
+  }
+
  private:
   std::mutex mutex_;
   std::shared_ptr<const Value> value_;

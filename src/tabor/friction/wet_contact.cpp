@@ -27,14 +27,14 @@ void check_sum(double total, const char* what) {
 
 }  // namespace
 
-double lubricated_share(const Mask& contact, const Field& film) {
+double lubricated_share(const Mask& contact, const Field& film, double dry_below) {
   check_shapes(contact, film);
   check_sum(sum(film), "film");
   const bool* touches = contact.data();
   const double* thickness = film.data();
   const Index n_contact = count_where(film.size(), [=](Index i) { return touches[i]; });
   const Index n_wet =
-      count_where(film.size(), [=](Index i) { return touches[i] && thickness[i] > 0; });
+      count_where(film.size(), [=](Index i) { return touches[i] && thickness[i] > dry_below; });
   return n_contact > 0 ? static_cast<double>(n_wet) / static_cast<double>(n_contact) : 0;
 }
 

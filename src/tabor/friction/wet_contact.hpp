@@ -7,9 +7,10 @@
 namespace tabor::friction {
 
 /// Returns wet contact pixels / contact pixels, the wet share of the real contact. `contact` is
-/// true where the solids touch, `film` the liquid's thickness [m] before they do, same shape. 0 if
-/// nothing touches. Throws InputError for different shapes or NaN.
-double lubricated_share(const Mask& contact, const Field& film);
+/// true where the solids touch, `film` the liquid's thickness [m] before they do, same shape; a film
+/// no thicker than `dry_below` [m] does not wet. 0 if nothing touches. Throws InputError for
+/// different shapes or NaN.
+double lubricated_share(const Mask& contact, const Field& film, double dry_below = 0);
 
 /// Returns the share of the liquid that no longer fits when the surfaces close on each other: sum
 /// of max(film - gap, 0) over the sum of film (Costagliola et al. 2021, section 4.3). A negative

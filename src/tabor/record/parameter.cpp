@@ -57,6 +57,7 @@ bool takes_prefix(const std::string& unit) {
 
 bool Bounds::contain(double value) const {
   if (text.empty()) return true;
+  if (std::isinf(value) && value > 0 && infinity_is_in) return true;
   if (!std::isfinite(value) || value > most) return false;
   return least_is_out ? value > least : value >= least;
 }

@@ -26,9 +26,10 @@ struct Bounds {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
   bool least_is_out = false;  ///< the number lies above `least`
+  bool infinity_is_in = false;
   std::string text = {};      ///< "more than zero"; empty: every number is in
 
-  /// True where a number lies there; NaN and infinity never do.
+  /// True where a number lies there; NaN never does, infinity where it is said.
   bool contain(double value) const;
 };
 namespace bounds {
@@ -71,7 +72,8 @@ struct ParameterHead {
   std::string placeholder = {};         ///< "PS", of the option; a choice shows its words
   std::string argument = {};            ///< of Python; "": the name
   std::string absent = {};              ///< what holds where it is not given: "rigid"
-  std::string none = {};                ///< the word for no value: "auto"
+  std::string none = {};                ///< the word for no value: "auto"; of a number without a
+                                        ///< bound, for infinity: "inf"
   bool is_of_material = false;          ///< a named material gives it
   ValueKind kind = ValueKind::number;   ///< says the constructor
   Needed needed = Needed::no;
@@ -132,7 +134,8 @@ std::string checked_choice(const std::string& what, std::string word,
 namespace detail {
 
 inline void read(double& target, const Given& given, const ParameterHead& head) {
-  target = given.number(head.dimension);
+  const bool is_infinite = !head.none.empty() && given.is_word(head.none);
+  target = is_infinite ? std::numeric_limits<double>::infinity() : given.number(head.dimension);
 }
 inline void read(std::optional<double>& target, const Given& given, const ParameterHead& head) {
   target.reset();

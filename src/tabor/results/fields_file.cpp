@@ -87,6 +87,9 @@ io::Json settings_json(const cases::FluidSettings& settings) {
 io::Json settings_json(const cases::CaseSettings& settings) {
   io::Json all = settings_json(settings.contact);
   all.update(settings_json(settings.film));
+  if (settings.trapped.is_asked()) {
+    all.update(io::json_of(columns_of(cases::trapped_parameters()), settings.trapped));
+  }
   all.update(settings_json(settings.fluid));
   all.update(io::json_of(columns_of(cases::friction_parameters()), settings.friction));
   all["area"] = friction::kAreas.of(settings.friction.area_of(settings.contact));

@@ -76,11 +76,11 @@ struct ScanOrigin {
 /// Returns the maps of a record.
 std::vector<StateField> fields_of(const cases::ContactRecord& record);
 std::vector<StateField> fields_of(const cases::FilmRecord& record);
+std::vector<StateField> fields_of(const cases::TrappedRecord& record);
 std::vector<StateField> fields_of(const cases::FluidRecord& record);
-/// Returns the maps of a friction; `fluid` is null where the oil does not flow. A contact is the
-/// same under all films, and a film on all contacts.
-std::vector<StateField> fields_of(const cases::ContactRecord& contact,
-                                  const cases::FilmRecord& film, const cases::FluidRecord* fluid);
+/// Returns the maps of a friction. A contact is the same under all films, and a film on all
+/// contacts.
+std::vector<StateField> fields_of(const cases::ContactRecord& contact, const cases::Oil& oil);
 
 /// Returns a density as text: "0.9 g/m^2".
 std::string density_text(double density);
@@ -125,8 +125,7 @@ class FieldsFile {
   void add(std::size_t number, const cases::ContactRecord& record);
   void add(std::size_t number, const cases::FilmRecord& record);
   void add(std::size_t number, const cases::FrictionRecord& record,
-           const cases::ContactRecord& contact, const cases::FilmRecord& film,
-           const cases::FluidRecord* fluid);
+           const cases::ContactRecord& contact, const cases::Oil& oil);
 
   /// Adds /states/NNNN: scalars as attributes, the first field as what viewers plot.
   void add_state(std::size_t number, const NamedCells& scalars,

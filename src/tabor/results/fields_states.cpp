@@ -44,6 +44,13 @@ std::vector<StateField> fields_of(const cases::FilmRecord& record) {
   return {{"film_thickness", "m", "thickness of the lubricant film", record.film.thickness}};
 }
 
+std::vector<StateField> fields_of(const cases::TrappedRecord& record) {
+  return {{"liquid_pressure", "Pa", "pressure of the trapped oil", record.state.liquid_pressure},
+          {"trapped_pressure", "Pa", "pressure of solids and trapped oil",
+           record.state.contact.pressure},
+          {"trapped_gap", "m", "gap over the trapped oil", record.state.contact.gap}};
+}
+
 std::vector<StateField> fields_of(const cases::FluidRecord& record) {
   return {
       {"fluid_pressure", "Pa", "pressure of the oil", record.state.film.pressure},
@@ -53,18 +60,21 @@ std::vector<StateField> fields_of(const cases::FluidRecord& record) {
        record.state.contact.pressure}};
 }
 
-std::vector<StateField> fields_of(const cases::ContactRecord& contact,
-                                  const cases::FilmRecord& film, const cases::FluidRecord* fluid) {
+std::vector<StateField> fields_of(const cases::ContactRecord& contact, const cases::Oil& oil) {
   std::vector<StateField> fields = fields_of(contact);
   for (StateField& field : fields) {
     if (field.owner.empty()) field.owner = owner_of(contact);
   }
-  for (StateField& field : fields_of(film)) {
-    field.owner = fmt::format("{}", film.lubricant_density);
+  for (StateField& field : fields_of(oil.film)) {
+    field.owner = fmt::format("{}", oil.film.lubricant_density);
     fields.push_back(field);
   }
-  if (fluid == nullptr) return fields;
-  for (const StateField& field : fields_of(*fluid)) fields.push_back(field);
+  const auto add = [&fields](const auto* record) {
+    if (record == nullptr) return;
+    for (const StateField& field : fields_of(*record)) fields.push_back(field);
+  };
+  add(oil.trapped);
+  add(oil.fluid);
   return fields;
 }
 
@@ -111,10 +121,9 @@ void FieldsFile::add(std::size_t number, const cases::FilmRecord& record) {
 }
 
 void FieldsFile::add(std::size_t number, const cases::FrictionRecord& record,
-                     const cases::ContactRecord& contact, const cases::FilmRecord& film,
-                     const cases::FluidRecord* fluid) {
+                     const cases::ContactRecord& contact, const cases::Oil& oil) {
   add_state(number, cells_of(cases::friction_columns(), record, cases::media::kObject),
-            fields_of(contact, film, fluid));
+            fields_of(contact, oil));
   write_contact(number, contact.state, owner_of(contact));
 }
 

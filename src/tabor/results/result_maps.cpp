@@ -229,7 +229,7 @@ ResultMaps maps_on(const Hdf5Reader& reader, const fs::path& file, const std::st
 
 void add_state(const Hdf5Reader& reader, const StateGroups& groups, ResultMaps& result) {
   result.states.push_back({label_of(reader, groups), {}});
-  for (const std::string& group : {groups.contact, groups.film, groups.fluid}) {
+  for (const std::string& group : {groups.contact, groups.film, groups.trapped, groups.fluid}) {
     add_stored(reader, group, result);
   }
   add_contact(reader, groups.contact, result);
@@ -247,6 +247,7 @@ ResultMaps read_result_maps(const Hdf5Reader& reader, const fs::path& file) {
     add_state(reader,
               {.contact = "/states/" + name,
                .film = {},
+               .trapped = {},
                .fluid = {},
                .keeps_height = is_first || !has_path},
               result);

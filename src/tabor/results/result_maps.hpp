@@ -31,6 +31,7 @@ struct ResultMaps {
 struct StateGroups {
   std::string contact;       ///< pressure or state, and gap
   std::string film;          ///< film_thickness
+  std::string trapped;       ///< liquid_pressure, ...
   std::string fluid;         ///< fluid_pressure, ...
   bool keeps_height = true;  ///< the surface is not one that earlier states have left
 };

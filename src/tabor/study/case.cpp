@@ -19,23 +19,43 @@ engine::Task task_of(std::string_view kind, std::string_view extension, const st
                            fmt::format("tabor {} {}\n{}", kind, kAlgorithms, body));
 }
 
+/// The oil that is trapped in one contact, under each condition.
+std::vector<engine::Task> trapped_tasks(const Study& study, const engine::Task& contact,
+                                        const engine::Task& film) {
+  std::vector<engine::Task> tasks;
+  for (const Condition& condition : study.conditions()) {
+    tasks.push_back(trapped_task(study, contact, film, study.lubricant_density(condition)));
+  }
+  return tasks;
+}
+
 /// The contact under one pressure, and what is computed from it.
 void add_pressure(const Study& study, const Scan& scan, double pressure, ScanTasks& tasks) {
   std::vector<engine::Task> contacts;
   for (std::size_t i = 0; i < study.settings.contact.tool.n_places(); ++i) {
     contacts.push_back(contact_task(study, tasks.surface, pressure, i));
   }
+  std::vector<std::vector<engine::Task>> trapped;
+  if (study.settings.trapped.is_asked()) {
+    for (const engine::Task& contact : contacts) {
+      trapped.push_back(trapped_tasks(study, contact, tasks.film));
+    }
+  }
   const std::vector<Condition> conditions = study.conditions();
   std::vector<engine::Task> cases;
   std::vector<engine::Task> fluids;
   cases.reserve(conditions.size());
   fluids.reserve(conditions.size());
-  for (const Condition& condition : conditions) {
+  for (std::size_t i = 0; i < conditions.size(); ++i) {
+    const Condition& condition = conditions[i];
+    std::vector<engine::Task> oil;
+    for (const std::vector<engine::Task>& at_place : trapped) oil.push_back(at_place[i]);
     if (study.flows()) fluids.push_back(fluid_task(study, contacts.front(), tasks.film, condition));
     cases.push_back(case_task(study, scan, contacts, tasks.film, study.lubricant_density(condition),
-                              study.flows() ? &fluids.back() : nullptr));
+                              oil, study.flows() ? &fluids.back() : nullptr));
   }
   tasks.contacts.insert(tasks.contacts.end(), contacts.begin(), contacts.end());
+  tasks.trapped.insert(tasks.trapped.end(), trapped.begin(), trapped.end());
   if (cases::has_density_curve(study.settings)) {
     tasks.wet_shares.push_back(wet_shares_task(study, contacts.front()));
   }
@@ -126,6 +146,17 @@ engine::Task wet_shares_task(const Study& study, const engine::Task& contact) {
   return task_of(kWetSharesKind, "json", body);
 }
 
+engine::Task trapped_task(const Study& study, const engine::Task& contact, const engine::Task& film,
+                          double lubricant_density) {
+  const std::string body =
+      engine::text_line("trapped_algorithms", kTrappedAlgorithms) +
+      engine::text_line("contact", contact.key) + engine::text_line("film", film.key) +
+      engine::text_line("lubricant_density_kg_per_m2", lubricant_density) +
+      text_of(cases::trapped_parameters(), study.settings.trapped) +
+      text_of(cases::friction_parameters(), study.settings.friction, {"dry_below"});
+  return task_of("trapped", "h5", body);
+}
+
 engine::Task fluid_task(const Study& study, const engine::Task& contact, const engine::Task& film,
                         const Condition& condition) {
   const std::string body =
@@ -138,7 +169,12 @@ engine::Task fluid_task(const Study& study, const engine::Task& contact, const e
 
 engine::Task case_task(const Study& study, const Scan& scan,
                        const std::vector<engine::Task>& contacts, const engine::Task& film,
-                       double lubricant_density, const engine::Task* fluid) {
+                       double lubricant_density, const std::vector<engine::Task>& trapped,
+                       const engine::Task* fluid) {
+  std::string trapped_lines;
+  for (const engine::Task& oil : trapped) {
+    trapped_lines += engine::text_line("trapped", oil.key);
+  }
   std::string contact_lines;
   for (const engine::Task& contact : contacts) {
     contact_lines += engine::text_line("contact", contact.key);
@@ -151,7 +187,7 @@ engine::Task case_task(const Study& study, const Scan& scan,
           text_of(cases::friction_parameters(), study.settings.friction) +
           engine::text_line(
               "area", friction::name(study.settings.friction.area_of(study.settings.contact))) +
-          (fluid != nullptr ? engine::text_line("fluid", fluid->key) : ""));
+          trapped_lines + (fluid != nullptr ? engine::text_line("fluid", fluid->key) : ""));
 }
 
 std::vector<ScanTasks> tasks_of(const Study& study, const Observer& observer) {

@@ -14,6 +14,7 @@ namespace tabor::study {
 /// than before.
 inline constexpr int kAlgorithms = 5;
 inline constexpr int kFluidAlgorithms = 1;      ///< the same for films that flow alone
+inline constexpr int kTrappedAlgorithms = 1;    ///< the same for trapped oil alone
 inline constexpr int kWetSharesAlgorithms = 2;  ///< the same for wet shares over the density alone
 
 /// Makes the task of the treated scan; `scan_sha256` is of the scan file's bytes.
@@ -26,16 +27,21 @@ engine::Task contact_task(const Study& study, const engine::Task& surface, doubl
 /// Makes the task of the films of all densities on one surface.
 engine::Task film_task(const Study& study, const engine::Task& surface);
 
+/// Makes the task of the oil in one contact whose closed pockets carry load.
+engine::Task trapped_task(const Study& study, const engine::Task& contact, const engine::Task& film,
+                          double lubricant_density);
+
 /// Makes the task of the film that flows between one contact's surfaces, under one condition.
 engine::Task fluid_task(const Study& study, const engine::Task& contact, const engine::Task& film,
                         const Condition& condition);
 
 /// Makes the task of one row of the results. Names of scan and group belong to it: they are
-/// columns. `contacts`: one for each place of the tool; `fluid` is null where the oil does not
-/// flow.
+/// columns. `contacts`: one for each place of the tool, with the trapped oil of each where that
+/// carries load; `fluid` is null where the oil does not flow.
 engine::Task case_task(const Study& study, const Scan& scan,
                        const std::vector<engine::Task>& contacts, const engine::Task& film,
-                       double lubricant_density, const engine::Task* fluid = nullptr);
+                       double lubricant_density, const std::vector<engine::Task>& trapped = {},
+                       const engine::Task* fluid = nullptr);
 
 /// Kind of the tasks of wet shares: the share of one contact that each of many densities wets,
 /// those of the study among them.
@@ -50,6 +56,8 @@ struct ScanTasks {
   std::vector<engine::Task> contacts;    ///< pressure by pressure, one per place of the tool
   std::vector<engine::Task> wet_shares;  ///< the same; empty where there are none
   std::vector<std::vector<engine::Task>> cases;  ///< [pressure][condition]
+  /// [contact][condition]; empty where trapped oil carries nothing
+  std::vector<std::vector<engine::Task>> trapped;
   std::vector<std::vector<engine::Task>>
       fluids;  ///< the same; empty lists where the oil does not flow
 };

@@ -15,6 +15,7 @@ namespace {
 /// little.
 constexpr std::size_t kBytesPerPixel = 80;
 constexpr std::size_t kBytesPerFlowingPixel = 500;
+constexpr std::size_t kBytesPerPixelOfTrapped = 60;
 /// The tool, its heights over the surface, and the sum of both.
 constexpr std::size_t kBytesPerPixelOfTool = 3 * sizeof(double);
 
@@ -56,6 +57,7 @@ class Operators {
 std::size_t bytes_of_job(const Grid& grid, const cases::CaseSettings& settings) {
   const std::size_t bytes_per_pixel =
       (settings.fluid.flows() ? kBytesPerFlowingPixel : kBytesPerPixel) +
+      (settings.trapped.is_asked() ? kBytesPerPixelOfTrapped : 0) +
       (settings.contact.tool.is_rough() ? kBytesPerPixelOfTool : 0);
   return static_cast<std::size_t>(grid.nx * grid.ny) * bytes_per_pixel;
 }
@@ -126,15 +128,37 @@ struct FrictionGraph::Shared {
                  WetShares{doses.lubricant_densities, cases::lubricated_shares(doses, *touching)});
   }
 
+  /// A contact with all its maps, for the oil in it.
+  std::shared_ptr<const contact::State> dry_contact(const FrictionPlace& place,
+                                                    const topography::Topography& surface,
+                                                    elastic::ElasticOperator& elasticity,
+                                                    cases::Pressing& pressing,
+                                                    const Observer& observer) {
+    return store->dry_contact(place.contact, [&] {
+      return cases::contact_state(elasticity, surface, settings().contact, control(place),
+                                  pressing, observer)
+          .state;
+    });
+  }
+
+  void solve_trapped(const FrictionPlace& place, const engine::Monitor& monitor) {
+    const auto surface = store->surface(monitor);
+    const auto elasticity = operator_on(surface->grid);
+    cases::Pressing pressing;
+    if (settings().contact.tool.is_rough()) pressing = pressing_at(*surface, place.contact);
+    const auto dry = dry_contact(place, *surface, *elasticity, pressing, monitor.own);
+    const Field& height = pressing.height.size() > 0 ? pressing.height : surface->height;
+    store->store(place, surface,
+                 cases::trapped_state(*elasticity, height, *dry,
+                                      *store->film(store->conditions()[place.condition].density),
+                                      settings(), monitor.own));
+  }
+
   void solve_flow(const FrictionPlace& place, const engine::Monitor& monitor) {
     const auto surface = store->surface(monitor);
     const auto elasticity = operator_on(surface->grid);
-    const auto solve_dry = [&] {
-      return cases::contact_state(*elasticity, *surface, settings().contact, control(place),
-                                  monitor.own)
-          .state;
-    };
-    const auto dry = store->dry_contact(place.contact, solve_dry);
+    cases::Pressing flat;
+    const auto dry = dry_contact(place, *surface, *elasticity, flat, monitor.own);
     const FilmCondition& condition = store->conditions()[place.condition];
     store->store(place, surface,
                  cases::fluid_state(*elasticity, surface->height, *dry, mean_pressure(place),
@@ -148,8 +172,8 @@ struct FrictionGraph::Shared {
     for (std::size_t i = 0; i < store->n_places(); ++i, ++one.contact) {
       const FrictionInputs in = store->inputs(one);
       at_places.push_back(cases::friction_state(*in.contact, {*in.touching, *in.gap, in.grid},
-                                                *in.film, in.fluid.get(), settings().contact,
-                                                settings().friction));
+                                                {*in.film, in.trapped.get(), in.fluid.get()},
+                                                settings().contact, settings().friction));
     }
     store->store(place, cases::mean_over_places(at_places));
   }
@@ -222,11 +246,12 @@ std::size_t FrictionGraph::add_wet_shares(std::size_t pressure) {
              {contacts_[pressure], doses_});
 }
 
-std::size_t FrictionGraph::add_flow(const FrictionPlace& place) {
-  engine::Job job = job_of(place, [shared = shared_, place](const engine::Monitor& monitor) {
-    shared->solve_flow(place, monitor);
+std::size_t FrictionGraph::add_oil(const FrictionPlace& place) {
+  const bool flows = place.kind == FrictionJob::fluid;
+  engine::Job job = job_of(place, [shared = shared_, place, flows](const engine::Monitor& monitor) {
+    flows ? shared->solve_flow(place, monitor) : shared->solve_trapped(place, monitor);
   });
-  job.restarts = true;  // with a contact within each step of the film
+  job.restarts = flows;  // with a contact within each step of the film
   return add(std::move(job), {contacts_[place.contact], film_});
 }
 
@@ -236,8 +261,12 @@ std::vector<std::size_t> FrictionGraph::add_frictions(std::size_t pressure) {
   const std::size_t first = pressure * n_places;
   for (std::size_t i = 0; i < shared_->store->conditions().size(); ++i) {
     std::vector<std::size_t> needs = {film_};
-    for (std::size_t k = 0; k < n_places; ++k) needs.push_back(contacts_[first + k]);
-    if (shared_->store->flows()) needs.push_back(add_flow({FrictionJob::fluid, first, i}));
+    for (std::size_t k = 0; k < n_places; ++k) {
+      needs.push_back(contacts_[first + k]);
+      if (!shared_->store->is_trapped()) continue;
+      needs.push_back(add_oil({FrictionJob::trapped, first + k, i}));
+    }
+    if (shared_->store->flows()) needs.push_back(add_oil({FrictionJob::fluid, first, i}));
     const FrictionPlace place{FrictionJob::friction, first, i};
     places.push_back(add(
         brief_job_of(place, [shared = shared_,

@@ -19,14 +19,15 @@
 namespace tabor::study {
 
 /// Kind of a job of the graph.
-enum class FrictionJob { film, wetting_doses, contact, wet_shares, fluid, friction };
+enum class FrictionJob { film, wetting_doses, contact, wet_shares, trapped, fluid, friction };
 inline constexpr auto kFrictionJobs =
-    names<FrictionJob>("film", "wetting doses", "contact", "wet shares", "fluid", "friction");
+    names<FrictionJob>("film", "wetting doses", "contact", "wet shares", "trapped oil", "fluid",
+                       "friction");
 /// Returns the kind of an engine's job, by which a report counts what was computed.
 inline std::string kind_of(FrictionJob job) { return std::string(kFrictionJobs.of(job)); }
 
 /// One job of the graph: its kind, and its contact and condition where the kind has them. Flows and
-/// frictions stand at the first contact of their pressure.
+/// frictions stand at the first contact of their pressure, trapped oil at each.
 struct FrictionPlace {
   FrictionJob kind = FrictionJob::film;
   std::size_t contact =
@@ -47,7 +48,8 @@ struct FrictionInputs {
   std::shared_ptr<const Field> gap;  ///< [m]
   Grid grid;
   std::shared_ptr<const cases::FilmRecord> film;
-  std::shared_ptr<const cases::FluidRecord> fluid;  ///< null where the oil does not flow
+  std::shared_ptr<const cases::TrappedRecord> trapped;  ///< null where trapped oil carries nothing
+  std::shared_ptr<const cases::FluidRecord> fluid;      ///< null where the oil does not flow
 };
 
 /// Store of the results of one surface. Functions of one instance are called by several threads,
@@ -66,6 +68,7 @@ class FrictionStore {
   const cases::CaseSettings& settings() const { return settings_; }
   const std::vector<FilmCondition>& conditions() const { return conditions_; }
   bool flows() const { return settings_.fluid.flows(); }
+  bool is_trapped() const { return settings_.trapped.is_asked(); }
   /// Returns the number of contacts under each pressure: the places of the tool.
   std::size_t n_places() const { return settings_.contact.tool.n_places(); }
   /// Returns the place of a contact's pressure among the mean pressures.
@@ -80,7 +83,7 @@ class FrictionStore {
 
   virtual Surface surface(const engine::Monitor& monitor) = 0;
   virtual std::shared_ptr<const Mask> touching(std::size_t contact) = 0;
-  /// Returns a contact with all its maps, for the films that flow in it; `solve` makes it again
+  /// Returns a contact with all its maps, for the oil in it; `solve` makes it again
   /// where the store has dropped maps.
   virtual std::shared_ptr<const contact::State> dry_contact(
       std::size_t contact, const std::function<contact::State()>& solve) = 0;
@@ -91,6 +94,8 @@ class FrictionStore {
   virtual void store(const FrictionPlace& place, const Surface& surface,
                      cases::ContactRecord&& contact) = 0;
   virtual void store(const FrictionPlace& place, WetShares&& shares) = 0;
+  virtual void store(const FrictionPlace& place, const Surface& surface,
+                     cases::TrappedRecord&& trapped) = 0;
   virtual void store(const FrictionPlace& place, const Surface& surface,
                      cases::FluidRecord&& fluid) = 0;
   virtual void store(const FrictionPlace& place, cases::FrictionRecord&& friction) = 0;
@@ -117,7 +122,8 @@ class FrictionGraph {
   void add_contact(std::size_t pressure, const std::vector<std::size_t>& needs = {});
   /// Appends the wet shares of the one contact under a pressure and returns their place.
   std::size_t add_wet_shares(std::size_t pressure);
-  /// Appends the flows and frictions of one pressure and returns the places of the frictions.
+  /// Appends trapped and flowing oil and the frictions of one pressure and returns the places of
+  /// the frictions.
   std::vector<std::size_t> add_frictions(std::size_t pressure);
 
  private:
@@ -126,7 +132,7 @@ class FrictionGraph {
                      std::function<void(const engine::Monitor&)> compute) const;
   engine::Job brief_job_of(const FrictionPlace& place,
                            std::function<void(const engine::Monitor&)> compute) const;
-  std::size_t add_flow(const FrictionPlace& place);
+  std::size_t add_oil(const FrictionPlace& place);
 
   std::shared_ptr<Shared> shared_;
   std::vector<engine::Job>& jobs_;

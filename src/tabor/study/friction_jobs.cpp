@@ -1,5 +1,6 @@
 #include "tabor/study/friction_jobs.hpp"
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -92,10 +93,14 @@ class FrictionInFolder : public FrictionStore,
   std::shared_ptr<const Mask> touching(std::size_t contact) override {
     return std::make_shared<const Mask>(read_contact_mask(folder_, tasks_.contacts[contact]));
   }
-  /// The folder holds no displacements: the contact is solved once more for all films in it.
+  /// The folder holds no displacements: the contact is solved once more for all films in it, and
+  /// dropped after the last.
   std::shared_ptr<const contact::State> dry_contact(
       std::size_t contact, const std::function<contact::State()>& solve) override {
-    return dry_contacts_[contact].get(solve);
+    DryContact& dry = dry_contacts_[contact];
+    const auto state = dry.state.get(solve);
+    if (++dry.n_films == conditions().size()) dry.state.drop();
+    return state;
   }
   std::shared_ptr<const Field> film(std::size_t density) override {
     return std::make_shared<const Field>(read_film(folder_, tasks_.film, density));
@@ -114,6 +119,13 @@ class FrictionInFolder : public FrictionStore,
   }
   void store(const FrictionPlace& place, WetShares&& shares) override {
     write_wet_shares(folder_, tasks_.wet_shares[place.contact], shares);
+  }
+  void store(const FrictionPlace& place, const Surface& surface,
+             cases::TrappedRecord&& trapped) override {
+    const Condition under = study_.conditions().at(place.condition);
+    write_trapped(folder_, tasks_.trapped[place.contact][place.condition], surface->grid, trapped,
+                  {{"mean_pressure_Pa", mean_pressure_of(place.contact)},
+                   {"lubricant_density_g_per_m2", in_g_per_m2(study_.lubricant_density(under))}});
   }
   void store(const FrictionPlace& place, const Surface& surface,
              cases::FluidRecord&& fluid) override {
@@ -141,6 +153,8 @@ class FrictionInFolder : public FrictionStore,
         return &tasks_.contacts[place.contact];
       case FrictionJob::wet_shares:
         return &tasks_.wet_shares[place.contact];
+      case FrictionJob::trapped:
+        return &tasks_.trapped[place.contact][place.condition];
       case FrictionJob::fluid:
         return &tasks_.fluids[pressure_of(place.contact)][place.condition];
       case FrictionJob::friction:
@@ -159,6 +173,10 @@ class FrictionInFolder : public FrictionStore,
     if (place.kind == FrictionJob::contact) {
       job.quality = [&folder = folder_, task] {
         return quality_of(contact_converged(folder, task));
+      };
+    } else if (place.kind == FrictionJob::trapped) {
+      job.quality = [&folder = folder_, task] {
+        return quality_of(read_trapped(folder, task).converged());
       };
     } else if (place.kind == FrictionJob::fluid) {
       job.quality = [&folder = folder_, task] {
@@ -195,10 +213,17 @@ class FrictionInFolder : public FrictionStore,
     row.mean_pressure = mean_pressure_of(place.contact);
     if (row.failed()) {
       row.lubricant_density = study_.lubricant_density(under);
+      if (is_trapped()) row.trapped.emplace();
       if (flows()) row.fluid.emplace().sliding_speed = study_.sliding_speeds[under.speed];
     }
     write_row(folder_, task, row);
   }
+
+  /// A contact with all its maps, and how many films have asked for it.
+  struct DryContact {
+    engine::MadeOnce<contact::State> state;
+    std::atomic<std::size_t> n_films = 0;
+  };
 
   const engine::Store& folder_;
   const Study study_;  ///< of this scan alone
@@ -206,8 +231,7 @@ class FrictionInFolder : public FrictionStore,
   const ScanTasks& tasks_;
   std::size_t first_part_;
   engine::MadeOnce<topography::Topography> treated_;
-  std::vector<engine::MadeOnce<contact::State>> dry_contacts_ =
-      std::vector<engine::MadeOnce<contact::State>>(study_.settings.mean_pressures.size());
+  std::vector<DryContact> dry_contacts_ = std::vector<DryContact>(tasks_.contacts.size());
 };
 
 FrictionInputs FrictionInFolder::inputs(const FrictionPlace& place) {
@@ -222,6 +246,11 @@ FrictionInputs FrictionInFolder::inputs(const FrictionPlace& place) {
     throw InputError("the store", "a film and a contact of two sizes", "both of one surface",
                      "remove the folder store and run the sweep again");
   }
+  std::shared_ptr<cases::TrappedRecord> trapped;
+  if (is_trapped()) {
+    trapped = std::make_shared<cases::TrappedRecord>(
+        read_trapped(folder_, tasks_.trapped[place.contact][place.condition]));
+  }
   std::shared_ptr<cases::FluidRecord> fluid;
   if (flows()) {
     fluid = std::make_shared<cases::FluidRecord>(
@@ -229,7 +258,7 @@ FrictionInputs FrictionInFolder::inputs(const FrictionPlace& place) {
     fluid->sliding_speed = study_.sliding_speeds[under.speed];
   }
   return {contact, {contact, &contact->contact}, {contact, &contact->gap}, contact->grid, film,
-          fluid};
+          trapped, fluid};
 }
 
 /// Appends the jobs of one scan; rows of a pressure are shown with its surface and wet shares.

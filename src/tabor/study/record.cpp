@@ -110,7 +110,8 @@ Row read_row(const engine::Store& store, const engine::Task& task) {
     row.group = json.at("group").get<std::string>();
     io::read_json<cases::FrictionRecord>(
         json,
-        cases::friction_columns({.fluid = json.contains("sliding_speed_m_per_s"),
+        cases::friction_columns({.trapped = json.contains("trapped_converged"),
+                                 .fluid = json.contains("sliding_speed_m_per_s"),
                                  .tool = json.contains("tool_places")}),
         row, cases::media::kStore);
     for (const io::Json& warning : json.at("warnings")) {

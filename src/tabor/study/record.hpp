@@ -85,6 +85,12 @@ cases::FilmRecord read_film_record(const engine::Store& store, const engine::Tas
 /// Names and values of attributes.
 using Scalars = std::vector<std::pair<std::string, double>>;
 
+/// Writes one contact with trapped oil, under these conditions: numbers, and maps for the report,
+/// which are not read back.
+void write_trapped(const engine::Store& store, const engine::Task& task, const Grid& grid,
+                   const cases::TrappedRecord& record, const Scalars& conditions);
+cases::TrappedRecord read_trapped(const engine::Store& store, const engine::Task& task);
+
 /// Writes one state with flowing oil, under these conditions: numbers, and maps for the report,
 /// which are not read back.
 void write_fluid(const engine::Store& store, const engine::Task& task, const Grid& grid,

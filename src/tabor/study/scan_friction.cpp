@@ -44,19 +44,22 @@ class FrictionInMemory : public FrictionStore {
   struct Solved {
     cases::ContactRecord contact;
     std::shared_ptr<const Mask> touching;
+    std::vector<std::optional<cases::TrappedRecord>> trapped;
     std::vector<std::optional<cases::FluidRecord>> fluids;
     std::vector<std::optional<cases::FrictionRecord>> frictions;
 
-    const cases::FluidRecord* fluid(std::size_t density) const {
-      return fluids[density] ? &*fluids[density] : nullptr;
+    cases::Oil oil(const cases::FilmRecord& film, std::size_t density) const {
+      return {film, trapped[density] ? &*trapped[density] : nullptr,
+              fluids[density] ? &*fluids[density] : nullptr};
     }
   };
 
   FrictionInMemory(const topography::Topography& surface, const cases::CaseSettings& settings,
-                   bool drops_maps)
+                   bool drops_maps, bool keeps_oil_maps)
       : FrictionStore(settings, conditions_of(settings)),
         surface_(surface),
         drops_maps_(drops_maps),
+        keeps_oil_maps_(keeps_oil_maps),
         contacts_(settings.mean_pressures.size() * n_places()),
         summaries_(contacts_.size()),
         wet_shares_(contacts_.size()) {}
@@ -80,13 +83,14 @@ class FrictionInMemory : public FrictionStore {
   }
   FrictionInputs inputs(const FrictionPlace& place) override {
     const Solved& one = contacts_[place.contact];
-    const cases::FluidRecord* fluid = one.fluid(place.condition);
+    const cases::Oil oil = one.oil(films_[place.condition], place.condition);
     return {lent(one.contact),
             one.touching,
             lent(one.contact.state.gap),
             surface_.grid,
-            lent(films_[place.condition]),
-            fluid ? lent(*fluid) : nullptr};
+            lent(oil.film),
+            oil.trapped != nullptr ? lent(*oil.trapped) : nullptr,
+            oil.fluid != nullptr ? lent(*oil.fluid) : nullptr};
   }
 
   void store_films(const Surface&, const LayFilms& lay) override {
@@ -97,6 +101,7 @@ class FrictionInMemory : public FrictionStore {
     Solved& one = contacts_[place.contact];
     one.contact = std::move(contact);
     one.touching = std::make_shared<const Mask>(contact::contact_mask(one.contact.state));
+    one.trapped.resize(conditions().size());
     one.fluids.resize(conditions().size());
     one.frictions.resize(conditions().size());
     summaries_[place.contact] = one.contact.summary;
@@ -107,6 +112,13 @@ class FrictionInMemory : public FrictionStore {
   }
   void store(const FrictionPlace& place, WetShares&& shares) override {
     wet_shares_[place.contact] = std::move(shares);
+  }
+  void store(const FrictionPlace& place, const Surface&, cases::TrappedRecord&& trapped) override {
+    Solved& one = contacts_[place.contact];
+    trapped.surface = one.contact.surface;
+    const bool is_shown = place.contact % n_places() == 0 && keeps_oil_maps_;
+    if (!is_shown) trapped.state = {};
+    one.trapped[place.condition] = std::move(trapped);
   }
   void store(const FrictionPlace& place, const Surface&, cases::FluidRecord&& fluid) override {
     Solved& one = contacts_[place.contact];
@@ -141,6 +153,7 @@ class FrictionInMemory : public FrictionStore {
  private:
   const topography::Topography& surface_;
   bool drops_maps_;
+  bool keeps_oil_maps_;  // of trapped oil
   std::vector<cases::FilmRecord> films_;
   std::vector<Solved> contacts_;
   std::vector<contact::Summary> summaries_;  // they outlive the contacts
@@ -168,7 +181,8 @@ CoarsePixels coarse_pixels(const topography::Topography& surface,
     const Mask touching = contact::contact_mask(contact.state);
     std::vector<double>& shares = result.lubricated_shares.emplace_back();
     for (const cases::FilmRecord& film : films) {
-      shares.push_back(friction::lubricated_share(touching, film.film.thickness));
+      shares.push_back(
+          friction::lubricated_share(touching, film.film.thickness, settings.friction.dry_below));
     }
   };
   const auto elasticity = cases::make_operator(settings.contact, coarse.grid);
@@ -186,8 +200,7 @@ engine::Job hand_on_job(const std::shared_ptr<FrictionInMemory>& store, std::siz
     for (std::size_t d = 0; d < one.frictions.size(); ++d) {
       receive({.friction = *one.frictions[d],
                .contact = one.contact,
-               .film = store->films()[d],
-               .fluid = one.fluid(d)});
+               .oil = one.oil(store->films()[d], d)});
     }
   };
   return job;
@@ -213,8 +226,10 @@ ScanFrictionResult friction_of(const topography::Topography& surface,
                                const std::function<void(const FrictionState&)>& receive,
                                ContactMaps maps, const engine::RunOptions& options,
                                bool compares_pixels) {
-  const bool drops_maps = maps == ContactMaps::dropped && !settings.fluid.flows();
-  const auto store = std::make_shared<FrictionInMemory>(surface, settings, drops_maps);
+  const bool drops_maps = maps == ContactMaps::dropped && !settings.fluid.flows() &&
+                          !settings.trapped.is_asked();  // oil in it needs all of a contact
+  const auto store = std::make_shared<FrictionInMemory>(surface, settings, drops_maps,
+                                                        maps == ContactMaps::kept);
   const bool has_curves = cases::has_density_curve(settings);
   const std::size_t window =
       std::max<std::size_t>(1, n_waiting(surface.grid, !drops_maps) / store->n_places());

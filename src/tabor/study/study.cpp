@@ -142,6 +142,7 @@ Study study_of(const io::Config& config, const fs::path& file) {
   }
   read_sweep(config, settings);
   read_flowing_oil(config, study);
+  check(config, cases::objection_to_trapped(settings, key_of));
   if (config.has("treatment.steps")) study.treatment = read_steps(config, "treatment.steps");
   read_scans(config, folder, study);
   if (config.has("experiment.file")) {

@@ -72,8 +72,10 @@ void add_states(const Hdf5Reader& reader, const std::string& scan, ResultMaps& r
     results::add_state(reader,
                        {.contact = member("contact", place_of(pressures[row], pressures_so_far)),
                         .film = member("films", place_of(densities[row], densities_so_far)),
-                        .fluid = member("fluid", place++)},
+                        .trapped = member("trapped", place),
+                        .fluid = member("fluid", place)},
                        result);
+    ++place;
   }
 }
 

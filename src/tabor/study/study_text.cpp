@@ -51,6 +51,7 @@ std::string line_of(const ParameterHead& parameter, const Cell& cell) {
   if (const auto* flag = std::get_if<bool>(&cell)) return fmt::format("{} = {}\n", key, *flag);
   const auto* number = std::get_if<double>(&cell);
   if (number == nullptr || std::isnan(*number)) return "";
+  if (std::isinf(*number)) return fmt::format("{} = {}\n", key, toml_text(parameter.none));
   const std::string unit = si_unit(parameter.dimension);
   return fmt::format("{} = {}\n", key, unit.empty() ? decimal(*number) : quantity(*number, unit));
 }
@@ -78,11 +79,19 @@ std::string lines_of(std::string_view table, const Parameters<Settings>& paramet
   return lines;
 }
 
-std::string lubricant_table(const cases::FilmSettings& lubricant,
-                            const cases::FluidSettings& fluid) {
-  const std::string text =
-      "\n[lubricant]\n" + lines_of("lubricant", cases::film_parameters(), lubricant);
-  return fluid.flows() ? text + lines_of("lubricant", cases::fluid_parameters(), fluid) : text;
+std::string lubricant_table(const cases::CaseSettings& settings) {
+  std::string text =
+      "\n[lubricant]\n" + lines_of("lubricant", cases::film_parameters(), settings.film);
+  if (settings.friction.dry_below > 0) {
+    text += lines_of("lubricant", cases::friction_parameters(), settings.friction);
+  }
+  if (settings.trapped.is_asked()) {
+    text += lines_of("lubricant", cases::trapped_parameters(), settings.trapped);
+  }
+  if (settings.fluid.flows()) {
+    text += lines_of("lubricant", cases::fluid_parameters(), settings.fluid);
+  }
+  return text;
 }
 
 std::string step_list(const topography::Treatment& treatment) {
@@ -157,7 +166,7 @@ std::string to_toml(const Study& study) {
   if (study.flows()) {
     text += fmt::format("sliding_speed = {}\n", quantities(study.sliding_speeds, "m/s"));
   }
-  text += lubricant_table(settings.film, settings.fluid);
+  text += lubricant_table(settings);
   for (const Scan& scan : study.scans) text += scan_table(scan);
   if (study.experiment) {
     text += fmt::format(

@@ -30,6 +30,7 @@ void count_computed(const engine::Report& report, Outcome& outcome) {
   outcome.n_surfaces = report.computed("surface");
   outcome.n_contacts = computed(FrictionJob::contact);
   outcome.n_films = computed(FrictionJob::film);
+  outcome.n_trapped = computed(FrictionJob::trapped);
   outcome.n_fluids = computed(FrictionJob::fluid);
   outcome.n_rows = computed(FrictionJob::friction);
   outcome.warnings.insert(outcome.warnings.end(), report.warnings.begin(), report.warnings.end());

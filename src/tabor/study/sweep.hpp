@@ -27,7 +27,8 @@ struct Outcome {
   std::size_t n_surfaces = 0;       ///< tasks this run computed
   std::size_t n_contacts = 0;
   std::size_t n_films = 0;
-  std::size_t n_fluids = 0;  ///< states whose oil flows
+  std::size_t n_trapped = 0;  ///< contacts with oil whose pockets carry load
+  std::size_t n_fluids = 0;   ///< states whose oil flows
   std::size_t n_rows = 0;
   std::vector<std::string> failures;       ///< one line per scan and pressure that has no numbers
   std::vector<std::string> warnings;       ///< about the sweep itself

@@ -92,6 +92,12 @@ void write_links(io::Hdf5Writer& writer, const std::string& group, const engine:
     link(fmt::format("films/{:04}", i), tasks.film, film_group(i));
   }
   std::size_t place = 0;
+  for (std::size_t i = 0; i < n_pressures && !tasks.trapped.empty(); ++i) {
+    for (const engine::Task& task : tasks.trapped[i * tasks.contacts.size() / n_pressures]) {
+      link(fmt::format("trapped/{:04}", place++), task, "/trapped");
+    }
+  }
+  place = 0;
   for (const std::vector<engine::Task>& fluids : tasks.fluids) {
     for (const engine::Task& task : fluids) {
       link(fmt::format("fluid/{:04}", place++), task, "/fluid");

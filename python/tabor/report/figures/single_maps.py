@@ -19,7 +19,7 @@ def draw(single):
             figures += [_pressure(single, state), _contact(single, state), _gap(single, state)]
         if ("film", state.density) not in drawn:
             figures.append(_film(single, state))
-        figures += [_fluid_pressure(single, state), _fluid_fill(single, state)]
+        figures += [_liquid_pressure(single, state), _fluid_pressure(single, state), _fluid_fill(single, state)]
         drawn.update({("contact", state.pressure_label), ("film", state.density)})
         figures.append(sections.draw(state))
         yield from (figure for figure in figures if figure is not None)
@@ -90,6 +90,24 @@ def _film(single, state):
         f"Lubricant thickness ({unit}); sand colour: dry",
         map_axes.DRY_GROUND,
         state.density_label,
+    )
+
+
+def _liquid_pressure(single, state):
+    pressure = state.map("liquid_pressure")
+    if pressure is None:
+        return None
+    factor, unit = units.scale(float(np.nanmax(pressure)), "Pa")
+    return _map(
+        single,
+        state,
+        "liquid_pressure",
+        np.where(pressure > 0, pressure * factor, np.nan),
+        f"pressure of the trapped oil ({unit})",
+        map_axes.PRESSURE_COLOURS,
+        f"Pressure of the oil in closed pockets of the gap ({unit}); white: no pressure",
+        "white",
+        state.label,
     )
 
 

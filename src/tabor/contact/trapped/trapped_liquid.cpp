@@ -1,0 +1,190 @@
+#include "tabor/contact/trapped_liquid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "tabor/contact/trapped/in_pockets.hpp"
+#include "tabor/contact/trapped/seals.hpp"
+#include "tabor/contact/trapped/trapped_solver.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/units.hpp"
+
+namespace tabor::contact {
+namespace {
+
+constexpr int kMostRounds = 8;
+constexpr double kAboveSeal = 1e-9;  // relative: rounding of levels and seals
+
+void check(const Problem& problem, const GapLiquid& liquid, const State& dry) {
+  if (std::holds_alternative<Separation>(problem.control)) {
+    throw InputError("trapped liquid", "a contact at a given separation",
+                     "one under a mean pressure or a force",
+                     "the liquid carries a part of the load");
+  }
+  if (!(liquid.bulk_modulus > 0)) {
+    throw InputError("bulk modulus", format_si(liquid.bulk_modulus, "Pa"), "more than zero", "");
+  }
+  if (liquid.film.rows() != problem.height.rows() || liquid.film.cols() != problem.height.cols() ||
+      dry.pressure.rows() != problem.height.rows() ||
+      dry.pressure.cols() != problem.height.cols()) {
+    throw InputError("trapped liquid",
+                     fmt::format("a film of {} x {} pixels and a contact of {} x {}",
+                                 liquid.film.cols(), liquid.film.rows(), dry.pressure.cols(),
+                                 dry.pressure.rows()),
+                     fmt::format("{} x {} as the heights", problem.height.cols(),
+                                 problem.height.rows()),
+                     "");
+  }
+  if (!liquid.film.allFinite() || extent_of(liquid.film).lowest < 0) {
+    throw InputError("trapped liquid", "a film that is negative or NaN somewhere",
+                     "zero or more at every pixel", "");
+  }
+}
+
+/// Makes pressure and gap exactly complementary, which moves the gap by no more than its error.
+void close_gap(const Pockets& pockets, const std::vector<double>& levels, double cap,
+               State& state) {
+  for_each(state.gap.size(), [&](Index i) {
+    const std::int32_t pocket = pockets.of[static_cast<std::size_t>(i)];
+    const double level = pocket == kNoPocket ? 0 : levels[static_cast<std::size_t>(pocket)];
+    double& p = state.pressure(i);
+    double& gap = state.gap(i);
+    if (at_cap(p, cap)) {
+      p = cap;
+      gap = at_level(p, level) ? gap : std::min(gap, 0.0);
+    } else if (!touches(p) || at_level(p, level)) {
+      gap = std::max(gap, 0.0);
+    } else {
+      gap = 0;
+    }
+  });
+}
+
+/// Lowers the bounds that the liquid has broken; true where it broke one.
+bool lower(const std::vector<double>& levels, const std::vector<double>& seals,
+           std::vector<double>& bounds) {
+  bool is_broken = false;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    if (!(levels[k] > (1 + kAboveSeal) * seals[k])) continue;
+    bounds[k] = std::min(bounds[k], seals[k]);
+    is_broken = true;
+  }
+  return is_broken;
+}
+
+/// What the pockets hold and carry.
+LiquidSummary summary_of(const SealedPockets& liquid, const SealedState& state, const Grid& grid) {
+  const Pockets& pockets = liquid.pockets;
+  LiquidSummary summary;
+  summary.n_pockets = static_cast<Index>(pockets.size());
+  double carried = 0;
+  for (std::size_t k = 0; k < pockets.size(); ++k) {
+    const double level = state.levels[k];
+    const double volume = pockets.volume[k];
+    summary.pocket_volume += volume;
+    summary.max_pressure = std::max(summary.max_pressure, level);
+    if (!(level > 0)) continue;
+    ++summary.n_squeezed;
+    double gap = 0;
+    for (std::size_t j = pockets.first[k]; j < pockets.first[k + 1]; ++j) {
+      const std::size_t i = pockets.pixels[j];
+      gap += std::max(state.contact.gap.data()[i], 0.0);
+      if (at_level(state.contact.pressure.data()[i], level)) carried += level;
+    }
+    const double leaked = volume * (1 - level / liquid.bulk_modulus) - gap;
+    if (level < (1 - kAboveSeal) * liquid.seals[k]) continue;
+    ++summary.n_at_seal;
+    summary.leaked_volume += std::max(leaked, 0.0);
+  }
+  const double load = state.contact.mean_pressure * static_cast<double>(grid.size());
+  summary.load_share = carried / load;
+  if (summary.pocket_volume > 0) {
+    summary.leaked_fraction = summary.leaked_volume / summary.pocket_volume;
+  }
+  summary.pocket_volume *= grid.pixel_area();
+  summary.leaked_volume *= grid.pixel_area();
+  summary.open_volume = pockets.open_volume * grid.pixel_area();
+  return summary;
+}
+
+Field map_of(const Pockets& pockets, const std::vector<double>& levels, const Grid& grid) {
+  Field map = Field::Zero(grid.ny, grid.nx);
+  for (std::size_t k = 0; k < pockets.size(); ++k) {
+    for (std::size_t j = pockets.first[k]; j < pockets.first[k + 1]; ++j) {
+      map.data()[pockets.pixels[j]] = levels[k];
+    }
+  }
+  return map;
+}
+
+/// The state without liquid that carries anything.
+SealedState without_pressure(const Pockets& pockets, const State& dry) {
+  return {.contact = dry, .levels = std::vector<double>(pockets.size(), 0), .is_start = true};
+}
+
+}  // namespace
+
+TrappedState solve_in_pockets(elastic::ElasticOperator& elasticity, const Problem& problem,
+                              const Pockets& pockets, const GapLiquid& liquid, const State& dry,
+                              const Observer& observer) {
+  check(problem, liquid, dry);
+  const Grid& grid = elasticity.grid();
+  const LoadProblem under = under_pressure(problem, dry.mean_pressure);
+  const double cap = problem.bounds.upper;
+  SealedState state = without_pressure(pockets, dry);
+  const auto seals_now = [&] {
+    return seals_of(state.contact.pressure, pockets, state.levels, grid, liquid.periodic, cap);
+  };
+  std::vector<double> bounds = seals_now();
+  const SealedPockets sealed{pockets, liquid.bulk_modulus, bounds};
+  LiquidSummary summary;
+  Convergence work;
+  int round = 0;
+  bool is_settled = pockets.size() == 0;
+  for (; round < kMostRounds && !is_settled; ++round) {
+    state = solve_sealed(elasticity, under, sealed, state.contact, observer);
+    work = after(work, state.contact.convergence);
+    if (state.is_start || state.contact.convergence.stopped()) {
+      is_settled = true;
+      break;
+    }
+    is_settled = !lower(state.levels, seals_now(), bounds);
+  }
+  TrappedState found;
+  const bool is_dry = state.is_start && std::all_of(state.levels.begin(), state.levels.end(),
+                                                    [](double level) { return level == 0; });
+  if (!is_dry) {
+    close_gap(pockets, state.levels, cap, state.contact);
+    state.contact.convergence = work;
+  }
+  summary = summary_of(sealed, state, grid);
+  summary.seal_rounds = round + (is_settled && pockets.size() > 0 && state.is_start ? 1 : 0);
+  summary.seals_settled = is_settled;
+  found.liquid = summary;
+  found.liquid_pressure = map_of(pockets, state.levels, grid);
+  found.contact = std::move(state.contact);
+  return found;
+}
+
+TrappedState solve_trapped(elastic::ElasticOperator& elasticity, const Problem& problem,
+                           const GapLiquid& liquid, const State& dry, const Observer& observer) {
+  check(problem, liquid, dry);
+  const Pockets pockets =
+      find_pockets(contact_mask(dry), liquid.film, elasticity.grid(), liquid.periodic);
+  return solve_in_pockets(elasticity, problem, pockets, liquid, dry, observer);
+}
+
+Mask solid_contact(const TrappedState& state) {
+  const Field& pressure = state.contact.pressure;
+  Mask solid(pressure.rows(), pressure.cols());
+  for_each(solid.size(), [&](Index i) {
+    solid(i) = touches(pressure(i)) && !at_level(pressure(i), state.liquid_pressure(i));
+  });
+  return solid;
+}
+
+}  // namespace tabor::contact

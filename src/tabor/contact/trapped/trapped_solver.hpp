@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "tabor/contact/load_problem.hpp"
+#include "tabor/contact/trapped/pockets.hpp"
+
+// Solves the contact with given pockets of liquid and given seals.
+namespace tabor::contact {
+
+/// Pockets of liquid in a contact, and what bounds their pressures.
+struct SealedPockets {
+  const Pockets& pockets;
+  double bulk_modulus;                ///< K [Pa], may be infinite
+  const std::vector<double>& seals;  ///< largest pressure of each pocket [Pa]
+};
+
+/// Contact with liquid: the state, and the pressure of each pocket.
+struct SealedState {
+  State contact;  ///< pressure of solids and liquid; gap and separation are of the last residual
+  std::vector<double> levels;  ///< pi_k [Pa]
+  bool is_start = false;       ///< what it started from is the solution already
+};
+
+/// Minimises the energy of liquid_energy.hpp by a projected gradient in two metrics: pixels of
+/// solid contact move along the direction of the fast solver (Preconditioner, LongWaves), those at
+/// the level of a pocket's liquid by the stiffness of a piston on its area,
+/// t_k = 3 pi^(3/2) E*/(16 sqrt(area)). The step is projected by Pouring and shortened to the
+/// minimum of the energy along it. `start`: a state of the same load. Not reaching the tolerance is
+/// returned, and so is being stopped.
+SealedState solve_sealed(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
+                         const SealedPockets& liquid, const State& start,
+                         const Observer& observer);
+
+/// True where a pressure is that of the liquid of its pocket [Pa], but for rounding.
+inline bool at_level(double pressure, double level) {
+  constexpr double rounding = 1e-12;
+  return pressure <= (1 + rounding) * level;
+}
+
+}  // namespace tabor::contact
