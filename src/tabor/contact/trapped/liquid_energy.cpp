@@ -76,8 +76,7 @@ double LiquidEnergy::duality_gap(const Field& pressure, const Field& v, double l
                                          : 0;
         // Level by level: m rest + softness m^2/2 of what is against that of the best.
         const double of_levels = (levels[k] - best) * (rest + softness * (levels[k] + best) / 2);
-        inside[k] = product + levels[k] * overlap + of_levels -
-                    (has_cap ? cap_ * overlap : 0.0);
+        inside[k] = product + levels[k] * overlap + of_levels - (has_cap ? cap_ * overlap : 0.0);
       },
       kPocketsPerBlock);
   double gap = outside;

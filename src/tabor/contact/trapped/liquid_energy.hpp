@@ -29,7 +29,8 @@ class LiquidEnergy {
   /// lambda [Pa m],
   ///
   ///     G = <p, r> + sum phi_k - p_sat sum min(r, 0)
-  ///         - sum_k min_{0 <= m <= seal_k} ( m (sum_k max(r, 0) - V_k) + V_k m^2/(2K) ),  r = v - lambda.
+  ///         - sum_k min_{0 <= m <= seal_k} ( m (sum_k max(r, 0) - V_k) + V_k m^2/(2K) ),  r = v -
+  ///         lambda.
   ///
   /// Infinite where lambda bounds nothing: an r below zero without a cap.
   double duality_gap(const Field& pressure, const Field& v, double lambda,

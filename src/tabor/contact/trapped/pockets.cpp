@@ -25,7 +25,7 @@ std::vector<std::uint8_t> open_gap(const Mask& contact, const Grid& grid) {
 /// What is known of a region by its root.
 struct Region {
   bool is_open = false;
-  double liquid = 0;                // sum of film [m]
+  double liquid = 0;               // sum of film [m]
   std::int32_t label = kNoPocket;  // once it has one
 };
 
@@ -67,7 +67,9 @@ Pockets find(const Mask& contact, const Field& film, const Grid& grid) {
 Pockets pockets_of(std::vector<std::int32_t> labels, const Mask& contact, const Field& film) {
   Pockets pockets;
   const std::size_t n_labels =
-      labels.empty() ? 0 : static_cast<std::size_t>(*std::max_element(labels.begin(), labels.end()) + 1);
+      labels.empty()
+          ? 0
+          : static_cast<std::size_t>(*std::max_element(labels.begin(), labels.end()) + 1);
   pockets.first.assign(n_labels + 1, 0);
   pockets.volume.assign(n_labels, 0);
   pockets.open.assign(labels.size(), 0);

@@ -29,9 +29,9 @@ struct Pockets {
 Pockets pockets_of(std::vector<std::int32_t> labels, const Mask& contact, const Field& film);
 
 /// Finds the pockets of a contact. Regions are connected by their four neighbours, of pixels
-/// without contact or with liquid; those in which gap reaches the border of the map, or runs through
-/// a periodic cell, are open. The others with liquid are pockets: wet contact belongs to its
-/// pocket, too. `film` [m], shape (ny, nx).
+/// without contact or with liquid; those in which gap reaches the border of the map, or runs
+/// through a periodic cell, are open. The others with liquid are pockets: wet contact belongs to
+/// its pocket, too. `film` [m], shape (ny, nx).
 Pockets find_pockets(const Mask& contact, const Field& film, const Grid& grid, bool periodic);
 
 }  // namespace tabor::contact

@@ -54,9 +54,7 @@ Pouring::Poured Pouring::pour(std::size_t pocket, double step, double most, doub
     const double slope = wet + softness;
     if (slope == 0 || (i > 0 && excess <= 1e-15 * volume)) {
       if (slope > 0) break;
-      double lowest = q[0];
-      for (std::size_t j = 1; j < n; ++j) lowest = std::min(lowest, q[j]);
-      level = lowest + shift + volume;  // one pixel alone holds it
+      level = *std::min_element(q, q + n) + shift + volume;  // one pixel alone holds it
       continue;
     }
     const double next = level - excess / slope;
@@ -90,9 +88,11 @@ Pouring::Carried Pouring::carried(const std::vector<double>& steps, const std::v
                                   double shift, const Wanted& wanted, std::vector<double>& level) {
   const auto fill = [&](std::uint32_t k, const auto& sum) {
     const double* q = wanted.inside.data() + pockets_.first[k];
-    const Poured poured = pour(k, steps[k], most[k], shift, level[k], q, sum);
+    const double weight = steps[k] / wanted.step;
+    const Poured poured = pour(k, steps[k], most[k], weight * shift, level[k], q, sum);
     level[k] = poured.level;
-    by_pocket_[k] = carried_by(k, poured, shift, q);
+    by_pocket_[k] = carried_by(k, poured, weight * shift, q);
+    by_pocket_[k].slope *= weight;
   };
   for (const std::uint32_t k : large_) fill(k, SharedSum{});
   for_each(
@@ -102,8 +102,8 @@ Pouring::Carried Pouring::carried(const std::vector<double>& steps, const std::v
   sums.load = sum_over(wanted.outside.size(), [&](std::size_t i) {
     return std::clamp(wanted.outside[i] + shift, 0.0, cap_);
   });
-  sums.slope = static_cast<double>(count_where(
-      wanted.outside.size(), [&](std::size_t i) { return inside(wanted.outside[i]); }));
+  sums.slope = static_cast<double>(
+      count_where(wanted.outside.size(), [&](std::size_t i) { return inside(wanted.outside[i]); }));
   for (const Carried& one : by_pocket_) {
     sums.load += one.load;
     sums.slope += one.slope;
@@ -116,9 +116,11 @@ double Pouring::find_shift(const std::vector<double>& steps, const std::vector<d
                            double load, const Wanted& wanted, std::vector<double>& level) {
   const Extent outside = extent_over(std::ssize(wanted.outside), wanted.outside.data());
   const Extent inside = extent_over(std::ssize(wanted.inside), wanted.inside.data());
+  double least = 1;
+  for (const double step : steps) least = std::min(least, step / wanted.step);
   // All pressures are zero at `low`, unless liquid stands there; at `high` each carries the load.
-  double low = -std::max(outside.highest, inside.highest) - load;
-  double high = std::min(load, cap_) - std::min(outside.lowest, inside.lowest);
+  double low = -(std::max({outside.highest, inside.highest, 0.0}) + load) / least;
+  double high = (std::min(load, cap_) - std::min({outside.lowest, inside.lowest, 0.0})) / least;
   double shift = std::clamp(0.0, low, high);
   for (int i = 0; i < kMostSteps; ++i) {
     const Carried sums = carried(steps, most, shift, wanted, level);
@@ -133,8 +135,9 @@ double Pouring::find_shift(const std::vector<double>& steps, const std::vector<d
   return shift;
 }
 
-bool Pouring::project(const std::vector<double>& steps, const std::vector<double>& most,
-                      double load, Wanted& wanted, std::vector<double>& level) {
+std::optional<double> Pouring::project(const std::vector<double>& steps,
+                                       const std::vector<double>& most, double load, Wanted& wanted,
+                                       std::vector<double>& level) {
   const double shift = find_shift(steps, most, load, wanted, level);
   const double found = carried(steps, most, shift, wanted, level).load;
   for_each(wanted.outside.size(), [&](std::size_t i) {
@@ -142,10 +145,12 @@ bool Pouring::project(const std::vector<double>& steps, const std::vector<double
   });
   for_each(pockets_.size(), [&](std::size_t k) {
     for (std::size_t j = pockets_.first[k]; j < pockets_.first[k + 1]; ++j) {
-      wanted.inside[j] = std::clamp(wanted.inside[j] + shift, level[k], cap_);
+      const double p = wanted.inside[j] + steps[k] / wanted.step * shift;
+      wanted.inside[j] = std::clamp(p, level[k], cap_);
     }
   });
-  return std::abs(found - load) <= 1e-9 * load;
+  if (std::abs(found - load) > 1e-9 * load) return std::nullopt;
+  return shift;
 }
 
 }  // namespace tabor::contact

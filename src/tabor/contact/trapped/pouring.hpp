@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "tabor/contact/trapped/pockets.hpp"
@@ -12,14 +13,17 @@ namespace tabor::contact {
 struct Wanted {
   std::vector<double> outside;
   std::vector<double> inside;
+  double step = 1;  ///< t of the pixels outside [Pa/m]
 };
 
 /// The proximal step of the energy of trapped liquid. In the landscape of the wanted pressures
-/// liquid stands in each pocket k at the level pi_k [Pa] that holds the volume t_k V_k (1 - pi_k/K):
+/// liquid stands in each pocket k at the level pi_k [Pa] that holds the volume t_k V_k (1 -
+/// pi_k/K):
 ///
-///     p = clip(max(q + shift, pi_k), 0, p_sat),   0 <= pi_k <= seal_k
+///     p = clip(max(q + t_k/t shift, pi_k), 0, p_sat),   0 <= pi_k <= seal_k
 ///
-/// with the shift for which the pressures carry the load. t_k [Pa/m] is the step of a pocket.
+/// with the shift for which the pressures carry the load. t_k [Pa/m] is the step of a pocket, t
+/// that of pixels outside, whose shift is the shift itself.
 class Pouring {
  public:
   /// `bulk_modulus` K [Pa], `cap` p_sat [Pa]; either may be infinite. Pockets must outlive it.
@@ -27,9 +31,9 @@ class Pouring {
 
   /// Replaces wanted pressures by those that carry the load [Pa, sum over these pixels]; `level`:
   /// pressure of each pocket's liquid [Pa], as a first guess and as found. `steps`: t_k. `most`:
-  /// bound on each level, its seal [Pa]. False where no shift carries the load.
-  bool project(const std::vector<double>& steps, const std::vector<double>& most, double load,
-               Wanted& wanted, std::vector<double>& level);
+  /// bound on each level, its seal [Pa]. Returns the shift; nothing where none carries the load.
+  std::optional<double> project(const std::vector<double>& steps, const std::vector<double>& most,
+                                double load, Wanted& wanted, std::vector<double>& level);
 
  private:
   struct Carried {

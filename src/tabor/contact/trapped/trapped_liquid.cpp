@@ -31,13 +31,11 @@ void check(const Problem& problem, const GapLiquid& liquid, const State& dry) {
   if (liquid.film.rows() != problem.height.rows() || liquid.film.cols() != problem.height.cols() ||
       dry.pressure.rows() != problem.height.rows() ||
       dry.pressure.cols() != problem.height.cols()) {
-    throw InputError("trapped liquid",
-                     fmt::format("a film of {} x {} pixels and a contact of {} x {}",
-                                 liquid.film.cols(), liquid.film.rows(), dry.pressure.cols(),
-                                 dry.pressure.rows()),
-                     fmt::format("{} x {} as the heights", problem.height.cols(),
-                                 problem.height.rows()),
-                     "");
+    throw InputError(
+        "trapped liquid",
+        fmt::format("a film of {} x {} pixels and a contact of {} x {}", liquid.film.cols(),
+                    liquid.film.rows(), dry.pressure.cols(), dry.pressure.rows()),
+        fmt::format("{} x {} as the heights", problem.height.cols(), problem.height.rows()), "");
   }
   if (!liquid.film.allFinite() || extent_of(liquid.film).lowest < 0) {
     throw InputError("trapped liquid", "a film that is negative or NaN somewhere",
@@ -146,7 +144,7 @@ TrappedState solve_in_pockets(elastic::ElasticOperator& elasticity, const Proble
   int round = 0;
   bool is_settled = pockets.size() == 0;
   for (; round < kMostRounds && !is_settled; ++round) {
-    state = solve_sealed(elasticity, under, sealed, state.contact, observer);
+    state = solve_sealed(elasticity, under, sealed, state, observer);
     work = after(work, state.contact.convergence);
     if (state.is_start || state.contact.convergence.stopped()) {
       is_settled = true;

@@ -9,6 +9,7 @@
 #include "tabor/contact/conditions.hpp"
 #include "tabor/contact/long_waves.hpp"
 #include "tabor/contact/preconditioner.hpp"
+#include "tabor/contact/projection.hpp"
 #include "tabor/contact/scale.hpp"
 #include "tabor/contact/trapped/liquid_energy.hpp"
 #include "tabor/contact/trapped/pouring.hpp"
@@ -25,6 +26,11 @@ constexpr double kSettledShare = 1e-4;  // of the pixels changing between free a
 constexpr int kPatience = 300;          // iterations without a better certificate
 constexpr double kLeastStep = 0.05;     // of tau
 constexpr double kMostStep = 20;
+// Factor of the steps of pistons: longer where the minimum along a step lies behind its end.
+constexpr double kLeastPiston = 0.25, kMostPiston = 32;
+constexpr double kLonger = 1.5, kShorter = 0.5;
+constexpr double kShort = 0.5;          // of a step to its minimum: it was too long
+constexpr double kMargin = 0.05;        // of the length scale
 constexpr double kFalseContact = 1000;  // as of a contact without liquid (conditions.cpp)
 constexpr double kMostSettled = 1e-6;   // of the load
 
@@ -42,14 +48,12 @@ class TwoMetricGradient {
         cap_(problem.saturation_pressure),
         load_(problem.mean_pressure * static_cast<double>(problem.height.size())),
         gap_scale_(load_ * length_scale(elasticity, problem)),
-        pixel_compliance_(elastic::love_coefficient(0, 0, elasticity.grid().dx(),
-                                                    elasticity.grid().dy(),
-                                                    elasticity.effective_modulus())),
+        pixel_compliance_(elastic::love_coefficient(
+            0, 0, elasticity.grid().dx(), elasticity.grid().dy(), elasticity.effective_modulus())),
         gap_limit_(Conditions(elasticity, problem).gap_limit()),
         energy_(pockets_, liquid.bulk_modulus, cap_, load_),
         pouring_(pockets_, liquid.bulk_modulus, cap_),
-        preconditioner_(elasticity.grid(), elasticity.effective_modulus(),
-                        elasticity.drops_mean()),
+        preconditioner_(elasticity.grid(), elasticity.effective_modulus(), elasticity.drops_mean()),
         long_waves_(elasticity.grid(), elasticity.effective_modulus(), preconditioner_.plateau(),
                     elasticity.drops_mean()) {
     convergence_.tolerance = problem.tolerance;
@@ -62,9 +66,10 @@ class TwoMetricGradient {
     }
   }
 
-  SealedState run(const State& start, const Observer& observer);
+  SealedState run(const State& start, const std::vector<double>& levels, const Observer& observer);
 
  private:
+  bool let_down(const std::vector<double>& levels);
   void refresh();
   void certify();
   bool ends(const Observer& observer);
@@ -106,20 +111,21 @@ class TwoMetricGradient {
   Field v_;                     // S p - h [m]
   std::vector<double> levels_;  // pi_k [Pa]
   double lambda_ = 0;           // multiplier of the load: r = v - lambda [m]
+  double next_lambda_ = 0;      // that of the last step
   std::vector<double> piston_;  // t_k [Pa/m]
-  double slower_ = 1;           // factor of steps that are taken pixel by pixel
+  double piston_factor_ = 1;
+  double slower_ = 1;  // factor of steps that are taken pixel by pixel
 
-  FieldF work_;      // r on the active set, then dp, then S dp
-  FieldF response_;  // S dp of the last step [m]
-  FieldF previous_;  // direction of the last step [Pa], 0 where it moved nothing
-  PixelList active_;                      // solid contact that may move
-  std::vector<float> direction_;          // [Pa], on the active set
+  FieldF work_;                   // r on the active set, then dp, then S dp
+  FieldF response_;               // S dp of the last step [m]
+  FieldF previous_;               // direction of the last step [Pa], 0 where it moved nothing
+  PixelList active_;              // solid contact that may move
+  std::vector<float> direction_;  // [Pa], on the active set
   std::vector<float> compact_direction_;  // the same without long waves
   std::vector<float> stiffness_;          // row sums of the compact kernel [Pa/m]
   std::vector<float> moved_;              // direction as far as bounds let it through [Pa]
   std::vector<std::uint8_t> is_active_;   // of all pixels
   PixelList outside_;                     // pixels outside pockets that may move
-  std::vector<std::uint32_t> place_outside_;  // of each in active_
   Wanted trial_;
   std::vector<double> trial_levels_;
   double step_ = 1;            // tau
@@ -186,7 +192,10 @@ void TwoMetricGradient::certify() {
   };
   consider(centre);
   if (std::isfinite(cap_)) {
-    if (convergence_.iterations > 0) consider(before);
+    if (convergence_.iterations > 0) {
+      consider(before);
+      consider(next_lambda_);
+    }
   } else {
     consider(extent_of(v_).lowest);
     if (std::isfinite(centre)) lambda_ = centre;  // the bound alone needs the lowest
@@ -235,7 +244,8 @@ double TwoMetricGradient::settle() {
   if (n_free == 0) return moved;
   const double each = (load_ - sum(p_)) / static_cast<double>(n_free);
   for_each(p_.size(), [&](Index i) {
-    if (is_free(i)) p_(i) = std::clamp(p_(i) + each, level_under(static_cast<std::size_t>(i)), cap_);
+    if (is_free(i))
+      p_(i) = std::clamp(p_(i) + each, level_under(static_cast<std::size_t>(i)), cap_);
   });
   return moved;
 }
@@ -271,6 +281,7 @@ bool TwoMetricGradient::ends(const Observer& observer) {
 /// Solid contact inside its bounds, or pressed off the bound that it is at. Pixels at the level of
 /// liquid move with the liquid.
 void TwoMetricGradient::choose_active_set() {
+  for (const std::uint32_t i : active_) is_active_[i] = 0;
   active_ = list_where(p_.size(), [&](Index i) {
     const auto pixel = static_cast<std::size_t>(i);
     const double p = p_(i);
@@ -279,13 +290,13 @@ void TwoMetricGradient::choose_active_set() {
     if (pockets_.of[pixel] != kNoPocket) return !at_level(p, level_under(pixel));
     return touches(p) || residual < 0;
   });
-  outside_.clear();
-  place_outside_.clear();
-  for (std::size_t k = 0; k < active_.size(); ++k) {
-    if (pockets_.of[active_[k]] != kNoPocket) continue;
-    outside_.push_back(active_[k]);
-    place_outside_.push_back(static_cast<std::uint32_t>(k));
-  }
+  for (const std::uint32_t i : active_) is_active_[i] = 1;
+  // Those that a change of the separation might lift or relieve move, too.
+  const double margin = kMargin * gap_scale_ / load_;
+  outside_ = list_where(p_.size(), [&](Index i) {
+    const auto pixel = static_cast<std::size_t>(i);
+    return pockets_.of[pixel] == kNoPocket && (touches(p_(i)) || r(pixel) < margin);
+  });
 }
 
 void TwoMetricGradient::find_direction() {
@@ -339,38 +350,38 @@ void TwoMetricGradient::choose_step() {
 double TwoMetricGradient::project_step(Metric metric) {
   const std::vector<float>& direction = metric == Metric::whole ? direction_ : compact_direction_;
   const double alone = preconditioner_.diagonal() * slower_;
-  trial_.outside.resize(outside_.size());
-  for_each(outside_.size(), [&](std::size_t k) {
-    const std::size_t i = outside_[k];
-    const double change = metric == Metric::scalar
-                              ? alone * r(i)
-                              : step_ * static_cast<double>(direction[place_outside_[k]]);
-    trial_.outside[k] = p_.data()[i] - change;
-  });
-  // Directions of solid contact in pockets, found by pixel.
   if (metric != Metric::scalar) {
     for_each(active_.size(), [&](std::size_t k) { work_.data()[active_[k]] = direction[k]; });
   }
+  trial_.outside.resize(outside_.size());
+  for_each(outside_.size(), [&](std::size_t k) {
+    const std::size_t i = outside_[k];
+    const double change = metric == Metric::scalar || !is_active_[i]
+                              ? alone * r(i)
+                              : step_ * static_cast<double>(work_.data()[i]);
+    trial_.outside[k] = p_.data()[i] - change;
+  });
   trial_.inside.resize(pockets_.pixels.size());
   std::vector<double> steps(pockets_.size());
   for_each(pockets_.size(), [&](std::size_t k) {
-    steps[k] = piston_[k] * slower_;
+    steps[k] = metric == Metric::scalar ? alone : piston_[k] * piston_factor_;
     for (std::size_t j = pockets_.first[k]; j < pockets_.first[k + 1]; ++j) {
       const std::size_t i = pockets_.pixels[j];
-      const double p = p_.data()[i];
-      const bool is_solid = p < cap_ ? !at_level(p, levels_[k]) : r(i) > 0;
-      const double change = metric == Metric::scalar || !is_solid
+      const double change = metric == Metric::scalar || !is_active_[i]
                                 ? steps[k] * r(i)
                                 : step_ * static_cast<double>(work_.data()[i]);
-      trial_.inside[j] = p - change;
+      trial_.inside[j] = p_.data()[i] - change;
     }
   });
+  trial_.step = alone;
   const double moving =
       sum_over(outside_.size(), [&](std::size_t k) { return p_.data()[outside_[k]]; }) +
       sum_over(pockets_.pixels.size(),
                [&](std::size_t j) { return p_.data()[pockets_.pixels[j]]; });
   trial_levels_ = levels_;
-  if (!pouring_.project(steps, liquid_.seals, moving, trial_, trial_levels_)) return 1;
+  const auto shift = pouring_.project(steps, liquid_.seals, moving, trial_, trial_levels_);
+  if (!shift) return 1;
+  next_lambda_ = lambda_ - *shift / alone;
   for_each(work_.size(), [&](Index i) { work_(i) = 0; });
   const auto change_of = [&](std::size_t i, double trial) {
     const double change = trial - p_.data()[i];
@@ -387,6 +398,7 @@ double TwoMetricGradient::project_step(Metric metric) {
 
 /// Returns false if no step leads downhill.
 bool TwoMetricGradient::move() {
+  slower_ = 1;
   double slope = project_step(Metric::whole);
   if (slope >= 0) {
     slope = project_step(Metric::compact);
@@ -417,7 +429,12 @@ bool TwoMetricGradient::move() {
       sum_over(pockets_.pixels.size(), [&](std::size_t j) {
         return change_inside(j) * static_cast<double>(work_.data()[pockets_.pixels[j]]);
       });
-  accept(curvature > 0 ? std::min(1.0, -slope / curvature) : 1.0);
+  const double free_length = curvature > 0 ? -slope / curvature : 2;
+  accept(std::min(1.0, free_length));
+  piston_factor_ = std::clamp(piston_factor_ * (free_length > 1        ? kLonger
+                                                : free_length < kShort ? kShorter
+                                                                       : 1.0),
+                              kLeastPiston, kMostPiston);
   return true;
 }
 
@@ -425,8 +442,7 @@ bool TwoMetricGradient::move() {
 void TwoMetricGradient::accept(double length) {
   // The part of the curvature that solid contact has: where the last step began.
   for_each(previous_.size(), [&](Index i) { previous_(i) = 0; });
-  for_each(active_.size(),
-           [&](std::size_t k) { previous_.data()[active_[k]] = direction_[k]; });
+  for_each(active_.size(), [&](std::size_t k) { previous_.data()[active_[k]] = direction_[k]; });
   const auto factor = static_cast<float>(length);
   for_each(response_.size(), [&](Index i) {
     response_(i) = work_(i) * factor;
@@ -436,9 +452,6 @@ void TwoMetricGradient::accept(double length) {
     return length == 1 ? trial : before + length * (trial - before);
   };
   double solid = 0;
-  for (const std::uint32_t i : active_) {
-    is_active_[i] = 1;
-  }
   solid += sum_over(outside_.size(), [&](std::size_t k) {
     double& p = p_.data()[outside_[k]];
     const double after = std::clamp(stepped(p, trial_.outside[k]), 0.0, cap_);
@@ -454,23 +467,56 @@ void TwoMetricGradient::accept(double length) {
     p = after;
     return is_active_[i] ? change * static_cast<double>(response_.data()[i]) : 0.0;
   });
-  for (const std::uint32_t i : active_) is_active_[i] = 0;
   step_curvature_ = solid;
   levels_ = length == 1 ? trial_levels_ : energy_.best_levels(p_, liquid_.seals);
   residual_is_fresh_ = false;
 }
 
-SealedState TwoMetricGradient::run(const State& start, const Observer& observer) {
+/// Lets the liquid of the start down to seals that have been lowered since; the contact outside
+/// pockets takes the load. Returns false where there is nothing to do.
+bool TwoMetricGradient::let_down(const std::vector<double>& levels) {
+  bool is_lowered = false;
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    if (!(levels[k] > liquid_.seals[k])) continue;
+    is_lowered = true;
+    for (std::size_t j = pockets_.first[k]; j < pockets_.first[k + 1]; ++j) {
+      double& p = p_.data()[pockets_.pixels[j]];
+      if (at_level(p, levels[k])) p = liquid_.seals[k];
+    }
+  }
+  if (!is_lowered) return false;
+  const PixelList support = list_where(p_.size(), [&](Index i) {
+    return pockets_.of[static_cast<std::size_t>(i)] == kNoPocket && touches(p_(i));
+  });
+  std::vector<double> values(support.size());
+  for_each(values.size(), [&](std::size_t k) { values[k] = p_.data()[support[k]]; });
+  const double carried = sum_over(values.size(), [&](std::size_t k) { return values[k]; });
+  const double rest = load_ - sum(p_) + carried;
+  if (!(rest > 0 && rest < cap_ * static_cast<double>(values.size()))) return false;
+  project_on_load(values, rest, cap_);
+  for_each(values.size(), [&](std::size_t k) { p_.data()[support[k]] = values[k]; });
+  return true;
+}
+
+SealedState TwoMetricGradient::run(const State& start, const std::vector<double>& levels,
+                                   const Observer& observer) {
   const Index ny = problem_.height.rows();
   const Index nx = problem_.height.cols();
   p_ = start.pressure;
-  v_ = start.displacement - problem_.height;
+  if (let_down(levels)) {
+    v_.resize(ny, nx);
+    refresh();
+  } else {
+    p_ = start.pressure;
+    v_ = start.displacement - problem_.height;
+    residual_is_fresh_ = true;
+  }
   levels_ = energy_.best_levels(p_, liquid_.seals);
-  residual_is_fresh_ = true;
   lambda_ = -start.separation;
   certify();
   SealedState state;
-  const bool has_no_level = std::all_of(levels_.begin(), levels_.end(), [](double m) { return m == 0; });
+  const bool has_no_level =
+      std::all_of(levels_.begin(), levels_.end(), [](double m) { return m == 0; });
   if (has_no_level && convergence_.certificate <= problem_.tolerance) {
     state.contact = start;
     state.levels = levels_;
@@ -521,9 +567,9 @@ SealedState TwoMetricGradient::run(const State& start, const Observer& observer)
 }  // namespace
 
 SealedState solve_sealed(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
-                         const SealedPockets& liquid, const State& start,
+                         const SealedPockets& liquid, const SealedState& start,
                          const Observer& observer) {
-  return TwoMetricGradient(elasticity, problem, liquid).run(start, observer);
+  return TwoMetricGradient(elasticity, problem, liquid).run(start.contact, start.levels, observer);
 }
 
 }  // namespace tabor::contact

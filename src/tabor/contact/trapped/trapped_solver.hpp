@@ -11,7 +11,7 @@ namespace tabor::contact {
 /// Pockets of liquid in a contact, and what bounds their pressures.
 struct SealedPockets {
   const Pockets& pockets;
-  double bulk_modulus;                ///< K [Pa], may be infinite
+  double bulk_modulus;               ///< K [Pa], may be infinite
   const std::vector<double>& seals;  ///< largest pressure of each pocket [Pa]
 };
 
@@ -26,10 +26,10 @@ struct SealedState {
 /// solid contact move along the direction of the fast solver (Preconditioner, LongWaves), those at
 /// the level of a pocket's liquid by the stiffness of a piston on its area,
 /// t_k = 3 pi^(3/2) E*/(16 sqrt(area)). The step is projected by Pouring and shortened to the
-/// minimum of the energy along it. `start`: a state of the same load. Not reaching the tolerance is
-/// returned, and so is being stopped.
+/// minimum of the energy along it. `start`: a state of the same load, whose seals may have been
+/// higher. Not reaching the tolerance is returned, and so is being stopped.
 SealedState solve_sealed(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
-                         const SealedPockets& liquid, const State& start,
+                         const SealedPockets& liquid, const SealedState& start,
                          const Observer& observer);
 
 /// True where a pressure is that of the liquid of its pocket [Pa], but for rounding.
