@@ -54,9 +54,9 @@ TEST(FieldsFile, AContactIsTheSameUnderAllFilms) {
   const cases::ContactRecord other = contact_at(8e6);
   const cases::FilmRecord thin = film_of(1e-4);
   const cases::FilmRecord thick = film_of(1e-3);
-  const auto under_thin = fields_of(contact, thin, nullptr);
-  const auto under_thick = fields_of(contact, thick, nullptr);
-  const auto of_other = fields_of(other, thick, nullptr);
+  const auto under_thin = fields_of(contact, {thin});
+  const auto under_thick = fields_of(contact, {thick});
+  const auto of_other = fields_of(other, {thick});
   EXPECT_EQ(owner_of("pressure", under_thin), owner_of("pressure", under_thick));
   EXPECT_NE(owner_of("pressure", under_thick), owner_of("pressure", of_other));
   EXPECT_NE(owner_of("film_thickness", under_thin), owner_of("film_thickness", under_thick));
@@ -68,8 +68,8 @@ TEST(FieldsFile, ContactsOfOnePressureAlongALoadPathDiffer) {
   cases::ContactRecord unloading = loading;
   unloading.summary.separation = -1e-7;
   const cases::FilmRecord film = film_of(1e-4);
-  EXPECT_NE(owner_of("gap", fields_of(loading, film, nullptr)),
-            owner_of("gap", fields_of(unloading, film, nullptr)));
+  EXPECT_NE(owner_of("gap", fields_of(loading, {film})),
+            owner_of("gap", fields_of(unloading, {film})));
 }
 
 TEST(FieldsFile, CasesSayWhatAWarningIsAbout) {
@@ -153,8 +153,8 @@ TEST(FieldsFile, SharesTheStateOfAContactUnderAllFilms) {
   settings.contact = steel(240e6);
   FieldsFile file({folder / "a.h5", {}, "a command", {}}, surface, settings);
   const cases::ContactRecord contact = saturated_contact(240e6);
-  file.add(0, {}, contact, film_of(1e-4), nullptr);
-  file.add(1, {}, contact, film_of(1e-3), nullptr);
+  file.add(0, {}, contact, {film_of(1e-4)});
+  file.add(1, {}, contact, {film_of(1e-3)});
   file.commit({});
   for (const char* path : {"/states/0000/state", "/states/0001/state"}) {
     EXPECT_EQ(states_in(folder / "a.h5", path), (std::vector<int>{0, 1, 1, 2, 0, 0})) << path;

@@ -48,8 +48,9 @@ TEST(SweepTrapped, HasTheNumbersOfTheOilBesideThoseOfTheContact) {
 
 TEST(SweepTrapped, SolvesItUnderEveryPlaceOfATool) {
   const ExampleStudy example;
-  example.write(with_trapped("[contact]\ntool = \"ground:Sa=0.1um,groove-length=20um\"\n"
-                             "tool_places = 2\n"));
+  example.write(
+      with_trapped("[contact]\ntool = \"ground:Sa=0.1um,groove-length=20um\"\n"
+                   "tool_places = 2\n"));
   EXPECT_EQ(example.run().n_trapped, 16U);
   const io::CsvTable table = table_of(example);
   EXPECT_EQ(table.number(0, "tool_places"), 2);
@@ -71,8 +72,8 @@ TEST(SweepTrapped, IsKnownByTheOilItHas) {
   example.write(with_trapped());
   const std::string key = key_of_case(example.read());
   EXPECT_EQ(key_of_case(parse_study(to_toml(example.read()), example.folder / "study.toml")), key);
-  for (const char* lines : {"bulk_modulus = \"inf\"\n", "bulk_modulus = \"2 GPa\"\n",
-                            "dry_below = \"2 nm\"\n"}) {
+  for (const char* lines :
+       {"bulk_modulus = \"inf\"\n", "bulk_modulus = \"2 GPa\"\n", "dry_below = \"2 nm\"\n"}) {
     example.write(with_trapped(lines));
     EXPECT_NE(key_of_case(example.read()), key) << lines;
     const std::string again = to_toml(example.read());
@@ -84,8 +85,8 @@ TEST(SweepTrapped, IsKnownByTheOilItHas) {
 
 TEST(SweepTrapped, SaysWithItsLineWhatDoesNotGoTogether) {
   const ExampleStudy example;
-  example.write(with_trapped("[contact]\nload_path = true\n"));
-  EXPECT_THAT(test::message_of([&] { example.read(); }), HasSubstr("lubricant.trapped"));
+  example.write(with_trapped("fluid = \"reynolds\"\nviscosity = \"0.1 Pa s\"\n"));
+  EXPECT_THAT(test::message_of([&] { example.read(); }), HasSubstr("sliding_speed"));
   example.write(with_trapped("bulk_modulus = \"-1 GPa\"\n"));
   EXPECT_THAT(test::message_of([&] { example.read(); }), HasSubstr("lubricant.bulk_modulus"));
 }

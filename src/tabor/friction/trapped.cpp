@@ -2,57 +2,13 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <type_traits>
 #include <vector>
 
+#include "tabor/contact/trapped/regions.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/numerics/disjoint_sets.hpp"
 
 namespace tabor::friction {
 namespace {
-
-/// Periodic cells from one place to another.
-struct Cells {
-  std::int32_t x = 0;
-  std::int32_t y = 0;
-  Cells operator+(Cells o) const { return {x + o.x, y + o.y}; }
-  Cells operator-(Cells o) const { return {x - o.x, y - o.y}; }
-  bool operator==(const Cells&) const = default;
-};
-
-/// Connected regions of the gap by their first pixels. In a periodic cell the sets have offsets:
-/// two paths to one pixel that differ by whole cells show that a region runs through the cell.
-template <bool periodic>
-class Regions {
- public:
-  explicit Regions(Index n)
-      : sets_(static_cast<std::size_t>(n)), open_(static_cast<std::size_t>(n), 0) {}
-
-  Index root(Index pixel) { return sets_.root(static_cast<std::int32_t>(pixel)); }
-
-  /// `b` is a neighbour of `a`, so many periodic cells further.
-  void join(Index a, Index b, Cells cells) {
-    const bool open = is_open(root(a)) || is_open(root(b));
-    const auto joined =
-        sets_.join(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), offset_of(cells));
-    const bool runs_through = joined.were_one && !(joined.difference == Offset{});
-    open_[static_cast<std::size_t>(joined.root)] = open || runs_through;
-  }
-
-  void mark_open(Index pixel) { open_[static_cast<std::size_t>(root(pixel))] = 1; }
-  bool is_open(Index root_pixel) const { return open_[static_cast<std::size_t>(root_pixel)] != 0; }
-
- private:
-  using Offset = std::conditional_t<periodic, Cells, numerics::NoOffset>;
-
-  static Offset offset_of(Cells cells) {
-    if constexpr (periodic) return cells;
-    return {};
-  }
-
-  numerics::DisjointSets<std::int32_t, Offset> sets_;
-  std::vector<std::uint8_t> open_;  // of roots: liquid can leave
-};
 
 void check_shape(Index rows, Index cols, const Grid& grid, const char* what) {
   if (rows != grid.ny || cols != grid.nx) {
@@ -60,34 +16,10 @@ void check_shape(Index rows, Index cols, const Grid& grid, const char* what) {
   }
 }
 
-template <bool periodic>
-void join_neighbours(Regions<periodic>& regions, const Mask& contact, const Grid& grid) {
-  const auto is_gap = [&](Index row, Index column) { return !contact(row, column); };
-  for (Index row = 0; row < grid.ny; ++row) {
-    for (Index column = 0; column < grid.nx; ++column) {
-      if (!is_gap(row, column)) continue;
-      const Index pixel = row * grid.nx + column;
-      const bool last_column = column + 1 == grid.nx;
-      const bool last_row = row + 1 == grid.ny;
-      if (!periodic && (row == 0 || column == 0 || last_row || last_column)) {
-        regions.mark_open(pixel);
-      }
-      const Index right = last_column ? 0 : column + 1;
-      const Index below = last_row ? 0 : row + 1;
-      if ((periodic || !last_column) && is_gap(row, right)) {
-        regions.join(pixel, row * grid.nx + right, {last_column ? 1 : 0, 0});
-      }
-      if ((periodic || !last_row) && is_gap(below, column)) {
-        regions.join(pixel, below * grid.nx + column, {0, last_row ? 1 : 0});
-      }
-    }
-  }
-}
-
 /// Liquid [m] summed over contact pixels; the regions' own sums go into `result`, by root.
 template <bool periodic>
-double add_up(Regions<periodic>& regions, const Mask& contact, const Field& film, const Field& gap,
-              double pixel_area, std::vector<GapRegion>& result) {
+double add_up(contact::Regions<periodic>& regions, const Mask& contact, const Field& film,
+              const Field& gap, double pixel_area, std::vector<GapRegion>& result) {
   std::vector<std::int32_t> position(static_cast<std::size_t>(film.size()), -1);
   double under_contact = 0;
   for (Index pixel = 0; pixel < film.size(); ++pixel) {
@@ -113,8 +45,8 @@ double add_up(Regions<periodic>& regions, const Mask& contact, const Field& film
 template <bool periodic>
 double add_up_regions(const Mask& contact, const Field& film, const Field& gap, const Grid& grid,
                       std::vector<GapRegion>& result) {
-  Regions<periodic> regions(grid.size());
-  join_neighbours(regions, contact, grid);
+  const bool* touching = contact.data();
+  contact::Regions<periodic> regions(grid, [touching](Index i) { return !touching[i]; });
   return add_up(regions, contact, film, gap, grid.pixel_area(), result);
 }
 

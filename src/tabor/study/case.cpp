@@ -172,9 +172,7 @@ engine::Task case_task(const Study& study, const Scan& scan,
                        double lubricant_density, const std::vector<engine::Task>& trapped,
                        const engine::Task* fluid) {
   std::string trapped_lines;
-  for (const engine::Task& oil : trapped) {
-    trapped_lines += engine::text_line("trapped", oil.key);
-  }
+  for (const engine::Task& oil : trapped) trapped_lines += engine::text_line("trapped", oil.key);
   std::string contact_lines;
   for (const engine::Task& contact : contacts) {
     contact_lines += engine::text_line("contact", contact.key);

@@ -41,19 +41,17 @@ double LiquidEnergy::most(std::size_t pocket, double seal) const {
   return std::min({seal, cap_, load_ / static_cast<double>(pockets_.n_pixels(pocket))});
 }
 
-double LiquidEnergy::duality_gap(const Field& pressure, const Field& v, double lambda,
-                                 const std::vector<double>& levels,
+double LiquidEnergy::duality_gap(const Field& pressure, const Field& v, const PixelList& near,
+                                 double lambda, const std::vector<double>& levels,
                                  const std::vector<double>& seals) const {
   const double* p = pressure.data();
   const double* residual = v.data();
-  const std::int32_t* pocket_of = pockets_.of.data();
   const bool has_cap = std::isfinite(cap_);
   // Where the residual is below zero without a cap, nothing bounds the minimum.
   if (!has_cap && extent_of(v).lowest < lambda) return std::numeric_limits<double>::infinity();
-  const double outside = sum_over(v.size(), [=, cap = cap_](Index i) {
-    if (pocket_of[i] != kNoPocket) return 0.0;
-    const double r = residual[i] - lambda;
-    return p[i] * r - (has_cap ? cap * std::min(r, 0.0) : 0.0);
+  const double outside = sum_over(near.size(), [&](std::size_t k) {
+    const double r = residual[near[k]] - lambda;
+    return p[near[k]] * r - (has_cap ? cap_ * std::min(r, 0.0) : 0.0);
   });
   std::vector<double> inside(pockets_.size());
   for_each(

@@ -32,8 +32,9 @@ class LiquidEnergy {
   ///         - sum_k min_{0 <= m <= seal_k} ( m (sum_k max(r, 0) - V_k) + V_k m^2/(2K) ),  r = v -
   ///         lambda.
   ///
-  /// Infinite where lambda bounds nothing: an r below zero without a cap.
-  double duality_gap(const Field& pressure, const Field& v, double lambda,
+  /// `near`: all pixels outside pockets with pressure or an r below zero, and any others. Infinite
+  /// where lambda bounds nothing: an r below zero without a cap.
+  double duality_gap(const Field& pressure, const Field& v, const PixelList& near, double lambda,
                      const std::vector<double>& levels, const std::vector<double>& seals) const;
 
  private:

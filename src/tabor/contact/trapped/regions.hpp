@@ -35,9 +35,7 @@ void join_neighbours(const Grid& grid, const Belongs& belongs, const Join& join)
         join(pixel, right, Cells{last_column ? 1 : 0, 0});
       }
       const Index under = below * grid.nx + column;
-      if ((periodic || !last_row) && belongs(under)) {
-        join(pixel, under, Cells{0, last_row ? 1 : 0});
-      }
+      if ((periodic || !last_row) && belongs(under)) join(pixel, under, Cells{0, last_row ? 1 : 0});
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tabor/contact/contact.hpp"
+#include "tabor/contact/trapped/regions.hpp"
 
 namespace tabor::contact {
 namespace {
@@ -28,17 +29,12 @@ class SetsByLevel {
     if (open) set_open(node, level);
   }
 
-  void join(std::size_t a, std::size_t b, double level) {
-    a = root(a);
-    b = root(b);
-    if (a == b) return;
-    if (is_open_[a] != is_open_[b]) set_open(is_open_[a] != 0 ? b : a, level);
-    if (size_[a] < size_[b]) std::swap(a, b);
-    parent_[b] = static_cast<std::uint32_t>(a);
-    size_[a] += size_[b];
-    if (is_open_[b] == 0) level_[b] = level;
+  /// Joins nodes at level 0, before any higher one: there, trees may be compressed.
+  void join_at_zero(std::size_t a, std::size_t b) {
+    link(compressed_root(a), compressed_root(b), 0);
   }
 
+  void join(std::size_t a, std::size_t b, double level) { link(root(a), root(b), level); }
   /// Returns the level at which a node first had a way out; kNever if it has none.
   double opened_at(std::size_t node) const {
     if (is_there_[node] == 0) return kNever;
@@ -55,6 +51,18 @@ class SetsByLevel {
   std::size_t root(std::size_t node) const {
     while (parent_[node] != node) node = parent_[node];
     return node;
+  }
+  std::size_t compressed_root(std::size_t node) {
+    while (parent_[node] != node) node = parent_[node] = parent_[parent_[node]];
+    return node;
+  }
+  void link(std::size_t a, std::size_t b, double level) {
+    if (a == b) return;
+    if (is_open_[a] != is_open_[b]) set_open(is_open_[a] != 0 ? b : a, level);
+    if (size_[a] < size_[b]) std::swap(a, b);
+    parent_[b] = static_cast<std::uint32_t>(a);
+    size_[a] += size_[b];
+    if (is_open_[b] == 0) level_[b] = level;
   }
   void set_open(std::size_t root, double level) {
     is_open_[root] = 1;
@@ -125,11 +133,18 @@ class Landscape {
 
   /// All gap outside pockets, at level 0.
   void fill_gap() {
-    for (std::size_t i = 0; i < n_pixels_; ++i) {
-      if (pockets_.of[i] != kNoPocket || touches(pressure_.data()[i])) continue;
-      sets_.add(i, pockets_.open[i] != 0, 0);
-      join_around(i, 0);
+    const auto is_gap = [&](Index i) {
+      return pockets_.of[static_cast<std::size_t>(i)] == kNoPocket && !touches(pressure_(i));
+    };
+    for (Index i = 0; i < grid_.size(); ++i) {
+      const auto pixel = static_cast<std::size_t>(i);
+      if (is_gap(i)) sets_.add(pixel, pockets_.open[pixel] != 0, 0);
     }
+    const auto join = [&](Index a, Index b, Cells) {
+      sets_.join_at_zero(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+    };
+    periodic_ ? join_neighbours<true>(grid_, is_gap, join)
+              : join_neighbours<false>(grid_, is_gap, join);
   }
 
   /// The contact outside pockets below the cap, and pockets, in the order of rising pressure.
@@ -139,9 +154,7 @@ class Landscape {
       const double p = pressure_.data()[i];
       if (pockets_.of[i] == kNoPocket && touches(p) && !at_cap(p, cap_)) nodes.emplace_back(p, i);
     }
-    for (std::size_t k = 0; k < pockets_.size(); ++k) {
-      nodes.emplace_back(liquid_[k], n_pixels_ + k);
-    }
+    for (std::size_t k = 0; k < pockets_.size(); ++k) nodes.emplace_back(liquid_[k], n_pixels_ + k);
     std::sort(nodes.begin(), nodes.end());
     for (const auto& [level, node] : nodes) {
       sets_.add(node, false, level);

@@ -71,6 +71,7 @@ class TwoMetricGradient {
  private:
   bool let_down(const std::vector<double>& levels);
   void refresh();
+  void collect_outside(double lambda);
   void certify();
   bool ends(const Observer& observer);
   bool meets_conditions();
@@ -126,6 +127,7 @@ class TwoMetricGradient {
   std::vector<float> moved_;              // direction as far as bounds let it through [Pa]
   std::vector<std::uint8_t> is_active_;   // of all pixels
   PixelList outside_;                     // pixels outside pockets that may move
+  double outside_below_ = 0;              // all whose v lies below are among them [m]
   Wanted trial_;
   std::vector<double> trial_levels_;
   double step_ = 1;            // tau
@@ -157,13 +159,11 @@ double TwoMetricGradient::weighted_level() const {
     return std::max(over, 0.0) * (1 - p / cap_);
   };
   const double total = sum_over(p_.size(), weight);
-  if (total > 0) {
-    return sum_over(p_.size(), [&](Index i) { return weight(i) * v_(i); }) / total;
-  }
+  if (total > 0) return sum_over(p_.size(), [&](Index i) { return weight(i) * v_(i); }) / total;
   double excess = 0;  // of v over what the liquid fills
   double n_liquid = 0;
   for (std::size_t k = 0; k < pockets_.size(); ++k) {
-    if (levels_[k] == 0) continue;
+    if (levels_[k] == 0 || at_level(liquid_.seals[k], levels_[k])) continue;  // says nothing
     excess -= pockets_.volume[k] * (1 - levels_[k] / liquid_.bulk_modulus);
     for (std::size_t j = pockets_.first[k]; j < pockets_.first[k + 1]; ++j) {
       const std::size_t i = pockets_.pixels[j];
@@ -174,17 +174,35 @@ double TwoMetricGradient::weighted_level() const {
   }
   if (n_liquid > 0) return excess / n_liquid;
   constexpr double none = -std::numeric_limits<double>::infinity();
-  return max_over(p_.size(), [&](Index i) { return touches(p_(i)) ? v_(i) : none; });
+  return max_over(p_.size(), [&](Index i) {
+    const bool is_solid =
+        touches(p_(i)) && !at_level(p_(i), level_under(static_cast<std::size_t>(i)));
+    return is_solid ? v_(i) : none;
+  });
+}
+
+/// Pixels outside pockets that carry pressure, or that a change of the separation might press.
+void TwoMetricGradient::collect_outside(double lambda) {
+  const double highest = lambda + kMargin * gap_scale_ / load_;
+  outside_ = list_where(p_.size(), [&](Index i) {
+    return pockets_.of[static_cast<std::size_t>(i)] == kNoPocket &&
+           (touches(p_(i)) || v_(i) < highest);
+  });
+  outside_below_ = highest;
 }
 
 /// The certificate by the best of a few multipliers; the best stays.
 void TwoMetricGradient::certify() {
+  collect_outside(lambda_);
   const double centre = weighted_level();
   const double before = lambda_;
   double least = std::numeric_limits<double>::infinity();
   const auto consider = [&](double lambda) {
     if (!std::isfinite(lambda)) return;
-    const double gap = energy_.duality_gap(p_, v_, lambda, levels_, liquid_.seals);
+    if (lambda > outside_below_) {  // pixels that are not among those outside would count
+      collect_outside(lambda);
+    }
+    const double gap = energy_.duality_gap(p_, v_, outside_, lambda, levels_, liquid_.seals);
     if (gap < least) {
       least = gap;
       lambda_ = lambda;
@@ -244,8 +262,9 @@ double TwoMetricGradient::settle() {
   if (n_free == 0) return moved;
   const double each = (load_ - sum(p_)) / static_cast<double>(n_free);
   for_each(p_.size(), [&](Index i) {
-    if (is_free(i))
+    if (is_free(i)) {
       p_(i) = std::clamp(p_(i) + each, level_under(static_cast<std::size_t>(i)), cap_);
+    }
   });
   return moved;
 }
@@ -291,12 +310,6 @@ void TwoMetricGradient::choose_active_set() {
     return touches(p) || residual < 0;
   });
   for (const std::uint32_t i : active_) is_active_[i] = 1;
-  // Those that a change of the separation might lift or relieve move, too.
-  const double margin = kMargin * gap_scale_ / load_;
-  outside_ = list_where(p_.size(), [&](Index i) {
-    const auto pixel = static_cast<std::size_t>(i);
-    return pockets_.of[pixel] == kNoPocket && (touches(p_(i)) || r(pixel) < margin);
-  });
 }
 
 void TwoMetricGradient::find_direction() {
