@@ -95,12 +95,7 @@ class Landscape {
     fill_gap();
     raise();
     std::vector<double> seals(pockets_.size(), kNever);
-    const bool has_way_out = std::any_of(pockets_.open.begin(), pockets_.open.end(),
-                                         [](auto open) { return open != 0; });
-    for (std::size_t k = 0; k < seals.size(); ++k) {
-      seals[k] = seal_of(k);
-      if (has_way_out) seals[k] = std::min(seals[k], cap_);
-    }
+    for (std::size_t k = 0; k < seals.size(); ++k) seals[k] = std::min(seal_of(k), cap_);
     return seals;
   }
 
