@@ -77,13 +77,11 @@ using TrappedState = std::tuple<nb::dict, std::pair<int, std::uint64_t>, Warning
 
 nb::object saved_trapped(nb::handle_t<TrappedRecord> self) {
   const auto& one = nb::cast<const TrappedRecord&>(self);
-  return nb::cast(
-      std::make_tuple(saved(cases::trapped_columns(), one),
-                      std::make_pair(static_cast<int>(one.convergence.status), one.surface),
-                      python::texts_of(one.warnings), one.references,
-                      view_of(one.state.liquid_pressure, self),
-                      view_of(one.state.contact.pressure, self),
-                      view_of(one.state.contact.gap, self)));
+  return nb::cast(std::make_tuple(
+      saved(cases::trapped_columns(), one),
+      std::make_pair(static_cast<int>(one.convergence.status), one.surface),
+      python::texts_of(one.warnings), one.references, view_of(one.state.liquid_pressure, self),
+      view_of(one.state.contact.pressure, self), view_of(one.state.contact.gap, self)));
 }
 
 void restore_trapped(TrappedRecord& self, const TrappedState& saved) {
@@ -291,10 +289,8 @@ void bind_friction(nb::module_& module) {
   nb::class_<TrappedRecord>(module, "TrappedRecord")
       .def("__getstate__", &saved_trapped)
       .def("__setstate__", &restore_trapped)
-      .def_prop_ro("liquid_pressure", map_of<TrappedRecord>([](const contact::TrappedState& s)
-                                                                -> auto& {
-                     return s.liquid_pressure;
-                   }))
+      .def_prop_ro("liquid_pressure", map_of<TrappedRecord>([
+                   ](const contact::TrappedState& s) -> auto& { return s.liquid_pressure; }))
       .def_prop_ro("pressure", map_of<TrappedRecord>([](const contact::TrappedState& s) -> auto& {
                      return s.contact.pressure;
                    }))
@@ -304,9 +300,11 @@ void bind_friction(nb::module_& module) {
   nb::class_<FluidRecord>(module, "FluidRecord")
       .def("__getstate__", &saved_fluid)
       .def("__setstate__", &restore_fluid)
-      .def_prop_ro("pressure", map_of<FluidRecord>([](const State& s) -> auto& { return s.film.pressure; }))
+      .def_prop_ro("pressure",
+                   map_of<FluidRecord>([](const State& s) -> auto& { return s.film.pressure; }))
       .def_prop_ro("fill", map_of<FluidRecord>([](const State& s) -> auto& { return s.film.fill; }))
-      .def_prop_ro("gap", map_of<FluidRecord>([](const State& s) -> auto& { return s.contact.gap; }))
+      .def_prop_ro("gap",
+                   map_of<FluidRecord>([](const State& s) -> auto& { return s.contact.gap; }))
       .def_prop_ro("solid_pressure",
                    map_of<FluidRecord>([](const State& s) -> auto& { return s.contact.pressure; }));
   module.def("friction", &friction, "surface"_a, "contact"_a, "film"_a, "contact_settings"_a,

@@ -23,8 +23,7 @@ topography::Topography sheet() {
 CaseSettings aluminium() {
   CaseSettings settings;
   settings.mean_pressures = {15e6};
-  settings.contact = {
-      .youngs_modulus = 70e9, .poissons_ratio = 0.33, .saturation_pressure = 240e6};
+  settings.contact = {.youngs_modulus = 70e9, .poissons_ratio = 0.33, .saturation_pressure = 240e6};
   settings.film.lubricant_densities = {0.45e-3};
   settings.friction = {.shear_strength = 70e6, .boundary_shear_strength = 5e6};
   settings.trapped.trapped = true;

@@ -35,6 +35,7 @@ const std::map<std::string, Plausible>& plausible_options() {
       {"--pressure", {dimension::pressure, 1, 1e10}},
       {"--youngs-modulus", kModulus},
       {"--counter-youngs-modulus", kModulus},
+      {"--bulk-modulus", kModulus},
       {"--saturation-pressure", {dimension::pressure, 1e5, 1e11}},
       {"--shear-strength", {dimension::pressure, 1e3, 1e10}},
       {"--boundary-shear-strength", {dimension::pressure, 1e3, 1e10}},

@@ -61,7 +61,8 @@ TEST(TrappedLiquid, InAWaveHasThePressureOfItsClosedForm) {
 
 TEST(TrappedLiquid, ThatDoesNotFillTheGapLeavesTheBitsOfTheDryContact) {
   const Field wave = test::wave(32, kUnitAmplitude, true);
-  const contact::State dry = solve_unit(wave, 0.1 * kFullPressure, contact::kNoSaturation, 1e-7).state;
+  const contact::State dry =
+      solve_unit(wave, 0.1 * kFullPressure, contact::kNoSaturation, 1e-7).state;
   const double gap = dry.gap.mean();
   const contact::TrappedState loose =
       press_whole_cell(wave, 0.1 * kFullPressure, contact::kNoSaturation, 0.9 * gap, kInfinite);

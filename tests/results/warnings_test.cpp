@@ -429,6 +429,14 @@ Warnings one_of_each() {
   tool.rms_height = 1.2345e-3;
   add(cases::of_tool(rough(), tool), all);
   add(cases::of_pixel(1.2345e-6, 0.12345, 6.1725e-7, 0.45678), all);
+  cases::TrappedRecord trapped;
+  trapped.convergence.status = Status::converged;
+  trapped.liquid.seal_rounds = 12;
+  trapped.liquid.seals_settled = false;
+  add(cases::of_trapped(trapped), all);
+  trapped.liquid.leaked_fraction = 0.123456;
+  trapped.convergence = {.certificate = 1.2345e-5, .tolerance = 1e-6};
+  add(cases::of_trapped(trapped), all);
   add(cases::of_mixed_friction({.friction_mixed = 12.3456}), all);
   return all;
 }

@@ -122,7 +122,7 @@ TEST(AveragesCsv, AddsColumnsWhereTheOilFlows) {
 
 TEST(ResultsCsv, PutsColumnsOfAFlowBehindTheAgreedOnes) {
   const std::string agreed = results_csv({});
-  const std::string flowing = results_csv({}, {.fluid = true, .tool = false});
+  const std::string flowing = results_csv({}, {.trapped = false, .fluid = true, .tool = false});
   EXPECT_EQ(flowing, agreed.substr(0, agreed.size() - 1) +
                          ",sliding_speed_m_per_s,fluid_load_share,fluid_contact_area_fraction,"
                          "fluid_mean_gap_m,friction_solid,friction_viscous,friction_mixed,"

@@ -88,8 +88,7 @@ std::vector<std::string> states_in_turn(const cases::CaseSettings& asked) {
       const cases::FrictionRecord friction =
           cases::friction_state(contact, {touching, contact.state.gap, surface.grid}, {film},
                                 asked.contact, asked.friction);
-      texts.push_back(
-          text_of({.friction = friction, .contact = contact, .oil = {film}}));
+      texts.push_back(text_of({.friction = friction, .contact = contact, .oil = {film}}));
     }
   };
   cases::contact_states(*elasticity, surface, asked.contact, cases::controls_of(asked), receive);

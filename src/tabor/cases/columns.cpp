@@ -136,9 +136,9 @@ const Columns<TrappedRecord>& trapped_columns() {
       within(solids, &Record::solids), within(liquid, &Record::liquid),
       Columns<Record>{
           {"lubricated_share", "", "", &Record::lubricated_share},
-       {"mean_gap_m", "m", "", &Record::mean_gap},
-       {"certificate", "", "", member_of(&Record::convergence, &Convergence::certificate)},
-       {"converged", "", "", [](const Record& one) { return one.convergence.converged(); }}});
+          {"mean_gap_m", "m", "", &Record::mean_gap},
+          {"certificate", "", "", member_of(&Record::convergence, &Convergence::certificate)},
+          {"converged", "", "", [](const Record& one) { return one.convergence.converged(); }}});
   return all;
 }
 

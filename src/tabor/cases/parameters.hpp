@@ -3,8 +3,8 @@
 #include "tabor/cases/settings.hpp"
 #include "tabor/record/parameter.hpp"
 
-// The settings of contact, film, trapped oil, flowing oil and friction, each said in one line. Verbs, study
-// files, stored results and Python take them from these tables.
+// The settings of contact, film, trapped oil, flowing oil and friction, each said in one line.
+// Verbs, study files, stored results and Python take them from these tables.
 namespace tabor::cases {
 
 const Parameters<ContactSettings>& contact_parameters();

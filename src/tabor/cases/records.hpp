@@ -189,13 +189,13 @@ struct FrictionRecord {
   double friction_dry = kNoValue;
   double friction_lubricated = kNoValue;
   double certificate = kNoValue;
-  double contact_gap_error = kNoValue;   ///< [m]
-  bool converged = false;                ///< contact, and film if it flows
+  double contact_gap_error = kNoValue;     ///< [m]
+  bool converged = false;                  ///< contact, and film if it flows
   std::optional<TrappedFriction> trapped;  ///< absent where trapped oil carries nothing
   std::optional<FlowingFriction> fluid;    ///< absent where the oil does not flow
-  std::optional<ToolFriction> tool;      ///< absent under a flat
-  Warnings warnings;                     ///< of its surface, contact, film and friction
-  std::vector<std::string> references;   ///< of all of them, to cite; not stored
+  std::optional<ToolFriction> tool;        ///< absent under a flat
+  Warnings warnings;                       ///< of its surface, contact, film and friction
+  std::vector<std::string> references;     ///< of all of them, to cite; not stored
 };
 /// Columns for tables on the terminal: the area that friction was computed with, under the name of
 /// its count, so that a table has one of the two areas and says which.
@@ -205,8 +205,8 @@ struct CaseSettings;
 /// Parts of a friction that not every case has, and their columns.
 struct FrictionParts {
   bool trapped = true;  ///< trapped oil carries load
-  bool fluid = true;  ///< the oil flows
-  bool tool = true;   ///< a rough tool presses
+  bool fluid = true;    ///< the oil flows
+  bool tool = true;     ///< a rough tool presses
 };
 FrictionParts parts_of(const CaseSettings& settings);
 FrictionParts parts_of(const FrictionRecord& record);

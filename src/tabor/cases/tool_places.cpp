@@ -47,14 +47,14 @@ Mean mean_over(const std::vector<FrictionRecord>& records, double FrictionRecord
 TrappedFriction mean_of_trapped(const std::vector<FrictionRecord>& records) {
   TrappedFriction mean = *records.front().trapped;
   for (const auto member : kAveragedOfTrapped) {
-    mean.*member =
-        mean_of_each(records, [=](const FrictionRecord& one) { return (*one.trapped).*member; })
-            .mean;
+    mean.*member = mean_of_each(records, [=](const FrictionRecord& one) {
+                     return (*one.trapped).*member;
+                   }).mean;
   }
   for (const auto member : kCountsOfTrapped) {
-    mean.*member = std::llround(
-        mean_of_each(records, [=](const FrictionRecord& one) { return (*one.trapped).*member; })
-            .mean);
+    mean.*member = std::llround(mean_of_each(records, [=](const FrictionRecord& one) {
+                                  return (*one.trapped).*member;
+                                }).mean);
   }
   for (const FrictionRecord& one : records) {
     mean.certificate = std::max(mean.certificate, one.trapped->certificate);

@@ -56,11 +56,10 @@ TrappedRecord trapped_state(elastic::ElasticOperator& elasticity, const Field& h
   record.convergence = record.state.contact.convergence;
   throw_if_stopped(record.convergence);
   const Mask touching = contact::solid_contact(record.state);
-  record.solids = summary_of_solids(record.state, touching, problem, elasticity.grid(),
-                                    contact.is_periodic());
+  record.solids =
+      summary_of_solids(record.state, touching, problem, elasticity.grid(), contact.is_periodic());
   record.liquid = record.state.liquid;
-  record.lubricated_share =
-      friction::lubricated_share(touching, film, settings.friction.dry_below);
+  record.lubricated_share = friction::lubricated_share(touching, film, settings.friction.dry_below);
   record.mean_gap = record.solids.mean_gap;
   record.references = references_of(settings.trapped);
   record.warnings = of_trapped(record);

@@ -135,12 +135,12 @@ Warnings of_trapped(const TrappedRecord& trapped) {
   Warnings list;
   const Convergence& convergence = trapped.convergence;
   if (convergence.failed()) {
-    list.push_back({"trapped-oil",
-                    fmt::format("trapped oil NOT CONVERGED ({}), certificate {:.1e} instead of "
-                                "{:.0e}",
-                                name_of(convergence.status), convergence.certificate,
-                                convergence.tolerance),
-                    convergence.certificate});
+    list.push_back(
+        {"trapped-oil",
+         fmt::format("trapped oil NOT CONVERGED ({}), certificate {:.1e} instead of "
+                     "{:.0e}",
+                     name_of(convergence.status), convergence.certificate, convergence.tolerance),
+         convergence.certificate});
   } else if (!trapped.liquid.seals_settled) {
     list.push_back({"trapped-oil",
                     fmt::format("the seals of pockets still weaken after {} solutions: their oil "

@@ -252,7 +252,8 @@ Verb friction_verb() {
           "'--density 0g/m^2' asks for dry friction alone. One sentence per pressure says from "
           "which density the pockets under the contacts are full and above which the oil level "
           "reaches the contacts. With --tool a rough tool presses in place of the flat. With "
-          "--trapped oil in closed pockets of the gap is squeezed and carries part of the load. With "
+          "--trapped oil in closed pockets of the gap is squeezed and carries part of the load. "
+          "With "
           "--fluid reynolds the deposited oil flows while the flat "
           "slides: it carries "
           "part of the load and adds viscous shear.",

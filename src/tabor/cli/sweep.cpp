@@ -107,11 +107,12 @@ std::string outcome_text(const Request& request, const study::Outcome& outcome) 
   facts.fact("results", request.folder().string());
   facts.fact("cases", fmt::format("{} of {} done, {} failed, {} not converged", outcome.n_done,
                                   outcome.n_cases, outcome.n_failed, outcome.n_not_converged));
-  facts.fact("computed now",
-             fmt::format("{} surfaces, {} contacts, {} films, {}{} flowing, {} cases",
-                         outcome.n_surfaces, outcome.n_contacts, outcome.n_films,
-                         outcome.n_trapped > 0 ? fmt::format("{} trapped, ", outcome.n_trapped) : "",
-                         outcome.n_fluids, outcome.n_rows));
+  facts.fact(
+      "computed now",
+      fmt::format("{} surfaces, {} contacts, {} films, {}{} flowing, {} cases", outcome.n_surfaces,
+                  outcome.n_contacts, outcome.n_films,
+                  outcome.n_trapped > 0 ? fmt::format("{} trapped, ", outcome.n_trapped) : "",
+                  outcome.n_fluids, outcome.n_rows));
   return facts.text();
 }
 

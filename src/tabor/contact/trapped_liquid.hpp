@@ -11,35 +11,35 @@ inline constexpr double kIncompressible = std::numeric_limits<double>::infinity(
 
 /// Liquid in the gap before it is closed.
 struct GapLiquid {
-  const Field& film;                     ///< [m], shape (ny, nx), >= 0
-  double bulk_modulus = 1.5e9;           ///< K [Pa], > 0; kIncompressible allowed
-  bool periodic = true;                  ///< opposite borders of the map are neighbours
+  const Field& film;            ///< [m], shape (ny, nx), >= 0
+  double bulk_modulus = 1.5e9;  ///< K [Pa], > 0; kIncompressible allowed
+  bool periodic = true;         ///< opposite borders of the map are neighbours
 };
 
 /// Numbers of the liquid in a contact.
 struct LiquidSummary {
-  Index n_pockets = 0;        ///< closed pockets that hold liquid
-  Index n_squeezed = 0;       ///< of these, with pressure in the liquid
-  Index n_at_seal = 0;        ///< of these, at the pressure that opens their seal: they leak
-  double load_share = 0;      ///< load that the liquid carries / load
-  double max_pressure = 0;    ///< [Pa], largest liquid pressure
-  double pocket_volume = 0;   ///< [m^3], liquid in pockets before closing
-  double open_volume = 0;     ///< [m^3], liquid with a way out before closing
-  double leaked_volume = 0;   ///< [m^3], that left the pockets
-  double leaked_fraction = 0; ///< leaked_volume / pocket_volume; 0 without pockets
-  int seal_rounds = 0;        ///< solutions until no seal had to be lowered
-  bool seals_settled = true;  ///< false: rounds ran out
+  Index n_pockets = 0;         ///< closed pockets that hold liquid
+  Index n_squeezed = 0;        ///< of these, with pressure in the liquid
+  Index n_at_seal = 0;         ///< of these, at the pressure that opens their seal: they leak
+  double load_share = 0;       ///< load that the liquid carries / load
+  double max_pressure = 0;     ///< [Pa], largest liquid pressure
+  double pocket_volume = 0;    ///< [m^3], liquid in pockets before closing
+  double open_volume = 0;      ///< [m^3], liquid with a way out before closing
+  double leaked_volume = 0;    ///< [m^3], that left the pockets
+  double leaked_fraction = 0;  ///< leaked_volume / pocket_volume; 0 without pockets
+  int seal_rounds = 0;         ///< solutions until no seal had to be lowered
+  bool seals_settled = true;   ///< false: rounds ran out
 };
 
 /// A contact with pressure in its pockets of liquid.
 struct TrappedState {
-  State contact;             ///< pressure [Pa] of solids and liquid together; gap [m] >= 0 over pockets
-  Field liquid_pressure;     ///< [Pa], pi of the pocket on its pixels, 0 outside pockets
+  State contact;  ///< pressure [Pa] of solids and liquid together; gap [m] >= 0 over pockets
+  Field liquid_pressure;  ///< [Pa], pi of the pocket on its pixels, 0 outside pockets
   LiquidSummary liquid;
 };
 
-/// Solves the contact in which liquid that is trapped in closed pockets of the gap carries load. The
-/// pressure p of solids and liquid, and the pressure pi_k of the liquid in each pocket B_k of
+/// Solves the contact in which liquid that is trapped in closed pockets of the gap carries load.
+/// The pressure p of solids and liquid, and the pressure pi_k of the liquid in each pocket B_k of
 /// volume V_k, minimise
 ///
 ///     1/2 <p, S p> - <p, h> + sum_k [ V_k pi_k^2/(2 K) - V_k pi_k ]

@@ -24,6 +24,7 @@ struct Ordinary {
 // The longer of names that end alike stands first, and what a dimension has in common last.
 constexpr std::array kOrdinary{
     Ordinary{"youngs modulus", dimension::pressure, 1e5, 1.3e12, "70", {"GPa", "Pa", "MPa"}},
+    Ordinary{"bulk modulus", dimension::pressure, 1e5, 1.3e12, "1.5", {"GPa", "Pa", "MPa"}},
     Ordinary{"e prime", dimension::pressure, 1e5, 2e12, "230", {"GPa", "Pa", "MPa"}},
     Ordinary{"plastic pressure", dimension::pressure, 1e7, 1e11, "4", {"GPa", "MPa", "Pa"}},
     Ordinary{"saturation pressure", dimension::pressure, 1e5, 1e11, "240", {"MPa", "GPa", "Pa"}},
@@ -44,6 +45,7 @@ constexpr std::array kOrdinary{
     Ordinary{"track length", dimension::length, 1e-5, 1e3, "10", {"mm", "m", "um"}},
     Ordinary{"stroke", dimension::length, 1e-6, 1, "1", {"mm", "um", "m"}},
     Ordinary{"wear width", dimension::length, 1e-5, 10, "10", {"mm", "um", "m"}},
+    Ordinary{"dry below", dimension::length, 1e-10, 1e-6, "2", {"nm", "um"}},
     Ordinary{"boundary film", dimension::length, 1e-10, 1e-6, "5", {"nm", "um"}},
     Ordinary{"", dimension::length, 0, 0.1, "1", {"um", "nm"}},
 

@@ -7,8 +7,8 @@
 namespace tabor::friction {
 
 /// Returns wet contact pixels / contact pixels, the wet share of the real contact. `contact` is
-/// true where the solids touch, `film` the liquid's thickness [m] before they do, same shape; a film
-/// no thicker than `dry_below` [m] does not wet. 0 if nothing touches. Throws InputError for
+/// true where the solids touch, `film` the liquid's thickness [m] before they do, same shape; a
+/// film no thicker than `dry_below` [m] does not wet. 0 if nothing touches. Throws InputError for
 /// different shapes or NaN.
 double lubricated_share(const Mask& contact, const Field& film, double dry_below = 0);
 

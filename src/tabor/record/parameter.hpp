@@ -27,7 +27,7 @@ struct Bounds {
   double most = std::numeric_limits<double>::infinity();
   bool least_is_out = false;  ///< the number lies above `least`
   bool infinity_is_in = false;
-  std::string text = {};      ///< "more than zero"; empty: every number is in
+  std::string text = {};  ///< "more than zero"; empty: every number is in
 
   /// True where a number lies there; NaN never does, infinity where it is said.
   bool contain(double value) const;

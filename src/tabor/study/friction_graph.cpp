@@ -135,8 +135,8 @@ struct FrictionGraph::Shared {
                                                     cases::Pressing& pressing,
                                                     const Observer& observer) {
     return store->dry_contact(place.contact, [&] {
-      return cases::contact_state(elasticity, surface, settings().contact, control(place),
-                                  pressing, observer)
+      return cases::contact_state(elasticity, surface, settings().contact, control(place), pressing,
+                                  observer)
           .state;
     });
   }

@@ -257,8 +257,9 @@ FrictionInputs FrictionInFolder::inputs(const FrictionPlace& place) {
         read_fluid(folder_, tasks_.fluids[pressure_of(place.contact)][place.condition]));
     fluid->sliding_speed = study_.sliding_speeds[under.speed];
   }
-  return {contact, {contact, &contact->contact}, {contact, &contact->gap}, contact->grid, film,
-          trapped, fluid};
+  return {
+      contact, {contact, &contact->contact}, {contact, &contact->gap}, contact->grid, film, trapped,
+      fluid};
 }
 
 /// Appends the jobs of one scan; rows of a pressure are shown with its surface and wet shares.

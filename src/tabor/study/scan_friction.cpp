@@ -228,8 +228,8 @@ ScanFrictionResult friction_of(const topography::Topography& surface,
                                bool compares_pixels) {
   const bool drops_maps = maps == ContactMaps::dropped && !settings.fluid.flows() &&
                           !settings.trapped.is_asked();  // oil in it needs all of a contact
-  const auto store = std::make_shared<FrictionInMemory>(surface, settings, drops_maps,
-                                                        maps == ContactMaps::kept);
+  const auto store =
+      std::make_shared<FrictionInMemory>(surface, settings, drops_maps, maps == ContactMaps::kept);
   const bool has_curves = cases::has_density_curve(settings);
   const std::size_t window =
       std::max<std::size_t>(1, n_waiting(surface.grid, !drops_maps) / store->n_places());

@@ -18,7 +18,7 @@ namespace tabor::study {
 struct FrictionState {
   const cases::FrictionRecord& friction;
   const cases::ContactRecord& contact;  ///< its maps if asked for
-  cases::Oil oil;  ///< its film, and what it does beside wetting
+  cases::Oil oil;                       ///< its film, and what it does beside wetting
 };
 
 /// Maps of contacts in the states that are handed on. Each contact waits for the rain in memory:

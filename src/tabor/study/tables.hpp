@@ -33,7 +33,8 @@ Remarks remarks_in(const std::filesystem::path& results);
 /// Return the contents of results.csv and averages.csv; a value that does not exist is an empty
 /// cell. Where a tool presses or the oil flows they have more columns.
 std::string results_csv(const std::vector<Row>& rows,
-                        const cases::FrictionParts& parts = {.trapped = false, .fluid = false, .tool = false});
+                        const cases::FrictionParts& parts = {
+                            .trapped = false, .fluid = false, .tool = false});
 std::string averages_csv(const std::vector<Average>& averages, bool oil_flows = false);
 
 /// Content of the tables of a study.
