@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "tabor/core/error.hpp"
-#include "tabor/core/rows.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/io/files/digest.hpp"
 #include "tabor/metrology/areal/parameters.hpp"
 #include "tabor/scan/file.hpp"
+#include "tabor/sliding/slider.hpp"
 #include "tabor/synthesis/recipe_text.hpp"
 #include "tabor/topography/treatment.hpp"
 
@@ -203,13 +203,7 @@ std::vector<Index> places_of(const ToolSettings& settings, const Tool& tool) {
 }
 
 Field height_at(const Tool& tool, Index place, const Grid& sheet) {
-  const Index period = tool.grid.nx;
-  const Index first = ((place % period) + period) % period;
-  Field height(sheet.ny, sheet.nx);
-  for_each_pixel(sheet.ny, sheet.nx, [&](Index y, Index x) {
-    height(y, x) = tool.height(y, (x - first + period * (1 + sheet.nx / period)) % period);
-  });
-  return height;
+  return sliding::tool_at(tool.height, place, sheet.nx);
 }
 
 Warnings of_tool(const topography::Topography& sheet, const Tool& tool) {

@@ -39,6 +39,8 @@ const std::vector<CodeEntry>& all_codes() {
       {"pixel", About::friction, Class::doubt},
       {"frictionless", About::friction, Class::doubt},
       {"implausible-friction", About::friction, Class::doubt},
+      {"tool-pixel", About::friction, Class::doubt},
+      {"milling", About::friction, Class::doubt},
       {"trapped-oil", About::friction, Class::doubt},
       {"leaked", About::friction, Class::doubt},
       {"fluid-film", About::flow, Class::doubt},

@@ -60,17 +60,24 @@ void declare_contact(OptionSet& set, cases::CaseSettings& settings, Controls con
   declare_material(set, settings);
   declare_all(set, cases::contact_parameters(), settings.contact,
               {"load_path", "tool_places", "tool", "tool_x", "tool_lowpass", "tool_repeats"});
-  declare_tool(set, settings.contact.tool, controls == Controls::all);
+  declare_tool(set, settings.contact.tool, controls != Controls::pressures);
 }
 
-void declare_film(OptionSet& set, cases::FilmSettings& settings) {
+void declare_film(OptionSet& set, cases::FilmSettings& settings, bool is_needed) {
   set.group("Lubricant");
-  declare_all(set, cases::film_parameters(), settings, {"seed"});  // all verbs have --seed
+  const char* const density = "lubricant_density";
+  Option& option = declare(set, parameter_of(cases::film_parameters(), density), settings);
+  option.required = is_needed;
+  declare_all(set, cases::film_parameters(), settings, {density, "seed"});  // all have --seed
+}
+
+void declare_dry_below(OptionSet& set, cases::FrictionSettings& settings) {
+  declare(set, parameter_of(cases::friction_parameters(), "dry_below"), settings);
 }
 
 void declare_trapped(OptionSet& set, cases::CaseSettings& settings) {
   declare_all(set, cases::trapped_parameters(), settings.trapped);
-  declare(set, parameter_of(cases::friction_parameters(), "dry_below"), settings.friction);
+  declare_dry_below(set, settings.friction);
 }
 
 void declare_fluid(OptionSet& set, cases::FluidSettings& settings) {

@@ -22,12 +22,14 @@ namespace tabor::cli {
 /// What contacts may be asked for under.
 enum class Controls {
   pressures,  ///< one must be given
+  sliding,    ///< the same, under a tool at one place
   all         ///< pressures, separations or forces: objection_to_controls() tells if none is given
 };
 /// Declares what contacts are solved under and their settings.
 void declare_contact(OptionSet& set, cases::CaseSettings& settings,
                      Controls controls = Controls::pressures);
-void declare_film(OptionSet& set, cases::FilmSettings& settings);
+void declare_film(OptionSet& set, cases::FilmSettings& settings, bool is_needed = true);
+void declare_dry_below(OptionSet& set, cases::FrictionSettings& settings);
 void declare_trapped(OptionSet& set, cases::CaseSettings& settings);
 void declare_fluid(OptionSet& set, cases::FluidSettings& settings);
 void declare_friction(OptionSet& set, cases::FrictionSettings& settings);

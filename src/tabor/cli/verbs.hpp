@@ -14,6 +14,7 @@ Verb generate_verb();
 Verb contact_verb();
 Verb lubricate_verb();
 Verb friction_verb();
+Verb slide_verb();
 Verb sweep_verb();
 Verb ehl_verb();
 Verb report_verb();

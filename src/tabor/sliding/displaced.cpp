@@ -1,0 +1,91 @@
+#include "tabor/sliding/displaced.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "tabor/core/loops.hpp"
+#include "tabor/spectral/fft.hpp"
+
+namespace tabor::sliding {
+namespace {
+
+constexpr double kExact = 1e-15;     // relative: of volumes
+constexpr double kNegligible = 1e-12;  // of the largest weight: rounding of the transforms
+constexpr int kMostSteps = 100;
+
+/// A Gaussian of this deviation [m] applied to a map that repeats.
+Field spread(const Field& depth, const Grid& grid, double reach) {
+  const spectral::RealFft2d<double> fft(grid.ny, grid.nx);
+  const Index n_columns = fft.spectrum_columns();
+  std::vector<std::complex<double>> spectrum(static_cast<std::size_t>(grid.ny * n_columns));
+  fft.forward(depth.data(), spectrum.data());
+  const auto decay = [reach](Index k, Index n, double side) {
+    const auto wave = static_cast<double>(std::min(k, n - k));
+    const double phase = 2 * std::numbers::pi * wave * reach / side;
+    return std::exp(-0.5 * phase * phase);
+  };
+  for_each(grid.ny, [&](Index y) {
+    const double along_y = decay(y, grid.ny, grid.ly);
+    for (Index x = 0; x < n_columns; ++x) {
+      spectrum[static_cast<std::size_t>(y * n_columns + x)] *= along_y * decay(x, grid.nx, grid.lx);
+    }
+  }, 16);
+  Field weight(grid.ny, grid.nx);
+  fft.inverse(spectrum.data(), weight.data());
+  return weight;
+}
+
+/// The c with sum min(c weight, room) = volume: Newton on a concave, piecewise linear function,
+/// which is below its goal after every step. Ends where all have their room.
+double scale_for_volume(const Field& weight, const Field& room, double volume) {
+  double scale = 0;
+  for (int step = 0; step < kMostSteps; ++step) {
+    const double filled = sum_over(
+        weight.size(), [&](Index i) { return std::min(scale * weight(i), room(i)); });
+    const double missing = volume - filled;
+    const double slope = sum_over(weight.size(), [&](Index i) {
+      return scale * weight(i) < room(i) ? weight(i) : 0.0;
+    });
+    if (missing <= kExact * volume || slope <= 0) break;
+    const double next = scale + missing / slope;
+    if (next == scale) break;
+    scale = next;
+  }
+  return scale;
+}
+
+}  // namespace
+
+Raised raise(Displaced displaced, const Field& depth, const Mask& contact, const Field& gap,
+             const Grid& grid, double reach) {
+  Raised raised{.height = Field::Zero(grid.ny, grid.nx)};
+  const double volume = sum(depth);
+  const Index n_free = count_where(depth.size(), [&](Index i) { return !contact(i); });
+  if (displaced == Displaced::lost || n_free == 0 || !(volume > 0)) {
+    raised.lost = volume;
+    return raised;
+  }
+  Field weight = displaced == Displaced::near ? spread(depth, grid, reach)
+                                              : Field::Constant(grid.ny, grid.nx, 1.0);
+  const double least = kNegligible * extent_of(weight).highest;
+  Field room(grid.ny, grid.nx);
+  for_each(room.size(), [&](Index i) {
+    room(i) = contact(i) ? 0 : std::max(gap(i), 0.0);
+    if (contact(i) || weight(i) < least) weight(i) = 0;
+  });
+  const double scale = scale_for_volume(weight, room, volume);
+  for_each(room.size(), [&](Index i) { raised.height(i) = std::min(scale * weight(i), room(i)); });
+  const double missing = volume - sum(raised.height);
+  if (missing > kNegligible * volume) raised.without_room = missing;
+  // What is missing, be it by rounding alone, rises evenly.
+  const double each = missing / static_cast<double>(n_free);
+  for_each(room.size(), [&](Index i) {
+    if (!contact(i)) raised.height(i) = std::max(0.0, raised.height(i) + each);
+  });
+  return raised;
+}
+
+}  // namespace tabor::sliding

@@ -1,0 +1,79 @@
+#pragma once
+
+#include "tabor/contact/contact.hpp"
+#include "tabor/sliding/displaced.hpp"
+
+// Slides a rough tool over a sheet that yields, and finds the force that ploughing takes.
+namespace tabor::sliding {
+
+/// A sheet, a tool and the load on it. Both are on the same pixels.
+struct Problem {
+  Field sheet;                    ///< heights [m], shape (ny, nx)
+  Field tool;                     ///< heights towards the sheet [m], shape (ny, nx_T), repeats along x
+  Index place = 0;                ///< of the tool along x [pixels]
+  double mean_pressure = 0;       ///< P [Pa]
+  double saturation_pressure = 0; ///< p_sat [Pa], finite: nothing else is displaced
+  Displaced displaced = Displaced::near;
+  double reach = 2e-6;            ///< [m], of Displaced::near
+  double tolerance = 1e-6;        ///< on the certificate of each contact
+};
+
+/// Work and material of sliding from one place of the tool to the next, over the nominal area.
+struct Ploughing {
+  double distance = 0;  ///< [m]
+  double work = 0;      ///< [J/m^2]
+  double lower = 0;     ///< bound on the work [J/m^2]
+  double upper = 0;     ///< the same from above
+  double moved = 0;     ///< volume of displaced material [m]
+  double lost = 0;      ///< of it, that left the sheet [m]
+  double without_room = 0;  ///< of it, that found no room in the gap [m]
+
+  Ploughing& operator+=(const Ploughing& more);
+  /// Returns the coefficient of friction of a work under a mean pressure [Pa]; NaN before sliding.
+  double friction(double of_work, double mean_pressure) const;
+  /// Returns the step certificate: bounds apart, over the work, at least 1e-3 of load and distance.
+  double certificate(double mean_pressure) const;
+};
+
+/// Presses the tool on the sheet and slides it along +x, step by step. Each contact displaces
+/// material of the saturated pixels, w = max(-gap, 0); it is taken off the sheet and rises
+/// elsewhere (displaced.hpp). With V' = 1/2 <p, S p> + P N sep after that, the force of ploughing
+/// follows from the energy of two places,
+///
+///   work = V'(2) + p_sat sum w(2) - V'(1),   <p(1), T(2) - T(1)> <= work <= <p(2), T(2) - T(1)>,
+///
+/// since V(h) = min { 1/2 <u, S^-1 u> + p_sat sum w + P N sep : sep + u + w >= h, w >= 0 } is convex
+/// with the gradient p, and V(h - w) = V(h) - p_sat sum w with the same p (docs/sliding.md).
+class Slider {
+ public:
+  /// Throws InputError for shapes, loads and tools that do not fit.
+  Slider(elastic::ElasticOperator& elasticity, Problem problem);
+
+  /// Presses without sliding: the first state. Throws Interrupted where the observer stops it.
+  Ploughing press(const Observer& observer = {});
+  /// Moves the tool by so many pixels and presses again.
+  Ploughing advance(Index pixels, const Observer& observer = {});
+
+  /// Goes back to what another slider of the same problem has reached.
+  void restore(const Slider& other);
+
+  const Field& sheet() const { return problem_.sheet; }         ///< as the last contact left it [m]
+  const contact::State& state() const { return state_; }        ///< the last contact
+  const contact::Summary& summary() const { return summary_; }  ///< its numbers
+  Index place() const { return problem_.place; }
+
+ private:
+  Field pressed_height() const;
+  Ploughing settle();
+
+  elastic::ElasticOperator& elasticity_;
+  Problem problem_;
+  contact::State state_;
+  contact::Summary summary_;
+  double energy_ = 0;  // V' over the nominal area [J/m^2]
+};
+
+/// Returns the heights of a tool at a place over a sheet of so many columns [m].
+Field tool_at(const Field& tool, Index place, Index n_columns);
+
+}  // namespace tabor::sliding

@@ -1,0 +1,233 @@
+// Ploughing: known forces, bounds, and what sliding leaves as it is.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <memory>
+
+#include "support/rejection.hpp"
+#include "support/validation.hpp"
+#include "tabor/core/parallel.hpp"
+#include "tabor/elastic/half_space.hpp"
+#include "tabor/sliding/slider.hpp"
+#include "tabor/synthesis/synthesis.hpp"
+
+namespace tabor::sliding {
+namespace {
+
+using testing::HasSubstr;
+
+constexpr double kCap = 240e6;
+constexpr double kPixel = 1e-6;
+constexpr double kTangent = 0.1;
+
+Grid square(Index n) {
+  const double side = static_cast<double>(n) * kPixel;
+  return {n, n, side, side};
+}
+
+/// A tool whose height falls with the distance r from its middle, or with x alone [pixels].
+template <typename Height>
+Field tool_of(Index n, bool is_wedge, const Height& height) {
+  Field tool(n, n);
+  const double middle = 0.5 * static_cast<double>(n) - 0.5;
+  for (Index y = 0; y < n; ++y) {
+    for (Index x = 0; x < n; ++x) {
+      const double dx = static_cast<double>(x) - middle;
+      const double dy = is_wedge ? 0 : static_cast<double>(y) - middle;
+      tool(y, x) = kPixel * height(std::hypot(dx, dy));
+    }
+  }
+  return tool;
+}
+
+/// Force of a tool on a flat sheet that is as good as rigid, after it has slid three times its size.
+Ploughing plough(const Field& tool, double area_fraction, Index size, double modulus = 1e15) {
+  const Index n = tool.rows();
+  const auto elasticity = elastic::make_periodic(square(n), modulus);
+  Slider slider(*elasticity, {.sheet = Field::Zero(n, n),
+                              .tool = tool,
+                              .mean_pressure = area_fraction * kCap,
+                              .saturation_pressure = kCap,
+                              .displaced = Displaced::lost});
+  slider.press();
+  for (Index i = 0; i < 3 * size; ++i) slider.advance(1);
+  Ploughing sum;
+  for (Index i = 0; i < size / 2; ++i) sum += slider.advance(1);
+  return sum;
+}
+
+struct Known {
+  const char* name;
+  bool is_wedge;
+  double force, upper;  // exact, and the bound at this resolution
+};
+
+double height_of(const Known& one, double size, double r) {
+  const bool is_paraboloid = one.name[0] == 'p';
+  return is_paraboloid ? -kTangent * r * r / (2 * size) : -kTangent * r;
+}
+
+/// Half of the disc, and of the width, touches in front of a tool that slides.
+double area_of(const Known& one, double size, double n) {
+  return one.is_wedge ? size / n : 0.5 * std::numbers::pi * size * size / (n * n);
+}
+
+TEST(Ploughing, OfToolsOnARigidSheetHasItsClosedForms) {
+  const Index size = 32;
+  const Index n = 128;
+  for (const Known& one : {Known{"cone", false, 2 / std::numbers::pi * kTangent, 0.0635},
+                           Known{"paraboloid", false, 4 / (3 * std::numbers::pi) * kTangent, 0.0423},
+                           Known{"wedge", true, kTangent, 0.0987}}) {
+    const Field tool = tool_of(n, one.is_wedge, [&](double r) {
+      return height_of(one, static_cast<double>(size), r);
+    });
+    const double area = area_of(one, static_cast<double>(size), static_cast<double>(n));
+    const Ploughing found = plough(tool, area, size);
+    const double pressure = area * kCap;
+    const double work = found.friction(found.work, pressure);
+    const double upper = found.friction(found.upper, pressure);
+    test::expect_within("Sliding", fmt::format("{}, half width 32 pixels", one.name),
+                        "upper bound of the ploughing force, relative", "closed form",
+                        std::abs(upper / one.force - 1), 0.02);
+    test::expect_within("Sliding", fmt::format("{}, half width 32 pixels", one.name),
+                        "ploughing force by energy, relative", "closed form",
+                        std::abs(work / one.force - 1), 0.06);
+    EXPECT_LE(found.lower, found.work);
+    EXPECT_LE(found.work, found.upper);
+  }
+}
+
+/// A rough sheet under a rough tool.
+struct Rough {
+  explicit Rough(Displaced displaced = Displaced::near, double pressure = 10e6)
+      : grid{64, 48, 64 * kPixel, 48 * kPixel},
+        elasticity(elastic::make_periodic(grid, 78e9)),
+        problem{.sheet = surface(0.5e-6, 1),
+                .tool = surface(0.1e-6, 2),
+                .mean_pressure = pressure,
+                .saturation_pressure = kCap,
+                .displaced = displaced,
+                .tolerance = 1e-8} {}
+
+  Field surface(double rms, std::uint64_t seed) const {
+    synthesis::SelfAffine recipe;
+    recipe.grid = grid;
+    recipe.rms_height = rms;
+    recipe.short_cutoff_wavelength = 4 * kPixel;
+    recipe.seed = seed;
+    return synthesis::self_affine(recipe).height;
+  }
+
+  Grid grid;
+  std::unique_ptr<elastic::ElasticOperator> elasticity;
+  Problem problem;
+};
+
+TEST(Ploughing, LiesBetweenItsBoundsAtEveryStep) {
+  for (const Displaced displaced : {Displaced::near, Displaced::uniform, Displaced::lost}) {
+    const Rough rough(displaced);
+    Slider slider(*rough.elasticity, rough.problem);
+    slider.press();
+    for (int i = 0; i < 40; ++i) {
+      const Ploughing step = slider.advance(1 + i % 3);
+      const double rounding = 1e-6 * rough.problem.mean_pressure * step.distance;
+      EXPECT_LE(step.lower, step.work + rounding) << i;
+      EXPECT_LE(step.work, step.upper + rounding) << i;
+      EXPECT_GE(step.moved, 0);
+    }
+  }
+}
+
+TEST(Ploughing, KeepsTheVolumeOfTheSheet) {
+  for (const Displaced displaced : {Displaced::near, Displaced::uniform}) {
+    const Rough rough(displaced);
+    Slider slider(*rough.elasticity, rough.problem);
+    Ploughing all = slider.press();
+    for (int i = 0; i < 10; ++i) all += slider.advance(2);
+    const double change = slider.sheet().mean() - rough.problem.sheet.mean();
+    EXPECT_LE(std::abs(change), 1e-13 * all.moved + 1e-22);
+    EXPECT_EQ(all.lost, 0);
+  }
+  const Rough worn(Displaced::lost);
+  Slider slider(*worn.elasticity, worn.problem);
+  Ploughing all = slider.press();
+  for (int i = 0; i < 10; ++i) all += slider.advance(2);
+  EXPECT_NEAR(worn.problem.sheet.mean() - slider.sheet().mean(), all.lost, 1e-12 * all.lost);
+  EXPECT_DOUBLE_EQ(all.lost, all.moved);
+}
+
+TEST(Ploughing, AtTheSamePlaceTwiceChangesNothing) {
+  const Rough rough;
+  Slider slider(*rough.elasticity, rough.problem);
+  const Ploughing first = slider.press();
+  const Field sheet = slider.sheet();
+  const Ploughing again = slider.press();
+  EXPECT_GT(first.moved, 1e-10);
+  EXPECT_LT(again.moved, 1e-4 * first.moved);
+  EXPECT_LT((slider.sheet() - sheet).abs().maxCoeff(), 1e-10);
+}
+
+TEST(Ploughing, OfASmoothToolEndsWithTheFirstPressing) {
+  Rough rough;
+  rough.problem.tool.setZero();
+  Slider slider(*rough.elasticity, rough.problem);
+  const Ploughing first = slider.press();
+  const Ploughing step = slider.advance(3);
+  EXPECT_LT(step.moved, 1e-4 * first.moved);
+  EXPECT_EQ(step.lower, 0);
+  EXPECT_EQ(step.upper, 0);
+  EXPECT_LT(std::abs(step.friction(step.work, rough.problem.mean_pressure)), 1e-5);
+}
+
+TEST(Ploughing, HasTheSameBitsOnAnyNumberOfThreads) {
+  const auto sheet = [](int threads) {
+    set_thread_count(threads);
+    const Rough rough;
+    Slider slider(*rough.elasticity, rough.problem);
+    slider.press();
+    for (int i = 0; i < 3; ++i) slider.advance(2);
+    return slider.sheet();
+  };
+  const Field one = sheet(1);
+  EXPECT_TRUE((sheet(2) == one).all());
+  set_thread_count(0);
+}
+
+TEST(Ploughing, DependsOnTheToolAlonePlacesAway) {
+  const Rough rough;
+  Problem shifted = rough.problem;
+  shifted.place = 7;
+  for (Index y = 0; y < shifted.sheet.rows(); ++y) {
+    for (Index x = 0; x < shifted.sheet.cols(); ++x) {
+      shifted.sheet(y, (x + 7) % 64) = rough.problem.sheet(y, x);
+    }
+  }
+  const auto moved = [&](const Problem& problem) {
+    Slider slider(*rough.elasticity, problem);
+    slider.press();
+    return slider.advance(2).work;
+  };
+  EXPECT_NEAR(moved(shifted) / moved(rough.problem), 1, 1e-4);
+}
+
+TEST(Sliding, IsRejectedWhereItCannotBe) {
+  const Rough rough;
+  const auto message = [&](const Problem& problem) {
+    return test::rejection([&] { const Slider slider(*rough.elasticity, problem); });
+  };
+  Problem wrong = rough.problem;
+  wrong.saturation_pressure = contact::kNoSaturation;
+  EXPECT_THAT(message(wrong), HasSubstr("saturation pressure"));
+  wrong = rough.problem;
+  wrong.tool(3, 3) = std::nan("");
+  EXPECT_THAT(message(wrong), HasSubstr("holes"));
+  wrong = rough.problem;
+  wrong.tool = Field::Zero(3, 64);
+  EXPECT_THAT(message(wrong), HasSubstr("rows"));
+  wrong = rough.problem;
+  wrong.reach = 0;
+  EXPECT_THAT(message(wrong), HasSubstr("reach"));
+}
+
+}  // namespace
+}  // namespace tabor::sliding
