@@ -15,6 +15,7 @@ void bind_contact(nb::module_& module);
 void bind_film(nb::module_& module);
 void bind_friction(nb::module_& module);
 void bind_ehl(nb::module_& module);
+void bind_slide(nb::module_& module);
 void bind_save(nb::module_& module);
 void bind_synthesis(nb::module_& module);
 void bind_study(nb::module_& module);

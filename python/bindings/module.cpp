@@ -34,6 +34,7 @@ NB_MODULE(_tabor, module) {
   bind_film(module);
   bind_friction(module);
   bind_ehl(module);
+  bind_slide(module);
   bind_save(module);
   bind_synthesis(module);
   bind_study(module);

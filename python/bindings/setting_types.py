@@ -60,7 +60,7 @@ def main():
     sys.modules["tabor"] = package
     from tabor import _settings as tables
     parts = {"ContactSettings": tables.CONTACT, "RainSettings": tables.RAIN, "FrictionSettings": tables.SHEAR, "TrappedFrictionSettings": tables.SHEAR + tables.DRY_BELOW + tables.TRAPPED,
-             "CurveSettings": tables.CURVE, "SolidSettings": tables.SOLID, "StudySettings": tables.STUDY,
+             "SlideSettings": tables.SLIDE, "CurveSettings": tables.CURVE, "SolidSettings": tables.SOLID, "StudySettings": tables.STUDY,
              "ReadSettings": [one for one in tables.READ if one.name != "channel"],  # which may be a number, too
              "ScanSettings": [one for one in tables.OF_SCANS if one.name != "channel"], "LubricantSettings": tables.OIL[1:], "GenerateSettings": tables.PIXELS + tables.RECIPE}
     text = HEAD + "".join(step_method(*step) for step in tables._tabor.treatment_steps()).rstrip("\n") + "\n"

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "parameters.hpp"
+#include "tabor/cases/slide.hpp"
 #include "tabor/scan/read_parameters.hpp"
 #include "tabor/synthesis/recipes.hpp"
 
@@ -68,6 +69,7 @@ nb::list settings() {
   add_rows("trapped", cases::trapped_parameters(), rows);
   add_rows("fluid", cases::fluid_parameters(), rows);
   add_rows("friction", cases::friction_parameters(), rows);
+  add_rows("slide", cases::slide_parameters(), rows);
   add_rows("read", scan::read_parameters(), rows);
   add_rows("pixels", synthesis::pixel_parameters(), rows);
   for (const auto& one : synthesis::recipe_settings()) rows.append(row_of(one));

@@ -23,13 +23,14 @@ from ._records import Warning
 from ._report import Report, report
 from ._save import save
 from ._scans import Scans
+from ._slide import Slide, slide
 from ._study import Results, Study
 from ._surface import Parameter, Parameters, Spectra, Spectrum, Surface, read
 from ._tabor import version as __version__
 
 __all__ = ["Combination", "Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction",
            "FrictionEntry", "FrictionTable", "Lubricant", "Material", "NotConverged", "Parameter",
-           "Parameters", "Plateau", "Progress", "Report", "Results", "Scans", "Solid", "Spectra",
+           "Parameters", "Plateau", "Progress", "Report", "Results", "Scans", "Slide", "Solid", "Spectra",
            "Spectrum", "Study", "Surface", "Volume", "Warning", "cite", "combine", "contact",
            "density_curve", "ehl", "fluid_film", "formats", "friction", "generate", "materials", "rain",
-           "read", "report", "save", "set_threads"]
+           "read", "report", "save", "set_threads", "slide"]

@@ -43,8 +43,8 @@ def _save_frictions(target: _tabor.Target, surface: Surface, results: Sequence[F
     densities = list(dict.fromkeys(one.film.lubricant_density for one in results))
     settings.film = film_settings(_shared(results, "rains", "film", "_options"), densities)
     settings.friction = shear_settings(_shared(results, "shear strengths", "_options"))
-    oils = [one for one in results if one._trapped is not None]
-    if oils:
+    trapped = [one._trapped for one in results if one._trapped is not None]
+    if trapped:
         oil = _shared(results, "settings of trapped oil", "_oil")
         settings.trapped = filled(_tabor.TrappedSettings(), oil)
     fluids = [one for one in results if isinstance(one, FluidFilm)]
@@ -53,7 +53,7 @@ def _save_frictions(target: _tabor.Target, surface: Surface, results: Sequence[F
         settings.fluid = _shared(fluids, "lubricants", "lubricant")._settings(fluids[0].speed)
     _tabor.save_frictions(target, surface._topography, settings, [one._record for one in results],
                           [one.contact._record for one in results], [one.film._record for one in results],
-                          [one._trapped for one in oils], [one._fluid for one in fluids], told)
+                          trapped, [one._fluid for one in fluids], told)
 
 
 def _records(results: Any) -> Sequence[Any]:

@@ -20,7 +20,7 @@ WRONG = [None, object(), True, 1.5, -1, 0, 2**70, float("nan"), float("inf"), 1j
 
 #: Classes that the package makes and a user does not.
 MADE_BY_TABOR = {"Combination", "Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction", "FrictionEntry",
-                 "Material", "NotConverged", "Parameter", "Parameters", "Plateau", "Progress", "Report", "Spectra", "Spectrum",
+                 "Material", "NotConverged", "Parameter", "Parameters", "Plateau", "Progress", "Report", "Slide", "Spectra", "Spectrum",
                  "Volume", "Warning", "ehl.Key", "ehl.Limit", "ehl.Solution", "ehl.Sweep", "ehl.Template"}
 
 
@@ -83,6 +83,11 @@ def calls(folder):
                                  "tool_lowpass": "gauss:8um", "tool_repeats": False, "check": True, "progress": None}),
         "rain": (tb.rain, {"surface": t.surface, "density": 1e-3, **rain, "droplet_height": 1e-7, "model": "droplets", "seed": 1}),
         "friction": (tb.friction, {"contact": t.contact, "film": t.film, **shear, **oil, "check": True, "progress": None}),
+        "slide": (tb.slide, {"surface": t.surface, "pressure": 5e7, "solid": t.solid, "distance": t.surface.pixel[0], "density": 1e-4, "boundary": "periodic",
+                             "tolerance": 1e-6, "solver": "fast", "tool": "ground:Sa=10nm", "tool_x": 0, "tool_lowpass": "gauss:8um",
+                             "tool_repeats": False, "step": t.surface.pixel[0], "every": 1e-6, "displaced": "near", "reach": 2e-6, **rain,
+                             "model": "droplets", "droplet_height": 1e-7, "seed": 1, **shear, "dry_below": 1e-9, "check": True,
+                             "progress": None}),
         "fluid_film": (tb.fluid_film, {"contact": t.contact, "film": t.film, "lubricant": t.oil, "speed": 1e-3, **shear,
                                        "check": True, "progress": None}),
         "density_curve": (tb.density_curve, {"contact": t.contact, "density": 1e-3, **shear, **rain, "progress": None}),

@@ -332,3 +332,24 @@ def test_a_tool_that_makes_no_sense_is_rejected(rough, steel):
             tb.contact(rough, "50 MPa", steel, tool=tool)
     with pytest.raises(ValueError, match="needs tool"):
         tb.contact(rough, "50 MPa", steel, tool_x="1 um")
+
+
+def test_sliding_ploughs_the_sheet_and_leaves_it(rough, steel):
+    found = tb.slide(rough, "50 MPa", steel, 6 * rough.pixel[0], tool="ground:Sa=10nm,groove-length=20um", step=2 * rough.pixel[0],
+                     every=2 * rough.pixel[0], density="0.1 g/m^2")
+    assert found.steps == 3 and found.states["distance_m"].tolist() == pytest.approx([2 * i * rough.pixel[0] for i in range(4)])
+    assert np.isnan(found.states["friction_ploughing"][0]) and found.converged and found.states["converged"].dtype == bool
+    assert (found.states["friction_ploughing_lower"][1:] <= found.states["friction_ploughing_upper"][1:]).all()
+    assert found.after.shape == rough.shape and found.after.history[-1].startswith("slide")
+    assert found.after.height.mean() == pytest.approx(rough.height.mean(), abs=1e-18)
+    worn = tb.slide(rough, "50 MPa", steel, 6 * rough.pixel[0], tool="ground:Sa=10nm,groove-length=20um", step=2 * rough.pixel[0], displaced="lost")
+    assert worn.states["lost_volume_m3_per_m2"][-1] > 0 and np.isnan(worn.states["friction_lubricated"]).all()
+
+
+@pytest.mark.parametrize("settings, text", [
+    ({}, "tool"), ({"tool": "ground:Sa=10nm", "step": "1 mm"}, "step"), ({"tool": "ground:Sa=10nm", "displaced": "gone"}, "displaced"),
+    ({"tool": "ground:Sa=10nm", "reach": 0}, "reach"),
+])
+def test_sliding_says_what_it_needs(rough, steel, settings, text):
+    with pytest.raises(ValueError, match=text):
+        tb.slide(rough, "50 MPa", steel, "10 um", **settings)

@@ -14,10 +14,26 @@ import pytest
 import tabor as tb
 from conftest import ROOT
 from tabor import _settings
-from tabor._settings import CONTACT, CURVE, OF_SCANS, OIL, PIXELS, RAIN, READ, RECIPE, SHEAR, SOLID, STUDY
+from tabor._settings import (
+    CONTACT,
+    CURVE,
+    DRY_BELOW,
+    OF_SCANS,
+    OIL,
+    PIXELS,
+    RAIN,
+    READ,
+    RECIPE,
+    SHEAR,
+    SLIDE,
+    SOLID,
+    STUDY,
+    TRAPPED,
+)
 
 #: Functions, what documents them, and the settings that they take.
-TAKERS = {"contact": (tb.contact, tb.contact, CONTACT), "rain": (tb.rain, tb.rain, RAIN), "friction": (tb.friction, tb.friction, SHEAR),
+TAKERS = {"contact": (tb.contact, tb.contact, CONTACT), "rain": (tb.rain, tb.rain, RAIN), "friction": (tb.friction, tb.friction, SHEAR + DRY_BELOW + TRAPPED),
+          "slide": (tb.slide, tb.slide, SLIDE),
           "fluid_film": (tb.fluid_film, tb.fluid_film, SHEAR), "density_curve": (tb.density_curve, tb.density_curve, CURVE),
           "generate": (tb.generate, tb.generate, PIXELS + RECIPE), "Solid": (tb.Solid.__init__, tb.Solid, SOLID),
           "read": (tb.read, tb.read, READ), "Scans": (tb.Scans.__init__, tb.Scans, OF_SCANS),
@@ -32,7 +48,7 @@ def plain(text):
 
 def test_every_setting_is_an_argument_of_some_function():
     taken = {(one.table, one.name) for _, _, settings in TAKERS.values() for one in settings}
-    lists = {("film", "lubricant_density"), ("fluid", "sliding_speed"), ("fluid", "fluid")}  # arguments of their own
+    lists = {("film", "lubricant_density"), ("fluid", "sliding_speed"), ("fluid", "fluid"), ("slide", "distance")}  # arguments of their own
     assert {(one.table, one.name) for one in _settings._ALL} - taken == lists
 
 

@@ -19,6 +19,7 @@ namespace {
 constexpr double kFineStep = 0.3;    // step certificate of a step that is short enough
 constexpr double kMilling = 0.05;    // of Sq: more has left the sheet than its roughness bears
 constexpr double kUsualStates = 20;  // of one distance
+constexpr double kMostPixels = 1e5;  // of one distance: more take days, and the tool wears, too
 
 /// Mean length of the contact along x [pixels].
 double mean_patch_length(const Mask& contact) {
@@ -115,9 +116,8 @@ SlideRecord Run::record() const {
         friction::lubricated_share(contact::contact_mask(slider_.state()), film_->film.thickness,
                                    settings_.friction.dry_below);
   }
-  const friction::Estimate estimate =
-      estimate_of(one.contact, film_ ? one.lubricated_share : 0, settings_.contact,
-                  settings_.friction);
+  const friction::Estimate estimate = estimate_of(one.contact, film_ ? one.lubricated_share : 0,
+                                                  settings_.contact, settings_.friction);
   one.friction_dry = estimate.friction_dry + ploughing;
   if (film_) one.friction_lubricated = estimate.friction_lubricated + ploughing;
   one.moved_volume = all_.moved;
@@ -154,24 +154,7 @@ Index Run::first_step() {
 }
 
 void Run::warn() {
-  const double apart = all_.certificate(pressure());
-  if (apart > kFineStep) {
-    result_.warnings.push_back(
-        {"tool-pixel",
-         fmt::format("bounds on ploughing differ by {:.2g} of it: the tool's roughness along x is "
-                     "finer than the step; low-pass it or shorten the step",
-                     apart),
-         apart});
-  }
-  const double roughness = metrology::rms_height(surface_);
-  if (all_.lost > kMilling * roughness) {
-    result_.warnings.push_back(
-        {"milling",
-         fmt::format("{} of the sheet is worn off, its Sq was {}: <displaced=near> keeps it on the "
-                     "sheet",
-                     format_si(all_.lost, "m"), format_si(roughness, "m")),
-         all_.lost / roughness});
-  }
+  add(of_sliding(all_, pressure(), metrology::rms_height(surface_)), result_.warnings);
   if (!converged_) {
     result_.warnings.push_back({"not-converged", "some contacts along the way: NOT CONVERGED",
                                 slider_.state().convergence.certificate});
@@ -224,6 +207,26 @@ Objection use(std::string setting, std::string remedy) {
 
 }  // namespace
 
+Warnings of_sliding(const sliding::Ploughing& all, double mean_pressure, double rms_height) {
+  Warnings list;
+  if (const double apart = all.certificate(mean_pressure); apart > kFineStep) {
+    list.push_back(
+        {"tool-pixel",
+         fmt::format("bounds on ploughing differ by {:.2g} of it: the tool is rougher along x than "
+                     "the step resolves",
+                     apart),
+         apart});
+  }
+  if (all.lost > kMilling * rms_height) {
+    list.push_back({"milling",
+                    fmt::format("{} of the sheet is worn off, its Sq was {}: material that is kept "
+                                "rises beside its contact",
+                                format_si(all.lost, "m"), format_si(rms_height, "m")),
+                    all.lost / rms_height});
+  }
+  return list;
+}
+
 const Parameters<SlideSettings>& slide_parameters() {
   using Settings = SlideSettings;
   using One = tabor::Parameter<Settings>;
@@ -272,8 +275,7 @@ const Columns<SlideRecord>& slide_columns() {
   constexpr ColumnStyle percent{.shown = Shown::percent};
   static const Columns<Record> all{
       {"distance_m", "m", "distance", &Record::distance},
-      {"mean_pressure_Pa", "Pa", "",
-       member_of(&Record::contact, &contact::Summary::mean_pressure)},
+      {"mean_pressure_Pa", "Pa", "", member_of(&Record::contact, &contact::Summary::mean_pressure)},
       {"contact_area_fraction", "", "",
        member_of(&Record::contact, &contact::Summary::contact_area_fraction)},
       {"contact_area_fraction_pixels", "", "counted contact",
@@ -311,12 +313,12 @@ std::optional<Objection> objection(const SlideSettings& settings, const CaseSett
   if (all.mean_pressures.size() != 1 || all.film.lubricant_densities.size() > 1) {
     const std::string setting =
         all.mean_pressures.size() != 1 ? "mean_pressure" : "lubricant_density";
-    return use(setting, fmt::format("the sheet changes as it slides: give one {}",
-                                    spelling(setting)));
+    return use(setting,
+               fmt::format("the sheet changes as it slides: give one {}", spelling(setting)));
   }
   if (all.contact.load_path) {
-    return use("load_path", fmt::format("sliding keeps what it displaces: leave out {}",
-                                        spelling("load_path")));
+    return use("load_path",
+               fmt::format("sliding keeps what it displaces: leave out {}", spelling("load_path")));
   }
   if (auto found = objection_to_bounds(slide_parameters(), settings)) return found;
   if (settings.step && *settings.step > settings.distance) {
@@ -335,9 +337,12 @@ SlideResult slide(const topography::Topography& surface, const CaseSettings& set
     throw InputError("step", format_si(*sliding.step, "m"),
                      "at least a pixel, " + format_si(surface.grid.dx(), "m"), "");
   }
-  if (sliding.distance < 0.5 * surface.grid.dx()) {
+  const double dx = surface.grid.dx();
+  if (sliding.distance < 0.5 * dx || sliding.distance > kMostPixels * dx) {
     throw InputError("distance", format_si(sliding.distance, "m"),
-                     "at least a pixel, " + format_si(surface.grid.dx(), "m"), "");
+                     fmt::format("one to {} pixels, {} to {}", kMostPixels, format_si(dx, "m"),
+                                 format_si(kMostPixels * dx, "m")),
+                     "");
   }
   return Run(surface, settings, sliding, observer).run(receive);
 }

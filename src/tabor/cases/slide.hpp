@@ -16,11 +16,11 @@ namespace tabor::cases {
 
 /// Settings of sliding beside those of contact, film and friction.
 struct SlideSettings {
-  double distance = 0;                ///< of sliding [m]
-  std::optional<double> step = {};    ///< [m], whole pixels; absent: as the step certificate asks
-  std::optional<double> every = {};   ///< distance between states [m]; absent: a twentieth
+  double distance = 0;               ///< of sliding [m]
+  std::optional<double> step = {};   ///< [m], whole pixels; absent: as the step certificate asks
+  std::optional<double> every = {};  ///< distance between states [m]; absent: a twentieth
   sliding::Displaced displaced = sliding::Displaced::near;
-  double reach = 2e-6;                ///< of Displaced::near [m]
+  double reach = 2e-6;  ///< of Displaced::near [m]
 };
 const Parameters<SlideSettings>& slide_parameters();
 
@@ -54,6 +54,10 @@ struct SlideResult {
   std::vector<std::string> references;
   bool converged = false;
 };
+
+/// Warns of steps that are too long for the tool, and of a sheet that is worn off by more than its
+/// roughness bears. `rms_height` [m]: of the sheet before.
+Warnings of_sliding(const sliding::Ploughing& all, double mean_pressure, double rms_height);
 
 /// Returns the first objection to sliding, if any: to one pressure and density, a tool and a
 /// saturation pressure, to lengths that do not fit.

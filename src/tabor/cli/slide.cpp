@@ -38,8 +38,7 @@ std::string text_of(const Request& request, const Scan& scan, const cases::Slide
   facts.fact("sliding",
              fmt::format("along x under {}, {} steps of {}, displaced material {}",
                          si(settings.mean_pressures.front(), "Pa"), result.steps,
-                         si(result.step, "m"),
-                         sliding::kDisplaced.of(request.sliding.displaced)));
+                         si(result.step, "m"), sliding::kDisplaced.of(request.sliding.displaced)));
   if (request.after) facts.fact("sheet after", *request.after);
   return facts.text() + '\n' + table_of(cases::slide_columns(), result.states).text();
 }
@@ -55,9 +54,8 @@ int show(Request request, Context& context) {
   contact.take_edges(scan.surface.edges);
   const cases::SlideResult result =
       cases::slide(scan.surface, request.settings, request.sliding, {}, context.observer());
-  context.warn(results::findings_of(
-      {{.pressure = si(request.settings.mean_pressures.front(), "Pa"),
-        .warnings = result.warnings}}));
+  context.warn(results::findings_of({{.pressure = si(request.settings.mean_pressures.front(), "Pa"),
+                                      .warnings = result.warnings}}));
   if (request.after) scan::write(result.after, *request.after);
   io::Json object = json_head(context, scan);
   io::Json settings = results::settings_json(request.settings);
@@ -85,17 +83,19 @@ Verb slide_verb() {
       .arguments = "SCAN --tool TOOL --pressure P --distance L [options]",
       .summary = "a rough tool slides over the sheet: friction, ploughing, the sheet after",
       .details =
-          "Each step is a contact on the sheet that the steps before have left; saturated pixels are "
-          "displaced. Ploughing is the work of it over load and distance, and is part of the friction "
-          "coefficients. The tool slides along +x. With --density oil is rained on the sheet before, "
+          "Each step is a contact on the sheet that the steps before have left; saturated pixels "
+          "are "
+          "displaced. Ploughing is the work of it over load and distance, and is part of the "
+          "friction "
+          "coefficients. The tool slides along +x. With --density oil is rained on the sheet "
+          "before, "
           "and stays on its pixels.",
-      .examples =
-          {"tabor slide surfaces/edt_before.x3p --level plane --crop 0,0,128,128 --mirror "
-           "--material aluminium-6016 --tool ground:Sa=0.1um,length=1mm --pressure 10MPa "
-           "--distance 20um",
-           "tabor slide surfaces/edt_before.x3p --level plane --crop 0,0,128,128 --mirror "
-           "--material aluminium-6016 --tool ground:Sa=0.1um,length=1mm --pressure 10MPa "
-           "--distance 20um --step 2.68um --density 0.9g/m^2 --after worn.x3p --json"},
+      .examples = {"tabor slide surfaces/edt_before.x3p --level plane --crop 0,0,128,128 --mirror "
+                   "--material aluminium-6016 --tool ground:Sa=0.1um,length=1mm --pressure 10MPa "
+                   "--distance 20um",
+                   "tabor slide surfaces/edt_before.x3p --level plane --crop 0,0,128,128 --mirror "
+                   "--material aluminium-6016 --tool ground:Sa=0.1um,length=1mm --pressure 10MPa "
+                   "--distance 20um --step 2.68um --density 0.9g/m^2 --after worn.x3p --json"},
       .declare = [](OptionSet& set) -> Action {
         const auto request = std::make_shared<Request>();
         declare_scan(set, request->scan);
@@ -107,9 +107,9 @@ Verb slide_verb() {
         declare_dry_below(set, settings.friction);
         declare_friction(set, settings.friction);
         set.group("Output");
-        Option& after = set.text("--after", "OUT",
-                                 "write the sheet after sliding; its extension is the format",
-                                 request->after);
+        Option& after =
+            set.text("--after", "OUT", "write the sheet after sliding; its extension is the format",
+                     request->after);
         after.names = FileRole::output;
         after.extensions = scan_extensions();
         declare_csv(set, "one row per state with the keys of --json", request->csv);

@@ -12,7 +12,7 @@
 namespace tabor::sliding {
 namespace {
 
-constexpr double kExact = 1e-15;     // relative: of volumes
+constexpr double kExact = 1e-15;       // relative: of volumes
 constexpr double kNegligible = 1e-12;  // of the largest weight: rounding of the transforms
 constexpr int kMostSteps = 100;
 
@@ -27,12 +27,16 @@ Field spread(const Field& depth, const Grid& grid, double reach) {
     const double phase = 2 * std::numbers::pi * wave * reach / side;
     return std::exp(-0.5 * phase * phase);
   };
-  for_each(grid.ny, [&](Index y) {
-    const double along_y = decay(y, grid.ny, grid.ly);
-    for (Index x = 0; x < n_columns; ++x) {
-      spectrum[static_cast<std::size_t>(y * n_columns + x)] *= along_y * decay(x, grid.nx, grid.lx);
-    }
-  }, 16);
+  for_each(
+      grid.ny,
+      [&](Index y) {
+        const double along_y = decay(y, grid.ny, grid.ly);
+        for (Index x = 0; x < n_columns; ++x) {
+          spectrum[static_cast<std::size_t>(y * n_columns + x)] *=
+              along_y * decay(x, grid.nx, grid.lx);
+        }
+      },
+      16);
   Field weight(grid.ny, grid.nx);
   fft.inverse(spectrum.data(), weight.data());
   return weight;
@@ -43,12 +47,11 @@ Field spread(const Field& depth, const Grid& grid, double reach) {
 double scale_for_volume(const Field& weight, const Field& room, double volume) {
   double scale = 0;
   for (int step = 0; step < kMostSteps; ++step) {
-    const double filled = sum_over(
-        weight.size(), [&](Index i) { return std::min(scale * weight(i), room(i)); });
+    const double filled =
+        sum_over(weight.size(), [&](Index i) { return std::min(scale * weight(i), room(i)); });
     const double missing = volume - filled;
-    const double slope = sum_over(weight.size(), [&](Index i) {
-      return scale * weight(i) < room(i) ? weight(i) : 0.0;
-    });
+    const double slope = sum_over(
+        weight.size(), [&](Index i) { return scale * weight(i) < room(i) ? weight(i) : 0.0; });
     if (missing <= kExact * volume || slope <= 0) break;
     const double next = scale + missing / slope;
     if (next == scale) break;

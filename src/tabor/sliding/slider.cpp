@@ -25,11 +25,11 @@ void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
   }
   if (problem.sheet.rows() != grid.ny || problem.sheet.cols() != grid.nx ||
       problem.tool.rows() != grid.ny || problem.tool.cols() < 1) {
-    throw InputError("sliding",
-                     fmt::format("a sheet of {} x {} and a tool of {} x {} pixels",
-                                 problem.sheet.cols(), problem.sheet.rows(), problem.tool.cols(),
-                                 problem.tool.rows()),
-                     fmt::format("{} x {} and as many rows of the tool", grid.nx, grid.ny), "");
+    throw InputError(
+        "sliding",
+        fmt::format("a sheet of {} x {} and a tool of {} x {} pixels", problem.sheet.cols(),
+                    problem.sheet.rows(), problem.tool.cols(), problem.tool.rows()),
+        fmt::format("{} x {} and as many rows of the tool", grid.nx, grid.ny), "");
   }
   if (!problem.tool.allFinite()) {
     throw InputError("sliding", "a tool with holes or infinite heights", "a height at every pixel",
@@ -104,14 +104,12 @@ Ploughing Slider::settle() {
     const bool has_yielded = contact::at_cap(state_.pressure(i), problem_.saturation_pressure);
     depth(i) = has_yielded ? std::max(-state_.gap(i), 0.0) : 0.0;
   });
-  const Raised raised = raise(problem_.displaced, depth, touching, state_.gap, elasticity_.grid(),
-                              problem_.reach);
+  const Raised raised =
+      raise(problem_.displaced, depth, touching, state_.gap, elasticity_.grid(), problem_.reach);
   for_each(depth.size(), [&](Index i) { problem_.sheet(i) += raised.height(i) - depth(i); });
   const auto n = static_cast<double>(depth.size());
   const double moved = sum(depth) / n;
-  return {.moved = moved,
-          .lost = raised.lost / n,
-          .without_room = raised.without_room / n};
+  return {.moved = moved, .lost = raised.lost / n, .without_room = raised.without_room / n};
 }
 
 Ploughing Slider::press(const Observer& observer) {

@@ -8,24 +8,24 @@ namespace tabor::sliding {
 
 /// A sheet, a tool and the load on it. Both are on the same pixels.
 struct Problem {
-  Field sheet;                    ///< heights [m], shape (ny, nx)
-  Field tool;                     ///< heights towards the sheet [m], shape (ny, nx_T), repeats along x
-  Index place = 0;                ///< of the tool along x [pixels]
-  double mean_pressure = 0;       ///< P [Pa]
-  double saturation_pressure = 0; ///< p_sat [Pa], finite: nothing else is displaced
+  Field sheet;               ///< heights [m], shape (ny, nx)
+  Field tool;                ///< heights towards the sheet [m], shape (ny, nx_T), repeats along x
+  Index place = 0;           ///< of the tool along x [pixels]
+  double mean_pressure = 0;  ///< P [Pa]
+  double saturation_pressure = 0;  ///< p_sat [Pa], finite: nothing else is displaced
   Displaced displaced = Displaced::near;
-  double reach = 2e-6;            ///< [m], of Displaced::near
-  double tolerance = 1e-6;        ///< on the certificate of each contact
+  double reach = 2e-6;      ///< [m], of Displaced::near
+  double tolerance = 1e-6;  ///< on the certificate of each contact
 };
 
 /// Work and material of sliding from one place of the tool to the next, over the nominal area.
 struct Ploughing {
-  double distance = 0;  ///< [m]
-  double work = 0;      ///< [J/m^2]
-  double lower = 0;     ///< bound on the work [J/m^2]
-  double upper = 0;     ///< the same from above
-  double moved = 0;     ///< volume of displaced material [m]
-  double lost = 0;      ///< of it, that left the sheet [m]
+  double distance = 0;      ///< [m]
+  double work = 0;          ///< [J/m^2]
+  double lower = 0;         ///< bound on the work [J/m^2]
+  double upper = 0;         ///< the same from above
+  double moved = 0;         ///< volume of displaced material [m]
+  double lost = 0;          ///< of it, that left the sheet [m]
   double without_room = 0;  ///< of it, that found no room in the gap [m]
 
   Ploughing& operator+=(const Ploughing& more);
@@ -42,8 +42,8 @@ struct Ploughing {
 ///
 ///   work = V'(2) + p_sat sum w(2) - V'(1),   <p(1), T(2) - T(1)> <= work <= <p(2), T(2) - T(1)>,
 ///
-/// since V(h) = min { 1/2 <u, S^-1 u> + p_sat sum w + P N sep : sep + u + w >= h, w >= 0 } is convex
-/// with the gradient p, and V(h - w) = V(h) - p_sat sum w with the same p (docs/sliding.md).
+/// since V(h) = min { 1/2 <u, S^-1 u> + p_sat sum w + P N sep : sep + u + w >= h, w >= 0 } is
+/// convex with the gradient p, and V(h - w) = V(h) - p_sat sum w with the same p (docs/sliding.md).
 class Slider {
  public:
   /// Throws InputError for shapes, loads and tools that do not fit.
