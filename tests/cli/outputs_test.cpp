@@ -58,7 +58,8 @@ class Outputs : public testing::Test {
     Words words;        ///< without the output
     std::string input;  ///< that they name; "" for none
     std::string output = "out.h5";
-    bool is_option = true;  ///< behind -o
+    bool is_option = true;  ///< behind a flag
+    std::string flag = "-o";
   };
 
   /// One working call or more of every verb that writes a file.
@@ -84,6 +85,11 @@ class Outputs : public testing::Test {
         {"lubricate", {Words{"lubricate", scan} + oil, "in.h5"}},
         {"friction",
          {Words{"friction"} + contact + oil + Words{"--shear-strength", "70MPa"}, "in.h5"}},
+        {"slide",
+         {Words{"slide"} + contact +
+              Words{"--saturation-pressure", "100MPa", "--shear-strength", "70MPa", "--tool",
+                    "ground:Sa=10nm,groove-length=10um", "--distance", "2um"},
+          "in.h5", "out.h5", true, "--after"}},
         {"table",
          {{"table", file("friction.h5"), "--for", "csv", "--units", "mm,s,t"},
           "friction.h5",
@@ -95,7 +101,7 @@ class Outputs : public testing::Test {
   }
 
   static Words with_output(const Call& call, const std::string& output) {
-    return call.words + (call.is_option ? Words{"-o", output} : Words{output});
+    return call.words + (call.is_option ? Words{call.flag, output} : Words{output});
   }
 
   std::map<std::string, std::string> contents() const {
@@ -144,8 +150,8 @@ TEST_F(Outputs, AndInputsAreDeclaredByEveryVerb) {
     const cli::OptionSet set = cli::options_of(verb);
     for (const cli::Option& option : set.options()) {
       const std::string name = verb.name + " " + option.flag;
-      const bool is_output =
-          option.flag == "--output" || option.flag == "OUT" || option.flag == "--csv";
+      const bool is_output = option.flag == "--output" || option.flag == "OUT" ||
+                             option.flag == "--csv" || option.flag == "--after";
       const bool writes =
           option.names == cli::FileRole::output || option.names == cli::FileRole::folder;
       EXPECT_EQ(is_output, writes) << name;

@@ -34,7 +34,7 @@ TEST(DisplacedMaterial, KeepsItsVolumeAndRisesOnlyOutOfContact) {
     const Raised raised = pressed.raised(displaced);
     EXPECT_NEAR(raised.height.sum() / pressed.depth.sum(), 1, 1e-13);
     EXPECT_EQ(raised.lost, 0);
-    EXPECT_EQ(raised.without_room, 0);
+    EXPECT_EQ(raised.without_space, 0);
     for (Index i = 0; i < pressed.gap.size(); ++i) {
       if (pressed.contact(i)) {
         EXPECT_EQ(raised.height(i), 0);
@@ -71,7 +71,7 @@ TEST(DisplacedMaterial, WithoutRoomRisesEvenlyAndIsCounted) {
   Pressed pressed;
   pressed.gap *= 1e-3;
   const Raised raised = pressed.raised(Displaced::near);
-  EXPECT_GT(raised.without_room, 0);
+  EXPECT_GT(raised.without_space, 0);
   EXPECT_NEAR(raised.height.sum() / pressed.depth.sum(), 1, 1e-13);
   pressed.contact.setConstant(true);
   EXPECT_DOUBLE_EQ(pressed.raised(Displaced::near).lost, pressed.depth.sum());

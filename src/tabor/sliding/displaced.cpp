@@ -42,16 +42,16 @@ Field spread(const Field& depth, const Grid& grid, double reach) {
   return weight;
 }
 
-/// The c with sum min(c weight, room) = volume: Newton on a concave, piecewise linear function,
-/// which is below its goal after every step. Ends where all have their room.
-double scale_for_volume(const Field& weight, const Field& room, double volume) {
+/// The c with sum min(c weight, space) = volume: Newton on a concave, piecewise linear function,
+/// which is below its goal after every step. Ends where all have their space.
+double scale_for_volume(const Field& weight, const Field& space, double volume) {
   double scale = 0;
   for (int step = 0; step < kMostSteps; ++step) {
     const double filled =
-        sum_over(weight.size(), [&](Index i) { return std::min(scale * weight(i), room(i)); });
+        sum_over(weight.size(), [&](Index i) { return std::min(scale * weight(i), space(i)); });
     const double missing = volume - filled;
     const double slope = sum_over(
-        weight.size(), [&](Index i) { return scale * weight(i) < room(i) ? weight(i) : 0.0; });
+        weight.size(), [&](Index i) { return scale * weight(i) < space(i) ? weight(i) : 0.0; });
     if (missing <= kExact * volume || slope <= 0) break;
     const double next = scale + missing / slope;
     if (next == scale) break;
@@ -74,18 +74,19 @@ Raised raise(Displaced displaced, const Field& depth, const Mask& contact, const
   Field weight = displaced == Displaced::near ? spread(depth, grid, reach)
                                               : Field::Constant(grid.ny, grid.nx, 1.0);
   const double least = kNegligible * extent_of(weight).highest;
-  Field room(grid.ny, grid.nx);
-  for_each(room.size(), [&](Index i) {
-    room(i) = contact(i) ? 0 : std::max(gap(i), 0.0);
+  Field space(grid.ny, grid.nx);
+  for_each(space.size(), [&](Index i) {
+    space(i) = contact(i) ? 0 : std::max(gap(i), 0.0);
     if (contact(i) || weight(i) < least) weight(i) = 0;
   });
-  const double scale = scale_for_volume(weight, room, volume);
-  for_each(room.size(), [&](Index i) { raised.height(i) = std::min(scale * weight(i), room(i)); });
+  const double scale = scale_for_volume(weight, space, volume);
+  for_each(space.size(),
+           [&](Index i) { raised.height(i) = std::min(scale * weight(i), space(i)); });
   const double missing = volume - sum(raised.height);
-  if (missing > kNegligible * volume) raised.without_room = missing;
+  if (missing > kNegligible * volume) raised.without_space = missing;
   // What is missing, be it by rounding alone, rises evenly.
   const double each = missing / static_cast<double>(n_free);
-  for_each(room.size(), [&](Index i) {
+  for_each(space.size(), [&](Index i) {
     if (!contact(i)) raised.height(i) = std::max(0.0, raised.height(i) + each);
   });
   return raised;

@@ -8,8 +8,8 @@ namespace tabor::sliding {
 
 /// Fate of displaced material.
 enum class Displaced {
-  near,     ///< it rises beside the contact it comes from, as far as the gap has room
-  uniform,  ///< it rises evenly out of contact, as far as the gap has room (Pullen & Williamson
+  near,     ///< it rises beside the contact it comes from, as far as the gap has space
+  uniform,  ///< it rises evenly out of contact, as far as the gap has space (Pullen & Williamson
             ///< 1972)
   lost      ///< it leaves the surface: abrasive wear
 };
@@ -18,8 +18,8 @@ inline constexpr auto kDisplaced = names<Displaced>("near", "uniform", "lost");
 /// Heights that rise, and what of the displaced material they are.
 struct Raised {
   Field height;  ///< [m], >= 0, 0 on contact
-  double without_room =
-      0;            ///< sum that found no room in the gap and rose evenly out of contact [m]
+  double without_space =
+      0;            ///< sum that found no space in the gap and rose evenly out of contact [m]
   double lost = 0;  ///< sum that left the surface [m]
 };
 
@@ -28,7 +28,7 @@ struct Raised {
 /// `reach` [m] applied to the depth, c times it, at most the gap, with the c at which volumes
 /// agree. As nothing rises above the gap, the pressures stay those of a solution. Sums of depth and
 /// rise agree to 1e-13. Opposite borders of the map are neighbours. Where everything touches there
-/// is no room: all of it is lost.
+/// is no space: all of it is lost.
 Raised raise(Displaced displaced, const Field& depth, const Mask& contact, const Field& gap,
              const Grid& grid, double reach);
 

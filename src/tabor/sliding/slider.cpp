@@ -64,7 +64,7 @@ Ploughing& Ploughing::operator+=(const Ploughing& more) {
   upper += more.upper;
   moved += more.moved;
   lost += more.lost;
-  without_room += more.without_room;
+  without_space += more.without_space;
   return *this;
 }
 
@@ -109,7 +109,7 @@ Ploughing Slider::settle() {
   for_each(depth.size(), [&](Index i) { problem_.sheet(i) += raised.height(i) - depth(i); });
   const auto n = static_cast<double>(depth.size());
   const double moved = sum(depth) / n;
-  return {.moved = moved, .lost = raised.lost / n, .without_room = raised.without_room / n};
+  return {.moved = moved, .lost = raised.lost / n, .without_space = raised.without_space / n};
 }
 
 Ploughing Slider::press(const Observer& observer) {

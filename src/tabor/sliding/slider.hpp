@@ -20,13 +20,13 @@ struct Problem {
 
 /// Work and material of sliding from one place of the tool to the next, over the nominal area.
 struct Ploughing {
-  double distance = 0;      ///< [m]
-  double work = 0;          ///< [J/m^2]
-  double lower = 0;         ///< bound on the work [J/m^2]
-  double upper = 0;         ///< the same from above
-  double moved = 0;         ///< volume of displaced material [m]
-  double lost = 0;          ///< of it, that left the sheet [m]
-  double without_room = 0;  ///< of it, that found no room in the gap [m]
+  double distance = 0;       ///< [m]
+  double work = 0;           ///< [J/m^2]
+  double lower = 0;          ///< bound on the work [J/m^2]
+  double upper = 0;          ///< the same from above
+  double moved = 0;          ///< volume of displaced material [m]
+  double lost = 0;           ///< of it, that left the sheet [m]
+  double without_space = 0;  ///< of it, that found no space in the gap [m]
 
   Ploughing& operator+=(const Ploughing& more);
   /// Returns the coefficient of friction of a work under a mean pressure [Pa]; NaN before sliding.
