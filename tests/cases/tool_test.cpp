@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cases/small_sheet.hpp"
 #include "support/folder.hpp"
 #include "support/rejection.hpp"
 #include "tabor/cases/states.hpp"
@@ -21,19 +22,6 @@ using testing::HasSubstr;
 using testing::SizeIs;
 
 const Grid kGrid{64, 48, 64e-6, 48e-6};
-
-std::string same(std::string_view setting) { return std::string(setting); }
-
-ContactSettings aluminium() {
-  return {.youngs_modulus = 70e9, .poissons_ratio = 0.33, .saturation_pressure = 240e6};
-}
-
-topography::Topography sheet() {
-  synthesis::SelfAffine recipe;
-  recipe.grid = kGrid;
-  recipe.rms_height = 0.5e-6;
-  return synthesis::self_affine(recipe);
-}
 
 topography::Topography wave(const Grid& grid, double amplitude) {
   return synthesis::sinusoid({.grid = grid, .amplitude = amplitude, .wavelength_x = grid.lx});
@@ -134,24 +122,24 @@ TEST(Tool, SettingsWithoutAToolAreRejected) {
   for (const ToolSettings& idle :
        {ToolSettings{.tool_x = 0.0}, ToolSettings{.tool_places = 3},
         ToolSettings{.tool_lowpass = "gauss:8um"}, ToolSettings{.tool_repeats = true}}) {
-    EXPECT_TRUE(objection(idle, same));
+    EXPECT_TRUE(objection(idle, test::own_name));
   }
-  EXPECT_FALSE(objection(ToolSettings{}, same));
-  EXPECT_TRUE(objection(ToolSettings{.tool = "ground", .tool_places = 0}, same));
-  EXPECT_TRUE(objection(ToolSettings{.tool = ""}, same));
-  EXPECT_TRUE(objection(ToolSettings{.tool = "ground", .tool_lowpass = "gauss"}, same));
-  EXPECT_FALSE(objection(ToolSettings{.tool = "ground", .tool_x = 0.0}, same));
+  EXPECT_FALSE(objection(ToolSettings{}, test::own_name));
+  EXPECT_TRUE(objection(ToolSettings{.tool = "ground", .tool_places = 0}, test::own_name));
+  EXPECT_TRUE(objection(ToolSettings{.tool = ""}, test::own_name));
+  EXPECT_TRUE(objection(ToolSettings{.tool = "ground", .tool_lowpass = "gauss"}, test::own_name));
+  EXPECT_FALSE(objection(ToolSettings{.tool = "ground", .tool_x = 0.0}, test::own_name));
 }
 
 TEST(ToolContact, IsThatOfTheSumUnderAFlat) {
-  ContactSettings settings = aluminium();
-  const auto surface = sheet();
+  ContactSettings settings = test::aluminium();
+  const auto surface = test::small_sheet();
   settings.tool = {.tool = "ground:Sa=0.1um", .tool_x = 7e-6};
   const ContactRecord rough = contact_state(surface, settings, contact::MeanPressure{7e6});
   const Tool tool = make_tool(settings.tool, kGrid);
   topography::Topography sum = surface;
   sum.height += height_at(tool, 7, kGrid);
-  const ContactRecord flat_one = contact_state(sum, aluminium(), contact::MeanPressure{7e6});
+  const ContactRecord flat_one = contact_state(sum, test::aluminium(), contact::MeanPressure{7e6});
   EXPECT_TRUE((rough.state.pressure == flat_one.state.pressure).all());
   EXPECT_TRUE((rough.state.gap == flat_one.state.gap).all());
   EXPECT_DOUBLE_EQ(rough.tool_place->x, 7e-6);
@@ -174,8 +162,8 @@ TEST(ToolContact, OfAWavyToolOnAFlatSheetIsWestergaards) {
 }
 
 TEST(ToolContact, FollowsTheToolAndTheSheetTogether) {
-  ContactSettings settings = aluminium();
-  topography::Topography surface = sheet();
+  ContactSettings settings = test::aluminium();
+  topography::Topography surface = test::small_sheet();
   settings.tool = {.tool = "self-affine:Sa=0.1um"};
   const auto first = contact_state(surface, settings, contact::MeanPressure{7e6});
   topography::Topography shifted = surface;
@@ -190,8 +178,8 @@ TEST(ToolContact, FollowsTheToolAndTheSheetTogether) {
 }
 
 TEST(ToolContact, ReachesIntoPocketsThatAFlatSpares) {
-  ContactSettings settings = aluminium();
-  const auto surface = sheet();
+  ContactSettings settings = test::aluminium();
+  const auto surface = test::small_sheet();
   const auto smooth = contact_state(surface, settings, contact::MeanPressure{7e6});
   settings.tool = {.tool = "ground:Sa=0.3um,groove-length=20um"};
   const auto rough = contact_state(surface, settings, contact::MeanPressure{7e6});
@@ -202,19 +190,19 @@ TEST(ToolContact, ReachesIntoPocketsThatAFlatSpares) {
 }
 
 TEST(ToolContact, WarnsOfAToolRougherThanTheSheet) {
-  ContactSettings settings = aluminium();
+  ContactSettings settings = test::aluminium();
   settings.tool = {.tool = "ground:Sa=2um"};
-  const auto record = contact_state(sheet(), settings, contact::MeanPressure{7e6});
+  const auto record = contact_state(test::small_sheet(), settings, contact::MeanPressure{7e6});
   EXPECT_THAT(codes_of(record.warnings), testing::Contains("rough-tool"));
 }
 
 TEST(ToolContact, AlongALoadPathKeepsTheSumThatEarlierContactsLeft) {
-  ContactSettings settings = aluminium();
+  ContactSettings settings = test::aluminium();
   settings.tool = {.tool = "ground:Sa=0.1um"};
   settings.load_path = true;
   std::vector<double> plastic;
   std::vector<contact::Control> controls{contact::MeanPressure{7e6}, contact::MeanPressure{5e6}};
-  const auto surface = sheet();
+  const auto surface = test::small_sheet();
   const auto receive = [&](ContactRecord&& record) {
     plastic.push_back((-record.state.gap).max(0.0).sum());
   };

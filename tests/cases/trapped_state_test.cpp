@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "cases/small_sheet.hpp"
 #include "tabor/cases/states.hpp"
 #include "tabor/synthesis/synthesis.hpp"
 
@@ -11,19 +12,10 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string same(std::string_view setting) { return std::string(setting); }
-
-topography::Topography sheet() {
-  synthesis::SelfAffine recipe;
-  recipe.grid = {64, 48, 64e-6, 48e-6};
-  recipe.rms_height = 0.5e-6;
-  return synthesis::self_affine(recipe);
-}
-
 CaseSettings aluminium() {
   CaseSettings settings;
   settings.mean_pressures = {15e6};
-  settings.contact = {.youngs_modulus = 70e9, .poissons_ratio = 0.33, .saturation_pressure = 240e6};
+  settings.contact = test::aluminium();
   settings.film.lubricant_densities = {0.45e-3};
   settings.friction = {.shear_strength = 70e6, .boundary_shear_strength = 5e6};
   settings.trapped.trapped = true;
@@ -33,7 +25,7 @@ CaseSettings aluminium() {
 /// A sheet, its contact, oil on it, and the oil in its pockets.
 struct Pressed {
   explicit Pressed(const CaseSettings& settings)
-      : surface(sheet()),
+      : surface(test::small_sheet()),
         elasticity(make_operator(settings.contact, surface.grid)),
         contact(contact_state(*elasticity, surface, settings.contact,
                               contact::MeanPressure{settings.mean_pressures.front()})),
@@ -135,7 +127,7 @@ TEST(TrappedOil, OfSeveralPlacesIsTheirMean) {
 
 TEST(TrappedOil, IsRejectedWithWhatExcludesIt) {
   const auto remedy = [](const CaseSettings& settings) {
-    const auto found = objection_to_trapped(settings, same);
+    const auto found = objection_to_trapped(settings, test::own_name);
     return found ? found->remedy + found->expected : "";
   };
   CaseSettings settings = aluminium();

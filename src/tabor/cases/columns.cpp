@@ -123,7 +123,8 @@ const Columns<TrappedRecord>& trapped_columns() {
   static const Columns<Summary> solids{
       {"solid_pressure_Pa", "Pa", "", &Summary::mean_pressure},
       {"contact_area_fraction", "", "", &Summary::contact_area_fraction},
-      {"contact_area_fraction_pixels", "", "", &Summary::contact_area_fraction_pixels}};
+      {"contact_area_fraction_pixels", "", "", &Summary::contact_area_fraction_pixels},
+      {"mean_gap_m", "m", "", &Summary::mean_gap}};
   static const Columns<LiquidSummary> liquid{
       {"liquid_load_share", "", "", &LiquidSummary::load_share},
       {"max_liquid_pressure_Pa", "Pa", "", &LiquidSummary::max_pressure},
@@ -136,7 +137,7 @@ const Columns<TrappedRecord>& trapped_columns() {
       within(solids, &Record::solids), within(liquid, &Record::liquid),
       Columns<Record>{
           {"lubricated_share", "", "", &Record::lubricated_share},
-          {"mean_gap_m", "m", "", &Record::mean_gap},
+
           {"certificate", "", "", member_of(&Record::convergence, &Convergence::certificate)},
           {"converged", "", "", [](const Record& one) { return one.convergence.converged(); }}});
   return all;
@@ -157,8 +158,6 @@ const Columns<FrictionRecord>& friction_area_columns() {
   return all;
 }
 
-namespace {
-
 const Columns<TrappedFriction>& trapped_friction_columns() {
   using Record = TrappedFriction;
   static const Columns<Record> all{
@@ -178,6 +177,8 @@ const Columns<TrappedFriction>& trapped_friction_columns() {
       {"trapped_converged", "", "", &Record::converged}};
   return all;
 }
+
+namespace {
 
 const Columns<FlowingFriction>& flowing_columns() {
   using Record = FlowingFriction;

@@ -42,10 +42,6 @@ ContactRecord solve(elastic::ElasticOperator& elasticity, const Field& height,
   return record;
 }
 
-const Field& pressed_height(const topography::Topography& surface, const Pressing& pressing) {
-  return pressing.height.size() > 0 ? pressing.height : surface.height;
-}
-
 /// Puts the tool of the settings at its first place.
 Pressing first_pressing(const topography::Topography& surface, const ContactSettings& settings,
                         const Observer& observer) {
@@ -58,7 +54,7 @@ ContactRecord state_of(elastic::ElasticOperator& elasticity, const topography::T
                        const Pressing& pressing, const ContactSettings& settings,
                        const contact::Control& control, const Observer& observer) {
   ContactRecord record =
-      solve(elasticity, pressed_height(surface, pressing), settings, control, observer);
+      solve(elasticity, pressing.height_of(surface), settings, control, observer);
   record.surface = topography::digest_of(surface.height, surface.grid);
   record.tool = pressing.tool;
   record.tool_place = pressing.place;
@@ -109,7 +105,7 @@ ContactRecord contact_state(elastic::ElasticOperator& elasticity,
                             const Observer& observer) {
   ContactRecord record = state_of(elasticity, surface, pressing, settings, control, observer);
   if (settings.load_path) {
-    pressing.height = contact::unloaded_height(pressed_height(surface, pressing), record.state);
+    pressing.height = contact::unloaded_height(pressing.height_of(surface), record.state);
   }
   return record;
 }
@@ -121,7 +117,7 @@ void contact_states(elastic::ElasticOperator& elasticity, const topography::Topo
   for (const contact::Control& control : controls) {  // before the first of them takes its time
     const auto* separation = std::get_if<contact::Separation>(&control);
     if (separation == nullptr) continue;
-    contact::require_reachable(elasticity, pressed_height(surface, pressing),
+    contact::require_reachable(elasticity, pressing.height_of(surface),
                                {.upper = settings.pressure_cap()}, separation->value);
   }
   for (const contact::Control& control : controls) {

@@ -39,11 +39,10 @@ void add_liquid(const Closed& closed, const Field& film, bool periodic, double d
   record.escaping_fraction = liquid.escaping_fraction;
 }
 
-/// The solids carry what the oil does not; friction is that of their dry and of their wet contact,
-///
-///   mu = tau_y A_dry/(A0 P) + tau_b A_wet/(A0 P).
-TrappedFriction friction_of(const TrappedRecord& trapped, double mean_pressure,
-                            const ContactSettings& contact, const FrictionSettings& settings) {
+}  // namespace
+
+TrappedFriction trapped_friction(const TrappedRecord& trapped, double mean_pressure,
+                                 const ContactSettings& contact, const FrictionSettings& settings) {
   const contact::LiquidSummary& liquid = trapped.liquid;
   TrappedFriction friction{.load_share = liquid.load_share,
                            .max_pressure = liquid.max_pressure,
@@ -53,7 +52,7 @@ TrappedFriction friction_of(const TrappedRecord& trapped, double mean_pressure,
                            .leaked_fraction = liquid.leaked_fraction,
                            .contact_area_fraction = 0,
                            .lubricated_share = trapped.lubricated_share,
-                           .mean_gap = trapped.mean_gap,
+                           .mean_gap = trapped.solids.mean_gap,
                            .friction_solid = 0,
                            .friction_boundary = 0,
                            .certificate = trapped.convergence.certificate,
@@ -69,9 +68,11 @@ TrappedFriction friction_of(const TrappedRecord& trapped, double mean_pressure,
   return friction;
 }
 
+namespace {
+
 void add_trapped(const TrappedRecord& trapped, const ContactSettings& contact,
                  const FrictionSettings& settings, FrictionRecord& record) {
-  record.trapped = friction_of(trapped, record.mean_pressure, contact, settings);
+  record.trapped = trapped_friction(trapped, record.mean_pressure, contact, settings);
   record.friction_lubricated = record.trapped->friction_solid + record.trapped->friction_boundary;
   record.converged = record.converged && record.trapped->converged;
   add(trapped.warnings, record.warnings);

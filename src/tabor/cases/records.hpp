@@ -86,7 +86,6 @@ struct TrappedRecord {
   contact::Summary solids;        ///< of the solids alone
   contact::LiquidSummary liquid;  ///< of the pockets
   double lubricated_share = 0;    ///< of the solid contact
-  double mean_gap = 0;            ///< [m]
   Convergence convergence;
   Warnings warnings;
   std::vector<std::string> references;  ///< to cite; not stored
@@ -153,6 +152,9 @@ struct TrappedFriction {
   double certificate = kNoValue;
   bool converged = false;
 };
+
+/// Columns of these numbers, beside those of a friction or of a slide.
+const Columns<TrappedFriction>& trapped_friction_columns();
 
 /// Standard deviations of a friction over the places of a tool.
 struct ToolSpread {

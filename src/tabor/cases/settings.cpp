@@ -46,22 +46,10 @@ std::optional<Objection> objection_to_idle(const FluidSettings& settings,
       {"eyring_stress", settings.eyring_stress.has_value()}};
   for (const auto& [setting, is_given] : given) {
     if (!is_given) continue;
-    return Objection{
-        .setting = setting,
-        .got = "",
-        .expected = "",
-        .remedy = fmt::format("{} needs {} reynolds", spelling(setting), spelling("fluid")),
-        .is_about_use = true};
+    return objection_to_use(
+        setting, fmt::format("{} needs {} reynolds", spelling(setting), spelling("fluid")));
   }
   return std::nullopt;
-}
-
-Objection use(std::string setting, std::string remedy) {
-  return {.setting = std::move(setting),
-          .got = "",
-          .expected = "",
-          .remedy = std::move(remedy),
-          .is_about_use = true};
 }
 
 }  // namespace
@@ -97,9 +85,10 @@ std::optional<Objection> objection(const ContactSettings& settings,
                                    const std::vector<double>& mean_pressures,
                                    const Spelling& spelling) {
   if (settings.counter_youngs_modulus.has_value() != settings.counter_poissons_ratio.has_value()) {
-    return use("counter_youngs_modulus",
-               fmt::format("{} and {} belong together; give both or none",
-                           spelling("counter_youngs_modulus"), spelling("counter_poissons_ratio")));
+    return objection_to_use(
+        "counter_youngs_modulus",
+        fmt::format("{} and {} belong together; give both or none",
+                    spelling("counter_youngs_modulus"), spelling("counter_poissons_ratio")));
   }
   if (auto found = objection_to_bounds(contact_parameters(), settings)) return found;
   if (auto found = objection(settings.tool, spelling)) return found;
@@ -127,9 +116,10 @@ std::optional<Objection> objection_to_controls(const CaseSettings& settings, boo
     return !(settings.*one.second).empty();
   });
   if (n_given != 1) {
-    return use("mean_pressure",
-               fmt::format("give {} of {}, {} and {}", n_given == 0 ? "one" : "only one",
-                           spelling("mean_pressure"), spelling("separation"), spelling("force")));
+    return objection_to_use(
+        "mean_pressure",
+        fmt::format("give {} of {}, {} and {}", n_given == 0 ? "one" : "only one",
+                    spelling("mean_pressure"), spelling("separation"), spelling("force")));
   }
   for (const double force : settings.forces) {
     if (bounds::above_zero.contain(force)) continue;
@@ -139,10 +129,10 @@ std::optional<Objection> objection_to_controls(const CaseSettings& settings, boo
   const bool repeats = settings.contact.is_periodic() &&
                        (boundary_is_known || settings.contact.boundary.has_value());
   if (settings.forces.empty() || !repeats) return std::nullopt;
-  return use("force",
-             fmt::format("{} presses a body that ends: use {} free, or {} for a surface "
-                         "that repeats",
-                         spelling("force"), spelling("boundary"), spelling("mean_pressure")));
+  return objection_to_use(
+      "force", fmt::format("{} presses a body that ends: use {} free, or {} for a surface "
+                           "that repeats",
+                           spelling("force"), spelling("boundary"), spelling("mean_pressure")));
 }
 
 std::optional<Objection> objection(const ContactSettings& settings,
@@ -151,9 +141,10 @@ std::optional<Objection> objection(const ContactSettings& settings,
   if (!edges || !settings.boundary) return std::nullopt;
   const bool ends = *edges == topography::Edges::end;
   if (ends == (*settings.boundary == Boundary::free)) return std::nullopt;
-  return use("edges", fmt::format("{} {} and {} {} contradict each other; give one of them",
-                                  spelling("edges"), topography::kEdges.of(*edges),
-                                  spelling("boundary"), kBoundaries.of(*settings.boundary)));
+  return objection_to_use(
+      "edges", fmt::format("{} {} and {} {} contradict each other; give one of them",
+                           spelling("edges"), topography::kEdges.of(*edges), spelling("boundary"),
+                           kBoundaries.of(*settings.boundary)));
 }
 
 std::optional<Objection> objection(const FilmSettings& settings) {
@@ -165,12 +156,12 @@ std::optional<Objection> objection(const FluidSettings& settings, const ContactS
   if (!settings.flows()) return objection_to_idle(settings, spelling);
   const std::string asked = spelling("fluid") + " reynolds ";
   if (!settings.sliding_speed) {
-    return use("sliding_speed",
-               fmt::format("{0}needs {1}, e.g. {1} 5mm/s", asked, spelling("sliding_speed")));
+    return objection_to_use("sliding_speed", fmt::format("{0}needs {1}, e.g. {1} 5mm/s", asked,
+                                                         spelling("sliding_speed")));
   }
   if (!settings.viscosity) {
-    return use("viscosity",
-               fmt::format("{0}needs {1}, e.g. {1} 0.225Pa*s", asked, spelling("viscosity")));
+    return objection_to_use(
+        "viscosity", fmt::format("{0}needs {1}, e.g. {1} 0.225Pa*s", asked, spelling("viscosity")));
   }
   if (auto found = objection_to_bounds(fluid_parameters(), settings)) {
     if (found->setting == "sliding_speed") {
@@ -180,14 +171,15 @@ std::optional<Objection> objection(const FluidSettings& settings, const ContactS
   }
   friction::lubricant_of(settings.oil());
   if (contact.tool.is_rough()) {
-    return use("tool",
-               fmt::format("{}is solved under a flat: a rough tool changes the gap while it "
-                           "slides; leave out one of them",
-                           asked));
+    return objection_to_use(
+        "tool", fmt::format("{}is solved under a flat: a rough tool changes the gap while it "
+                            "slides; leave out one of them",
+                            asked));
   }
   if (contact.is_periodic()) return std::nullopt;
-  return use("boundary", fmt::format("{}is solved on a patch that repeats: use {} periodic", asked,
-                                     spelling("boundary")));
+  return objection_to_use("boundary",
+                          fmt::format("{}is solved on a patch that repeats: use {} periodic", asked,
+                                      spelling("boundary")));
 }
 
 std::optional<Objection> objection_to_trapped(const CaseSettings& all, const Spelling& spelling) {
@@ -195,21 +187,24 @@ std::optional<Objection> objection_to_trapped(const CaseSettings& all, const Spe
   if (auto found = objection_to_bounds(trapped_parameters(), settings)) return found;
   const std::string trapped = spelling("trapped");
   if (all.friction.dry_below > 0 && all.fluid.flows()) {
-    return use("dry_below", fmt::format("{} is for oil that stays where it was laid; leave out {}",
+    return objection_to_use("dry_below",
+                            fmt::format("{} is for oil that stays where it was laid; leave out {}",
                                         spelling("dry_below"), spelling("fluid")));
   }
   if (!settings.is_asked()) {
     if (settings.bulk_modulus == TrappedSettings::kOilBulkModulus) return std::nullopt;
-    return use("bulk_modulus", fmt::format("{} needs {}", spelling("bulk_modulus"), trapped));
+    return objection_to_use("bulk_modulus",
+                            fmt::format("{} needs {}", spelling("bulk_modulus"), trapped));
   }
   if (all.fluid.flows()) {
-    return use("trapped", fmt::format("oil is trapped or flows: leave out {} or {}", trapped,
-                                      spelling("fluid")));
+    return objection_to_use("trapped", fmt::format("oil is trapped or flows: leave out {} or {}",
+                                                   trapped, spelling("fluid")));
   }
   if (all.contact.load_path) {
-    return use("trapped", fmt::format("{} is solved on the surface as it is, not on what a load "
-                                      "path has left of it; leave out {}",
-                                      trapped, spelling("load_path")));
+    return objection_to_use("trapped",
+                            fmt::format("{} is solved on the surface as it is, not on what a load "
+                                        "path has left of it; leave out {}",
+                                        trapped, spelling("load_path")));
   }
   return std::nullopt;
 }
@@ -217,13 +212,15 @@ std::optional<Objection> objection_to_trapped(const CaseSettings& all, const Spe
 std::optional<Objection> objection(const FrictionSettings& settings, const Spelling& spelling,
                                    std::string_view material) {
   if (settings.shear_strength == 0 && !material.empty()) {
-    return use("shear_strength", fmt::format("{} has no shear strength in the library; add {}",
-                                             material, spelling("shear_strength")));
+    return objection_to_use("shear_strength",
+                            fmt::format("{} has no shear strength in the library; add {}", material,
+                                        spelling("shear_strength")));
   }
   if (settings.boundary_shear_strength && settings.boundary_shear_share) {
-    return use("boundary_shear_share",
-               fmt::format("{} and {} say the same; give one of them",
-                           spelling("boundary_shear_strength"), spelling("boundary_shear_share")));
+    return objection_to_use(
+        "boundary_shear_share",
+        fmt::format("{} and {} say the same; give one of them", spelling("boundary_shear_strength"),
+                    spelling("boundary_shear_share")));
   }
   if (auto found = objection_to_bounds(friction_parameters(), settings)) return found;
   const double boundary = settings.boundary_strength();

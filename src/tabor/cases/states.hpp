@@ -36,6 +36,11 @@ struct Pressing {
   std::optional<ToolPlace> place = {};     ///< absent for a flat
   std::shared_ptr<const Field> tool = {};  ///< its heights over the surface [m]; null: a flat
   Warnings warnings = {};                  ///< of pressing with it
+
+  /// Returns the height that the next contact is solved on [m].
+  const Field& height_of(const topography::Topography& surface) const {
+    return height.size() > 0 ? height : surface.height;
+  }
 };
 /// Puts a tool over the surface at a place [pixels].
 Pressing pressing(const topography::Topography& surface, const Tool& tool, Index place);
@@ -104,6 +109,11 @@ struct Closed {
 FrictionRecord friction_state(const ContactRecord& contact, const Closed& closed, const Oil& oil,
                               const ContactSettings& contact_settings,
                               const FrictionSettings& settings);
+
+/// Computes the friction of a contact whose trapped oil carries part of the load: that of its dry
+/// and of its wet solids, mu = tau_y A_dry/(A0 P) + tau_b A_wet/(A0 P).
+TrappedFriction trapped_friction(const TrappedRecord& trapped, double mean_pressure,
+                                 const ContactSettings& contact, const FrictionSettings& settings);
 
 /// Returns the means over the places of a tool, with their standard deviations and the warnings of
 /// all; the record itself where there is one.

@@ -3,37 +3,9 @@
 #include "tabor/cases/belonging.hpp"
 #include "tabor/cases/states.hpp"
 #include "tabor/cases/warnings.hpp"
-#include "tabor/core/loops.hpp"
 #include "tabor/friction/wet_contact.hpp"
 
 namespace tabor::cases {
-namespace {
-
-/// Pressure where the solids touch, 0 elsewhere [Pa].
-Field solid_pressure(const contact::TrappedState& state, const Mask& touching) {
-  const Field& pressure = state.contact.pressure;
-  Field solid(pressure.rows(), pressure.cols());
-  for_each(solid.size(), [&](Index i) { solid(i) = touching(i) ? pressure(i) : 0; });
-  return solid;
-}
-
-/// Summarises the contact of the solids alone; the state is as before afterwards.
-contact::Summary summary_of_solids(contact::TrappedState& state, const Mask& touching,
-                                   const contact::Problem& problem, const Grid& grid,
-                                   bool periodic) {
-  contact::State& all = state.contact;
-  Field pressure = solid_pressure(state, touching);
-  const double mean = sum(pressure) / static_cast<double>(pressure.size());
-  std::swap(all.pressure, pressure);
-  const double mean_of_all = std::exchange(all.mean_pressure, mean);
-  const contact::Summary summary = contact::summarise(all, problem, grid, periodic);
-  std::swap(all.pressure, pressure);
-  all.mean_pressure = mean_of_all;
-  return summary;
-}
-
-}  // namespace
-
 Field pressed_height(const topography::Topography& surface, const ContactRecord& contact) {
   if (contact.tool == nullptr) return surface.height;
   return surface.height + *contact.tool;
@@ -55,12 +27,11 @@ TrappedRecord trapped_state(elastic::ElasticOperator& elasticity, const Field& h
                                         dry, observer);
   record.convergence = record.state.contact.convergence;
   throw_if_stopped(record.convergence);
-  const Mask touching = contact::solid_contact(record.state);
   record.solids =
-      summary_of_solids(record.state, touching, problem, elasticity.grid(), contact.is_periodic());
+      contact::summarise_solids(record.state, problem, elasticity.grid(), contact.is_periodic());
   record.liquid = record.state.liquid;
-  record.lubricated_share = friction::lubricated_share(touching, film, settings.friction.dry_below);
-  record.mean_gap = record.solids.mean_gap;
+  record.lubricated_share = friction::lubricated_share(contact::solid_contact(record.state), film,
+                                                       settings.friction.dry_below);
   record.references = references_of(settings.trapped);
   record.warnings = of_trapped(record);
   return record;

@@ -14,13 +14,9 @@ namespace tabor::contact {
 namespace {
 
 constexpr double kLoadTolerance = 1e-10;  // relative
-// A pixel's own gap would change its pressure this many times over: it is at the bound next to it.
-// Rough surfaces solved to 1e-6 stay below 200.
-constexpr double kFalseContact = 1000;
-constexpr double kLargestShare = 30;  // of sqrt(tolerance) x length scale
+constexpr double kLargestShare = 30;      // of sqrt(tolerance) x length scale
 constexpr double kRelativeRounding = 1e-13;
-constexpr double kMostSettled = 1e-6;  // of the load: more is for the solver's iterations to move
-constexpr double kExactLoad = 1e-13;   // relative: no need to correct
+constexpr double kExactLoad = 1e-13;  // relative: no need to correct
 
 }  // namespace
 

@@ -9,6 +9,12 @@
 // it.
 namespace tabor::contact {
 
+/// A pixel's own gap would change its pressure this many times over: it is at the bound next to it.
+/// Rough surfaces solved to 1e-6 stay below 200.
+inline constexpr double kFalseContact = 1000;
+/// Share of the load that pixels settling on their bounds may move: more is for iterations to move.
+inline constexpr double kMostSettled = 1e-6;
+
 /// Conditions of a solution, by which both solvers stop: it carries the load, its duality gap is
 /// small, and the gap is closed wherever the pressure is inside its bounds. The duality gap weighs
 /// gaps with pressure; a pixel with next to no pressure could have any gap without it. Takes

@@ -9,9 +9,8 @@
 
 #include "tabor/contact/candidate_set.hpp"
 #include "tabor/contact/conditions.hpp"
-#include "tabor/contact/long_waves.hpp"
-#include "tabor/contact/preconditioner.hpp"
 #include "tabor/contact/projection.hpp"
+#include "tabor/contact/search_direction.hpp"
 #include "tabor/contact/start.hpp"
 #include "tabor/core/large_pages.hpp"
 #include "tabor/core/loops.hpp"
@@ -19,14 +18,9 @@
 namespace tabor::contact {
 namespace {
 
-constexpr double kFirstRefresh = 1e-6;  // certificate below which v is computed afresh in double
-constexpr double kNextRefresh = 1e-4;   // ... and again each time it fell by this factor
-constexpr int kBlockRounds = 3;         // solutions for the long waves of one direction, at most
-constexpr double kSettledShare = 1e-4;  // of the pixels changing between free and held: settled
 // Length of a step over what its direction wanted: below, the direction followed pixels whose
 // gap is far too large to be felt by others, and the next one looks at each pixel alone.
 constexpr double kLeastLength = 1e-4;
-constexpr int kPatience = 300;  // iterations without a better certificate before giving up
 
 /// A map of zeros, written on all threads.
 FieldF zeros(Index ny, Index nx) {
@@ -53,9 +47,7 @@ class ProjectedGradient {
         cap_(problem.saturation_pressure),
         conditions_(elasticity, problem),
         load_(conditions_.load()),
-        preconditioner_(elasticity.grid(), elasticity.effective_modulus(), elasticity.drops_mean()),
-        long_waves_(elasticity.grid(), elasticity.effective_modulus(), preconditioner_.plateau(),
-                    elasticity.drops_mean()) {
+        direction_(elasticity) {
     convergence_.tolerance = problem.tolerance;
   }
 
@@ -69,8 +61,6 @@ class ProjectedGradient {
   void find_separation();
   void choose_active_set();
   void find_direction();
-  void add_long_waves();
-  double hold_at_bounds();
   void choose_step();
   double project_step();
   bool move();
@@ -84,27 +74,22 @@ class ProjectedGradient {
   const LoadProblem& problem_;
   double cap_;  // [Pa]
   Conditions conditions_;
-  double load_;  // sum of pressures [Pa]
-  Preconditioner preconditioner_;
-  LongWaves long_waves_;
+  double load_;                // sum of pressures [Pa]
+  SearchDirection direction_;  // M (v - sep) [Pa]
   Convergence convergence_;
 
   Field residual_;  // v = S p - z [m]
   FieldF work_;     // v - sep on the active set, then dp, then S dp; 0 elsewhere but for S dp
   CandidateSet candidates_;
   // On the active set, in its order:
-  PixelList places_;                      // among the candidates
-  PixelList active_;                      // pixels
-  std::vector<float> direction_;          // M (v - sep) [Pa]
-  std::vector<float> compact_direction_;  // the same without long waves [Pa]
-  std::vector<float> stiffness_;          // row sums of the compact kernel [Pa/m]
-  std::vector<float> moved_;              // direction as far as the bounds let it through [Pa]
-  std::vector<double> trial_;             // pressures tried [Pa]
-  double separation_ = 0;                 // [m], in the units of v
-  double relaxed_shift_ = 0;              // of trial_, by which it carries the load [Pa]
-  bool goes_alone_ = false;               // the next direction leaves neighbours alone
-  double step_ = 1;                       // tau
-  double step_curvature_ = 0;             // <dp, S dp> of the step before [Pa m]
+  PixelList places_;           // among the candidates
+  PixelList active_;           // pixels
+  std::vector<double> trial_;  // pressures tried [Pa]
+  double separation_ = 0;      // [m], in the units of v
+  double relaxed_shift_ = 0;   // of trial_, by which it carries the load [Pa]
+  bool goes_alone_ = false;    // the next direction leaves neighbours alone
+  double step_ = 1;            // tau
+  double step_curvature_ = 0;  // <dp, S dp> of the step before [Pa m]
   double refresh_below_ = kFirstRefresh;
   bool residual_is_fresh_ = false;
   int n_compact_steps_ = 0;
@@ -129,15 +114,13 @@ void ProjectedGradient::refresh() {
 /// residual(pixel) is what v will be, change the S dp that it changes by.
 template <typename Residual, typename Update>
 void ProjectedGradient::collect(const Residual& residual, FieldF* change, const Update& update) {
-  for (std::vector<float>* values : {&compact_direction_, &stiffness_, &moved_}) {
-    *values = {};  // frees memory
-  }
+  direction_.free_memory();
   trial_ = {};
   for_each(candidates_.size(), [&](std::size_t k) {
     candidates_.values.residual[k] = residual(candidates_.pixels[k]);
   });
   const double threshold =
-      candidate_threshold(candidates_, load_, cap_, step_ * preconditioner_.diagonal());
+      candidate_threshold(candidates_, load_, cap_, step_ * direction_.diagonal());
   collect_candidates(residual_, change, threshold, update, candidates_);
 }
 
@@ -167,7 +150,7 @@ bool ProjectedGradient::meets_conditions() {
 /// sep with sum clip(p - t (v - sep), 0, p_sat) = load, t the diagonal step. It is the mean of v
 /// over an elastic contact and the threshold of the bearing area in a saturated one.
 void ProjectedGradient::find_separation() {
-  const double diagonal_step = step_ * preconditioner_.diagonal();
+  const double diagonal_step = step_ * direction_.diagonal();
   const std::vector<double>& pressure = candidates_.values.pressure;
   const std::vector<double>& residual = candidates_.values.residual;
   trial_.resize(pressure.size());
@@ -195,55 +178,17 @@ void ProjectedGradient::find_direction() {
   for_each(active_.size(), [&](std::size_t k) {
     work_.data()[active_[k]] = static_cast<float>(residual(k) - separation_);
   });
-  if (goes_alone_) {
-    const auto diagonal = static_cast<float>(preconditioner_.diagonal());
-    direction_.resize(active_.size());
-    for_each(active_.size(),
-             [&](std::size_t k) { direction_[k] = diagonal * work_.data()[active_[k]]; });
-    compact_direction_ = direction_;
-    return;
-  }
-  preconditioner_.apply(active_, work_, compact_direction_, stiffness_);
-  add_long_waves();
-}
-
-/// Corrects the direction for long waves. Pixels that a bound holds depend on the correction and
-/// the correction on them: a semi-smooth Newton iteration, each round of which holds what the
-/// direction of the round before presses against a bound.
-void ProjectedGradient::add_long_waves() {
-  direction_ = compact_direction_;
-  moved_ = compact_direction_;
-  long_waves_.start_anew();
-  for (int round = 0; round < kBlockRounds && long_waves_.useful(); ++round) {
-    const double n_changed = hold_at_bounds();
-    if (round > 1 && n_changed <= kSettledShare * static_cast<double>(active_.size())) break;
-    const auto accuracy = round == 0 ? LongWaves::Accuracy::rough : LongWaves::Accuracy::full;
-    long_waves_.correct(active_, stiffness_, moved_, compact_direction_, accuracy, direction_);
-  }
-}
-
-/// moved_ := the compact direction, or as much as the bound allows where the direction leads beyond
-/// it. Returns the number of pixels that changed between the two.
-double ProjectedGradient::hold_at_bounds() {
-  return sum_over(active_.size(), [&](std::size_t k) {
-    const double p = pressure(k);
-    const double wanted = p - step_ * static_cast<double>(direction_[k]);
-    const double allowed = std::clamp(wanted, 0.0, cap_);
-    const bool was_free = moved_[k] == compact_direction_[k];
-    moved_[k] =
-        wanted == allowed ? compact_direction_[k] : static_cast<float>((p - allowed) / step_);
-    return was_free == (wanted == allowed) ? 0.0 : 1.0;
-  });
+  if (goes_alone_) return direction_.find_alone(active_, work_);
+  direction_.find(
+      active_, work_, step_, cap_, [&](std::size_t k) { return pressure(k); },
+      [](std::size_t) { return 0.0; });
 }
 
 /// tau = <dp, S dp> / <S dp, M S dp>; M S dp is the change of the direction since the last step.
 void ProjectedGradient::choose_step() {
   const auto response = [&](std::size_t k) { return candidates_.response[places_[k]]; };
-  const double mean = sum_over(active_.size(), response) / static_cast<double>(active_.size());
-  const double curvature = sum_over(active_.size(), [&](std::size_t k) {
-    const float previous = candidates_.direction[places_[k]];
-    return (static_cast<double>(direction_[k]) - previous) * (response(k) - mean);
-  });
+  const auto previous = [&](std::size_t k) { return candidates_.direction[places_[k]]; };
+  const double curvature = direction_.curvature_of_change(response, previous);
   if (step_curvature_ > 0 && curvature > 0) step_ = step_curvature_ / curvature;
 }
 
@@ -253,7 +198,7 @@ double ProjectedGradient::project_step() {
   const double active_load = sum_over(active_.size(), [&](std::size_t k) { return pressure(k); });
   trial_.resize(active_.size());
   for_each(active_.size(), [&](std::size_t k) {
-    trial_[k] = pressure(k) - step_ * static_cast<double>(direction_[k]);
+    trial_[k] = pressure(k) - step_ * static_cast<double>(direction_.whole()[k]);
   });
   project_on_load(trial_, active_load, cap_);
   return sum_over(active_.size(), [&](std::size_t k) {
@@ -268,7 +213,7 @@ double ProjectedGradient::project_step() {
 bool ProjectedGradient::move() {
   double slope = project_step();
   if (slope >= 0) {  // bounds can turn a corrected direction uphill: leave long waves alone
-    direction_ = compact_direction_;
+    direction_.drop_long_waves();
     slope = project_step();
     n_compact_steps_ += 1;
   }
@@ -297,7 +242,7 @@ void ProjectedGradient::accept(double length) {
   for_each(active_.size(), [&](std::size_t k) {
     double& p = candidates_.values.pressure[places_[k]];
     p = length == 1 ? trial_[k] : std::clamp(p + length * (trial_[k] - p), 0.0, cap_);
-    candidates_.direction[places_[k]] = direction_[k];
+    candidates_.direction[places_[k]] = direction_.whole()[k];
   });
   const auto factor = static_cast<float>(length);
   double* v = residual_.data();

@@ -60,4 +60,9 @@ TrappedState solve_trapped(elastic::ElasticOperator& elasticity, const Problem& 
 /// True where solids touch: where the pressure exceeds that of the liquid beside it.
 Mask solid_contact(const TrappedState& state);
 
+/// Summarises the contact of the solids alone, as summarise(). The state is changed while this
+/// runs, and as before afterwards.
+Summary summarise_solids(TrappedState& state, const Problem& problem, const Grid& grid,
+                         bool periodic);
+
 }  // namespace tabor::contact

@@ -370,6 +370,15 @@ struct Objection {
   bool is_about_use = false;  ///< settings that do not go together, not a value out of range
 };
 
+/// Objects to settings that do not go together.
+inline Objection objection_to_use(std::string setting, std::string remedy) {
+  return {.setting = std::move(setting),
+          .got = "",
+          .expected = "",
+          .remedy = std::move(remedy),
+          .is_about_use = true};
+}
+
 /// The first number of the settings that lies out of its bounds, if any. Settings that were not
 /// given are in.
 template <typename Table, typename Settings>

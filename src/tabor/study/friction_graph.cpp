@@ -147,9 +147,8 @@ struct FrictionGraph::Shared {
     cases::Pressing pressing;
     if (settings().contact.tool.is_rough()) pressing = pressing_at(*surface, place.contact);
     const auto dry = dry_contact(place, *surface, *elasticity, pressing, monitor.own);
-    const Field& height = pressing.height.size() > 0 ? pressing.height : surface->height;
     store->store(place, surface,
-                 cases::trapped_state(*elasticity, height, *dry,
+                 cases::trapped_state(*elasticity, pressing.height_of(*surface), *dry,
                                       *store->film(store->conditions()[place.condition].density),
                                       settings(), monitor.own));
   }

@@ -21,7 +21,8 @@ def draw(single):
             figures.append(_film(single, state))
         figures += [_liquid_pressure(single, state), _fluid_pressure(single, state), _fluid_fill(single, state)]
         drawn.update({("contact", state.pressure_label), ("film", state.density)})
-        figures.append(sections.draw(state))
+        if single.is_solved_on(state):
+            figures.append(sections.draw(state))
         yield from (figure for figure in figures if figure is not None)
 
 
@@ -94,20 +95,26 @@ def _film(single, state):
 
 
 def _liquid_pressure(single, state):
-    pressure = state.map("liquid_pressure")
+    return _oil_pressure(
+        single, state, "liquid_pressure", "pressure of the trapped oil", "Pressure of the oil in closed pockets of the gap", "white: no pressure", state.label
+    )
+
+
+def _oil_pressure(single, state, name, axis_label, text, rest, label):
+    pressure = state.map(name)
     if pressure is None:
         return None
     factor, unit = units.scale(float(np.nanmax(pressure)), "Pa")
     return _map(
         single,
         state,
-        "liquid_pressure",
+        name,
         np.where(pressure > 0, pressure * factor, np.nan),
-        f"pressure of the trapped oil ({unit})",
+        f"{axis_label} ({unit})",
         map_axes.PRESSURE_COLOURS,
-        f"Pressure of the oil in closed pockets of the gap ({unit}); white: no pressure",
+        f"{text} ({unit}); {rest}",
         "white",
-        state.label,
+        label,
     )
 
 
@@ -117,20 +124,8 @@ def _flow_label(state):
 
 
 def _fluid_pressure(single, state):
-    pressure = state.map("fluid_pressure")
-    if pressure is None:
-        return None
-    factor, unit = units.scale(float(np.nanmax(pressure)), "Pa")
-    return _map(
-        single,
-        state,
-        "fluid_pressure",
-        np.where(pressure > 0, pressure * factor, np.nan),
-        f"pressure of the oil ({unit})",
-        map_axes.PRESSURE_COLOURS,
-        f"Pressure of the oil while it slides ({unit}), flow along x; white: none",
-        "white",
-        _flow_label(state),
+    return _oil_pressure(
+        single, state, "fluid_pressure", "pressure of the oil", "Pressure of the oil while it slides along x", "white: none", _flow_label(state)
     )
 
 

@@ -139,30 +139,26 @@ TrappedState solve_in_pockets(elastic::ElasticOperator& elasticity, const Proble
   };
   std::vector<double> bounds = seals_now();
   const SealedPockets sealed{pockets, liquid.bulk_modulus, bounds};
-  LiquidSummary summary;
   Convergence work;
   int round = 0;
   bool is_settled = pockets.size() == 0;
-  for (; round < kMostRounds && !is_settled; ++round) {
+  bool is_dry = is_settled;  // to the bit
+  while (!is_settled && round < kMostRounds) {
+    ++round;
     state = solve_sealed(elasticity, under, sealed, state, observer);
     work = after(work, state.contact.convergence);
-    if (state.is_start || state.contact.convergence.stopped()) {
-      is_settled = true;
-      break;
-    }
-    is_settled = !lower(state.levels, seals_now(), bounds);
+    is_dry = round == 1 && state.is_start;
+    is_settled =
+        is_dry || state.contact.convergence.stopped() || !lower(state.levels, seals_now(), bounds);
   }
-  TrappedState found;
-  const bool is_dry = state.is_start && std::all_of(state.levels.begin(), state.levels.end(),
-                                                    [](double level) { return level == 0; });
   if (!is_dry) {
     close_gap(pockets, state.levels, cap, state.contact);
     state.contact.convergence = work;
   }
-  summary = summary_of(sealed, state, grid);
-  summary.seal_rounds = round + (is_settled && pockets.size() > 0 && state.is_start ? 1 : 0);
-  summary.seals_settled = is_settled;
-  found.liquid = summary;
+  TrappedState found;
+  found.liquid = summary_of(sealed, state, grid);
+  found.liquid.seal_rounds = round;
+  found.liquid.seals_settled = is_settled;
   found.liquid_pressure = map_of(pockets, state.levels, grid);
   found.contact = std::move(state.contact);
   return found;
@@ -183,6 +179,21 @@ Mask solid_contact(const TrappedState& state) {
     solid(i) = touches(pressure(i)) && !at_level(pressure(i), state.liquid_pressure(i));
   });
   return solid;
+}
+
+Summary summarise_solids(TrappedState& state, const Problem& problem, const Grid& grid,
+                         bool periodic) {
+  State& all = state.contact;
+  const Mask touching = solid_contact(state);
+  Field pressure(all.pressure.rows(), all.pressure.cols());
+  for_each(pressure.size(), [&](Index i) { pressure(i) = touching(i) ? all.pressure(i) : 0; });
+  const double mean = sum(pressure) / static_cast<double>(pressure.size());
+  std::swap(all.pressure, pressure);
+  const double mean_of_all = std::exchange(all.mean_pressure, mean);
+  const Summary summary = summarise(all, problem, grid, periodic);
+  std::swap(all.pressure, pressure);
+  all.mean_pressure = mean_of_all;
+  return summary;
 }
 
 }  // namespace tabor::contact

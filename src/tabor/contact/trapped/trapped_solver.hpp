@@ -3,17 +3,10 @@
 #include <vector>
 
 #include "tabor/contact/load_problem.hpp"
-#include "tabor/contact/trapped/pockets.hpp"
+#include "tabor/contact/trapped/iterate.hpp"
 
 // Solves the contact with given pockets of liquid and given seals.
 namespace tabor::contact {
-
-/// Pockets of liquid in a contact, and what bounds their pressures.
-struct SealedPockets {
-  const Pockets& pockets;
-  double bulk_modulus;               ///< K [Pa], may be infinite
-  const std::vector<double>& seals;  ///< largest pressure of each pocket [Pa]
-};
 
 /// Contact with liquid: the state, and the pressure of each pocket.
 struct SealedState {
@@ -31,11 +24,5 @@ struct SealedState {
 SealedState solve_sealed(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
                          const SealedPockets& liquid, const SealedState& start,
                          const Observer& observer);
-
-/// True where a pressure is that of the liquid of its pocket [Pa], but for rounding.
-inline bool at_level(double pressure, double level) {
-  constexpr double rounding = 1e-12;
-  return pressure <= (1 + rounding) * level;
-}
 
 }  // namespace tabor::contact
