@@ -5,7 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "parameters.hpp"
-#include "tabor/cases/slide.hpp"
+#include "tabor/cases/slide/slide.hpp"
 #include "tabor/scan/read_parameters.hpp"
 #include "tabor/synthesis/recipes.hpp"
 

@@ -14,6 +14,7 @@ from ._friction import Film, FluidFilm, Friction, film_settings, shear_settings
 from ._progress import Progress, watching
 from ._records import Record
 from ._settings import filled
+from ._slide import Slide
 from ._surface import Surface
 
 
@@ -82,7 +83,7 @@ def _surface(results: Sequence[Any]) -> Surface:
 
 
 @typed
-def save(file: Path, results: Record | Iterable[Record], *, fields: str = "all",
+def save(file: Path, results: Record | Iterable[Record] | Slide, *, fields: str = "all",
          double: bool = False, progress: Progress = None) -> None:
     """Writes the file that the command line writes with ``-o`` (docs/results.md): ``tabor report`` and
     ``tabor cite`` read it, and ``read`` its surface.
@@ -91,7 +92,7 @@ def save(file: Path, results: Record | Iterable[Record], *, fields: str = "all",
     ----------
     file : its name, which ends with .h5, or with .vti for the maps alone, for ParaView.
     results : contacts, films, frictions or films that flow, of one surface and under the same settings but
-        for pressure and density.
+        for pressure and density; or one slide.
     fields : "all" maps; "contact", heights, pressure and film alone; or "none".
     double : maps in double precision.
 
@@ -102,6 +103,8 @@ def save(file: Path, results: Record | Iterable[Record], *, fields: str = "all",
     OSError
         Where it cannot be written; a file that is there stays as it is.
     """
+    if isinstance(results, Slide):
+        return results._slid.save(_target(file, results.surface, fields, double))
     several = _records(results)
     first = several[0]
     surface = _surface(several)

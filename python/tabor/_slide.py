@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Unpack
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import NoReturn, Unpack
 
 import numpy as np
 
 from . import _tabor
+from ._arguments import Path
 from ._contact import NotConverged, Solid, _settings, solid_of
 from ._friction import film_settings, shear_settings
 from ._progress import Progress, watching
 from ._records import Warning, warnings_of
 from ._setting_types import SlideSettings
-from ._settings import CONTACT, DRY_BELOW, RAIN, SHEAR, SLIDE, complete, filled, takes
+from ._settings import CONTACT, DRY_BELOW, OWN_OF_SLIDE, RAIN, SHEAR, SLIDE, TRAPPED, complete, filled, takes
 from ._surface import Array, Surface
-from ._values import Value, si
+from ._values import Value, si, si_list
 
 
 @dataclass(frozen=True)
@@ -24,15 +25,24 @@ class Slide:
     """A sheet before, along and after sliding."""
 
     states: Mapping[str, Array]  #: numbers of the states by their keys, as of ``tabor slide --json``; docs/sliding.md
+    maps: Mapping[int, Mapping[str, Array]]  #: of the states whose maps are kept: "sheet" [m], "pressure" [Pa], "gap" [m], shape (ny, nx), ...
+    before: Mapping[str, Array]  #: spectra C1D of the sheet before: "q_x_rad_per_m", "psd_x_m3", the same of y
+    spectra: Sequence[Mapping[str, Array]]  #: the same of the sheet at each state
+    surface: Surface  #: the sheet before
     after: Surface  #: the sheet after sliding, unloaded
     step: float  #: [m]
     steps: int  #: so many
+    steady: bool | None  #: where ``until_steady`` was asked for
     converged: bool  #: every contact along the way
     warnings: tuple[Warning, ...]
     references: tuple[str, ...]  #: to cite
+    _slid: _tabor.Slid = field(repr=False, compare=False)
 
     def __repr__(self) -> str:
         return f"<Slide: {_tabor.format_si(float(self.states['distance_m'][-1]), 'm')} in {self.steps} steps, {len(self.states['distance_m'])} states>"
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a Slide is not pickled: tabor.save writes it to a file")
 
 
 def _case(solid: Solid, options: Mapping[str, object], density: float | None) -> _tabor.CaseSettings:
@@ -42,12 +52,14 @@ def _case(solid: Solid, options: Mapping[str, object], density: float | None) ->
     shear["shear_strength"] = shear["shear_strength"] or solid.shear_strength
     settings.friction = shear_settings(shear)
     settings.film = film_settings({one.name: options[one.name] for one in RAIN}, [] if density is None else [density])
+    settings.trapped = filled(_tabor.TrappedSettings(), {one.name: options[one.name] for one in TRAPPED})
     return settings
 
 
 @takes(SLIDE)
 def slide(surface: Surface, pressure: Value, solid: Solid | str, distance: Value, *, density: Value | None = None,
-          check: bool = True, progress: Progress = None, **settings: Unpack[SlideSettings]) -> Slide:
+          maps_at: Value | Sequence[Value] | None = None, checkpoint: Path | None = None, check: bool = True,
+          progress: Progress = None, **settings: Unpack[SlideSettings]) -> Slide:
     """Slides a rough tool over a sheet that yields (docs/sliding.md).
 
     Parameters
@@ -56,7 +68,9 @@ def slide(surface: Surface, pressure: Value, solid: Solid | str, distance: Value
     pressure : mean pressure [Pa].
     solid : Solid with a saturation pressure that the sheet is of, or the name of a material.
     distance : of sliding along x [m].
-    density : of oil that is rained on the sheet before and stays on its pixels [kg/m^2].
+    density : of oil that is rained on the sheet before [kg/m^2].
+    maps_at : distances whose maps are kept, beside those of both ends [m].
+    checkpoint : folder that keeps the run while it lasts: the same call goes on after it was stopped.
     **settings
     check : raise NotConverged where a contact does not reach the tolerance; its ``result`` is what was reached.
     progress : see ``tabor.Progress``.
@@ -72,14 +86,21 @@ def slide(surface: Surface, pressure: Value, solid: Solid | str, distance: Value
     solid = solid_of(solid)
     case = _case(solid, options, None if density is None else si(density, "areal_density", "density"))
     case.contact.take_edges(surface._topography)
-    names = ("step", "every", "displaced", "reach")
-    sliding = filled(_tabor.SlideSettings(), {"distance": si(distance, "length", "distance"), **{name: options[name] for name in names}})
+    own = {one.name: options[one.name] for one in OWN_OF_SLIDE}
+    sliding = filled(_tabor.SlideSettings(), {"distance": si(distance, "length", "distance"), **own})
+    if maps_at is not None:
+        sliding.maps_at = si_list(maps_at, "length", "maps_at")[0]
     _tabor.require_no_holes(surface._topography)
     with watching(progress) as told:
-        result = _tabor.slide(surface._topography, case, sliding, si(pressure, "pressure", "pressure"), told)
-    states = {key: np.array(values, dtype=bool if key == "converged" else float) for key, values in result.states.items()}
-    found = Slide(states, Surface._of(result.after), result.step, result.steps, result.converged, warnings_of(result.warnings),
-                  tuple(result.references))
+        slid = _tabor.slide(surface._topography, case, sliding, si(pressure, "pressure", "pressure"), "" if checkpoint is None else checkpoint, told)
+    states = {key: np.array(values, dtype=bool if key.endswith("converged") else float) for key, values in slid.states.items()}
+    kept: dict[int, Mapping[str, Array]] = {}
+    for number in range(len(states["distance_m"])):
+        if maps := slid.maps(number):
+            kept[number] = maps
+    before, *spectra = ({key: np.array(values) for key, values in one.items()} for one in slid.spectra)
+    found = Slide(states, kept, before, spectra, surface, Surface._of(slid.after), slid.step, slid.steps, slid.steady, slid.converged,
+                  warnings_of(slid.warnings), tuple(slid.references), slid)
     if check and not found.converged:
         raise NotConverged("slide: a contact did not converge; check=False returns it all the same", found)
     return found

@@ -6,6 +6,7 @@ import signal
 import threading
 import time
 
+import h5py
 import numpy as np
 import pytest
 
@@ -344,6 +345,54 @@ def test_sliding_ploughs_the_sheet_and_leaves_it(rough, steel):
     assert found.after.height.mean() == pytest.approx(rough.height.mean(), abs=1e-18)
     worn = tb.slide(rough, "50 MPa", steel, 6 * rough.pixel[0], tool="ground:Sa=10nm,groove-length=20um", step=2 * rough.pixel[0], displaced="lost")
     assert worn.states["lost_volume_m3_per_m2"][-1] > 0 and np.isnan(worn.states["friction_lubricated"]).all()
+
+
+SLIDING = {"tool": "ground:Sa=10nm,groove-length=20um", "density": "0.1 g/m^2"}
+
+
+def test_a_slide_has_maps_and_spectra_and_writes_the_file_of_the_terminal(rough, steel, tmp_path):
+    step = 2 * rough.pixel[0]
+    found = tb.slide(rough, "50 MPa", steel, 3 * step, step=step, every=step, maps_at=[step], **SLIDING)
+    assert sorted(found.maps) == [0, 1, 3] and found.steady is None
+    last = found.maps[3]
+    assert set(last) == {"sheet", "pressure", "gap", "film_thickness", "squeezed_film"}
+    np.testing.assert_array_equal(last["sheet"], found.after.height)
+    assert last["pressure"].mean() == pytest.approx(50e6)
+    assert len(found.spectra) == 4 and found.before["psd_x_m3"].shape == found.spectra[0]["psd_x_m3"].shape
+    states = found.states
+    assert (states["friction_lubricated"] <= states["friction_squeezed"]).all() and (states["friction_squeezed"] <= states["friction_dry"]).all()
+    tb.save(tmp_path / "slide.h5", found)
+    with h5py.File(tmp_path / "slide.h5") as file:
+        assert sorted(file["states"]) == ["0000", "0001", "0002", "0003"]
+        np.testing.assert_allclose(file["states/0003/sheet"][()], last["sheet"], rtol=1e-6, atol=1e-13)
+        np.testing.assert_array_equal(file["spectra/0003/psd_y_m3"][()], found.spectra[3]["psd_y_m3"])
+        assert file["states/0003"].attrs["friction_squeezed"] == states["friction_squeezed"][3]
+    with pytest.raises(TypeError, match="tabor.save"):
+        pickle.dumps(found)
+
+
+class Enough(Exception):
+    """A user's own."""
+
+
+def test_a_stopped_slide_goes_on_with_the_same_bits(levelled, tmp_path):
+    sheet = levelled.crop("0,0,64,64").mirror()
+    settings = {"step": "0.67 um", "trapped": True, "tool": "ground:Sa=0.1um,length=200um", "density": "0.1 g/m^2"}
+    whole = tb.slide(sheet, "10 MPa", "aluminium-6016", "20 um", **settings)
+
+    def stop(stage, share, certificate):
+        if stage.startswith("slide,"):
+            raise Enough
+
+    with pytest.raises(Enough):
+        tb.slide(sheet, "10 MPa", "aluminium-6016", "20 um", checkpoint=tmp_path / "run", progress=stop, **settings)
+    with pytest.raises(ValueError, match="other settings"):
+        tb.slide(sheet, "11 MPa", "aluminium-6016", "20 um", checkpoint=tmp_path / "run", **settings)
+    rest = tb.slide(sheet, "10 MPa", "aluminium-6016", "20 um", checkpoint=tmp_path / "run", **settings)
+    np.testing.assert_array_equal(rest.after.height, whole.after.height)
+    for key, values in whole.states.items():
+        np.testing.assert_array_equal(rest.states[key], values)
+    assert not (tmp_path / "run").exists()
 
 
 @pytest.mark.parametrize("settings, text", [

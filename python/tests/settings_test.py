@@ -48,7 +48,7 @@ def plain(text):
 
 def test_every_setting_is_an_argument_of_some_function():
     taken = {(one.table, one.name) for _, _, settings in TAKERS.values() for one in settings}
-    lists = {("film", "lubricant_density"), ("fluid", "sliding_speed"), ("fluid", "fluid"), ("slide", "distance")}  # arguments of their own
+    lists = {("film", "lubricant_density"), ("fluid", "sliding_speed"), ("fluid", "fluid"), ("slide", "distance"), ("slide", "maps_at")}  # arguments of their own
     assert {(one.table, one.name) for one in _settings._ALL} - taken == lists
 
 

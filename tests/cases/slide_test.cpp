@@ -1,8 +1,12 @@
 // Sliding with its settings: states along the way, friction with ploughing, and what is rejected.
-#include "tabor/cases/slide.hpp"
+#include "tabor/cases/slide/slide.hpp"
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <numbers>
+
+#include "cases/small_sheet.hpp"
 #include "support/rejection.hpp"
 #include "tabor/cases/states.hpp"
 #include "tabor/synthesis/synthesis.hpp"
@@ -13,19 +17,10 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-std::string same(std::string_view setting) { return std::string(setting); }
-
-topography::Topography sheet() {
-  synthesis::SelfAffine recipe;
-  recipe.grid = {64, 48, 64e-6, 48e-6};
-  recipe.rms_height = 0.5e-6;
-  return synthesis::self_affine(recipe);
-}
-
 CaseSettings aluminium() {
   CaseSettings settings;
   settings.mean_pressures = {10e6};
-  settings.contact = {.youngs_modulus = 70e9, .poissons_ratio = 0.33, .saturation_pressure = 240e6};
+  settings.contact = test::aluminium();
   settings.contact.tool.tool = "ground:Sa=0.1um,groove-length=50um,length=100um";
   settings.film.lubricant_densities = {0.2e-3};
   settings.friction = {.shear_strength = 70e6};
@@ -35,8 +30,8 @@ CaseSettings aluminium() {
 TEST(Slide, HasStatesFromThePressingToTheEnd) {
   std::vector<double> received;
   const SlideResult result =
-      slide(sheet(), aluminium(), {.distance = 12e-6, .step = 2e-6, .every = 4e-6},
-            [&](const SlideRecord& one) { received.push_back(one.distance); });
+      slide(test::small_sheet(), aluminium(), {.distance = 12e-6, .step = 2e-6, .every = 4e-6},
+            {.receive = [&](const SlideState& one) { received.push_back(one.numbers.distance); }});
   EXPECT_EQ(result.steps, 6U);
   EXPECT_DOUBLE_EQ(result.step, 2e-6);
   ASSERT_EQ(result.states.size(), 4U);
@@ -52,7 +47,7 @@ TEST(Slide, HasStatesFromThePressingToTheEnd) {
 
 TEST(Slide, AddsPloughingToTheShearOfTheContact) {
   const CaseSettings settings = aluminium();
-  const SlideResult result = slide(sheet(), settings, {.distance = 6e-6, .step = 2e-6});
+  const SlideResult result = slide(test::small_sheet(), settings, {.distance = 6e-6, .step = 2e-6});
   for (const SlideRecord& one : result.states) {
     const friction::Estimate shear =
         estimate_of(one.contact, one.lubricated_share, settings.contact, settings.friction);
@@ -67,25 +62,105 @@ TEST(Slide, AddsPloughingToTheShearOfTheContact) {
 
 TEST(Slide, LeavesASheetThatItCanSlideOn) {
   const CaseSettings settings = aluminium();
-  const SlideResult first = slide(sheet(), settings, {.distance = 4e-6, .step = 2e-6});
-  EXPECT_NEAR(first.after.height.mean(), sheet().height.mean(), 1e-18);
+  const SlideResult first = slide(test::small_sheet(), settings, {.distance = 4e-6, .step = 2e-6});
+  EXPECT_NEAR(first.after.height.mean(), test::small_sheet().height.mean(), 1e-18);
   EXPECT_THAT(first.after.history.back(), HasSubstr("slide: 4"));
   CaseSettings further = settings;
   further.contact.tool.tool_x = 4e-6;
   const SlideResult second = slide(first.after, further, {.distance = 2e-6, .step = 2e-6});
-  const SlideResult at_once = slide(sheet(), settings, {.distance = 6e-6, .step = 2e-6});
+  const SlideResult at_once =
+      slide(test::small_sheet(), settings, {.distance = 6e-6, .step = 2e-6});
   EXPECT_NEAR(second.after.height.maxCoeff(), at_once.after.height.maxCoeff(), 1e-10);
 }
 
+TEST(Slide, SqueezesOilOutInASecondAccount) {
+  const CaseSettings settings = aluminium();
+  const SlideResult both = slide(test::small_sheet(), settings, {.distance = 12e-6, .step = 2e-6});
+  const double oil = deposition::mean_film(0.2e-3, settings.film.oil_density);
+  for (const SlideRecord& one : both.states) {
+    EXPECT_GE(one.friction_squeezed, one.friction_lubricated - 1e-12);
+    EXPECT_LE(one.friction_squeezed, one.friction_dry + 1e-12);
+    EXPECT_NEAR((one.squeezed_film + one.squeezed_away) / oil, 1, 1e-4);  // droplets are whole
+  }
+  EXPECT_EQ(both.states.front().friction_squeezed, both.states.front().friction_lubricated);
+  EXPECT_LT(both.states.back().squeezed_share, both.states.front().squeezed_share);
+  const SlideResult kept = slide(test::small_sheet(), settings,
+                                 {.distance = 12e-6, .step = 2e-6, .liquid = SlidingOil::kept});
+  EXPECT_TRUE(std::isnan(kept.states.back().friction_squeezed));
+  EXPECT_EQ(kept.states.back().friction_lubricated, both.states.back().friction_lubricated);
+}
+
+TEST(Slide, LetsTrappedOilCarryLoad) {
+  CaseSettings settings = aluminium();
+  settings.film.lubricant_densities = {0.1e-3};
+  settings.mean_pressures = {60e6};
+  const SlideSettings sliding{.distance = 8e-6, .step = 2e-6};
+  const SlideResult without = slide(test::small_sheet(), settings, sliding);
+  settings.trapped.trapped = true;
+  const SlideResult with = slide(test::small_sheet(), settings, sliding);
+  EXPECT_FALSE(without.states.back().trapped);
+  ASSERT_TRUE(with.states.front().trapped);
+  EXPECT_GT(with.states.front().trapped->load_share, 0);
+  EXPECT_LT(with.states.front().friction_lubricated, without.states.front().friction_lubricated);
+  EXPECT_TRUE(with.converged);
+}
+
+TEST(Slide, WearsAnElasticSheet) {
+  CaseSettings settings = aluminium();
+  settings.contact.saturation_pressure.reset();
+  settings.film.lubricant_densities.clear();
+  const SlideResult worn = slide(test::small_sheet(), settings,
+                                 {.distance = 8e-6, .step = 2e-6, .wear_coefficient = 1e-13});
+  EXPECT_NEAR(worn.states.back().worn_volume / (1e-13 * 10e6 * 8e-6), 1, 1e-9);
+  EXPECT_EQ(worn.states.back().moved_volume, 0);
+  EXPECT_THAT(worn.references, Contains("archard1953"));
+}
+
+TEST(Slide, SaysWhetherItBecameSteady) {
+  const SlideResult result = slide(test::small_sheet(), aluminium(),
+                                   {.distance = 8e-6, .step = 2e-6, .until_steady = true});
+  EXPECT_EQ(result.steady, false);
+  EXPECT_THAT(codes_of(result.warnings), Contains("not-steady"));
+  // A tool that is smooth along x changes nothing after the first period.
+  CaseSettings settings = aluminium();
+  settings.contact.tool.tool = "ground:Sa=0.1um,groove-length=1m,length=64um";
+  const SlideResult steady = slide(test::small_sheet(), settings,
+                                   {.distance = 640e-6, .step = 16e-6, .until_steady = true});
+  EXPECT_EQ(steady.steady, true);
+  EXPECT_LT(steady.states.back().distance, 640e-6);
+}
+
+TEST(Slide, ChangesTheSheetMoreUnderMorePressure) {
+  // The trend of the figure 4 of Costagliola et al. 2021: short waves along x lose.
+  const auto lost = [](double pressure) {
+    CaseSettings settings = aluminium();
+    settings.mean_pressures = {pressure};
+    settings.film.lubricant_densities.clear();
+    const SlideResult result =
+        slide(test::small_sheet(), settings, {.distance = 40e-6, .step = 2e-6});
+    double change = 0;
+    for (std::size_t i = 0; i < result.before.q_x.size(); ++i) {
+      const double wavelength = 2 * std::numbers::pi / result.before.q_x[i];
+      if (wavelength > 4e-6 || wavelength < 2.1e-6) continue;
+      change += std::log(result.spectra.back().density_x[i] / result.before.density_x[i]);
+    }
+    return change;
+  };
+  const double little = lost(2e6);
+  const double much = lost(15e6);
+  EXPECT_LT(little, 0);
+  EXPECT_LT(much, little);
+}
+
 TEST(Slide, FindsAStepWhoseBoundsAreNear) {
-  const SlideResult result = slide(sheet(), aluminium(), {.distance = 8e-6});
+  const SlideResult result = slide(test::small_sheet(), aluminium(), {.distance = 8e-6});
   EXPECT_GE(result.step, 1e-6 * (1 - 1e-9));
   EXPECT_LE(result.step, 8e-6);
 }
 
 TEST(Slide, IsRejectedWithoutWhatItNeeds) {
   const auto remedy = [](const CaseSettings& settings, const SlideSettings& sliding) {
-    const auto found = objection(sliding, settings, same);
+    const auto found = objection(sliding, settings, test::own_name);
     return found ? found->remedy + found->expected : "";
   };
   const SlideSettings some{.distance = 1e-5};
@@ -103,12 +178,18 @@ TEST(Slide, IsRejectedWithoutWhatItNeeds) {
   settings.film.lubricant_densities = {1e-4, 2e-4};
   EXPECT_THAT(remedy(settings, some), HasSubstr("one lubricant_density"));
   settings = aluminium();
+  settings.film.lubricant_densities.clear();
+  settings.trapped.trapped = true;
+  EXPECT_THAT(remedy(settings, some), HasSubstr("needs oil"));
+  EXPECT_THAT(remedy(aluminium(), {.distance = 1e-6, .maps_at = {2e-6}}), HasSubstr("distance"));
+  EXPECT_THAT(remedy(aluminium(), {.distance = 1e-6, .wear_coefficient = 0}), HasSubstr("zero"));
+  settings = aluminium();
   settings.contact.load_path = true;
   EXPECT_THAT(remedy(settings, some), HasSubstr("load_path"));
   EXPECT_THAT(remedy(aluminium(), {.distance = 0}), HasSubstr("more than zero"));
   EXPECT_THAT(remedy(aluminium(), {.distance = 1e-6, .step = 2e-6}), HasSubstr("distance"));
   const auto message = [](const SlideSettings& sliding) {
-    return test::rejection([&] { slide(sheet(), aluminium(), sliding); });
+    return test::rejection([&] { slide(test::small_sheet(), aluminium(), sliding); });
   };
   EXPECT_THAT(message({.distance = 1e-9}), HasSubstr("pixel"));
   EXPECT_THAT(message({.distance = 1}), HasSubstr("100000 pixels"));
@@ -117,13 +198,15 @@ TEST(Slide, IsRejectedWithoutWhatItNeeds) {
 
 TEST(Slide, WarnsOfMaterialThatIsWornOff) {
   const auto codes = [](const sliding::Ploughing& all) {
-    return codes_of(of_sliding(all, 1e7, 1e-6));
+    return codes_of(of_sliding(all, 1e7, 1e-6, 1e-4));
   };
   EXPECT_THAT(codes({.distance = 1e-4, .work = 1, .lower = 1, .upper = 1, .lost = 1e-7}),
               Contains("milling"));
   EXPECT_THAT(codes({.distance = 1e-4, .work = 1, .lower = 0.5, .upper = 1}),
               Contains("tool-pixel"));
   EXPECT_TRUE(codes({.distance = 1e-4, .work = 1, .lower = 0.9, .upper = 1}).empty());
+  EXPECT_THAT(codes({.distance = 3e-4, .work = 1, .lower = 0.9, .upper = 1}),
+              Contains("tool-envelope"));
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "tabor/cases/slide.hpp"
+#include "tabor/cases/slide/slide.hpp"
 #include "tabor/results/explanations.hpp"
 #include "tabor/results/findings.hpp"
 #include "tabor/synthesis/synthesis.hpp"
@@ -431,7 +431,7 @@ Warnings one_of_each() {
   add(cases::of_tool(rough(), tool), all);
   add(cases::of_pixel(1.2345e-6, 0.12345, 6.1725e-7, 0.45678), all);
   add(cases::of_sliding({.distance = 1e-4, .work = 1, .lower = 0.5, .upper = 1.2345, .lost = 1e-6},
-                        1e7, 1.2345e-6),
+                        1e7, 1.2345e-6, 1.2345e-5, false),
       all);
   cases::TrappedRecord trapped;
   trapped.convergence.status = Status::converged;

@@ -1,8 +1,11 @@
 // Ploughing: known forces, bounds, and what sliding leaves as it is.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
+#include <utility>
 
 #include "support/rejection.hpp"
 #include "support/validation.hpp"
@@ -40,8 +43,8 @@ Field tool_of(Index n, bool is_wedge, const Height& height) {
   return tool;
 }
 
-/// Force of a tool on a flat sheet that is as good as rigid, after it has slid three times its
-/// size.
+/// Force of a tool on a flat sheet, as good as rigid unless its modulus is given, after it has slid
+/// three times its size.
 Ploughing plough(const Field& tool, double area_fraction, Index size, double modulus = 1e15) {
   const Index n = tool.rows();
   const auto elasticity = elastic::make_periodic(square(n), modulus);
@@ -130,6 +133,112 @@ struct Rough {
   std::unique_ptr<elastic::ElasticOperator> elasticity;
   Problem problem;
 };
+
+TEST(Ploughing, OfASphereOnARigidSheetTendsToItsClosedForm) {
+  constexpr double force = 0.08592;  // half width of the groove 0.2 R (Goddard & Wilman 1962)
+  const auto error = [&](Index size) {
+    const double radius = 5 * static_cast<double>(size);
+    const Field tool = tool_of(6 * size, false, [&](double r) {
+      return std::sqrt(std::max(0.0, radius * radius - r * r));
+    });
+    const double area = 0.5 * std::numbers::pi / 36;
+    const Ploughing found = plough(tool, area, size);
+    return std::abs(found.friction(found.upper, area * kCap) / force - 1);
+  };
+  const double fine = error(16);
+  test::expect_within("Sliding", "sphere on a rigid sheet, groove 0.4 R wide of 32 pixels",
+                      "upper bound of the ploughing force, relative", "closed form", fine,
+                      1.01 / 16);
+  EXPECT_GT(error(8), fine);
+}
+
+TEST(Ploughing, FallsWithTheElasticRecoveryBehindACone) {
+  // X = E* tan / p_sat, and the force by energy of an independent program (docs/sliding.md).
+  constexpr std::array known{std::pair{2.0, 0.0249},  std::pair{5.0, 0.0445},
+                             std::pair{10.0, 0.0526}, std::pair{20.0, 0.0573},
+                             std::pair{50.0, 0.0602}, std::pair{100.0, 0.0613}};
+  constexpr Index size = 24;
+  const Field tool = tool_of(6 * size, false, [](double r) { return -kTangent * r; });
+  const double area = 0.5 * std::numbers::pi / 36;
+  double before = 0;
+  double worst = 0;
+  for (const auto& [recovery, force] : known) {
+    const Ploughing found = plough(tool, area, size, recovery * kCap / kTangent);
+    const double work = found.friction(found.work, area * kCap);
+    EXPECT_GT(work, before);
+    before = work;
+    worst = std::max(worst, std::abs(work / force - 1));
+  }
+  test::expect_within("Sliding", "cone on an elastic sheet, E* tan/p_sat 2 to 100",
+                      "ploughing force by energy, relative", "independent program", worst, 0.02);
+}
+
+TEST(Ploughing, OfAWaveDoesNotDependOnWhereItBegins) {
+  const Rough rough(Displaced::near, 20e6);
+  Problem problem = rough.problem;
+  const Index n = 64;
+  problem.sheet *= 0.2;
+  problem.tool.resize(48, n);
+  for (Index x = 0; x < n; ++x) {
+    problem.tool.col(x).setConstant(
+        0.3e-6 * std::cos(2 * std::numbers::pi * static_cast<double>(x) / static_cast<double>(n)));
+  }
+  const auto force = [&](Index place) {
+    problem.place = place;
+    Slider slider(*rough.elasticity, problem);
+    slider.press();
+    Ploughing all;
+    for (int i = 0; i < n / 2; ++i) all += slider.advance(2);
+    return all.friction(all.work, problem.mean_pressure);
+  };
+  EXPECT_NEAR(force(24) / force(0), 1, 0.05);
+}
+
+TEST(Wear, HalvesAWaveInFullContactAfterItsLength) {
+  // x = 2 ln 2 / (k E* q): a wave of amplitude D presses with E* q D / 2 more on its crests.
+  constexpr Index n = 64;
+  constexpr double modulus = 78e9;
+  const double wave = 2 * std::numbers::pi / (n * kPixel);
+  constexpr double amplitude = 1e-9;
+  constexpr double pressure = 10e6;
+  const auto elasticity = elastic::make_periodic(square(n), modulus);
+  Problem problem{.sheet = Field(n, n),
+                  .tool = Field::Zero(n, n),
+                  .mean_pressure = pressure,
+                  .saturation_pressure = contact::kNoSaturation};
+  for (Index x = 0; x < n; ++x) {
+    problem.sheet.col(x).setConstant(amplitude * std::cos(wave * kPixel * static_cast<double>(x)));
+  }
+  constexpr int steps = 40;
+  problem.wear_coefficient = 2 * std::numbers::ln2 / (modulus * wave * steps * kPixel);
+  Slider slider(*elasticity, problem);
+  Ploughing all = slider.press();
+  for (int i = 0; i < steps; ++i) all += slider.advance(1);
+  const Field sheet = slider.sheet() - slider.sheet().mean();
+  const double left = sheet.abs().maxCoeff() / amplitude;
+  test::expect_within("Sliding", "wear of an elastic wave in full contact, 40 steps",
+                      "share of the amplitude that is left, less a half", "closed form",
+                      std::abs(left - 0.5), 0.005);
+  EXPECT_NEAR(all.worn / (problem.wear_coefficient * pressure * steps * kPixel), 1, 1e-9);
+  EXPECT_EQ(all.moved, 0);
+}
+
+TEST(Ploughing, GoesOnFromWhatWasReachedWithTheSameBits) {
+  for (const bool has_oil : {false, true}) {
+    Rough rough;
+    if (has_oil) rough.problem.oil = TrappedOil{Field::Constant(48, 64, 0.4e-6), 1.5e9, true};
+    Slider whole(*rough.elasticity, rough.problem);
+    whole.press();
+    whole.advance(2);
+    Slider second(*rough.elasticity, rough.problem);
+    second.go_on_from(whole.reached());
+    const Ploughing expected = whole.advance(2);
+    const Ploughing found = second.advance(2);
+    EXPECT_EQ(found.work, expected.work);
+    EXPECT_EQ(found.lower, expected.lower);
+    EXPECT_TRUE((second.sheet() == whole.sheet()).all());
+  }
+}
 
 TEST(Ploughing, LiesBetweenItsBoundsAtEveryStep) {
   for (const Displaced displaced : {Displaced::near, Displaced::uniform, Displaced::lost}) {
@@ -225,7 +334,7 @@ TEST(Sliding, IsRejectedWhereItCannotBe) {
   };
   Problem wrong = rough.problem;
   wrong.saturation_pressure = contact::kNoSaturation;
-  EXPECT_THAT(message(wrong), HasSubstr("saturation pressure"));
+  EXPECT_THAT(message(wrong), HasSubstr("saturation pressure or a wear"));
   wrong = rough.problem;
   wrong.tool(3, 3) = std::nan("");
   EXPECT_THAT(message(wrong), HasSubstr("holes"));

@@ -5,6 +5,7 @@ from tabor.report.errors import UsageError
 _OF_STUDIES = ("scan", "all_scans", "pressure", "density", "error_bar")
 _DRAWN_INSTEAD = {
     "single": "the file holds one scan, and the maps of its states are all drawn",
+    "slide": "the file holds one sheet, whose way is drawn as a whole",
     "params": "the file holds a table of parameters, which is shown as a whole",
     "psd": "the file holds spectra, which are all drawn",
     "ehl": "the file holds a result of 'tabor ehl', which is drawn as a whole",

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from tabor.report import ehl, example, hdf, interactive, live_page, output, page, parameters, single, spectra, study, style
+from tabor.report import ehl, example, hdf, interactive, live_page, output, page, parameters, single, slide, spectra, study, style
 from tabor.report.figures import (
     contact_area,
     contact_clusters,
@@ -21,6 +21,9 @@ from tabor.report.figures import (
     psd,
     single_curves,
     single_maps,
+    slide_curves,
+    slide_maps,
+    slide_spectra,
     topography,
 )
 from tabor.report.figures import parameters as groups
@@ -40,7 +43,7 @@ def open_result(path):
         return spectra.load(path, file)
     if "scans" in file or "table" in file:
         return study.load(path, file)
-    return single.load(path, file)
+    return slide.load(path, file) if slide.is_one(file) else single.load(path, file)
 
 
 def default_folder(source):
@@ -76,6 +79,8 @@ def _drawings(source, options, with_maps):
         return groups.draw(source)
     if source.kind == "psd":
         return spectrum.draw(source)
+    if source.kind == "slide":
+        return slide_figures(source, with_maps)
     return ehl_figures(source) if source.kind == "ehl" else single_figures(source, with_maps)
 
 
@@ -127,6 +132,14 @@ def single_figures(source, with_maps=True):
         yield from single_maps.draw(source)
     else:
         yield from single_maps.draw_flow(source)
+
+
+def slide_figures(source, with_maps=True):
+    yield from _present(slide_curves.draw(source))
+    yield from _present(slide_spectra.draw(source))
+    if with_maps:
+        yield topography.draw(source.height(), source.pixel, "topography", f"{source.title}, before")
+    yield from slide_maps.draw(source, with_maps)
 
 
 def _surface(item):

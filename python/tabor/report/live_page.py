@@ -83,7 +83,7 @@ class Live:
 
 
 def _maps_of(source, options):
-    if source.kind == "single":
+    if source.kind in ("single", "slide"):
         return [viewer.of_single(source)]
     if source.kind == "study":
         example.check(source, options)

@@ -7,7 +7,7 @@ from pathlib import Path
 import jinja2
 from markupsafe import Markup, escape
 
-from tabor.report import citations, page_ehl, page_parameters, page_single, page_spectra, page_study, remarks, still, style
+from tabor.report import citations, page_ehl, page_parameters, page_single, page_slide, page_spectra, page_study, remarks, still, style, units
 from tabor.report.output import LARGEST_IN_PAGE
 
 # What a kind of result does not have its page leaves out.
@@ -21,7 +21,7 @@ _NOTHING = {
     "results": {"intro": "", "header": [], "rows": [], "n_total": 0, "n_text": 0},
     "averages": {"header": [], "rows": [], "n_text": 0},
 }
-_PAGES = {"study": page_study, "single": page_single, "ehl": page_ehl, "psd": page_spectra, "params": page_parameters}
+_PAGES = {"study": page_study, "single": page_single, "slide": page_slide, "ehl": page_ehl, "psd": page_spectra, "params": page_parameters}
 LARGEST = 9.8e6  # bytes of a page, without what its texts and tables take
 # A folder or file that is so called keeps its name.
 _LOWERED = re.compile(r"(?<![\w.-])(A|p|τ|tau)_(real|lub|sat|y)(?![\w-])(?!\.\w)(?!/(?!P\b|p_sat\b|A₀))")
@@ -142,6 +142,8 @@ def _subtitle(source):
         return f"{len(source.scans)} scan{'s' * (len(source.scans) != 1)}{groups}"
     if source.kind == "ehl":
         return "a sweep" if source.is_sweep else "one case"
+    if source.kind == "slide":
+        return f"slid {units.length(source.states[-1].distance)}"
     if not source.states:
         return "two scans put together" if source.combination else "one surface"
     return f"{len(source.states)} state{'s' * (len(source.states) != 1)} of one scan"

@@ -72,6 +72,10 @@ class Single:
     def height(self):
         return self.raw_height().astype(float, copy=False)
 
+    def is_solved_on(self, state):
+        """Whether a contact was solved on these heights, so that a section may show its gap."""
+        return True
+
     def raw_height(self):
         """As stored [m], shape (ny, nx)."""
         return self.surface["height"][()]
@@ -83,7 +87,8 @@ def _title_of_two(source, mode):
     return readable(f" {shown} ".join(Path(part).name for part in source.split(f" {sign} ")))
 
 
-def load(path, file):
+def load(path, file, kind=None, state_kind=SingleState):
+    """kind: a Single, or a class of one; state_kind: that of its states."""
     if "states" in file and "surface" not in file:
         raise InputError(
             f"{path}: has numbers and no maps to draw; write it with --fields contact or --fields all"
@@ -94,12 +99,12 @@ def load(path, file):
     nodes = [(key, file["states"][key]) for key in sorted(file["states"])] if "states" in file else []
     settings = _settings(file)
     states = [
-        SingleState(key, node, _saturation_pressure(settings, hdf.attributes(node))) for key, node in nodes
+        state_kind(key, node, _saturation_pressure(settings, hdf.attributes(node))) for key, node in nodes
     ]
     for state in states:
         _add_speed(state, settings)
     count_visits(states)
-    single = Single(path, file, facts, settings, file["surface"], states, columns.of_file(file))
+    single = (kind or Single)(path, file, facts, settings, file["surface"], states, columns.of_file(file))
     single.density_curves = density_curves.load(file, "density_curves", ("friction_lubricated",), single.warnings)
     single.density_places = density_curves.load_places(file, single.warnings)
     single.warnings.extend(dict.fromkeys(_warnings_about(single)))

@@ -52,14 +52,14 @@ def of_single(single):
     contacts, films = {}, {}
     for state in single.states:
         if state.has("pressure") and state.pressure_label not in contacts:
-            gap = {"gap": (lambda state=state: state.raw("gap"))} if state.has("gap") else {}
+            gap = {"gap": (lambda state=state: state.raw("gap"))} if state.has("gap") and single.is_solved_on(state) else {}
             contacts[state.pressure_label] = Choice(state.pressure_label, {"contact": state.contact, **gap})
         if state.has("film_thickness") and state.density_label not in films:
             films[state.density_label] = Choice(
                 state.density_label, {"film": lambda state=state: state.raw("film_thickness")}
             )
     height = single.raw_height()
-    chosen = len(contacts) // 2, 0
+    chosen = 0 if single.kind == "slide" else len(contacts) // 2, 0
     file = names.in_a_file(single.title if single.combination else names.short([single.title])[single.title])
     maps = Maps("maps", single.title, file, single.pixel, height, [*contacts.values()], [*films.values()], chosen)
     maps.is_difference, maps.heading = single.is_difference, single.heading_of_heights

@@ -41,6 +41,8 @@ const std::vector<CodeEntry>& all_codes() {
       {"implausible-friction", About::friction, Class::doubt},
       {"tool-pixel", About::friction, Class::doubt},
       {"milling", About::friction, Class::doubt},
+      {"not-steady", About::friction, Class::doubt},
+      {"tool-envelope", About::friction, Class::information},
       {"trapped-oil", About::friction, Class::doubt},
       {"leaked", About::friction, Class::doubt},
       {"fluid-film", About::flow, Class::doubt},

@@ -43,13 +43,13 @@ struct FieldsRequest {
 /// Declares -o, --fields, --double and --csv.
 void declare_fields(OptionSet& set, FieldsRequest& request);
 /// Opens the output file of results under these settings; nothing without -o.
-template <typename Settings>
+template <typename... Settings>
 std::optional<results::FieldsFile> fields_file(const FieldsRequest& request, const Context& context,
-                                               const Scan& scan, const Settings& settings) {
+                                               const Scan& scan, const Settings&... settings) {
   if (!request.output) return std::nullopt;
   return results::FieldsFile(
       {*request.output, request.options, context.command_line, {scan.path, scan.sha256}},
-      scan.surface, settings);
+      scan.surface, settings...);
 }
 
 /// Returns the option of a setting: "--pressure" for "mean_pressure".

@@ -4,10 +4,14 @@
 #include <optional>
 
 #include "tabor/cases/parameters.hpp"
-#include "tabor/cases/slide.hpp"
+#include "tabor/cases/slide/slide.hpp"
 #include "tabor/cli/contact_request.hpp"
+#include "tabor/cli/failure.hpp"
 #include "tabor/cli/parameter_options.hpp"
+#include "tabor/cli/time_left.hpp"
 #include "tabor/cli/verbs.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/printable.hpp"
 
 namespace tabor::cli {
 
@@ -17,8 +21,9 @@ struct Request {
   ScanRequest scan;
   cases::CaseSettings settings;
   cases::SlideSettings sliding;
-  std::optional<std::string> after;  ///< file of the sheet after sliding
-  CsvRequest csv;
+  std::optional<std::string> after;       ///< file of the sheet after sliding
+  std::optional<std::string> checkpoint;  ///< folder that keeps the run while it lasts
+  FieldsRequest file;
 };
 
 void check_all(const Request& request) {
@@ -34,43 +39,85 @@ std::string text_of(const Request& request, const Scan& scan, const cases::Slide
   Facts facts;
   describe(scan, facts);
   describe(settings.contact, facts);
-  if (!settings.film.lubricant_densities.empty()) describe(settings.film, facts);
+  if (!settings.film.lubricant_densities.empty()) {
+    describe(settings.film, facts);
+    describe(settings.trapped, facts);
+  }
   facts.fact("sliding",
              fmt::format("along x under {}, {} steps of {}, displaced material {}",
                          si(settings.mean_pressures.front(), "Pa"), result.steps,
                          si(result.step, "m"), sliding::kDisplaced.of(request.sliding.displaced)));
+  if (result.steady) facts.fact("steady", *result.steady ? "yes" : "no");
   if (request.after) facts.fact("sheet after", *request.after);
-  return facts.text() + '\n' + table_of(cases::slide_columns(), result.states).text();
+  const auto columns = cases::slide_columns(cases::parts_of(settings, request.sliding));
+  return facts.text() + '\n' + table_of(columns, result.states).text();
+}
+
+/// Says how long it will take, before it does.
+void tell(const cases::SlidePlan& plan, Context& context) {
+  constexpr double worth_saying = 2;  // [s]
+  if (context.quiet || plan.seconds < worth_saying) return;
+  if (context.progress != nullptr) context.progress->clear();
+  if (plan.gone_before > 0) {
+    context.err << fmt::format("slide: goes on from {}\n", si(plan.gone_before, "m"));
+  }
+  context.err << fmt::format("slide: {} steps of {}, about {}\n", plan.steps, si(plan.step, "m"),
+                             format_estimate(plan.seconds));
+}
+
+io::Json json_of(const Request& request, const Scan& scan, const cases::SlideResult& result,
+                 const Context& context) {
+  io::Json object = json_head(context, scan);
+  object.update(results::settings_json(request.settings, request.sliding));
+  object["step_m"] = result.step;
+  object["steps"] = result.steps;
+  if (result.steady) object["steady"] = *result.steady;
+  object["states"] = states_json(
+      cases::slide_columns(cases::parts_of(request.settings, request.sliding)), result.states);
+  object["converged"] = result.converged;
+  return object;
 }
 
 int show(Request request, Context& context) {
   request.settings.film.seed = context.seed_or_default();
   check_all(request);
   find_tool(request.settings.contact, context);
+  if (request.checkpoint) context.files.fills(*request.checkpoint);
   const Scan scan = read_scan(request.scan, context);
   require_no_holes(scan);
   cases::ContactSettings& contact = request.settings.contact;
   check(cases::objection(contact, scan.surface.edges, flag_of));
   contact.take_edges(scan.surface.edges);
-  const cases::SlideResult result =
-      cases::slide(scan.surface, request.settings, request.sliding, {}, context.observer());
+  const cases::SlideParts parts = cases::parts_of(request.settings, request.sliding);
+  auto file = fields_file(request.file, context, scan, request.settings, request.sliding);
+  std::size_t n_states = 0;
+  const cases::SlideRun run{
+      .plan = [&](const cases::SlidePlan& plan) { tell(plan, context); },
+      .receive =
+          [&](const cases::SlideState& state) {
+            if (file) file->add(n_states++, state, parts);
+          },
+      .wants_maps = request.file.output && request.file.options.fields != results::Fields::none,
+      .checkpoint = request.checkpoint.value_or("")};
+  cases::SlideResult result;
+  try {
+    result = cases::slide(scan.surface, request.settings, request.sliding, run, context.observer());
+  } catch (const Interrupted&) {
+    if (!request.checkpoint) throw;
+    return fail(context,
+                fmt::format("interrupted; the run is kept in {}; the same command continues",
+                            printable(*request.checkpoint)),
+                kInterrupted);
+  }
   context.warn(results::findings_of({{.pressure = si(request.settings.mean_pressures.front(), "Pa"),
                                       .warnings = result.warnings}}));
-  if (request.after) scan::write(result.after, *request.after);
-  io::Json object = json_head(context, scan);
-  io::Json settings = results::settings_json(request.settings);
-  if (request.settings.film.lubricant_densities.empty()) {
-    for (const ParameterHead& one : cases::film_parameters()) settings.erase(one.json_key());
+  if (file) {
+    file->add_before(result.before);
+    file->commit(context.warnings);
   }
-  object.update(settings);
-  object["displaced"] = sliding::kDisplaced.of(request.sliding.displaced);
-  object["reach_m"] = request.sliding.reach;
-  object["step_m"] = result.step;
-  object["steps"] = result.steps;
-  object["states"] = states_json(cases::slide_columns(), result.states);
-  object["converged"] = result.converged;
-  return finish(context, object,
-                write_csv(request.csv, states_csv(cases::slide_columns(), result.states),
+  if (request.after) scan::write(result.after, *request.after);
+  return finish(context, json_of(request, scan, result, context),
+                write_csv(request.file.csv, states_csv(cases::slide_columns(parts), result.states),
                           text_of(request, scan, result)),
                 result.converged ? kDone : kNotConverged);
 }
@@ -84,18 +131,17 @@ Verb slide_verb() {
       .summary = "a rough tool slides over the sheet: friction, ploughing, the sheet after",
       .details =
           "Each step is a contact on the sheet that the steps before have left; saturated pixels "
-          "are "
-          "displaced. Ploughing is the work of it over load and distance, and is part of the "
-          "friction "
-          "coefficients. The tool slides along +x. With --density oil is rained on the sheet "
-          "before, "
-          "and stays on its pixels.",
+          "are displaced. Ploughing is the work of it over load and distance, and is part of the "
+          "friction coefficients. The tool slides along +x. With --density oil is rained on the "
+          "sheet before: it stays on its pixels (friction wet, a lower bound), and in a second "
+          "account contacts squeeze it out (an upper bound).",
       .examples = {"tabor slide surfaces/edt_before.x3p --level plane --crop 0,0,128,128 --mirror "
                    "--material aluminium-6016 --tool ground:Sa=0.1um,length=1mm --pressure 10MPa "
                    "--distance 20um",
                    "tabor slide surfaces/edt_before.x3p --level plane --crop 0,0,128,128 --mirror "
                    "--material aluminium-6016 --tool ground:Sa=0.1um,length=1mm --pressure 10MPa "
-                   "--distance 20um --step 2.68um --density 0.9g/m^2 --after worn.x3p --json"},
+                   "--distance 20um --step 2.68um --density 0.9g/m^2 --after worn.x3p -o slide.h5 "
+                   "--checkpoint slide_run"},
       .declare = [](OptionSet& set) -> Action {
         const auto request = std::make_shared<Request>();
         declare_scan(set, request->scan);
@@ -104,7 +150,7 @@ Verb slide_verb() {
         set.group("Sliding");
         for (const auto& one : cases::slide_parameters()) declare(set, one, request->sliding);
         declare_film(set, settings.film, false);
-        declare_dry_below(set, settings.friction);
+        declare_trapped(set, settings);
         declare_friction(set, settings.friction);
         set.group("Output");
         Option& after =
@@ -112,7 +158,10 @@ Verb slide_verb() {
                      request->after);
         after.names = FileRole::output;
         after.extensions = scan_extensions();
-        declare_csv(set, "one row per state with the keys of --json", request->csv);
+        set.text("--checkpoint", "DIR",
+                 "keep the run in DIR while it lasts: the same command goes on after it was killed",
+                 request->checkpoint);
+        declare_fields(set, request->file);
         return [request](Context& context) {
           take_edges(request->scan, request->settings.contact);
           return show(*request, context);

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 
-// Defines Grid, Field and Mask, the maps that all modules share.
+// Defines Grid, Field, Mask and ByteMap, the maps that all modules share.
 namespace tabor {
 
 /// Type of counts and positions of pixels.
@@ -15,6 +16,9 @@ using FieldF = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 
 /// True where a pixel is selected (a hole, a contact pixel, ...); same layout as Field.
 using Mask = Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Map of small integers (holes, contact states); same layout as Field.
+using ByteMap = Eigen::Array<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Cell-centred regular grid: nx * ny pixels cover lx * ly [m], extent = n * spacing.
 struct Grid {

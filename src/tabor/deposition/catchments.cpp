@@ -59,13 +59,30 @@ void Catchments::rain(Volume film) {
   for (std::size_t i = 0; i < sources_.size(); ++i) {
     go_on_or_throw(i);
     Source& source = sources_[i];
-    Volume carried = film * source.area;
-    while (carried > 0) {
-      source.pool = overflow(source.pool);
-      carried = pools_.pour(source.pool, carried);
-    }
+    source.pool = pour(source.pool, film * source.area);
   }
   join_sources();
+}
+
+void Catchments::drain(const std::vector<Volume>& liquid) {
+  std::vector<Volume> carried(pools_.count(), 0);
+  for (std::size_t p = 0; p < liquid.size(); ++p) {
+    go_on_or_throw(p);
+    carried[static_cast<std::size_t>(drains_to_[p])] += liquid[p];
+  }
+  for (std::size_t pool = 0; pool < carried.size(); ++pool) {
+    go_on_or_throw(pool);
+    pour(static_cast<PoolId>(pool), carried[pool]);
+  }
+}
+
+/// Pours into the first pool that is not full, and into those it overflows to; returns the last.
+PoolId Catchments::pour(PoolId first, Volume carried) {
+  while (carried > 0) {
+    first = overflow(first);
+    carried = pools_.pour(first, carried);
+  }
+  return first;
 }
 
 /// Joins the sources of each pool: it is full before any of its liquid runs on. So the next rain

@@ -16,12 +16,16 @@ class Catchments {
   /// pouring, so that raining a film in parts is the same as raining it at once.
   void rain(Volume film);
 
+  /// Lets liquid that lies on the pixels [quanta] run into the pools, once and without rain before.
+  void drain(const std::vector<Volume>& liquid);
+
  private:
   bool lower(Pixel a, Pixel b) const;
   Pixel downhill(Pixel p) const;
   void drain_all();
   PoolId overflow(PoolId full);
   PoolId across_saddle(PoolId full);
+  PoolId pour(PoolId first, Volume carried);
   void join_sources();
 
   Pools& pools_;

@@ -129,13 +129,7 @@ class Deposition {
     Film film = new_film(i);
     const Volume lost = dose_.edge == Edge::open ? pools.beyond() : 0;
     const double flood = static_cast<double>(pools.beyond() - lost) / terrain_.size();
-    film.thickness.resize(grid_.ny, grid_.nx);
-    for (Pixel p = 0; p < terrain_.size(); ++p) {
-      go_on_or_throw(static_cast<std::size_t>(p));
-      const Volume level = pools[pools.owner(pools.pool_at(p))].level;
-      const auto depth = static_cast<double>(std::max<Volume>(0, level - pools.height(p)));
-      film.thickness.data()[p] = (depth + flood) * terrain_.quantum;
-    }
+    film.thickness = thickness_in(pools, flood);
     film.dosed_volume = cubic_metres(static_cast<double>(state.dosed));
     film.lost_volume = cubic_metres(static_cast<double>(lost));
     film.deposited_volume = cubic_metres(static_cast<double>(state.dosed - lost));

@@ -87,6 +87,18 @@ std::vector<std::size_t> first_wetting_doses(const Field& height, const Grid& gr
                                              const Dose& dose, const std::vector<Index>& pixels,
                                              const Observer& observer = {});
 
+/// Liquid that has come to rest.
+struct Settled {
+  Field thickness;  ///< [m], shape of the height
+  double lost = 0;  ///< ran off open edges, over the nominal area [m]
+};
+
+/// Lets the liquid that lies on a surface, `thickness` [m] >= 0, run downhill, fill pools and spill
+/// over, as the limit of vanishing droplets does. No volume is lost but what runs off an open
+/// edge. Throws as deposit().
+Settled settle(const Field& height, const Grid& grid, const Field& thickness, Edge edge,
+               const Observer& observer = {});
+
 /// Returns the mean film [m] of an areal lubricant density [kg/m^2] and an oil density [kg/m^3].
 double mean_film(double lubricant_density, double oil_density);
 

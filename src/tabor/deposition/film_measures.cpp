@@ -1,5 +1,7 @@
 #include "tabor/deposition/film_measures.hpp"
 
+#include <algorithm>
+
 #include "tabor/core/watch.hpp"
 #include "tabor/numerics/disjoint_sets.hpp"
 
@@ -44,6 +46,18 @@ void join_ends(const std::vector<Run>& row, Index n_columns, Labels& labels) {
 }
 
 }  // namespace
+
+Field thickness_in(Pools& pools, double flood) {
+  const Terrain& terrain = pools.terrain();
+  Field thickness(terrain.ny, terrain.nx);
+  for (Pixel p = 0; p < terrain.size(); ++p) {
+    go_on_or_throw(static_cast<std::size_t>(p));
+    const Volume level = pools[pools.owner(pools.pool_at(p))].level;
+    const auto depth = static_cast<double>(std::max<Volume>(0, level - pools.height(p)));
+    thickness.data()[p] = (depth + flood) * terrain.quantum;
+  }
+  return thickness;
+}
 
 Index count_wet_regions(const Field& thickness, bool periodic) {
   Labels labels;

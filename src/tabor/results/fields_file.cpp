@@ -29,7 +29,8 @@ std::string now_utc() {
 std::vector<StateField> kept_of(const std::vector<StateField>& fields, Fields wanted) {
   std::vector<StateField> kept;
   std::copy_if(fields.begin(), fields.end(), std::back_inserter(kept), [&](const StateField& one) {
-    const bool is_contact = one.name == "pressure" || one.name == "film_thickness";
+    const bool is_contact =
+        one.name == "pressure" || one.name == "film_thickness" || one.name == "sheet";
     return wanted == Fields::all || (wanted == Fields::contact && is_contact);
   });
   return kept;
@@ -93,6 +94,17 @@ io::Json settings_json(const cases::CaseSettings& settings) {
   all.update(settings_json(settings.fluid));
   all.update(io::json_of(columns_of(cases::friction_parameters()), settings.friction));
   all["area"] = friction::kAreas.of(settings.friction.area_of(settings.contact));
+  return all;
+}
+
+io::Json settings_json(const cases::CaseSettings& settings, const cases::SlideSettings& sliding) {
+  io::Json all = settings_json(settings);
+  if (settings.film.lubricant_densities.empty()) {
+    for (const ParameterHead& one : cases::film_parameters()) all.erase(one.json_key());
+  }
+  io::Json own = io::json_of(columns_of(cases::slide_parameters()), sliding);
+  if (settings.film.lubricant_densities.empty()) own.erase("liquid");
+  all.update(own);
   return all;
 }
 

@@ -8,6 +8,7 @@
 
 #include "tabor/cases/records.hpp"
 #include "tabor/cases/settings.hpp"
+#include "tabor/cases/slide/slide.hpp"
 #include "tabor/core/column.hpp"
 #include "tabor/core/names.hpp"
 #include "tabor/io/columns.hpp"
@@ -37,6 +38,8 @@ io::Json settings_json(const cases::FilmSettings& settings);
 io::Json settings_json(const cases::FluidSettings& settings);
 /// Returns all settings of a case, those of friction included.
 io::Json settings_json(const cases::CaseSettings& settings);
+/// Returns the settings of sliding with those of the case; without oil those of none.
+io::Json settings_json(const cases::CaseSettings& settings, const cases::SlideSettings& sliding);
 
 /// Returns a flat JSON object as TOML lines; nulls are left out.
 std::string toml_of(const io::Json& settings);
@@ -116,6 +119,9 @@ class FieldsFile {
              const cases::FilmSettings& settings);
   FieldsFile(const FieldsTarget& target, const topography::Topography& surface,
              const cases::CaseSettings& settings);
+  /// Opens the file of a slide.
+  FieldsFile(const FieldsTarget& target, const topography::Topography& surface,
+             const cases::CaseSettings& settings, const cases::SlideSettings& sliding);
   /// Opens a file of any numbers and maps.
   FieldsFile(const std::filesystem::path& file, const FieldsOptions& options,
              const ResultHead& head, const topography::Topography& surface,
@@ -126,6 +132,11 @@ class FieldsFile {
   void add(std::size_t number, const cases::FilmRecord& record);
   void add(std::size_t number, const cases::FrictionRecord& record,
            const cases::ContactRecord& contact, const cases::Oil& oil);
+
+  /// Adds the state NNNN of a slide, with the maps that are stored of it and its spectra.
+  void add(std::size_t number, const cases::SlideState& state, const cases::SlideParts& parts);
+  /// Adds the spectra of the sheet before sliding.
+  void add_before(const cases::SheetSpectra& spectra);
 
   /// Adds /states/NNNN: scalars as attributes, the first field as what viewers plot.
   void add_state(std::size_t number, const NamedCells& scalars,
@@ -148,6 +159,7 @@ class FieldsFile {
   void write_axes(const std::string& group);
   void write_map(const std::string& group, const StateField& field);
   void write_contact(std::size_t number, const contact::State& state, const std::string& owner);
+  void write_spectra(const std::string& group, const cases::SheetSpectra& spectra);
   bool is_first(const std::string& name, const std::string& owner, const std::string& path);
 
   std::filesystem::path file_;

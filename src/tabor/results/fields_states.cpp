@@ -99,6 +99,13 @@ FieldsFile::FieldsFile(const FieldsTarget& target, const topography::Topography&
   cap_ = settings.contact.pressure_cap();
 }
 
+FieldsFile::FieldsFile(const FieldsTarget& target, const topography::Topography& surface,
+                       const cases::CaseSettings& settings, const cases::SlideSettings& sliding)
+    : FieldsFile(target.file, target.options,
+                 {target.command, toml_of(settings_json(settings, sliding)),
+                  cases::references_of(settings, sliding)},
+                 surface, target.origin) {}
+
 void FieldsFile::write_contact(std::size_t number, const contact::State& state,
                                const std::string& owner) {
   if (options_.fields == Fields::none) return;
@@ -125,6 +132,60 @@ void FieldsFile::add(std::size_t number, const cases::FrictionRecord& record,
   add_state(number, cells_of(cases::friction_columns(), record, cases::media::kObject),
             fields_of(contact, oil));
   write_contact(number, contact.state, owner_of(contact));
+}
+
+namespace {
+
+std::vector<StateField> fields_of(const cases::SlideState& state) {
+  if (state.maps == nullptr) return {};
+  const cases::SlideMaps& maps = *state.maps;
+  std::vector<StateField> fields{
+      {"sheet", "m", "heights of the sheet after the contact, unloaded", maps.sheet},
+      {"pressure", "Pa", "contact pressure", maps.pressure},
+      {"gap", "m", "gap between the sheet and the tool", maps.gap}};
+  if (state.film != nullptr) {
+    fields.push_back({"film_thickness", "m", "oil that stays on its pixels", *state.film, "film"});
+  }
+  const auto add = [&fields](const char* name, const char* unit, const char* text,
+                             const Field& map) {
+    if (map.size() > 0) fields.push_back({name, unit, text, map});
+  };
+  add("squeezed_film", "m", "oil that contacts squeeze out, as this one meets it", maps.squeezed);
+  add("liquid_pressure", "Pa", "pressure of the trapped oil", maps.liquid_pressure);
+  return fields;
+}
+
+}  // namespace
+
+void FieldsFile::add(std::size_t number, const cases::SlideState& state,
+                     const cases::SlideParts& parts) {
+  add_state(number, cells_of(cases::slide_columns(parts), state.numbers, cases::media::kObject),
+            fields_of(state));
+  if (state.maps != nullptr && options_.fields != Fields::none) {
+    const std::string path = state_group(number) + "/state";
+    writer_.write(path, state.maps->state);
+    writer_.describe(path, "1", kContactMap);
+    writer_.attach_axes(path);
+  }
+  write_spectra(fmt::format("/spectra/{:04}", number), state.spectra);
+}
+
+void FieldsFile::add_before(const cases::SheetSpectra& spectra) {
+  write_spectra("/spectra/before", spectra);
+}
+
+void FieldsFile::write_spectra(const std::string& group, const cases::SheetSpectra& spectra) {
+  const auto write = [&](const char* name, const char* unit, const std::vector<double>& list) {
+    if (list.empty()) return;
+    const std::string path = group + "/" + name;
+    writer_.write(path, list);
+    writer_.describe(path, unit, "");
+  };
+  writer_.group(group);
+  write("q_x_rad_per_m", "rad/m", spectra.q_x);
+  write("psd_x_m3", "m^3", spectra.density_x);
+  write("q_y_rad_per_m", "rad/m", spectra.q_y);
+  write("psd_y_m3", "m^3", spectra.density_y);
 }
 
 }  // namespace tabor::results

@@ -103,6 +103,7 @@ std::string label_of(const Hdf5Reader& reader, const StateGroups& groups) {
     return std::optional<double>();
   };
   std::vector<std::string> parts;
+  if (const auto distance = first("distance_m")) parts.push_back("after " + si(*distance, "m"));
   if (const auto pressure = first("mean_pressure_Pa")) parts.push_back(si(*pressure, "Pa"));
   if (const auto density = first("lubricant_density_g_per_m2")) {
     parts.push_back(density_text(kGram * *density));

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "tabor/core/loops.hpp"
+#include "tabor/core/rows.hpp"
 #include "tabor/spectral/fft.hpp"
 
 namespace tabor::sliding {
@@ -44,16 +46,23 @@ Field spread(const Field& depth, const Grid& grid, double reach) {
 
 /// The c with sum min(c weight, space) = volume: Newton on a concave, piecewise linear function,
 /// which is below its goal after every step. Ends where all have their space.
-double scale_for_volume(const Field& weight, const Field& space, double volume) {
+template <typename Space>
+double scale_for_volume(const Field& weight, const Space& space, double volume) {
   double scale = 0;
   for (int step = 0; step < kMostSteps; ++step) {
-    const double filled =
-        sum_over(weight.size(), [&](Index i) { return std::min(scale * weight(i), space(i)); });
-    const double missing = volume - filled;
-    const double slope = sum_over(
-        weight.size(), [&](Index i) { return scale * weight(i) < space(i) ? weight(i) : 0.0; });
-    if (missing <= kExact * volume || slope <= 0) break;
-    const double next = scale + missing / slope;
+    const auto sums = sum_over_rows<2>(weight.rows(), [&](Index y) {
+      Eigen::Array2d row(0, 0);  // filled, and the weight of what is not full
+      for (Index i = y * weight.cols(); i < (y + 1) * weight.cols(); ++i) {
+        const double wanted = scale * weight(i);
+        const double most = weight(i) > 0 ? space(i) : 0;
+        row(0) += std::min(wanted, most);
+        if (wanted < most) row(1) += weight(i);
+      }
+      return row;
+    });
+    const double missing = volume - sums(0);
+    if (missing <= kExact * volume || sums(1) <= 0) break;
+    const double next = scale + missing / sums(1);
     if (next == scale) break;
     scale = next;
   }
@@ -64,29 +73,31 @@ double scale_for_volume(const Field& weight, const Field& space, double volume) 
 
 Raised raise(Displaced displaced, const Field& depth, const Mask& contact, const Field& gap,
              const Grid& grid, double reach) {
-  Raised raised{.height = Field::Zero(grid.ny, grid.nx)};
+  Raised raised;
   const double volume = sum(depth);
   const Index n_free = count_where(depth.size(), [&](Index i) { return !contact(i); });
   if (displaced == Displaced::lost || n_free == 0 || !(volume > 0)) {
+    raised.height = Field::Zero(grid.ny, grid.nx);
     raised.lost = volume;
     return raised;
   }
   Field weight = displaced == Displaced::near ? spread(depth, grid, reach)
                                               : Field::Constant(grid.ny, grid.nx, 1.0);
   const double least = kNegligible * extent_of(weight).highest;
-  Field space(grid.ny, grid.nx);
-  for_each(space.size(), [&](Index i) {
-    space(i) = contact(i) ? 0 : std::max(gap(i), 0.0);
+  const auto space = [&](Index i) { return std::max(gap(i), 0.0); };
+  for_each(weight.size(), [&](Index i) {
     if (contact(i) || weight(i) < least) weight(i) = 0;
   });
   const double scale = scale_for_volume(weight, space, volume);
-  for_each(space.size(),
-           [&](Index i) { raised.height(i) = std::min(scale * weight(i), space(i)); });
+  raised.height = std::move(weight);
+  for_each(raised.height.size(), [&](Index i) {
+    if (raised.height(i) > 0) raised.height(i) = std::min(scale * raised.height(i), space(i));
+  });
   const double missing = volume - sum(raised.height);
   if (missing > kNegligible * volume) raised.without_space = missing;
   // What is missing, be it by rounding alone, rises evenly.
   const double each = missing / static_cast<double>(n_free);
-  for_each(space.size(), [&](Index i) {
+  for_each(raised.height.size(), [&](Index i) {
     if (!contact(i)) raised.height(i) = std::max(0.0, raised.height(i) + each);
   });
   return raised;

@@ -19,8 +19,9 @@ constexpr double kLeastWork = 1e-3;  // of load and distance, in the step certif
 
 void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
   const Grid& grid = elasticity.grid();
-  if (!std::isfinite(problem.saturation_pressure)) {
-    throw InputError("sliding", "an elastic contact", "a saturation pressure",
+  if (!std::isfinite(problem.saturation_pressure) && !(problem.wear_coefficient > 0)) {
+    throw InputError("sliding", "an elastic contact that does not wear",
+                     "a saturation pressure or a wear coefficient",
                      "an elastic contact displaces nothing");
   }
   if (problem.sheet.rows() != grid.ny || problem.sheet.cols() != grid.nx ||
@@ -40,19 +41,56 @@ void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
   }
 }
 
+/// What a contact was solved on: height = separation + displacement - gap [m].
+Field solved_height(const contact::State& state) {
+  return state.separation + state.displacement - state.gap;
+}
+
 double mean_product(const Field& pressure, const Field& height) {
   return sum_over(pressure.size(), [&](Index i) { return pressure(i) * height(i); }) /
          static_cast<double>(pressure.size());
 }
 
+/// Columns of a tool that repeats along x, over those of a sheet from its first on.
+class ToolColumns {
+ public:
+  ToolColumns(Index period, Index place)
+      : period_(period), column_((period - place % period) % period) {
+    if (column_ < 0) column_ += period;
+  }
+  /// Returns the next one.
+  Index next() {
+    const Index column = column_;
+    column_ = column + 1 == period_ ? 0 : column + 1;
+    return column;
+  }
+
+ private:
+  Index period_;
+  Index column_;
+};
+
+/// Mean of a pressure times what moving the tool between two places changes [J/m^2].
+double mean_product(const Field& pressure, const Field& tool, Index from, Index to) {
+  const double all = sum_over_rows<1>(pressure.rows(), [&](Index y) {
+    ToolColumns before(tool.cols(), from);
+    ToolColumns after(tool.cols(), to);
+    double row = 0;
+    for (Index x = 0; x < pressure.cols(); ++x) {
+      row += pressure(y, x) * (tool(y, after.next()) - tool(y, before.next()));
+    }
+    return Eigen::Array<double, 1, 1>(row);
+  })(0);
+  return all / static_cast<double>(pressure.size());
+}
+
 }  // namespace
 
 Field tool_at(const Field& tool, Index place, Index n_columns) {
-  const Index period = tool.cols();
-  const Index first = ((place % period) + period) % period;
   Field height(tool.rows(), n_columns);
-  for_each_pixel(tool.rows(), n_columns, [&](Index y, Index x) {
-    height(y, x) = tool(y, (x - first + period * (1 + n_columns / period)) % period);
+  for_each_row(tool.rows(), [&](Index y) {
+    ToolColumns columns(tool.cols(), place);
+    for (Index x = 0; x < n_columns; ++x) height(y, x) = tool(y, columns.next());
   });
   return height;
 }
@@ -65,6 +103,7 @@ Ploughing& Ploughing::operator+=(const Ploughing& more) {
   moved += more.moved;
   lost += more.lost;
   without_space += more.without_space;
+  worn += more.worn;
   return *this;
 }
 
@@ -83,43 +122,99 @@ Slider::Slider(elastic::ElasticOperator& elasticity, Problem problem)
   check(elasticity_, problem_);
 }
 
-void Slider::restore(const Slider& other) {
-  problem_.sheet = other.problem_.sheet;
-  problem_.place = other.problem_.place;
-  state_ = other.state_;
-  summary_ = other.summary_;
-  energy_ = other.energy_;
+Slider::Reached Slider::reached() const {
+  return {.sheet = problem_.sheet,
+          .pressure = state_.pressure,
+          .with_oil = trapped_ ? trapped_->contact.pressure : Field(),
+          .energy = energy_,
+          .place = problem_.place};
 }
 
-Field Slider::pressed_height() const {
-  return problem_.sheet + tool_at(problem_.tool, problem_.place, problem_.sheet.cols());
+void Slider::go_on_from(Reached reached) {
+  problem_.sheet = std::move(reached.sheet);
+  problem_.place = reached.place;
+  trapped_.reset();
+  if (reached.with_oil.size() > 0) {
+    trapped_.emplace().contact.pressure = std::move(reached.with_oil);
+  }
+  state_ = {};
+  state_.pressure = std::move(reached.pressure);
+  energy_ = reached.energy;
+}
+
+Mask Slider::touching() const {
+  return trapped_ ? contact::solid_contact(*trapped_) : contact::contact_mask(state_);
+}
+
+/// Height of sheet and tool, moved by so many pixels [m].
+Field Slider::pressed_height(Index pixels) const {
+  Field height = tool_at(problem_.tool, problem_.place + pixels, problem_.sheet.cols());
+  for_each(height.size(), [&](Index i) { height(i) += problem_.sheet(i); });
+  return height;
+}
+
+/// Takes off what the solids wear over a distance [m]; returns the volume [m].
+double Slider::wear(double distance) {
+  if (!(problem_.wear_coefficient > 0)) return 0;
+  const Mask solid = touching();
+  const Field& pressure = displacing().pressure;
+  const double depth = problem_.wear_coefficient * distance;  // under 1 Pa [m]
+  const auto worn = [&](Index i) { return solid(i) ? depth * pressure(i) : 0.0; };
+  for_each(pressure.size(), [&](Index i) { problem_.sheet(i) -= worn(i); });
+  const auto n = static_cast<double>(pressure.size());
+  energy_ -= sum_over(pressure.size(), [&](Index i) { return pressure(i) * worn(i); }) / n;
+  return sum_over(pressure.size(), worn) / n;
 }
 
 /// Takes what the contact has displaced off the sheet and puts it where it goes. Returns the
 /// volumes.
 Ploughing Slider::settle() {
-  const Mask touching = contact::contact_mask(state_);
+  const contact::State& pressed = displacing();
   Field depth(problem_.sheet.rows(), problem_.sheet.cols());
   for_each(depth.size(), [&](Index i) {
-    const bool has_yielded = contact::at_cap(state_.pressure(i), problem_.saturation_pressure);
-    depth(i) = has_yielded ? std::max(-state_.gap(i), 0.0) : 0.0;
+    const bool has_yielded = contact::at_cap(pressed.pressure(i), problem_.saturation_pressure);
+    depth(i) = has_yielded ? std::max(-pressed.gap(i), 0.0) : 0.0;
   });
   const Raised raised =
-      raise(problem_.displaced, depth, touching, state_.gap, elasticity_.grid(), problem_.reach);
+      raise(problem_.displaced, depth, touching(), pressed.gap, elasticity_.grid(), problem_.reach);
   for_each(depth.size(), [&](Index i) { problem_.sheet(i) += raised.height(i) - depth(i); });
   const auto n = static_cast<double>(depth.size());
-  const double moved = sum(depth) / n;
-  return {.moved = moved, .lost = raised.lost / n, .without_space = raised.without_space / n};
+  return {
+      .moved = sum(depth) / n, .lost = raised.lost / n, .without_space = raised.without_space / n};
 }
 
-Ploughing Slider::press(const Observer& observer) {
-  const contact::Problem pressing{.height = pressed_height(),
-                                  .control = contact::MeanPressure{problem_.mean_pressure},
-                                  .bounds = {.upper = problem_.saturation_pressure},
-                                  .tolerance = problem_.tolerance};
-  state_ = contact::solve(elasticity_, pressing, contact::Solver::fast, observer);
-  throw_if_stopped(state_.convergence);
-  summary_ = contact::summarise(state_, pressing, elasticity_.grid(), elasticity_.drops_mean());
+Ploughing Slider::press(const Observer& observer) { return press(0, observer); }
+
+contact::Problem Slider::pressing(Field height) const {
+  return {.height = std::move(height),
+          .control = contact::MeanPressure{problem_.mean_pressure},
+          .bounds = {.upper = problem_.saturation_pressure},
+          .tolerance = problem_.tolerance};
+}
+
+/// Moves the tool and presses it, from the pressure of the contact before: the bearing area of its
+/// gap, and a coarse solution, are farther off. The place is the new one only when the contact is
+/// solved, so that a stopped step can be taken again.
+Ploughing Slider::press(Index pixels, const Observer& observer) {
+  contact::Problem problem = pressing(pressed_height(pixels));
+  problem.start = std::move(state_.pressure);
+  state_.displacement.resize(0, 0);  // memory for the solver
+  state_.gap.resize(0, 0);
+  contact::State dry = contact::solve(elasticity_, problem, contact::Solver::fast, observer);
+  if (dry.convergence.stopped()) state_.pressure = std::move(problem.start);
+  throw_if_stopped(dry.convergence);
+  if (problem_.oil) {
+    const contact::GapLiquid liquid{.film = problem_.oil->film,
+                                    .bulk_modulus = problem_.oil->bulk_modulus,
+                                    .periodic = problem_.oil->periodic};
+    contact::TrappedState trapped =
+        contact::solve_trapped(elasticity_, problem, liquid, dry, observer);
+    if (trapped.contact.convergence.stopped()) state_.pressure = std::move(problem.start);
+    throw_if_stopped(trapped.contact.convergence);
+    trapped_ = std::move(trapped);
+  }
+  state_ = std::move(dry);
+  problem_.place += pixels;
   energy_ = 0.5 * mean_product(state_.pressure, state_.displacement) +
             problem_.mean_pressure * state_.separation;
   return settle();
@@ -127,16 +222,27 @@ Ploughing Slider::press(const Observer& observer) {
 
 Ploughing Slider::advance(Index pixels, const Observer& observer) {
   const double energy_before = energy_;
-  Field change = -tool_at(problem_.tool, problem_.place, problem_.sheet.cols());
-  problem_.place += pixels;
-  change += tool_at(problem_.tool, problem_.place, problem_.sheet.cols());
-  const double lower = mean_product(state_.pressure, change);
-  Ploughing step = press(observer);
-  step.work = energy_ + problem_.saturation_pressure * step.moved - energy_before;
+  const Index from = problem_.place;
+  const double lower = mean_product(last_pressure(), problem_.tool, from, from + pixels);
+  Ploughing step = press(pixels, observer);
   step.lower = lower;
-  step.upper = mean_product(state_.pressure, change);
+  step.upper = mean_product(last_pressure(), problem_.tool, from, from + pixels);
+  step.work = energy_ - energy_before;
+  if (step.moved > 0) step.work += problem_.saturation_pressure * step.moved;
+  if (problem_.oil) step.work = 0.5 * (step.lower + step.upper);
   step.distance = static_cast<double>(pixels) * elasticity_.grid().dx();
+  step.worn = wear(step.distance);
   return step;
+}
+
+contact::Summary Slider::summary() const {
+  return contact::summarise(state_, pressing(solved_height(state_)), elasticity_.grid(),
+                            elasticity_.drops_mean());
+}
+
+contact::Summary Slider::summary_of_solids() {
+  return contact::summarise_solids(*trapped_, pressing(solved_height(trapped_->contact)),
+                                   elasticity_.grid(), elasticity_.drops_mean());
 }
 
 }  // namespace tabor::sliding

@@ -1,10 +1,20 @@
 #pragma once
 
+#include <optional>
+
 #include "tabor/contact/contact.hpp"
+#include "tabor/contact/trapped_liquid.hpp"
 #include "tabor/sliding/displaced.hpp"
 
 // Slides a rough tool over a sheet that yields, and finds the force that ploughing takes.
 namespace tabor::sliding {
+
+/// Oil on the sheet whose closed pockets carry load.
+struct TrappedOil {
+  Field film;               ///< [m], stays on the pixels of the sheet
+  double bulk_modulus = 0;  ///< K [Pa]
+  bool periodic = true;     ///< opposite borders of the map are neighbours
+};
 
 /// A sheet, a tool and the load on it. Both are on the same pixels.
 struct Problem {
@@ -12,9 +22,11 @@ struct Problem {
   Field tool;                ///< heights towards the sheet [m], shape (ny, nx_T), repeats along x
   Index place = 0;           ///< of the tool along x [pixels]
   double mean_pressure = 0;  ///< P [Pa]
-  double saturation_pressure = 0;  ///< p_sat [Pa], finite: nothing else is displaced
+  double saturation_pressure = 0;  ///< p_sat [Pa]; infinite: the sheet is elastic, and only worn
   Displaced displaced = Displaced::near;
-  double reach = 2e-6;      ///< [m], of Displaced::near
+  double reach = 2e-6;          ///< [m], of Displaced::near
+  double wear_coefficient = 0;  ///< k [1/Pa]: a solid pressure p wears k p deep over each length
+  std::optional<TrappedOil> oil = {};
   double tolerance = 1e-6;  ///< on the certificate of each contact
 };
 
@@ -27,6 +39,7 @@ struct Ploughing {
   double moved = 0;          ///< volume of displaced material [m]
   double lost = 0;           ///< of it, that left the sheet [m]
   double without_space = 0;  ///< of it, that found no space in the gap [m]
+  double worn = 0;           ///< volume that wear took off, beside what was displaced [m]
 
   Ploughing& operator+=(const Ploughing& more);
   /// Returns the coefficient of friction of a work under a mean pressure [Pa]; NaN before sliding.
@@ -44,6 +57,9 @@ struct Ploughing {
 ///
 /// since V(h) = min { 1/2 <u, S^-1 u> + p_sat sum w + P N sep : sep + u + w >= h, w >= 0 } is
 /// convex with the gradient p, and V(h - w) = V(h) - p_sat sum w with the same p (docs/sliding.md).
+/// Wear takes k p s off the sheet with each step s (Archard 1953), and <p, k p s> off V', to first
+/// order. With trapped oil the pockets change between two places, and V' with them: the work is
+/// then the mean of both products, which are no bounds.
 class Slider {
  public:
   /// Throws InputError for shapes, loads and tools that do not fit.
@@ -54,22 +70,42 @@ class Slider {
   /// Moves the tool by so many pixels and presses again.
   Ploughing advance(Index pixels, const Observer& observer = {});
 
-  /// Goes back to what another slider of the same problem has reached.
-  void restore(const Slider& other);
+  /// What the next step depends on.
+  struct Reached {
+    Field sheet;        ///< [m]
+    Field pressure;     ///< of the last contact without oil [Pa]
+    Field with_oil;     ///< of the last contact with trapped oil [Pa]; or empty
+    double energy = 0;  ///< V' over the nominal area [J/m^2]
+    Index place = 0;    ///< of the tool [pixels]
+  };
+  Reached reached() const;
+  /// Goes on from what a slider of the same problem has reached, with the same bits. Until the next
+  /// step there is no contact.
+  void go_on_from(Reached reached);
 
-  const Field& sheet() const { return problem_.sheet; }         ///< as the last contact left it [m]
-  const contact::State& state() const { return state_; }        ///< the last contact
-  const contact::Summary& summary() const { return summary_; }  ///< its numbers
+  const Field& sheet() const { return problem_.sheet; }   ///< as the last contact left it [m]
+  const contact::State& state() const { return state_; }  ///< the last contact without oil
+  contact::Summary summary() const;                       ///< its numbers
+  /// The contact with its trapped oil; null where there is none.
+  const contact::TrappedState* trapped() const { return trapped_ ? &*trapped_ : nullptr; }
+  contact::Summary summary_of_solids();  ///< of the contact with trapped oil
+  /// The contact that displaces material: with trapped oil, where there is some.
+  const contact::State& displacing() const { return trapped_ ? trapped_->contact : state_; }
+  Mask touching() const;  ///< pixels of its solid contact
   Index place() const { return problem_.place; }
 
  private:
-  Field pressed_height() const;
+  Field pressed_height(Index pixels) const;
+  contact::Problem pressing(Field height) const;
+  const Field& last_pressure() const { return displacing().pressure; }
+  Ploughing press(Index pixels, const Observer& observer);
   Ploughing settle();
+  double wear(double distance);
 
   elastic::ElasticOperator& elasticity_;
   Problem problem_;
   contact::State state_;
-  contact::Summary summary_;
+  std::optional<contact::TrappedState> trapped_;
   double energy_ = 0;  // V' over the nominal area [J/m^2]
 };
 

@@ -15,8 +15,7 @@
 // Writes and reads HDF5 files: maps, lists, attributes, axes and links.
 namespace tabor::io {
 
-/// Map of small integers (holes, contact states), same layout as Field.
-using ByteMap = Eigen::Array<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using tabor::ByteMap;
 
 /// Value of a compound type: its texts and its numbers (lists laid out one after the other) in the
 /// order of the members.

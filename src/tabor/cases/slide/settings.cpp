@@ -1,0 +1,194 @@
+#include "tabor/cases/slide/slide.hpp"
+
+#include <fmt/format.h>
+
+#include "tabor/cases/parameters.hpp"
+#include "tabor/cases/states.hpp"
+#include "tabor/core/units.hpp"
+
+// The settings of sliding and the columns of its states.
+namespace tabor::cases {
+
+const Parameters<SlideSettings>& slide_parameters() {
+  using Settings = SlideSettings;
+  using One = tabor::Parameter<Settings>;
+  static const Parameters<Settings> all{
+      One({.name = "distance",
+           .help = "distance of sliding",
+           .example = "100 um",
+           .dimension = dimension::length,
+           .bounds = bounds::above_zero,
+           .placeholder = "L",
+           .needed = Needed::yes},
+          &Settings::distance),
+      One({.name = "step",
+           .help = "distance between two contacts, rounded to whole pixels",
+           .example = "1.34 um",
+           .dimension = dimension::length,
+           .bounds = bounds::above_zero,
+           .placeholder = "S",
+           .absent = "auto",
+           .none = "auto"},
+          &Settings::step),
+      One({.name = "every",
+           .help = "distance between two states of the table",
+           .example = "10 um",
+           .dimension = dimension::length,
+           .bounds = bounds::above_zero,
+           .placeholder = "L",
+           .absent = "a twentieth of the distance"},
+          &Settings::every),
+      One({.name = "displaced",
+           .help = "where displaced material goes: beside its contact, evenly up, or off the sheet",
+           .example = "near"},
+          &Settings::displaced, sliding::kDisplaced),
+      One({.name = "reach",
+           .help = "how far displaced material rises beside its contact, at least two pixels",
+           .example = "2 um",
+           .dimension = dimension::length,
+           .bounds = bounds::above_zero,
+           .placeholder = "L"},
+          &Settings::reach),
+      One({.name = "wear_coefficient",
+           .help = "k of Archard: where solids touch, k times the pressure wears off over each "
+                   "length of sliding",
+           .example = "1e-15 m^2/N",
+           .dimension = dimension::per_pressure,
+           .unit = "m^2/N",
+           .bounds = bounds::above_zero,
+           .placeholder = "K",
+           .absent = "no wear"},
+          &Settings::wear_coefficient),
+      One({.name = "liquid",
+           .help = "oil stays on its pixels (a lower bound of friction), and in a second account "
+                   "is squeezed out of contacts (an upper bound)",
+           .example = "both"},
+          &Settings::liquid, kSlidingOils),
+      One({.name = "until_steady",
+           .help = "end before the distance once a period of the tool displaces under 1 % of the "
+                   "first, and friction changes by under 1 %"},
+          &Settings::until_steady),
+      One({.name = "maps_at",
+           .help = "distances whose maps are kept, beside those of both ends",
+           .example = "20 um,50 um",
+           .dimension = dimension::length,
+           .bounds = bounds::zero_or_more,
+           .placeholder = "L[,L2,...]",
+           .absent = "both ends"},
+          &Settings::maps_at)};
+  return all;
+}
+
+SlideParts parts_of(const CaseSettings& settings, const SlideSettings& sliding) {
+  const bool has_oil = !settings.film.lubricant_densities.empty();
+  return {.oil = has_oil,
+          .squeezed = has_oil && sliding.liquid == SlidingOil::both,
+          .trapped = has_oil && settings.trapped.is_asked(),
+          .lost = sliding.displaced == sliding::Displaced::lost,
+          .worn = sliding.wear_coefficient.has_value()};
+}
+
+Columns<SlideRecord> slide_columns(const SlideParts& parts) {
+  using Record = SlideRecord;
+  constexpr ColumnStyle percent{.shown = Shown::percent};
+  // What a run has not stands in its files all the same, and leaves the table of the terminal.
+  const auto shown = [](bool is_there, const char* heading) { return is_there ? heading : ""; };
+  const Columns<Record> all{
+      {"distance_m", "m", "distance", &Record::distance},
+      {"mean_pressure_Pa", "Pa", "", member_of(&Record::contact, &contact::Summary::mean_pressure)},
+      {"contact_area_fraction", "", "",
+       member_of(&Record::contact, &contact::Summary::contact_area_fraction)},
+      {"contact_area_fraction_pixels", "", "counted contact",
+       member_of(&Record::contact, &contact::Summary::contact_area_fraction_pixels), percent},
+      {"saturated_area_fraction", "", "",
+       member_of(&Record::contact, &contact::Summary::saturated_area_fraction)},
+      {"mean_gap_m", "m", "mean gap", member_of(&Record::contact, &contact::Summary::mean_gap)},
+      {"lubricated_share", "", shown(parts.oil, "wet share"), &Record::lubricated_share, percent},
+      {"squeezed_lubricated_share", "", shown(parts.squeezed, "if squeezed"),
+       &Record::squeezed_share, percent},
+      {"friction_dry", "", "friction dry", &Record::friction_dry},
+      {"friction_lubricated", "", shown(parts.oil, "friction wet"), &Record::friction_lubricated},
+      {"friction_squeezed", "", shown(parts.squeezed, "if squeezed"), &Record::friction_squeezed},
+      {"friction_ploughing", "", "of it ploughing", &Record::friction_ploughing},
+      {"friction_ploughing_lower", "", "at least", &Record::friction_ploughing_lower},
+      {"friction_ploughing_upper", "", "at most", &Record::friction_ploughing_upper},
+      {"step_certificate", "", "", &Record::step_certificate},
+      {"squeezed_film_m", "m", "", &Record::squeezed_film},
+      {"squeezed_away_m", "m", "", &Record::squeezed_away},
+      {"moved_volume_m3_per_m2", "m", "moved", &Record::moved_volume},
+      {"lost_volume_m3_per_m2", "m", shown(parts.lost, "lost"), &Record::lost_volume},
+      {"worn_volume_m3_per_m2", "m", shown(parts.worn, "worn"), &Record::worn_volume},
+      {"rms_height_m", "m", "Sq", &Record::rms_height},
+      {"mean_roughness_m", "m", "", &Record::mean_roughness},
+      {"core_height_m", "m", "", &Record::core_height},
+      {"peak_height_m", "m", "", &Record::peak_height},
+      {"dale_height_m", "m", "", &Record::dale_height},
+      {"certificate", "", "", &Record::certificate},
+      {"converged", "", "converged", &Record::converged}};
+  if (!parts.trapped) return all;
+  Columns<TrappedFriction> trapped = trapped_friction_columns();
+  for (Column<TrappedFriction>& one : trapped) {
+    if (one.key != "liquid_load_share") one.heading.clear();
+  }
+  return joined<Record>(all, within(trapped, &Record::trapped));
+}
+
+std::vector<std::string> references_of(const CaseSettings& settings, const SlideSettings& sliding) {
+  std::vector<std::string> all = references_of(settings.contact);
+  if (!settings.film.lubricant_densities.empty()) {
+    add(references_of(settings.film), all);
+    add(references_of(settings.trapped), all);
+  }
+  add(references_of(settings.friction), all);
+  add({"goddard1962"}, all);
+  if (sliding.displaced == sliding::Displaced::uniform) add({"pullen1972"}, all);
+  if (sliding.wear_coefficient) add({"archard1953"}, all);
+  return all;
+}
+
+std::optional<Objection> objection(const SlideSettings& settings, const CaseSettings& all,
+                                   const Spelling& spelling) {
+  if (!all.contact.tool.is_rough()) {
+    return objection_to_use(
+        "tool", fmt::format("sliding needs a rough tool: {0} SCAN, or {0} ground:Sa=0.1um",
+                            spelling("tool")));
+  }
+  if (!all.contact.saturation_pressure && !settings.wear_coefficient) {
+    return objection_to_use(
+        "saturation_pressure",
+        fmt::format("an elastic contact displaces nothing: sliding needs {} or {}",
+                    spelling("saturation_pressure"), spelling("wear_coefficient")));
+  }
+  if (all.mean_pressures.size() != 1 || all.film.lubricant_densities.size() > 1) {
+    const std::string setting =
+        all.mean_pressures.size() != 1 ? "mean_pressure" : "lubricant_density";
+    return objection_to_use(
+        setting, fmt::format("the sheet changes as it slides: give one {}", spelling(setting)));
+  }
+  if (all.contact.load_path) {
+    return objection_to_use(
+        "load_path",
+        fmt::format("sliding keeps what it displaces: leave out {}", spelling("load_path")));
+  }
+  if (all.trapped.is_asked() && all.film.lubricant_densities.empty()) {
+    return objection_to_use("trapped", fmt::format("{} needs oil: give {}", spelling("trapped"),
+                                                   spelling("lubricant_density")));
+  }
+  if (auto found = objection_to_trapped(all, spelling)) return found;
+  if (auto found = objection_to_bounds(slide_parameters(), settings)) return found;
+  if (settings.step && *settings.step > settings.distance) {
+    return Objection{.setting = "step",
+                     .got = format_si(*settings.step, "m"),
+                     .expected = "at most the distance, " + format_si(settings.distance, "m")};
+  }
+  for (const double place : settings.maps_at) {
+    if (place > settings.distance) {
+      return Objection{.setting = "maps_at",
+                       .got = format_si(place, "m"),
+                       .expected = "at most the distance, " + format_si(settings.distance, "m")};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace tabor::cases

@@ -1,0 +1,586 @@
+#include "tabor/cases/slide/slide.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tabor/cases/parameters.hpp"
+#include "tabor/cases/slide/checkpoint.hpp"
+#include "tabor/cases/slide/steadiness.hpp"
+#include "tabor/cases/states.hpp"
+#include "tabor/cases/warnings.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/resources.hpp"
+#include "tabor/core/units.hpp"
+#include "tabor/friction/wet_contact.hpp"
+#include "tabor/io/columns.hpp"
+#include "tabor/metrology/areal/abbott.hpp"
+#include "tabor/metrology/areal/parameters.hpp"
+#include "tabor/metrology/spectra/psd.hpp"
+#include "tabor/sliding/squeezed.hpp"
+#include "tabor/topography/digest.hpp"
+
+namespace tabor::cases {
+namespace {
+
+constexpr double kFineStep = 0.3;       // step certificate of a step that is short enough
+constexpr double kMilling = 0.05;       // of Sq: more has left the sheet than its roughness bears
+constexpr double kUsualStates = 20;     // of one distance
+constexpr double kMostPixels = 1e5;     // of one distance: more take days, and the tool wears, too
+constexpr double kCheckpointCost = 10;  // times as long computing as writing, at least
+
+/// Mean length of the contact along x [pixels].
+double mean_patch_length(const Mask& contact) {
+  double n_ends = 0;
+  for (Index y = 0; y < contact.rows(); ++y) {
+    for (Index x = 0; x < contact.cols(); ++x) {
+      if (contact(y, x) && !contact(y, (x + 1) % contact.cols())) n_ends += 1;
+    }
+  }
+  return static_cast<double>(contact.count()) / std::max(1.0, n_ends);
+}
+
+SheetSpectra spectra_of_sheet(const topography::Topography& sheet) {
+  metrology::PowerSpectra found = metrology::power_spectra(sheet);
+  return {.q_x = std::move(found.x.q),
+          .density_x = std::move(found.x.density),
+          .q_y = std::move(found.y.q),
+          .density_y = std::move(found.y.density)};
+}
+
+/// All that the numbers of a run depend on, as text.
+template <typename Settings>
+void add_lines(const Parameters<Settings>& parameters, const Settings& settings,
+               std::string& text) {
+  text += io::to_text(io::json_of(columns_of(parameters), settings), -1) + '\n';
+}
+
+std::string identity_of(const topography::Topography& surface, const CaseSettings& settings,
+                        const SlideSettings& sliding, const Tool& tool) {
+  std::string text =
+      fmt::format("sheet {:x}, tool {:x}, pressure {:.17g}\n",
+                  topography::digest_of(surface.height, surface.grid),
+                  topography::digest_of(tool.height, tool.grid), settings.mean_pressures.front());
+  for (const double density : settings.film.lubricant_densities) {
+    text += fmt::format("density {:.17g}\n", density);
+  }
+  for (const double place : sliding.maps_at) text += fmt::format("maps at {:.17g}\n", place);
+  add_lines(contact_parameters(), settings.contact, text);
+  add_lines(film_parameters(), settings.film, text);
+  add_lines(trapped_parameters(), settings.trapped, text);
+  add_lines(friction_parameters(), settings.friction, text);
+  add_lines(slide_parameters(), sliding, text);
+  return text;
+}
+
+/// What slides, and the numbers of its states.
+class Run {
+ public:
+  Run(const topography::Topography& surface, const CaseSettings& settings,
+      const SlideSettings& sliding, const SlideRun& wanted, const Observer& observer)
+      : surface_(surface),
+        settings_(settings),
+        sliding_(sliding),
+        wanted_(wanted),
+        observer_(observer),
+        elasticity_(make_operator(settings.contact, surface.grid)),
+        tool_(make_tool(settings.contact.tool, surface.grid, observer)),
+        film_(rain()),
+        slider_(*elasticity_, problem_of()),
+        steadiness_(tool_.grid.lx) {
+    result_.after = surface;
+    result_.warnings = of_surface(surface);
+    add(of_tool(surface, tool_), result_.warnings);
+    if (film_) add(film_->warnings, result_.warnings);
+    result_.references = references_of(settings, sliding);
+    if (has_squeezed()) squeezed_ = film_->film.thickness;
+    if (!wanted.checkpoint.empty()) {
+      checkpoint_.emplace(wanted.checkpoint, identity_of(surface, settings, sliding, tool_));
+    }
+  }
+
+  SlideResult run();
+
+ private:
+  sliding::Problem problem_of() const;
+  std::optional<FilmRecord> rain() const;
+  bool has_squeezed() const { return film_ && sliding_.liquid == SlidingOil::both; }
+
+  bool goes_on();
+  void begin();
+  void find_step();
+  void take(const sliding::Ploughing& step);
+  void after_contact(const sliding::Ploughing& step);
+  void keep_state();
+  bool ends() const;
+  void save();
+  void save_if_due();
+  void advance();
+  void advance_one();
+  void look();
+  double next_state() const;
+  void tell_plan(double seconds_of_a_step);
+
+  SlideRecord record();
+  void add_oil(SlideRecord& one, double ploughing);
+  void measure_sheet(SlideRecord& one);
+  double friction_now(const sliding::Ploughing& step);
+  bool has_maps() const;
+  SlideMaps maps() const;
+  void hand_over(std::size_t state, const SlideMaps* maps) const;
+  void warn();
+
+  double dx() const { return surface_.grid.dx(); }
+  double pressure() const { return settings_.mean_pressures.front(); }
+  std::uint64_t planned_steps() const {
+    return std::max<std::uint64_t>(
+        1, static_cast<std::uint64_t>(
+               std::llround(sliding_.distance / (static_cast<double>(pixels_) * dx()))));
+  }
+
+  const topography::Topography& surface_;
+  const CaseSettings& settings_;
+  const SlideSettings& sliding_;
+  const SlideRun& wanted_;
+  const Observer& observer_;
+  std::unique_ptr<elastic::ElasticOperator> elasticity_;
+  Tool tool_;
+  std::optional<FilmRecord> film_;
+  sliding::Slider slider_;
+  Steadiness steadiness_;
+  std::optional<SlideCheckpoint> checkpoint_;
+  Index pixels_ = 0;          // of a step
+  sliding::Ploughing since_;  // the last state
+  sliding::Ploughing all_;
+  Field squeezed_;          // oil that contacts squeeze out, after the last of them [m]
+  Field before_squeezing_;  // the same as the last contact met it [m]
+  double away_ = 0;         // of it, that found no space [m]
+  TrappedRecord with_oil_;  // numbers of the last contact with trapped oil
+  bool converged_ = true;
+  bool is_told_ = false;  // how long it takes
+  std::vector<std::uint64_t> with_maps_;
+  Stopwatch watch_;
+  double saved_at_ = 0;     // [s]
+  double saving_took_ = 0;  // [s]
+  SlideResult result_;
+};
+
+sliding::Problem Run::problem_of() const {
+  sliding::Problem problem{.sheet = surface_.height,
+                           .tool = tool_.height,
+                           .place = places_of(settings_.contact.tool, tool_).front(),
+                           .mean_pressure = pressure(),
+                           .saturation_pressure = settings_.contact.pressure_cap(),
+                           .displaced = sliding_.displaced,
+                           .reach = std::max(sliding_.reach, 2 * surface_.grid.dx()),
+                           .wear_coefficient = sliding_.wear_coefficient.value_or(0),
+                           .tolerance = settings_.contact.tolerance};
+  if (film_ && settings_.trapped.is_asked()) {
+    problem.oil = sliding::TrappedOil{.film = film_->film.thickness,
+                                      .bulk_modulus = settings_.trapped.bulk_modulus,
+                                      .periodic = settings_.contact.is_periodic()};
+  }
+  return problem;
+}
+
+std::optional<FilmRecord> Run::rain() const {
+  if (settings_.film.lubricant_densities.empty()) return std::nullopt;
+  return film_state(surface_, settings_.film, observer_).front();
+}
+
+/// Adds up a step.
+void Run::take(const sliding::Ploughing& step) {
+  since_ += step;
+  all_ += step;
+  converged_ = converged_ && slider_.displacing().convergence.converged();
+  if (step.distance > 0) ++result_.steps;
+}
+
+/// Squeezes oil out, and follows how steady sliding is.
+void Run::after_contact(const sliding::Ploughing& step) {
+  if (sliding_.until_steady && step.distance > 0) {
+    steadiness_.add(all_.distance - step.distance,
+                    {.distance = step.distance,
+                     .moved = step.moved,
+                     .friction = friction_now(step) * step.distance});
+  }
+  if (!has_squeezed()) return;
+  const contact::TrappedState* trapped = slider_.trapped();
+  Mask sealed;
+  if (trapped != nullptr) sealed = trapped->liquid_pressure > 0;
+  before_squeezing_ = std::move(squeezed_);
+  sliding::Squeezed squeezed =
+      sliding::squeeze(before_squeezing_, slider_.displacing().gap,
+                       trapped != nullptr ? &sealed : nullptr, surface_.grid, settings_.film.edge);
+  squeezed_ = std::move(squeezed.film);
+  away_ += squeezed.without_space + squeezed.lost;
+}
+
+/// Friction of the last step, of oil that stays where it is.
+double Run::friction_now(const sliding::Ploughing& step) {
+  SlideRecord one;
+  one.contact = slider_.summary();
+  const double ploughing = step.friction(step.work, pressure());
+  one.friction_dry =
+      estimate_of(one.contact, 0, settings_.contact, settings_.friction).friction_dry + ploughing;
+  if (!film_) return one.friction_dry;
+  add_oil(one, ploughing);
+  return one.friction_lubricated;
+}
+
+void Run::add_oil(SlideRecord& one, double ploughing) {
+  contact::Summary solids;
+  if (slider_.trapped() != nullptr) solids = slider_.summary_of_solids();
+  const auto share_under = [&](const Field& film) {
+    return friction::lubricated_share(slider_.touching(), film, settings_.friction.dry_below);
+  };
+  const auto friction_with = [&](double share, std::optional<TrappedFriction>& trapped) {
+    if (slider_.trapped() == nullptr) {
+      return estimate_of(one.contact, share, settings_.contact, settings_.friction)
+                 .friction_lubricated +
+             ploughing;
+    }
+    with_oil_.solids = solids;
+    with_oil_.liquid = slider_.trapped()->liquid;
+    with_oil_.lubricated_share = share;
+    with_oil_.convergence = slider_.trapped()->contact.convergence;
+    trapped = trapped_friction(with_oil_, pressure(), settings_.contact, settings_.friction);
+    return trapped->friction_solid + trapped->friction_boundary + ploughing;
+  };
+  one.lubricated_share = share_under(film_->film.thickness);
+  one.friction_lubricated = friction_with(one.lubricated_share, one.trapped);
+  if (!has_squeezed() || before_squeezing_.size() == 0) return;
+  std::optional<TrappedFriction> unused;
+  one.squeezed_share = share_under(before_squeezing_);
+  one.friction_squeezed = friction_with(one.squeezed_share, unused);
+  one.squeezed_film = squeezed_.mean();
+  one.squeezed_away = away_;
+}
+
+SlideRecord Run::record() {
+  SlideRecord one;
+  one.distance = all_.distance;
+  one.contact = slider_.summary();
+  one.friction_ploughing = since_.friction(since_.work, pressure());
+  one.friction_ploughing_lower = since_.friction(since_.lower, pressure());
+  one.friction_ploughing_upper = since_.friction(since_.upper, pressure());
+  one.step_certificate = since_.certificate(pressure());
+  const double ploughing = since_.distance > 0 ? one.friction_ploughing : 0;
+  one.friction_dry =
+      estimate_of(one.contact, 0, settings_.contact, settings_.friction).friction_dry + ploughing;
+  if (film_) add_oil(one, ploughing);
+  one.moved_volume = all_.moved;
+  one.lost_volume = all_.lost;
+  one.worn_volume = all_.worn;
+  one.certificate = slider_.displacing().convergence.certificate;
+  one.converged = converged_;
+  return one;
+}
+
+/// Measures the sheet as it is now, and its spectra.
+void Run::measure_sheet(SlideRecord& one) {
+  const Field& sheet = result_.after.height = slider_.sheet();
+  const double mean = sheet.mean();
+  one.rms_height = std::sqrt((sheet - mean).square().mean());
+  one.mean_roughness = (sheet - mean).abs().mean();
+  const metrology::Core core = metrology::AbbottCurve(sheet).core();
+  one.core_height = core.height;
+  one.peak_height = core.peak_height;
+  one.dale_height = core.dale_height;
+  result_.spectra.push_back(spectra_of_sheet(result_.after));
+}
+
+/// True for the first and the last state, and for the one that a distance of the settings is
+/// nearest to.
+bool Run::has_maps() const {
+  if (!wanted_.wants_maps) return false;
+  if (result_.steps == 0 || ends()) return true;
+  const double half = 0.5 * static_cast<double>(pixels_) * dx();
+  return std::any_of(sliding_.maps_at.begin(), sliding_.maps_at.end(), [&](double place) {
+    return std::abs(place - all_.distance) <= half * (1 + 1e-9);
+  });
+}
+
+SlideMaps Run::maps() const {
+  const contact::State& contact = slider_.displacing();
+  SlideMaps maps;
+  maps.sheet = slider_.sheet();
+  maps.pressure = contact.pressure;
+  maps.gap = contact.gap;
+  const double cap = settings_.contact.pressure_cap();
+  const Mask touching = slider_.touching();
+  maps.state.resize(touching.rows(), touching.cols());
+  for (Index i = 0; i < touching.size(); ++i) {
+    const bool is_saturated = touching(i) && contact::at_cap(contact.pressure(i), cap);
+    maps.state(i) = static_cast<std::uint8_t>(touching(i) + is_saturated);
+  }
+  if (has_squeezed()) maps.squeezed = before_squeezing_;
+  if (slider_.trapped() != nullptr) maps.liquid_pressure = slider_.trapped()->liquid_pressure;
+  return maps;
+}
+
+void Run::hand_over(std::size_t state, const SlideMaps* maps) const {
+  if (!wanted_.receive) return;
+  wanted_.receive({.numbers = result_.states[state],
+                   .spectra = result_.spectra[state],
+                   .maps = maps,
+                   .film = film_ ? &film_->film.thickness : nullptr});
+}
+
+/// Records the state that is reached.
+void Run::keep_state() {
+  SlideRecord one = record();
+  measure_sheet(one);
+  result_.states.push_back(std::move(one));
+  since_ = {};
+  const std::size_t state = result_.states.size() - 1;
+  if (!has_maps()) return hand_over(state, nullptr);
+  const SlideMaps kept = maps();
+  with_maps_.push_back(state);
+  if (checkpoint_ && !ends()) checkpoint_->save_maps(state, kept);
+  hand_over(state, &kept);
+}
+
+bool Run::ends() const {
+  return pixels_ > 0 && (result_.steps >= planned_steps() || result_.steady.value_or(false));
+}
+
+/// Goes on from the checkpoint, if there is one.
+bool Run::goes_on() {
+  std::optional<ReachedSlide> reached;
+  if (checkpoint_) reached = checkpoint_->load();
+  if (!reached) return false;
+  slider_.go_on_from(std::move(reached->slider));
+  since_ = reached->since;
+  all_ = reached->all;
+  result_.steps = reached->steps;
+  pixels_ = static_cast<Index>(reached->pixels);
+  converged_ = reached->converged;
+  squeezed_ = std::move(reached->squeezed);
+  away_ = reached->away;
+  steadiness_ = Steadiness(tool_.grid.lx, std::move(reached->periods));
+  result_.states = std::move(reached->states);
+  result_.spectra = std::move(reached->spectra);
+  with_maps_ = std::move(reached->with_maps);
+  for (std::size_t state = 0; state < result_.states.size(); ++state) {
+    const bool has = std::find(with_maps_.begin(), with_maps_.end(), state) != with_maps_.end();
+    const SlideMaps kept = has ? checkpoint_->load_maps(state) : SlideMaps{};
+    hand_over(state, has ? &kept : nullptr);
+  }
+  return true;
+}
+
+void Run::save() {
+  if (!checkpoint_) return;
+  const double begin = watch_.seconds();
+  checkpoint_->save({.slider = slider_.reached(),
+                     .since = since_,
+                     .all = all_,
+                     .steps = result_.steps,
+                     .pixels = static_cast<std::uint64_t>(pixels_),
+                     .converged = converged_,
+                     .squeezed = squeezed_,
+                     .away = away_,
+                     .periods = steadiness_.periods(),
+                     .states = result_.states,
+                     .spectra = result_.spectra,
+                     .with_maps = with_maps_});
+  saved_at_ = watch_.seconds();
+  saving_took_ = saved_at_ - begin;
+}
+
+void Run::save_if_due() {
+  const double period = std::max(wanted_.checkpoint_period, kCheckpointCost * saving_took_);
+  if (watch_.seconds() - saved_at_ >= period) save();
+}
+
+/// Takes the first step: that of the settings, else a quarter of the length of the contact patches,
+/// halved until the step certificate is small.
+void Run::find_step() {
+  const sliding::Slider::Reached pressed = slider_.reached();
+  auto pixels = static_cast<Index>(std::llround(
+      sliding_.step ? *sliding_.step / dx() : 0.25 * mean_patch_length(slider_.touching())));
+  const auto most = static_cast<Index>(std::llround(sliding_.distance / dx()));
+  pixels = std::clamp<Index>(pixels, 1, most);
+  while (true) {
+    const double begin = watch_.seconds();
+    const sliding::Ploughing step = slider_.advance(pixels, observer_);
+    const bool is_fine = !(step.certificate(pressure()) > kFineStep);
+    if (sliding_.step || is_fine || pixels == 1) {
+      pixels_ = pixels;
+      take(step);
+      after_contact(step);
+      return tell_plan(watch_.seconds() - begin);
+    }
+    slider_.go_on_from(pressed);
+    pixels /= 2;
+  }
+}
+
+void Run::tell_plan(double seconds_of_a_step) {
+  is_told_ = true;
+  if (!wanted_.plan) return;
+  const std::uint64_t n_left = planned_steps() - std::min(planned_steps(), result_.steps);
+  wanted_.plan({.steps = planned_steps(),
+                .step = static_cast<double>(pixels_) * dx(),
+                .seconds = seconds_of_a_step * static_cast<double>(n_left),
+                .gone_before = result_.steps > 1 ? all_.distance : 0});
+}
+
+/// Presses, and takes the first step.
+void Run::begin() {
+  const sliding::Ploughing pressed = slider_.press(observer_);
+  take(pressed);
+  after_contact(pressed);
+  keep_state();
+  find_step();
+}
+
+/// Distance of the state after the last one [m].
+double Run::next_state() const {
+  const double every = sliding_.every.value_or(sliding_.distance / kUsualStates);
+  const double half = 0.5 * static_cast<double>(pixels_) * dx();
+  const double last = result_.states.back().distance + half;
+  double next = every * (std::floor(last / every) + 1);
+  for (const double place : sliding_.maps_at) {
+    if (place > last) next = std::min(next, place);
+  }
+  return next;
+}
+
+/// One more step. A step that is stopped has changed nothing: it is taken again when the run goes
+/// on.
+void Run::advance() {
+  try {
+    advance_one();
+  } catch (const Interrupted&) {
+    save();
+    throw;
+  }
+}
+
+void Run::advance_one() {
+  const std::string stage = fmt::format("slide, {} of {}", format_si(all_.distance, "m"),
+                                        format_si(sliding_.distance, "m"));
+  const double share = static_cast<double>(result_.steps) / static_cast<double>(planned_steps());
+  if (asks_to_stop(observer_, {.stage = stage, .fraction = share, .whole = share})) {
+    throw Interrupted();
+  }
+  const Observer asked = [this](const Progress&) { return !asks_to_stop(observer_, {}); };
+  const double begin = watch_.seconds();
+  const sliding::Ploughing step = slider_.advance(pixels_, asked);
+  take(step);
+  after_contact(step);
+  if (!is_told_) tell_plan(watch_.seconds() - begin);
+}
+
+/// Warns of the way, and of the last contact on it.
+void Run::warn() {
+  add(of_sliding(all_, pressure(), metrology::rms_height(surface_), tool_.grid.lx, result_.steady),
+      result_.warnings);
+  if (!converged_) {
+    result_.warnings.push_back({"not-converged", "some contacts along the way: NOT CONVERGED",
+                                slider_.displacing().convergence.certificate});
+  }
+  const SlideRecord& last = result_.states.back();
+  ContactRecord contact;
+  contact.summary = last.contact;
+  if (slider_.state().convergence.converged()) {
+    add(of_contact(surface_, settings_.contact, slider_.state(), last.contact), result_.warnings);
+  }
+  dry_friction(contact, film_ ? last.lubricated_share : 0, 0, settings_.contact, settings_.friction,
+               result_.warnings);
+  if (last.trapped) add(of_trapped(with_oil_), result_.warnings);
+  if (film_) {
+    add(of_film_in_gap(film_->film.mean_film, result_.states.back().contact.mean_gap),
+        result_.warnings);
+  }
+}
+
+/// Keeps a state where one is due, and tells whether sliding has become steady.
+void Run::look() {
+  if (sliding_.until_steady) result_.steady = steadiness_.is_steady();
+  const double half = 0.5 * static_cast<double>(pixels_) * dx();
+  if (ends() || all_.distance >= next_state() - half) keep_state();
+}
+
+SlideResult Run::run() {
+  result_.before = spectra_of_sheet(surface_);
+  if (sliding_.until_steady) result_.steady = false;
+  if (!goes_on()) {
+    begin();
+    look();
+  }
+  while (!ends()) {
+    if (checkpoint_) save_if_due();
+    advance();
+    look();
+  }
+  result_.step = static_cast<double>(pixels_) * dx();
+  result_.after.height = slider_.sheet();
+  result_.after.history.push_back(
+      fmt::format("slide: {} under {} in {} steps, {:.4g} m moved", format_si(all_.distance, "m"),
+                  format_si(pressure(), "Pa"), result_.steps, all_.moved));
+  result_.converged = converged_;
+  warn();
+  if (checkpoint_) checkpoint_->remove();
+  return std::move(result_);
+}
+
+}  // namespace
+
+Warnings of_sliding(const sliding::Ploughing& all, double mean_pressure, double rms_height,
+                    double tool_length, std::optional<bool> steady) {
+  constexpr double often = 2;  // passes of the tool, after which the sheet has its envelope
+  Warnings list;
+  if (steady == false) {
+    list.push_back({"not-steady",
+                    fmt::format("after {} sliding is not steady: the sheet still changes, and "
+                                "friction with it",
+                                format_si(all.distance, "m")),
+                    0});
+  }
+  if (const double passes = all.distance / tool_length; passes > often) {
+    list.push_back({"tool-envelope",
+                    fmt::format("the tool of {} has passed {:.1f} times: the sheet takes its "
+                                "envelope; a longer tool has more to show",
+                                format_si(tool_length, "m"), passes),
+                    passes});
+  }
+  if (const double apart = all.certificate(mean_pressure); apart > kFineStep) {
+    list.push_back(
+        {"tool-pixel",
+         fmt::format("bounds on ploughing differ by {:.2g} of it: the tool is rougher along x than "
+                     "the step resolves",
+                     apart),
+         apart});
+  }
+  if (all.lost > kMilling * rms_height) {
+    list.push_back({"milling",
+                    fmt::format("{} of the sheet is worn off, its Sq was {}: material that is kept "
+                                "rises beside its contact",
+                                format_si(all.lost, "m"), format_si(rms_height, "m")),
+                    all.lost / rms_height});
+  }
+  return list;
+}
+
+SlideResult slide(const topography::Topography& surface, const CaseSettings& settings,
+                  const SlideSettings& sliding, const SlideRun& run, const Observer& observer) {
+  if (sliding.step && *sliding.step < 0.5 * surface.grid.dx()) {
+    throw InputError("step", format_si(*sliding.step, "m"),
+                     "at least a pixel, " + format_si(surface.grid.dx(), "m"), "");
+  }
+  const double dx = surface.grid.dx();
+  if (sliding.distance < 0.5 * dx || sliding.distance > kMostPixels * dx) {
+    throw InputError("distance", format_si(sliding.distance, "m"),
+                     fmt::format("one to {} pixels, {} to {}", kMostPixels, format_si(dx, "m"),
+                                 format_si(kMostPixels * dx, "m")),
+                     "");
+  }
+  return Run(surface, settings, sliding, run, observer).run();
+}
+
+}  // namespace tabor::cases

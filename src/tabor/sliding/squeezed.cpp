@@ -1,0 +1,40 @@
+#include "tabor/sliding/squeezed.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "tabor/core/loops.hpp"
+
+namespace tabor::sliding {
+
+Squeezed squeeze(const Field& film, const Field& gap, const Mask* sealed, const Grid& grid,
+                 deposition::Edge edge, const Observer& observer) {
+  const auto space_at = [&](Index i) {
+    return sealed != nullptr && (*sealed)(i) ? 0.0 : std::max(gap(i), 0.0);
+  };
+  const auto is_sealed = [&](Index i) { return sealed != nullptr && (*sealed)(i); };
+  const Index n = film.size();
+  const double space = sum_over(n, space_at);
+  const double stays = sum_over(n, [&](Index i) { return std::min(film(i), space_at(i)); });
+  const double squeezed = sum_over(
+      n, [&](Index i) { return is_sealed(i) ? 0.0 : film(i) - std::min(film(i), space_at(i)); });
+  const double rained = std::min(squeezed, space - stays);
+  const Index n_open = count_where(n, [&](Index i) { return space_at(i) > 0; });
+  const double each = n_open > 0 ? rained / static_cast<double>(n_open) : 0;
+  Field liquid(film.rows(), film.cols());
+  Field ground(film.rows(), film.cols());
+  for_each(n, [&](Index i) {
+    ground(i) = -space_at(i);
+    liquid(i) = space_at(i) > 0 ? std::min(film(i), space_at(i)) + each : 0.0;
+  });
+  deposition::Settled settled = deposition::settle(ground, grid, liquid, edge, observer);
+  Squeezed result{.film = std::move(settled.thickness),
+                  .without_space = (squeezed - rained) / static_cast<double>(n),
+                  .lost = settled.lost};
+  for_each(n, [&](Index i) {
+    if (is_sealed(i)) result.film(i) = film(i);
+  });
+  return result;
+}
+
+}  // namespace tabor::sliding

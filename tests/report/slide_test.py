@@ -1,0 +1,79 @@
+"""The page of a file of `tabor slide`."""
+
+import csv
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from report_test import run
+from tabor.report import build
+
+SCAN = Path(__file__).resolve().parents[2] / "surfaces/edt_before.x3p"
+WORDS = ["--level", "plane", "--crop", "0,0,48,48", "--mirror", "--material", "aluminium-6016", "--tool", "ground:Sa=0.1um,length=200um", "--pressure",
+         "10MPa", "--distance", "10.72um", "--step", "1.34um", "--every", "2.68um", "--density", "0.9g/m^2", "--maps-at", "5.36um", "--quiet"]  # fmt: skip
+
+
+class Slide(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.path = Path(cls.folder.name) / "slide.h5"
+        subprocess.run([os.environ["TABOR"], "slide", SCAN, *WORDS, "-o", cls.path], check=True, capture_output=True)
+        cls.out = cls.path.parent / "page"
+        cls.done = run(cls.path, "-o", cls.out, "--static", "--figures", "svg")
+        cls.page = (cls.out / "report.html").read_text(encoding="utf-8")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def test_the_file_has_maps_of_both_ends_and_where_they_were_asked_for(self):
+        with h5py.File(self.path) as file:
+            states = [file["states"][key] for key in sorted(file["states"])]
+            self.assertEqual(len(states), 5)
+            self.assertEqual([number for number, state in enumerate(states) if "sheet" in state], [0, 2, 4])
+            last = states[-1]
+            self.assertEqual({"sheet", "pressure", "gap", "state", "film_thickness", "squeezed_film", "x", "y"}, set(last))
+            height, sheet = file["surface/height"][()], last["sheet"][()]
+            self.assertAlmostEqual(float(np.mean(height, dtype=float)) * 1e6, float(np.mean(sheet, dtype=float)) * 1e6, places=6)
+            self.assertGreater(np.abs(sheet - height).max(), 1e-9)
+            self.assertEqual(set(file["spectra"]), {"before", *(f"{number:04d}" for number in range(5))})
+
+    def test_the_page_shows_the_way_and_the_sheet(self):
+        self.assertEqual((self.done.returncode, self.done.stderr), (0, ""))
+        for words in ("slid 10.72 µm", "Along the way, under 10 MPa", "pressed", "after 5.36 µm", "friction, oil is squeezed out", "of it ploughing",
+                      "Spectra of the sheet before and after", "Change of the sheet: after 10.72 µm", "Section of the sheet before and after"):  # fmt: skip
+            self.assertIn(words, self.page)
+        names = {path.stem for path in (self.out / "figures").glob("*.svg")}
+        self.assertLessEqual({"along_the_way", "slide_spectra", "change_after10.72um", "section_before_and_after", "sheet_after10.72um"}, names)
+        # The heights of the page are those of the first contact alone.
+        self.assertEqual(sorted(name for name in names if name.startswith("section_")), ["section_before_and_after", "section_pressed"])
+
+    def test_the_table_of_the_curves_is_that_of_the_states(self):
+        source = build.open_result(self.path)
+        self.addCleanup(source.file.close)
+        with open(self.out / "figures/along_the_way.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        for row, state in zip(rows, source.states, strict=True):
+            self.assertAlmostEqual(float(row["friction_squeezed"]), state.facts["friction_squeezed"], places=8)
+
+    def test_the_answer_agrees_with_the_file(self):
+        with h5py.File(self.path) as file:
+            value = file["states/0004"].attrs["friction_dry"]
+        answer = re.search(r'(?s)<table class="answer">.*?</table>', self.page)[0]
+        self.assertIn(f"{value:.4g}", answer)
+
+    def test_options_of_studies_are_rejected(self):
+        done = run(self.path, "--pressure", "7MPa")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("whose way is drawn as a whole", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
