@@ -115,6 +115,7 @@ SHEAR = _of("friction", without=("dry_below",))
 DRY_BELOW = tuple(one for one in _of("friction") if one.name == "dry_below")  # of oil that stays where it was laid
 CURVE = SHEAR + tuple(one for one in RAIN if one.name not in ("model", "droplet_height", "seed"))  # of vanishing droplets
 OIL = _of("fluid", without=("fluid", "sliding_speed"))  # a lubricant flows; a speed is what happens to it
+OF_STUDY_SLIDES = tuple(one for one in _ALL if one.table == "slide" and one.study_key)
 OWN_OF_SLIDE = _of("slide", without=("distance",))
 SLIDE = tuple(one for one in CONTACT if one.name != "load_path") + OWN_OF_SLIDE + RAIN + TRAPPED + SHEAR + DRY_BELOW  # of sliding
 PLACES = tuple(one for one in _of("contact") if one.name == "tool_places")  # of the tool: studies average over them

@@ -10,7 +10,7 @@ from concurrent.futures import Executor
 from typing import Any, Unpack
 
 from . import _tabor
-from ._arguments import Count, Path, typed
+from ._arguments import Count, Path, typed, wrong
 from ._contact import Solid, solid_of
 from ._friction import Lubricant
 from ._friction_table import FrictionTable
@@ -19,7 +19,7 @@ from ._parts import run as run_parts
 from ._progress import Progress, watching
 from ._scans import Scans, densities, line, pressures, scan_tables, speeds, table, text, texts
 from ._setting_types import StudySettings
-from ._settings import OF_STUDIES, OIL, SOLID, STUDY, complete, documented, takes
+from ._settings import OF_STUDIES, OF_STUDY_SLIDES, OIL, SOLID, STUDY, complete, documented, takes
 from ._values import Value
 
 
@@ -30,6 +30,17 @@ def _tables(values: Mapping[str, Any]) -> dict[str, dict[str, str | None]]:
         if values.get(one.name) is not None:
             tables.setdefault(one.study_table, {})[one.study_name] = line(one, values[one.name])
     return tables
+
+
+def _slide_lines(slide: Mapping[str, Any]) -> dict[str, str | None]:
+    """The table [slide] of a study file."""
+    if not isinstance(slide, Mapping):
+        raise wrong("slide", slide, 'settings by their names, such as {"distance": "20 um"}')
+    known = {one.argument: one for one in OF_STUDY_SLIDES}
+    for name in slide:
+        if name not in known:
+            raise ValueError(f"slide: got {name!r}; expected settings of sliding: {', '.join(known)}")
+    return {known[name].study_name: line(known[name], known[name].taken(value)) for name, value in slide.items() if value is not None}
 
 
 @documented(STUDY)
@@ -49,6 +60,8 @@ class Study:
     treatment : steps that each scan goes through, "level=plane".
     **settings
     lubricant, speed : oil that flows while the flat slides at each of these speeds [m/s]; see ``fluid_film``.
+    slide : settings of sliding by their names, {"distance": "20 um", "step": "1 um"}: a rough tool slides over every
+        sheet under each pressure and density; see ``slide`` and ``Results.slides``.
     edges : see ``contact``.
     title : of the study.
 
@@ -64,7 +77,8 @@ class Study:
     def __init__(self, scans: Mapping[str, Path | Scans | Sequence[Path | Scans]], solid: Solid | str, *,
                  pressure: Value | Iterable[Value] | None = None, density: Value | Iterable[Value] = 0.0,
                  treatment: Sequence[str] = (), lubricant: Lubricant | None = None,
-                 speed: Value | Iterable[Value] | None = None, edges: str | None = None, title: str = "study",
+                 speed: Value | Iterable[Value] | None = None,
+                 slide: Mapping[str, Any] | None = None, edges: str | None = None, title: str = "study",
                  **settings: Unpack[StudySettings]) -> None:
         if (lubricant is None) != (speed is None):
             raise ValueError("Study: oil that flows needs both a lubricant and a speed")
@@ -81,6 +95,8 @@ class Study:
         found["treatment"]["steps"] = texts(treatment) if treatment else None
         found["contact"]["edges"] = None if edges is None else text(edges)
         found["sweep"].update(mean_pressure=pressures(pressure), lubricant_density=densities(density), sliding_speed=speeds(speed))
+        if slide is not None:
+            found["slide"] = _slide_lines(slide)
         lines = "".join(table(f"[{name}]" if name else "", keys) for name, keys in found.items())
         self._text = lines + tables
         self._study = _tabor.parse_study(self._text, "study")
@@ -198,6 +214,11 @@ class Results:
         """Lubricated share and friction of each scan under each pressure over the density of the oil; empty
         where no oil runs downhill (docs/lubrication.md)."""
         return self._rows("density_curves.csv") if (self.folder / "density_curves.csv").is_file() else []
+
+    @property
+    def slides(self) -> list[dict[str, float | bool | str]]:
+        """One for each state of each slide (docs/sliding.md); empty where nothing slid."""
+        return self._rows("slides.csv") if (self.folder / "slides.csv").is_file() else []
 
     @property
     def answers(self) -> tuple[str, ...]:

@@ -109,7 +109,7 @@ def calls(folder):
            for name in ("lsdyna", "ansys", "openradioss")},
         "Scans": (tb.Scans, {"files": file, "pressure": 1e6, "density": 0, "treatment": ["level=plane"], "contact": "elastic",
                              "reading": "literal", "channel": None, "pixel": None, "unit": None}),
-        "Study": (tb.Study, {"scans": {"a": file}, "solid": t.solid, "pressure": 1e6, "density": 0, "treatment": (),
+        "Study": (tb.Study, {"scans": {"a": file}, "solid": t.solid, "slide": {"distance": 1e-6}, "pressure": 1e6, "density": 0, "treatment": (),
                              **shear, **oil, **rain, "solver": "fast", "tool": "ground:Sa=10nm", "tool_x": 0,
                              "tool_lowpass": "gauss:8um", "tool_repeats": False, "tool_places": 2,
                              "droplet_height": 1e-7, "model": "droplets", "seed": 1, "lubricant": None, "speed": None,

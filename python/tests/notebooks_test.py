@@ -30,7 +30,7 @@ def copy(tmp_path_factory):
 
 def test_there_are_some():
     assert [file.stem for file in NOTEBOOKS] == ["contact_of_a_scan", "lubricant_densities", "roughness_of_many_scans",
-                                                 "stribeck_curve"]
+                                                 "sliding", "stribeck_curve"]
 
 
 @pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: file.stem)

@@ -225,3 +225,25 @@ def test_a_folder_of_the_command_line_does_too(program, folder, tmp_path):
     subprocess.run([program, "sweep", tmp_path / "study.toml", "-o", tmp_path / "r"], capture_output=True, check=True)
     told = tb.Results(tmp_path / "r").warnings
     assert told == tb.Study.read(tmp_path / "study.toml").run(tmp_path / "r").warnings != ()
+
+
+def test_sheets_slide_in_a_study_as_alone(folder, tmp_path):
+    settings = {"tool": "ground:Sa=0.1um,length=100um", "edges": "cut", "trapped": True}
+    sliding = {"distance": "4 um", "step": "0.67 um"}
+    found = study_of(folder, pressure=7e6, slide=sliding, **settings).run(tmp_path / "r")
+    assert not found.failures and len({(row["scan"], row["lubricant_density_g_per_m2"]) for row in found.slides}) == 4
+    one = tb.slide(tb.read(folder / "before_1.h5").level("plane").mirror(), 7e6, "aluminium-6016", density="0.9 g/m^2", tool=settings["tool"],
+                   trapped=True, **sliding)
+    rows = [row for row in found.slides if str(row["scan"]).endswith("before_1.h5") and row["lubricant_density_g_per_m2"] == 0.9]
+    for key in ("distance_m", "friction_squeezed", "friction_ploughing_upper", "liquid_load_share", "dale_height_m"):
+        np.testing.assert_array_equal([row[key] for row in rows], one.states[key])
+    assert study_of(folder, density=0.0, pressure=7e6).run(tmp_path / "none").slides == []
+
+
+@pytest.mark.parametrize("slide, error, text", [
+    ({"distance": "4 um", "stp": "1 um"}, ValueError, "'stp'"), ({"step": "1 um"}, ValueError, "slide.distance"), ("4 um", TypeError, "slide"),
+    ({"distance": "4 s"}, ValueError, "distance"),
+])
+def test_slides_that_cannot_be_are_rejected(folder, slide, error, text):
+    with pytest.raises(error, match=text):
+        study_of(folder, slide=slide, tool="ground:Sa=0.1um,length=100um")

@@ -63,18 +63,20 @@ std::string template_without(const std::vector<std::string>& left_out) {
 
 TEST_F(Templates, OfAStudyHasEveryKeyWithAValueThatIsTaken) {
   make_scan();
-  const std::string text =
-      template_without({"boundary_shear_share", "tool", "trapped", "bulk_modulus", "dry_below"});
+  const std::string text = template_without(
+      {"boundary_shear_share", "tool", "trapped", "bulk_modulus", "dry_below", "distance", "step",
+       "every", "displaced", "reach", "wear_coefficient", "liquid", "until_steady"});
   put_bytes(folder_ / "study.toml", text);
   put_bytes(folder_ / "measured.csv", "mean_pressure_Pa,friction\n7e6,0.2\n");
   const study::Study study = study::read_study(folder_ / "study.toml");
   EXPECT_TRUE(study.flows());
   EXPECT_TRUE(study.experiment.has_value());
-  put_bytes(folder_ / "rough.toml",  // a tool and trapped oil exclude oil that flows
+  put_bytes(folder_ / "rough.toml",  // a tool, trapped oil and sliding exclude oil that flows
             template_without({"boundary_shear_share", "fluid", "viscosity", "pressure_viscosity",
                               "eyring_stress", "sliding_speed"}));
   const study::Study rough = study::read_study(folder_ / "rough.toml");
   EXPECT_TRUE(rough.settings.contact.tool.is_rough() && rough.settings.trapped.is_asked());
+  EXPECT_TRUE(rough.slide && rough.slide->until_steady);
   for (const std::string& key : study::known_keys()) {
     const std::string word = key.substr(key.find_last_of('.') + 1);
     EXPECT_THAT(text, HasSubstr(word + " =")) << key;

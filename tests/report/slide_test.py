@@ -75,5 +75,39 @@ class Slide(unittest.TestCase):
         self.assertIn("whose way is drawn as a whole", done.stderr)
 
 
+STUDY = f"""
+[material]
+name = "aluminium-6016"
+[treatment]
+steps = ["level=plane", "crop=0,0,48,48"]
+[contact]
+edges = "cut"
+tool = "ground:Sa=0.1um,length=200um"
+[sweep]
+mean_pressure = ["5 MPa", "10 MPa"]
+lubricant_density = ["0 g/m^2", "0.45 g/m^2"]
+[slide]
+distance = "4 um"
+step = "1.34 um"
+[[scan]]
+file = "{SCAN}"
+group = "before"
+"""
+
+
+class SlidesOfAStudy(unittest.TestCase):
+    def test_the_page_draws_them_beside_the_friction_of_one_pressing(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file, results = Path(folder) / "study.toml", Path(folder) / "results"
+            file.write_text(STUDY, encoding="utf-8")
+            subprocess.run([os.environ["TABOR"], "sweep", file, "-o", results, "--quiet"], check=True, capture_output=True)
+            done = run(results, "--static", "--figures", "svg")
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertIn("Friction while sliding", (results / "report.html").read_text(encoding="utf-8"))
+            with open(results / "slides.csv", encoding="utf-8") as stored, open(results / "figures/slides.csv", encoding="utf-8") as drawn:
+                for row, shown in zip(csv.DictReader(stored), csv.DictReader(drawn), strict=True):
+                    self.assertAlmostEqual(float(row["friction_dry"]), float(shown["friction_dry"]), places=8)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -24,6 +24,7 @@ from tabor.report.figures import (
     slide_curves,
     slide_maps,
     slide_spectra,
+    slides,
     topography,
 )
 from tabor.report.figures import parameters as groups
@@ -120,6 +121,7 @@ def study_figures(source, options, with_maps=True):
     yield from _present(lubricated_friction.draw(source, options.error_bar))
     yield from _present(density_friction.of_study(source, options.error_bar))
     yield from _present(mixed_friction.draw(source, options.error_bar))
+    yield from _present(slides.draw(source))
 
 
 def single_figures(source, with_maps=True):

@@ -110,6 +110,7 @@ class Study:
     density_averages: Table  # empty where a study has none
     density_places: density_curves.Places
     column: Columns  # what its numbers are called
+    slides: Table = field(default_factory=lambda: Table({}))  # states of its slides, where sheets slide
     warnings: list = field(default_factory=list)
 
     kind = "study"
@@ -160,6 +161,7 @@ def load(path, file):
         density_averages=density_curves.load(file, "density_averages", _DENSITY_COLUMNS, warnings),
         density_places=density_curves.load_places(file, warnings),
         column=columns.of_file(file),
+        slides=Table(hdf.columns(file["slides"])) if "slides" in file else Table({}),
         warnings=warnings,
     )
     study.warnings.extend(list(_warnings_about(study)))

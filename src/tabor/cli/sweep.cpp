@@ -101,6 +101,20 @@ io::Json curves_json(const std::vector<study::GroupCurve>& curves) {
   return all;
 }
 
+/// The last state of each slide.
+std::string slides_text(const study::Study& study, const std::vector<study::SlideRow>& rows) {
+  std::vector<study::SlideRow> last;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool ends = i + 1 == rows.size() || rows[i + 1].state.distance == 0;
+    if (ends) last.push_back(rows[i]);
+  }
+  Columns<study::SlideRow> columns = study::slide_row_columns(study);
+  for (Column<study::SlideRow>& one : columns) {
+    if (one.key == "mean_pressure_Pa") one.heading = "pressure";
+  }
+  return "\nAt the end of sliding:\n" + table_of(columns, last).text();
+}
+
 std::string outcome_text(const Request& request, const study::Outcome& outcome) {
   Facts facts;
   facts.fact("study", request.study);
@@ -112,7 +126,8 @@ std::string outcome_text(const Request& request, const study::Outcome& outcome) 
       fmt::format("{} surfaces, {} contacts, {} films, {}{} flowing, {} cases", outcome.n_surfaces,
                   outcome.n_contacts, outcome.n_films,
                   outcome.n_trapped > 0 ? fmt::format("{} trapped, ", outcome.n_trapped) : "",
-                  outcome.n_fluids, outcome.n_rows));
+                  outcome.n_fluids, outcome.n_rows) +
+          (outcome.n_slides > 0 ? fmt::format(", {} slides", outcome.n_slides) : ""));
   return facts.text();
 }
 
@@ -134,19 +149,21 @@ io::Json outcome_json(const Context& context, const Request& request,
                  {"n_computed_trapped", outcome.n_trapped},
                  {"n_computed_fluids", outcome.n_fluids},
                  {"n_computed_cases", outcome.n_rows},
+                 {"n_computed_slides", outcome.n_slides},
                  {"failures", outcome.failures}});
   return object;
 }
 
 int code_of(const study::Outcome& outcome) {
-  if (outcome.n_failed > 0) return kInput;
+  if (outcome.n_failed + outcome.n_failed_slides > 0) return kInput;
   return outcome.n_not_converged > 0 ? kNotConverged : kDone;
 }
 
 /// Tables are replaced, and whatever the store holds.
 void note_files(const study::Study& study, const fs::path& folder, CommandFiles& files) {
   files.fills(folder / "store");
-  for (const char* table : {"results.h5", "results.csv", "averages.csv", "density_curves.csv"}) {
+  for (const char* table :
+       {"results.h5", "results.csv", "averages.csv", "density_curves.csv", "slides.csv"}) {
     files.writes(folder / table);
   }
   for (const study::Scan& scan : study.scans) files.reads(scan.file);
@@ -176,6 +193,7 @@ int sweep(const Request& request, Context& context) {
     object["density_curves"] = curves_json(outcome.density_curves);
   }
   std::string text = outcome_text(request, outcome) + '\n' + averages_text(study, outcome.averages);
+  if (!outcome.slides.empty()) text += slides_text(study, outcome.slides);
   if (!outcome.density_curves.empty()) {
     text += "\nFriction against the lubricant's density:\n" + places_text(outcome.density_curves);
   }

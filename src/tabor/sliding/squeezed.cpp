@@ -28,11 +28,13 @@ Squeezed squeeze(const Field& film, const Field& gap, const Mask* sealed, const 
     liquid(i) = space_at(i) > 0 ? std::min(film(i), space_at(i)) + each : 0.0;
   });
   deposition::Settled settled = deposition::settle(ground, grid, liquid, edge, observer);
-  Squeezed result{.film = std::move(settled.thickness),
-                  .without_space = (squeezed - rained) / static_cast<double>(n),
-                  .lost = settled.lost};
+  Squeezed result{.film = std::move(settled.thickness), .lost = settled.lost};
+  // In a gap that is full rounding stands above it, on contact, too.
+  const double above =
+      sum_over(n, [&](Index i) { return std::max(result.film(i) - space_at(i), 0.0); });
+  result.without_space = (squeezed - rained + above) / static_cast<double>(n);
   for_each(n, [&](Index i) {
-    if (is_sealed(i)) result.film(i) = film(i);
+    result.film(i) = is_sealed(i) ? film(i) : std::min(result.film(i), space_at(i));
   });
   return result;
 }

@@ -59,6 +59,12 @@ void add_pressure(const Study& study, const Scan& scan, double pressure, ScanTas
   if (cases::has_density_curve(study.settings)) {
     tasks.wet_shares.push_back(wet_shares_task(study, contacts.front()));
   }
+  if (study.slide) {
+    std::vector<engine::Task>& slides = tasks.slides.emplace_back();
+    for (const double density : study.settings.film.lubricant_densities) {
+      slides.push_back(slide_task(study, tasks.surface, pressure, density));
+    }
+  }
   tasks.cases.push_back(std::move(cases));
   tasks.fluids.push_back(std::move(fluids));
 }
@@ -155,6 +161,25 @@ engine::Task trapped_task(const Study& study, const engine::Task& contact, const
       text_of(cases::trapped_parameters(), study.settings.trapped) +
       text_of(cases::friction_parameters(), study.settings.friction, {"dry_below"});
   return task_of("trapped", "h5", body);
+}
+
+engine::Task slide_task(const Study& study, const engine::Task& surface, double mean_pressure,
+                        double lubricant_density) {
+  const cases::CaseSettings one = study.slide_settings(mean_pressure, lubricant_density);
+  std::string body = engine::text_line("slide_algorithms", kSlideAlgorithms) +
+                     engine::text_line("surface", surface.key) +
+                     engine::text_line("mean_pressure_Pa", mean_pressure) +
+                     engine::text_line("effective_modulus_Pa", one.contact.effective_modulus()) +
+                     text_of(cases::contact_parameters(), one.contact) +
+                     text_of(cases::friction_parameters(), one.friction) +
+                     engine::text_line("area", friction::name(one.friction.area_of(one.contact))) +
+                     text_of(cases::slide_parameters(), *study.slide);
+  if (lubricant_density > 0) {
+    body += engine::text_line("lubricant_density_kg_per_m2", lubricant_density) +
+            text_of(cases::film_parameters(), one.film);
+    if (one.trapped.is_asked()) body += text_of(cases::trapped_parameters(), one.trapped);
+  }
+  return task_of(kSlideKind, "json", body);
 }
 
 engine::Task fluid_task(const Study& study, const engine::Task& contact, const engine::Task& film,

@@ -15,6 +15,7 @@ namespace tabor::study {
 inline constexpr int kAlgorithms = 5;
 inline constexpr int kFluidAlgorithms = 1;      ///< the same for films that flow alone
 inline constexpr int kTrappedAlgorithms = 1;    ///< the same for trapped oil alone
+inline constexpr int kSlideAlgorithms = 1;      ///< the same for slides alone
 inline constexpr int kWetSharesAlgorithms = 2;  ///< the same for wet shares over the density alone
 
 /// Makes the task of the treated scan; `scan_sha256` is of the scan file's bytes.
@@ -48,6 +49,11 @@ engine::Task case_task(const Study& study, const Scan& scan,
 inline constexpr const char* kWetSharesKind = "wetshares";
 engine::Task wet_shares_task(const Study& study, const engine::Task& contact);
 
+/// Makes the task of one slide.
+inline constexpr const char* kSlideKind = "slide";
+engine::Task slide_task(const Study& study, const engine::Task& surface, double mean_pressure,
+                        double lubricant_density);
+
 /// Tasks of one scan.
 struct ScanTasks {
   std::string sha256;
@@ -60,6 +66,7 @@ struct ScanTasks {
   std::vector<std::vector<engine::Task>> trapped;
   std::vector<std::vector<engine::Task>>
       fluids;  ///< the same; empty lists where the oil does not flow
+  std::vector<std::vector<engine::Task>> slides;  ///< [pressure][density]; empty without sliding
 };
 
 /// Reads every scan file once, for its digest. Throws InputError.

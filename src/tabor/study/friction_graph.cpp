@@ -16,6 +16,7 @@ namespace {
 constexpr std::size_t kBytesPerPixel = 80;
 constexpr std::size_t kBytesPerFlowingPixel = 500;
 constexpr std::size_t kBytesPerPixelOfTrapped = 60;
+constexpr std::size_t kMoreBytesPerPixelOfSlide = 60;
 /// The tool, its heights over the surface, and the sum of both.
 constexpr std::size_t kBytesPerPixelOfTool = 3 * sizeof(double);
 
@@ -60,6 +61,11 @@ std::size_t bytes_of_job(const Grid& grid, const cases::CaseSettings& settings) 
       (settings.trapped.is_asked() ? kBytesPerPixelOfTrapped : 0) +
       (settings.contact.tool.is_rough() ? kBytesPerPixelOfTool : 0);
   return static_cast<std::size_t>(grid.nx * grid.ny) * bytes_per_pixel;
+}
+
+std::size_t bytes_of_slide(const Grid& grid, const cases::CaseSettings& settings) {
+  return bytes_of_job(grid, settings) +
+         static_cast<std::size_t>(grid.nx * grid.ny) * kMoreBytesPerPixelOfSlide;
 }
 
 FrictionStore::FrictionStore(cases::CaseSettings settings, std::vector<FilmCondition> conditions)

@@ -142,5 +142,7 @@ class FrictionGraph {
 
 /// Returns the memory of one job with its surface [bytes].
 std::size_t bytes_of_job(const Grid& grid, const cases::CaseSettings& settings);
+/// Returns the memory of one slide with its surface [bytes].
+std::size_t bytes_of_slide(const Grid& grid, const cases::CaseSettings& settings);
 
 }  // namespace tabor::study

@@ -12,6 +12,7 @@
 #include "tabor/io/hdf5/guard.hpp"
 #include "tabor/study/friction_graph.hpp"
 #include "tabor/study/record.hpp"
+#include "tabor/study/slides.hpp"
 #include "tabor/study/treated_scan.hpp"
 #include "tabor/study/wet_shares.hpp"
 
@@ -79,6 +80,37 @@ class FrictionInFolder : public FrictionStore,
       const Surface treated = self->surface(monitor);
       write_surface(self->folder_, self->tasks_.surface, *treated,
                     metrology::power_spectra(*treated));
+    };
+    return job;
+  }
+
+  /// Returns the job of one slide; no friction needs it.
+  engine::Job slide_job(std::size_t pressure, std::size_t density) {
+    engine::Job job;
+    const engine::Task& task = tasks_.slides[pressure][density];
+    attach(task, job);
+    job.kind = kSlideKind;
+    job.stage = stage_name(job.kind, scan_, settings().mean_pressures[pressure]);
+    job.part = first_part_ + pressure;
+    job.memory = [self = shared_from_this()](const engine::Monitor& monitor) {
+      return bytes_of_slide(self->surface(monitor)->grid, self->settings());
+    };
+    job.compute = [self = shared_from_this(), &task, pressure,
+                   density](const engine::Monitor& monitor) {
+      const cases::CaseSettings& all = self->settings();
+      write_slide(self->folder_, task,
+                  compute_slide(self->folder_, task, self->study_, *self->surface(monitor),
+                                all.mean_pressures[pressure], all.film.lubricant_densities[density],
+                                monitor.own));
+    };
+    job.quality = [&folder = folder_, task] {
+      const StoredSlide slide = read_slide(folder, task);
+      return slide.error.empty() ? quality_of(slide.converged) : engine::Quality::failed;
+    };
+    job.record_failure = [&folder = folder_, task](const std::string& error) {
+      StoredSlide failed;
+      failed.error = error;
+      write_slide(folder, task, failed);
     };
     return job;
   }
@@ -273,6 +305,10 @@ void add_scan(const std::shared_ptr<FrictionInFolder>& scan, std::vector<engine:
     std::vector<std::size_t> shown = {surface};
     if (has_wet_shares) shown.push_back(graph.add_wet_shares(i));
     for (const std::size_t place : graph.add_frictions(i)) jobs[place].wants = shown;
+    if (scan->tasks().slides.empty()) continue;
+    for (std::size_t density = 0; density < scan->tasks().slides[i].size(); ++density) {
+      graph.add(scan->slide_job(i, density), {});
+    }
   }
 }
 

@@ -14,6 +14,7 @@
 #include "tabor/io/hdf5/guard.hpp"
 #include "tabor/io/text/json.hpp"
 #include "tabor/results/fields_file.hpp"
+#include "tabor/study/slides.hpp"
 #include "tabor/study/task_file.hpp"
 #include "tabor/study/wet_shares.hpp"
 #include "tabor/topography/surface_group.hpp"
@@ -39,6 +40,7 @@ double value_or_nan(const io::Json& value) {
 std::string defect_of_json(const engine::Store& store, const engine::Task& task) {
   try {
     if (task.file.starts_with(kWetSharesKind)) return read_wet_shares(store, task), "";
+    if (task.file.starts_with(kSlideKind)) return read_slide(store, task), "";
     return read_row(store, task).case_id == task.key ? "" : "belongs to another case";
   } catch (const InputError& error) {
     return error.what();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "tabor/core/error.hpp"
@@ -58,6 +59,31 @@ void read_sweep(const io::Config& config, cases::CaseSettings& settings) {
   }
 }
 
+/// Parameters of sliding that a file gives.
+Parameters<cases::SlideSettings> slide_keys() {
+  Parameters<cases::SlideSettings> all = cases::slide_parameters();
+  std::erase_if(all, [](const ParameterHead& one) { return one.study_key.empty(); });
+  return all;
+}
+
+/// A table [slide] has every case slide.
+void read_slide(const io::Config& config, Study& study) {
+  const Parameters<cases::SlideSettings> keys = slide_keys();
+  const bool is_there = std::any_of(keys.begin(), keys.end(), [&](const ParameterHead& one) {
+    return config.has(one.study_key);
+  });
+  if (!is_there) return;
+  read_settings(config, keys, study.slide.emplace());
+  if (study.flows()) {
+    check(config,
+          objection_to_use("fluid",
+                           "oil that flows is not solved while the sheet changes: leave out "
+                           "lubricant.fluid or the table [slide]"));
+  }
+  const cases::CaseSettings one = study.slide_settings(1, 0);  // values are checked as axes
+  check(config, cases::objection(*study.slide, one, key_of));
+}
+
 }  // namespace
 
 Study Study::of(const Scan& scan) const {
@@ -108,6 +134,15 @@ cases::FluidSettings Study::fluid_settings(const Condition& condition) const {
   return fluid;
 }
 
+cases::CaseSettings Study::slide_settings(double mean_pressure, double lubricant_density) const {
+  cases::CaseSettings one = settings;
+  one.mean_pressures = {mean_pressure};
+  one.film.lubricant_densities.clear();
+  if (lubricant_density > 0) one.film.lubricant_densities.push_back(lubricant_density);
+  one.trapped.trapped = settings.trapped.trapped && lubricant_density > 0;
+  return one;
+}
+
 const std::vector<std::string>& known_keys() {
   static const std::vector<std::string> all = [] {
     std::vector<std::string> keys = kOtherKeys;
@@ -118,6 +153,7 @@ const std::vector<std::string>& known_keys() {
     for (const ParameterHead& one : cases::case_parameters()) {
       if (!one.study_key.empty()) keys.push_back(one.study_key);
     }
+    for (const ParameterHead& one : slide_keys()) keys.push_back(one.study_key);
     return keys;
   }();
   return all;
@@ -143,6 +179,7 @@ Study study_of(const io::Config& config, const fs::path& file) {
   read_sweep(config, settings);
   read_flowing_oil(config, study);
   check(config, cases::objection_to_trapped(settings, key_of));
+  read_slide(config, study);
   if (config.has("treatment.steps")) study.treatment = read_steps(config, "treatment.steps");
   read_scans(config, folder, study);
   if (config.has("experiment.file")) {

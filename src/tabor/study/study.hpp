@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tabor/cases/settings.hpp"
+#include "tabor/cases/slide/slide.hpp"
 #include "tabor/core/names.hpp"
 #include "tabor/scan/file.hpp"
 #include "tabor/study/experiment.hpp"
@@ -50,7 +51,8 @@ struct Study {
   std::optional<topography::Edges> edges =
       {};                        ///< of surfaces whose treatment says nothing of them
   cases::CaseSettings settings;  ///< of scans without their own; speed: each of sliding_speeds
-  std::vector<double> sliding_speeds;  ///< [m/s]; empty unless the oil flows
+  std::vector<double> sliding_speeds;         ///< [m/s]; empty unless the oil flows
+  std::optional<cases::SlideSettings> slide;  ///< absent: nothing slides
   std::vector<Scan> scans;
   std::optional<Experiment> experiment;
 
@@ -64,6 +66,8 @@ struct Study {
   std::vector<Condition> conditions() const;
   double lubricant_density(const Condition& condition) const;             ///< [kg/m^2]
   cases::FluidSettings fluid_settings(const Condition& condition) const;  ///< at its speed
+  /// Returns the settings of one slide: this pressure and density alone, without oil for none.
+  cases::CaseSettings slide_settings(double mean_pressure, double lubricant_density) const;
 };
 
 /// Value that replaces that of a study file: "contact.tolerance", "1e-8".

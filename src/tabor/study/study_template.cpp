@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "tabor/cases/parameters.hpp"
+#include "tabor/cases/slide/slide.hpp"
 #include "tabor/scan/read_parameters.hpp"
 #include "tabor/study/study.hpp"
 
@@ -40,6 +41,7 @@ std::string lines_of(std::string_view table) {
   };
   for (const ParameterHead& one : cases::case_parameters()) add(one);
   for (const ParameterHead& one : scan::read_parameters()) add(one);
+  for (const ParameterHead& one : cases::slide_parameters()) add(one);
   return lines;
 }
 
@@ -75,6 +77,10 @@ lubricant_density = ["0.45 g/m^2", "0.9 g/m^2"]
 [lubricant]
 )";
   text += lines_of("lubricant");
+  text += R"(
+# [slide]                                 # a rough tool (contact.tool) slides over each sheet, under each pressure and density
+)";
+  text += lines_of("slide");
   text += R"(
 [[scan]]
 file = "surfaces/edt_before.x3p"          # or a pattern, "scans/before_*.x3p"; from this file's folder

@@ -167,6 +167,9 @@ std::string to_toml(const Study& study) {
     text += fmt::format("sliding_speed = {}\n", quantities(study.sliding_speeds, "m/s"));
   }
   text += lubricant_table(settings);
+  if (study.slide) {
+    text += "\n[slide]\n" + lines_of("slide", cases::slide_parameters(), *study.slide);
+  }
   for (const Scan& scan : study.scans) text += scan_table(scan);
   if (study.experiment) {
     text += fmt::format(

@@ -10,19 +10,22 @@
 #include "tabor/engine/store.hpp"
 #include "tabor/study/friction_graph.hpp"
 #include "tabor/study/friction_jobs.hpp"
+#include "tabor/study/slides.hpp"
 #include "tabor/study/tables.hpp"
 
 namespace tabor::study {
 namespace {
 
-void count_rows(const std::vector<Row>& rows, Outcome& outcome) {
+void count_rows(const std::vector<Row>& rows, const StudySlides& slides, Outcome& outcome) {
   outcome.n_done = rows.size();
-  outcome.findings = findings_in(rows);
+  outcome.findings = findings_in(rows, slides.warnings);
   for (const Row& row : rows) {
     outcome.n_failed += row.failed() ? 1 : 0;
     outcome.n_not_converged += !row.failed() && !row.converged ? 1 : 0;
   }
   outcome.failures = failures_in(rows);
+  outcome.n_failed_slides = slides.failures.size();
+  outcome.failures.insert(outcome.failures.end(), slides.failures.begin(), slides.failures.end());
 }
 
 void count_computed(const engine::Report& report, Outcome& outcome) {
@@ -33,6 +36,7 @@ void count_computed(const engine::Report& report, Outcome& outcome) {
   outcome.n_trapped = computed(FrictionJob::trapped);
   outcome.n_fluids = computed(FrictionJob::fluid);
   outcome.n_rows = computed(FrictionJob::friction);
+  outcome.n_slides = report.computed(kSlideKind);
   outcome.warnings.insert(outcome.warnings.end(), report.warnings.begin(), report.warnings.end());
 }
 
@@ -78,7 +82,8 @@ Outcome run(const Study& study, const std::filesystem::path& directory,
     StudyTables tables = tables_of(store, study, tasks);
     tables.warnings = outcome.warnings;
     write_tables(store, study, tasks, tables, options.command);
-    count_rows(tables.rows, outcome);
+    count_rows(tables.rows, tables.slides, outcome);
+    outcome.slides = std::move(tables.slides.rows);
     outcome.averages = std::move(tables.averages);
     outcome.density_curves = std::move(tables.averaged);
   } catch (...) {

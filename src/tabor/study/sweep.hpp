@@ -8,6 +8,7 @@
 #include "tabor/results/findings.hpp"
 #include "tabor/study/averages.hpp"
 #include "tabor/study/density_curves.hpp"
+#include "tabor/study/slide_rows.hpp"
 #include "tabor/study/study.hpp"
 
 // Runs a study into its folder of results, whole or in parts.
@@ -30,11 +31,14 @@ struct Outcome {
   std::size_t n_trapped = 0;  ///< contacts with oil whose pockets carry load
   std::size_t n_fluids = 0;   ///< states whose oil flows
   std::size_t n_rows = 0;
+  std::size_t n_slides = 0;
+  std::size_t n_failed_slides = 0;         ///< stored without states
   std::vector<std::string> failures;       ///< one line per scan and pressure that has no numbers
   std::vector<std::string> warnings;       ///< about the sweep itself
   std::vector<results::Finding> findings;  ///< about the numbers of its rows
   std::vector<Average> averages;           ///< over the scans of each group
   std::vector<GroupCurve> density_curves;  ///< friction against density, the same
+  std::vector<SlideRow> slides;            ///< states of the slides
 };
 
 /// Returns the parts that processes may compute into one store at the same time: one scan under one

@@ -159,7 +159,8 @@ std::vector<Row> rows_in(const engine::Store& store, const std::vector<ScanTasks
   return rows;
 }
 
-std::vector<results::Finding> findings_in(const std::vector<Row>& rows) {
+std::vector<results::Finding> findings_in(const std::vector<Row>& rows,
+                                          const std::vector<results::Case>& of_slides) {
   std::vector<results::Case> cases;
   for (const Row& row : rows) {
     if (row.failed()) continue;
@@ -170,6 +171,7 @@ std::vector<results::Finding> findings_in(const std::vector<Row>& rows) {
          .speed = row.fluid ? format_si(row.fluid->sliding_speed, "m/s") : std::string(),
          .warnings = row.warnings});
   }
+  cases.insert(cases.end(), of_slides.begin(), of_slides.end());
   results::shorten_paths(cases);
   std::vector<results::Finding> findings = results::findings_of(cases);
   results::spell(spelling(), findings);
@@ -190,6 +192,7 @@ StudyTables tables_of(const engine::Store& store, const Study& study,
                      .averages = {},
                      .curves = density_curves_in(store, study, tasks),
                      .averaged = {}};
+  if (study.slide) tables.slides = slides_in(store, study, tasks);
   tables.averages = averages(tables.rows);
   tables.averaged = average_curves(tables.curves, tables.rows);
   return tables;
@@ -239,18 +242,25 @@ void write_tables(const engine::Store& store, const Study& study,
     io::write_file(store.directory() / "density_curves.csv",
                    io::csv_of(curve_columns(), points_of(tables.curves)));
   }
+  if (study.slide) {
+    io::write_file(store.directory() / "slides.csv",
+                   io::csv_of(slide_row_columns(study), tables.slides.rows));
+  }
   io::Hdf5Writer writer(store.directory() / "results.h5");
   write_settings(writer, study, command);
   writer.attribute("/", "n_cases", static_cast<std::int64_t>(study.n_cases()));
   writer.attribute("/", "n_cases_done", static_cast<std::int64_t>(rows.size()));
   std::vector<results::Finding> findings(tables.warnings.size());
   for (std::size_t i = 0; i < tables.warnings.size(); ++i) findings[i].text = tables.warnings[i];
-  const std::vector<results::Finding> of_rows = findings_in(rows);
+  const std::vector<results::Finding> of_rows = findings_in(rows, tables.slides.warnings);
   findings.insert(findings.end(), of_rows.begin(), of_rows.end());
   results::write_warnings(writer, findings);
   io::write_datasets(writer, "/table", row_columns(cases::parts_of(study.settings)), rows,
                      cases::media::kTable);
   io::write_datasets(writer, "/averages", average_columns(study.flows()), means);
+  if (!tables.slides.rows.empty()) {
+    io::write_datasets(writer, "/slides", slide_row_columns(study), tables.slides.rows);
+  }
   if (!tables.curves.empty()) {
     io::write_datasets(writer, "/density_curves", curve_columns(), points_of(tables.curves));
     io::write_datasets(writer, "/density_averages", average_curve_columns(),

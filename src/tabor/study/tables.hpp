@@ -8,6 +8,7 @@
 #include "tabor/study/averages.hpp"
 #include "tabor/study/density_curves.hpp"
 #include "tabor/study/record.hpp"
+#include "tabor/study/slides.hpp"
 
 // Writes the result tables of a study (results.csv, averages.csv, results.h5) from its store.
 namespace tabor::study {
@@ -16,8 +17,9 @@ namespace tabor::study {
 /// Damaged ones are left out.
 std::vector<Row> rows_in(const engine::Store& store, const std::vector<ScanTasks>& tasks);
 
-/// Returns the warnings about the numbers of these rows, each once with its cases.
-std::vector<results::Finding> findings_in(const std::vector<Row>& rows);
+/// Returns the warnings about the numbers of these rows, and of slides, each once with its cases.
+std::vector<results::Finding> findings_in(const std::vector<Row>& rows,
+                                          const std::vector<results::Case>& of_slides = {});
 
 /// Returns one line for each contact that failed: "SCAN 2000000 Pa: WHY".
 std::vector<std::string> failures_in(const std::vector<Row>& rows);
@@ -43,6 +45,7 @@ struct StudyTables {
   std::vector<Average> averages;     ///< of the rows
   std::vector<ScanCurve> curves;     ///< friction against density
   std::vector<GroupCurve> averaged;  ///< of the curves
+  StudySlides slides = {};
   /// About the scans that were chosen; results.h5 names them before those of the rows.
   std::vector<std::string> warnings = {};
 };
@@ -51,7 +54,8 @@ struct StudyTables {
 StudyTables tables_of(const engine::Store& store, const Study& study,
                       const std::vector<ScanTasks>& tasks);
 
-/// Writes results.csv, averages.csv, density_curves.csv (unless no curve is there) and results.h5
+/// Writes results.csv, averages.csv, density_curves.csv and slides.csv (where there are such) and
+/// results.h5
 /// into the study's folder from what the store holds. `command` is the command line that asked for
 /// it. Throws OutputError.
 void write_tables(const engine::Store& store, const Study& study,
