@@ -5,31 +5,24 @@
 
 #include "tabor/core/loops.hpp"
 #include "tabor/numerics/disjoint_sets.hpp"
+#include "tabor/numerics/runs.hpp"
 
 namespace tabor::contact {
 
 Patches find_patches(const Mask& contact, bool periodic) {
-  const Index ny = contact.rows();
-  const Index nx = contact.cols();
-  numerics::DisjointSets<std::uint32_t> components(static_cast<std::size_t>(contact.size()));
-  const auto join = [&](Index y, Index x, Index other_y, Index other_x) {
-    if (contact(y, x) && contact(other_y, other_x)) {
-      components.join(static_cast<std::uint32_t>(y * nx + x),
-                      static_cast<std::uint32_t>(other_y * nx + other_x));
-    }
-  };
-  for (Index y = 0; y < ny; ++y) {    // raw loop: joins depend on those before
-    for (Index x = 0; x < nx; ++x) {  // raw loop: as above
-      if (x + 1 < nx || periodic) join(y, x, y, (x + 1) % nx);
-      if (y + 1 < ny || periodic) join(y, x, (y + 1) % ny, x);
-    }
-  }
-  std::vector<std::uint32_t> counts(static_cast<std::size_t>(contact.size()), 0);
-  for (Index i = 0; i < contact.size(); ++i) {  // raw loop: many pixels add to one count
-    if (contact(i)) counts[components.root(static_cast<std::uint32_t>(i))] += 1;
+  const bool* touching = contact.data();
+  const numerics::Runs runs(contact.rows(), contact.cols(),
+                            [touching](Index i) { return touching[i]; });
+  numerics::DisjointSets<std::uint32_t> components(runs.size());
+  runs.join_neighbours(periodic, [&components](std::size_t a, std::size_t b, int, int) {
+    components.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+  });
+  std::vector<Index> counts(runs.size(), 0);
+  for (std::size_t run = 0; run < runs.size(); ++run) {  // raw loop: many runs add to one count
+    counts[components.root(static_cast<std::uint32_t>(run))] += runs[run].end - runs[run].begin;
   }
   Patches patches;
-  for (const std::uint32_t count : counts) {
+  for (const Index count : counts) {
     if (count > 0) patches.pixel_counts.push_back(count);
   }
   return patches;

@@ -20,23 +20,25 @@ void check_shape(Index rows, Index cols, const Grid& grid, const char* what) {
 template <bool periodic>
 double add_up(contact::Regions<periodic>& regions, const Mask& contact, const Field& film,
               const Field& gap, double pixel_area, std::vector<GapRegion>& result) {
-  std::vector<std::int32_t> position(static_cast<std::size_t>(film.size()), -1);
-  double under_contact = 0;
-  for (Index pixel = 0; pixel < film.size(); ++pixel) {
-    if (contact.data()[pixel]) {
-      under_contact += film.data()[pixel];
-      continue;
-    }
-    const Index root = regions.root(pixel);
-    std::int32_t& place = position[static_cast<std::size_t>(root)];
+  const numerics::Runs& runs = regions.runs();
+  std::vector<std::int32_t> position(runs.size(), -1);
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    const std::size_t root = regions.root(run);
+    std::int32_t& place = position[root];
     if (place < 0) {
       place = static_cast<std::int32_t>(result.size());
-      result.push_back({0, root, 0, 0, !regions.is_open(root)});
+      result.push_back({0, runs[root].begin, 0, 0, !regions.is_open(root)});
     }
     GapRegion& region = result[static_cast<std::size_t>(place)];
-    ++region.n_pixels;
-    region.liquid_volume += film.data()[pixel] * pixel_area;
-    region.gap_volume += std::max(gap.data()[pixel], 0.0) * pixel_area;
+    region.n_pixels += runs[run].end - runs[run].begin;
+    for (Index pixel = runs[run].begin; pixel < runs[run].end; ++pixel) {
+      region.liquid_volume += film.data()[pixel] * pixel_area;
+      region.gap_volume += std::max(gap.data()[pixel], 0.0) * pixel_area;
+    }
+  }
+  double under_contact = 0;
+  for (Index pixel = 0; pixel < film.size(); ++pixel) {
+    if (contact.data()[pixel]) under_contact += film.data()[pixel];
   }
   return under_contact * pixel_area;
 }

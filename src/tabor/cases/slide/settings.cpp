@@ -109,7 +109,7 @@ Columns<SlideRecord> slide_columns(const SlideParts& parts) {
   constexpr ColumnStyle percent{.shown = Shown::percent};
   // What a run has not stands in its files all the same, and leaves the table of the terminal.
   const auto shown = [](bool is_there, const char* heading) { return is_there ? heading : ""; };
-  const Columns<Record> all{
+  Columns<Record> all{
       {"distance_m", "m", "distance", &Record::distance},
       {"mean_pressure_Pa", "Pa", "", member_of(&Record::contact, &contact::Summary::mean_pressure)},
       {"contact_area_fraction", "", "",

@@ -333,7 +333,7 @@ void Run::hand_over(std::size_t state, const SlideMaps* maps) const {
 void Run::keep_state() {
   SlideRecord one = record();
   measure_sheet(one);
-  result_.states.push_back(std::move(one));
+  result_.states.push_back(one);
   since_ = {};
   const std::size_t state = result_.states.size() - 1;
   if (!has_maps()) return hand_over(state, nullptr);

@@ -19,18 +19,19 @@ IterateConditions::IterateConditions(const elastic::ElasticOperator& elasticity,
           0, 0, elasticity.grid().dx(), elasticity.grid().dy(), elasticity.effective_modulus())),
       gap_limit_(Conditions(elasticity, problem).gap_limit()) {}
 
-double IterateConditions::multiplier(const Iterate& now) const {
-  const auto weight = [&](Index i) {
-    const double p = now.pressure(i);
-    if (!touches(p) || at_cap(p, cap_)) return 0.0;
-    const double over = p - level_under(now, static_cast<std::size_t>(i));
-    return std::max(over, 0.0) * (1 - p / cap_);
-  };
-  const double total = sum_over(now.v.size(), weight);
-  if (total > 0) {
-    return sum_over(now.v.size(), [&](Index i) { return weight(i) * now.v(i); }) / total;
-  }
+double IterateConditions::multiplier(const Iterate& now, const PixelList& outside) const {
   const Pockets& pockets = liquid_.pockets;
+  const auto weight = [&](std::size_t i) {
+    const double p = now.pressure.data()[i];
+    if (!touches(p) || at_cap(p, cap_)) return 0.0;
+    return std::max(p - level_under(now, i), 0.0) * (1 - p / cap_);
+  };
+  const auto sum_of = [&](const auto& term) {
+    return sum_over(outside.size(), [&](std::size_t k) { return term(outside[k]); }) +
+           sum_over(pockets.pixels.size(), [&](std::size_t j) { return term(pockets.pixels[j]); });
+  };
+  const double total = sum_of(weight);
+  if (total > 0) return sum_of([&](std::size_t i) { return weight(i) * now.v.data()[i]; }) / total;
   double excess = 0;  // of v over what the liquid fills
   double n_liquid = 0;
   for (std::size_t k = 0; k < pockets.size(); ++k) {

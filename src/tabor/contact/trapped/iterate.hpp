@@ -53,7 +53,8 @@ class IterateConditions {
   /// bounds, each pixel weighted by its distance from them. Without such contact, the mean of what
   /// the squeezed pockets say by their volume, else the last solid contact to open; -infinity
   /// without any.
-  double multiplier(const Iterate& now) const;
+  /// `outside`: all pixels outside pockets with pressure, and any others.
+  double multiplier(const Iterate& now, const PixelList& outside) const;
 
   /// Returns the largest violation [m] of: gap = 0 for solids inside their bounds, gap >= 0 over
   /// liquid and without pressure.

@@ -13,52 +13,74 @@ namespace {
 template <bool periodic>
 std::vector<std::uint8_t> open_gap(const Mask& contact, const Grid& grid) {
   const bool* touching = contact.data();
-  const auto is_gap = [touching](Index i) { return !touching[i]; };
-  Regions<periodic> regions(grid, is_gap);
-  std::vector<std::uint8_t> open(static_cast<std::size_t>(grid.size()), 0);
-  for (Index i = 0; i < grid.size(); ++i) {
-    open[static_cast<std::size_t>(i)] = is_gap(i) && regions.is_open(regions.root(i));
+  Regions<periodic> regions(grid, [touching](Index i) { return !touching[i]; });
+  const numerics::Runs& runs = regions.runs();
+  std::vector<std::uint8_t> is_open(runs.size());
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    is_open[run] = regions.is_open(regions.root(run));
   }
+  std::vector<std::uint8_t> open(static_cast<std::size_t>(grid.size()), 0);
+  for_each(runs.size(), [&](std::size_t run) {
+    std::fill(open.begin() + runs[run].begin, open.begin() + runs[run].end, is_open[run]);
+  });
   return open;
 }
 
-/// What is known of a region by its root.
+/// What is known of a run, then of its region by the first of its runs.
 struct Region {
   bool is_open = false;
   double liquid = 0;               // sum of film [m]
   std::int32_t label = kNoPocket;  // once it has one
 };
 
-template <bool periodic>
-Pockets find(const Mask& contact, const Field& film, const Grid& grid) {
-  const std::vector<std::uint8_t> open = open_gap<periodic>(contact, grid);
-  const auto n = static_cast<std::size_t>(grid.size());
-  const auto belongs = [&](Index i) { return !contact.data()[i] || film.data()[i] > 0; };
-  numerics::DisjointSets<std::int32_t> sets(n);
-  join_neighbours<periodic>(grid, belongs, [&sets](Index a, Index b, Cells) {
+/// Pocket of each run of pixels without contact or with liquid, or kNoPocket.
+std::vector<std::int32_t> labels_of(const numerics::Runs& runs, bool periodic,
+                                    std::vector<Region>& regions) {
+  numerics::DisjointSets<std::int32_t> sets(runs.size());
+  runs.join_neighbours(periodic, [&sets](std::size_t a, std::size_t b, int, int) {
     sets.join(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b));
   });
-  std::vector<Region> regions(n);
-  const auto region_of = [&](Index i) -> Region& {
-    return regions[static_cast<std::size_t>(sets.root(static_cast<std::int32_t>(i)))];
+  const auto region_of = [&](std::size_t run) -> Region& {
+    return regions[static_cast<std::size_t>(sets.root(static_cast<std::int32_t>(run)))];
   };
-  for (Index i = 0; i < grid.size(); ++i) {
-    if (!belongs(i)) continue;
-    Region& region = region_of(i);
-    region.is_open = region.is_open || open[static_cast<std::size_t>(i)] != 0;
-    region.liquid += film.data()[i];
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    Region& region = region_of(run);
+    if (&region == &regions[run]) continue;
+    region.is_open = region.is_open || regions[run].is_open;
+    region.liquid += regions[run].liquid;
   }
-  std::vector<std::int32_t> labels(n, kNoPocket);
+  std::vector<std::int32_t> labels(runs.size(), kNoPocket);
   std::int32_t n_labels = 0;
-  for (Index i = 0; i < grid.size(); ++i) {
-    if (!belongs(i)) continue;
-    Region& region = region_of(i);
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    Region& region = region_of(run);
     if (region.is_open || !(region.liquid > 0)) continue;
     if (region.label == kNoPocket) region.label = n_labels++;
-    labels[static_cast<std::size_t>(i)] = region.label;
+    labels[run] = region.label;
   }
+  return labels;
+}
+
+template <bool periodic>
+Pockets find(const Mask& contact, const Field& film, const Grid& grid) {
+  std::vector<std::uint8_t> open = open_gap<periodic>(contact, grid);
+  const bool* touching = contact.data();
+  const double* liquid = film.data();
+  const numerics::Runs runs(grid.ny, grid.nx,
+                            [=](Index i) { return !touching[i] || liquid[i] > 0; });
+  std::vector<Region> regions(runs.size());
+  for_each(runs.size(), [&](std::size_t run) {
+    for (Index i = runs[run].begin; i < runs[run].end; ++i) {
+      regions[run].is_open = regions[run].is_open || open[static_cast<std::size_t>(i)] != 0;
+      regions[run].liquid += liquid[i];
+    }
+  });
+  const std::vector<std::int32_t> of_runs = labels_of(runs, periodic, regions);
+  std::vector<std::int32_t> labels(static_cast<std::size_t>(grid.size()), kNoPocket);
+  for_each(runs.size(), [&](std::size_t run) {
+    std::fill(labels.begin() + runs[run].begin, labels.begin() + runs[run].end, of_runs[run]);
+  });
   Pockets pockets = pockets_of(std::move(labels), contact, film);
-  pockets.open = open;
+  pockets.open = std::move(open);
   return pockets;
 }
 

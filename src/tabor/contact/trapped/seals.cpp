@@ -6,7 +6,8 @@
 #include <utility>
 
 #include "tabor/contact/contact.hpp"
-#include "tabor/contact/trapped/regions.hpp"
+#include "tabor/core/loops.hpp"
+#include "tabor/numerics/runs.hpp"
 
 namespace tabor::contact {
 namespace {
@@ -76,8 +77,11 @@ class SetsByLevel {
   std::vector<std::uint8_t> is_there_;
 };
 
-/// The landscape of pressures with its pockets: pixels outside pockets are nodes, each pocket is
-/// one.
+/// Node of a pixel that nothing flows through: contact at the cap.
+constexpr std::int32_t kNoNode = -1;
+
+/// The landscape of pressures with its pockets. Runs of gap outside pockets are nodes, then pixels
+/// of contact below the cap, then pockets.
 class Landscape {
  public:
   Landscape(const Field& pressure, const Pockets& pockets, const std::vector<double>& liquid,
@@ -88,78 +92,104 @@ class Landscape {
         grid_(grid),
         periodic_(periodic),
         cap_(cap),
-        n_pixels_(static_cast<std::size_t>(grid.size())),
-        sets_(n_pixels_ + pockets.size()) {}
+        gap_(grid.ny, grid.nx, [this](Index i) { return is_outside(i) && !touches(pressure_(i)); }),
+        contact_(list_where(grid.size(),
+                            [this](Index i) {
+                              return is_outside(i) && touches(pressure_(i)) &&
+                                     !at_cap(pressure_(i), cap_);
+                            })),
+        first_pocket_(gap_.size() + contact_.size()),
+        nodes_(static_cast<std::size_t>(grid.size()), kNoNode),
+        sets_(first_pocket_ + pockets.size()) {
+    number_nodes();
+  }
 
   std::vector<double> seals() {
     fill_gap();
     raise();
-    std::vector<double> seals(pockets_.size(), kNever);
-    for (std::size_t k = 0; k < seals.size(); ++k) seals[k] = std::min(seal_of(k), cap_);
+    std::vector<double> seals(pockets_.size());
+    for_each(
+        seals.size(), [&](std::size_t k) { seals[k] = std::min(seal_of(k), cap_); },
+        kPocketsPerBlock);
     return seals;
   }
 
  private:
-  std::size_t node_of(std::size_t pixel) const {
-    const std::int32_t pocket = pockets_.of[pixel];
-    return pocket == kNoPocket ? pixel : n_pixels_ + static_cast<std::size_t>(pocket);
+  static constexpr Index kPocketsPerBlock = 64;
+
+  bool is_outside(Index pixel) const {
+    return pockets_.of[static_cast<std::size_t>(pixel)] == kNoPocket;
   }
 
-  /// Calls visit(neighbour) for the four neighbours of a pixel that the map has.
+  void number_nodes() {
+    for_each(gap_.size(), [&](std::size_t run) {
+      std::fill(nodes_.begin() + gap_[run].begin, nodes_.begin() + gap_[run].end,
+                static_cast<std::int32_t>(run));
+    });
+    for_each(contact_.size(), [&](std::size_t i) {
+      nodes_[contact_[i]] = static_cast<std::int32_t>(gap_.size() + i);
+    });
+    for_each(pockets_.size(), [&](std::size_t k) {
+      for (std::size_t j = pockets_.first[k]; j < pockets_.first[k + 1]; ++j) {
+        nodes_[pockets_.pixels[j]] = static_cast<std::int32_t>(first_pocket_ + k);
+      }
+    });
+  }
+
+  /// Calls visit(node) for the nodes of the four neighbours of a pixel that the map has.
   template <typename Visit>
   void visit_neighbours(std::size_t pixel, const Visit& visit) const {
     const auto nx = static_cast<std::size_t>(grid_.nx);
     const auto ny = static_cast<std::size_t>(grid_.ny);
     const std::size_t y = pixel / nx;
     const std::size_t x = pixel % nx;
-    if (periodic_ || x + 1 < nx) visit(y * nx + (x + 1) % nx);
-    if (periodic_ || x > 0) visit(y * nx + (x + nx - 1) % nx);
-    if (periodic_ || y + 1 < ny) visit((y + 1) % ny * nx + x);
-    if (periodic_ || y > 0) visit((y + ny - 1) % ny * nx + x);
+    const auto look = [&](std::size_t neighbour) {
+      if (nodes_[neighbour] != kNoNode) visit(static_cast<std::size_t>(nodes_[neighbour]));
+    };
+    if (periodic_ || x + 1 < nx) look(y * nx + (x + 1 < nx ? x + 1 : 0));
+    if (periodic_ || x > 0) look(y * nx + (x > 0 ? x : nx) - 1);
+    if (periodic_ || y + 1 < ny) look((y + 1 < ny ? y + 1 : 0) * nx + x);
+    if (periodic_ || y > 0) look(((y > 0 ? y : ny) - 1) * nx + x);
   }
 
-  void join_around(std::size_t pixel, double level) {
-    const std::size_t node = node_of(pixel);
-    visit_neighbours(pixel, [&](std::size_t neighbour) {
-      const std::size_t other = node_of(neighbour);
+  void join_around(std::size_t pixel, std::size_t node, double level) {
+    visit_neighbours(pixel, [&](std::size_t other) {
       if (other != node && sets_.is_there(other)) sets_.join(node, other, level);
     });
   }
 
   /// All gap outside pockets, at level 0.
   void fill_gap() {
-    const auto is_gap = [&](Index i) {
-      return pockets_.of[static_cast<std::size_t>(i)] == kNoPocket && !touches(pressure_(i));
-    };
-    for (Index i = 0; i < grid_.size(); ++i) {
-      const auto pixel = static_cast<std::size_t>(i);
-      if (is_gap(i)) sets_.add(pixel, pockets_.open[pixel] != 0, 0);
-    }
-    const auto join = [&](Index a, Index b, Cells) {
-      sets_.join_at_zero(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
-    };
-    periodic_ ? join_neighbours<true>(grid_, is_gap, join)
-              : join_neighbours<false>(grid_, is_gap, join);
+    std::vector<std::uint8_t> is_open(gap_.size(), 0);
+    for_each(gap_.size(), [&](std::size_t run) {
+      const auto begin = pockets_.open.begin() + gap_[run].begin;
+      const auto end = pockets_.open.begin() + gap_[run].end;
+      is_open[run] = std::any_of(begin, end, [](std::uint8_t open) { return open != 0; });
+    });
+    for (std::size_t run = 0; run < gap_.size(); ++run) sets_.add(run, is_open[run] != 0, 0);
+    gap_.join_neighbours(periodic_,
+                         [&](std::size_t a, std::size_t b, int, int) { sets_.join_at_zero(a, b); });
   }
 
   /// The contact outside pockets below the cap, and pockets, in the order of rising pressure.
   void raise() {
-    std::vector<std::pair<double, std::size_t>> nodes;
-    for (std::size_t i = 0; i < n_pixels_; ++i) {
-      const double p = pressure_.data()[i];
-      if (pockets_.of[i] == kNoPocket && touches(p) && !at_cap(p, cap_)) nodes.emplace_back(p, i);
+    std::vector<std::pair<double, std::size_t>> rising;
+    for (std::size_t i = 0; i < contact_.size(); ++i) {
+      rising.emplace_back(pressure_.data()[contact_[i]], gap_.size() + i);
     }
-    for (std::size_t k = 0; k < pockets_.size(); ++k) nodes.emplace_back(liquid_[k], n_pixels_ + k);
-    std::sort(nodes.begin(), nodes.end());
-    for (const auto& [level, node] : nodes) {
+    for (std::size_t k = 0; k < pockets_.size(); ++k) {
+      rising.emplace_back(liquid_[k], first_pocket_ + k);
+    }
+    std::sort(rising.begin(), rising.end());
+    for (const auto& [level, node] : rising) {
       sets_.add(node, false, level);
-      if (node < n_pixels_) {
-        join_around(node, level);
+      if (node < first_pocket_) {
+        join_around(contact_[node - gap_.size()], node, level);
         continue;
       }
-      const std::size_t pocket = node - n_pixels_;
+      const std::size_t pocket = node - first_pocket_;
       for (std::size_t j = pockets_.first[pocket]; j < pockets_.first[pocket + 1]; ++j) {
-        join_around(pockets_.pixels[j], level);
+        join_around(pockets_.pixels[j], node, level);
       }
     }
   }
@@ -167,9 +197,8 @@ class Landscape {
   double seal_of(std::size_t pocket) const {
     double seal = kNever;
     for (std::size_t j = pockets_.first[pocket]; j < pockets_.first[pocket + 1]; ++j) {
-      visit_neighbours(pockets_.pixels[j], [&](std::size_t neighbour) {
-        if (node_of(neighbour) == n_pixels_ + pocket) return;
-        seal = std::min(seal, sets_.opened_at(node_of(neighbour)));
+      visit_neighbours(pockets_.pixels[j], [&](std::size_t other) {
+        if (other != first_pocket_ + pocket) seal = std::min(seal, sets_.opened_at(other));
       });
     }
     return seal;
@@ -181,7 +210,10 @@ class Landscape {
   Grid grid_;
   bool periodic_;
   double cap_;
-  std::size_t n_pixels_;
+  numerics::Runs gap_;
+  PixelList contact_;
+  std::size_t first_pocket_;
+  std::vector<std::int32_t> nodes_;  // of each pixel
   SetsByLevel sets_;
 };
 

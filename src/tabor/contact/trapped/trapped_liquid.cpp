@@ -119,11 +119,6 @@ Field map_of(const Pockets& pockets, const std::vector<double>& levels, const Gr
   return map;
 }
 
-/// The state without liquid that carries anything.
-SealedState without_pressure(const Pockets& pockets, const State& dry) {
-  return {.contact = dry, .levels = std::vector<double>(pockets.size(), 0), .is_start = true};
-}
-
 }  // namespace
 
 TrappedState solve_in_pockets(elastic::ElasticOperator& elasticity, const Problem& problem,
@@ -133,9 +128,10 @@ TrappedState solve_in_pockets(elastic::ElasticOperator& elasticity, const Proble
   const Grid& grid = elasticity.grid();
   const LoadProblem under = under_pressure(problem, dry.mean_pressure);
   const double cap = problem.bounds.upper;
-  SealedState state = without_pressure(pockets, dry);
+  SealedState state{.contact = {}, .levels = std::vector<double>(pockets.size(), 0)};
+  const State* last = &dry;
   const auto seals_now = [&] {
-    return seals_of(state.contact.pressure, pockets, state.levels, grid, liquid.periodic, cap);
+    return seals_of(last->pressure, pockets, state.levels, grid, liquid.periodic, cap);
   };
   std::vector<double> bounds = seals_now();
   const SealedPockets sealed{pockets, liquid.bulk_modulus, bounds};
@@ -145,7 +141,8 @@ TrappedState solve_in_pockets(elastic::ElasticOperator& elasticity, const Proble
   bool is_dry = is_settled;  // to the bit
   while (!is_settled && round < kMostRounds) {
     ++round;
-    state = solve_sealed(elasticity, under, sealed, state, observer);
+    state = solve_sealed(elasticity, under, sealed, *last, state.levels, observer);
+    last = &state.contact;
     work = after(work, state.contact.convergence);
     is_dry = round == 1 && state.is_start;
     is_settled =
@@ -155,6 +152,7 @@ TrappedState solve_in_pockets(elastic::ElasticOperator& elasticity, const Proble
     close_gap(pockets, state.levels, cap, state.contact);
     state.contact.convergence = work;
   }
+  if (round == 0) state.contact = dry;
   TrappedState found;
   found.liquid = summary_of(sealed, state, grid);
   found.liquid.seal_rounds = round;

@@ -16,6 +16,14 @@
 namespace tabor::contact {
 namespace {
 
+/// A map of value(pixel), written on all threads.
+template <typename Value>
+Field map_of(Index ny, Index nx, const Value& value) {
+  auto map = uninitialised_map<Field>(ny, nx);
+  for_each(map.size(), [&](Index i) { map(i) = value(i); });
+  return map;
+}
+
 constexpr double kLeastStep = 0.05;  // of tau
 constexpr double kMostStep = 20;
 // Factor of the steps of pistons: longer where the minimum along a step lies behind its end.
@@ -128,7 +136,7 @@ void TwoMetricGradient::collect_outside(double lambda) {
 /// The certificate by the best of a few multipliers; the best stays.
 void TwoMetricGradient::certify() {
   collect_outside(now_.lambda);
-  const double centre = conditions_.multiplier(now_);
+  const double centre = conditions_.multiplier(now_, outside_);
   const double before = now_.lambda;
   double least = std::numeric_limits<double>::infinity();
   const auto consider = [&](double lambda) {
@@ -352,8 +360,8 @@ SealedState TwoMetricGradient::run(const State& start, const std::vector<double>
                                    const Observer& observer) {
   const Index ny = problem_.height.rows();
   const Index nx = problem_.height.cols();
-  now_.pressure = start.pressure;
-  now_.v = start.displacement - problem_.height;
+  now_.pressure = map_of(ny, nx, [&](Index i) { return start.pressure(i); });
+  now_.v = map_of(ny, nx, [&](Index i) { return start.displacement(i) - problem_.height(i); });
   residual_is_fresh_ = true;
   if (conditions_.let_down(levels, now_.pressure)) refresh();
   now_.levels = energy_.best_levels(now_.pressure, liquid_.seals);
@@ -368,9 +376,10 @@ SealedState TwoMetricGradient::run(const State& start, const std::vector<double>
     state.is_start = true;
     return state;
   }
-  work_ = FieldF::Zero(ny, nx);
-  response_ = FieldF::Zero(ny, nx);
-  previous_ = FieldF::Zero(ny, nx);
+  for (FieldF* map : {&work_, &response_, &previous_}) {
+    *map = uninitialised_map<FieldF>(ny, nx);
+    for_each(map->size(), [map](Index i) { (*map)(i) = 0; });
+  }
   is_active_.assign(static_cast<std::size_t>(now_.pressure.size()), 0);
   while (true) {
     if (convergence_.iterations > 0) certify();
@@ -402,8 +411,9 @@ SealedState TwoMetricGradient::run(const State& start, const std::vector<double>
   contact.mean_pressure = problem_.mean_pressure;
   contact.convergence = convergence_;
   contact.compact_steps = n_compact_steps_;
-  contact.gap = now_.v - now_.lambda;
-  contact.displacement = now_.v + problem_.height;
+  contact.gap = map_of(ny, nx, [&](Index i) { return now_.v(i) - now_.lambda; });
+  for_each(now_.v.size(), [&](Index i) { now_.v(i) += problem_.height(i); });
+  contact.displacement = std::move(now_.v);
   contact.pressure = std::move(now_.pressure);
   state.levels = now_.levels;
   return state;
@@ -412,9 +422,9 @@ SealedState TwoMetricGradient::run(const State& start, const std::vector<double>
 }  // namespace
 
 SealedState solve_sealed(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
-                         const SealedPockets& liquid, const SealedState& start,
-                         const Observer& observer) {
-  return TwoMetricGradient(elasticity, problem, liquid).run(start.contact, start.levels, observer);
+                         const SealedPockets& liquid, const State& start,
+                         const std::vector<double>& levels, const Observer& observer) {
+  return TwoMetricGradient(elasticity, problem, liquid).run(start, levels, observer);
 }
 
 }  // namespace tabor::contact
