@@ -26,7 +26,7 @@ def show(tables, slid):
     for *rows, last in zip(*tables.values(), slid):
         spreads = [f" ± {number(row, 'friction_lubricated_std'):.3f}" if row.get("friction_lubricated_std") else "" for row in rows]
         cells = [f"{number(row, 'friction_lubricated'):.4f}{spread}" for row, spread in zip(rows, spreads)]
-        cells += [f"{number(last, key):.4f}" for key in ("friction_lubricated", "friction_squeezed")]
+        cells += [f"{number(last, key):.4f}" for key in ("friction_lubricated", "friction_lubricated_squeezed")]
         print(f"{number(last, 'mean_pressure_Pa') / 1e6:>4g} MPa  " + "  ".join(f"{cell:>16}" for cell in cells))
     carried = ", ".join(f"{100 * number(row, 'liquid_load_share'):.1f} %" for row in list(tables.values())[-1])
     print(f"With tool and trapped oil the oil carries {carried} of the load.")
@@ -42,7 +42,7 @@ def draw(tables, slid):
     for (name, rows), marker in zip(tables.items(), "osD^"):
         axes.plot([number(row, "mean_pressure_Pa") / 1e6 for row in rows], [number(row, "friction_lubricated") for row in rows], marker=marker, label=name)
     pressures = [number(row, "mean_pressure_Pa") / 1e6 for row in slid]
-    bounds = [[number(row, key) for row in slid] for key in ("friction_lubricated", "friction_squeezed")]
+    bounds = [[number(row, key) for row in slid] for key in ("friction_lubricated", "friction_lubricated_squeezed")]
     axes.fill_between(pressures, *bounds, alpha=0.2, color="0.4", label="slid 20 µm: between oil kept and squeezed out")
     axes.set(xlabel="mean pressure (MPa)", ylabel="friction coefficient", xlim=(0, None))
     axes.set_ylim(top=0.345)  # above the legend's place

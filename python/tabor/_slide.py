@@ -57,7 +57,7 @@ def _case(solid: Solid, options: Mapping[str, object], density: float | None) ->
 
 
 @takes(SLIDE)
-def slide(surface: Surface, pressure: Value, solid: Solid | str, distance: Value, *, density: Value | None = None,
+def slide(surface: Surface, pressure: Value, solid: Solid | str, distance: Value | None = None, *, density: Value | None = None,
           maps_at: Value | Sequence[Value] | None = None, checkpoint: Path | None = None, check: bool = True,
           progress: Progress = None, **settings: Unpack[SlideSettings]) -> Slide:
     """Slides a rough tool over a sheet that yields (docs/sliding.md).
@@ -67,7 +67,7 @@ def slide(surface: Surface, pressure: Value, solid: Solid | str, distance: Value
     surface : the sheet, without holes.
     pressure : mean pressure [Pa].
     solid : Solid with a saturation pressure that the sheet is of, or the name of a material.
-    distance : of sliding along x [m].
+    distance : of sliding along x [m]; needed unless ``until_steady``, which ends after 20 lengths of the tool at most.
     density : of oil that is rained on the sheet before [kg/m^2].
     maps_at : distances whose maps are kept, beside those of both ends [m].
     checkpoint : folder that keeps the run while it lasts: the same call goes on after it was stopped.
@@ -78,7 +78,7 @@ def slide(surface: Surface, pressure: Value, solid: Solid | str, distance: Value
     Raises
     ------
     ValueError
-        Without a tool or a saturation pressure, for lengths that do not fit, for what ``contact`` rejects.
+        Without a distance, a tool or a saturation pressure, for lengths that do not fit, for what ``contact`` rejects.
     NotConverged
         Unless ``check`` is False.
     """
@@ -87,7 +87,7 @@ def slide(surface: Surface, pressure: Value, solid: Solid | str, distance: Value
     case = _case(solid, options, None if density is None else si(density, "areal_density", "density"))
     case.contact.take_edges(surface._topography)
     own = {one.name: options[one.name] for one in OWN_OF_SLIDE}
-    sliding = filled(_tabor.SlideSettings(), {"distance": si(distance, "length", "distance"), **own})
+    sliding = filled(_tabor.SlideSettings(), {"distance": None if distance is None else si(distance, "length", "distance"), **own})
     if maps_at is not None:
         sliding.maps_at = si_list(maps_at, "length", "maps_at")[0]
     _tabor.require_no_holes(surface._topography)

@@ -360,13 +360,13 @@ def test_a_slide_has_maps_and_spectra_and_writes_the_file_of_the_terminal(rough,
     assert last["pressure"].mean() == pytest.approx(50e6)
     assert len(found.spectra) == 4 and found.before["psd_x_m3"].shape == found.spectra[0]["psd_x_m3"].shape
     states = found.states
-    assert (states["friction_lubricated"] <= states["friction_squeezed"]).all() and (states["friction_squeezed"] <= states["friction_dry"]).all()
+    assert (states["friction_lubricated"] <= states["friction_lubricated_squeezed"]).all() and (states["friction_lubricated_squeezed"] <= states["friction_dry"]).all()
     tb.save(tmp_path / "slide.h5", found)
     with h5py.File(tmp_path / "slide.h5") as file:
         assert sorted(file["states"]) == ["0000", "0001", "0002", "0003"]
         np.testing.assert_allclose(file["states/0003/sheet"][()], last["sheet"], rtol=1e-6, atol=1e-13)
         np.testing.assert_array_equal(file["spectra/0003/psd_y_m3"][()], found.spectra[3]["psd_y_m3"])
-        assert file["states/0003"].attrs["friction_squeezed"] == states["friction_squeezed"][3]
+        assert file["states/0003"].attrs["friction_lubricated_squeezed"] == states["friction_lubricated_squeezed"][3]
     with pytest.raises(TypeError, match="tabor.save"):
         pickle.dumps(found)
 

@@ -235,7 +235,7 @@ def test_sheets_slide_in_a_study_as_alone(folder, tmp_path):
     one = tb.slide(tb.read(folder / "before_1.h5").level("plane").mirror(), 7e6, "aluminium-6016", density="0.9 g/m^2", tool=settings["tool"],
                    trapped=True, **sliding)
     rows = [row for row in found.slides if str(row["scan"]).endswith("before_1.h5") and row["lubricant_density_g_per_m2"] == 0.9]
-    for key in ("distance_m", "friction_squeezed", "friction_ploughing_upper", "liquid_load_share", "dale_height_m"):
+    for key in ("distance_m", "friction_lubricated_squeezed", "friction_ploughing_upper", "liquid_load_share", "dale_height_m"):
         np.testing.assert_array_equal([row[key] for row in rows], one.states[key])
     assert study_of(folder, density=0.0, pressure=7e6).run(tmp_path / "none").slides == []
 

@@ -123,6 +123,8 @@ TEST(SlideCheckpoint, LetsOneWithTrappedOilGoOn) {
   run.settings.trapped.trapped = true;
   run.sliding.until_steady = true;
   expect_to_go_on(run);
+  run.sliding.liquid = SlidingOil::squeezed;
+  expect_to_go_on(run);
 }
 
 TEST(SlideCheckpoint, OfAnotherRunIsRejected) {

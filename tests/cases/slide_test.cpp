@@ -105,6 +105,22 @@ TEST(Slide, LetsTrappedOilCarryLoad) {
   EXPECT_TRUE(with.converged);
 }
 
+TEST(Slide, TrapsWhatContactsLeaveOfTheOil) {
+  CaseSettings settings = aluminium();
+  settings.film.lubricant_densities = {0.1e-3};
+  settings.mean_pressures = {60e6};
+  settings.trapped.trapped = true;
+  const auto slid = [&](SlidingOil liquid) {
+    return slide(test::small_sheet(), settings, {.distance = 8e-6, .step = 2e-6, .liquid = liquid});
+  };
+  const SlideResult both = slid(SlidingOil::both);
+  const SlideResult squeezed = slid(SlidingOil::squeezed);
+  EXPECT_EQ(squeezed.states.front().friction_squeezed, both.states.front().friction_squeezed);
+  EXPECT_TRUE(std::isnan(squeezed.states.back().friction_lubricated));
+  EXPECT_GE(squeezed.states.back().friction_squeezed, both.states.back().friction_lubricated);
+  EXPECT_NE(squeezed.states.back().trapped->load_share, both.states.back().trapped->load_share);
+}
+
 TEST(Slide, WearsAnElasticSheet) {
   CaseSettings settings = aluminium();
   settings.contact.saturation_pressure.reset();
@@ -128,6 +144,9 @@ TEST(Slide, SaysWhetherItBecameSteady) {
                                    {.distance = 640e-6, .step = 16e-6, .until_steady = true});
   EXPECT_EQ(steady.steady, true);
   EXPECT_LT(steady.states.back().distance, 640e-6);
+  const SlideResult limited =  // without a distance: at most 20 lengths of the tool
+      slide(test::small_sheet(), settings, {.step = 16e-6, .until_steady = true});
+  EXPECT_EQ(limited.states.back().distance, steady.states.back().distance);
 }
 
 TEST(Slide, ChangesTheSheetMoreUnderMorePressure) {
@@ -186,6 +205,7 @@ TEST(Slide, IsRejectedWithoutWhatItNeeds) {
   settings = aluminium();
   settings.contact.load_path = true;
   EXPECT_THAT(remedy(settings, some), HasSubstr("load_path"));
+  EXPECT_THAT(remedy(aluminium(), {}), HasSubstr("until_steady"));
   EXPECT_THAT(remedy(aluminium(), {.distance = 0}), HasSubstr("more than zero"));
   EXPECT_THAT(remedy(aluminium(), {.distance = 1e-6, .step = 2e-6}), HasSubstr("distance"));
   const auto message = [](const SlideSettings& sliding) {

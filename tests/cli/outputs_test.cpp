@@ -90,6 +90,11 @@ class Outputs : public testing::Test {
               Words{"--saturation-pressure", "100MPa", "--shear-strength", "70MPa", "--tool",
                     "ground:Sa=10nm,groove-length=10um", "--distance", "2um"},
           "in.h5", "out.h5", true, "--after"}},
+        {"slide",
+         {Words{"slide"} + contact +
+              Words{"--saturation-pressure", "100MPa", "--shear-strength", "70MPa", "--tool",
+                    "ground:Sa=10nm,groove-length=10um", "--distance", "2um"},
+          "in.h5"}},
         {"table",
          {{"table", file("friction.h5"), "--for", "csv", "--units", "mm,s,t"},
           "friction.h5",

@@ -61,7 +61,7 @@ class Slide(unittest.TestCase):
         with open(self.out / "figures/along_the_way.csv", encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
         for row, state in zip(rows, source.states, strict=True):
-            self.assertAlmostEqual(float(row["friction_squeezed"]), state.facts["friction_squeezed"], places=8)
+            self.assertAlmostEqual(float(row["friction_lubricated_squeezed"]), state.facts["friction_lubricated_squeezed"], places=8)
 
     def test_the_answer_agrees_with_the_file(self):
         with h5py.File(self.path) as file:

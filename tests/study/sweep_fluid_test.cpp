@@ -76,13 +76,14 @@ TEST(FlowingSweep, StudiesWithoutFlowKeepTheirRecords) {
   const io::Json json = io::read_json(example.results() / "store" / task.file);
   std::vector<std::string> keys;
   for (const auto& [key, value] : json.items()) keys.push_back(key);
-  EXPECT_THAT(keys, testing::UnorderedElementsAre(
-                        "canonical_text", "case_id", "certificate", "contact_area_fraction",
-                        "contact_area_fraction_pixels", "converged", "error", "escaping_fraction",
-                        "friction_dry", "friction_lubricated", "group",
-                        "lubricant_density_kg_per_m2", "lubricated_share", "mean_gap_m",
-                        "mean_pressure_Pa", "saturated_area_fraction", "scan", "sha256",
-                        "software_version", "spill_over_fraction", "trapped_fraction", "warnings"));
+  EXPECT_THAT(
+      keys,
+      testing::UnorderedElementsAre(
+          "canonical_text", "case_id", "certificate", "contact_area_fraction",
+          "contact_area_fraction_pixels", "converged", "error", "escaping_fraction", "friction_dry",
+          "friction_lubricated", "group", "lubricant_density_kg_per_m2", "lubricated_share",
+          "mean_film_m", "mean_gap_m", "mean_pressure_Pa", "saturated_area_fraction", "scan",
+          "sha256", "software_version", "spill_over_fraction", "trapped_fraction", "warnings"));
 }
 
 TEST(FlowingSweep, AgreesWithTheSolverItself) {

@@ -98,7 +98,8 @@ TEST(SweepSlide, SaysWithItsLineWhatDoesNotGoTogether) {
   EXPECT_THAT(message(with_slide("reach = \"0 um\"\n")), HasSubstr("slide.reach"));
   EXPECT_THAT(message(with_slide("displaced = \"gone\"\n")), HasSubstr("slide.displaced"));
   std::string text = test::kStudyText;
-  text.insert(text.find("[[scan]]"), "[slide]\nstep = \"1 um\"\n");
+  text.insert(text.find("[[scan]]"),
+              "[contact]\ntool = \"ground:Sa=0.1um\"\n[slide]\nstep = \"1 um\"\n");
   EXPECT_THAT(message(text), HasSubstr("slide.distance"));
   text = test::kStudyText;
   text.insert(text.find("[[scan]]"), "[slide]\ndistance = \"4 um\"\n");

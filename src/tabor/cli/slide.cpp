@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "tabor/cases/parameters.hpp"
 #include "tabor/cases/slide/slide.hpp"
@@ -12,6 +13,7 @@
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/printable.hpp"
+#include "tabor/core/units.hpp"
 
 namespace tabor::cli {
 
@@ -53,6 +55,18 @@ std::string text_of(const Request& request, const Scan& scan, const cases::Slide
   return facts.text() + '\n' + table_of(columns, result.states).text();
 }
 
+/// Takes "archard:K" in place of a word, too: what is displaced rises near, and contacts wear.
+void take_wear(Option& option, cases::SlideSettings& sliding) {
+  static constexpr std::string_view law = "archard:";
+  option.help += "; archard:K is near, with the wear coefficient K";
+  option.assign = [&sliding, of_word = option.assign](const std::string& value) {
+    if (!value.starts_with(law)) return of_word(value);
+    sliding.displaced = sliding::Displaced::near;
+    sliding.wear_coefficient =
+        parse_si(value.substr(law.size()), dimension::per_pressure, "--displaced archard:K");
+  };
+}
+
 /// Says how long it will take, before it does.
 void tell(const cases::SlidePlan& plan, Context& context) {
   constexpr double worth_saying = 2;  // [s]
@@ -69,6 +83,10 @@ io::Json json_of(const Request& request, const Scan& scan, const cases::SlideRes
                  const Context& context) {
   io::Json object = json_head(context, scan);
   object.update(results::settings_json(request.settings, request.sliding));
+  object["tool"] = {{"source", *request.settings.contact.tool.tool},
+                    {"x_m", request.settings.contact.tool.tool_x.value_or(0)},
+                    {"length_m", result.tool_length},
+                    {"rms_height_m", result.tool_rms_height}};
   object["step_m"] = result.step;
   object["steps"] = result.steps;
   if (result.steady) object["steady"] = *result.steady;
@@ -127,7 +145,7 @@ int show(Request request, Context& context) {
 Verb slide_verb() {
   return {
       .name = "slide",
-      .arguments = "SCAN --tool TOOL --pressure P --distance L [options]",
+      .arguments = "SCAN --tool TOOL --pressure P --distance L|--until-steady [options]",
       .summary = "a rough tool slides over the sheet: friction, ploughing, the sheet after",
       .details =
           "Each step is a contact on the sheet that the steps before have left; saturated pixels "
@@ -148,7 +166,10 @@ Verb slide_verb() {
         cases::CaseSettings& settings = request->settings;
         declare_contact(set, settings, Controls::sliding);
         set.group("Sliding");
-        for (const auto& one : cases::slide_parameters()) declare(set, one, request->sliding);
+        for (const auto& one : cases::slide_parameters()) {
+          Option& option = declare(set, one, request->sliding);
+          if (one.name == "displaced") take_wear(option, request->sliding);
+        }
         declare_film(set, settings.film, false);
         declare_trapped(set, settings);
         declare_friction(set, settings.friction);

@@ -92,6 +92,8 @@ class Slider {
   /// The contact that displaces material: with trapped oil, where there is some.
   const contact::State& displacing() const { return trapped_ ? trapped_->contact : state_; }
   Mask touching() const;  ///< pixels of its solid contact
+  /// Replaces the oil of a problem that has some [m].
+  void lay_oil(const Field& film) { problem_.oil->film = film; }
   Index place() const { return problem_.place; }
 
  private:

@@ -75,6 +75,8 @@ StoredContact contact_numbers(const io::Hdf5Reader& reader) {
                  reader.number("/contact", "size_y_m")};
   cases::ContactRecord& record = stored;
   io::read_attributes(reader, "/contact", cases::contact_columns(), record, cases::media::kStore);
+  // A file without a place of a tool reads as one at no number.
+  if (record.tool_place && std::isnan(record.tool_place->x)) record.tool_place.reset();
   if (reader.number("/contact", "converged") != 0) record.convergence.status = Status::converged;
   record.warnings = read_warnings(reader, "/contact");
   return stored;
@@ -89,8 +91,8 @@ void write_row(const engine::Store& store, const engine::Task& task, const Row& 
   json["software_version"] = kVersion;
   json["scan"] = row.scan;
   json["group"] = row.group;
-  json.update(
-      io::json_of<cases::FrictionRecord>(cases::friction_columns(), row, cases::media::kStore));
+  json.update(io::json_of<cases::FrictionRecord>(cases::friction_columns(cases::parts_of(row)), row,
+                                                 cases::media::kStore));
   json["warnings"] = io::Json::array();
   for (const Warning& warning : row.warnings) {
     json["warnings"].push_back(

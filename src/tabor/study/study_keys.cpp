@@ -39,8 +39,8 @@ std::vector<double> read_axis(const io::Config& config, std::string_view key,
 }
 
 std::string key_of(std::string_view setting) {
-  const ParameterHead* const found = cases::find_parameter(setting);
-  return found != nullptr ? found->study_key : "contact." + std::string(setting);
+  const std::string known = known_key_of(std::string(setting));
+  return known.empty() ? "contact." + std::string(setting) : known;
 }
 
 void check(const io::Config& config, const std::optional<cases::Objection>& objection) {

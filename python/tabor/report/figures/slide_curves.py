@@ -7,7 +7,7 @@ from tabor.report.figures import Drawn
 from tabor.report.output import table_text
 
 _DRY, _KEPT, _SQUEEZED, _PLOUGHING = style.COLOURS[6], style.COLOURS[0], style.COLOURS[1], style.COLOURS[2]
-_KEYS = ("distance_m", "friction_dry", "friction_lubricated", "friction_squeezed", "friction_ploughing", "friction_ploughing_lower",
+_KEYS = ("distance_m", "friction_dry", "friction_lubricated", "friction_lubricated_squeezed", "friction_ploughing", "friction_ploughing_lower",
          "friction_ploughing_upper", "contact_area_fraction_pixels", "saturated_area_fraction", "lubricated_share", "squeezed_lubricated_share",
          "rms_height_m", "mean_roughness_m", "core_height_m", "peak_height_m", "dale_height_m", "moved_volume_m3_per_m2",
          "lost_volume_m3_per_m2", "worn_volume_m3_per_m2", "converged")  # fmt: skip
@@ -33,7 +33,7 @@ def draw(slide):
 
 
 def _friction(slide, x, axis):
-    dry, kept, squeezed = (slide.column_of(f"friction_{name}") for name in ("dry", "lubricated", "squeezed"))
+    dry, kept, squeezed = (slide.column_of(f"friction_{name}") for name in ("dry", "lubricated", "lubricated_squeezed"))
     items = [chart.Curve(x, dry, "dry", _DRY, "--", marker="s", size=3.5, face="white")]
     if np.isfinite(squeezed).any():
         items.append(chart.Band(x, kept, squeezed, "between the bounds", _KEPT, 0.12))
@@ -73,7 +73,7 @@ def _caption(slide, has_oil):
     oil = (
         " Oil that stays on its pixels gives the lower bound of lubricated friction, oil that contacts squeeze out the upper one; the truth, which depends "
         "on how oil flows, lies between."
-        if has_oil and np.isfinite(slide.column_of("friction_squeezed")).any()
+        if has_oil and np.isfinite(slide.column_of("friction_lubricated_squeezed")).any()
         else ""
     )
     loose = "" if all(state.facts.get("converged", True) for state in slide.states) else " Some contacts along the way did not converge."

@@ -40,7 +40,7 @@ def _panel(study, slides, pressure, axis, factor):
             items.append(chart.Curve(x, one["friction_dry"], "dry", style.DRY_CURVE["colour"], "--", 0.9))
             if density > 0:
                 items.append(chart.Curve(x, one["friction_lubricated"], f"{units.density(density)}, oil kept", colour))
-                items.append(chart.Curve(x, one["friction_squeezed"], f"{units.density(density)}, oil squeezed out", colour, ":"))
+                items.append(chart.Curve(x, one["friction_lubricated_squeezed"], f"{units.density(density)}, oil squeezed out", colour, ":"))
     return chart.Panel(axis, chart.from_zero("friction coefficient $\\mu$"), items, title=f"$P$ = {units.pressure(pressure)}")
 
 

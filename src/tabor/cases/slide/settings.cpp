@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "tabor/cases/parameters.hpp"
 #include "tabor/cases/states.hpp"
 #include "tabor/core/units.hpp"
@@ -20,7 +22,7 @@ const Parameters<SlideSettings>& slide_parameters() {
            .bounds = bounds::above_zero,
            .study_key = "slide.distance",
            .placeholder = "L",
-           .needed = Needed::yes,
+           .absent = "20 lengths of the tool, with until_steady",
            .identity = Identity::yes},
           &Settings::distance),
       One({.name = "step",
@@ -97,8 +99,8 @@ const Parameters<SlideSettings>& slide_parameters() {
 
 SlideParts parts_of(const CaseSettings& settings, const SlideSettings& sliding) {
   const bool has_oil = !settings.film.lubricant_densities.empty();
-  return {.oil = has_oil,
-          .squeezed = has_oil && sliding.liquid == SlidingOil::both,
+  return {.kept = has_oil && sliding.liquid != SlidingOil::squeezed,
+          .squeezed = has_oil && sliding.liquid != SlidingOil::kept,
           .trapped = has_oil && settings.trapped.is_asked(),
           .lost = sliding.displaced == sliding::Displaced::lost,
           .worn = sliding.wear_coefficient.has_value()};
@@ -119,12 +121,13 @@ Columns<SlideRecord> slide_columns(const SlideParts& parts) {
       {"saturated_area_fraction", "", "",
        member_of(&Record::contact, &contact::Summary::saturated_area_fraction)},
       {"mean_gap_m", "m", "mean gap", member_of(&Record::contact, &contact::Summary::mean_gap)},
-      {"lubricated_share", "", shown(parts.oil, "wet share"), &Record::lubricated_share, percent},
+      {"lubricated_share", "", shown(parts.kept, "wet share"), &Record::lubricated_share, percent},
       {"squeezed_lubricated_share", "", shown(parts.squeezed, "if squeezed"),
        &Record::squeezed_share, percent},
       {"friction_dry", "", "friction dry", &Record::friction_dry},
-      {"friction_lubricated", "", shown(parts.oil, "friction wet"), &Record::friction_lubricated},
-      {"friction_squeezed", "", shown(parts.squeezed, "if squeezed"), &Record::friction_squeezed},
+      {"friction_lubricated", "", shown(parts.kept, "friction wet"), &Record::friction_lubricated},
+      {"friction_lubricated_squeezed", "", shown(parts.squeezed, "if squeezed"),
+       &Record::friction_squeezed},
       {"friction_ploughing", "", "of it ploughing", &Record::friction_ploughing},
       {"friction_ploughing_lower", "", "at least", &Record::friction_ploughing_lower},
       {"friction_ploughing_upper", "", "at most", &Record::friction_ploughing_upper},
@@ -192,16 +195,21 @@ std::optional<Objection> objection(const SlideSettings& settings, const CaseSett
   }
   if (auto found = objection_to_trapped(all, spelling)) return found;
   if (auto found = objection_to_bounds(slide_parameters(), settings)) return found;
-  if (settings.step && *settings.step > settings.distance) {
+  if (!settings.distance && !settings.until_steady) {
+    return objection_to_use("distance", fmt::format("how far? give {} or {}", spelling("distance"),
+                                                    spelling("until_steady")));
+  }
+  const double distance = settings.distance.value_or(std::numeric_limits<double>::infinity());
+  if (settings.step && *settings.step > distance) {
     return Objection{.setting = "step",
                      .got = format_si(*settings.step, "m"),
-                     .expected = "at most the distance, " + format_si(settings.distance, "m")};
+                     .expected = "at most the distance, " + format_si(distance, "m")};
   }
   for (const double place : settings.maps_at) {
-    if (place > settings.distance) {
+    if (place > distance) {
       return Objection{.setting = "maps_at",
                        .got = format_si(place, "m"),
-                       .expected = "at most the distance, " + format_si(settings.distance, "m")};
+                       .expected = "at most the distance, " + format_si(distance, "m")};
     }
   }
   return std::nullopt;

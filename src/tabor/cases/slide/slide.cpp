@@ -75,6 +75,18 @@ std::string identity_of(const topography::Topography& surface, const CaseSetting
   return text;
 }
 
+/// Distance of sliding, at most [m]. Throws InputError for one below a pixel, or out of all
+/// proportion.
+double distance_of(const SlideSettings& sliding, const Tool& tool, double dx) {
+  const double most = kMostPixels * dx;
+  const double distance = sliding.distance.value_or(std::min(kMostPasses * tool.grid.lx, most));
+  if (distance >= 0.5 * dx && distance <= most) return distance;
+  throw InputError("distance", format_si(distance, "m"),
+                   fmt::format("one to {} pixels, {} to {}", kMostPixels, format_si(dx, "m"),
+                               format_si(most, "m")),
+                   "");
+}
+
 /// What slides, and the numbers of its states.
 class Run {
  public:
@@ -87,6 +99,7 @@ class Run {
         observer_(observer),
         elasticity_(make_operator(settings.contact, surface.grid)),
         tool_(make_tool(settings.contact.tool, surface.grid, observer)),
+        distance_(distance_of(sliding, tool_, surface.grid.dx())),
         film_(rain()),
         slider_(*elasticity_, problem_of()),
         steadiness_(tool_.grid.lx) {
@@ -106,7 +119,10 @@ class Run {
  private:
   sliding::Problem problem_of() const;
   std::optional<FilmRecord> rain() const;
-  bool has_squeezed() const { return film_ && sliding_.liquid == SlidingOil::both; }
+  bool has_kept() const { return film_ && sliding_.liquid != SlidingOil::squeezed; }
+  bool has_squeezed() const { return film_ && sliding_.liquid != SlidingOil::kept; }
+  /// True where what contacts leave of the oil may be trapped, not what was rained.
+  bool traps_squeezed() const { return film_ && !has_kept() && settings_.trapped.is_asked(); }
 
   bool goes_on();
   void begin();
@@ -135,9 +151,8 @@ class Run {
   double dx() const { return surface_.grid.dx(); }
   double pressure() const { return settings_.mean_pressures.front(); }
   std::uint64_t planned_steps() const {
-    return std::max<std::uint64_t>(
-        1, static_cast<std::uint64_t>(
-               std::llround(sliding_.distance / (static_cast<double>(pixels_) * dx()))));
+    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(
+                                          distance_ / (static_cast<double>(pixels_) * dx()))));
   }
 
   const topography::Topography& surface_;
@@ -147,6 +162,7 @@ class Run {
   const Observer& observer_;
   std::unique_ptr<elastic::ElasticOperator> elasticity_;
   Tool tool_;
+  double distance_;  // at most [m]
   std::optional<FilmRecord> film_;
   sliding::Slider slider_;
   Steadiness steadiness_;
@@ -194,12 +210,14 @@ std::optional<FilmRecord> Run::rain() const {
 void Run::take(const sliding::Ploughing& step) {
   since_ += step;
   all_ += step;
-  converged_ = converged_ && slider_.displacing().convergence.converged();
+  converged_ = converged_ && slider_.state().convergence.converged() &&
+               slider_.displacing().convergence.converged();
   if (step.distance > 0) ++result_.steps;
 }
 
 /// Squeezes oil out, and follows how steady sliding is.
 void Run::after_contact(const sliding::Ploughing& step) {
+  if (has_squeezed()) before_squeezing_ = std::move(squeezed_);
   if (sliding_.until_steady && step.distance > 0) {
     steadiness_.add(all_.distance - step.distance,
                     {.distance = step.distance,
@@ -210,12 +228,12 @@ void Run::after_contact(const sliding::Ploughing& step) {
   const contact::TrappedState* trapped = slider_.trapped();
   Mask sealed;
   if (trapped != nullptr) sealed = trapped->liquid_pressure > 0;
-  before_squeezing_ = std::move(squeezed_);
   sliding::Squeezed squeezed =
       sliding::squeeze(before_squeezing_, slider_.displacing().gap,
                        trapped != nullptr ? &sealed : nullptr, surface_.grid, settings_.film.edge);
   squeezed_ = std::move(squeezed.film);
   away_ += squeezed.without_space + squeezed.lost;
+  if (traps_squeezed()) slider_.lay_oil(squeezed_);
 }
 
 /// Friction of the last step, of oil that stays where it is.
@@ -227,7 +245,7 @@ double Run::friction_now(const sliding::Ploughing& step) {
       estimate_of(one.contact, 0, settings_.contact, settings_.friction).friction_dry + ploughing;
   if (!film_) return one.friction_dry;
   add_oil(one, ploughing);
-  return one.friction_lubricated;
+  return has_kept() ? one.friction_lubricated : one.friction_squeezed;
 }
 
 void Run::add_oil(SlideRecord& one, double ploughing) {
@@ -249,14 +267,14 @@ void Run::add_oil(SlideRecord& one, double ploughing) {
     trapped = trapped_friction(with_oil_, pressure(), settings_.contact, settings_.friction);
     return trapped->friction_solid + trapped->friction_boundary + ploughing;
   };
-  one.lubricated_share = share_under(film_->film.thickness);
-  one.friction_lubricated = friction_with(one.lubricated_share, one.trapped);
-  if (!has_squeezed() || before_squeezing_.size() == 0) return;
+  if (has_kept()) {
+    one.lubricated_share = share_under(film_->film.thickness);
+    one.friction_lubricated = friction_with(one.lubricated_share, one.trapped);
+  }
+  if (!has_squeezed()) return;
   std::optional<TrappedFriction> unused;
   one.squeezed_share = share_under(before_squeezing_);
-  one.friction_squeezed = friction_with(one.squeezed_share, unused);
-  one.squeezed_film = squeezed_.mean();
-  one.squeezed_away = away_;
+  one.friction_squeezed = friction_with(one.squeezed_share, has_kept() ? unused : one.trapped);
 }
 
 SlideRecord Run::record() {
@@ -271,6 +289,10 @@ SlideRecord Run::record() {
   one.friction_dry =
       estimate_of(one.contact, 0, settings_.contact, settings_.friction).friction_dry + ploughing;
   if (film_) add_oil(one, ploughing);
+  if (has_squeezed()) {
+    one.squeezed_film = squeezed_.mean();
+    one.squeezed_away = away_;
+  }
   one.moved_volume = all_.moved;
   one.lost_volume = all_.lost;
   one.worn_volume = all_.worn;
@@ -326,7 +348,7 @@ void Run::hand_over(std::size_t state, const SlideMaps* maps) const {
   wanted_.receive({.numbers = result_.states[state],
                    .spectra = result_.spectra[state],
                    .maps = maps,
-                   .film = film_ ? &film_->film.thickness : nullptr});
+                   .film = has_kept() ? &film_->film.thickness : nullptr});
 }
 
 /// Records the state that is reached.
@@ -359,6 +381,7 @@ bool Run::goes_on() {
   pixels_ = static_cast<Index>(reached->pixels);
   converged_ = reached->converged;
   squeezed_ = std::move(reached->squeezed);
+  if (traps_squeezed()) slider_.lay_oil(squeezed_);
   away_ = reached->away;
   steadiness_ = Steadiness(tool_.grid.lx, std::move(reached->periods));
   result_.states = std::move(reached->states);
@@ -402,7 +425,7 @@ void Run::find_step() {
   const sliding::Slider::Reached pressed = slider_.reached();
   auto pixels = static_cast<Index>(std::llround(
       sliding_.step ? *sliding_.step / dx() : 0.25 * mean_patch_length(slider_.touching())));
-  const auto most = static_cast<Index>(std::llround(sliding_.distance / dx()));
+  const auto most = static_cast<Index>(std::llround(distance_ / dx()));
   pixels = std::clamp<Index>(pixels, 1, most);
   while (true) {
     const double begin = watch_.seconds();
@@ -440,7 +463,7 @@ void Run::begin() {
 
 /// Distance of the state after the last one [m].
 double Run::next_state() const {
-  const double every = sliding_.every.value_or(sliding_.distance / kUsualStates);
+  const double every = sliding_.every.value_or(distance_ / kUsualStates);
   const double half = 0.5 * static_cast<double>(pixels_) * dx();
   const double last = result_.states.back().distance + half;
   double next = every * (std::floor(last / every) + 1);
@@ -462,8 +485,8 @@ void Run::advance() {
 }
 
 void Run::advance_one() {
-  const std::string stage = fmt::format("slide, {} of {}", format_si(all_.distance, "m"),
-                                        format_si(sliding_.distance, "m"));
+  const std::string stage =
+      fmt::format("slide, {} of {}", format_si(all_.distance, "m"), format_si(distance_, "m"));
   const double share = static_cast<double>(result_.steps) / static_cast<double>(planned_steps());
   if (asks_to_stop(observer_, {.stage = stage, .fraction = share, .whole = share})) {
     throw Interrupted();
@@ -487,11 +510,11 @@ void Run::warn() {
   const SlideRecord& last = result_.states.back();
   ContactRecord contact;
   contact.summary = last.contact;
+  const double wet = has_kept() ? last.lubricated_share : has_squeezed() ? last.squeezed_share : 0;
   if (slider_.state().convergence.converged()) {
     add(of_contact(surface_, settings_.contact, slider_.state(), last.contact), result_.warnings);
   }
-  dry_friction(contact, film_ ? last.lubricated_share : 0, 0, settings_.contact, settings_.friction,
-               result_.warnings);
+  dry_friction(contact, wet, 0, settings_.contact, settings_.friction, result_.warnings);
   if (last.trapped) add(of_trapped(with_oil_), result_.warnings);
   if (film_) {
     add(of_film_in_gap(film_->film.mean_film, result_.states.back().contact.mean_gap),
@@ -519,6 +542,8 @@ SlideResult Run::run() {
     look();
   }
   result_.step = static_cast<double>(pixels_) * dx();
+  result_.tool_length = tool_.grid.lx;
+  result_.tool_rms_height = tool_.rms_height;
   result_.after.height = slider_.sheet();
   result_.after.history.push_back(
       fmt::format("slide: {} under {} in {} steps, {:.4g} m moved", format_si(all_.distance, "m"),
@@ -572,13 +597,6 @@ SlideResult slide(const topography::Topography& surface, const CaseSettings& set
   if (sliding.step && *sliding.step < 0.5 * surface.grid.dx()) {
     throw InputError("step", format_si(*sliding.step, "m"),
                      "at least a pixel, " + format_si(surface.grid.dx(), "m"), "");
-  }
-  const double dx = surface.grid.dx();
-  if (sliding.distance < 0.5 * dx || sliding.distance > kMostPixels * dx) {
-    throw InputError("distance", format_si(sliding.distance, "m"),
-                     fmt::format("one to {} pixels, {} to {}", kMostPixels, format_si(dx, "m"),
-                                 format_si(kMostPixels * dx, "m")),
-                     "");
   }
   return Run(surface, settings, sliding, run, observer).run();
 }

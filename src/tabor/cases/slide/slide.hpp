@@ -18,16 +18,21 @@ namespace tabor::cases {
 
 /// Fate of the oil on a sheet that a tool slides over.
 enum class SlidingOil {
-  both,  ///< oil that stays on its pixels and oil that is squeezed out: two bounds of friction
-  kept   ///< it stays on its pixels: the lower bound alone
+  both,     ///< oil that stays on its pixels and oil that is squeezed out: two bounds of friction
+  kept,     ///< it stays on its pixels: the lower bound alone
+  squeezed  ///< contacts squeeze it out: the upper bound alone; what is left may be trapped
 };
-inline constexpr auto kSlidingOils = names<SlidingOil>("both", "kept");
+inline constexpr auto kSlidingOils = names<SlidingOil>("both", "kept", "squeezed");
+
+/// Passes of the tool after which sliding that is to become steady ends all the same.
+inline constexpr double kMostPasses = 20;
 
 /// Settings of sliding beside those of contact, film and friction.
 struct SlideSettings {
-  double distance = 0;               ///< of sliding [m]
-  std::optional<double> step = {};   ///< [m], whole pixels; absent: as the step certificate asks
-  std::optional<double> every = {};  ///< distance between states [m]; absent: a twentieth
+  std::optional<double> distance = {};  ///< of sliding [m]; absent with until_steady: at most
+                                        ///< kMostPasses lengths of the tool
+  std::optional<double> step = {};      ///< [m], whole pixels; absent: as the step certificate asks
+  std::optional<double> every = {};     ///< distance between states [m]; absent: a twentieth
   sliding::Displaced displaced = sliding::Displaced::near;
   double reach = 2e-6;                          ///< of Displaced::near [m]
   std::optional<double> wear_coefficient = {};  ///< k of Archard [1/Pa]; absent: no wear
@@ -67,8 +72,8 @@ struct SlideRecord {
 
 /// Parts of a slide that not every one has, and their columns.
 struct SlideParts {
-  bool oil = true;
-  bool squeezed = true;  ///< oil is squeezed out, too
+  bool kept = true;      ///< oil stays on its pixels
+  bool squeezed = true;  ///< oil is squeezed out
   bool trapped = true;   ///< trapped oil carries load
   bool lost = true;      ///< material leaves the sheet
   bool worn = true;
@@ -120,8 +125,10 @@ struct SlideRun {
 
 /// A sheet before and after sliding.
 struct SlideResult {
-  double step = 0;          ///< that was taken [m]
-  std::uint64_t steps = 0;  ///< so many
+  double step = 0;             ///< that was taken [m]
+  std::uint64_t steps = 0;     ///< so many
+  double tool_length = 0;      ///< period of the tool along x [m]
+  double tool_rms_height = 0;  ///< [m]
   std::vector<SlideRecord> states;
   SheetSpectra before;                ///< spectra of the sheet before
   std::vector<SheetSpectra> spectra;  ///< of each state
