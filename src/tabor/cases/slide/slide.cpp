@@ -288,7 +288,10 @@ SlideRecord Run::record() {
   const double ploughing = since_.distance > 0 ? one.friction_ploughing : 0;
   one.friction_dry =
       estimate_of(one.contact, 0, settings_.contact, settings_.friction).friction_dry + ploughing;
-  if (film_) add_oil(one, ploughing);
+  if (film_) {
+    one.mean_film = film_->film.mean_film;
+    add_oil(one, ploughing);
+  }
   if (has_squeezed()) {
     one.squeezed_film = squeezed_.mean();
     one.squeezed_away = away_;

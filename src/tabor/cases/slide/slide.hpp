@@ -46,6 +46,7 @@ const Parameters<SlideSettings>& slide_parameters();
 struct SlideRecord {
   double distance = 0;  ///< [m]
   contact::Summary contact;
+  double mean_film = kNoValue;     ///< of the oil that was rained [m]
   double friction_dry = kNoValue;  ///< with ploughing
   double friction_ploughing = kNoValue;
   double friction_ploughing_lower = kNoValue;
