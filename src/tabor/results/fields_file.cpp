@@ -99,12 +99,11 @@ io::Json settings_json(const cases::CaseSettings& settings) {
 
 io::Json settings_json(const cases::CaseSettings& settings, const cases::SlideSettings& sliding) {
   io::Json all = settings_json(settings);
+  all.update(io::json_of(columns_of(cases::slide_parameters()), sliding));
   if (settings.film.lubricant_densities.empty()) {
     for (const ParameterHead& one : cases::film_parameters()) all.erase(one.json_key());
+    all.erase("liquid");
   }
-  io::Json own = io::json_of(columns_of(cases::slide_parameters()), sliding);
-  if (settings.film.lubricant_densities.empty()) own.erase("liquid");
-  all.update(own);
   return all;
 }
 

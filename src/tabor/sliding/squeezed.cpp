@@ -9,10 +9,8 @@ namespace tabor::sliding {
 
 Squeezed squeeze(const Field& film, const Field& gap, const Mask* sealed, const Grid& grid,
                  deposition::Edge edge, const Observer& observer) {
-  const auto space_at = [&](Index i) {
-    return sealed != nullptr && (*sealed)(i) ? 0.0 : std::max(gap(i), 0.0);
-  };
   const auto is_sealed = [&](Index i) { return sealed != nullptr && (*sealed)(i); };
+  const auto space_at = [&](Index i) { return is_sealed(i) ? 0.0 : std::max(gap(i), 0.0); };
   const Index n = film.size();
   const double space = sum_over(n, space_at);
   const double stays = sum_over(n, [&](Index i) { return std::min(film(i), space_at(i)); });

@@ -13,12 +13,12 @@ _DENSITY = "lubricant_density_g_per_m2"
 def draw(study):
     """None for a study whose sheets do not slide."""
     slides = study.slides
-    if not len(slides):
+    if not slides:
         return None
     pressures = sorted(set(slides["mean_pressure_Pa"]))
     factor, unit = units.length_scale(max(slides["distance_m"]))
     axis = chart.Axis(f"distance ({unit})", low=0.0)
-    panels = [_panel(study, slides.where(slides["mean_pressure_Pa"] == pressure), pressure, axis, factor) for pressure in pressures]
+    panels = [_panel(slides.where(slides["mean_pressure_Pa"] == pressure), pressure, axis, factor) for pressure in pressures]
     rows = chart.rows(panels, MAX_COLUMNS)
     return Drawn(
         "slides",
@@ -30,7 +30,7 @@ def draw(study):
     )
 
 
-def _panel(study, slides, pressure, axis, factor):
+def _panel(slides, pressure, axis, factor):
     densities = sorted(set(slides[_DENSITY]))
     looks = dict(zip(densities, style.ordered_styles(len(densities))))
     items = []

@@ -5,9 +5,11 @@
 #include <system_error>
 #include <utility>
 
+#include "tabor/cases/parameters.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/io/columns.hpp"
 #include "tabor/io/files/sealed_file.hpp"
+#include "tabor/topography/digest.hpp"
 
 namespace tabor::cases {
 namespace {
@@ -93,7 +95,32 @@ void require_whole(const fs::path& file) {
   }
 }
 
+/// Adds settings as text.
+template <typename Settings>
+void add_lines(const Parameters<Settings>& parameters, const Settings& settings,
+               std::string& text) {
+  text += io::to_text(io::json_of(columns_of(parameters), settings), -1) + '\n';
+}
+
 }  // namespace
+
+std::string identity_of(const topography::Topography& surface, const CaseSettings& settings,
+                        const SlideSettings& sliding, const Tool& tool) {
+  std::string text =
+      fmt::format("sheet {:x}, tool {:x}, pressure {:.17g}\n",
+                  topography::digest_of(surface.height, surface.grid),
+                  topography::digest_of(tool.height, tool.grid), settings.mean_pressures.front());
+  for (const double density : settings.film.lubricant_densities) {
+    text += fmt::format("density {:.17g}\n", density);
+  }
+  for (const double place : sliding.maps_at) text += fmt::format("maps at {:.17g}\n", place);
+  add_lines(contact_parameters(), settings.contact, text);
+  add_lines(film_parameters(), settings.film, text);
+  add_lines(trapped_parameters(), settings.trapped, text);
+  add_lines(friction_parameters(), settings.friction, text);
+  add_lines(slide_parameters(), sliding, text);
+  return text;
+}
 
 fs::path SlideCheckpoint::maps_file(std::uint64_t state) const {
   return folder_ / fmt::format("maps-{:06}.h5", state);

@@ -8,9 +8,14 @@
 
 #include "tabor/cases/slide/slide.hpp"
 #include "tabor/cases/slide/steadiness.hpp"
+#include "tabor/cases/tool.hpp"
 
 // Keeps a run of sliding in a folder, so that a killed one goes on with the same bits.
 namespace tabor::cases {
+
+/// Returns all that the numbers of a run depend on, as text.
+std::string identity_of(const topography::Topography& surface, const CaseSettings& settings,
+                        const SlideSettings& sliding, const Tool& tool);
 
 /// What a run has reached after some steps.
 struct ReachedSlide {

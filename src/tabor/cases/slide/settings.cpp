@@ -2,14 +2,31 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "tabor/cases/parameters.hpp"
 #include "tabor/cases/states.hpp"
+#include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
 
 // The settings of sliding and the columns of its states.
 namespace tabor::cases {
+namespace {
+
+constexpr double kMostPixels = 1e5;  // of one distance: more take days, and the tool wears, too
+
+}  // namespace
+
+double distance_of(const SlideSettings& sliding, const Tool& tool, double dx) {
+  const double most = kMostPixels * dx;
+  const double distance = sliding.distance.value_or(std::min(kMostPasses * tool.grid.lx, most));
+  if (distance >= 0.5 * dx && distance <= most) return distance;
+  throw InputError("distance", format_si(distance, "m"),
+                   fmt::format("one to {} pixels, {} to {}", kMostPixels, format_si(dx, "m"),
+                               format_si(most, "m")),
+                   "");
+}
 
 const Parameters<SlideSettings>& slide_parameters() {
   using Settings = SlideSettings;

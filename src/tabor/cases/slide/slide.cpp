@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "tabor/cases/parameters.hpp"
 #include "tabor/cases/slide/checkpoint.hpp"
+#include "tabor/cases/slide/sheet.hpp"
 #include "tabor/cases/slide/steadiness.hpp"
 #include "tabor/cases/states.hpp"
 #include "tabor/cases/warnings.hpp"
@@ -15,77 +15,14 @@
 #include "tabor/core/resources.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/friction/wet_contact.hpp"
-#include "tabor/io/columns.hpp"
-#include "tabor/metrology/areal/abbott.hpp"
 #include "tabor/metrology/areal/parameters.hpp"
-#include "tabor/metrology/spectra/psd.hpp"
 #include "tabor/sliding/squeezed.hpp"
-#include "tabor/topography/digest.hpp"
 
 namespace tabor::cases {
 namespace {
 
-constexpr double kFineStep = 0.3;       // step certificate of a step that is short enough
-constexpr double kMilling = 0.05;       // of Sq: more has left the sheet than its roughness bears
 constexpr double kUsualStates = 20;     // of one distance
-constexpr double kMostPixels = 1e5;     // of one distance: more take days, and the tool wears, too
 constexpr double kCheckpointCost = 10;  // times as long computing as writing, at least
-
-/// Mean length of the contact along x [pixels].
-double mean_patch_length(const Mask& contact) {
-  double n_ends = 0;
-  for (Index y = 0; y < contact.rows(); ++y) {
-    for (Index x = 0; x < contact.cols(); ++x) {
-      if (contact(y, x) && !contact(y, (x + 1) % contact.cols())) n_ends += 1;
-    }
-  }
-  return static_cast<double>(contact.count()) / std::max(1.0, n_ends);
-}
-
-SheetSpectra spectra_of_sheet(const topography::Topography& sheet) {
-  metrology::PowerSpectra found = metrology::power_spectra(sheet);
-  return {.q_x = std::move(found.x.q),
-          .density_x = std::move(found.x.density),
-          .q_y = std::move(found.y.q),
-          .density_y = std::move(found.y.density)};
-}
-
-/// All that the numbers of a run depend on, as text.
-template <typename Settings>
-void add_lines(const Parameters<Settings>& parameters, const Settings& settings,
-               std::string& text) {
-  text += io::to_text(io::json_of(columns_of(parameters), settings), -1) + '\n';
-}
-
-std::string identity_of(const topography::Topography& surface, const CaseSettings& settings,
-                        const SlideSettings& sliding, const Tool& tool) {
-  std::string text =
-      fmt::format("sheet {:x}, tool {:x}, pressure {:.17g}\n",
-                  topography::digest_of(surface.height, surface.grid),
-                  topography::digest_of(tool.height, tool.grid), settings.mean_pressures.front());
-  for (const double density : settings.film.lubricant_densities) {
-    text += fmt::format("density {:.17g}\n", density);
-  }
-  for (const double place : sliding.maps_at) text += fmt::format("maps at {:.17g}\n", place);
-  add_lines(contact_parameters(), settings.contact, text);
-  add_lines(film_parameters(), settings.film, text);
-  add_lines(trapped_parameters(), settings.trapped, text);
-  add_lines(friction_parameters(), settings.friction, text);
-  add_lines(slide_parameters(), sliding, text);
-  return text;
-}
-
-/// Distance of sliding, at most [m]. Throws InputError for one below a pixel, or out of all
-/// proportion.
-double distance_of(const SlideSettings& sliding, const Tool& tool, double dx) {
-  const double most = kMostPixels * dx;
-  const double distance = sliding.distance.value_or(std::min(kMostPasses * tool.grid.lx, most));
-  if (distance >= 0.5 * dx && distance <= most) return distance;
-  throw InputError("distance", format_si(distance, "m"),
-                   fmt::format("one to {} pixels, {} to {}", kMostPixels, format_si(dx, "m"),
-                               format_si(most, "m")),
-                   "");
-}
 
 /// What slides, and the numbers of its states.
 class Run {
@@ -140,6 +77,9 @@ class Run {
   void tell_plan(double seconds_of_a_step);
 
   SlideRecord record();
+  double dry_friction_of(const SlideRecord& one) const {
+    return estimate_of(one.contact, 0, settings_.contact, settings_.friction).friction_dry;
+  }
   void add_oil(SlideRecord& one, double ploughing);
   void measure_sheet(SlideRecord& one);
   double friction_now(const sliding::Ploughing& step);
@@ -149,10 +89,10 @@ class Run {
   void warn();
 
   double dx() const { return surface_.grid.dx(); }
+  double step() const { return static_cast<double>(pixels_) * dx(); }
   double pressure() const { return settings_.mean_pressures.front(); }
   std::uint64_t planned_steps() const {
-    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(
-                                          distance_ / (static_cast<double>(pixels_) * dx()))));
+    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(distance_ / step())));
   }
 
   const topography::Topography& surface_;
@@ -241,8 +181,7 @@ double Run::friction_now(const sliding::Ploughing& step) {
   SlideRecord one;
   one.contact = slider_.summary();
   const double ploughing = step.friction(step.work, pressure());
-  one.friction_dry =
-      estimate_of(one.contact, 0, settings_.contact, settings_.friction).friction_dry + ploughing;
+  one.friction_dry = dry_friction_of(one) + ploughing;
   if (!film_) return one.friction_dry;
   add_oil(one, ploughing);
   return has_kept() ? one.friction_lubricated : one.friction_squeezed;
@@ -286,8 +225,7 @@ SlideRecord Run::record() {
   one.friction_ploughing_upper = since_.friction(since_.upper, pressure());
   one.step_certificate = since_.certificate(pressure());
   const double ploughing = since_.distance > 0 ? one.friction_ploughing : 0;
-  one.friction_dry =
-      estimate_of(one.contact, 0, settings_.contact, settings_.friction).friction_dry + ploughing;
+  one.friction_dry = dry_friction_of(one) + ploughing;
   if (film_) {
     one.mean_film = film_->film.mean_film;
     add_oil(one, ploughing);
@@ -306,14 +244,8 @@ SlideRecord Run::record() {
 
 /// Measures the sheet as it is now, and its spectra.
 void Run::measure_sheet(SlideRecord& one) {
-  const Field& sheet = result_.after.height = slider_.sheet();
-  const double mean = sheet.mean();
-  one.rms_height = std::sqrt((sheet - mean).square().mean());
-  one.mean_roughness = (sheet - mean).abs().mean();
-  const metrology::Core core = metrology::AbbottCurve(sheet).core();
-  one.core_height = core.height;
-  one.peak_height = core.peak_height;
-  one.dale_height = core.dale_height;
+  result_.after.height = slider_.sheet();
+  measure(result_.after.height, one);
   result_.spectra.push_back(spectra_of_sheet(result_.after));
 }
 
@@ -322,7 +254,7 @@ void Run::measure_sheet(SlideRecord& one) {
 bool Run::has_maps() const {
   if (!wanted_.wants_maps) return false;
   if (result_.steps == 0 || ends()) return true;
-  const double half = 0.5 * static_cast<double>(pixels_) * dx();
+  const double half = 0.5 * step();
   return std::any_of(sliding_.maps_at.begin(), sliding_.maps_at.end(), [&](double place) {
     return std::abs(place - all_.distance) <= half * (1 + 1e-9);
   });
@@ -334,13 +266,7 @@ SlideMaps Run::maps() const {
   maps.sheet = slider_.sheet();
   maps.pressure = contact.pressure;
   maps.gap = contact.gap;
-  const double cap = settings_.contact.pressure_cap();
-  const Mask touching = slider_.touching();
-  maps.state.resize(touching.rows(), touching.cols());
-  for (Index i = 0; i < touching.size(); ++i) {
-    const bool is_saturated = touching(i) && contact::at_cap(contact.pressure(i), cap);
-    maps.state(i) = static_cast<std::uint8_t>(touching(i) + is_saturated);
-  }
+  maps.state = state_map(slider_.touching(), contact.pressure, settings_.contact.pressure_cap());
   if (has_squeezed()) maps.squeezed = before_squeezing_;
   if (slider_.trapped() != nullptr) maps.liquid_pressure = slider_.trapped()->liquid_pressure;
   return maps;
@@ -450,7 +376,7 @@ void Run::tell_plan(double seconds_of_a_step) {
   if (!wanted_.plan) return;
   const std::uint64_t n_left = planned_steps() - std::min(planned_steps(), result_.steps);
   wanted_.plan({.steps = planned_steps(),
-                .step = static_cast<double>(pixels_) * dx(),
+                .step = step(),
                 .seconds = seconds_of_a_step * static_cast<double>(n_left),
                 .gone_before = result_.steps > 1 ? all_.distance : 0});
 }
@@ -467,7 +393,7 @@ void Run::begin() {
 /// Distance of the state after the last one [m].
 double Run::next_state() const {
   const double every = sliding_.every.value_or(distance_ / kUsualStates);
-  const double half = 0.5 * static_cast<double>(pixels_) * dx();
+  const double half = 0.5 * step();
   const double last = result_.states.back().distance + half;
   double next = every * (std::floor(last / every) + 1);
   for (const double place : sliding_.maps_at) {
@@ -519,16 +445,13 @@ void Run::warn() {
   }
   dry_friction(contact, wet, 0, settings_.contact, settings_.friction, result_.warnings);
   if (last.trapped) add(of_trapped(with_oil_), result_.warnings);
-  if (film_) {
-    add(of_film_in_gap(film_->film.mean_film, result_.states.back().contact.mean_gap),
-        result_.warnings);
-  }
+  if (film_) add(of_film_in_gap(film_->film.mean_film, last.contact.mean_gap), result_.warnings);
 }
 
 /// Keeps a state where one is due, and tells whether sliding has become steady.
 void Run::look() {
   if (sliding_.until_steady) result_.steady = steadiness_.is_steady();
-  const double half = 0.5 * static_cast<double>(pixels_) * dx();
+  const double half = 0.5 * step();
   if (ends() || all_.distance >= next_state() - half) keep_state();
 }
 
@@ -544,7 +467,7 @@ SlideResult Run::run() {
     advance();
     look();
   }
-  result_.step = static_cast<double>(pixels_) * dx();
+  result_.step = step();
   result_.tool_length = tool_.grid.lx;
   result_.tool_rms_height = tool_.rms_height;
   result_.after.height = slider_.sheet();
@@ -558,42 +481,6 @@ SlideResult Run::run() {
 }
 
 }  // namespace
-
-Warnings of_sliding(const sliding::Ploughing& all, double mean_pressure, double rms_height,
-                    double tool_length, std::optional<bool> steady) {
-  constexpr double often = 2;  // passes of the tool, after which the sheet has its envelope
-  Warnings list;
-  if (steady == false) {
-    list.push_back({"not-steady",
-                    fmt::format("after {} sliding is not steady: the sheet still changes, and "
-                                "friction with it",
-                                format_si(all.distance, "m")),
-                    0});
-  }
-  if (const double passes = all.distance / tool_length; passes > often) {
-    list.push_back({"tool-envelope",
-                    fmt::format("the tool of {} has passed {:.1f} times: the sheet takes its "
-                                "envelope; a longer tool has more to show",
-                                format_si(tool_length, "m"), passes),
-                    passes});
-  }
-  if (const double apart = all.certificate(mean_pressure); apart > kFineStep) {
-    list.push_back(
-        {"tool-pixel",
-         fmt::format("bounds on ploughing differ by {:.2g} of it: the tool is rougher along x than "
-                     "the step resolves",
-                     apart),
-         apart});
-  }
-  if (all.lost > kMilling * rms_height) {
-    list.push_back({"milling",
-                    fmt::format("{} of the sheet is worn off, its Sq was {}: material that is kept "
-                                "rises beside its contact",
-                                format_si(all.lost, "m"), format_si(rms_height, "m")),
-                    all.lost / rms_height});
-  }
-  return list;
-}
 
 SlideResult slide(const topography::Topography& surface, const CaseSettings& settings,
                   const SlideSettings& sliding, const SlideRun& run, const Observer& observer) {

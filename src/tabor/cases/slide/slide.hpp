@@ -9,6 +9,7 @@
 
 #include "tabor/cases/records.hpp"
 #include "tabor/cases/settings.hpp"
+#include "tabor/cases/tool.hpp"
 #include "tabor/core/names.hpp"
 #include "tabor/sliding/slider.hpp"
 #include "tabor/topography/topography.hpp"
@@ -24,6 +25,8 @@ enum class SlidingOil {
 };
 inline constexpr auto kSlidingOils = names<SlidingOil>("both", "kept", "squeezed");
 
+/// Step certificate of a step that is short enough.
+inline constexpr double kFineStep = 0.3;
 /// Passes of the tool after which sliding that is to become steady ends all the same.
 inline constexpr double kMostPasses = 20;
 
@@ -70,6 +73,10 @@ struct SlideRecord {
   bool converged = false;                       ///< this contact and all before
   std::optional<TrappedFriction> trapped = {};  ///< absent where trapped oil carries nothing
 };
+
+/// Returns the distance in force, at most [m], over pixels of this length. Throws InputError for
+/// one below a pixel, or out of all proportion.
+double distance_of(const SlideSettings& sliding, const Tool& tool, double dx);
 
 /// Parts of a slide that not every one has, and their columns.
 struct SlideParts {
