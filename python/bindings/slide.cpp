@@ -89,6 +89,7 @@ nb::object maps_of(nb::handle_t<Slid> self, std::size_t state) {
   add("film_thickness", slid.film);
   add("squeezed_film", maps.squeezed);
   add("liquid_pressure", maps.liquid_pressure);
+  add("saturation_pressure", maps.saturation_pressure);
   return views;
 }
 

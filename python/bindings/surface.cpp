@@ -69,7 +69,7 @@ Topography topography_of(const MapArgument& height, const TopographyState& state
   return one;
 }
 
-/// A surface of heights [m] that no file holds, on pixels of dx by dy [m].
+/// A surface of heights [m] that no file holds, on pixels of dx by dy [m]; nobody has looked at it.
 Topography make_surface(const MapArgument& height, double dx, double dy, bool periodic,
                         const std::string& source) {
   return watched(nb::none(), [&](const Observer&) {
@@ -81,8 +81,15 @@ Topography make_surface(const MapArgument& height, double dx, double dy, bool pe
     one.periodic = periodic;
     one.source = source;
     one.format = "array";
-    topography::look_at(one);
     return one;
+  });
+}
+
+/// Finds edges and warnings of a surface from make_surface().
+void look_at(Topography& surface) {
+  watched(nb::none(), [&](const Observer&) {
+    topography::look_at(surface);
+    return true;
   });
 }
 
@@ -239,6 +246,7 @@ void bind_surface(nb::module_& module) {
       .def_rw("pixel_x", &scan::ReadOptions::pixel_x)
       .def_rw("pixel_y", &scan::ReadOptions::pixel_y);
   bind_parameters(options, scan::read_parameters());
+  module.def("look_at", &look_at, "surface"_a);
   module.def("make_surface", &make_surface, "height"_a, "dx"_a, "dy"_a, "periodic"_a, "source"_a);
   module.def("read", &read, "file"_a, "options"_a, "progress"_a.none());
   module.def("write", &scan::write, "surface"_a, "file"_a);

@@ -29,11 +29,17 @@ namespace {
 
 const std::map<std::string_view, Dimension>& dimensions() {
   static const std::map<std::string_view, Dimension> all = {
-      {"none", dimension::none},           {"force", dimension::force},
-      {"length", dimension::length},       {"wavevector", dimension::wavevector},
-      {"pressure", dimension::pressure},   {"areal_density", dimension::areal_density},
-      {"density", dimension::density},     {"speed", dimension::speed},
-      {"viscosity", dimension::viscosity}, {"per_pressure", dimension::per_pressure}};
+      {"none", dimension::none},
+      {"force", dimension::force},
+      {"length", dimension::length},
+      {"wavevector", dimension::wavevector},
+      {"pressure", dimension::pressure},
+      {"areal_density", dimension::areal_density},
+      {"density", dimension::density},
+      {"speed", dimension::speed},
+      {"viscosity", dimension::viscosity},
+      {"per_pressure", dimension::per_pressure},
+      {"pressure_gradient", dimension::pressure_gradient}};
   return all;
 }
 

@@ -6,6 +6,7 @@ import base64
 import os
 import struct
 import sys
+import threading
 import zlib
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
@@ -148,6 +149,18 @@ def _heights(z: Any) -> Array:
     return heights
 
 
+_looking = threading.Lock()  #: one thread at a time looks at heights that were handed over
+
+
+def _renew_lock() -> None:
+    """In a copy of the process, whose other threads are gone and will not unlock it."""
+    global _looking
+    _looking = threading.Lock()
+
+
+os.register_at_fork(after_in_child=_renew_lock)
+
+
 class Surface(TreatmentSteps):
     """A height map that does not change; treatments return new ones.
 
@@ -184,7 +197,8 @@ class Surface(TreatmentSteps):
     (64, 64)
     """
 
-    _topography: _tabor.Topography
+    _heights: _tabor.Topography
+    _is_looked_at: bool  #: its edges and warnings are known
     _sha256: str  #: of the file it was read from, "" if there is none
 
     @typed
@@ -201,24 +215,37 @@ class Surface(TreatmentSteps):
         dx, dy = pixel_sides(pixel)
         _require_spacing(z, (dx, dy))
         heights = _in_metres(z, unit)
-        self.__dict__.update(_topography=_tabor.make_surface(heights, dx, dy, periodic, name), _sha256="")
+        self.__dict__.update(_heights=_tabor.make_surface(heights, dx, dy, periodic, name), _is_looked_at=False, _sha256="")
 
     @classmethod
     def _of(cls, topography: _tabor.Topography, sha256: str = "") -> Surface:
         surface = cls.__new__(cls)
-        surface.__dict__.update(_topography=topography, _sha256=sha256)
+        surface.__dict__.update(_heights=topography, _is_looked_at=True, _sha256=sha256)
         return surface
+
+    @property
+    def _topography(self) -> _tabor.Topography:
+        """With edges and warnings, which take longer to find than heights to copy: found when first asked for."""
+        if not self._is_looked_at:
+            with _looking:
+                if not self._is_looked_at:
+                    _tabor.look_at(self._heights)
+                    self.__dict__["_is_looked_at"] = True
+        return self._heights
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError("a Surface does not change")
 
+    def __getstate__(self) -> dict[str, Any]:
+        return {"_topography": self._topography, "_sha256": self._sha256}
+
     def __setstate__(self, state: dict[str, Any]) -> None:
-        self.__dict__.update(state)
+        self.__dict__.update(_heights=state["_topography"], _is_looked_at=True, _sha256=state["_sha256"])
 
     @property
     def height(self) -> Array:
         """Heights [m], shape (ny, nx), a read-only view; NaN is a hole."""
-        return self._topography.height
+        return self._heights.height
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
         return np.array(self.height, dtype=dtype) if copy or dtype else self.height
@@ -232,13 +259,13 @@ class Surface(TreatmentSteps):
     @property
     def size(self) -> tuple[float, float]:
         """Sides along x and y [m]."""
-        return self._topography.lx, self._topography.ly
+        return self._heights.lx, self._heights.ly
 
     @property
     def pixel(self) -> tuple[float, float]:
         """Sides of a pixel along x and y [m]."""
         ny, nx = self.shape
-        return self._topography.lx / nx, self._topography.ly / ny
+        return self._heights.lx / nx, self._heights.ly / ny
 
     @property
     def periodic(self) -> bool:
@@ -248,27 +275,27 @@ class Surface(TreatmentSteps):
     @property
     def n_holes(self) -> int:
         """Pixels without a height."""
-        return self._topography.n_holes
+        return self._heights.n_holes
 
     @property
     def source(self) -> str:
         """File or name it came from."""
-        return self._topography.source
+        return self._heights.source
 
     @property
     def format(self) -> str:
         """Of its file, as in ``tabor formats``; "array" if it is from none."""
-        return self._topography.format
+        return self._heights.format
 
     @property
     def metadata(self) -> Mapping[str, str]:
         """What else the file says."""
-        return self._topography.metadata
+        return self._heights.metadata
 
     @property
     def history(self) -> tuple[str, ...]:
         """Treatment steps so far, with their numbers."""
-        return tuple(self._topography.history)
+        return tuple(self._heights.history)
 
     @property
     def warnings(self) -> tuple[Warning, ...]:

@@ -16,7 +16,7 @@ from ._arguments import kind_of
 Value = Union[float, int, str, Any]
 
 _UNITS = {"length": "m", "wavevector": "1/m", "pressure": "Pa", "areal_density": "kg/m^2",
-          "density": "kg/m^3", "speed": "m/s", "viscosity": "Pa*s", "per_pressure": "1/Pa",
+          "density": "kg/m^3", "speed": "m/s", "viscosity": "Pa*s", "per_pressure": "1/Pa", "pressure_gradient": "Pa/m",
           "none": ""}
 
 

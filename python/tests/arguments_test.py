@@ -86,7 +86,7 @@ def calls(folder):
         "slide": (tb.slide, {"surface": t.surface, "pressure": 5e7, "solid": t.solid, "distance": t.surface.pixel[0], "density": 1e-4, "boundary": "periodic",
                              "tolerance": 1e-6, "solver": "fast", "tool": "ground:Sa=10nm", "tool_x": 0, "tool_lowpass": "gauss:8um",
                              "tool_repeats": False, "step": t.surface.pixel[0], "every": 1e-6, "displaced": "near", "reach": 2e-6, "wear_coefficient": 1e-15,
-                             "liquid": "both", "until_steady": False, "maps_at": 0, "checkpoint": folder / "slide", "trapped": False,
+                             "hardening": None, "liquid": "both", "until_steady": False, "maps_at": 0, "checkpoint": folder / "slide", "trapped": False,
                              "bulk_modulus": 1.5e9, **rain,
                              "model": "droplets", "droplet_height": 1e-7, "seed": 1, **shear, "dry_below": 1e-9, "check": True,
                              "progress": None}),

@@ -3,6 +3,7 @@
 import gc
 import pickle
 import weakref
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -226,6 +227,20 @@ def test_a_pickled_surface_is_the_same(levelled):
     np.testing.assert_array_equal(copy.height, levelled.height)
     assert (copy.history, copy.warnings, copy.source, copy.size) == (
         levelled.history, levelled.warnings, levelled.source, levelled.size)
+
+
+def test_a_surface_is_looked_at_once_whoever_asks_first():
+    tilted = heights() + np.linspace(0, 1e-4, heights().shape[1])
+    expected = tb.Surface(tilted, pixel=1e-6).warnings
+    assert "not-levelled" in [one.code for one in expected]
+    surface = tb.Surface(tilted, pixel=1e-6)
+    assert surface.shape == tilted.shape and not surface._is_looked_at
+    view = surface.height
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(lambda _: surface.warnings, range(8)))
+    assert all(one == expected for one in found)
+    assert np.shares_memory(view, surface.height)
+    assert pickle.loads(pickle.dumps(tb.Surface(tilted, pixel=1e-6))).warnings == expected
 
 
 def test_xarray_has_coordinates_in_metres(rough):

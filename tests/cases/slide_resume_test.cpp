@@ -118,6 +118,12 @@ void expect_to_go_on(const SlidingRun& run) {
 
 TEST(SlideCheckpoint, LetsAStoppedRunGoOnWithTheSameBits) { expect_to_go_on({}); }
 
+TEST(SlideCheckpoint, LetsOneOnASheetThatHardensGoOn) {
+  SlidingRun run;
+  run.sliding.hardening = 1e14;
+  expect_to_go_on(run);
+}
+
 TEST(SlideCheckpoint, LetsOneWithTrappedOilGoOn) {
   SlidingRun run;
   run.settings.trapped.trapped = true;

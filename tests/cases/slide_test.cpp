@@ -132,6 +132,34 @@ TEST(Slide, WearsAnElasticSheet) {
   EXPECT_THAT(worn.references, Contains("archard1953"));
 }
 
+TEST(Slide, HardensASheet) {
+  CaseSettings settings = aluminium();
+  settings.film.lubricant_densities.clear();
+  const SlideSettings soft{.distance = 8e-6, .step = 2e-6};
+  SlideSettings hard = soft;
+  hard.hardening = 1e14;
+  std::vector<Field> caps;
+  const SlideRun wanted{.receive =
+                            [&](const SlideState& state) {
+                              if (state.maps != nullptr) {
+                                caps.push_back(state.maps->saturation_pressure);
+                              }
+                            },
+                        .wants_maps = true};
+  const SlideResult found = slide(test::small_sheet(), settings, hard, wanted);
+  const SlideResult without = slide(test::small_sheet(), settings, soft);
+  EXPECT_EQ(found.states.front().highest_saturation_pressure,
+            *settings.contact.saturation_pressure);
+  EXPECT_EQ(without.states.back().highest_saturation_pressure,
+            *settings.contact.saturation_pressure);
+  EXPECT_GT(found.states.back().highest_saturation_pressure,
+            1.01 * *settings.contact.saturation_pressure);
+  EXPECT_LT(found.states.back().moved_volume, without.states.back().moved_volume);
+  ASSERT_EQ(caps.size(), 2U);
+  EXPECT_EQ(caps.front().size(), 0);  // one for all still
+  EXPECT_EQ(caps.back().maxCoeff(), found.states.back().highest_saturation_pressure);
+}
+
 TEST(Slide, SaysWhetherItBecameSteady) {
   const SlideResult result = slide(test::small_sheet(), aluminium(),
                                    {.distance = 8e-6, .step = 2e-6, .until_steady = true});

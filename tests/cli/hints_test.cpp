@@ -47,6 +47,7 @@ const std::map<std::string, Plausible>& plausible_options() {
       {"--speed", {dimension::speed, 1e-7, 100}},
       {"--force", {dimension::force, 1e-6, 1e7}},  // of a microscope, of a press
       {"--fit-min", {dimension::wavevector, 1, 1e12}},
+      {"--hardening", {dimension::pressure_gradient, 1e9, 1e16}},
       {"--wear-coefficient", {dimension::per_pressure, 0, 1e-8}},
       {"--fit-max", {dimension::wavevector, 1, 1e12}},
       {"--profile-cutoff", {dimension::length, 1e-6, 0.1}}};

@@ -65,7 +65,7 @@ TEST_F(Templates, OfAStudyHasEveryKeyWithAValueThatIsTaken) {
   make_scan();
   const std::string text = template_without(
       {"boundary_shear_share", "tool", "trapped", "bulk_modulus", "dry_below", "distance", "step",
-       "every", "displaced", "reach", "wear_coefficient", "liquid", "until_steady"});
+       "every", "displaced", "reach", "wear_coefficient", "hardening", "liquid", "until_steady"});
   put_bytes(folder_ / "study.toml", text);
   put_bytes(folder_ / "measured.csv", "mean_pressure_Pa,friction\n7e6,0.2\n");
   const study::Study study = study::read_study(folder_ / "study.toml");

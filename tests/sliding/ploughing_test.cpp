@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "sliding/rough.hpp"
 #include "support/rejection.hpp"
 #include "support/validation.hpp"
 #include "tabor/core/parallel.hpp"
@@ -19,8 +20,6 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr double kCap = 240e6;
-constexpr double kPixel = 1e-6;
 constexpr double kTangent = 0.1;
 
 Grid square(Index n) {
@@ -107,32 +106,6 @@ TEST(Ploughing, OfToolsOnARigidSheetTendsToItsClosedForms) {
     EXPECT_NEAR(coarse.work / fine.work, 2, 0.5) << one.name;  // errors fall as 1/a
   }
 }
-
-/// A rough sheet under a rough tool.
-struct Rough {
-  explicit Rough(Displaced displaced = Displaced::near, double pressure = 10e6)
-      : grid{64, 48, 64 * kPixel, 48 * kPixel},
-        elasticity(elastic::make_periodic(grid, 78e9)),
-        problem{.sheet = surface(0.5e-6, 1),
-                .tool = surface(0.1e-6, 2),
-                .mean_pressure = pressure,
-                .saturation_pressure = kCap,
-                .displaced = displaced,
-                .tolerance = 1e-8} {}
-
-  Field surface(double rms, std::uint64_t seed) const {
-    synthesis::SelfAffine recipe;
-    recipe.grid = grid;
-    recipe.rms_height = rms;
-    recipe.short_cutoff_wavelength = 4 * kPixel;
-    recipe.seed = seed;
-    return synthesis::self_affine(recipe).height;
-  }
-
-  Grid grid;
-  std::unique_ptr<elastic::ElasticOperator> elasticity;
-  Problem problem;
-};
 
 TEST(Ploughing, OfASphereOnARigidSheetTendsToItsClosedForm) {
   constexpr double force = 0.08592;  // half width of the groove 0.2 R (Goddard & Wilman 1962)

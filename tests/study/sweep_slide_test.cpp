@@ -68,7 +68,8 @@ TEST(SweepSlide, IsKnownByItsSettings) {
   const std::string key = key_of_slide(example.read());
   EXPECT_EQ(key_of_slide(parse_study(to_toml(example.read()), example.folder / "study.toml")), key);
   for (const char* line : {"displaced = \"uniform\"\n", "reach = \"3 um\"\n", "liquid = \"kept\"\n",
-                           "until_steady = true\n", "wear_coefficient = \"1e-15 m^2/N\"\n"}) {
+                           "until_steady = true\n", "wear_coefficient = \"1e-15 m^2/N\"\n",
+                           "hardening = \"100 MPa/um\"\n"}) {
     example.write(with_slide(line));
     EXPECT_NE(key_of_slide(example.read()), key) << line;
     const std::string again = to_toml(example.read());

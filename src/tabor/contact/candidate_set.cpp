@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "tabor/contact/contact.hpp"
+#include "tabor/contact/listed_caps.hpp"
 #include "tabor/contact/projection.hpp"
 #include "tabor/core/loops.hpp"
 
@@ -89,30 +90,29 @@ void spread_pressure(const CandidateSet& set, Field& map) {
   for_each(set.size(), [&](std::size_t k) { p[set.pixels[k]] = set.values.pressure[k]; });
 }
 
-double candidate_threshold(const CandidateSet& set, double load, double saturation_pressure,
+double candidate_threshold(const CandidateSet& set, double load, const Caps& caps,
                            double diagonal_step) {
   const std::vector<double>& pressure = set.values.pressure;
   const std::vector<double>& residual = set.values.residual;
   if (std::none_of(pressure.begin(), pressure.end(), &touches)) {
     return std::numeric_limits<double>::infinity();
   }
-  if (!std::isfinite(saturation_pressure)) return mean_residual_under_pressure(set.values);
+  if (!caps.bound()) return mean_residual_under_pressure(set.values);
   const PixelList pressed =
       list_where(std::ssize(pressure), [p = pressure.data()](Index k) { return touches(p[k]); });
   std::vector<double> v(pressed.size());
   for_each(v.size(), [&](std::size_t k) { v[k] = residual[pressed[k]]; });
   const double highest = *std::max_element(v.begin(), v.end());
-  if (static_cast<double>(v.size()) * saturation_pressure <= load) return highest;
-  const auto n_full =
-      std::min(v.size() - 1, static_cast<std::size_t>(std::floor(load / saturation_pressure)));
-  const auto knapsack = v.begin() + static_cast<std::ptrdiff_t>(n_full);
-  std::nth_element(v.begin(), knapsack, v.end());
-  const double threshold = *knapsack;
+  PixelList pixels(pressed.size());
+  for_each(pixels.size(), [&](std::size_t k) { pixels[k] = set.pixels[pressed[k]]; });
+  const ListedCaps listed(caps, pixels);
+  if (Caps(listed).sum(std::ssize(v)) <= load) return highest;
+  const double threshold = knapsack_threshold(v, load, listed);
   std::vector<double>& wanted = v;
   for_each(wanted.size(), [&](std::size_t k) {
     wanted[k] = pressure[pressed[k]] - diagonal_step * residual[pressed[k]];
   });
-  const double separation = -shift_for_load(wanted, load, saturation_pressure) / diagonal_step;
+  const double separation = -shift_for_load(wanted, load, listed) / diagonal_step;
   return std::min(highest, std::max(separation, threshold));
 }
 

@@ -30,10 +30,11 @@ CandidateSet pressed_pixels(const Field& pressure);
 void spread_pressure(const CandidateSet& set, Field& map);
 
 /// Returns a v above which a pixel without pressure changes neither the certificate nor the next
-/// separation, from a set whose v is up to date. Both only fall when more pixels join, so that the
-/// pixels with pressure alone give a bound: the mean of v in an elastic contact, else the larger of
-/// their separation, for the step `diagonal_step` [Pa/m], and of their own knapsack's threshold.
-double candidate_threshold(const CandidateSet& set, double load, double saturation_pressure,
+/// separation, from a set whose v is up to date, and caps of the map. Both only fall when more
+/// pixels join, so that the pixels with pressure alone give a bound: the mean of v in an elastic
+/// contact, else the larger of their separation, for the step `diagonal_step` [Pa/m], and of their
+/// own knapsack's threshold.
+double candidate_threshold(const CandidateSet& set, double load, const Caps& caps,
                            double diagonal_step);
 
 /// Collects the set as collect_candidates() does, with an update of blocks of pixels.

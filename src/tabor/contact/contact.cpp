@@ -33,6 +33,12 @@ void check_maps(const elastic::ElasticOperator& elasticity, const Problem& probl
     throw InputError("contact", "a surface with holes or infinite heights",
                      "a height at every pixel", "fill the holes first (--fill harmonic)");
   }
+  const Field& caps = problem.bounds.upper_of_each;
+  if (caps.size() > 0 && (caps.rows() != grid.ny || caps.cols() != grid.nx || !all_finite(caps) ||
+                          !(extent_of(caps).lowest > 0))) {
+    throw InputError("contact", "saturation pressures that are none on this grid",
+                     "more than zero at every pixel of the heights", "");
+  }
   if (problem.start.size() == 0) return;
   if (problem.start.rows() != grid.ny || problem.start.cols() != grid.nx ||
       !all_finite(problem.start) || extent_of(problem.start).lowest < 0) {
@@ -45,8 +51,9 @@ void check_load(const Problem& problem, double mean_pressure) {
   if (!(mean_pressure > 0) || !std::isfinite(mean_pressure)) {
     throw InputError("mean pressure", format_si(mean_pressure, "Pa"), "a positive pressure", "");
   }
-  if (!(problem.bounds.upper > mean_pressure)) {
-    throw InputError("saturation pressure", format_si(problem.bounds.upper, "Pa"),
+  const double most = problem.bounds.caps().mean(problem.height.size());
+  if (!(most > mean_pressure)) {
+    throw InputError("saturation pressure", format_si(most, "Pa"),
                      "more than the mean pressure of " + format_si(mean_pressure, "Pa"),
                      "no pressure field below the cap can carry this load");
   }
@@ -97,7 +104,7 @@ void require_reachable(const elastic::ElasticOperator& elasticity, const Field& 
                      "the flat does not touch the surface there");
   }
   const double mean = sum(height) / static_cast<double>(height.size());
-  const bool is_bounded = elasticity.drops_mean() && !std::isfinite(bounds.upper);
+  const bool is_bounded = elasticity.drops_mean() && !bounds.caps().bound();
   constexpr double rounding = 1e-12;  // of the range of heights
   if (!std::isfinite(separation) ||
       (is_bounded && !(separation - mean > rounding * (highest - mean)))) {
@@ -134,9 +141,11 @@ Mask contact_mask(const Field& pressure) { return pressure.unaryExpr(&touches); 
 
 Mask contact_mask(const State& state) { return contact_mask(state.pressure); }
 
-Mask saturated_mask(const State& state, double saturation_pressure) {
-  return state.pressure.unaryExpr(
-      [=](double pressure) { return at_cap(pressure, saturation_pressure); });
+Mask saturated_mask(const State& state, const Caps& saturation_pressure) {
+  Mask saturated(state.pressure.rows(), state.pressure.cols());
+  for_each(saturated.size(),
+           [&](Index i) { saturated(i) = at_cap(state.pressure(i), saturation_pressure(i)); });
+  return saturated;
 }
 
 }  // namespace tabor::contact

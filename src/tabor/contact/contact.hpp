@@ -1,8 +1,8 @@
 #pragma once
 
-#include <limits>
 #include <variant>
 
+#include "tabor/contact/caps.hpp"
 #include "tabor/core/convergence.hpp"
 #include "tabor/core/types.hpp"
 #include "tabor/elastic/operator.hpp"
@@ -10,8 +10,6 @@
 // Solves the contact of a rough elastic surface with a rigid flat under a given load, and
 // summarises the result.
 namespace tabor::contact {
-
-inline constexpr double kNoSaturation = std::numeric_limits<double>::infinity();
 
 /// Algorithm of the contact solver; both reach the same certificate.
 enum class Solver {
@@ -39,6 +37,9 @@ using Control = std::variant<MeanPressure, Force, Separation>;
 /// Bounds on the pressure. The lower one is zero: no adhesion.
 struct Bounds {
   double upper = kNoSaturation;  ///< p_sat [Pa]; must exceed P
+  Field upper_of_each{};         ///< p_sat of each pixel [Pa], in place of `upper`; or empty
+
+  Caps caps() const { return upper_of_each.size() > 0 ? Caps(upper_of_each.data()) : Caps(upper); }
 };
 
 /// Contact problem: a rigid flat is pressed on `height`.
@@ -124,6 +125,6 @@ Mask contact_mask(const Field& pressure);
 Mask contact_mask(const State& state);
 
 /// Returns the saturated pixels: at_cap() of each pressure.
-Mask saturated_mask(const State& state, double saturation_pressure);
+Mask saturated_mask(const State& state, const Caps& saturation_pressure);
 
 }  // namespace tabor::contact

@@ -9,6 +9,7 @@
 
 #include "tabor/contact/candidate_set.hpp"
 #include "tabor/contact/conditions.hpp"
+#include "tabor/contact/listed_caps.hpp"
 #include "tabor/contact/projection.hpp"
 #include "tabor/contact/search_direction.hpp"
 #include "tabor/contact/start.hpp"
@@ -44,7 +45,7 @@ class ProjectedGradient {
   ProjectedGradient(elastic::ElasticOperator& elasticity, const LoadProblem& problem)
       : elasticity_(elasticity),
         problem_(problem),
-        cap_(problem.saturation_pressure),
+        caps_(problem.caps),
         conditions_(elasticity, problem),
         load_(conditions_.load()),
         direction_(elasticity) {
@@ -67,12 +68,13 @@ class ProjectedGradient {
   void accept(double length);
   template <typename Residual, typename Update>
   void collect(const Residual& residual, FieldF* change, const Update& update);
+  ListedCaps caps_of_candidates() const { return {caps_, candidates_.pixels}; }
   double pressure(std::size_t k) const { return candidates_.values.pressure[places_[k]]; }
   double residual(std::size_t k) const { return candidates_.values.residual[places_[k]]; }
 
   elastic::ElasticOperator& elasticity_;
   const LoadProblem& problem_;
-  double cap_;  // [Pa]
+  Caps caps_;  // of the map [Pa]
   Conditions conditions_;
   double load_;                // sum of pressures [Pa]
   SearchDirection direction_;  // M (v - sep) [Pa]
@@ -120,12 +122,12 @@ void ProjectedGradient::collect(const Residual& residual, FieldF* change, const 
     candidates_.values.residual[k] = residual(candidates_.pixels[k]);
   });
   const double threshold =
-      candidate_threshold(candidates_, load_, cap_, step_ * direction_.diagonal());
+      candidate_threshold(candidates_, load_, caps_, step_ * direction_.diagonal());
   collect_candidates(residual_, change, threshold, update, candidates_);
 }
 
 void ProjectedGradient::certify() {
-  convergence_.certificate = conditions_.certificate(candidates_.values);
+  convergence_.certificate = conditions_.certificate(candidates_.values, caps_of_candidates());
   if (convergence_.certificate < best_certificate_) {
     best_certificate_ = convergence_.certificate;
     best_iteration_ = convergence_.iterations;
@@ -138,13 +140,14 @@ bool ProjectedGradient::meets_conditions() {
   const std::vector<double>& residual = candidates_.values.residual;
   auto settled = Conditions::Settled::now;
   while (settled == Conditions::Settled::now && convergence_.certificate <= problem_.tolerance) {
-    settled = conditions_.settle(pressure, residual);
+    settled = conditions_.settle(pressure, residual, caps_of_candidates());
     if (settled == Conditions::Settled::now) {
       refresh();
       certify();
     }
   }
-  return settled == Conditions::Settled::already && conditions_.gaps_close(pressure, residual);
+  return settled == Conditions::Settled::already &&
+         conditions_.gaps_close(pressure, residual, caps_of_candidates());
 }
 
 /// sep with sum clip(p - t (v - sep), 0, p_sat) = load, t the diagonal step. It is the mean of v
@@ -156,7 +159,7 @@ void ProjectedGradient::find_separation() {
   trial_.resize(pressure.size());
   for_each(trial_.size(),
            [&](std::size_t k) { trial_[k] = pressure[k] - diagonal_step * residual[k]; });
-  relaxed_shift_ = shift_for_load(trial_, load_, cap_);
+  relaxed_shift_ = shift_for_load(trial_, load_, caps_of_candidates());
   separation_ = -relaxed_shift_ / diagonal_step;
 }
 
@@ -168,7 +171,8 @@ void ProjectedGradient::choose_active_set() {
     const auto k = static_cast<std::size_t>(i);
     const double p = candidates_.values.pressure[k];
     const double relaxed = trial_[k] - relaxed_shift_;
-    return (touches(p) || touches(relaxed)) && (p < cap_ || relaxed < cap_);
+    const double cap = caps_(candidates_.pixels[k]);
+    return (touches(p) || touches(relaxed)) && (p < cap || relaxed < cap);
   });
   active_.resize(places_.size());
   for_each(active_.size(), [&](std::size_t k) { active_[k] = candidates_.pixels[places_[k]]; });
@@ -180,7 +184,7 @@ void ProjectedGradient::find_direction() {
   });
   if (goes_alone_) return direction_.find_alone(active_, work_);
   direction_.find(
-      active_, work_, step_, cap_, [&](std::size_t k) { return pressure(k); },
+      active_, work_, step_, ListedCaps(caps_, active_), [&](std::size_t k) { return pressure(k); },
       [](std::size_t) { return 0.0; });
 }
 
@@ -200,7 +204,7 @@ double ProjectedGradient::project_step() {
   for_each(active_.size(), [&](std::size_t k) {
     trial_[k] = pressure(k) - step_ * static_cast<double>(direction_.whole()[k]);
   });
-  project_on_load(trial_, active_load, cap_);
+  project_on_load(trial_, active_load, ListedCaps(caps_, active_));
   return sum_over(active_.size(), [&](std::size_t k) {
     const double change = trial_[k] - pressure(k);
     work_.data()[active_[k]] = static_cast<float>(change);
@@ -241,7 +245,7 @@ void ProjectedGradient::accept(double length) {
   std::fill(candidates_.direction.begin(), candidates_.direction.end(), 0.0F);
   for_each(active_.size(), [&](std::size_t k) {
     double& p = candidates_.values.pressure[places_[k]];
-    p = length == 1 ? trial_[k] : std::clamp(p + length * (trial_[k] - p), 0.0, cap_);
+    p = length == 1 ? trial_[k] : std::clamp(p + length * (trial_[k] - p), 0.0, caps_(active_[k]));
     candidates_.direction[places_[k]] = direction_.whole()[k];
   });
   const auto factor = static_cast<float>(length);

@@ -27,6 +27,12 @@ double flattening_pressure(const elastic::ElasticOperator& elasticity, const Loa
   return 0.5 * elasticity.effective_modulus() * rms_slope(problem.height, elasticity.grid());
 }
 
+/// True where a pressure, and so much more [Pa], is above its cap somewhere.
+bool exceeds(const Field& pressure, double more, const Caps& caps) {
+  if (caps.are_one()) return more + extent_of(pressure).highest > caps.for_all();
+  return count_where(pressure.size(), [&](Index i) { return more + pressure(i) > caps(i); }) > 0;
+}
+
 /// Takes p = P + S^-1 z, the answer if it stays within the bounds (contact everywhere); one
 /// transform. Tried only where the pressure is not far below the flattening pressure.
 bool try_full_contact(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
@@ -38,7 +44,7 @@ bool try_full_contact(elastic::ElasticOperator& elasticity, const LoadProblem& p
   state.convergence.fft_pairs += 1;
   state.pressure -= state.pressure.mean();
   if (problem.mean_pressure + state.pressure.minCoeff() < 0 ||
-      problem.mean_pressure + state.pressure.maxCoeff() > problem.saturation_pressure) {
+      exceeds(state.pressure, problem.mean_pressure, problem.caps)) {
     return false;
   }
   // The mean displaces nothing: left out, it costs the waves about it no digits.
@@ -71,9 +77,9 @@ State stopped_at_start(elastic::ElasticOperator& elasticity, const LoadProblem& 
 
 /// True where so few contact pixels are at the cap that the error of the certificate may have put
 /// them there.
-bool cap_may_be_idle(const State& state, double cap) {
+bool cap_may_be_idle(const State& state, const Caps& caps) {
   constexpr double least_share = 0.005;  // of the contact pixels
-  return static_cast<double>(saturated_mask(state, cap).count()) <=
+  return static_cast<double>(saturated_mask(state, caps).count()) <=
          least_share * static_cast<double>(contact_mask(state).count());
 }
 
@@ -82,23 +88,23 @@ bool cap_may_be_idle(const State& state, double cap) {
 /// are tried without first.
 State run_capped(elastic::ElasticOperator& elasticity, const LoadProblem& problem, Solver solver,
                  const Observer& observer, bool& cap_is_idle) {
-  const double cap = problem.saturation_pressure;
   double pairs_spent = 0;
   const auto try_elastic = [&](State& state) {
     LoadProblem elastic_problem = problem;
-    elastic_problem.saturation_pressure = kNoSaturation;
+    elastic_problem.caps = kNoSaturation;
     state = run(elasticity, elastic_problem, solver, observer);
     pairs_spent += state.convergence.fft_pairs;
-    cap_is_idle = extent_of(state.pressure).highest <= cap;
+    cap_is_idle = !exceeds(state.pressure, 0, problem.caps);
     return cap_is_idle;
   };
   State state;
-  const bool probably_idle = cap > 10 * flattening_pressure(elasticity, problem);
+  const bool probably_idle =
+      problem.caps.lowest(problem.height.size()) > 10 * flattening_pressure(elasticity, problem);
   if (!probably_idle || !try_elastic(state)) {
     state = state.convergence.stopped() ? stopped_at_start(elasticity, problem, solver)
                                         : run(elasticity, problem, solver, observer);
     pairs_spent += state.convergence.fft_pairs;
-    if (!probably_idle && state.convergence.converged() && cap_may_be_idle(state, cap)) {
+    if (!probably_idle && state.convergence.converged() && cap_may_be_idle(state, problem.caps)) {
       State elastic_state;
       const bool is_idle = try_elastic(elastic_state);
       if (elastic_state.convergence.stopped()) state.convergence.status = Status::stopped;
@@ -116,13 +122,14 @@ double certificate_of(const elastic::ElasticOperator& elasticity, const LoadProb
   const Field residual = state.displacement - problem.height;
   return Conditions(elasticity, problem)
       .certificate({{state.pressure.data(), state.pressure.data() + state.pressure.size()},
-                    {residual.data(), residual.data() + residual.size()}});
+                    {residual.data(), residual.data() + residual.size()}},
+                   problem.caps);
 }
 
 void finish_state(const elastic::ElasticOperator& elasticity, const LoadProblem& problem,
                   std::optional<double> given_separation, State& state) {
   const Conditions conditions(elasticity, problem);
-  const double cap = problem.saturation_pressure;
+  const Caps& caps = problem.caps;
   state.gap = uninitialised_map<Field>(state.pressure.rows(), state.pressure.cols());
   double* p = state.pressure.data();
   double* gap = state.gap.data();
@@ -133,16 +140,16 @@ void finish_state(const elastic::ElasticOperator& elasticity, const LoadProblem&
   const std::span<const double> pressures(p, n);
   const std::span<const double> residuals(gap, n);
   state.separation =
-      given_separation ? *given_separation : conditions.separation(pressures, residuals);
-  state.gap_error = conditions.gap_error(pressures, residuals, state.separation);
+      given_separation ? *given_separation : conditions.separation(pressures, residuals, caps);
+  state.gap_error = conditions.gap_error(pressures, residuals, caps, state.separation);
   state.gap_limit = conditions.gap_limit();
   const double separation = state.separation;
   for_each(n, [=](std::size_t i) {
     gap[i] += separation;
     if (!touches(p[i])) {
       gap[i] = std::max(gap[i], 0.0);
-    } else if (at_cap(p[i], cap)) {
-      p[i] = cap;
+    } else if (at_cap(p[i], caps(i))) {
+      p[i] = caps(i);
       gap[i] = std::min(gap[i], 0.0);
     } else {
       gap[i] = 0;
@@ -153,7 +160,7 @@ void finish_state(const elastic::ElasticOperator& elasticity, const LoadProblem&
 State solve_load(elastic::ElasticOperator& elasticity, LoadProblem problem, Solver solver,
                  const Observer& observer) {
   State state;
-  bool cap_is_idle = !std::isfinite(problem.saturation_pressure);
+  bool cap_is_idle = !problem.caps.bound();
   if (asks_to_stop(observer, {"contact"})) {
     state = stopped_at_start(elasticity, problem, solver);
   } else if (!try_full_contact(elasticity, problem, state)) {
@@ -162,7 +169,7 @@ State solve_load(elastic::ElasticOperator& elasticity, LoadProblem problem, Solv
                         : run_capped(elasticity, problem, solver, observer, cap_is_idle);
     state.convergence.fft_pairs += pairs_spent;
   }
-  if (cap_is_idle) problem.saturation_pressure = kNoSaturation;
+  if (cap_is_idle) problem.caps = kNoSaturation;
   state.mean_pressure = problem.mean_pressure;
   finish_state(elasticity, problem, {}, state);
   return state;

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "tabor/contact/caps.hpp"
 #include "tabor/contact/contact.hpp"
 
 // Defines and solves the contact under a given mean pressure, to which solve() leads every control.
@@ -9,17 +10,17 @@ namespace tabor::contact {
 
 /// Contact under a mean pressure: what the solvers solve. Refers to the maps of a Problem.
 struct LoadProblem {
-  const Field& height;         ///< [m]
-  double mean_pressure;        ///< P [Pa]
-  double saturation_pressure;  ///< p_sat [Pa]
-  const Field& start;          ///< [Pa], empty: none
+  const Field& height;   ///< [m]
+  double mean_pressure;  ///< P [Pa]
+  Caps caps;             ///< p_sat [Pa]
+  const Field& start;    ///< [Pa], empty: none
   double tolerance;
   int max_iterations;
 };
 
 /// Returns the problem under this mean pressure [Pa], which takes the place of the control.
 inline LoadProblem under_pressure(const Problem& problem, double mean_pressure) {
-  return {problem.height, mean_pressure,     problem.bounds.upper,
+  return {problem.height, mean_pressure,     problem.bounds.caps(),
           problem.start,  problem.tolerance, problem.max_iterations};
 }
 

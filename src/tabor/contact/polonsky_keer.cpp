@@ -21,12 +21,12 @@ class ConjugateGradient {
       : elasticity_(elasticity),
         problem_(problem),
         conditions_(elasticity, problem),
-        cap_(problem.saturation_pressure) {}
+        caps_(problem.caps) {}
 
   State run(const Observer& observer);
 
  private:
-  bool is_free(Index i) const { return touches(pressure_(i)) && !at_cap(pressure_(i), cap_); }
+  bool is_free(Index i) const { return touches(pressure_(i)) && !at_cap(pressure_(i), caps_(i)); }
   double mean_over_free(const Field& field) const;
   double level() const;
   Conditions::Settled settle(Convergence& convergence);
@@ -37,7 +37,7 @@ class ConjugateGradient {
   elastic::ElasticOperator& elasticity_;
   const LoadProblem& problem_;
   Conditions conditions_;
-  double cap_;                // [Pa]
+  Caps caps_;                 // [Pa]
   Field pressure_;            // [Pa]
   Field gap_;                 // g = S p - z, about its mean over free pixels [m]
   Field direction_;           // t
@@ -65,13 +65,13 @@ double ConjugateGradient::mean_over_free(const Field& field) const {
 /// Separation in the units of gap_: the mean over the free pixels; with a cap, where there may be
 /// none, the level at which a step along the gap carries the load.
 double ConjugateGradient::level() const {
-  if (!std::isfinite(cap_)) return mean_over_free(gap_);
+  if (!caps_.bound()) return mean_over_free(gap_);
   std::vector<double> trial(static_cast<std::size_t>(gap_.size()));
   for_each(gap_.size(), [&](Index i) {
     trial[static_cast<std::size_t>(i)] = pressure_(i) - step_length_ * gap_(i);
   });
   const double load = problem_.mean_pressure * static_cast<double>(gap_.size());
-  return -shift_for_load(trial, load, cap_) / step_length_;
+  return -shift_for_load(trial, load, caps_) / step_length_;
 }
 
 /// Certifies the pressure; where that is good enough, puts pixels on their bounds that are inside
@@ -79,12 +79,12 @@ double ConjugateGradient::level() const {
 Conditions::Settled ConjugateGradient::settle(Convergence& convergence) {
   const auto n = static_cast<std::size_t>(pressure_.size());
   const std::span<const double> gap(gap_.data(), n);
-  convergence.certificate =
-      conditions_.certificate({{pressure_.data(), pressure_.data() + n}, {gap.begin(), gap.end()}});
+  convergence.certificate = conditions_.certificate(
+      {{pressure_.data(), pressure_.data() + n}, {gap.begin(), gap.end()}}, caps_);
   if (!(convergence.certificate <= problem_.tolerance)) return Conditions::Settled::not_yet;
   const std::span<double> pressure(pressure_.data(), n);
-  const Conditions::Settled settled = conditions_.settle(pressure, gap);
-  if (settled == Conditions::Settled::already && conditions_.gaps_close(pressure, gap)) {
+  const Conditions::Settled settled = conditions_.settle(pressure, gap, caps_);
+  if (settled == Conditions::Settled::already && conditions_.gaps_close(pressure, gap, caps_)) {
     convergence.status = Status::converged;
   }
   return settled;
@@ -137,7 +137,7 @@ void ConjugateGradient::step(double length) {
     // What is beyond the cap stays there until the load is restored: that keeps it at the cap.
     pressure_(i) = std::max(pressure_(i), 0.0);
   });
-  fit_to_load(pressure_, problem_.mean_pressure, cap_);
+  fit_to_load(pressure_, problem_.mean_pressure, caps_);
 }
 
 State ConjugateGradient::run(const Observer& observer) {
@@ -146,7 +146,7 @@ State ConjugateGradient::run(const Observer& observer) {
   convergence.tolerance = problem_.tolerance;
   if (problem_.start.size() > 0) {
     pressure_ = problem_.start;
-    fit_to_load(pressure_, problem_.mean_pressure, cap_);
+    fit_to_load(pressure_, problem_.mean_pressure, caps_);
   } else {
     pressure_ =
         Field::Constant(problem_.height.rows(), problem_.height.cols(), problem_.mean_pressure);

@@ -9,8 +9,16 @@
 namespace tabor::contact {
 namespace {
 
-/// Value of sum clip(x - shift, 0, cap) and number of terms strictly inside the bounds.
-std::pair<double, double> load_and_slope(const std::vector<double>& x, double shift, double cap) {
+/// Value of sum clip(x - shift, 0, caps) and number of terms strictly inside the bounds.
+std::pair<double, double> load_and_slope(const std::vector<double>& x, double shift,
+                                         const Caps& caps) {
+  if (!caps.are_one()) {
+    const double load =
+        sum_over(x.size(), [&](std::size_t i) { return std::clamp(x[i] - shift, 0.0, caps(i)); });
+    const auto is_inside = [&](std::size_t i) { return x[i] > shift && x[i] - shift < caps(i); };
+    return {load, static_cast<double>(count_where(x.size(), is_inside))};
+  }
+  const double cap = caps.for_all();
   const auto clipped_sum = [=](const auto& block) {
     return (block - shift).max(0.0).min(cap).sum();
   };
@@ -23,15 +31,15 @@ std::pair<double, double> load_and_slope(const std::vector<double>& x, double sh
 
 }  // namespace
 
-double shift_for_load(const std::vector<double>& x, double load, double cap) {
+double shift_for_load(const std::vector<double>& x, double load, const Caps& caps) {
   const Extent extent = extent_over(std::ssize(x), x.data());
   // At `low` the sum is at least the load, at `high` it is zero.
-  double low = extent.lowest - std::min(cap, load);
+  double low = extent.lowest - std::min(caps.highest(std::ssize(x)), load);
   double high = extent.highest;
   double shift = std::clamp(0.0, low, high);
   constexpr int most_steps = 200;
   for (int step = 0; step < most_steps; ++step) {
-    const auto [sum, n_inside] = load_and_slope(x, shift, cap);
+    const auto [sum, n_inside] = load_and_slope(x, shift, caps);
     const double excess = sum - load;
     if (std::abs(excess) <= 1e-15 * load) break;
     (excess > 0 ? low : high) = shift;
@@ -45,19 +53,19 @@ double shift_for_load(const std::vector<double>& x, double load, double cap) {
   return shift;
 }
 
-void project_on_load(std::vector<double>& x, double load, double cap) {
-  double shift = shift_for_load(x, load, cap);
+void project_on_load(std::vector<double>& x, double load, const Caps& caps) {
+  double shift = shift_for_load(x, load, caps);
   // A shift far larger than the pressures loses load to rounding; what it leaves near the bounds is
   // exact and is shifted again.
   constexpr double lost = 1e-12;
   constexpr int most_rounds = 4;
   for (int round = 0;
-       round < most_rounds && std::abs(load_and_slope(x, shift, cap).first - load) > lost * load;
+       round < most_rounds && std::abs(load_and_slope(x, shift, caps).first - load) > lost * load;
        ++round) {
     for_each(x.size(), [&](std::size_t i) { x[i] -= shift; });
-    shift = shift_for_load(x, load, cap);
+    shift = shift_for_load(x, load, caps);
   }
-  for_each(x.size(), [&](std::size_t i) { x[i] = std::clamp(x[i] - shift, 0.0, cap); });
+  for_each(x.size(), [&](std::size_t i) { x[i] = std::clamp(x[i] - shift, 0.0, caps(i)); });
 }
 
 }  // namespace tabor::contact

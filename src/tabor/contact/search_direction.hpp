@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "tabor/contact/caps.hpp"
 #include "tabor/contact/long_waves.hpp"
 #include "tabor/contact/preconditioner.hpp"
 #include "tabor/core/loops.hpp"
@@ -33,16 +34,16 @@ class SearchDirection {
   double diagonal() const { return preconditioner_.diagonal(); }
 
   /// Finds the direction on a set for steps of this length; pressure(k) and lowest(k) [Pa] at its
-  /// pixel k, which lies between lowest(k) and `cap`. `residual` [m] is a map, zero off the set.
+  /// pixel k, which lies between lowest(k) and caps(k). `residual` [m] is a map, zero off the set.
   template <typename Pressure, typename Lowest>
-  void find(const PixelList& set, const FieldF& residual, double step, double cap,
+  void find(const PixelList& set, const FieldF& residual, double step, const Caps& caps,
             const Pressure& pressure, const Lowest& lowest) {
     preconditioner_.apply(set, residual, compact_, stiffness_);
     whole_ = compact_;
     moved_ = compact_;
     long_waves_.start_anew();
     for (int round = 0; round < kMostRounds && long_waves_.useful(); ++round) {
-      const double n_changed = hold_at_bounds(set.size(), step, cap, pressure, lowest);
+      const double n_changed = hold_at_bounds(set.size(), step, caps, pressure, lowest);
       if (round > 1 && n_changed <= kSettledShare * static_cast<double>(set.size())) break;
       const auto accuracy = round == 0 ? LongWaves::Accuracy::rough : LongWaves::Accuracy::full;
       long_waves_.correct(set, stiffness_, moved_, compact_, accuracy, whole_);
@@ -86,12 +87,12 @@ class SearchDirection {
   /// moved_ := the compact direction, or as much as the bounds allow where the direction leads
   /// beyond them. Returns the number of pixels that changed between the two.
   template <typename Pressure, typename Lowest>
-  double hold_at_bounds(std::size_t n, double step, double cap, const Pressure& pressure,
+  double hold_at_bounds(std::size_t n, double step, const Caps& caps, const Pressure& pressure,
                         const Lowest& lowest) {
     return sum_over(n, [&](std::size_t k) {
       const double p = pressure(k);
       const double wanted = p - step * static_cast<double>(whole_[k]);
-      const double allowed = std::clamp(wanted, lowest(k), cap);
+      const double allowed = std::clamp(wanted, lowest(k), caps(k));
       const bool was_free = moved_[k] == compact_[k];
       moved_[k] = wanted == allowed ? compact_[k] : static_cast<float>((p - allowed) / step);
       return was_free == (wanted == allowed) ? 0.0 : 1.0;

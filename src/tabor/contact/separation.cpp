@@ -52,7 +52,7 @@ class Search {
         highest_(extent_of(problem.height).highest),
         separation_(separation),
         approach_(highest_ - separation),
-        log_limit_(std::log((1 - kNearCap) * problem.saturation_pressure)) {}
+        log_limit_(std::log((1 - kNearCap) * problem.caps.mean(problem.height.size()))) {}
 
   /// Finds ln P within an accuracy, from a guess that it improves.
   State run(Guess& guess, double tolerance, double accuracy);
@@ -82,7 +82,7 @@ class Search {
 };
 
 State Search::solve_at(double mean_pressure, const Field& start, double tolerance) {
-  const LoadProblem problem{problem_.height, mean_pressure, problem_.saturation_pressure,
+  const LoadProblem problem{problem_.height, mean_pressure, problem_.caps,
                             start,           tolerance,     problem_.max_iterations};
   State state = solve_load(elasticity_, problem, solver_, observer_);
   work_ = after(work_, state.convergence);
@@ -122,12 +122,12 @@ State Search::run(Guess& guess, double tolerance, double accuracy) {
 void Search::settle(State& state) {
   if (is_near(state)) return;
   const Grid& grid = elasticity_.grid();
-  const double cap = problem_.saturation_pressure;
   const double compliance =
       elastic::love_coefficient(0, 0, grid.dx(), grid.dy(), elasticity_.effective_modulus());
   Field settled = state.pressure;
   for_each(settled.size(), [&](Index i) {
     double& p = settled(i);
+    const double cap = problem_.caps(i);
     if (!touches(p) || at_cap(p, cap)) return;
     const double gap = state.displacement(i) - problem_.height(i) + separation_;
     if (gap > kFalseContact * p * compliance) p = 0;
@@ -178,7 +178,7 @@ Guess first_guess(const elastic::ElasticOperator& elasticity, const LoadProblem&
   const auto coarse = elasticity.on_grid(coarser(elasticity.grid()));
   const LoadProblem coarse_problem{height,
                                    0,
-                                   problem.saturation_pressure,
+                                   problem.caps.mean(problem.height.size()),
                                    problem.start,
                                    kRoughTolerance,
                                    problem.max_iterations};

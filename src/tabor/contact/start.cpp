@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tabor/contact/fast_solver.hpp"
+#include "tabor/contact/listed_caps.hpp"
 #include "tabor/contact/projection.hpp"
 #include "tabor/core/large_pages.hpp"
 #include "tabor/core/loops.hpp"
@@ -21,16 +22,16 @@ constexpr double kCoarseTolerance = 1e-3;  // tighter coarse solutions save noth
 /// height above the median.
 Field bearing_pressure(const LoadProblem& problem) {
   const Field& height = problem.height;
-  const bool saturates = std::isfinite(problem.saturation_pressure);
-  const double share = saturates ? problem.mean_pressure / problem.saturation_pressure : 0.5;
+  const bool saturates = problem.caps.bound();
+  const double cap = problem.caps.mean(height.size());
+  const double share = saturates ? problem.mean_pressure / cap : 0.5;
   std::vector<double> sorted(height.data(), height.data() + height.size());
   const auto rank = std::min<Index>(
       height.size() - 1, static_cast<Index>(std::ceil(share * static_cast<double>(height.size()))));
   std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end(), std::greater<>());
   const double level = sorted[static_cast<std::size_t>(rank)];
   if (saturates) {
-    return (height >= level)
-        .select(Field::Constant(height.rows(), height.cols(), problem.saturation_pressure), 0.0);
+    return (height >= level).select(Field::Constant(height.rows(), height.cols(), cap), 0.0);
   }
   return (height - level).max(0.0);
 }
@@ -58,20 +59,20 @@ Field doubled(const Field& coarse, Index ny, Index nx) {
   return fine;
 }
 
-void fit_to_load(Field& pressure, double mean_pressure, double saturation_pressure) {
+void fit_to_load(Field& pressure, double mean_pressure, const Caps& caps) {
   const double load = mean_pressure * static_cast<double>(pressure.size());
   double* p = pressure.data();
   PixelList support = list_where(pressure.size(), [p](Index i) { return touches(p[i]); });
-  if (support.empty() || saturation_pressure * static_cast<double>(support.size()) <= load) {
+  if (support.empty() || Caps(ListedCaps(caps, support)).sum(std::ssize(support)) <= load) {
     support = list_where(pressure.size(), [](Index) { return true; });
   }
   std::vector<double> values(support.size());
   for_each(values.size(), [&](std::size_t k) { values[k] = p[support[k]]; });
   const double carried = sum_over(values.size(), [&](std::size_t k) { return values[k]; });
-  if (!std::isfinite(saturation_pressure) && carried > 0) {
+  if (!caps.bound() && carried > 0) {
     for_each(values.size(), [&](std::size_t k) { values[k] *= load / carried; });
   }
-  project_on_load(values, load, saturation_pressure);
+  project_on_load(values, load, ListedCaps(caps, support));
   for_each(values.size(), [&](std::size_t k) { p[support[k]] = values[k]; });
 }
 
@@ -85,7 +86,7 @@ Field starting_pressure(const elastic::ElasticOperator& elasticity, const LoadPr
     const Field height = halved(problem.height);
     const LoadProblem coarse{height,
                              problem.mean_pressure,
-                             problem.saturation_pressure,
+                             problem.caps.mean(problem.height.size()),
                              problem.start,
                              std::max(kCoarseTolerance, problem.tolerance),
                              problem.max_iterations};
@@ -102,7 +103,7 @@ Field starting_pressure(const elastic::ElasticOperator& elasticity, const LoadPr
   } else {
     pressure = bearing_pressure(problem);
   }
-  fit_to_load(pressure, problem.mean_pressure, problem.saturation_pressure);
+  fit_to_load(pressure, problem.mean_pressure, problem.caps);
   return pressure;
 }
 

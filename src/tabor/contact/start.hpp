@@ -24,6 +24,6 @@ Field starting_pressure(const elastic::ElasticOperator& elasticity, const LoadPr
 
 /// Scales or shifts p on its support so that mean(p) = P exactly, within the bounds; a support too
 /// small for the load is widened to all pixels.
-void fit_to_load(Field& pressure, double mean_pressure, double saturation_pressure);
+void fit_to_load(Field& pressure, double mean_pressure, const Caps& caps);
 
 }  // namespace tabor::contact

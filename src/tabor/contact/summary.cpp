@@ -37,7 +37,7 @@ Summary summarise(const State& state, const Problem& problem, const Grid& grid, 
   const Mask contact = contact_mask(state);
   const Transitions transitions = count_transitions(contact, periodic);
   const Index n = grid.size();
-  const double cap = problem.bounds.upper;
+  const Caps caps = problem.bounds.caps();
 
   Summary summary;
   summary.mean_pressure = state.mean_pressure;
@@ -46,11 +46,11 @@ Summary summarise(const State& state, const Problem& problem, const Grid& grid, 
   summary.area_correction_valid = !runs_along_the_grid(contact, transitions, periodic);
   const double excess =
       kTransitionArea * static_cast<double>(transitions.total()) / static_cast<double>(n);
-  const double floor = std::isfinite(cap) ? state.mean_pressure / cap : 0.0;
+  const double floor = caps.bound() ? state.mean_pressure / caps.highest(n) : 0.0;
   summary.contact_area_fraction = std::max(
       floor, summary.contact_area_fraction_pixels - (summary.area_correction_valid ? excess : 0.0));
   summary.saturated_area_fraction =
-      mean_of(n, [&](Index i) { return at_cap(state.pressure(i), cap) ? 1.0 : 0.0; });
+      mean_of(n, [&](Index i) { return at_cap(state.pressure(i), caps(i)) ? 1.0 : 0.0; });
   summary.mean_gap = mean_of(n, [&](Index i) { return std::max(state.gap(i), 0.0); });
   summary.separation = state.separation;
   summary.approach = extent_of(problem.height).highest - state.separation;

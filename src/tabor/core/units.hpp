@@ -27,6 +27,7 @@ inline constexpr Dimension density{-3, 1, 0, 0};
 inline constexpr Dimension speed{1, 0, -1, 0};
 inline constexpr Dimension viscosity{-1, 1, -1, 0};
 inline constexpr Dimension per_pressure{1, -1, 2, 0};
+inline constexpr Dimension pressure_gradient{-2, 1, -2, 0};
 inline constexpr Dimension force{1, 1, -2, 0};
 inline constexpr Dimension force_per_length{0, 1, -2, 0};
 inline constexpr Dimension mass{0, 1, 0, 0};

@@ -152,6 +152,8 @@ std::vector<StateField> fields_of(const cases::SlideState& state) {
   };
   add("squeezed_film", "m", "oil that contacts squeeze out, as this one meets it", maps.squeezed);
   add("liquid_pressure", "Pa", "pressure of the trapped oil", maps.liquid_pressure);
+  add("saturation_pressure", "Pa", "pressure at which the sheet yields here",
+      maps.saturation_pressure);
   return fields;
 }
 

@@ -36,6 +36,13 @@ void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
     throw InputError("sliding", "a tool with holes or infinite heights", "a height at every pixel",
                      "");
   }
+  if (!(problem.hardening >= 0) || !std::isfinite(problem.hardening)) {
+    throw InputError("hardening", fmt::format("{} Pa/m", problem.hardening), "zero or more", "");
+  }
+  if (problem.hardening > 0 && (!std::isfinite(problem.saturation_pressure) || problem.oil)) {
+    throw InputError("hardening", problem.oil ? "trapped oil" : "an elastic sheet",
+                     "a sheet that yields, without trapped oil", "");
+  }
   if (!(problem.reach > 0)) {
     throw InputError("reach", format_si(problem.reach, "m"), "more than zero", "");
   }
@@ -126,6 +133,7 @@ Slider::Reached Slider::reached() const {
   return {.sheet = problem_.sheet,
           .pressure = state_.pressure,
           .with_oil = trapped_ ? trapped_->contact.pressure : Field(),
+          .caps = hardened(),
           .energy = energy_,
           .place = problem_.place};
 }
@@ -139,6 +147,7 @@ void Slider::go_on_from(Reached reached) {
   }
   state_ = {};
   state_.pressure = std::move(reached.pressure);
+  caps_ = std::move(reached.caps);
   energy_ = reached.energy;
 }
 
@@ -166,21 +175,40 @@ double Slider::wear(double distance) {
   return sum_over(pressure.size(), worn) / n;
 }
 
+contact::Caps Slider::caps() const {
+  return caps_.size() > 0 ? contact::Caps(caps_.data())
+                          : contact::Caps(problem_.saturation_pressure);
+}
+
+/// Saturation pressures after what the last contact displaced [Pa]; none without hardening.
+Field Slider::hardened() const {
+  const contact::State& pressed = displacing();
+  if (!(problem_.hardening > 0) || pressed.gap.size() == 0) return caps_;
+  Field hardened(pressed.gap.rows(), pressed.gap.cols());
+  const contact::Caps before = caps();
+  for_each(hardened.size(),
+           [&](Index i) { hardened(i) = before(i) + problem_.hardening * yielded(pressed, i); });
+  return hardened;
+}
+
+/// How deep a pixel of the last contact has yielded [m].
+double Slider::yielded(const contact::State& pressed, Index i) const {
+  return contact::at_cap(pressed.pressure(i), caps()(i)) ? std::max(-pressed.gap(i), 0.0) : 0.0;
+}
+
 /// Takes what the contact has displaced off the sheet and puts it where it goes. Returns the
 /// volumes.
 Ploughing Slider::settle() {
   const contact::State& pressed = displacing();
   Field depth(problem_.sheet.rows(), problem_.sheet.cols());
-  for_each(depth.size(), [&](Index i) {
-    const bool has_yielded = contact::at_cap(pressed.pressure(i), problem_.saturation_pressure);
-    depth(i) = has_yielded ? std::max(-pressed.gap(i), 0.0) : 0.0;
-  });
+  for_each(depth.size(), [&](Index i) { depth(i) = yielded(pressed, i); });
   const Raised raised =
       raise(problem_.displaced, depth, touching(), pressed.gap, elasticity_.grid(), problem_.reach);
   for_each(depth.size(), [&](Index i) { problem_.sheet(i) += raised.height(i) - depth(i); });
   const auto n = static_cast<double>(depth.size());
-  return {
-      .moved = sum(depth) / n, .lost = raised.lost / n, .without_space = raised.without_space / n};
+  const double moved = sum(depth) / n;
+  yielding_ = caps_.size() > 0 ? mean_product(caps_, depth) : problem_.saturation_pressure * moved;
+  return {.moved = moved, .lost = raised.lost / n, .without_space = raised.without_space / n};
 }
 
 Ploughing Slider::press(const Observer& observer) { return press(0, observer); }
@@ -188,7 +216,7 @@ Ploughing Slider::press(const Observer& observer) { return press(0, observer); }
 contact::Problem Slider::pressing(Field height) const {
   return {.height = std::move(height),
           .control = contact::MeanPressure{problem_.mean_pressure},
-          .bounds = {.upper = problem_.saturation_pressure},
+          .bounds = {.upper = problem_.saturation_pressure, .upper_of_each = caps_},
           .tolerance = problem_.tolerance};
 }
 
@@ -196,6 +224,7 @@ contact::Problem Slider::pressing(Field height) const {
 /// gap, and a coarse solution, are farther off. The place is the new one only when the contact is
 /// solved, so that a stopped step can be taken again.
 Ploughing Slider::press(Index pixels, const Observer& observer) {
+  caps_ = hardened();
   contact::Problem problem = pressing(pressed_height(pixels));
   problem.start = std::move(state_.pressure);
   state_.displacement.resize(0, 0);  // memory for the solver
@@ -228,7 +257,7 @@ Ploughing Slider::advance(Index pixels, const Observer& observer) {
   step.lower = lower;
   step.upper = mean_product(last_pressure(), problem_.tool, from, from + pixels);
   step.work = energy_ - energy_before;
-  if (step.moved > 0) step.work += problem_.saturation_pressure * step.moved;
+  if (step.moved > 0) step.work += yielding_;
   if (problem_.oil) step.work = 0.5 * (step.lower + step.upper);
   step.distance = static_cast<double>(pixels) * elasticity_.grid().dx();
   step.worn = wear(step.distance);

@@ -23,6 +23,7 @@ struct Problem {
   Index place = 0;           ///< of the tool along x [pixels]
   double mean_pressure = 0;  ///< P [Pa]
   double saturation_pressure = 0;  ///< p_sat [Pa]; infinite: the sheet is elastic, and only worn
+  double hardening = 0;  ///< H [Pa/m]: where the sheet has yielded w deep, p_sat is H w higher
   Displaced displaced = Displaced::near;
   double reach = 2e-6;          ///< [m], of Displaced::near
   double wear_coefficient = 0;  ///< k [1/Pa]: a solid pressure p wears k p deep over each length
@@ -57,6 +58,8 @@ struct Ploughing {
 ///
 /// since V(h) = min { 1/2 <u, S^-1 u> + p_sat sum w + P N sep : sep + u + w >= h, w >= 0 } is
 /// convex with the gradient p, and V(h - w) = V(h) - p_sat sum w with the same p (docs/sliding.md).
+/// With hardening p_sat is a map, that of the contact 2: it is no lower than that of the contact 1,
+/// so that V'(1) and p(1) are the same under both.
 /// Wear takes k p s off the sheet with each step s (Archard 1953), and <p, k p s> off V', to first
 /// order. With trapped oil the pockets change between two places, and V' with them: the work is
 /// then the mean of both products, which are no bounds.
@@ -75,6 +78,7 @@ class Slider {
     Field sheet;        ///< [m]
     Field pressure;     ///< of the last contact without oil [Pa]
     Field with_oil;     ///< of the last contact with trapped oil [Pa]; or empty
+    Field caps;         ///< saturation pressures of the next contact [Pa]; empty: p_sat
     double energy = 0;  ///< V' over the nominal area [J/m^2]
     Index place = 0;    ///< of the tool [pixels]
   };
@@ -92,6 +96,9 @@ class Slider {
   /// The contact that displaces material: with trapped oil, where there is some.
   const contact::State& displacing() const { return trapped_ ? trapped_->contact : state_; }
   Mask touching() const;  ///< pixels of its solid contact
+  /// Returns the saturation pressures of the last contact [Pa].
+  contact::Caps caps() const;
+  const Field& hardened_pressure() const { return caps_; }  ///< the same; empty without hardening
   /// Replaces the oil of a problem that has some [m].
   void lay_oil(const Field& film) { problem_.oil->film = film; }
   Index place() const { return problem_.place; }
@@ -102,13 +109,17 @@ class Slider {
   const Field& last_pressure() const { return displacing().pressure; }
   Ploughing press(Index pixels, const Observer& observer);
   Ploughing settle();
+  Field hardened() const;
+  double yielded(const contact::State& pressed, Index i) const;
   double wear(double distance);
 
   elastic::ElasticOperator& elasticity_;
   Problem problem_;
   contact::State state_;
   std::optional<contact::TrappedState> trapped_;
-  double energy_ = 0;  // V' over the nominal area [J/m^2]
+  Field caps_;           // saturation pressures of the last contact [Pa]; empty: p_sat
+  double energy_ = 0;    // V' over the nominal area [J/m^2]
+  double yielding_ = 0;  // mean of p_sat w of the last contact [J/m^2]
 };
 
 /// Returns the heights of a tool at a place over a sheet of so many columns [m].

@@ -8,11 +8,14 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/rows.hpp"
 #include "tabor/core/text.hpp"
+#include "tabor/numerics/medians.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -78,19 +81,80 @@ std::vector<Index> sample_pixels(Index size) {
   return pixels;
 }
 
+/// Medians around pixels, several at once where they have all their neighbours.
+class MediansAround {
+ public:
+  MediansAround(const Field& height, Index window) : height_(height), window_(window) {}
+
+  /// Calls take(k, median) for each pixels[k]; NaN where there are too few neighbours.
+  template <typename Take>
+  void find(std::span<const Index> pixels, const Take& take) {
+    constexpr std::size_t n_side = numerics::kLists;
+    std::size_t n_waiting = 0;
+    std::array<std::size_t, n_side> waiting{};
+    for (std::size_t k = 0; k < pixels.size(); ++k) {
+      if (!has_all_neighbours(pixels[k])) {
+        const Index y = pixels[k] / height_.cols(), x = pixels[k] % height_.cols();
+        take(k, median_around(height_, y, x, window_, values_));
+        continue;
+      }
+      waiting[n_waiting++] = k;
+      if (n_waiting == n_side) take_waiting(pixels, waiting, std::exchange(n_waiting, 0), take);
+    }
+    if (n_waiting > 0) take_waiting(pixels, waiting, n_waiting, take);
+  }
+
+ private:
+  /// One median after the other is faster where windows are wider: side by side they take the
+  /// square of the neighbours.
+  static constexpr Index kWidest = 7;
+
+  bool has_all_neighbours(Index pixel) const {
+    if (window_ > kWidest) return false;
+    const Index reach = window_ / 2;
+    const Index y = pixel / height_.cols(), x = pixel % height_.cols();
+    if (y < reach || x < reach || y + reach >= height_.rows() || x + reach >= height_.cols()) {
+      return false;
+    }
+    return height_.block(y - reach, x - reach, window_, window_).isFinite().all();
+  }
+
+  /// Takes the medians of the first n that wait; the last of them stands in for the missing.
+  template <typename Take>
+  void take_waiting(std::span<const Index> pixels, std::span<const std::size_t> waiting,
+                    std::size_t n, const Take& take) {
+    lanes_.resize(static_cast<std::size_t>(window_ * window_ - 1));
+    const Index reach = window_ / 2;
+    for (std::size_t i = 0; i < numerics::kLists; ++i) {
+      const double* centre = height_.data() + pixels[waiting[std::min(i, n - 1)]];
+      std::size_t j = 0;
+      for (Index v = -reach; v <= reach; ++v) {
+        for (Index u = -reach; u <= reach; ++u) {
+          if (v != 0 || u != 0) lanes_[j++][i] = centre[v * height_.cols() + u];
+        }
+      }
+    }
+    const numerics::Lanes& medians = numerics::upper_medians(lanes_);
+    for (std::size_t i = 0; i < n; ++i) take(waiting[i], medians[i]);
+  }
+
+  const Field& height_;
+  Index window_;
+  std::vector<double> values_;
+  std::vector<numerics::Lanes> lanes_;
+};
+
 /// Typical distance from the surroundings' median over the whole scan. Where more than half of the
 /// heights equal theirs (coarsely digitised scans), the mean distance stands in.
 double typical_distance(const Field& height, Index window) {
   const std::vector<Index> pixels = sample_pixels(height.size());
   std::vector<double> known(pixels.size());
   parallel_for(std::ssize(pixels), 1024, [&](Index begin, Index end) {
-    std::vector<double> values;
-    for (Index k = begin; k < end; ++k) {
-      const Index pixel = pixels[static_cast<std::size_t>(k)];
-      const Index y = pixel / height.cols(), x = pixel % height.cols();
-      known[static_cast<std::size_t>(k)] =
-          std::abs(height(y, x) - median_around(height, y, x, window, values));
-    }
+    const auto first = static_cast<std::size_t>(begin);
+    const std::span<const Index> part(pixels.data() + first, static_cast<std::size_t>(end - begin));
+    MediansAround(height, window).find(part, [&](std::size_t k, double median) {
+      known[first + k] = std::abs(height.data()[part[k]] - median);
+    });
   });
   std::erase_if(known, [](double distance) { return std::isnan(distance); });
   if (known.empty()) return std::numeric_limits<double>::infinity();

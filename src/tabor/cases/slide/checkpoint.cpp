@@ -87,6 +87,7 @@ void for_each_map(Maps& maps, const Act& act) {
   act("/gap", maps.gap);
   act("/squeezed", maps.squeezed);
   act("/liquid_pressure", maps.liquid_pressure);
+  act("/saturation_pressure", maps.saturation_pressure);
 }
 
 void require_whole(const fs::path& file) {
@@ -135,6 +136,7 @@ void SlideCheckpoint::save(const ReachedSlide& reached) const {
   writer.write("/sheet", reached.slider.sheet);
   writer.write("/pressure", reached.slider.pressure);
   if (is_trapped) writer.write("/with_oil", reached.slider.with_oil);
+  if (reached.slider.caps.size() > 0) writer.write("/caps", reached.slider.caps);
   if (reached.squeezed.size() > 0) writer.write("/squeezed", reached.squeezed);
   writer.group("/reached");
   io::write_attributes(writer, "/reached", reached_columns(), reached);
@@ -173,6 +175,7 @@ std::optional<ReachedSlide> SlideCheckpoint::load() const {
   reached.slider.sheet = reader.field("/sheet");
   reached.slider.pressure = reader.field("/pressure");
   if (reader.exists("/with_oil")) reached.slider.with_oil = reader.field("/with_oil");
+  if (reader.exists("/caps")) reached.slider.caps = reader.field("/caps");
   if (reader.exists("/squeezed")) reached.squeezed = reader.field("/squeezed");
   reached.periods = read_all(reader, "periods", period_columns());
   reached.states =

@@ -90,6 +90,16 @@ const Parameters<SlideSettings>& slide_parameters() {
            .absent = "no wear",
            .identity = Identity::yes},
           &Settings::wear_coefficient),
+      One({.name = "hardening",
+           .help = "rise of the saturation pressure of a pixel over the depth that it has yielded",
+           .example = "100 MPa/um",
+           .dimension = dimension::pressure_gradient,
+           .bounds = bounds::above_zero,
+           .study_key = "slide.hardening",
+           .placeholder = "H",
+           .absent = "none",
+           .identity = Identity::unless_default},
+          &Settings::hardening),
       One({.name = "liquid",
            .help = "oil stays on its pixels (a lower bound of friction), and in a second account "
                    "is squeezed out of contacts (an upper bound)",
@@ -120,7 +130,8 @@ SlideParts parts_of(const CaseSettings& settings, const SlideSettings& sliding) 
           .squeezed = has_oil && sliding.liquid != SlidingOil::kept,
           .trapped = has_oil && settings.trapped.is_asked(),
           .lost = sliding.displaced == sliding::Displaced::lost,
-          .worn = sliding.wear_coefficient.has_value()};
+          .worn = sliding.wear_coefficient.has_value(),
+          .hardened = sliding.hardening.has_value()};
 }
 
 Columns<SlideRecord> slide_columns(const SlideParts& parts) {
@@ -137,6 +148,8 @@ Columns<SlideRecord> slide_columns(const SlideParts& parts) {
        member_of(&Record::contact, &contact::Summary::contact_area_fraction_pixels), percent},
       {"saturated_area_fraction", "", "",
        member_of(&Record::contact, &contact::Summary::saturated_area_fraction)},
+      {"highest_saturation_pressure_Pa", "Pa", shown(parts.hardened, "p_sat up to"),
+       &Record::highest_saturation_pressure},
       {"mean_gap_m", "m", "mean gap", member_of(&Record::contact, &contact::Summary::mean_gap)},
       {"mean_film_m", "m", "", &Record::mean_film},
       {"", "", shown(parts.kept || parts.squeezed, "film / gap"),
@@ -197,6 +210,15 @@ std::optional<Objection> objection(const SlideSettings& settings, const CaseSett
         "saturation_pressure",
         fmt::format("an elastic contact displaces nothing: sliding needs {} or {}",
                     spelling("saturation_pressure"), spelling("wear_coefficient")));
+  }
+  if (settings.hardening && !all.contact.saturation_pressure) {
+    return objection_to_use("hardening", fmt::format("an elastic sheet does not harden: give {}",
+                                                     spelling("saturation_pressure")));
+  }
+  if (settings.hardening && all.trapped.is_asked()) {
+    return objection_to_use(
+        "hardening", fmt::format("trapped oil is not solved on a sheet that hardens: leave out {}",
+                                 spelling("trapped")));
   }
   if (all.mean_pressures.size() != 1 || all.film.lubricant_densities.size() > 1) {
     const std::string setting =

@@ -20,10 +20,10 @@ double mean_patch_length(const Mask& contact) {
   return static_cast<double>(contact.count()) / std::max(1.0, n_ends);
 }
 
-ByteMap state_map(const Mask& touching, const Field& pressure, double cap) {
+ByteMap state_map(const Mask& touching, const Field& pressure, const contact::Caps& caps) {
   ByteMap state(touching.rows(), touching.cols());
   for_each(state.size(), [&](Index i) {
-    const bool is_saturated = touching(i) && contact::at_cap(pressure(i), cap);
+    const bool is_saturated = touching(i) && contact::at_cap(pressure(i), caps(i));
     state(i) = static_cast<std::uint8_t>(touching(i) + is_saturated);
   });
   return state;

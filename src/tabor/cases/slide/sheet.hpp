@@ -8,8 +8,8 @@ namespace tabor::cases {
 /// Returns the mean length of the contact along x [pixels].
 double mean_patch_length(const Mask& contact);
 
-/// Returns SlideMaps::state of contact pixels under this pressure and cap [Pa].
-ByteMap state_map(const Mask& touching, const Field& pressure, double cap);
+/// Returns SlideMaps::state of contact pixels under this pressure and these caps [Pa].
+ByteMap state_map(const Mask& touching, const Field& pressure, const contact::Caps& caps);
 
 /// Writes Sq, Sa, Sk, Spk and Svk of heights [m] into a record.
 void measure(const Field& sheet, SlideRecord& record);

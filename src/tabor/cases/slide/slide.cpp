@@ -129,6 +129,7 @@ sliding::Problem Run::problem_of() const {
                            .place = places_of(settings_.contact.tool, tool_).front(),
                            .mean_pressure = pressure(),
                            .saturation_pressure = settings_.contact.pressure_cap(),
+                           .hardening = sliding_.hardening.value_or(0),
                            .displaced = sliding_.displaced,
                            .reach = std::max(sliding_.reach, 2 * surface_.grid.dx()),
                            .wear_coefficient = sliding_.wear_coefficient.value_or(0),
@@ -226,6 +227,8 @@ SlideRecord Run::record() {
   one.step_certificate = since_.certificate(pressure());
   const double ploughing = since_.distance > 0 ? one.friction_ploughing : 0;
   one.friction_dry = dry_friction_of(one) + ploughing;
+  const double highest = slider_.caps().highest(surface_.grid.size());
+  if (std::isfinite(highest)) one.highest_saturation_pressure = highest;
   if (film_) {
     one.mean_film = film_->film.mean_film;
     add_oil(one, ploughing);
@@ -266,7 +269,8 @@ SlideMaps Run::maps() const {
   maps.sheet = slider_.sheet();
   maps.pressure = contact.pressure;
   maps.gap = contact.gap;
-  maps.state = state_map(slider_.touching(), contact.pressure, settings_.contact.pressure_cap());
+  maps.state = state_map(slider_.touching(), contact.pressure, slider_.caps());
+  maps.saturation_pressure = slider_.hardened_pressure();
   if (has_squeezed()) maps.squeezed = before_squeezing_;
   if (slider_.trapped() != nullptr) maps.liquid_pressure = slider_.trapped()->liquid_pressure;
   return maps;

@@ -39,6 +39,8 @@ struct SlideSettings {
   sliding::Displaced displaced = sliding::Displaced::near;
   double reach = 2e-6;                          ///< of Displaced::near [m]
   std::optional<double> wear_coefficient = {};  ///< k of Archard [1/Pa]; absent: no wear
+  std::optional<double> hardening = {};  ///< rise of p_sat over the depth that a pixel has yielded
+                                         ///< [Pa/m]; absent: none
   SlidingOil liquid = SlidingOil::both;
   bool until_steady = false;         ///< ends before the distance, once nothing changes any more
   std::vector<double> maps_at = {};  ///< distances whose maps are stored, beside both ends [m]
@@ -49,8 +51,9 @@ const Parameters<SlideSettings>& slide_parameters();
 struct SlideRecord {
   double distance = 0;  ///< [m]
   contact::Summary contact;
-  double mean_film = kNoValue;     ///< of the oil that was rained [m]
-  double friction_dry = kNoValue;  ///< with ploughing
+  double highest_saturation_pressure = kNoValue;  ///< of a pixel [Pa]
+  double mean_film = kNoValue;                    ///< of the oil that was rained [m]
+  double friction_dry = kNoValue;                 ///< with ploughing
   double friction_ploughing = kNoValue;
   double friction_ploughing_lower = kNoValue;
   double friction_ploughing_upper = kNoValue;
@@ -85,6 +88,7 @@ struct SlideParts {
   bool trapped = true;   ///< trapped oil carries load
   bool lost = true;      ///< material leaves the sheet
   bool worn = true;
+  bool hardened = true;  ///< where the sheet yields its saturation pressure rises
 };
 SlideParts parts_of(const CaseSettings& settings, const SlideSettings& sliding);
 Columns<SlideRecord> slide_columns(const SlideParts& parts = {});
@@ -102,7 +106,8 @@ struct SlideMaps {
   Field gap;       ///< [m]
   ByteMap state;   ///< 0 no contact, 1 contact below saturation, 2 saturated
   Field squeezed;  ///< oil as the contact meets it, where contacts squeeze it out [m]; or empty
-  Field liquid_pressure;  ///< of trapped oil [Pa]; or empty
+  Field liquid_pressure;      ///< of trapped oil [Pa]; or empty
+  Field saturation_pressure;  ///< of each pixel, where the sheet hardens [Pa]; or empty
 };
 
 /// A state as it is computed, or read again where a run goes on.

@@ -13,7 +13,7 @@ namespace tabor::contact {
 IterateConditions::IterateConditions(const elastic::ElasticOperator& elasticity,
                                      const LoadProblem& problem, const SealedPockets& liquid)
     : liquid_(liquid),
-      cap_(problem.saturation_pressure),
+      cap_(problem.caps.for_all()),
       load_(problem.mean_pressure * static_cast<double>(problem.height.size())),
       pixel_compliance_(elastic::love_coefficient(
           0, 0, elasticity.grid().dx(), elasticity.grid().dy(), elasticity.effective_modulus())),

@@ -25,6 +25,10 @@ void check(const Problem& problem, const GapLiquid& liquid, const State& dry) {
                      "one under a mean pressure or a force",
                      "the liquid carries a part of the load");
   }
+  if (!problem.bounds.caps().are_one()) {
+    throw InputError("trapped liquid", "a saturation pressure of each pixel", "one for all",
+                     "leave out either");
+  }
   if (!(liquid.bulk_modulus > 0)) {
     throw InputError("bulk modulus", format_si(liquid.bulk_modulus, "Pa"), "more than zero", "");
   }

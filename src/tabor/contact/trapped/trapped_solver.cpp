@@ -43,7 +43,7 @@ class TwoMetricGradient {
         problem_(problem),
         liquid_(liquid),
         pockets_(liquid.pockets),
-        cap_(problem.saturation_pressure),
+        cap_(problem.caps.for_all()),
         load_(problem.mean_pressure * static_cast<double>(problem.height.size())),
         gap_scale_(load_ * length_scale(elasticity, problem)),
         conditions_(elasticity, problem, liquid),
