@@ -2,12 +2,15 @@
 
 #include <vector>
 
+#include "tabor/core/registers.hpp"
+
 // Finds medians of several lists side by side, by vector instructions.
 namespace tabor::numerics {
 
-inline constexpr int kLists = 8;  ///< lists side by side
+/// Lists side by side.
+inline constexpr int kLists = kRegisterBytes / sizeof(double);
 /// The values at one place of all lists.
-using Lanes = double __attribute__((vector_size(kLists * sizeof(double))));
+using Lanes = double __attribute__((vector_size(kRegisterBytes)));
 
 /// Returns the upper median of each list: of n values in ascending order, the one at n / 2. No
 /// list may have a NaN, and none may be empty. Reorders the values, and returns one of them.
