@@ -15,23 +15,25 @@ inline constexpr double kNoSaturation = std::numeric_limits<double>::infinity();
 /// costs no memory and no look.
 class Caps {
  public:
-  // NOLINTNEXTLINE(google-explicit-constructor): one number for all is what most callers have
-  Caps(double for_all) : for_all_(for_all) {}
+  /// One for all [Pa], which is what most callers have.
+  Caps(double for_all) : for_all_(for_all) {}  // NOLINT(google-explicit-constructor)
+  /// One for each pixel [Pa]; must outlive the object.
   explicit Caps(const double* each) : for_all_(kNoSaturation), each_(each) {}
 
+  /// Returns the cap of pixel i [Pa].
   template <std::integral Count>
   double operator()(Count i) const {
     return each_ != nullptr ? each_[i] : for_all_;
   }
-  bool are_one() const { return each_ == nullptr; }
-  double for_all() const { return for_all_; }  ///< [Pa], where they are one
+  bool are_one() const { return each_ == nullptr; }  ///< true where one holds for all pixels
+  double for_all() const { return for_all_; }        ///< [Pa], where they are one
   /// Returns false where no pressure is bounded.
   bool bound() const { return each_ != nullptr || std::isfinite(for_all_); }
 
-  /// Returns the highest, the lowest and the sum of the first n [Pa].
-  double highest(Index n) const;
-  double lowest(Index n) const;
-  double sum(Index n) const;
+  double highest(Index n) const;  ///< of the first n [Pa]
+  double lowest(Index n) const;   ///< of the first n [Pa]
+  double sum(Index n) const;      ///< of the first n [Pa]
+  /// Returns the mean of the first n [Pa].
   double mean(Index n) const { return are_one() ? for_all_ : sum(n) / static_cast<double>(n); }
 
  private:

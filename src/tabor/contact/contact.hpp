@@ -39,6 +39,7 @@ struct Bounds {
   double upper = kNoSaturation;  ///< p_sat [Pa]; must exceed P
   Field upper_of_each{};         ///< p_sat of each pixel [Pa], in place of `upper`; or empty
 
+  /// Returns the upper bounds of all pixels; they refer to this object.
   Caps caps() const { return upper_of_each.size() > 0 ? Caps(upper_of_each.data()) : Caps(upper); }
 };
 
