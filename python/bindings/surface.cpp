@@ -69,7 +69,8 @@ Topography topography_of(const MapArgument& height, const TopographyState& state
   return one;
 }
 
-/// A surface of heights [m] that no file holds, on pixels of dx by dy [m]; nobody has looked at it.
+/// A surface of heights [m] that no file holds, on pixels of dx by dy [m]; look_at() has not
+/// seen it yet.
 Topography make_surface(const MapArgument& height, double dx, double dy, bool periodic,
                         const std::string& source) {
   return watched(nb::none(), [&](const Observer&) {
@@ -87,10 +88,7 @@ Topography make_surface(const MapArgument& height, double dx, double dy, bool pe
 
 /// Finds edges and warnings of a surface from make_surface().
 void look_at(Topography& surface) {
-  watched(nb::none(), [&](const Observer&) {
-    topography::look_at(surface);
-    return true;
-  });
+  watch(nb::none(), [&](const Observer&) { topography::look_at(surface); });
 }
 
 /// With the digest of the file's bytes.

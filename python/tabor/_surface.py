@@ -197,7 +197,7 @@ class Surface(TreatmentSteps):
     (64, 64)
     """
 
-    _heights: _tabor.Topography
+    _heights: _tabor.Topography  #: perhaps without edges and warnings
     _is_looked_at: bool  #: its edges and warnings are known
     _sha256: str  #: of the file it was read from, "" if there is none
 

@@ -200,16 +200,7 @@ TEST(Ploughing, GoesOnFromWhatWasReachedWithTheSameBits) {
   for (const bool has_oil : {false, true}) {
     Rough rough;
     if (has_oil) rough.problem.oil = TrappedOil{Field::Constant(48, 64, 0.4e-6), 1.5e9, true};
-    Slider whole(*rough.elasticity, rough.problem);
-    whole.press();
-    whole.advance(2);
-    Slider second(*rough.elasticity, rough.problem);
-    second.go_on_from(whole.reached());
-    const Ploughing expected = whole.advance(2);
-    const Ploughing found = second.advance(2);
-    EXPECT_EQ(found.work, expected.work);
-    EXPECT_EQ(found.lower, expected.lower);
-    EXPECT_TRUE((second.sheet() == whole.sheet()).all());
+    expect_to_go_on(rough);
   }
 }
 
@@ -220,9 +211,7 @@ TEST(Ploughing, LiesBetweenItsBoundsAtEveryStep) {
     slider.press();
     for (int i = 0; i < 15; ++i) {
       const Ploughing step = slider.advance(1 + i % 3);
-      const double rounding = 1e-6 * rough.problem.mean_pressure * step.distance;
-      EXPECT_LE(step.lower, step.work + rounding) << i;
-      EXPECT_LE(step.work, step.upper + rounding) << i;
+      expect_within_bounds(step, rough.problem.mean_pressure);
       EXPECT_GE(step.moved, 0);
     }
   }

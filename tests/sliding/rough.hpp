@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <memory>
 
 #include "tabor/elastic/half_space.hpp"
@@ -37,5 +39,28 @@ struct Rough {
   std::unique_ptr<elastic::ElasticOperator> elasticity;
   Problem problem;
 };
+
+/// Expects the work of a step to lie between its bounds, but for rounding.
+inline void expect_within_bounds(const Ploughing& step, double mean_pressure) {
+  const double rounding = 1e-6 * mean_pressure * step.distance;
+  EXPECT_LE(step.lower, step.work + rounding);
+  EXPECT_LE(step.work, step.upper + rounding);
+}
+
+/// Expects a slider that goes on from what another has reached to find the same bits.
+inline void expect_to_go_on(const Rough& rough) {
+  Slider whole(*rough.elasticity, rough.problem);
+  whole.press();
+  whole.advance(2);
+  Slider second(*rough.elasticity, rough.problem);
+  second.go_on_from(whole.reached());
+  const Ploughing expected = whole.advance(2);
+  const Ploughing found = second.advance(2);
+  EXPECT_EQ(found.work, expected.work);
+  EXPECT_EQ(found.lower, expected.lower);
+  EXPECT_TRUE((second.sheet() == whole.sheet()).all());
+  EXPECT_EQ(second.caps_map().size(), whole.caps_map().size());
+  EXPECT_TRUE((second.caps_map() == whole.caps_map()).all());
+}
 
 }  // namespace tabor::sliding

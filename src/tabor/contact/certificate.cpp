@@ -46,18 +46,20 @@ Knapsack fill_each(const std::vector<double>& v, double load, const Caps& caps) 
   return {threshold, smallest};
 }
 
+Knapsack fill(const std::vector<double>& v, double load, const Caps& caps) {
+  return caps.are_one() ? fill_alike(v, load, caps.for_all()) : fill_each(v, load, caps);
+}
+
 }  // namespace
 
 double knapsack_threshold(const std::vector<double>& v, double load, const Caps& caps) {
-  return (caps.are_one() ? fill_alike(v, load, caps.for_all()) : fill_each(v, load, caps))
-      .threshold;
+  return fill(v, load, caps).threshold;
 }
 
 double duality_gap(const Candidates& candidates, double load, const Caps& caps) {
   const std::vector<double>& v = candidates.residual;
   if (v.empty()) return 0;
-  const Knapsack knapsack =
-      caps.are_one() ? fill_alike(v, load, caps.for_all()) : fill_each(v, load, caps);
+  const Knapsack knapsack = fill(v, load, caps);
   // Measured from the threshold, both products are small where the pressure is nearly optimal.
   const double product = sum_over(v.size(), [&](std::size_t i) {
     return candidates.pressure[i] * (v[i] - knapsack.threshold);

@@ -20,13 +20,12 @@ struct Candidates {
 ///     G = <p, v> - min { <s, v> : 0 <= s <= p_sat, mean(s) = P },    v = S p - z
 ///
 /// It bounds the energy error of p from above. The minimum is a knapsack: p_sat on the smallest v.
-/// `caps` are those of the candidates.
-/// `load` is the sum of pressures P * n_pixels [Pa]; the result [Pa m] is summed over pixels. Only
-/// valid for a pressure that carries the load exactly.
+/// `load` is the sum of pressures P * n_pixels [Pa], `caps` are those of the candidates; the result
+/// [Pa m] is summed over pixels. Only valid for a pressure that carries the load exactly.
 double duality_gap(const Candidates& candidates, double load, const Caps& caps);
 
-/// Returns the v of the pixel that carries what the full ones leave of the load: those whose v is
-/// smaller.
+/// Returns the threshold of that knapsack: pixels of smaller v are full, the one at the threshold
+/// carries what they leave of the load.
 double knapsack_threshold(const std::vector<double>& v, double load, const Caps& caps);
 
 }  // namespace tabor::contact

@@ -133,7 +133,7 @@ Slider::Reached Slider::reached() const {
   return {.sheet = problem_.sheet,
           .pressure = state_.pressure,
           .with_oil = trapped_ ? trapped_->contact.pressure : Field(),
-          .caps = hardened(),
+          .caps = next_caps(),
           .energy = energy_,
           .place = problem_.place};
 }
@@ -181,7 +181,7 @@ contact::Caps Slider::caps() const {
 }
 
 /// Saturation pressures after what the last contact displaced [Pa]; none without hardening.
-Field Slider::hardened() const {
+Field Slider::next_caps() const {
   const contact::State& pressed = displacing();
   if (!(problem_.hardening > 0) || pressed.gap.size() == 0) return caps_;
   Field hardened(pressed.gap.rows(), pressed.gap.cols());
@@ -224,7 +224,7 @@ contact::Problem Slider::pressing(Field height) const {
 /// gap, and a coarse solution, are farther off. The place is the new one only when the contact is
 /// solved, so that a stopped step can be taken again.
 Ploughing Slider::press(Index pixels, const Observer& observer) {
-  caps_ = hardened();
+  caps_ = next_caps();
   contact::Problem problem = pressing(pressed_height(pixels));
   problem.start = std::move(state_.pressure);
   state_.displacement.resize(0, 0);  // memory for the solver

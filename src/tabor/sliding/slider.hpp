@@ -98,7 +98,7 @@ class Slider {
   Mask touching() const;  ///< pixels of its solid contact
   /// Returns the saturation pressures of the last contact [Pa].
   contact::Caps caps() const;
-  const Field& hardened_pressure() const { return caps_; }  ///< the same; empty without hardening
+  const Field& caps_map() const { return caps_; }  ///< the same; empty without hardening
   /// Replaces the oil of a problem that has some [m].
   void lay_oil(const Field& film) { problem_.oil->film = film; }
   Index place() const { return problem_.place; }
@@ -109,7 +109,7 @@ class Slider {
   const Field& last_pressure() const { return displacing().pressure; }
   Ploughing press(Index pixels, const Observer& observer);
   Ploughing settle();
-  Field hardened() const;
+  Field next_caps() const;
   double yielded(const contact::State& pressed, Index i) const;
   double wear(double distance);
 

@@ -270,7 +270,7 @@ SlideMaps Run::maps() const {
   maps.pressure = contact.pressure;
   maps.gap = contact.gap;
   maps.state = state_map(slider_.touching(), contact.pressure, slider_.caps());
-  maps.saturation_pressure = slider_.hardened_pressure();
+  maps.saturation_pressure = slider_.caps_map();
   if (has_squeezed()) maps.squeezed = before_squeezing_;
   if (slider_.trapped() != nullptr) maps.liquid_pressure = slider_.trapped()->liquid_pressure;
   return maps;
