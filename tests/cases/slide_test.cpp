@@ -16,6 +16,7 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 CaseSettings aluminium() {
   CaseSettings settings;
@@ -155,6 +156,8 @@ TEST(Slide, HardensASheet) {
   EXPECT_GT(found.states.back().highest_saturation_pressure,
             1.01 * *settings.contact.saturation_pressure);
   EXPECT_LT(found.states.back().moved_volume, without.states.back().moved_volume);
+  EXPECT_THAT(codes_of(without.warnings), Contains("clamp"));
+  EXPECT_THAT(codes_of(found.warnings), Not(Contains("clamp")));  // tau_y/p_sat is of no pixel
   ASSERT_EQ(caps.size(), 2U);
   EXPECT_EQ(caps.front().size(), 0);  // one for all still
   EXPECT_EQ(caps.back().maxCoeff(), found.states.back().highest_saturation_pressure);

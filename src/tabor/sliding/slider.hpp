@@ -98,6 +98,7 @@ class Slider {
   Mask touching() const;  ///< pixels of its solid contact
   /// Returns the saturation pressures of the last contact [Pa].
   contact::Caps caps() const;
+  double highest_cap() const { return caps().highest(problem_.sheet.size()); }  ///< of a pixel [Pa]
   const Field& caps_map() const { return caps_; }  ///< the same; empty without hardening
   /// Replaces the oil of a problem that has some [m].
   void lay_oil(const Field& film) { problem_.oil->film = film; }

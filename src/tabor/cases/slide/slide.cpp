@@ -36,6 +36,7 @@ class Run {
         observer_(observer),
         elasticity_(make_operator(settings.contact, surface.grid)),
         tool_(make_tool(settings.contact.tool, surface.grid, observer)),
+        contact_(settings.contact),
         distance_(distance_of(sliding, tool_, surface.grid.dx())),
         film_(rain()),
         slider_(*elasticity_, problem_of()),
@@ -78,7 +79,7 @@ class Run {
 
   SlideRecord record();
   double dry_friction_of(const SlideRecord& one) const {
-    return estimate_of(one.contact, 0, settings_.contact, settings_.friction).friction_dry;
+    return estimate_of(one.contact, 0, contact_, settings_.friction).friction_dry;
   }
   void add_oil(SlideRecord& one, double ploughing);
   void measure_sheet(SlideRecord& one);
@@ -102,7 +103,8 @@ class Run {
   const Observer& observer_;
   std::unique_ptr<elastic::ElasticOperator> elasticity_;
   Tool tool_;
-  double distance_;  // at most [m]
+  ContactSettings contact_;  // of the last contact, with the highest p_sat of its pixels
+  double distance_;          // at most [m]
   std::optional<FilmRecord> film_;
   sliding::Slider slider_;
   Steadiness steadiness_;
@@ -154,6 +156,7 @@ void Run::take(const sliding::Ploughing& step) {
   converged_ = converged_ && slider_.state().convergence.converged() &&
                slider_.displacing().convergence.converged();
   if (step.distance > 0) ++result_.steps;
+  if (sliding_.hardening) contact_.saturation_pressure = slider_.highest_cap();
 }
 
 /// Squeezes oil out, and follows how steady sliding is.
@@ -196,15 +199,14 @@ void Run::add_oil(SlideRecord& one, double ploughing) {
   };
   const auto friction_with = [&](double share, std::optional<TrappedFriction>& trapped) {
     if (slider_.trapped() == nullptr) {
-      return estimate_of(one.contact, share, settings_.contact, settings_.friction)
-                 .friction_lubricated +
+      return estimate_of(one.contact, share, contact_, settings_.friction).friction_lubricated +
              ploughing;
     }
     with_oil_.solids = solids;
     with_oil_.liquid = slider_.trapped()->liquid;
     with_oil_.lubricated_share = share;
     with_oil_.convergence = slider_.trapped()->contact.convergence;
-    trapped = trapped_friction(with_oil_, pressure(), settings_.contact, settings_.friction);
+    trapped = trapped_friction(with_oil_, pressure(), contact_, settings_.friction);
     return trapped->friction_solid + trapped->friction_boundary + ploughing;
   };
   if (has_kept()) {
@@ -227,8 +229,7 @@ SlideRecord Run::record() {
   one.step_certificate = since_.certificate(pressure());
   const double ploughing = since_.distance > 0 ? one.friction_ploughing : 0;
   one.friction_dry = dry_friction_of(one) + ploughing;
-  const double highest = slider_.caps().highest(surface_.grid.size());
-  if (std::isfinite(highest)) one.highest_saturation_pressure = highest;
+  one.highest_saturation_pressure = contact_.saturation_pressure.value_or(kNoValue);
   if (film_) {
     one.mean_film = film_->film.mean_film;
     add_oil(one, ploughing);
@@ -445,9 +446,9 @@ void Run::warn() {
   contact.summary = last.contact;
   const double wet = has_kept() ? last.lubricated_share : has_squeezed() ? last.squeezed_share : 0;
   if (slider_.state().convergence.converged()) {
-    add(of_contact(surface_, settings_.contact, slider_.state(), last.contact), result_.warnings);
+    add(of_contact(surface_, contact_, slider_.state(), last.contact), result_.warnings);
   }
-  dry_friction(contact, wet, 0, settings_.contact, settings_.friction, result_.warnings);
+  dry_friction(contact, wet, 0, contact_, settings_.friction, result_.warnings);
   if (last.trapped) add(of_trapped(with_oil_), result_.warnings);
   if (film_) add(of_film_in_gap(film_->film.mean_film, last.contact.mean_gap), result_.warnings);
 }
