@@ -129,13 +129,19 @@ void take_edges(ContactSettings& settings, const topography::Topography& surface
   settings.take_edges(surface.edges);
 }
 
+/// Presses with a surface in place of a flat.
+void take_tool(ContactSettings& settings, const topography::Topography& surface) {
+  cases::take_tool(settings.tool, surface);
+}
+
 void bind_settings(nb::module_& module) {
   using namespace nb::literals;
   nb::class_<ContactSettings> settings(module, "ContactSettings");
   settings.def(nb::init<>())
       .def_rw("material", &ContactSettings::material)
       .def_prop_ro("effective_modulus", &ContactSettings::effective_modulus)
-      .def("take_edges", &take_edges, "surface"_a);
+      .def("take_edges", &take_edges, "surface"_a)
+      .def("take_tool", &take_tool, "surface"_a);
   bind_parameters(settings, cases::contact_parameters());
 }
 

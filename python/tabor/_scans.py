@@ -10,7 +10,7 @@ from typing import Any, Unpack
 
 from ._arguments import Path, mapping, path, wrong
 from ._setting_types import ScanSettings
-from ._settings import OF_SCANS, Setting, complete, documented, takes
+from ._settings import OF_SCANS, Setting, complete, documented, is_surface, takes
 from ._values import Value, si_list
 
 
@@ -31,6 +31,8 @@ def quantity(value: float, unit: str) -> str:
 
 def line(setting: Setting, value: Any) -> str:
     """A plain value of a setting as a study file has it."""
+    if is_surface(value):
+        raise TypeError(f"{setting.argument}: a study reads it from a file: surface.write('tool.h5'), then the name of the file")
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):

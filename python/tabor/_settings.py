@@ -18,6 +18,11 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 _Settings = TypeVar("_Settings")
 
 
+def is_surface(value: Any) -> bool:
+    """Whether this is a Surface, which this module knows nothing of."""
+    return hasattr(value, "_topography")
+
+
 class Setting(NamedTuple):
     """One line of a table."""
 
@@ -67,7 +72,14 @@ class Setting(NamedTuple):
             return si_list(value, self.dimension, self.argument)[0]
         if self.kind == "count":
             return whole(value, self.argument, 0, 2**64 - 1)
+        if self.takes_surface and is_surface(value):
+            return value
         return flag(value, self.argument) if self.kind == "flag" else plain_text(value, self.argument)
+
+    @property
+    def takes_surface(self) -> bool:
+        """Whether a Surface may stand in place of the name of a scan file."""
+        return self.name == "tool"
 
     @property
     def hint(self) -> str:
@@ -75,6 +87,7 @@ class Setting(NamedTuple):
         value = f'Annotated[Value, "{self.unit}"]' if self.unit else "Value"
         hint = {"number": value, "numbers": f"{value} | Sequence[{value}]", "count": "int", "flag": "bool",
                 "word": f"Literal[{', '.join(map(repr, self.words))}]", "text": "str"}[self.kind]
+        hint += " | Surface" if self.takes_surface else ""
         return hint if self.default is not None else f"{hint} | None"
 
     @property
@@ -136,8 +149,12 @@ def complete(settings: Sequence[Setting], given: Mapping[str, Any]) -> dict[str,
 
 def filled(target: _Settings, values: Mapping[str, Any]) -> _Settings:
     """Settings of the extension module with these values; None leaves what they have."""
+    taking: Any = target
     for name, value in values.items():
-        setattr(target, name, value)
+        if is_surface(value):
+            taking.take_tool(value._topography)
+        else:
+            setattr(target, name, value)
     return target
 
 

@@ -327,6 +327,27 @@ def test_a_rough_tool_presses_as_the_sum_of_both_under_a_flat(rough, steel):
     np.testing.assert_array_equal(pickle.loads(pickle.dumps(under)).tool, under.tool)
 
 
+def test_a_surface_in_memory_is_a_tool(rough, steel):
+    tool = tb.Surface(1e-8 * np.cos(np.arange(rough.shape[1])) * np.ones(rough.shape), pixel=1e-6)
+    under = tb.contact(rough, "50 MPa", steel, tool=tool, tool_x=3e-6)
+    np.testing.assert_allclose(under.tool, np.roll(tool.height - tool.height.mean(), 3, axis=1), atol=1e-20)
+    flat = tb.contact(tb.Surface(rough.height + under.tool, pixel=1e-6, periodic=True), "50 MPa", steel)
+    np.testing.assert_array_equal(under.pressure, flat.pressure)
+    np.testing.assert_array_equal(pickle.loads(pickle.dumps(under)).tool, under.tool)
+    assert tb.friction(under, tb.rain(rough, "0.2 g/m^2")).values["tool_x_m"] == under.values["tool_x_m"]
+    slid = tb.slide(rough, "50 MPa", steel, 2 * rough.pixel[0], tool=tool, step=2 * rough.pixel[0])
+    assert slid.steps == 1
+
+
+def test_a_surface_that_is_no_tool_is_rejected(rough, steel):
+    holed = rough.height.copy()
+    holed[0, 0] = np.nan
+    for tool, message in ((tb.Surface(holed, pixel=1e-6), "fill them"), (tb.Surface(rough.height, pixel=3e-7), "pixels"),
+                          (tb.Surface(rough.height[:, :8], pixel=1e-6), "tool-repeats|tool_repeats")):
+        with pytest.raises(ValueError, match=message):
+            tb.contact(rough, "50 MPa", steel, tool=tool)
+
+
 def test_a_tool_that_makes_no_sense_is_rejected(rough, steel):
     for tool, message in (("grond:Sa=1um", "ground"), ("ground:Sa=1", "unit"), ("nowhere.x3p", "nowhere.x3p")):
         with pytest.raises(ValueError, match=message):

@@ -109,7 +109,8 @@ TEST(Averages, KeepSpeedsApart) {
 
 TEST(AveragesCsv, AddsColumnsWhereTheOilFlows) {
   const std::string dry = averages_csv(averages({sliding(0.5, 0.2)}));
-  const std::string flowing = averages_csv(averages({sliding(0.5, 0.2)}), true);
+  const std::string flowing =
+      averages_csv(averages({sliding(0.5, 0.2)}), {.trapped = false, .fluid = true, .tool = false});
   EXPECT_EQ(dry.find("speed"), std::string::npos);
   EXPECT_EQ(flowing,
             "group,mean_pressure_Pa,lubricant_density_g_per_m2,n,friction_dry_mean,"
@@ -118,6 +119,19 @@ TEST(AveragesCsv, AddsColumnsWhereTheOilFlows) {
             "fluid_load_share_std,fluid_load_share_sem,friction_viscous_mean,friction_viscous_std,"
             "friction_viscous_sem,friction_mixed_mean,friction_mixed_std,friction_mixed_sem\n"
             "A,5000000,0,1,0.25,,,0.125,,,0.5,0.1,,,0.01,,,0.2,,\n");
+}
+
+TEST(AveragesCsv, HasTheLoadThatTrappedOilCarries) {
+  std::vector<Row> rows{row("A", 5e6, 0.25), row("A", 5e6, 0.35)};
+  for (Row& one : rows) one.trapped.emplace();
+  rows[0].trapped->load_share = 0.125;
+  rows[1].trapped->load_share = 0.375;
+  const std::string csv =
+      averages_csv(averages(rows), {.trapped = true, .fluid = false, .tool = false});
+  EXPECT_THAT(csv, testing::HasSubstr("friction_lubricated_sem,liquid_load_share_mean,"
+                                      "liquid_load_share_std,liquid_load_share_sem\n"));
+  EXPECT_THAT(csv, testing::HasSubstr(",0.25,0.1767766952966369,0.125\n"));
+  EXPECT_THAT(averages_csv(averages(rows)), testing::Not(testing::HasSubstr("liquid")));
 }
 
 TEST(ResultsCsv, PutsColumnsOfAFlowBehindTheAgreedOnes) {

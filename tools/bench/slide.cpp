@@ -29,26 +29,31 @@ constexpr double kPressure = 10e6;  // [Pa]
 constexpr double kCap = 240e6;      // [Pa]
 constexpr Index kStep = 4;          // [pixels]
 
-sliding::Problem make_problem(Index n) {
+Grid grid_of(Index n) {
   const double side = static_cast<double>(n) * kPixel;
-  synthesis::Edt sheet;
-  sheet.grid = {n, n, side, side};
+  return {n, n, side, side};
+}
+
+Field make_tool(Index n) {
   synthesis::Ground tool;
-  tool.grid = sheet.grid;
+  tool.grid = grid_of(n);
   tool.rms_height = 0.125e-6;  // Sa 0.1 um
+  return synthesis::ground(tool).height;
+}
+
+sliding::Problem make_problem(Index n) {
+  synthesis::Edt sheet;
+  sheet.grid = grid_of(n);
   return {.sheet = synthesis::edt(sheet).height,
-          .tool = synthesis::ground(tool).height,
+          .tool = make_tool(n),
           .mean_pressure = kPressure,
           .saturation_pressure = kCap};
 }
 
 void run(Index n, int n_steps) {
-  sliding::Problem problem = make_problem(n);
-  const Field tool = problem.tool;
-  const double side = static_cast<double>(n) * kPixel;
   const auto elasticity =
-      elastic::make_periodic({n, n, side, side}, material::effective_modulus({70e9, 0.33}));
-  sliding::Slider slider(*elasticity, std::move(problem));
+      elastic::make_periodic(grid_of(n), material::effective_modulus({70e9, 0.33}));
+  sliding::Slider slider(*elasticity, make_problem(n));
   std::ofstream("/proc/self/clear_refs") << "5";  // the peak of memory counts from here
   sliding::Ploughing all = slider.press();
   const Stopwatch watch;
@@ -59,9 +64,10 @@ void run(Index n, int n_steps) {
   }
   const double seconds = watch.seconds() / n_steps;
   const double memory = static_cast<double>(peak_memory_bytes()) / static_cast<double>(n * n);
-  const contact::Problem last{.height = slider.sheet() + sliding::tool_at(tool, slider.place(), n),
-                              .control = contact::MeanPressure{kPressure},
-                              .bounds = {.upper = kCap}};
+  const contact::Problem last{
+      .height = slider.sheet() + sliding::tool_at(make_tool(n), slider.place(), n),
+      .control = contact::MeanPressure{kPressure},
+      .bounds = {.upper = kCap}};
   contact::solve(*elasticity, last);  // without what a first solution alone does
   const Stopwatch contact_watch;
   contact::solve(*elasticity, last);

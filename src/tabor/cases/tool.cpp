@@ -12,6 +12,7 @@
 #include "tabor/scan/file.hpp"
 #include "tabor/sliding/slider.hpp"
 #include "tabor/synthesis/recipe_text.hpp"
+#include "tabor/topography/digest.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::cases {
@@ -44,6 +45,13 @@ topography::Topography read_tool(const ToolSettings& settings, const Observer& o
   }
   topography::Topography tool = file.read();
   tool.source = *settings.tool;
+  return tool;
+}
+
+/// The surface that is the tool, from a file or from memory.
+topography::Topography scanned_tool(const ToolSettings& settings, const Observer& observer) {
+  topography::Topography tool =
+      settings.surface ? *settings.surface : read_tool(settings, observer);
   topography::require_no_holes(tool, "tool " + *settings.tool,
                                "fill them: tabor convert TOOL OUT --fill harmonic");
   return tool;
@@ -92,7 +100,9 @@ void check_size(const Grid& sheet, const ToolSettings& settings, const Grid& too
 
 }  // namespace
 
-bool ToolSettings::is_scan() const { return is_rough() && !synthesis::is_recipe(*tool); }
+bool ToolSettings::is_scan() const {
+  return is_rough() && !surface && !synthesis::is_recipe(*tool);
+}
 
 const Parameters<ToolSettings>& tool_parameters() {
   using Settings = ToolSettings;
@@ -152,7 +162,7 @@ std::optional<Objection> objection(const ToolSettings& settings,
                      .got = "''",
                      .expected = "a scan file, or a generator such as ground:Sa=0.1um"};
   }
-  if (!settings.is_scan()) synthesis::parse_recipe(*settings.tool);
+  if (!settings.surface && !settings.is_scan()) synthesis::parse_recipe(*settings.tool);
   if (!settings.tool_lowpass) return std::nullopt;
   try {
     topography::check({"lowpass=" + *settings.tool_lowpass});
@@ -174,10 +184,17 @@ void find_tool(ToolSettings& settings, const std::filesystem::path& folder) {
   settings.sha256 = io::sha256_of_file(settings.file());
 }
 
+void take_tool(ToolSettings& settings, topography::Topography surface) {
+  settings.tool = surface.source.empty() ? "surface" : surface.source;
+  settings.sha256 = fmt::format("{:016x}", topography::digest_of(surface.height, surface.grid));
+  settings.surface = std::make_shared<const topography::Topography>(std::move(surface));
+}
+
 Tool make_tool(const ToolSettings& settings, const Grid& sheet, const Observer& observer) {
   topography::Topography made =
-      settings.is_scan() ? on_pixels_of(sheet, settings, read_tool(settings, observer), observer)
-                         : synthesis::generate(synthesis::parse_recipe(*settings.tool), sheet);
+      settings.surface || settings.is_scan()
+          ? on_pixels_of(sheet, settings, scanned_tool(settings, observer), observer)
+          : synthesis::generate(synthesis::parse_recipe(*settings.tool), sheet);
   if (settings.tool_lowpass) {
     made = topography::apply({"lowpass=" + *settings.tool_lowpass}, std::move(made), observer);
   }

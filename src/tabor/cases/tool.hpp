@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,8 +30,11 @@ struct ToolSettings {
   /// Returns the number of places in force: one under a flat.
   std::size_t n_places() const { return is_rough() ? tool_places : 1; }
 
+  /// Heights in memory in place of a file, which `tool` names: see take_tool().
+  std::shared_ptr<const topography::Topography> surface = {};
+
   std::filesystem::path folder = {};  ///< that the name of a scan file is relative to
-  std::string sha256 = {};            ///< of that file, once it is known
+  std::string sha256 = {};  ///< of that file, once it is known; the digest of heights in memory
 
   /// True where there is a tool.
   bool is_rough() const { return tool.has_value(); }
@@ -49,6 +53,9 @@ std::optional<Objection> objection(const ToolSettings& settings,
 /// Notes the folder and the SHA-256 of a tool that is a scan file. Throws InputError where it
 /// cannot be read.
 void find_tool(ToolSettings& settings, const std::filesystem::path& folder);
+
+/// Presses with a surface in memory.
+void take_tool(ToolSettings& settings, topography::Topography surface);
 
 /// A tool on the pixels of a sheet: T(x, y), which repeats along x.
 struct Tool {

@@ -51,7 +51,7 @@ study::SweepOptions options_for(const Request& request, const Context& context) 
 }
 
 io::Json averages_json(const study::Study& study, const std::vector<study::Average>& averages) {
-  const auto columns = study::average_columns(study.flows());
+  const auto columns = study::average_columns(cases::parts_of(study.settings));
   io::Json rows = io::Json::array();
   for (const study::Average& average : averages) rows.push_back(io::json_of(columns, average));
   return rows;

@@ -37,6 +37,10 @@ class ConvolutionOperator : public ElasticOperator {
         displacement);
   }
   bool apply_inverse(const Field&, Field&) override { return false; }
+  void free_memory() override {
+    single_.reset();
+    double_.reset();
+  }
 
  protected:
   /// out = F^-1 [ values F [in] ] in double precision.

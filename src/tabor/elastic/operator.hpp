@@ -33,6 +33,9 @@ class ElasticOperator {
   /// True if a uniform pressure displaces nothing (periodic half-space, mean mode dropped).
   virtual bool drops_mean() const = 0;
 
+  /// Gives back what apply() holds for its next call.
+  virtual void free_memory() {}
+
   virtual double fft_seconds() const = 0;  ///< time spent in transforms so far
 };
 

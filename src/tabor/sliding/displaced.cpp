@@ -2,8 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <numbers>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,30 +17,25 @@ constexpr double kExact = 1e-15;       // relative: of volumes
 constexpr double kNegligible = 1e-12;  // of the largest weight: rounding of the transforms
 constexpr int kMostSteps = 100;
 
-/// A Gaussian of this deviation [m] applied to a map that repeats.
-Field spread(const Field& depth, const Grid& grid, double reach) {
-  const spectral::RealFft2d<double> fft(grid.ny, grid.nx);
-  const Index n_columns = fft.spectrum_columns();
-  std::vector<std::complex<double>> spectrum(static_cast<std::size_t>(grid.ny * n_columns));
-  fft.forward(depth.data(), spectrum.data());
+/// Applies a Gaussian of this deviation [m] to a map that repeats.
+void spread(Field& map, const Grid& grid, double reach) {
   const auto decay = [reach](Index k, Index n, double side) {
-    const auto wave = static_cast<double>(std::min(k, n - k));
-    const double phase = 2 * std::numbers::pi * wave * reach / side;
+    const double phase = spectral::wavevector(k, n, side) * reach;
     return std::exp(-0.5 * phase * phase);
   };
-  for_each(
-      grid.ny,
-      [&](Index y) {
-        const double along_y = decay(y, grid.ny, grid.ly);
-        for (Index x = 0; x < n_columns; ++x) {
-          spectrum[static_cast<std::size_t>(y * n_columns + x)] *=
-              along_y * decay(x, grid.nx, grid.lx);
-        }
-      },
-      16);
-  Field weight(grid.ny, grid.nx);
-  fft.inverse(spectrum.data(), weight.data());
-  return weight;
+  std::vector<double> along_y(static_cast<std::size_t>(grid.ny / 2 + 1));
+  for (Index ky = 0; ky <= grid.ny / 2; ++ky) {
+    along_y[static_cast<std::size_t>(ky)] = decay(ky, grid.ny, grid.ly);
+  }
+  spectral::Convolution<double>(grid.ny, grid.nx)
+      .apply(
+          map.data(),
+          [&](Index kx, std::span<double> values) {
+            const double along_x = decay(kx, grid.nx, grid.lx);
+            std::transform(along_y.begin(), along_y.end(), values.begin(),
+                           [along_x](double along) { return along * along_x; });
+          },
+          map.data());
 }
 
 /// The c with sum min(c weight, space) = volume: Newton on a concave, piecewise linear function,
@@ -71,18 +65,22 @@ double scale_for_volume(const Field& weight, const Space& space, double volume) 
 
 }  // namespace
 
-Raised raise(Displaced displaced, const Field& depth, const Mask& contact, const Field& gap,
+Raised raise(Displaced displaced, Field depth, const Mask& contact, const Field& gap,
              const Grid& grid, double reach) {
   Raised raised;
-  const double volume = sum(depth);
+  const double volume = raised.volume = sum(depth);
   const Index n_free = count_where(depth.size(), [&](Index i) { return !contact(i); });
   if (displaced == Displaced::lost || n_free == 0 || !(volume > 0)) {
     raised.height = Field::Zero(grid.ny, grid.nx);
     raised.lost = volume;
     return raised;
   }
-  Field weight = displaced == Displaced::near ? spread(depth, grid, reach)
-                                              : Field::Constant(grid.ny, grid.nx, 1.0);
+  Field weight = std::move(depth);
+  if (displaced == Displaced::near) {
+    spread(weight, grid, reach);
+  } else {
+    for_each(weight.size(), [&](Index i) { weight(i) = 1; });
+  }
   const double least = kNegligible * extent_of(weight).highest;
   const auto space = [&](Index i) { return std::max(gap(i), 0.0); };
   for_each(weight.size(), [&](Index i) {

@@ -17,7 +17,8 @@ inline constexpr auto kDisplaced = names<Displaced>("near", "uniform", "lost");
 
 /// Heights that rise, and what of the displaced material they are.
 struct Raised {
-  Field height;  ///< [m], >= 0, 0 on contact
+  Field height;       ///< [m], >= 0, 0 on contact
+  double volume = 0;  ///< sum of the displaced material [m]
   double without_space =
       0;            ///< sum that found no space in the gap and rose evenly out of contact [m]
   double lost = 0;  ///< sum that left the surface [m]
@@ -28,8 +29,8 @@ struct Raised {
 /// `reach` [m] applied to the depth, c times it, at most the gap, with the c at which volumes
 /// agree. As nothing rises above the gap, the pressures stay those of a solution. Sums of depth and
 /// rise agree to 1e-13. Opposite borders of the map are neighbours. Where everything touches there
-/// is no space: all of it is lost.
-Raised raise(Displaced displaced, const Field& depth, const Mask& contact, const Field& gap,
+/// is no space: all of it is lost. The map of depths becomes that of heights.
+Raised raise(Displaced displaced, Field depth, const Mask& contact, const Field& gap,
              const Grid& grid, double reach);
 
 }  // namespace tabor::sliding

@@ -202,12 +202,16 @@ Ploughing Slider::settle() {
   const contact::State& pressed = displacing();
   Field depth(problem_.sheet.rows(), problem_.sheet.cols());
   for_each(depth.size(), [&](Index i) { depth(i) = yielded(pressed, i); });
-  const Raised raised =
-      raise(problem_.displaced, depth, touching(), pressed.gap, elasticity_.grid(), problem_.reach);
-  for_each(depth.size(), [&](Index i) { problem_.sheet(i) += raised.height(i) - depth(i); });
-  const auto n = static_cast<double>(depth.size());
-  const double moved = sum(depth) / n;
-  yielding_ = caps_.size() > 0 ? mean_product(caps_, depth) : problem_.saturation_pressure * moved;
+  const Raised raised = raise(problem_.displaced, std::move(depth), touching(), pressed.gap,
+                              elasticity_.grid(), problem_.reach);
+  for_each(problem_.sheet.size(),
+           [&](Index i) { problem_.sheet(i) += raised.height(i) - yielded(pressed, i); });
+  const auto n = static_cast<double>(problem_.sheet.size());
+  const double moved = raised.volume / n;
+  yielding_ = problem_.saturation_pressure * moved;
+  if (caps_.size() > 0) {
+    yielding_ = sum_over(caps_.size(), [&](Index i) { return caps_(i) * yielded(pressed, i); }) / n;
+  }
   return {.moved = moved, .lost = raised.lost / n, .without_space = raised.without_space / n};
 }
 
@@ -246,6 +250,8 @@ Ploughing Slider::press(Index pixels, const Observer& observer) {
   problem_.place += pixels;
   energy_ = 0.5 * mean_product(state_.pressure, state_.displacement) +
             problem_.mean_pressure * state_.separation;
+  problem = {};  // memory for what follows
+  elasticity_.free_memory();
   return settle();
 }
 

@@ -89,6 +89,11 @@ Average average_over(const Key& key, const std::vector<const Row*>& rows) {
   average.friction_dry = mean_over(rows, [](const Row& row) { return row.friction_dry; });
   average.friction_lubricated =
       mean_over(rows, [](const Row& row) { return row.friction_lubricated; });
+  const auto is_trapped = [](const Row* row) { return row->trapped.has_value(); };
+  if (!rows.empty() && std::all_of(rows.begin(), rows.end(), is_trapped)) {
+    average.liquid_load_share =
+        mean_over(rows, [](const Row& row) { return row.trapped->load_share; });
+  }
   if (std::get<3>(key) == kAtRest) return average;
   average.fluid.emplace();
   average.fluid->sliding_speed = std::get<3>(key);
@@ -125,7 +130,7 @@ std::vector<Average> averages(const std::vector<Row>& rows) {
   return result;
 }
 
-Columns<Average> average_columns(bool oil_flows) {
+Columns<Average> average_columns(const cases::FrictionParts& parts) {
   Columns<Average> columns{
       {"group", "", "", &Average::group},
       {"mean_pressure_Pa", "Pa", "", &Average::mean_pressure},
@@ -134,7 +139,12 @@ Columns<Average> average_columns(bool oil_flows) {
       {"n", "", "", &Average::n}};
   add_mean("friction_dry", &Average::friction_dry, columns);
   add_mean("friction_lubricated", &Average::friction_lubricated, columns);
-  if (!oil_flows) return columns;
+  if (parts.trapped) {
+    Columns<Mean> share = mean_columns();
+    for (Column<Mean>& column : share) column.key = "liquid_load_share" + column.key;
+    columns = joined(columns, within(share, &Average::liquid_load_share));
+  }
+  if (!parts.fluid) return columns;
   Columns<FluidAverage> fluid{{"sliding_speed_m_per_s", "m/s", "", &FluidAverage::sliding_speed}};
   add_mean("fluid_load_share", &FluidAverage::load_share, fluid);
   add_mean("friction_viscous", &FluidAverage::friction_viscous, fluid);

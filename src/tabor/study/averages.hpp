@@ -33,6 +33,7 @@ struct Average {
   std::size_t n = 0;
   Mean friction_dry;
   Mean friction_lubricated;
+  std::optional<Mean> liquid_load_share;  ///< where oil is trapped
   std::optional<FluidAverage> fluid;
   std::string
       left_out;  ///< why a friction table leaves it out (friction_table.hpp); "" if it does not
@@ -53,8 +54,8 @@ void add_mean(const std::string& name, Mean Record::*mean, Columns<Record>& colu
   }
 }
 
-/// Returns the columns of averages.csv, results.h5 and JSON, with or without those of a flowing
-/// film.
-Columns<Average> average_columns(bool oil_flows);
+/// Returns the columns of averages.csv, results.h5 and JSON, with those of trapped oil and of a
+/// flowing film where there are some.
+Columns<Average> average_columns(const cases::FrictionParts& parts);
 
 }  // namespace tabor::study

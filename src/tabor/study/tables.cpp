@@ -182,8 +182,8 @@ std::string results_csv(const std::vector<Row>& rows, const cases::FrictionParts
   return io::csv_of(row_columns(parts), rows, cases::media::kCsv);
 }
 
-std::string averages_csv(const std::vector<Average>& averages, bool oil_flows) {
-  return io::csv_of(average_columns(oil_flows), averages);
+std::string averages_csv(const std::vector<Average>& averages, const cases::FrictionParts& parts) {
+  return io::csv_of(average_columns(parts), averages);
 }
 
 StudyTables tables_of(const engine::Store& store, const Study& study,
@@ -233,11 +233,11 @@ Remarks remarks_in(const std::filesystem::path& results) {
 void write_tables(const engine::Store& store, const Study& study,
                   const std::vector<ScanTasks>& tasks, const StudyTables& tables,
                   const std::string& command) {
+  const cases::FrictionParts parts = cases::parts_of(study.settings);
   const std::vector<Row>& rows = tables.rows;
   const std::vector<Average>& means = tables.averages;
-  io::write_file(store.directory() / "results.csv",
-                 results_csv(rows, cases::parts_of(study.settings)));
-  io::write_file(store.directory() / "averages.csv", averages_csv(means, study.flows()));
+  io::write_file(store.directory() / "results.csv", results_csv(rows, parts));
+  io::write_file(store.directory() / "averages.csv", averages_csv(means, parts));
   if (!tables.curves.empty()) {
     io::write_file(store.directory() / "density_curves.csv",
                    io::csv_of(curve_columns(), points_of(tables.curves)));
@@ -255,9 +255,8 @@ void write_tables(const engine::Store& store, const Study& study,
   const std::vector<results::Finding> of_rows = findings_in(rows, tables.slides.warnings);
   findings.insert(findings.end(), of_rows.begin(), of_rows.end());
   results::write_warnings(writer, findings);
-  io::write_datasets(writer, "/table", row_columns(cases::parts_of(study.settings)), rows,
-                     cases::media::kTable);
-  io::write_datasets(writer, "/averages", average_columns(study.flows()), means);
+  io::write_datasets(writer, "/table", row_columns(parts), rows, cases::media::kTable);
+  io::write_datasets(writer, "/averages", average_columns(parts), means);
   if (!tables.slides.rows.empty()) {
     io::write_datasets(writer, "/slides", slide_row_columns(study), tables.slides.rows);
   }

@@ -37,7 +37,9 @@ Remarks remarks_in(const std::filesystem::path& results);
 std::string results_csv(const std::vector<Row>& rows,
                         const cases::FrictionParts& parts = {
                             .trapped = false, .fluid = false, .tool = false});
-std::string averages_csv(const std::vector<Average>& averages, bool oil_flows = false);
+std::string averages_csv(const std::vector<Average>& averages,
+                         const cases::FrictionParts& parts = {
+                             .trapped = false, .fluid = false, .tool = false});
 
 /// Content of the tables of a study.
 struct StudyTables {

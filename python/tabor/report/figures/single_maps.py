@@ -14,13 +14,13 @@ def draw(single):
     a film the pressure, so that each is drawn for the first state that shows it."""
     drawn, sections = set(), _Sections(single)
     for state in single.states:
-        figures = []
+        figures = [] if ("tool", state.facts.get("tool_x_m")) in drawn else [_tool(single, state)]
         if ("contact", state.pressure_label) not in drawn:
-            figures += [_pressure(single, state), _contact(single, state), _gap(single, state)]
+            figures += [_pressure(single, state), _contact(single, state), _gap(single, state), _yielding(single, state)]
         if ("film", state.density) not in drawn:
             figures.append(_film(single, state))
         figures += [_liquid_pressure(single, state), _fluid_pressure(single, state), _fluid_fill(single, state)]
-        drawn.update({("contact", state.pressure_label), ("film", state.density)})
+        drawn.update({("contact", state.pressure_label), ("film", state.density), ("tool", state.facts.get("tool_x_m"))})
         if single.is_solved_on(state):
             figures.append(sections.draw(state))
         yield from (figure for figure in figures if figure is not None)
@@ -30,6 +30,29 @@ def draw_flow(single):
     """Yields the maps of oil that flows alone."""
     figures = (figure(single, state) for state in single.states for figure in (_fluid_pressure, _fluid_fill))
     yield from (figure for figure in figures if figure is not None)
+
+
+def _tool(single, state):
+    """None under a flat."""
+    tool = state.map("tool")
+    if tool is None:
+        return None
+    place = units.length(state.facts.get("tool_x_m", 0.0))
+    view = map_axes.MapView(maps.whole(tool), single.pixel)
+    shown = view.reduced(tool)
+    factor, unit = map_axes.height_unit(shown)
+    figure, grid = style.new_figure(contact_map.figure_height(view, 4.6), width=6.0)
+    map_axes.colour_map(grid[0][0], view, shown * factor, f"height towards the surface ({unit})", map_axes.HEIGHT_COLOURS)
+    grid[0][0].set_title(f"tool at x = {place}")
+    return Drawn(
+        f"tool_{names.of_state(place)}",
+        f"Tool at x = {place}",
+        f"Heights of the tool over {single.title}, towards it ({unit}): the highest touch first. {view.note}Colours span the 0.5th to 99.5th percentile of "
+        "what is drawn.",
+        figure,
+        {"": view.csv(shown * factor, f"tool_{unit.replace('µ', 'u')}")},
+        is_map=True,
+    )
 
 
 def _pressure(single, state):
@@ -73,6 +96,28 @@ def _gap(single, state):
         f"Gap between the surfaces ({unit})",
         map_axes.HOLE,
         state.pressure_label,
+    )
+
+
+def _yielding(single, state):
+    """None on a sheet that yields at one pressure everywhere."""
+    pressure = state.map("saturation_pressure")
+    if pressure is None:
+        return None
+    factor, unit = units.scale(float(np.nanmax(pressure)), "Pa")
+    lowest, highest = float(pressure.min()) * factor, float(pressure.max()) * factor
+    return _map(
+        single,
+        state,
+        "saturation_pressure",
+        pressure * factor,
+        f"saturation pressure ({unit})",
+        map_axes.PRESSURE_COLOURS,
+        f"Pressure at which the sheet yields here ({unit}): higher where it has yielded",
+        map_axes.HOLE,
+        state.pressure_label,
+        highest=highest,
+        lowest=lowest,
     )
 
 
@@ -147,12 +192,12 @@ def _fluid_fill(single, state):
     )
 
 
-def _map(single, state, what, values, axis_label, colours, text, ground, label, highest=None):
+def _map(single, state, what, values, axis_label, colours, text, ground, label, highest=None, lowest=0.0):
     view = map_axes.MapView(maps.whole(values), single.pixel)
     shown = view.reduced(values)
     high = highest or map_axes.robust_limits(shown)[1]
     figure, grid = style.new_figure(contact_map.figure_height(view, 4.6), width=6.0)
-    map_axes.colour_map(grid[0][0], view, shown, axis_label, colours, (0.0, high), ground)
+    map_axes.colour_map(grid[0][0], view, shown, axis_label, colours, (lowest, high), ground)
     grid[0][0].set_title(label.replace("P =", "$P$ ="))
     end = "" if highest else "Colours end at the 99.5th percentile of what is drawn."
     return Drawn(
