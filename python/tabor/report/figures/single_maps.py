@@ -37,7 +37,7 @@ def _tool(single, state):
     tool = state.map("tool")
     if tool is None:
         return None
-    place = units.length(state.facts.get("tool_x_m", 0.0))
+    place = units.length(state.facts["tool_x_m"]) if state.facts.get("tool_x_m") else "0 µm"
     view = map_axes.MapView(maps.whole(tool), single.pixel)
     shown = view.reduced(tool)
     factor, unit = map_axes.height_unit(shown)
