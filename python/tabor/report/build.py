@@ -133,7 +133,7 @@ def single_figures(source, with_maps=True):
         yield topography.draw(source.height(), source.pixel, "topography", source.title, zero=heading)
         yield from single_maps.draw(source)
     else:
-        yield from single_maps.draw_flow(source)
+        yield from single_maps.draw_beside_the_viewer(source)
 
 
 def slide_figures(source, with_maps=True):

@@ -139,11 +139,7 @@ Columns<Average> average_columns(const cases::FrictionParts& parts) {
       {"n", "", "", &Average::n}};
   add_mean("friction_dry", &Average::friction_dry, columns);
   add_mean("friction_lubricated", &Average::friction_lubricated, columns);
-  if (parts.trapped) {
-    Columns<Mean> share = mean_columns();
-    for (Column<Mean>& column : share) column.key = "liquid_load_share" + column.key;
-    columns = joined(columns, within(share, &Average::liquid_load_share));
-  }
+  if (parts.trapped) add_mean("liquid_load_share", &Average::liquid_load_share, columns);
   if (!parts.fluid) return columns;
   Columns<FluidAverage> fluid{{"sliding_speed_m_per_s", "m/s", "", &FluidAverage::sliding_speed}};
   add_mean("fluid_load_share", &FluidAverage::load_share, fluid);

@@ -46,8 +46,8 @@ std::vector<Average> averages(const std::vector<Row>& rows);
 /// Returns the columns "_mean", "_std" and "_sem"; add_mean() puts the name of a number before
 /// them.
 const Columns<Mean>& mean_columns();
-template <typename Record>
-void add_mean(const std::string& name, Mean Record::*mean, Columns<Record>& columns) {
+template <typename Record, typename OfRecord>
+void add_mean(const std::string& name, OfRecord Record::*mean, Columns<Record>& columns) {
   for (Column<Record>& column : within(mean_columns(), mean)) {
     column.key = name + column.key;
     columns.push_back(column);

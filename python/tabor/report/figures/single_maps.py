@@ -1,12 +1,15 @@
 """Pressure, gap, film and section of one state of a single-scan result."""
 
+import dataclasses
 from functools import cached_property
 
 import numpy as np
 
 from tabor.report import hdf, map_axes, maps, names, section, style, units
 from tabor.report.example import richest_window, shores
-from tabor.report.figures import Drawn, contact_map
+from tabor.report.figures import Drawn, contact_map, topography
+
+_VIEWED = "pressure", "gap", "film"  # maps that the interactive ones hold, too
 
 
 def draw(single):
@@ -14,22 +17,32 @@ def draw(single):
     a film the pressure, so that each is drawn for the first state that shows it."""
     drawn, sections = set(), _Sections(single)
     for state in single.states:
-        figures = [] if ("tool", state.facts.get("tool_x_m")) in drawn else [_tool(single, state)]
+        figures = []
         if ("contact", state.pressure_label) not in drawn:
-            figures += [_pressure(single, state), _contact(single, state), _gap(single, state), _yielding(single, state)]
+            figures += [_pressure(single, state), _contact(single, state), _gap(single, state)]
         if ("film", state.density) not in drawn:
             figures.append(_film(single, state))
-        figures += [_liquid_pressure(single, state), _fluid_pressure(single, state), _fluid_fill(single, state)]
-        drawn.update({("contact", state.pressure_label), ("film", state.density), ("tool", state.facts.get("tool_x_m"))})
+        figures += _beside_the_viewer(single, state, drawn)
+        drawn.update({("contact", state.pressure_label), ("film", state.density)})
         if single.is_solved_on(state):
             figures.append(sections.draw(state))
         yield from (figure for figure in figures if figure is not None)
 
 
-def draw_flow(single):
-    """Yields the maps of oil that flows alone."""
-    figures = (figure(single, state) for state in single.states for figure in (_fluid_pressure, _fluid_fill))
-    yield from (figure for figure in figures if figure is not None)
+def draw_beside_the_viewer(single):
+    """Yields the maps that interactive maps do not hold."""
+    drawn = set()
+    for state in single.states:
+        yield from (figure for figure in _beside_the_viewer(single, state, drawn) if figure is not None)
+
+
+def _beside_the_viewer(single, state, drawn):
+    """The tool is drawn at each of its places once, what the sheet yields at once for each contact."""
+    place, contact = ("tool", state.facts.get("tool_x_m")), ("yielding", state.pressure_label)
+    figures = [] if place in drawn else [_tool(single, state)]
+    figures += [] if contact in drawn else [_yielding(single, state)]
+    drawn.update({place, contact})
+    return [*figures, _liquid_pressure(single, state), _fluid_pressure(single, state), _fluid_fill(single, state)]
 
 
 def _tool(single, state):
@@ -38,21 +51,8 @@ def _tool(single, state):
     if tool is None:
         return None
     place = units.length(state.facts["tool_x_m"]) if state.facts.get("tool_x_m") else "0 µm"
-    view = map_axes.MapView(maps.whole(tool), single.pixel)
-    shown = view.reduced(tool)
-    factor, unit = map_axes.height_unit(shown)
-    figure, grid = style.new_figure(contact_map.figure_height(view, 4.6), width=6.0)
-    map_axes.colour_map(grid[0][0], view, shown * factor, f"height towards the surface ({unit})", map_axes.HEIGHT_COLOURS)
-    grid[0][0].set_title(f"tool at x = {place}")
-    return Drawn(
-        f"tool_{names.of_state(place)}",
-        f"Tool at x = {place}",
-        f"Heights of the tool over {single.title}, towards it ({unit}): the highest touch first. {view.note}Colours span the 0.5th to 99.5th percentile of "
-        "what is drawn.",
-        figure,
-        {"": view.csv(shown * factor, f"tool_{unit.replace('µ', 'u')}")},
-        is_map=True,
-    )
+    figure = topography.draw(tool, single.pixel, f"tool_{names.of_state(place)}", f"tool at x = {place}", zero="Height towards the surface")
+    return dataclasses.replace(figure, title=f"Tool at x = {place}", is_viewed=False)
 
 
 def _pressure(single, state):
@@ -207,7 +207,7 @@ def _map(single, state, what, values, axis_label, colours, text, ground, label, 
         figure,
         {"": view.csv(shown, axis_label.replace("µ", "u"))},
         is_map=True,
-        is_viewed=not what.startswith("fluid"),
+        is_viewed=what in _VIEWED,
     )
 
 

@@ -22,8 +22,7 @@ def draw(slide, with_maps=True):
     yield dataclasses.replace(sheet, is_viewed=False)  # the interactive maps show the sheet before
     yield _change(slide, last, after - before)
     yield _section(slide, last, before, after)
-    if with_maps:
-        yield from single_maps.draw(slide)
+    yield from single_maps.draw(slide) if with_maps else single_maps.draw_beside_the_viewer(slide)
 
 
 def _change(slide, state, change):
