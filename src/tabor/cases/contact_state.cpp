@@ -4,6 +4,7 @@
 
 #include "tabor/cases/states.hpp"
 #include "tabor/cases/warnings.hpp"
+#include "tabor/core/parallel.hpp"
 #include "tabor/core/resources.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/elastic/half_space.hpp"
@@ -53,6 +54,7 @@ Pressing first_pressing(const topography::Topography& surface, const ContactSett
 ContactRecord state_of(elastic::ElasticOperator& elasticity, const topography::Topography& surface,
                        const Pressing& pressing, const ContactSettings& settings,
                        const contact::Control& control, const Observer& observer) {
+  const OneThreadIfSmall limit(surface.grid.size());
   ContactRecord record =
       solve(elasticity, pressing.height_of(surface), settings, control, observer);
   record.surface = topography::digest_of(surface.height, surface.grid);

@@ -136,7 +136,7 @@ int show(const ScanRequest& request, Context& context) {
   const scan::ScanFile scan_file(request.file, context.observer());
   const FileInfo file = scan_file.info();
   try {
-    const Scan scan = read_scan(scan_file, request, context);
+    const Scan scan = read_scan(scan_file, request, context, context.observer());
     const SurfaceRecord record = cases::summary_of(scan.surface);
     return finish(context, json_of(context, scan, file, record),
                   text_of(context, scan, file, record));

@@ -8,6 +8,7 @@
 #include <ostream>
 
 #include "tabor/cli/csv_output.hpp"
+#include "tabor/cli/each_scan.hpp"
 #include "tabor/cli/params_text.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/scan_groups.hpp"
@@ -111,12 +112,13 @@ std::string facts_of(const Scan& scan, Index valid_points) {
   return facts.text();
 }
 
-Measured measure(const Request& request, const std::string& file, Context& context) {
+Measured measure(const Request& request, const std::string& file, const Context& context,
+                 const Observer& observer) {
   ScanRequest one = request.scan;
   one.file = file;
-  const Scan scan = read_scan(one, context);
+  const Scan scan = read_scan(one, context, observer);
   Measured measured{
-      .row = cases::parameters_of(scan.surface, options_of(request, context), context.observer()),
+      .row = cases::parameters_of(scan.surface, options_of(request, context), observer),
       .object = json_head(context, scan),
       .facts = {},
       .doubts = doubts_of(scan)};
@@ -129,9 +131,10 @@ Measured measure(const Request& request, const std::string& file, Context& conte
 }
 
 /// The same for one of many: what cannot be read is told and does not end the others.
-Measured try_measure(const Request& request, const std::string& file, Context& context) {
+Measured try_measure(const Request& request, const std::string& file, const Context& context,
+                     const Observer& observer) {
   try {
-    return measure(request, file, context);
+    return measure(request, file, context, observer);
   } catch (const InputError& error) {
     Measured failed;
     failed.row.path = file;
@@ -139,6 +142,21 @@ Measured try_measure(const Request& request, const std::string& file, Context& c
     failed.object = {{"scan", {{"path", file}, {"sha256", nullptr}}}, {"failure", error.what()}};
     return failed;
   }
+}
+
+/// Measures all files.
+std::vector<Measured> measure_all(const Request& request, const Context& context) {
+  constexpr double kBytesPerPixel = 100;
+  std::vector<Measured> all(request.files.size());
+  for_each_scan(request.files,
+                {.verb = "params",
+                 .bytes_per_pixel = kBytesPerPixel,
+                 .run =
+                     [&](std::size_t i, const Observer& observer) {
+                       all[i] = try_measure(request, request.files[i], context, observer);
+                     }},
+                context);
+  return all;
 }
 
 /// What a short table leaves out.
@@ -166,7 +184,7 @@ void warn_of(const std::vector<Measured>& all, Context& context) {
 }
 
 int show_one(const Request& request, Context& context) {
-  const Measured measured = measure(request, request.files.front(), context);
+  const Measured measured = measure(request, request.files.front(), context, context.observer());
   warn_of({measured}, context);
   if (request.output) io::write_file(*request.output, results::csv_of({measured.row}));
   const std::string text =
@@ -209,9 +227,7 @@ std::vector<cases::GroupParameters> means_of(const std::vector<GroupMembers>& gr
 
 int show_many(const Request& request, Context& context) {
   const std::vector<GroupMembers> members = members_of(request.groups, request.files);
-  std::vector<Measured> all;
-  all.reserve(request.files.size());
-  for (const std::string& file : request.files) all.push_back(try_measure(request, file, context));
+  const std::vector<Measured> all = measure_all(request, context);
   warn_of(all, context);
   std::vector<cases::ParametersRecord> rows;
   rows.reserve(all.size());

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "tabor/cli/csv_output.hpp"
+#include "tabor/cli/each_scan.hpp"
 #include "tabor/cli/psd_text.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/scan_groups.hpp"
@@ -52,23 +53,36 @@ cases::SpectraSettings settings_of(const Request& request) {
           .height_differences = request.hdf};
 }
 
-Measured measure(const Request& request, const std::string& file, Context& context) {
+Measured measure(const Request& request, const std::string& file, const Context& context,
+                 const Observer& observer) {
   ScanRequest one = request.scan;
   one.file = file;
-  const Scan scan = read_scan(one, context);
+  const Scan scan = read_scan(one, context, observer);
   const cases::SpectraSettings settings = settings_of(request);
   if (!request.acf && !request.hdf) require_no_holes(scan);
-  Measured measured{.record = cases::spectra_of(scan.surface, settings, context.observer()),
+  Measured measured{.record = cases::spectra_of(scan.surface, settings, observer),
                     .object = json_head(context, scan),
                     .text = {},
                     .doubts = doubts_of(scan)};
-  if (!measured.record.spectra) {
-    context.warn("no power spectra: they need every height (--fill harmonic)");
-  }
   add(measured.record.warnings, measured.doubts.warnings);
   measured.object.update(results::json_of(measured.record));
   measured.text = text_of(scan, measured.record);
   return measured;
+}
+
+/// Measures all files.
+std::vector<Measured> measure_all(const Request& request, const Context& context) {
+  constexpr double kBytesPerPixel = 100;
+  std::vector<Measured> all(request.files.size());
+  for_each_scan(request.files,
+                {.verb = "psd",
+                 .bytes_per_pixel = kBytesPerPixel,
+                 .run =
+                     [&](std::size_t i, const Observer& observer) {
+                       all[i] = measure(request, request.files[i], context, observer);
+                     }},
+                context);
+  return all;
 }
 
 void warn_of(const std::vector<Measured>& all, Context& context) {
@@ -77,6 +91,11 @@ void warn_of(const std::vector<Measured>& all, Context& context) {
   for (const Measured& one : all) cases.push_back(one.doubts);
   results::shorten_paths(cases);
   context.warn(results::findings_of(cases));
+  for (const Measured& one : all) {
+    if (!one.record.spectra) {
+      context.warn("no power spectra: they need every height (--fill harmonic)");
+    }
+  }
 }
 
 std::vector<cases::GroupSpectra> means_of(const std::vector<GroupMembers>& groups,
@@ -134,12 +153,9 @@ io::Json json_of(const std::vector<Measured>& all, const std::vector<cases::Grou
 
 int show(const Request& request, Context& context) {
   const std::vector<GroupMembers> members = members_of(request.groups, request.files);
-  std::vector<Measured> all;
+  const std::vector<Measured> all = measure_all(request, context);
   std::string text;
-  for (const std::string& file : request.files) {
-    all.push_back(measure(request, file, context));
-    text += (text.empty() ? "" : "\n") + all.back().text;
-  }
+  for (const Measured& one : all) text += (text.empty() ? "" : "\n") + one.text;
   warn_of(all, context);
   const std::vector<cases::GroupSpectra> groups = means_of(members, request, all);
   io::Json object = is_one(request) ? all.front().object : json_of(all, groups, context);

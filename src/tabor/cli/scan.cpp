@@ -110,17 +110,22 @@ void check(const ScanRequest& request) {
 }
 
 Scan read_scan(const ScanRequest& request, Context& context) {
-  check(request);
-  return read_scan(scan::ScanFile(request.file, context.observer()), request, context);
+  return read_scan(request, context, context.observer());
 }
 
-Scan read_scan(const scan::ScanFile& file, const ScanRequest& request, Context& context) {
+Scan read_scan(const ScanRequest& request, const Context& context, const Observer& observer) {
+  check(request);
+  return read_scan(scan::ScanFile(request.file, observer), request, context, observer);
+}
+
+Scan read_scan(const scan::ScanFile& file, const ScanRequest& request, const Context& context,
+               const Observer& observer) {
   ScanDigest sha256(file);
-  Topography surface = topography::apply(
-      request.treatment, file.read(with_origin(request.read, context)), context.observer());
+  Topography surface =
+      topography::apply(request.treatment, file.read(with_origin(request.read, context)), observer);
   return {.surface = std::move(surface),
           .path = request.file,
-          .sha256 = sha256.get(context.observer()),
+          .sha256 = sha256.get(observer),
           .treatment = request.treatment};
 }
 

@@ -39,8 +39,11 @@ void check(const ScanRequest& request);
 /// Reads and treats a scan. Warnings about the surface are left to the warnings of the numbers that
 /// follow from it (cases/warnings.hpp).
 Scan read_scan(const ScanRequest& request, Context& context);
+/// Does the same on any thread, watched by an observer of its own.
+Scan read_scan(const ScanRequest& request, const Context& context, const Observer& observer);
 /// Reads and treats a scan from an open file.
-Scan read_scan(const scan::ScanFile& file, const ScanRequest& request, Context& context);
+Scan read_scan(const scan::ScanFile& file, const ScanRequest& request, const Context& context,
+               const Observer& observer);
 
 /// Returns the warnings about numbers of the surface itself, such as its roughness.
 results::Case doubts_of(const Scan& scan);

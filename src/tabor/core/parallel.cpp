@@ -86,6 +86,11 @@ ThreadLimit::ThreadLimit(const std::atomic<int>& limit) : outer_(own_limit) { ow
 
 ThreadLimit::~ThreadLimit() { own_limit = outer_; }
 
+OneThreadIfSmall::OneThreadIfSmall(Index n_items) {
+  static const std::atomic<int> one = 1;
+  if (n_items < kSmallestForThreads) limit_.emplace(one);
+}
+
 void parallel_for(Index n, Index block, const std::function<void(Index, Index)>& body) {
   for_each_block(count_blocks(n, block), [&](Index k) {
     const Index begin = k * block;

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 
 #include "tabor/core/types.hpp"
 
@@ -27,6 +28,19 @@ class ThreadLimit {
  private:
   const std::atomic<int>* outer_;
 };
+
+/// Keeps the loops of its thread on one thread, while it lives, where all of them run over fewer
+/// than kSmallestForThreads items: several threads lose more time by meeting than they win.
+class OneThreadIfSmall {
+ public:
+  explicit OneThreadIfSmall(Index n_items);
+
+ private:
+  std::optional<ThreadLimit> limit_;
+};
+
+/// Pixels of a contact from which two threads solve it faster than one.
+inline constexpr Index kSmallestForThreads = 128 * 128;
 
 /// Calls body(begin, end) for consecutive blocks of [0, n), `block` items each, on all threads.
 /// Blocks are the same whatever the thread count; loops of a single block run serially.

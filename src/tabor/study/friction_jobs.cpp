@@ -9,10 +9,10 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/engine/made_once.hpp"
-#include "tabor/io/hdf5/guard.hpp"
 #include "tabor/study/friction_graph.hpp"
 #include "tabor/study/record.hpp"
 #include "tabor/study/slides.hpp"
+#include "tabor/study/task_file.hpp"
 #include "tabor/study/treated_scan.hpp"
 #include "tabor/study/wet_shares.hpp"
 
@@ -29,7 +29,7 @@ engine::Quality quality_of_row(const Row& row) {
 
 /// Reads whether a stored contact converged, without its maps.
 bool contact_converged(const engine::Store& store, const engine::Task& task) {
-  return io::read_guarded(store.path(task), [](const io::Hdf5Reader& reader) {
+  return read_task(store, task, [](const io::Hdf5Reader& reader) {
            return reader.number("/contact", "converged");
          }) != 0;
 }

@@ -1,5 +1,4 @@
 #include "tabor/io/columns.hpp"
-#include "tabor/io/hdf5/guard.hpp"
 #include "tabor/results/fields_file.hpp"
 #include "tabor/study/task_file.hpp"
 
@@ -30,7 +29,7 @@ void write_oil(const engine::Store& store, const engine::Task& task, const std::
 template <typename Record, typename Access>
 Record read_oil(const engine::Store& store, const engine::Task& task, const std::string& name,
                 const Columns<Record>& columns, const Access& convergence) {
-  return io::read_guarded(store.path(task), [&](const io::Hdf5Reader& reader) {
+  return read_task(store, task, [&](const io::Hdf5Reader& reader) {
     const std::string group = "/" + name;
     Record record;
     io::read_attributes(reader, group, columns, record);

@@ -11,7 +11,6 @@
 #include "tabor/io/columns.hpp"
 #include "tabor/io/files/atomic_file.hpp"
 #include "tabor/io/files/sealed_file.hpp"
-#include "tabor/io/hdf5/guard.hpp"
 #include "tabor/io/text/json.hpp"
 #include "tabor/results/fields_file.hpp"
 #include "tabor/study/slides.hpp"
@@ -62,6 +61,10 @@ SurfaceFacts facts_of_surface(const io::Hdf5Reader& reader) {
           .rms_slope = reader.number("/psd", "rms_slope"),
           .treatment = reader.attribute_texts("/surface", "treatment"),
           .warnings = reader.attribute_texts("/surface", "doubts")};
+}
+
+Field read_map(const engine::Store& store, const engine::Task& task, const std::string& path) {
+  return read_task(store, task, [&](const io::Hdf5Reader& reader) { return reader.field(path); });
 }
 
 /// All but the maps, which are of one shape.
@@ -166,21 +169,21 @@ void write_contact(const engine::Store& store, const engine::Task& task, const G
 }
 
 SurfaceFacts read_surface_facts(const engine::Store& store, const engine::Task& task) {
-  return io::read_guarded(store.path(task), facts_of_surface);
+  return read_task(store, task, facts_of_surface);
 }
 
 cases::ContactRecord read_contact_record(const engine::Store& store, const engine::Task& task) {
-  return io::read_guarded(store.path(task), contact_numbers);
+  return read_task(store, task, contact_numbers);
 }
 
 Mask read_contact_mask(const engine::Store& store, const engine::Task& task) {
-  return io::read_guarded_map(store.path(task), "/contact/state") > 0;
+  return read_map(store, task, "/contact/state") > 0;
 }
 
 StoredContact read_contact(const engine::Store& store, const engine::Task& task) {
-  StoredContact stored = io::read_guarded(store.path(task), contact_numbers);
+  StoredContact stored = read_task(store, task, contact_numbers);
   stored.contact = read_contact_mask(store, task);
-  stored.gap = io::read_guarded_map(store.path(task), "/contact/gap");
+  stored.gap = read_map(store, task, "/contact/gap");
   return stored;
 }
 
@@ -201,7 +204,7 @@ void FilmFile::add(const cases::FilmRecord& record) {
 void FilmFile::commit() { writer_.commit(); }
 
 Field read_film(const engine::Store& store, const engine::Task& task, std::size_t density) {
-  return io::read_guarded_map(store.path(task), film_group(density) + "/film_thickness");
+  return read_map(store, task, film_group(density) + "/film_thickness");
 }
 
 cases::FilmRecord read_film_record(const engine::Store& store, const engine::Task& task,
@@ -213,7 +216,7 @@ cases::FilmRecord read_film_record(const engine::Store& store, const engine::Tas
     record.warnings = read_warnings(reader, film_group(density));
     return record;
   };
-  cases::FilmRecord record = io::read_guarded(store.path(task), numbers);
+  cases::FilmRecord record = read_task(store, task, numbers);
   record.film.thickness = read_film(store, task, density);
   return record;
 }
@@ -224,7 +227,7 @@ std::string defect(const engine::Store& store, const engine::Task& task) {
   std::string problem = io::broken_seal(store.path(task));
   if (!problem.empty()) return problem;
   try {
-    const std::string text = io::read_guarded(store.path(task), [](const io::Hdf5Reader& reader) {
+    const std::string text = read_task(store, task, [](const io::Hdf5Reader& reader) {
       return reader.text("/", "canonical_text");
     });
     return text == task.text ? "" : "belongs to another task";

@@ -4,13 +4,21 @@
 
 #include "tabor/study/record.hpp"
 
-// Writes what the HDF5 files of the store have in common.
+// Writes and reads what the HDF5 files of the store have in common.
 namespace tabor::study {
 
 /// Opens a new file of the task that states its canonical text; `plotted` is the NeXus default
 /// group.
 io::Hdf5Writer task_writer(const engine::Store& store, const engine::Task& task,
                            const std::string& plotted);
+
+/// Returns what `read` makes of the HDF5 file of a task. It needs no guard (io/hdf5/guard.hpp), as
+/// files from elsewhere do: this process has written the file, or defect() has found every byte of
+/// it to be what was sealed.
+template <typename Read>
+auto read_task(const engine::Store& store, const engine::Task& task, const Read& read) {
+  return read(io::Hdf5Reader(store.path(task)));
+}
 
 struct MapName {
   const char* name;
