@@ -7,6 +7,7 @@
 
 #include "tabor/cli/verb.hpp"
 
+// Runs the same work for several scan files side by side, as params and psd do.
 namespace tabor::cli {
 
 /// Work on one of several scan files.

@@ -33,7 +33,7 @@ struct Request {
 };
 
 /// One scan of a run.
-struct Measured {
+struct Measured {  // NOLINT(bugprone-exception-escape): moving JSON checks an assertion
   cases::SpectraRecord record;
   io::Json object;
   std::string text;

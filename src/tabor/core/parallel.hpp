@@ -33,14 +33,14 @@ class ThreadLimit {
 /// than kSmallestForThreads items: several threads lose more time by meeting than they win.
 class OneThreadIfSmall {
  public:
-  explicit OneThreadIfSmall(Index n_items);
+  explicit OneThreadIfSmall(Index n_items);  ///< in the longest of its loops
 
  private:
   std::optional<ThreadLimit> limit_;
 };
 
 /// Pixels of a contact from which two threads solve it faster than one.
-inline constexpr Index kSmallestForThreads = 128 * 128;
+inline constexpr Index kSmallestForThreads = Index{128} * 128;
 
 /// Calls body(begin, end) for consecutive blocks of [0, n), `block` items each, on all threads.
 /// Blocks are the same whatever the thread count; loops of a single block run serially.

@@ -130,7 +130,7 @@ class FrictionInFolder : public FrictionStore,
   std::shared_ptr<const contact::State> dry_contact(
       std::size_t contact, const std::function<contact::State()>& solve) override {
     DryContact& dry = dry_contacts_[contact];
-    const auto state = dry.state.get(solve);
+    auto state = dry.state.get(solve);
     if (++dry.n_films == conditions().size()) dry.state.drop();
     return state;
   }
