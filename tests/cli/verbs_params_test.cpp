@@ -102,6 +102,34 @@ TEST_F(Params, OfABatchAreDoneEvenIfOneScanCannotBeRead) {
   EXPECT_THAT(outcome.err, HasSubstr("not measured"));
 }
 
+TEST_F(Params, OfScansSideBySideStandInTheOrderAskedFor) {
+  Words files;
+  for (const char* name : {"a.sdf", "broken.sdf", "b.sdf", "a.sdf", "b.sdf", "missing.sdf"}) {
+    files.push_back(file(name));
+  }
+  for (const char* verb : {"params", "psd"}) {
+    const auto run = [&](const char* threads) {
+      Words words{verb};
+      words.insert(words.end(), files.begin(), files.end());
+      words.insert(words.end(), {"--threads", threads, "--csv"});
+      return run_tabor(words);
+    };
+    const Outcome one = run("1");
+    const Outcome several = run("3");
+    EXPECT_EQ(one.code, 3) << verb;
+    EXPECT_EQ(several.code, 3) << verb;
+    EXPECT_EQ(one.out, several.out) << verb;
+    EXPECT_EQ(one.err, several.err) << verb;
+  }
+}
+
+TEST_F(Params, OfSpectraNameTheFirstScanThatFails) {
+  const Outcome outcome =
+      run_tabor({"psd", file("a.sdf"), file("broken.sdf"), file("missing.sdf"), "--threads", "3"});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("broken.sdf"), testing::Not(HasSubstr("missing.sdf"))));
+}
+
 TEST_F(Params, NameTheNearestSet) {
   const Outcome outcome = run_tabor({"params", file("a.sdf"), "--set", "heigth"});
   EXPECT_EQ(outcome.code, 2);

@@ -1,6 +1,6 @@
 #include "tabor/core/checks.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 
@@ -19,6 +19,19 @@ TEST(CheckPositive, NamesWhatIsNotFiniteAndAboveZero) {
     FAIL();
   } catch (const InputError& error) {
     EXPECT_STREQ(error.what(), "load: got -2 N; expected a finite value above zero");
+  }
+}
+
+TEST(CheckMemory, SaysHowMuchIsNeededAndHowMuchIsFree) {
+  EXPECT_NO_THROW(check_memory("map", "2 x 2 pixels", 32, ""));
+  try {
+    check_memory("map", "10000000 x 10000000 pixels", 8e14, "take fewer");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                testing::MatchesRegex("map: got 10000000 x 10000000 pixels, which take 8e\\+05 GB; "
+                                      "expected what fits into the [0-9.]+ GB of free memory; "
+                                      "take fewer"));
   }
 }
 

@@ -102,6 +102,17 @@ TEST_F(Parallel, ALimitHoldsForItsOwnThread) {
   EXPECT_EQ(thread_count(), 4);
 }
 
+TEST_F(Parallel, SmallWorkHasOneThread) {
+  set_thread_count(2);
+  {
+    const OneThreadIfSmall large(kSmallestForThreads);
+    EXPECT_EQ(thread_count(), 2);
+    const OneThreadIfSmall small(kSmallestForThreads - 1);
+    EXPECT_EQ(thread_count(), 1);
+  }
+  EXPECT_EQ(thread_count(), 2);
+}
+
 TEST_F(Parallel, MaximumOfNothingIsMinusInfinity) {
   EXPECT_EQ(parallel_max(0, [](Index, Index) { return 1.0; }),
             -std::numeric_limits<double>::infinity());

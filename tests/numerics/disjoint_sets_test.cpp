@@ -109,5 +109,10 @@ TEST(DisjointSets, NoticeARingThatClosesOnItself) {
   EXPECT_EQ(closed.difference, (Step{4, 0}));
 }
 
+TEST(DisjointSets, RejectMoreMembersThanTheirNumbersCount) {
+  EXPECT_NO_THROW(DisjointSets<std::int8_t>(127));
+  EXPECT_THROW(DisjointSets<std::int8_t>(128), InputError);
+}
+
 }  // namespace
 }  // namespace tabor::numerics

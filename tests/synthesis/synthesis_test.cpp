@@ -405,6 +405,13 @@ TEST(SphereSurface, HasItsCurvatureAtThePole) {
   EXPECT_NEAR(-2 * cap.height(50, 60) / 1e-12, 1 / radius, 1e-3 / radius);
 }
 
+TEST(Surfaces, LargerThanTheMemoryAreRejectedBeforeTheyAreMade) {
+  for (const Index n : {Index{1} << 20, Index{1} << 30}) {
+    EXPECT_THROW(self_affine(recipe_of(n)), InputError) << n;
+    EXPECT_THROW(sphere({.grid = {n, n, 1, 1}, .radius = 10}), InputError) << n;
+  }
+}
+
 TEST(BumpSurface, RisesSmoothlyFromAFlat) {
   const auto hill = bump({.grid = {101, 101, 101e-7, 101e-7}, .height = 1e-6, .radius = 3e-6});
   EXPECT_DOUBLE_EQ(hill.height(50, 50), 1e-6);

@@ -1,9 +1,12 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 #include <variant>
 
 #include "tabor/cases/states.hpp"
 #include "tabor/cases/warnings.hpp"
+#include "tabor/core/checks.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/resources.hpp"
 #include "tabor/core/watch.hpp"
@@ -75,6 +78,9 @@ ContactRecord state_of(elastic::ElasticOperator& elasticity, const topography::T
 
 std::unique_ptr<elastic::ElasticOperator> make_operator(const ContactSettings& settings,
                                                         const Grid& grid) {
+  constexpr double kBytesOfPixel = 24;  // that a contact takes at least, beside the heights
+  check_memory("contact", fmt::format("{} x {} pixels", grid.nx, grid.ny),
+               kBytesOfPixel * static_cast<double>(grid.size()), "crop or resample the surface");
   return settings.is_periodic() ? elastic::make_periodic(grid, settings.effective_modulus())
                                 : elastic::make_free(grid, settings.effective_modulus());
 }

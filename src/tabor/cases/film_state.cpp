@@ -1,8 +1,11 @@
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "tabor/cases/belonging.hpp"
 #include "tabor/cases/states.hpp"
 #include "tabor/cases/warnings.hpp"
+#include "tabor/core/checks.hpp"
 #include "tabor/core/resources.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/topography/digest.hpp"
@@ -39,11 +42,15 @@ deposition::Dose dose_of(const FilmSettings& settings) {
 
 void film_state(const topography::Topography& surface, const FilmSettings& settings,
                 const std::function<void(FilmRecord&&)>& receive, const Observer& observer) {
+  const Grid& grid = surface.grid;
+  constexpr double kBytesOfPixel = 16;  // that rain takes at least, beside the heights
+  check_memory("surface to lubricate", fmt::format("{} x {} pixels", grid.nx, grid.ny),
+               kBytesOfPixel * static_cast<double>(grid.size()), "crop or resample the surface");
   const std::uint64_t digest = topography::digest_of(surface.height, surface.grid);
   const deposition::FilmSink sink = [&](deposition::Film&& film) {
     receive(record_of(surface, digest, std::move(film), settings));
   };
-  deposition::deposit(surface.height, surface.grid, dose_of(settings), sink, observer);
+  deposition::deposit(surface.height, grid, dose_of(settings), sink, observer);
 }
 
 std::vector<FilmRecord> film_state(const topography::Topography& surface,

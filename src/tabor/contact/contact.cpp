@@ -29,6 +29,10 @@ void check_maps(const elastic::ElasticOperator& elasticity, const Problem& probl
         fmt::format("heights of {} x {} pixels", problem.height.cols(), problem.height.rows()),
         fmt::format("{} x {} as the elastic operator", grid.nx, grid.ny), "");
   }
+  if (problem.height.size() > kMostListed) {
+    throw InputError("contact", fmt::format("{} x {} pixels", grid.nx, grid.ny),
+                     "2^32 pixels at most", "");
+  }
   if (!all_finite(problem.height)) {
     throw InputError("contact", "a surface with holes or infinite heights",
                      "a height at every pixel", "fill the holes first (--fill harmonic)");

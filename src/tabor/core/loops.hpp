@@ -15,6 +15,8 @@ namespace tabor {
 
 /// Linear pixel indices, ascending.
 using PixelList = std::vector<std::uint32_t>;
+/// Pixels of the largest map of which there are lists.
+inline constexpr Index kMostListed = Index{1} << 32;
 
 /// Turns body(i) into a body of blocks, which calls it for every i of a block.
 template <std::integral Count, typename Body>

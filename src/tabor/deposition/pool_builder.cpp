@@ -1,10 +1,13 @@
 #include "tabor/deposition/pool_builder.hpp"
+#include "tabor/core/error.hpp"
 #include "tabor/core/large_pages.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/watch.hpp"
 
 #include <algorithm>
 #include <array>
+#include <limits>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
@@ -40,6 +43,15 @@ void radix_pass(const std::vector<std::uint64_t>& keys, std::vector<std::uint64_
       sorted[start[block(i)][digit(i)]++] = keys[static_cast<std::size_t>(i)];
     }
   });
+}
+
+/// Throws InputError where the places of all heights, one a pixel and one a pool, are more than an
+/// index of them counts.
+void check_places(std::size_t n_places) {
+  constexpr std::size_t kMost = std::numeric_limits<std::int32_t>::max();
+  if (n_places <= kMost) return;
+  throw InputError("surface to lubricate", std::to_string(n_places) + " pixels and depressions",
+                   std::to_string(kMost) + " at most", "take fewer pixels, or smooth the surface");
 }
 
 /// Pixels without a lower neighbour, equal heights by pixel number: each begins a pool.
@@ -255,6 +267,7 @@ void PoolBuilder::number_by_place() {
 }
 
 void PoolBuilder::make_arcs(const std::vector<Pixel>& ascending) {
+  check_places(to_.sites_.size() + to_.pools_.size());
   for (const auto& site : to_.sites_) ++growth(site.pool).next;
   std::int32_t begin = 0;
   for (Growth& each : to_.growth_) {

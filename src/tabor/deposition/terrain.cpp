@@ -12,7 +12,7 @@ constexpr double kPicometre = 1e-12;                 // [m]
 constexpr double kFinestQuantum = kPicometre / 256;  // far below any instrument's noise [m]
 constexpr double kUsableQuanta = 4294967292.0;       // 2^32 without kDry, kNoRim and rounding
 
-constexpr Index kMostPixels = (1 << 30) - 2;  // places of pixels and of rims, one a pool, fit Pixel
+constexpr Index kMostPixels = Index{1} << 30;  // 32768 x 32768; what more would cost: PoolBuilder
 
 double quantum_for(double range) {
   double quantum = kFinestQuantum;

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <numeric>
+#include <string>
 #include <type_traits>
 #include <vector>
+
+#include "tabor/core/error.hpp"
 
 // Joins numbered members into disjoint sets (union-find), with optional offsets for periodic cells.
 namespace tabor::numerics {
@@ -38,8 +42,8 @@ class DisjointSets {
     Offset difference;  ///< then: of this join from the paths before it; zero where they agree
   };
 
-  /// Makes each number a set of its own.
-  explicit DisjointSets(std::size_t n = 0) : parent_(n), n_sets_(n) {
+  /// Makes each number a set of its own. Throws InputError if there are more than Number holds.
+  explicit DisjointSets(std::size_t n = 0) : parent_(checked(n)), n_sets_(n) {
     std::iota(parent_.begin(), parent_.end(), Number{0});
     if constexpr (kHasOffsets) offset_.resize(n);
   }
@@ -89,6 +93,12 @@ class DisjointSets {
  private:
   static constexpr bool kHasOffsets = !std::is_same_v<Offset, NoOffset>;
   static std::size_t at(Number number) { return static_cast<std::size_t>(number); }
+  static std::size_t checked(std::size_t n) {
+    constexpr auto kMost = static_cast<std::size_t>(std::numeric_limits<Number>::max());
+    if (n <= kMost) return n;
+    throw InputError("map", std::to_string(n) + " regions or parts of rows",
+                     std::to_string(kMost) + " at most", "take fewer pixels");
+  }
 
   std::vector<Number> parent_;
   std::vector<Offset> offset_;  // from the parent; empty without

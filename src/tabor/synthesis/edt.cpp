@@ -6,9 +6,9 @@
 #include <numbers>
 #include <vector>
 
+#include "tabor/core/checks.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/random.hpp"
-#include "tabor/core/resources.hpp"
 #include "tabor/core/rows.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/numerics/root.hpp"
@@ -195,13 +195,10 @@ Grid parent_grid(const Grid& grid) {
 
 void check_parent(const std::array<double, 2>& size) {
   constexpr double kBytesOfPixel = 24;  // heights, and those of one part with its transform
-  const auto memory = static_cast<double>(available_memory_bytes());
-  if (memory == 0 || kBytesOfPixel * size[0] * size[1] <= memory) return;
-  throw InputError("EDT surface",
-                   fmt::format("a cut-out of a map of {:.0f} x {:.0f} pixels, which has room for "
-                               "its craters",
-                               size[0], size[1]),
-                   "one that fits into memory", "take larger pixels, or a tile");
+  check_memory("EDT surface",
+               fmt::format("a cut-out of {:.0f} x {:.0f} pixels, enough for whole craters", size[0],
+                           size[1]),
+               kBytesOfPixel * size[0] * size[1], "take larger pixels, or a tile");
 }
 
 void check_recipe(const Edt& recipe) {

@@ -16,6 +16,7 @@ namespace {
 /// Limits of a pixel and of heights, as scan files are read [m].
 constexpr double kSmallestPixel = 1e-15;
 constexpr double kLargest = 1e6;
+constexpr double kBytesOfPixel = 16;  // a height, and its share of a transform
 
 }  // namespace
 
@@ -30,6 +31,9 @@ void check_grid(const Grid& grid, const std::string& what) {
     if (pixel >= kSmallestPixel * (1 - 1e-9) && pixel <= kLargest * (1 + 1e-9)) continue;
     throw InputError(what, fmt::format("pixels of {:.3g} m", pixel), "from 1e-15 m to 1000 km", "");
   }
+  check_memory(what, fmt::format("{} x {} pixels", grid.nx, grid.ny),
+               kBytesOfPixel * static_cast<double>(grid.nx) * static_cast<double>(grid.ny),
+               "take fewer pixels");
 }
 
 void check_height(const std::string& what, double height) {

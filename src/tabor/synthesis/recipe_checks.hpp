@@ -8,7 +8,7 @@
 namespace tabor::synthesis {
 
 /// Throws InputError unless the grid has pixels, each of a positive, finite size that a scan may
-/// have.
+/// have, and memory is free for their heights and the transform of these.
 void check_grid(const Grid& grid, const std::string& what);
 
 /// Throws InputError unless the height [m] is one that a scan may have.

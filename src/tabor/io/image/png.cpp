@@ -13,8 +13,8 @@
 #include <limits>
 #include <memory>
 
+#include "tabor/core/checks.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/core/resources.hpp"
 #include "tabor/io/files/atomic_file.hpp"
 #include "tabor/io/files/regular_file.hpp"
 
@@ -106,10 +106,7 @@ void check_grey(const Reader& reader, const std::string& name) {
   // An interlaced or plain image needs its counts (8 bytes a pixel) and one decoded copy (2 or 4).
   const double bytes = 12.0 * png_get_image_width(reader.png, reader.info) *
                        png_get_image_height(reader.png, reader.info);
-  const std::size_t available = available_memory_bytes();
-  if (available > 0 && bytes > static_cast<double>(available)) {
-    throw InputError(name + ": more pixels than fit into memory");
-  }
+  check_memory(name, "an image", bytes, "");
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "tabor/core/checks.hpp"
 #include "tabor/core/error.hpp"
-#include "tabor/core/resources.hpp"
 #include "tabor/core/text.hpp"
 
 namespace tabor::scan::format {
@@ -33,12 +33,9 @@ void check_whole(const Contents& contents, double nx, double ny) {
   }
 }
 
-void check_memory(const Contents& contents, double nx, double ny) {
-  const std::size_t memory = available_memory_bytes();
-  if (memory > 0 && nx * ny * sizeof(double) > static_cast<double>(memory)) {
-    reject(contents, fmt::format("{} x {} pixels", nx, ny), "a map that fits into memory",
-           fmt::format("{:.2g} GB are free", static_cast<double>(memory) * 1e-9));
-  }
+void check_heights_fit(const Contents& contents, double nx, double ny) {
+  check_memory(contents.file.string(), fmt::format("{} x {} pixels", nx, ny),
+               nx * ny * sizeof(double), "");
 }
 
 }  // namespace
@@ -49,7 +46,7 @@ void check_size(const Contents& contents, double nx, double ny, std::size_t avai
     reject(contents, fmt::format("{} samples", available),
            fmt::format("{} x {} as its header says", nx, ny), kDamaged);
   }
-  check_memory(contents, nx, ny);
+  check_heights_fit(contents, nx, ny);
 }
 
 void check_packed_size(const Contents& contents, double nx, double ny, std::size_t packed_bytes,
@@ -59,7 +56,7 @@ void check_packed_size(const Contents& contents, double nx, double ny, std::size
     reject(contents, fmt::format("{} x {} pixels in its header", nx, ny),
            fmt::format("as many as its {} bytes can hold", packed_bytes), kDamaged);
   }
-  check_memory(contents, nx, ny);
+  check_heights_fit(contents, nx, ny);
 }
 
 bool is_pixel(double length) { return length >= 1e-15 && length <= 1e6; }
