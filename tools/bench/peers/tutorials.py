@@ -31,16 +31,22 @@ HEAD = ("| tutorial | package | lines | seconds | ratio to tabor | pixels in con
         "|---|---|---|---|---|---|---|---|---|")
 INTRODUCTION = """# Other packages
 
-Tutorials of [Tamaas](https://tamaas.readthedocs.io) and [ContactMechanics](https://github.com/ContactEngineering/ContactMechanics), written here in their
-package and in tabor. Solvers that are driven to the same proven error, on larger maps, are compared in [benchmarks](benchmarks.md#peers).
+Tutorials of [Tamaas](https://tamaas.readthedocs.io) and
+[ContactMechanics](https://github.com/ContactEngineering/ContactMechanics), written in their own
+package and in tabor. [Benchmarks](benchmarks.md#peers) compares solvers on larger maps at the same
+proven error.
 """
 MEANING = """
-- **Lines** of code as shown, without empty ones; what both packages are given, the surface first of all, is in neither.
-- **Seconds** of processor time for all that is shown but imports, which a run before has done: median of {repeats}, on one thread, of a machine that
-  others use, too. Each package works to the tolerance of the tutorial, tabor to its own default, a relative error of 1e-6: the
-  ratio is what the tutorial costs as it stands, not which solver is the faster one.
-- **Agreement** of the package with tabor, the largest difference under any of the loads: pixels in contact as a share of all pixels, the mean gap
-  (residual indentation counted as zero) and the highest pressure relative to tabor's, and the pressures of all pixels, root mean square over that of tabor's.
+- **Lines** of code as shown, without empty lines. The inputs of both packages, such as the surface,
+  are not counted.
+- **Seconds** of processor time for the code shown, without imports, which an earlier run has
+  loaded. Median of {repeats}, on one thread of a shared machine. Each package works to the
+  tolerance of the tutorial, tabor to its own default, a relative error of 1e-6. The ratio is
+  therefore the cost of the tutorial as it stands and does not rank the solvers.
+- **Agreement** of the package with tabor: the largest difference under any of the loads. Pixels in
+  contact are a share of all pixels. The mean gap (residual indentation counted as zero) and the
+  highest pressure are relative to tabor's. The pressures of all pixels are compared by the root
+  mean square of their difference over that of tabor's.
 """
 
 
@@ -72,8 +78,8 @@ def read(name: str) -> Tutorial:
                              for heading, code in zip(pieces[::2], pieces[1::2]))
     if surface.package.startswith("that of "):
         other = read(surface.package.removeprefix("that of "))
-        return Tutorial(title, "\n".join(text), f"Both are given the surface of \"{other.title}\".", other.surface, theirs, ours)
-    given = f"Both are given, by {surface.package}:\n\n```python\n{surface.code}\n```"
+        return Tutorial(title, "\n".join(text), f"Both packages use the surface of \"{other.title}\".", other.surface, theirs, ours)
+    given = f"Both packages use this input, made with {surface.package}:\n\n```python\n{surface.code}\n```"
     return Tutorial(title, "\n".join(text), given, surface, theirs, ours)
 
 

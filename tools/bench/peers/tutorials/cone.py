@@ -1,5 +1,6 @@
 # A cone that yields, loaded and unloaded
-# ContactMechanics' notebook `plastic_simulation_cone`, in mm, N and MPa: what a load leaves is what the next one presses.
+# ContactMechanics' notebook `plastic_simulation_cone`, in mm, N and MPa. Each load acts on the
+# surface that the previous one has deformed.
 
 # --- surface: NumPy
 import numpy as np

@@ -1,5 +1,5 @@
 # A paraboloid alone on a half-space
-# The way to a contact that does not repeat, of "Solving contact", on the paraboloid of Hertz.
+# The non-periodic contact of "Solving contact", applied to the paraboloid of Hertz.
 
 # --- surface: NumPy
 import numpy as np

@@ -1,6 +1,6 @@
 # Ten loads on a rough surface
-# The surface of "Random rough surfaces" of Tamaas' documentation, with the rms slope that it gives there, under the loads and
-# to the tolerance of "Solving contact".
+# The surface of "Random rough surfaces" in Tamaas' documentation, with the rms slope given there.
+# Loads and tolerance are those of "Solving contact".
 
 # --- surface: Tamaas
 import tamaas as tm

@@ -1,5 +1,6 @@
 # The same surface, with a saturation pressure
-# Tamaas has `KatoSaturated` for this. The surface is that of the tutorial above; cap, load and tolerance are not of a tutorial, but chosen here.
+# Tamaas has `KatoSaturated` for this. The surface is that of the tutorial above. Cap, load and
+# tolerance are chosen here and come from no tutorial.
 
 # --- surface: that of rough
 

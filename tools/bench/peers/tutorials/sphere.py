@@ -1,6 +1,6 @@
 # A sphere alone on a half-space
-# The sphere of the same notebook, in mm, N and MPa, under the force that presses it in by 0.01 mm by Hertz' equation: tabor is
-# given loads, not displacements.
+# The sphere of the same notebook, in mm, N and MPa. The force presses it in by 0.01 mm according to
+# Hertz' equation.
 
 # --- surface: ContactMechanics
 import numpy as np

@@ -1,5 +1,6 @@
 # Nine loads on waves
-# The waves of ContactMechanics' notebook `Hardwall_Simulation`, in mm, N and MPa, loaded step by step.
+# The waves of ContactMechanics' notebook `Hardwall_Simulation`, in mm, N and MPa, loaded step by
+# step.
 
 # --- surface: NumPy
 import numpy as np
