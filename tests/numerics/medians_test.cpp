@@ -18,8 +18,8 @@ TEST(UpperMedians, AreThoseOfSortedLists) {
   for (const bool has_ties : {false, true}) {
     for (std::size_t n = 1; n <= 60; ++n) {
       std::vector<Lanes> lanes(n);
-      std::vector<std::vector<double>> lists(kLists, std::vector<double>(n));
-      for (std::size_t i = 0; i < kLists; ++i) {
+      std::vector<std::vector<double>> lists(kLanes, std::vector<double>(n));
+      for (std::size_t i = 0; i < kLanes; ++i) {
         for (std::size_t j = 0; j < n; ++j) {
           const double value = random.normal(key++);
           lists[i][j] = has_ties ? std::round(value) : value;
@@ -27,7 +27,7 @@ TEST(UpperMedians, AreThoseOfSortedLists) {
         }
       }
       const Lanes& medians = upper_medians(lanes);
-      for (std::size_t i = 0; i < kLists; ++i) {
+      for (std::size_t i = 0; i < kLanes; ++i) {
         std::sort(lists[i].begin(), lists[i].end());
         EXPECT_EQ(medians[i], lists[i][n / 2]) << n << " values";
       }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Says how long the vectors are on which one instruction works.
+// The vectors on which one instruction works.
 namespace tabor {
 
 /// Bytes of a vector register of the processor that this is compiled for. Compilers take longer
@@ -12,5 +12,11 @@ inline constexpr int kRegisterBytes = 32;
 #else
 inline constexpr int kRegisterBytes = 16;
 #endif
+
+/// Numbers of one register, for loops over several lists or lines side by side.
+inline constexpr int kLanes = kRegisterBytes / sizeof(double);
+using Lanes = double __attribute__((vector_size(kRegisterBytes)));
+
+inline Lanes in_all_lanes(double value) { return Lanes{} + value; }
 
 }  // namespace tabor

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/parallel.hpp"
 
 namespace tabor::material {
 namespace {
@@ -28,11 +29,19 @@ void check(const char* what, const PressureRange& range, double pressure, const 
 }  // namespace
 
 void evaluate(const Lubricant& lubricant, std::span<const double> pressure, NodeLaws& laws) {
+  constexpr Index kBlockOfNodes = 4096;
   const std::size_t n = pressure.size();
-  evaluate(lubricant.viscosity, pressure, resized(laws.viscosity, n),
-           resized(laws.viscosity_by_pressure, n));
-  evaluate(lubricant.density, pressure, resized(laws.density, n),
-           resized(laws.density_by_pressure, n));
+  const std::span<double> viscosity = resized(laws.viscosity, n);
+  const std::span<double> viscosity_by_pressure = resized(laws.viscosity_by_pressure, n);
+  const std::span<double> density = resized(laws.density, n);
+  const std::span<double> density_by_pressure = resized(laws.density_by_pressure, n);
+  parallel_for(static_cast<Index>(n), kBlockOfNodes, [&](Index begin, Index end) {
+    const auto part = [&](auto all) {
+      return all.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+    };
+    evaluate(lubricant.viscosity, part(pressure), part(viscosity), part(viscosity_by_pressure));
+    evaluate(lubricant.density, part(pressure), part(density), part(density_by_pressure));
+  });
 }
 
 PressureRange computable_range(const Lubricant& lubricant) {

@@ -7,13 +7,9 @@
 // Finds medians of several lists side by side, by vector instructions.
 namespace tabor::numerics {
 
-/// Lists side by side.
-inline constexpr int kLists = kRegisterBytes / sizeof(double);
-/// The values at one place of all lists.
-using Lanes = double __attribute__((vector_size(kRegisterBytes)));
-
-/// Returns the upper median of each list: of n values in ascending order, the one at n / 2. No
-/// list may have a NaN, and none may be empty. Reorders the values, and returns one of them.
+/// Returns the upper median of each of kLanes lists: of n values in ascending order, the one at
+/// n / 2. values[i] holds the values at place i of all lists. No list may have a NaN, and none may
+/// be empty. Reorders the values, and returns one of them.
 ///
 /// Selection that forgets: of the first n / 2 + 2 values neither the least nor the greatest can be
 /// the median; both go and the next value joins the others, until none is left to join.

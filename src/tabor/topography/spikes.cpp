@@ -89,7 +89,7 @@ class MediansAround {
   /// Calls take(k, median) for each pixels[k]; NaN where there are too few neighbours.
   template <typename Take>
   void find(std::span<const Index> pixels, const Take& take) {
-    constexpr std::size_t n_side = numerics::kLists;
+    constexpr std::size_t n_side = kLanes;
     std::size_t n_waiting = 0;
     std::array<std::size_t, n_side> waiting{};
     for (std::size_t k = 0; k < pixels.size(); ++k) {
@@ -125,7 +125,7 @@ class MediansAround {
                     std::size_t n, const Take& take) {
     lanes_.resize(static_cast<std::size_t>(window_ * window_ - 1));
     const Index reach = window_ / 2;
-    for (std::size_t i = 0; i < numerics::kLists; ++i) {
+    for (std::size_t i = 0; i < kLanes; ++i) {
       const double* centre = height_.data() + pixels[waiting[std::min(i, n - 1)]];
       std::size_t j = 0;
       for (Index v = -reach; v <= reach; ++v) {
@@ -134,14 +134,14 @@ class MediansAround {
         }
       }
     }
-    const numerics::Lanes& medians = numerics::upper_medians(lanes_);
+    const Lanes& medians = numerics::upper_medians(lanes_);
     for (std::size_t i = 0; i < n; ++i) take(waiting[i], medians[i]);
   }
 
   const Field& height_;
   Index window_;
   std::vector<double> values_;
-  std::vector<numerics::Lanes> lanes_;
+  std::vector<Lanes> lanes_;
 };
 
 /// Typical distance from the surroundings' median over the whole scan. Where more than half of the

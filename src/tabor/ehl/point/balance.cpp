@@ -2,10 +2,14 @@
 
 #include <cmath>
 
+#include "tabor/core/loops.hpp"
+#include "tabor/core/rows.hpp"
 #include "tabor/reynolds/line/reynolds.hpp"
 
 namespace tabor::ehl {
 namespace {
+
+constexpr Index kNodesOfBlock = 4096;
 
 /// Numbers of kPointNeighbours.
 enum Neighbour : std::size_t { own, upstream, far_upstream, downstream, lower_side, upper_side };
@@ -27,7 +31,8 @@ class NodeLiquid {
     material::evaluate(flow.lubricant,
                        {flow.pressure.data(), static_cast<std::size_t>(flow.pressure.size())},
                        laws_);
-    for (Index k = 0; k < flow.film.size(); ++k) set_viscosities(k);
+    for_each(
+        flow.film.size(), [this](Index k) { set_viscosities(k); }, kNodesOfBlock);
   }
 
   double mass(Index k) const { return laws_.density[k] * flow_.film.data()[k]; }
@@ -201,15 +206,16 @@ void clear_border(Field& map) {
 void PointStencil::add_product(const Field& x, Field& y) const {
   const Index ny = x.rows();
   const Index nx = x.cols();
-  for (std::size_t n = 0; n < kPointNeighbours.size(); ++n) {
-    const PointOffset at = kPointNeighbours[n];
-    for (Index j = 1; j + 1 < ny; ++j) {
+  for_each_row(ny - 2, [&](Index row) {
+    const Index j = row + 1;
+    for (std::size_t n = 0; n < kPointNeighbours.size(); ++n) {
+      const PointOffset at = kPointNeighbours[n];
       const Index first = at.x < -1 ? 2 : 1;
       const Index count = nx - 1 - first;
       y.row(j).segment(first, count) += coefficient[n].row(j).segment(first, count) *
                                         x.row(j + at.y).segment(first + at.x, count);
     }
-  }
+  });
 }
 
 PointBalance point_balance(const PointFlow& flow, const PointStorage& storage,
@@ -220,8 +226,12 @@ PointBalance point_balance(const PointFlow& flow, const PointStorage& storage,
                        .by_pressure = PointStencil(ny, nx),
                        .by_film = PointStencil(ny, nx)};
   Assembly assembly(flow, units, balance);
-  for (Index j = 1; j + 1 < ny; ++j) assembly.add_flow_along(j);
-  for (Index j = 0; j + 1 < ny; ++j) assembly.add_flow_across(j);
+  for_each_row(ny - 2, [&](Index row) { assembly.add_flow_along(row + 1); });
+  // Faces between two rows concern both: those after even rows first, then those after odd ones.
+  for (const Index parity : {0, 1}) {
+    for_each_row((ny - parity) / 2,
+                 [&](Index pair) { assembly.add_flow_across(2 * pair + parity); });
+  }
   if (storage.time_step > 0) {
     for (Index k = 0; k < flow.film.size(); ++k) assembly.add_storage(k, storage);
   }

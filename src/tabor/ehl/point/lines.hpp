@@ -1,17 +1,20 @@
 #pragma once
 
 #include <Eigen/SparseLU>
+#include <array>
 #include <memory>
 #include <vector>
 
 #include "tabor/ehl/point/local.hpp"
-#include "tabor/numerics/banded_lu.hpp"
+#include "tabor/numerics/banded_lanes.hpp"
 
 // Smooths the errors of a point contact along lines of nodes.
 namespace tabor::ehl {
 
-/// Smooths the error of the local equations: lines of nodes along the flow, each solved exactly,
-/// one after the other from side to side and back (line relaxation, Venner & Lubrecht 2000).
+/// Smooths the error of the local equations: lines of nodes along the flow, each solved exactly
+/// (line relaxation, Venner & Lubrecht 2000). Every third line is solved at the same time, on all
+/// threads and in all lanes of a register, as a balance depends on two lines to either side; then
+/// the lines beside these, the others, and back. Results are the same for any number of threads.
 class PointLines {
  public:
   explicit PointLines(PointLocal local);
@@ -21,10 +24,38 @@ class PointLines {
   Field operator()(const Field& right) const;
 
  private:
-  void solve_line(Index j, const Field& right, Field& q) const;
+  static constexpr Index kColours = PointLocal::kSide + 1;
+  using LineFactors = numerics::BandedLanes<PointLocal::kUpstream, PointLocal::kDownstream>;
+
+  /// Coefficients of a balance that other lines' unknowns have.
+  static constexpr Index kOfOthers =
+      PointLocal::kCoefficients -
+      PointLocal::kReaches[static_cast<std::size_t>(PointLocal::kSide)].size();
+
+  /// kLanes lines of one colour.
+  struct Batch {
+    explicit Batch(Index nx)
+        : factors(nx), of_others(static_cast<std::size_t>(nx * kOfOthers), Lanes{}) {}
+
+    LineFactors factors;
+    std::vector<Lanes> of_others;  ///< kOfOthers coefficients of each node
+  };
+  /// Unknowns or balances of the lines of one colour: the lines' values at one node lie together.
+  class Plane;
+  using Planes = std::array<Plane, kColours>;
+
+  Index line_of(Index colour, Index batch, int lane) const {
+    return (batch * kLanes + lane) * kColours + colour;
+  }
+  Index batches_of_block() const;
+  template <typename Body>
+  void for_each_batch(const Body& body) const;
+  bool fill(Index colour, Index batch);
+  void solve_lines(Index colour, Index batch, const Planes& right, Planes& q) const;
 
   PointLocal local_;
-  std::vector<numerics::BandedLu> lines_;
+  Index n_batches_;  // of each colour
+  std::array<std::vector<Batch>, kColours> batches_;
   bool ok_ = true;
 };
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "tabor/core/rows.hpp"
+
 namespace tabor::ehl {
 namespace {
 
@@ -28,6 +30,16 @@ struct InfluenceTable {
   double operator()(Index dy, Index dx) const { return value(dy + kHalf, dx + kHalf); }
 };
 
+/// Calls body(j, i) for every inner node that is not held, on all threads.
+template <typename Body>
+void for_each_free_node(const Mask& held, const Body& body) {
+  for_each_row(held.rows() - 2, [&](Index row) {
+    for (Index i = 1; i + 1 < held.cols(); ++i) {
+      if (!held(row + 1, i)) body(row + 1, i);
+    }
+  });
+}
+
 }  // namespace
 
 PointLocal::PointLocal(const PointBalance& balance, Mask held, const PointElastic& elastic,
@@ -35,7 +47,7 @@ PointLocal::PointLocal(const PointBalance& balance, Mask held, const PointElasti
     : held_(std::move(held)),
       depth_(depth.size() > 0 ? depth : Mask::Constant(ny(), nx(), false)),
       dipole_(Mask::Constant(ny(), nx(), false)),
-      matrix_(static_cast<std::size_t>(held_.size() * kBox), 0.0) {
+      matrix_(static_cast<std::size_t>(held_.size() * kCoefficients), 0.0) {
   choose_dipoles(balance, elastic.influence(0, 0));
   add_deflection(balance, elastic);
   add_pressure(balance);
@@ -52,68 +64,59 @@ void PointLocal::choose_dipoles(const PointBalance& balance, double self_influen
 void PointLocal::add_deflection(const PointBalance& balance, const PointElastic& elastic) {
   const InfluenceTable single([&](Index dy, Index dx) { return elastic.influence(dy, dx); });
   const InfluenceTable dipole([&](Index dy, Index dx) { return elastic.dipole_influence(dy, dx); });
-  for (Index j = 1; j + 1 < ny(); ++j) {
-    for (Index i = 1; i + 1 < nx(); ++i) {
-      if (held_(j, i)) continue;
-      for (Index dy = -kReach; dy <= kReach; ++dy) {
-        // One more upstream, where the liquid comes from.
-        for (Index dx = std::max(-kReach - 1, -i); dx <= kReach; ++dx) {
-          if (!presses(j + dy, i + dx)) continue;
-          const InfluenceTable& influence = dipole_(j + dy, i + dx) ? dipole : single;
-          double sum = 0;
-          for (std::size_t n = 0; n < kPointNeighbours.size(); ++n) {
-            const PointOffset node = kPointNeighbours[n];
-            sum += balance.by_film.coefficient[n](j, i) * influence(node.y - dy, node.x - dx);
-          }
-          at(j, i, dy, dx) += sum;
+  for_each_free_node(held_, [&](Index j, Index i) {
+    for (Index dy = -kReach; dy <= kReach; ++dy) {
+      // One more upstream, where the liquid comes from.
+      for (Index dx = std::max(-kReach - 1, -i); dx <= kReach; ++dx) {
+        if (!presses(j + dy, i + dx)) continue;
+        const InfluenceTable& influence = dipole_(j + dy, i + dx) ? dipole : single;
+        double sum = 0;
+        for (std::size_t n = 0; n < kPointNeighbours.size(); ++n) {
+          const PointOffset node = kPointNeighbours[n];
+          sum += balance.by_film.coefficient[n](j, i) * influence(node.y - dy, node.x - dx);
         }
+        at(j, i, dy, dx) += sum;
       }
     }
-  }
+  });
 }
 
 void PointLocal::add_pressure(const PointBalance& balance) {
-  for (Index j = 1; j + 1 < ny(); ++j) {
-    for (Index i = 1; i + 1 < nx(); ++i) {
-      if (held_(j, i)) continue;
-      for (std::size_t n = 0; n < kPointNeighbours.size(); ++n) {
-        const PointOffset node = kPointNeighbours[n];
-        const double slope = balance.by_pressure.coefficient[n](j, i);
-        if (slope == 0 || !presses(j + node.y, i + node.x)) continue;
-        at(j, i, node.y, node.x) += slope;
-        for (const PointOffset beside : kCross) {
-          const Index dy = node.y + beside.y;
-          const Index dx = node.x + beside.x;
-          if (dipole_(j + dy, i + dx)) at(j, i, dy, dx) -= slope / 4;
-        }
+  for_each_free_node(held_, [&](Index j, Index i) {
+    for (std::size_t n = 0; n < kPointNeighbours.size(); ++n) {
+      const PointOffset node = kPointNeighbours[n];
+      const double slope = balance.by_pressure.coefficient[n](j, i);
+      if (slope == 0 || !presses(j + node.y, i + node.x)) continue;
+      at(j, i, node.y, node.x) += slope;
+      for (const PointOffset beside : kCross) {
+        const Index dy = node.y + beside.y;
+        const Index dx = node.x + beside.x;
+        if (dipole_(j + dy, i + dx)) at(j, i, dy, dx) -= slope / 4;
       }
     }
-  }
+  });
 }
 
 void PointLocal::add_depth(const PointBalance& balance) {
-  for (Index j = 1; j + 1 < ny(); ++j) {
-    for (Index i = 1; i + 1 < nx(); ++i) {
-      if (held_(j, i)) continue;
-      for (std::size_t n = 0; n < kPointNeighbours.size(); ++n) {
-        const PointOffset node = kPointNeighbours[n];
-        const double slope = balance.by_film.coefficient[n](j, i);
-        if (slope != 0 && depth_(j + node.y, i + node.x)) at(j, i, node.y, node.x) += slope;
-      }
+  for_each_free_node(held_, [&](Index j, Index i) {
+    for (std::size_t n = 0; n < kPointNeighbours.size(); ++n) {
+      const PointOffset node = kPointNeighbours[n];
+      const double slope = balance.by_film.coefficient[n](j, i);
+      if (slope != 0 && depth_(j + node.y, i + node.x)) at(j, i, node.y, node.x) += slope;
     }
-  }
+  });
 }
 
 Field PointLocal::pressure(const Field& q) const {
   Field result = q;
-  for (Index j = 1; j + 1 < ny(); ++j) {
-    for (Index i = 1; i + 1 < nx(); ++i) {
-      if (!dipole_(j, i)) continue;
-      for (const PointOffset beside : kCross) {
-        if (presses(j + beside.y, i + beside.x)) result(j + beside.y, i + beside.x) -= q(j, i) / 4;
-      }
+  for_each_free_node(held_, [&](Index j, Index i) {
+    if (depth_(j, i)) return;
+    double of_dipoles = 0;
+    for (const PointOffset beside : kCross) {
+      if (dipole_(j + beside.y, i + beside.x)) of_dipoles += q(j + beside.y, i + beside.x);
     }
-  }
+    result(j, i) -= of_dipoles / 4;
+  });
   return result;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cassert>
 #include <vector>
 
 #include "tabor/ehl/point/balance.hpp"
@@ -18,8 +20,19 @@ class PointLocal {
  public:
   /// Balances reach this far: upstream and downstream, and to either side.
   static constexpr Index kUpstream = 3, kDownstream = 2, kSide = 2;
-  static constexpr Index kRow = kUpstream + kDownstream + 1;
-  static constexpr Index kBox = kRow * (2 * kSide + 1);
+  /// Unknowns of one line that a balance depends on.
+  struct Reach {
+    Index dy;           ///< of the line
+    Index first, last;  ///< dx of its unknowns
+    Index place;        ///< of the first among the coefficients
+    constexpr Index size() const { return last - first + 1; }
+  };
+  static constexpr std::array<Reach, 2 * kSide + 1> kReaches{{{-2, 0, 0, 0},
+                                                              {-1, -2, 1, 1},
+                                                              {0, -kUpstream, kDownstream, 5},
+                                                              {1, -2, 1, 11},
+                                                              {2, 0, 0, 15}}};
+  static constexpr Index kCoefficients = 16;
 
   /// Held nodes keep their pressure. `depth`: nodes whose unknown is what is added to their film,
   /// their pressure being given; empty: none.
@@ -29,18 +42,20 @@ class PointLocal {
   const Mask& held() const { return held_; }
   Index nx() const { return held_.cols(); }
   Index ny() const { return held_.rows(); }
-  /// The kBox coefficients of the balance of node (j, i): rows j - kSide .. j + kSide of q, in each
-  /// columns i - kUpstream .. i + kDownstream. Zero for held nodes and beyond the border.
+  /// The kCoefficients of the balance of node (j, i), in the order of kReaches. Zero for held nodes
+  /// and beyond the border.
   const double* coefficients(Index j, Index i) const {
-    return &matrix_[static_cast<std::size_t>((j * nx() + i) * kBox)];
+    return &matrix_[static_cast<std::size_t>((j * nx() + i) * kCoefficients)];
   }
   /// Pressures, or depths, that the unknowns q stand for.
   Field pressure(const Field& q) const;
 
  private:
   double& at(Index j, Index i, Index dy, Index dx) {
-    return matrix_[static_cast<std::size_t>((j * nx() + i) * kBox + (dy + kSide) * kRow + dx +
-                                            kUpstream)];
+    const Reach& reach = kReaches[static_cast<std::size_t>(dy + kSide)];
+    assert(dx >= reach.first && dx <= reach.last);
+    return matrix_[static_cast<std::size_t>((j * nx() + i) * kCoefficients + reach.place + dx -
+                                            reach.first)];
   }
   bool presses(Index j, Index i) const { return !held_(j, i) && !depth_(j, i); }
   void choose_dipoles(const PointBalance& balance, double self_influence);
