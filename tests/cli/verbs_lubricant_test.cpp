@@ -135,6 +135,18 @@ TEST_F(LubricantVerbs, FrictionHasTheAgreedKeysForEveryPressureAndDensity) {
   EXPECT_EQ(states.at(1).at("lubricant_density_g_per_m2"), 0.9);
 }
 
+TEST_F(LubricantVerbs, FrictionSaysWhereTheTimeWent) {
+  const Words words = friction("2MPa", "0.45g/m^2");
+  const io::Json seconds = json_of(words).at("seconds");
+  const double all = seconds.at("all").get<double>();
+  for (const char* part : {"reading", "rain", "density_curve", "contacts"}) {
+    ASSERT_TRUE(seconds.contains(part)) << seconds;
+    EXPECT_GE(seconds.at(part).get<double>(), 0) << part;
+    EXPECT_LE(seconds.at(part).get<double>(), all) << part;
+  }
+  EXPECT_THAT(run_tabor(words).out, testing::ContainsRegex("\ntime +[0-9.]+ s"));
+}
+
 TEST_F(LubricantVerbs, FrictionIsAreaTimesShearStrengthOverPressure) {
   for (const char* area : {"corrected", "pixels"}) {
     const io::Json state =

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 #include <memory>
 #include <optional>
 
@@ -9,6 +11,7 @@
 #include "tabor/cli/density_curve.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/core/resources.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/study/curves_file.hpp"
 #include "tabor/study/friction_table.hpp"
@@ -41,8 +44,26 @@ struct Solved {
   std::vector<cases::DensityCurve> curves;
   study::CoarsePixels coarse;
   std::vector<study::ResolutionRecord> resolution;
+  std::map<std::string, double> seconds;  ///< wall time by kind of work
   int code = kDone;
 };
+
+/// A kind of work: its key in the JSON object, and what a person reads.
+struct Work {
+  const char* kind;
+  const char* key;
+  const char* words;
+};
+constexpr std::array kWorks{Work{"read", "reading", "reading"},
+                            Work{"film", "rain", "rain"},
+                            Work{"wetting doses", "density_curve", "density curve"},
+                            Work{"contact", "contacts", "contacts"},
+                            Work{"trapped oil", "trapped", "trapped oil"},
+                            Work{"fluid", "flow", "flow"},
+                            Work{"coarse pixels", "coarse_pixels", "coarse pixels"},
+                            Work{"resolution", "resolution", "resolution scan"},
+                            Work{"hand on", "writing", "writing"},
+                            Work{"all", "all", ""}};
 
 /// With --resolution-scan, a table says it.
 bool compares(const Request& request) {
@@ -69,8 +90,11 @@ Solved solve_all(const Request& request, const topography::Topography& surface,
         study::friction_of(surface, request.settings, receive, maps, options, compares(request));
     solved.curves = std::move(result.density_curves);
     solved.coarse = std::move(result.coarse);
+    solved.seconds = std::move(result.seconds);
     if (!request.resolution_scan) return;
+    const Stopwatch watch;
     solved.resolution = study::resolution_scan(surface, request.settings, solved.records, options);
+    solved.seconds["resolution"] = watch.seconds();
   });
   for (const cases::FrictionRecord& record : solved.records) {
     if (solved.code == kDone && !record.converged) solved.code = kNotConverged;
@@ -175,6 +199,33 @@ std::string curves_text(const Solved& solved, const Request& request) {
   return '\n' + facts.text() + tables;
 }
 
+io::Json seconds_json(const Solved& solved) {
+  io::Json object;
+  for (const Work& work : kWorks) {
+    const auto found = solved.seconds.find(work.kind);
+    if (found != solved.seconds.end()) object[work.key] = found->second;
+  }
+  return object;
+}
+
+/// Where the time went, what took the longest first.
+std::string times_text(const Solved& solved) {
+  constexpr double kWorthSaying = 0.1;  // [s]
+  std::vector<std::pair<double, std::string>> parts;
+  for (const Work& work : kWorks) {
+    const auto found = solved.seconds.find(work.kind);
+    if (found == solved.seconds.end() || found->second < kWorthSaying) continue;
+    if (*work.words != '\0') parts.emplace_back(found->second, work.words);
+  }
+  std::stable_sort(parts.begin(), parts.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::string text = fmt::format("{:.1f} s", solved.seconds.at("all"));
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    text += fmt::format("{} {} {:.1f} s", i == 0 ? ":" : ",", parts[i].second, parts[i].first);
+  }
+  return text + (parts.size() > 1 ? " (side by side)" : "");
+}
+
 std::string text_of(const Scan& scan, const Request& request, const Solved& solved) {
   const cases::CaseSettings& settings = request.settings;
   Facts facts;
@@ -195,22 +246,28 @@ std::string text_of(const Scan& scan, const Request& request, const Solved& solv
   describe_pixels(solved, scan.surface.grid, pixels);
   if (const std::string line = pixels.text(); !line.empty()) text += '\n' + line;
   text += curves_text(solved, request);
-  if (!request.resolution_scan) return text;
-  return text + '\n' + table_of(study::resolution_columns(), solved.resolution).text();
+  if (request.resolution_scan) {
+    text += '\n' + table_of(study::resolution_columns(), solved.resolution).text();
+  }
+  Facts time;
+  time.fact("time", times_text(solved));
+  return text + '\n' + time.text();
 }
 
 int show(Request request, Context& context) {
   request.settings.film.seed = context.seed_or_default();
   check_all(request.settings);
   find_tool(request.settings.contact, context);
+  const Stopwatch watch;
   const Scan scan = read_scan(request.scan, context);
+  const double seconds_of_reading = watch.seconds();
   require_no_holes(scan);
   cases::ContactSettings& contact = request.settings.contact;  // a file may say its edges, too
   check(cases::objection(contact, scan.surface.edges, flag_of));
   contact.take_edges(scan.surface.edges);
   check_all(request.settings);
   auto file = fields_file(request.file, context, scan, request.settings);
-  const Solved solved = solve_all(request, scan.surface, file ? &*file : nullptr, context);
+  Solved solved = solve_all(request, scan.surface, file ? &*file : nullptr, context);
   if (solved.code == kInterrupted && solved.records.empty()) throw Interrupted();
   std::vector<results::Case> cases;
   cases.reserve(solved.records.size());
@@ -220,6 +277,8 @@ int show(Request request, Context& context) {
     study::write_curves(solved.curves, request.scan.file, solved.records, *file);
     file->commit(context.warnings);
   }
+  solved.seconds["read"] = seconds_of_reading;
+  solved.seconds["all"] = watch.seconds();
   io::Json object = json_head(context, scan);
   object.update(results::settings_json(request.settings));
   object["states"] = states_json(cases::friction_columns(), solved.records);
@@ -230,6 +289,7 @@ int show(Request request, Context& context) {
   if (request.resolution_scan) {
     object["resolution"] = states_json(study::resolution_columns(), solved.resolution);
   }
+  object["seconds"] = seconds_json(solved);
   const auto columns = cases::friction_columns(cases::parts_of(request.settings));
   return finish(context, object,
                 write_csv(request.file.csv, states_csv(columns, solved.records),

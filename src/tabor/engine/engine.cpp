@@ -12,6 +12,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
+#include "tabor/core/resources.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/engine/plan.hpp"
 #include "tabor/engine/work_share.hpp"
@@ -199,7 +200,7 @@ class Engine {
     if (error.empty()) return error;
     if (job.record_failure) {
       job.record_failure(error);
-      count(job);
+      count(job, 0);
     }
     if (!failed_before) {
       const std::lock_guard lock(mutex_);
@@ -220,8 +221,9 @@ class Engine {
     const Job& job = jobs_[place];
     const auto lock = exclusive(job);
     if (is_there_by_now(place)) return;
+    const Stopwatch watch;
     job.compute(monitor_of(place));
-    count(job);
+    count(job, watch.seconds());
   }
 
   std::optional<io::FileLock> exclusive(const Job& job) {
@@ -264,9 +266,10 @@ class Engine {
     changed_.notify_all();
   }
 
-  void count(const Job& job) {
+  void count(const Job& job, double seconds) {
     const std::lock_guard lock(mutex_);
     ++report_.n_computed[job.kind];
+    report_.seconds[job.kind] += seconds;
   }
 
   Monitor monitor_of(std::size_t place) {

@@ -41,6 +41,7 @@ namespace tabor::engine {
 /// End of a run.
 struct Report {
   std::map<std::string, std::size_t> n_computed;  ///< by kind; recorded failures count
+  std::map<std::string, double> seconds;          ///< by kind: of wall time, added up over its jobs
   std::size_t n_found = 0;                        ///< jobs whose results were stored before
   std::vector<std::string> failures;              ///< of the jobs that failed by themselves
   std::vector<std::string> warnings;              ///< one per damaged file

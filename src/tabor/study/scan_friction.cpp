@@ -257,6 +257,7 @@ ScanFrictionResult friction_of(const topography::Topography& surface,
   report.rethrow();
   if (!report.failures.empty()) throw InputError(report.failures.front());
   result.density_curves = store->density_curves();
+  result.seconds = report.seconds;
   return result;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 #include "tabor/cases/density_curve.hpp"
@@ -39,6 +41,8 @@ struct ScanFrictionResult {
   /// are zero, or where it does not run downhill.
   std::vector<cases::DensityCurve> density_curves;
   CoarsePixels coarse = {};
+  /// Wall time of the jobs by kind, each kind's added up; some run side by side.
+  std::map<std::string, double> seconds = {};
 };
 
 /// Computes the friction of one surface. Hands on every pressure with every density, the densities
