@@ -10,6 +10,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+from matplotlib import pyplot
 
 from report_test import run
 from tabor.report import build
@@ -68,6 +69,31 @@ class Slide(unittest.TestCase):
             value = file["states/0004"].attrs["friction_dry"]
         answer = re.search(r'(?s)<table class="answer">.*?</table>', self.page)[0]
         self.assertIn(f"{value:.4g}", answer)
+
+    def names_of_figures(self, path, draw, with_maps):
+        source = build.open_result(path)
+        self.addCleanup(source.file.close)
+        names = [figure.name for figure in draw(source, with_maps)]
+        pyplot.close("all")
+        return names
+
+    def check_interactive_page(self, path, draw, beside_the_viewer):
+        """The viewer shows pressure, gap and film in the place of figures."""
+        interactive, static = (self.names_of_figures(path, draw, with_maps) for with_maps in (False, True))
+        for what in beside_the_viewer:
+            self.assertTrue(any(name.startswith(f"{what}_") for name in interactive), f"{what}: {interactive}")
+        for what in ("pressure", "gap", "film"):
+            self.assertFalse(any(name.startswith(f"{what}_") for name in interactive), f"{what}: {interactive}")
+            self.assertTrue(any(name.startswith(f"{what}_") for name in static), f"{what}: {static}")
+
+    def test_interactive_pages_have_the_maps_that_their_viewers_do_not_hold(self):
+        hardened = self.path.parent / "hardened.h5"
+        subprocess.run([os.environ["TABOR"], "slide", SCAN, *WORDS, "--hardening", "100MPa/um", "-o", hardened], check=True, capture_output=True)
+        self.check_interactive_page(hardened, build.slide_figures, ["sheet", "change", "saturation_pressure"])
+        pressed = self.path.parent / "pressed.h5"
+        words = [*WORDS[: WORDS.index("--distance")], "--density", "0.9g/m^2", "--trapped", "--quiet"]
+        subprocess.run([os.environ["TABOR"], "friction", SCAN, *words, "-o", pressed], check=True, capture_output=True)
+        self.check_interactive_page(pressed, build.single_figures, ["tool", "liquid_pressure"])
 
     def test_options_of_studies_are_rejected(self):
         done = run(self.path, "--pressure", "7MPa")

@@ -2,11 +2,16 @@
 
 import argparse
 import datetime
+import functools
+import hashlib
 import os
 import pathlib
 import re
 import subprocess
 import sys
+import tempfile
+
+import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/benchmarks.md"
@@ -22,11 +27,15 @@ def arguments(description: str) -> tuple[argparse.Namespace, list[str]]:
 
 def program(name: str) -> pathlib.Path:
     """The benchmark program, built in TABOR_BUILD (build/release unless set)."""
+    return built(name, "tools/bench")
+
+
+def built(name: str, room: str) -> pathlib.Path:
     folder = pathlib.Path(os.environ.get("TABOR_BUILD", ROOT / "build/release"))
     if not (folder / "CMakeCache.txt").is_file():
         raise SystemExit(f"no build in {folder}: cmake --preset release, or set TABOR_BUILD")
     subprocess.run(["cmake", "--build", str(folder), "--target", name], check=True, stdout=sys.stderr)
-    return folder / "tools/bench" / name
+    return folder / room / name
 
 
 def output_of(command: list[str]) -> str:
@@ -47,8 +56,23 @@ def machine() -> str:
     return f"{os.cpu_count()} processors ({names[0] if names else 'unnamed'})"
 
 
-def made_by(command: str) -> str:
-    return f"Made by `{command}` on {datetime.date.today()}; do not edit. {machine()}."
+@functools.cache
+def digest_of_surfaces(tabor: str) -> str:
+    """Tells generators of surfaces apart: of one surface of each kind, to a picometre."""
+    digest = hashlib.sha256()
+    with tempfile.TemporaryDirectory() as folder:
+        for words in ["edt", "self-affine --rms-height 1um --pixel 1um", "ground --rms-height 1um --pixel 1um"]:
+            file = os.path.join(folder, "surface.npy")
+            subprocess.run([tabor, "generate", *words.split(), "-o", file, "--pixels", "64", "--quiet"], check=True,
+                           stdout=subprocess.DEVNULL)
+            digest.update(np.rint(np.load(file) * 1e12).astype("<i8").tobytes())
+    return digest.hexdigest()[:8]
+
+
+def made_by(command: str, on_surfaces: bool = True) -> str:
+    """The line that opens a section; with the digest of generated surfaces if it stands on any."""
+    of_surfaces = f" Generated surfaces {digest_of_surfaces(str(built('tabor', 'tools')))}." if on_surfaces else ""
+    return f"Made by `{command}` on {datetime.date.today()}; do not edit. {machine()}.{of_surfaces}"
 
 
 def record(title: str, text: str, page: pathlib.Path = PAGE) -> None:
@@ -64,6 +88,6 @@ def record(title: str, text: str, page: pathlib.Path = PAGE) -> None:
     page.write_text("\n".join(part.strip("\n") + "\n" for part in parts), "utf-8")
 
 
-def record_outputs(title: str, command: str, text: str, outputs: list[str]) -> None:
+def record_outputs(title: str, command: str, text: str, outputs: list[str], on_surfaces: bool = True) -> None:
     blocks = "\n".join(f"```\n{output.rstrip()}\n```\n" for output in outputs)
-    record(title, f"{made_by(command + ' --record')}\n\n{text.strip()}\n\n{blocks}")
+    record(title, f"{made_by(command + ' --record', on_surfaces)}\n\n{text.strip()}\n\n{blocks}")

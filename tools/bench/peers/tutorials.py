@@ -179,7 +179,7 @@ def versions() -> str:
 
 
 def page(tutorials: list[Tutorial], rows: list[str], repeats: int) -> str:
-    made = benchmark.made_by("tools/bench/peers/run --tutorials --record")
+    made = benchmark.made_by("tools/bench/peers/run --tutorials --record", on_surfaces=False)
     table = "\n".join([HEAD, *rows])
     return "\n".join([INTRODUCTION, f"{made} {versions()}.\n", table, MEANING.format(repeats=repeats), *map(section, tutorials)])
 
