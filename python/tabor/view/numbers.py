@@ -1,0 +1,70 @@
+"""Tables of numbers with the warnings that concern them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from .answers import Answer
+from .looks import failure_html, percent, si_text, table_html, warnings_html
+
+Row = tuple[str, str, str, str]
+#: Heading, key of ``--json``, unit; "%" for a share. Those of trapped oil are shown where they are.
+_CONTACT = (("contact area", "contact_area_fraction", "%"), ("counted contact", "contact_area_fraction_pixels", "%"),
+            ("yielded", "saturated_area_fraction", "%"), ("mean gap", "mean_gap_m", "m"), ("largest pressure", "max_pressure_Pa", "Pa"),
+            ("certificate", "certificate", ""))
+_OIL = (("wet surface", "wet_fraction", "%"), ("mean film", "mean_film_m", "m"), ("thickest film", "max_film_m", "m"))
+_FRICTION = (("friction, dry", "friction_dry", ""), ("friction, lubricated", "friction_lubricated", ""),
+             ("wet share of contact", "lubricated_share", "%"), ("load carried by oil", "liquid_load_share", "%"))
+
+
+def _text(value: Any, unit: str) -> str:
+    return percent(value) if unit == "%" else si_text(value, unit)
+
+
+def _rows(values: Any, lines: tuple[tuple[str, str, str], ...]) -> list[Row]:
+    return [(heading, key, repr(values[key]), _text(values[key], unit)) for heading, key, unit in lines if values.get(key) is not None]
+
+
+def scan_html(answer: Answer) -> str:
+    """Pixels, holes, tilt and roughness of the treated surface."""
+    surface = answer.surface
+    if surface is None:
+        return failure_html(answer.failures.get("treatment", ""))
+    ny, nx = surface.shape
+    dx, dy = (si_text(side, "m") for side in surface.pixel)
+    rows: list[Row] = [("pixels", "pixels", f"{nx} x {ny}", f"{nx} x {ny} of {dx if dx == dy else dx + ' x ' + dy}"),
+                       ("holes", "holes", repr(surface.n_holes), f"{surface.n_holes} pixels" if surface.n_holes else "none")]
+    if answer.tilt is not None:
+        rows.append(("tilt x, y", "tilt", repr(answer.tilt), ", ".join(f"{1e3 * slope:.3g}" for slope in answer.tilt) + " µm/mm"))
+    rows += [(one.symbol, one.symbol, repr(one.value), si_text(one.value, one.unit)) for one in answer.parameters or ()]
+    return table_html(rows, 2) + failure_html(answer.failures.get("treatment", "")) + warnings_html(answer.warnings["scan"])
+
+
+def contact_html(answer: Answer) -> str:
+    """Numbers of the contact."""
+    return _part(answer, "contact", answer.contact, _CONTACT)
+
+
+def oil_html(answer: Answer) -> str:
+    """Numbers of the oil."""
+    return _part(answer, "oil", answer.film, _OIL)
+
+
+def friction_html(answer: Answer) -> str:
+    """Numbers of friction."""
+    return _part(answer, "friction", answer.friction, _FRICTION)
+
+
+def _part(answer: Answer, name: str, record: Any, lines: tuple[tuple[str, str, str], ...]) -> str:
+    rows = [] if record is None else _rows(record.values, lines)
+    return (table_html(rows, 3 if name == "oil" else 2) if rows else "") + failure_html(answer.failures.get(name, "")) + warnings_html(answer.warnings[name])
+
+
+def preview_html(answer: Answer) -> str:
+    """Which answer this is: a preview with its pixel, or the full one with its time."""
+    surface = answer.pressed
+    if surface is None:
+        return ""
+    if answer.is_preview:
+        return f"<span class='preview' data-name='preview'>Preview on pixels of {si_text(surface.pixel[0], 'm')}</span>"
+    return f"<span class='note' data-name='whole'>Full answer in {answer.seconds:.2g} s</span>"
