@@ -175,11 +175,10 @@ class Bench:
         pressed, film = found["contact"], found["film"]
         if pressed is None or film is None:
             return None
-        shear = {"shear_strength": state.shear_strength} if state.shear_strength else {}
-
         def rub() -> Friction:
             with self.pace.of("friction", pressed.surface):
-                return friction(pressed, film, check=False, trapped=state.trapped, progress=told, **shear)
+                return friction(pressed, film, check=False, trapped=state.trapped, shear_strength=state.shear_strength or None,
+                                progress=told)
 
         return self._kept.get("friction", (pressed.surface.shape, state), rub)
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from bokeh.models import Button, Column, CustomJS, Div, PreText, Row, TabPanel, Tabs
+from bokeh.models import Column, CustomJS, Row, TabPanel, Tabs
+from bokeh.models.widgets import Button, Div, PreText
 
 from . import texts
 from .looks import STYLE
@@ -30,8 +31,8 @@ class Boxes:
             panels.append(TabPanel(title=title, child=Column(children=[text, button])))
         self.links = Div(stylesheets=[STYLE], name="links", width=700)
         buttons = [self._button(kind, label, write) for kind, label in WRITTEN.items()]
-        self.view = Column(children=[Div(text="<h2>Exactly this, elsewhere</h2>", stylesheets=[STYLE]), Tabs(tabs=panels, name="texts"),
-                                     Row(children=[*buttons, self.links])])
+        self.view = Column(children=[Div(text="<h2>Exactly this, elsewhere</h2>", stylesheets=[STYLE]),
+                                     Row(children=[*buttons, self.links]), Tabs(tabs=panels, name="texts")])
 
     def _button(self, kind: str, label: str, write: Callable[[str], None]) -> Button:
         button = Button(label=f"Write: {label.lower()}", width=150, name=f"write_{kind}")

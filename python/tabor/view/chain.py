@@ -7,7 +7,8 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from bokeh.models import Button, Checkbox, Column, Div, Row, Select, TextInput
+from bokeh.models import Column, Row
+from bokeh.models.widgets import Button, Checkbox, Div, Select, TextInput
 
 from .looks import STYLE
 from .recipes import RECIPES
@@ -32,8 +33,10 @@ class Chain:
     def __init__(self, change: Change, undo: Callable[[], None], redo: Callable[[], None], crop: Callable[[], str]) -> None:
         self._change, self._state = change, State("")
         self._rows = Column(children=[], name="chain")
-        self._add = Select(options=[_ADD, *OFFERED], value=_ADD, width=170, name="add")
-        self._recipe = Select(options=[_RECIPE, *(one.name for one in RECIPES)], value=_RECIPE, width=100, name="recipe")
+        steps: list[Any] = [_ADD, *OFFERED]
+        recipes: list[Any] = [_RECIPE, *(one.name for one in RECIPES)]
+        self._add = Select(options=steps, value=_ADD, width=170, name="add")
+        self._recipe = Select(options=recipes, value=_RECIPE, width=100, name="recipe")
         self._undo = Button(label="Undo", width=60, name="undo")
         self._redo = Button(label="Redo", width=60, name="redo")
         self._said = Div(stylesheets=[STYLE], width=600)

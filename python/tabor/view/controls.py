@@ -7,7 +7,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-from bokeh.models import Checkbox, Column, CustomJSTickFormatter, Div, RadioButtonGroup, Row, Select, Slider, TextInput
+from bokeh.models import Column, CustomJSTickFormatter, Row
+from bokeh.models.widgets import Checkbox, Div, RadioButtonGroup, Select, Slider, TextInput
 
 from .._contact import materials
 from .._values import si
@@ -43,11 +44,11 @@ class Quantity:
     """A slider with logarithmic steps, and a field for exact values beside it."""
 
     def __init__(self, name: str, title: str, unit: str, dimension: str, ends: tuple[float, float], take: Callable[[str], None]) -> None:
-        self._unit, self._dimension, self._take, self._is_showing = unit, dimension, take, False
+        self._title, self._unit, self._dimension, self._take, self._is_showing = title, unit, dimension, take, False
         self.slider = Slider(start=ends[0], end=ends[1], value=ends[0], step=0.01, title=title, format=_formatter(unit), width=430,
                              name=name)
-        self.field = TextInput(width=110, name=f"{name}_field", title="exactly")
-        self.failure = Div(stylesheets=[STYLE])
+        self.field = TextInput(width=110, name=f"{name}_field", align="end")
+        self.failure = Div(stylesheets=[STYLE], visible=False)
         self.slider.on_change("value", lambda _a, _o, power: self._given(_label(power, unit)))
         self.field.on_change("value", lambda _a, _o, text: self._given(text))
         self.view = Column(children=[Row(children=[self.slider, self.field]), self.failure])
@@ -56,12 +57,12 @@ class Quantity:
         if self._is_showing:
             return
         try:
-            if si(text, self._dimension, self.slider.title) < 0:
-                raise ValueError(f"{self.slider.title}: got {text}; expected a value above zero")
+            if si(text, self._dimension, self._title) < 0:
+                raise ValueError(f"{self._title}: got {text}; expected no negative value")
         except ValueError as error:
-            self.failure.text = failure_html(str(error))
+            self.failure.update(text=failure_html(str(error)), visible=True)
             return
-        self.failure.text = ""
+        self.failure.visible = False
         self._take(text)
 
     def show(self, text: str, ends: tuple[float, float] | None = None) -> None:
@@ -82,10 +83,11 @@ class Controls:
 
     def __init__(self, state: State, change: Change, choose_map: Callable[[str], None]) -> None:
         self._state, self._change, self._is_showing = state, change, False
-        names = [one.name for one in materials()]
+        names: list[Any] = [one.name for one in materials()]
+        tools: list[Any] = [*TOOLS]
         self._material = Select(options=names, title="Material", width=160, name="material")
         self._shear = TextInput(title="Shear strength", placeholder="of the material", width=130, name="shear")
-        self._tool = Select(options=list(TOOLS), title="Pressed by", width=190, name="tool")
+        self._tool = Select(options=tools, title="Pressed by", width=190, name="tool")
         self._oil = Checkbox(label="Oil", width=60, name="oil")
         self._trapped = Checkbox(label="Oil in closed pockets carries load", width=260, name="trapped")
         self._pressure = Quantity("pressure", "Pressure", "MPa", "pressure", pressure_range(state), self._press)
@@ -98,7 +100,7 @@ class Controls:
         self._oil.on_change("active", lambda _a, _o, is_on: self._tell(replace(self._state, density=self._wetness if is_on else DRY)))
         self._trapped.on_change("active", lambda _a, _o, is_on: self._tell(replace(self._state, trapped=is_on)))
         self._maps.on_change("active", lambda _a, _o, place: choose_map(KINDS[place]))
-        self._failure = Div(stylesheets=[STYLE])
+        self._failure = Div(stylesheets=[STYLE], visible=False)
         self.contact = Column(children=[Row(children=[self._material, self._tool, self._shear]), self._failure, self._pressure.view])
         self.oil = Column(children=[self._density.view, Row(children=[self._oil, self._trapped])])
         self.maps: Any = self._maps
@@ -118,9 +120,9 @@ class Controls:
             if text and not self._is_showing:
                 si(text, "pressure", "Shear strength")
         except ValueError as error:
-            self._failure.text = failure_html(str(error))
+            self._failure.update(text=failure_html(str(error)), visible=True)
             return
-        self._failure.text = ""
+        self._failure.visible = False
         self._tell(replace(self._state, shear_strength=text))
 
     def _of_material(self, name: str) -> None:

@@ -8,7 +8,8 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from bokeh.models import Button, Column, Div, Row
+from bokeh.models import Column, Row
+from bokeh.models.widgets import Button, Div
 
 from .._surface import Surface
 from . import numbers
@@ -24,6 +25,7 @@ from .state import History, State
 from .worker import Watching, Worker
 from .written import Folder, link_html
 
+REMARKS = ("contact", "oil", "friction")
 Later = Callable[[Callable[[], Any]], Any]  #: calls a function on the thread of the page
 
 
@@ -48,22 +50,20 @@ class Desk:
         self._curve.draw.on_click(self._draw_curve)
         self._stop = Button(label="Stop", width=60, name="stop", disabled=True)
         self._stop.on_click(self._stopped)
-        self._status = Div(stylesheets=[STYLE], name="status", width=420)
-        self._which = Div(stylesheets=[STYLE], name="which", width=330)
+        self._status = Div(stylesheets=[STYLE], name="status", width=270)
+        self._which = Div(stylesheets=[STYLE], name="which", width=250)
         self._scan_numbers = Div(stylesheets=[STYLE], name="scan_numbers", width=600)
-        self._contact_numbers = Div(stylesheets=[STYLE], name="contact_numbers", width=610)
-        self._oil_numbers = Div(stylesheets=[STYLE], name="oil_numbers", width=610)
-        self._friction_numbers = Div(stylesheets=[STYLE], name="friction_numbers", width=610)
+        self._numbers = Div(stylesheets=[STYLE], name="numbers", width=190)
+        self._remarks = {name: Div(stylesheets=[STYLE], name=f"{name}_remarks", width=610, visible=False) for name in REMARKS}
 
     def _layout(self) -> Any:
         heading = partial(Div, stylesheets=[STYLE])
-        left = Column(children=[heading(text="<h2>Scan</h2>"), self._heights.plot, self._heights.note, self._heights.colours,
+        left = Column(children=[self._heights.plot, self._heights.note, self._heights.colours,
                                 Row(children=[self._heights.histogram, self._heights.section]),
                                 heading(text="<h2>Treatment, in this order</h2>"), self._chain.view, self._scan_numbers], width=615)
-        right = Column(children=[heading(text="<h2>Contact</h2>"), self._controls.contact, self._controls.oil,
-                                 Row(children=[self._which, self._stop, self._status]), self._controls.maps, self._results.plot, self._results.legend,
-                                 self._contact_numbers, heading(text="<h2>Oil</h2>"), self._oil_numbers,
-                                 heading(text="<h2>Friction</h2>"), self._friction_numbers, self._curve.view], width=620)
+        right = Column(children=[self._controls.contact, self._controls.oil, Row(children=[self._which, self._stop, self._status]),
+                                 self._controls.maps, Row(children=[Column(children=[self._results.plot, self._results.legend]), self._numbers]),
+                                 *self._remarks.values(), self._curve.view], width=620)
         return Column(children=[Row(children=[left, right]), self._boxes.view])
 
     @property
@@ -95,8 +95,8 @@ class Desk:
     def _crop(self) -> str:
         """The step that keeps what the maps show."""
         factor = self._axes.unit.factor
-        x, y = ((one.start / factor, one.end / factor) for one in (self._axes.x, self._axes.y))
-        return crop_step(x, y, self._heights.surface.size)
+        ends = [(float(one.start) / factor, float(one.end) / factor) for one in self._axes.ranges]
+        return crop_step(ends[0], ends[1], self._heights.surface.size)
 
     def _choose_map(self, kind: str) -> None:
         self._results.kind = kind
@@ -166,9 +166,10 @@ class Desk:
         self._curve.show(answer)
         self._which.text = numbers.preview_html(answer)
         self._scan_numbers.text = numbers.scan_html(answer)
-        self._contact_numbers.text = numbers.contact_html(answer)
-        self._oil_numbers.text = numbers.oil_html(answer)
-        self._friction_numbers.text = numbers.friction_html(answer)
+        self._numbers.text = numbers.results_html(answer)
+        for name, remarks in self._remarks.items():
+            text = numbers.remarks_html(answer, name)
+            remarks.update(text=text, visible=bool(text))
 
     def _show_progress(self, stage: str, share: float) -> None:
         self._stop.disabled = not stage

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import hmac
 import secrets
-from typing import Any, cast
+from typing import Any
 from urllib.parse import urlsplit
 
 from bokeh.resources import Resources
 from bokeh.server.tornado import BokehTornado
-from tornado.httputil import HTTPMessageDelegate, HTTPServerRequest
+from tornado.httputil import HTTPServerRequest
 from tornado.web import RequestHandler
 
 ADDRESS = "127.0.0.1"
@@ -62,11 +62,11 @@ class Guarded(BokehTornado):
         """From this server, whatever variables of the environment say."""
         return Resources(mode="server", root_url=f"{self.prefix}/", path_versioner=_versioned)
 
-    def find_handler(self, request: HTTPServerRequest, **kwargs: Any) -> HTTPMessageDelegate:
+    def find_handler(self, request: HTTPServerRequest, **kwargs: Any) -> Any:
         """Rejects a request before Bokeh sees it."""
         is_websocket = request.headers.get("Upgrade", "").lower() == "websocket"
         if reason_against(request.path, request.host, request.headers.get("Origin"), is_websocket, self._token, self._port):
-            return cast(HTTPMessageDelegate, self.get_handler_delegate(request, Forbidden))
+            return self.get_handler_delegate(request, Forbidden)
         return super().find_handler(request, **kwargs)
 
 

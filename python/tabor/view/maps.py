@@ -5,18 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from bokeh.models import (
-    BasicTicker,
-    ColorBar,
-    ColumnDataSource,
-    CustomJS,
-    Div,
-    LinearColorMapper,
-    PanTool,
-    PointDrawTool,
-    Range1d,
-    RangeSlider,
-)
+from bokeh.models import BasicTicker, ColumnDataSource, CustomJS, LinearColorMapper, PanTool, PointDrawTool, Range1d
+from bokeh.models.annotations import ColorBar
+from bokeh.models.widgets import Div, RangeSlider
 from bokeh.palettes import Cividis256, Greys256, Viridis256
 from bokeh.plotting import figure
 
@@ -24,7 +15,7 @@ from .._surface import Array, Surface
 from .answers import Answer
 from .looks import CURVES, DRY, HOLE, LIQUID, SOLID, STYLE, WET, Unit, limits, shown, unit_for
 
-FRAME = (440, 380)  #: largest width and height of a map [px of the screen]
+FRAME = (380, 330)  #: largest width and height of a map [px of the screen]
 _TOOLS = "box_zoom,wheel_zoom,reset,save"
 
 
@@ -42,6 +33,7 @@ class Axes:
     def __init__(self, surface: Surface) -> None:
         self.unit = unit_for(max(surface.size))
         self.x, self.y = Range1d(), Range1d()
+        self.ranges: tuple[Any, Any] = (self.x, self.y)
         self._size: tuple[float, float] | None = None
         self.show(surface)
 
@@ -81,9 +73,8 @@ class Image:
         return step
 
 
-def _colour_bar(plot: Any, mapper: Any, title: str) -> Any:
-    bar = ColorBar(color_mapper=mapper, title=title, width=12, ticker=BasicTicker(desired_num_ticks=5), padding=4,
-                   title_text_font_size="12px", title_standoff=6)
+def _colour_bar(plot: Any, mapper: Any) -> Any:
+    bar = ColorBar(color_mapper=mapper, width=12, ticker=BasicTicker(desired_num_ticks=5), padding=4)
     plot.add_layout(bar, "right")
     return bar
 
@@ -98,14 +89,15 @@ class Heights:
         self._mapper = LinearColorMapper(palette=Viridis256, nan_color=HOLE)
         self.plot = axes.figure(scan, name="height", output_backend="canvas")
         self._image = Image(self.plot, axes, self._mapper)
-        _colour_bar(self.plot, self._mapper, f"z [{self.unit.name}]")
+        self.plot.title.text = f"height z [{self.unit.name}]"
+        _colour_bar(self.plot, self._mapper)
         self.surface = scan
         self._add_line()
         self.colours = RangeSlider(start=0, end=1, value=(0, 1), step=0.001, title=f"Colour range [{self.unit.name}]", width=460,
                                    format="0.000", name="colours")
         self.colours.js_on_change("value", CustomJS(args={"mapper": self._mapper, "slider": self.colours},
                                                     code="mapper.low = slider.value[0]; mapper.high = slider.value[1]"))
-        self.note = Div(stylesheets=[STYLE])
+        self.note = Div(stylesheets=[STYLE], visible=False)
         self._bars = ColumnDataSource({"left": [], "right": [], "top": []})
         self.histogram = self._small("histogram", f"z [{self.unit.name}]", "share of pixels [%]", 250)
         self.histogram.quad(left="left", right="right", top="top", bottom=0, source=self._bars, color="#6B7A8F")
@@ -138,7 +130,7 @@ class Heights:
         width, height = frame_of(surface)
         self.plot.update(frame_width=width, frame_height=height)
         step = self._image.show(self.unit.of(surface.height), surface)
-        self.note.text = f"<p class='note'>The map shows every {_ordinal(step)} pixel along x and y.</p>" if step > 1 else ""
+        self.note.update(text=f"<p class='note'>The map shows every {_ordinal(step)} pixel along x and y.</p>", visible=step > 1)
         least, largest, low, high = limits(self.unit.of(surface.height))
         self.colours.update(start=least, end=largest, value=(low, high), step=(largest - least) / 500)
         self._mapper.update(low=low, high=high)
@@ -187,7 +179,7 @@ class Results:
         self._mapper = LinearColorMapper(palette=[SOLID, LIQUID, DRY, WET], low=-0.5, high=3.5, nan_color=HOLE)
         self.plot = axes.figure(scan, name="result", output_backend="canvas")
         self._image = Image(self.plot, axes, self._mapper)
-        self._bar = _colour_bar(self.plot, self._mapper, "")
+        self._bar = _colour_bar(self.plot, self._mapper)
         self.legend = Div(text=_LEGEND, stylesheets=[STYLE], name="legend")
         self.kind = KINDS[0]
 
@@ -204,7 +196,8 @@ class Results:
         values, title, palette, low, high = found
         is_legend = not title
         self._mapper.update(palette=palette, low=low, high=high)
-        self._bar.update(visible=not is_legend, title=title)
+        self.plot.title.text = title or KINDS[0]
+        self._bar.visible = not is_legend
         self.legend.visible = is_legend
         self._image.show(values, whole)
 
@@ -230,14 +223,14 @@ def _pressure(answer: Answer) -> Any:
         return None
     pressure = answer.contact.pressure
     unit = Unit("MPa", 1e-6) if pressure.max() > 1e5 else Unit("kPa", 1e-3)
-    return unit.of(pressure), f"p [{unit.name}]", Greys256[::-1], 0.0, unit.of(float(pressure.max())) or 1.0
+    return unit.of(pressure), f"contact pressure p [{unit.name}]", Greys256[::-1], 0.0, unit.of(float(pressure.max())) or 1.0
 
 
 def _gap(answer: Answer) -> Any:
     contact = answer.contact
-    return None if contact is None else _scaled(contact.gap, "gap", Cividis256, unit_for(float(contact.gap.max())))
+    return None if contact is None else _scaled(contact.gap, "gap g", Cividis256, unit_for(float(contact.gap.max())))
 
 
 def _film(answer: Answer) -> Any:
     film = answer.film
-    return None if film is None else _scaled(film.thickness, "oil", Cividis256, unit_for(float(film.thickness.max())))
+    return None if film is None else _scaled(film.thickness, "oil film h", Cividis256, unit_for(float(film.thickness.max())))

@@ -9,12 +9,12 @@ from .looks import failure_html, percent, si_text, table_html, warnings_html
 
 Row = tuple[str, str, str, str]
 #: Heading, key of ``--json``, unit; "%" for a share. Those of trapped oil are shown where they are.
-_CONTACT = (("contact area", "contact_area_fraction", "%"), ("counted contact", "contact_area_fraction_pixels", "%"),
-            ("yielded", "saturated_area_fraction", "%"), ("mean gap", "mean_gap_m", "m"), ("largest pressure", "max_pressure_Pa", "Pa"),
+_CONTACT = (("area", "contact_area_fraction", "%"), ("counted", "contact_area_fraction_pixels", "%"),
+            ("yielded", "saturated_area_fraction", "%"), ("mean gap", "mean_gap_m", "m"), ("max pressure", "max_pressure_Pa", "Pa"),
             ("certificate", "certificate", ""))
 _OIL = (("wet surface", "wet_fraction", "%"), ("mean film", "mean_film_m", "m"), ("thickest film", "max_film_m", "m"))
-_FRICTION = (("friction, dry", "friction_dry", ""), ("friction, lubricated", "friction_lubricated", ""),
-             ("wet share of contact", "lubricated_share", "%"), ("load carried by oil", "liquid_load_share", "%"))
+_FRICTION = (("dry", "friction_dry", ""), ("lubricated", "friction_lubricated", ""),
+             ("wet share", "lubricated_share", "%"), ("load on oil", "liquid_load_share", "%"))
 
 
 def _text(value: Any, unit: str) -> str:
@@ -40,24 +40,15 @@ def scan_html(answer: Answer) -> str:
     return table_html(rows, 2) + failure_html(answer.failures.get("treatment", "")) + warnings_html(answer.warnings["scan"])
 
 
-def contact_html(answer: Answer) -> str:
-    """Numbers of the contact."""
-    return _part(answer, "contact", answer.contact, _CONTACT)
+def results_html(answer: Answer) -> str:
+    """Numbers of contact, oil and friction."""
+    parts = (("Contact", answer.contact, _CONTACT), ("Oil", answer.film, _OIL), ("Friction", answer.friction, _FRICTION))
+    return "".join(f"<h2>{title}</h2>{table_html(_rows(record.values, lines))}" for title, record, lines in parts if record is not None)
 
 
-def oil_html(answer: Answer) -> str:
-    """Numbers of the oil."""
-    return _part(answer, "oil", answer.film, _OIL)
-
-
-def friction_html(answer: Answer) -> str:
-    """Numbers of friction."""
-    return _part(answer, "friction", answer.friction, _FRICTION)
-
-
-def _part(answer: Answer, name: str, record: Any, lines: tuple[tuple[str, str, str], ...]) -> str:
-    rows = [] if record is None else _rows(record.values, lines)
-    return (table_html(rows, 3 if name == "oil" else 2) if rows else "") + failure_html(answer.failures.get(name, "")) + warnings_html(answer.warnings[name])
+def remarks_html(answer: Answer, name: str) -> str:
+    """Why "contact", "oil" or "friction" cannot be computed, and its warnings."""
+    return failure_html(answer.failures.get(name, "")) + warnings_html(answer.warnings[name])
 
 
 def preview_html(answer: Answer) -> str:

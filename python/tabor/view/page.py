@@ -5,10 +5,12 @@ from __future__ import annotations
 import html
 import os
 from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
+from bokeh.application.application import SessionContext
 from bokeh.document import Document
-from bokeh.models import Column, Div, TabPanel, Tabs
+from bokeh.models import Column, TabPanel, Tabs
+from bokeh.models.widgets import Div
 
 from .._surface import Surface
 from .desk import Desk
@@ -41,7 +43,7 @@ class Opened(NamedTuple):
 def fill(document: Document, opened: Sequence[Opened], folder: Folder, address: str) -> None:
     """Puts the workbenches into the document of one page."""
     document.title = "tabor view: " + ", ".join(one.name for one in opened)
-    document.template = _TEMPLATE
+    document.template = cast(Any, _TEMPLATE)  # a text is one, too
     axes = Axes(max((one.scan for one in opened), key=lambda scan: scan.size[0]))
     desks = [Desk(one.scan, one.state, axes, _later(document), folder, address) for one in opened]
     title = "".join(f"<b>{html.escape(one.name)}</b>" for one in opened[:1]) if len(opened) == 1 else f"<b>{len(opened)} scans</b>"
@@ -50,7 +52,12 @@ def fill(document: Document, opened: Sequence[Opened], folder: Folder, address: 
     if len(desks) > 1:
         body = Tabs(tabs=[TabPanel(title=one.name, child=desk.view) for one, desk in zip(opened, desks)], name="scans")
     document.add_root(Column(children=[head, body], name="workbench"))
-    document.on_session_destroyed(lambda _: [desk.worker.close() for desk in desks] and None)
+
+    def close(_: SessionContext) -> None:
+        for desk in desks:
+            desk.worker.close()
+
+    document.on_session_destroyed(close)
     for desk in desks:
         desk.refresh()
 

@@ -43,7 +43,7 @@ class View:
 
     def __init__(self, opened: Sequence[Opened], port: int = 0, keep: bool = False) -> None:
         self._opened, self._keep = tuple(opened), keep
-        self._is_ready, self._failure = threading.Event(), None
+        self._is_ready = threading.Event()
         self._port = port
         self._seen, self._looks = False, 0
         self._failure: BaseException | None = None
