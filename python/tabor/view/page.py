@@ -37,7 +37,7 @@ class Opened(NamedTuple):
     @property
     def name(self) -> str:
         """Of the file, without folders."""
-        return os.path.basename(self.state.scan) or self.scan.source
+        return os.path.basename(self.state.scan or self.scan.source) or "surface"
 
 
 def fill(document: Document, opened: Sequence[Opened], folder: Folder, address: str) -> None:
