@@ -107,7 +107,7 @@ class Heights:
 
     def _small(self, name: str, x: str, y: str, width: int) -> Any:
         plot = figure(width=width, height=170, tools="reset,box_zoom", toolbar_location=None, x_axis_label=x, y_axis_label=y,
-                      name=name)
+                      x_range=Range1d(), y_range=Range1d(), name=name)
         plot.xaxis.ticker = BasicTicker(desired_num_ticks=4)
         plot.yaxis.ticker = BasicTicker(desired_num_ticks=4)
         return plot
@@ -140,12 +140,23 @@ class Heights:
     def _draw_histogram(self, surface: Surface) -> None:
         known = self.unit.of(surface.height[np.isfinite(surface.height)])
         counts, edges = np.histogram(known, bins=80)
+        _span(self.histogram.x_range, edges, 0.02)
+        self.histogram.y_range.end = 105 * counts.max() / max(1, known.size) or 1.0
         self._bars.data = {"left": edges[:-1], "right": edges[1:], "top": 100 * counts / max(1, known.size)}
 
     def _draw_section(self) -> None:
         places, heights = section(self.surface, [tuple(map(float, end)) for end in zip(self.ends.data["x"], self.ends.data["y"])],
                                   self._axes.unit)
+        _span(self.section.x_range, places, 0.0)
+        _span(self.section.y_range, self.unit.of(heights), 0.08)
         self._profile.data = {"s": places, "z": self.unit.of(heights)}
+
+
+def _span(axis: Any, values: Array, margin: float) -> None:
+    """Lets an axis show these values, with a margin as a share of their range."""
+    least, largest, _, _ = limits(values)
+    room = margin * (largest - least)
+    axis.update(start=least - room, end=largest + room, reset_start=least - room, reset_end=largest + room)
 
 
 def _ordinal(number: int) -> str:
