@@ -13,7 +13,7 @@ from .state import State
 
 _COPY = """navigator.clipboard.writeText(text.text).then(() => { button.label = "Copied"
   setTimeout(() => { button.label = "Copy" }, 1200) })"""
-_PRE = ":host { overflow-x: auto; } pre { background: #F4F4F2; border: 1px solid #DDD; padding: 8px; margin: 0; font: 13px/1.4 ui-monospace, monospace; white-space: pre; }"
+_PRE = ":host { overflow-x: auto; } pre { background: #F4F4F2; border: 1px solid #DDD; padding: 8px; margin: 0; font: 13px/1.4 ui-monospace, monospace; white-space: pre-wrap; overflow-wrap: anywhere; }"
 WRITTEN = {"scan": "Treated scan", "result": "Result file", "report": "Report page"}
 
 

@@ -70,7 +70,7 @@ class Chain:
 
     def _row(self, place: int, step: Step) -> Any:
         placeholder, help_text = KNOWN_STEPS.get(step.name, ("", ""))
-        on = Checkbox(active=step.is_on, label=step.name, width=90, name=f"on_{place}")
+        on = Checkbox(active=step.is_on, label=step.name, width=90, align="center", name=f"on_{place}")
         on.on_change("active", lambda _a, _o, is_on: self._change(self._state.switching(place, is_on)))
         argument: Any = Div(text="", width=220)
         if placeholder:

@@ -37,7 +37,8 @@ def _label(power: float, unit: str) -> str:
 
 
 def _formatter(unit: str) -> CustomJSTickFormatter:
-    return CustomJSTickFormatter(code=f"return String(Number((10 ** tick).toPrecision(3))) + ' {unit}'")
+    """Shows the number of a power of ten with its unit."""
+    return CustomJSTickFormatter(code=f"return String(Number((10 ** tick).toPrecision(3))) + ' {unit.replace('^2', '²')}'")
 
 
 class Quantity:

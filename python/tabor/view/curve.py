@@ -63,6 +63,6 @@ class Curve:
             here = {"pressure": [pressure], "dry": [found.dry], "lubricated": [found.lubricated]}
         self._here.data = here
         pressures = sorted(self._points)
-        self._top.end = 1.2 * max([1e-3, *map(max, self._points.values())])
+        self._top.end = 1.2 * max(map(max, self._points.values()), default=0.5) or 1.0
         self._source.data = {"pressure": pressures, "dry": [self._points[one][0] for one in pressures],
                              "lubricated": [self._points[one][1] for one in pressures]}

@@ -22,7 +22,7 @@ MOST_SHOWN = 512  #: pixels of a side that a map shows; more are left out one af
 STYLE = """
 :host, body { font: 14px/1.4 system-ui, sans-serif; color: #222; }
 table { border-collapse: collapse; } th { text-align: left; font-weight: 400; color: #555; padding: 1px 14px 1px 0; white-space: nowrap; }
-td { padding: 1px 18px 1px 0; font-variant-numeric: tabular-nums; white-space: nowrap; }
+td { padding: 1px 12px 1px 0; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .doubt { color: #8A0F16; } .information { color: #555; } .failure { color: #8A0F16; font-weight: 600; }
 .note { color: #555; } .preview { background: #FFF3CD; padding: 1px 6px; border-radius: 3px; }
 h2 { font-size: 15px; margin: 6px 0 2px; } p { margin: 2px 0; } .key { display: inline-block; width: 12px; height: 12px; margin: 0 4px 0 10px; border: 1px solid #888; vertical-align: -1px; }

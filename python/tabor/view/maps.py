@@ -15,7 +15,7 @@ from .._surface import Array, Surface
 from .answers import Answer
 from .looks import CURVES, DRY, HOLE, LIQUID, SOLID, STYLE, WET, Unit, limits, shown, unit_for
 
-FRAME = (380, 330)  #: largest width and height of a map [px of the screen]
+FRAME = (340, 320)  #: largest width and height of a map [px of the screen]
 _TOOLS = "box_zoom,wheel_zoom,reset,save"
 
 

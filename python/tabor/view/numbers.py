@@ -35,7 +35,7 @@ def scan_html(answer: Answer) -> str:
     rows: list[Row] = [("pixels", "pixels", f"{nx} x {ny}", f"{nx} x {ny} of {dx if dx == dy else dx + ' x ' + dy}"),
                        ("holes", "holes", repr(surface.n_holes), f"{surface.n_holes} pixels" if surface.n_holes else "none")]
     if answer.tilt is not None:
-        rows.append(("tilt x, y", "tilt", repr(answer.tilt), ", ".join(f"{1e3 * slope:.3g}" for slope in answer.tilt) + " µm/mm"))
+        rows.append(("tilt x, y", "tilt", repr(answer.tilt), ", ".join(f"{round(1e3 * slope, 6) + 0.0:.3g}" for slope in answer.tilt) + " µm/mm"))
     rows += [(one.symbol, one.symbol, repr(one.value), si_text(one.value, one.unit)) for one in answer.parameters or ()]
     return table_html(rows, 2) + failure_html(answer.failures.get("treatment", "")) + warnings_html(answer.warnings["scan"])
 
@@ -58,4 +58,5 @@ def preview_html(answer: Answer) -> str:
         return ""
     if answer.is_preview:
         return f"<span class='preview' data-name='preview'>Preview on pixels of {si_text(surface.pixel[0], 'm')}</span>"
-    return f"<span class='note' data-name='whole'>Full answer in {answer.seconds:.2g} s</span>"
+    took = f"Full answer in {answer.seconds:.2g} s" if answer.seconds > 1e-3 else "Full answer, computed before"
+    return f"<span class='note' data-name='whole'>{took}</span>"

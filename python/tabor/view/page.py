@@ -44,8 +44,8 @@ def fill(document: Document, opened: Sequence[Opened], folder: Folder, address: 
     """Puts the workbenches into the document of one page."""
     document.title = "tabor view: " + ", ".join(one.name for one in opened)
     document.template = cast(Any, _TEMPLATE)  # a text is one, too
-    axes = Axes(max((one.scan for one in opened), key=lambda scan: scan.size[0]))
-    desks = [Desk(one.scan, one.state, axes, _later(document), folder, address) for one in opened]
+    shared: dict[tuple[float, float], Axes] = {}  # maps of one size move together
+    desks = [Desk(one.scan, one.state, shared.setdefault(one.scan.size, Axes(one.scan)), _later(document), folder, address) for one in opened]
     title = "".join(f"<b>{html.escape(one.name)}</b>" for one in opened[:1]) if len(opened) == 1 else f"<b>{len(opened)} scans</b>"
     head = Div(text=f"<p>tabor view &nbsp; {title}</p>", stylesheets=[STYLE], name="head")
     body: Any = desks[0].view

@@ -31,8 +31,8 @@ std::optional<fs::path> report_python() {
   return std::nullopt;
 }
 
-/// The package of the build folder has the compiled module; those beside an installed program and in
-/// the source tree have not, and `view` then takes the one that the interpreter has.
+/// The package of the build folder has the compiled module; those beside an installed program and
+/// in the source tree have not, and `view` then takes the one that the interpreter has.
 fs::path file_of(const std::string& verb) {
   std::error_code error;
   for (const fs::path& folder : {own_prefix() / "python", own_prefix() / "share/tabor/python",

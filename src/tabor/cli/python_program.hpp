@@ -7,8 +7,8 @@
 // Finds the interpreter and the part of the Python package behind the verbs `report` and `view`.
 namespace tabor::cli {
 
-/// Returns the interpreter for a verb: that of TABOR_PYTHON; or of the environment made for reports,
-/// beside an installed program or in the build folder of the sources; or of Debian. Throws
+/// Returns the interpreter for a verb: that of TABOR_PYTHON; or of the environment made for
+/// reports, beside an installed program or in the build folder of the sources; or of Debian. Throws
 /// InputError where there is none.
 std::filesystem::path python_program(const std::string& verb);
 

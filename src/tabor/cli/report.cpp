@@ -69,8 +69,8 @@ int report(const Request& request, Context& context) {
   const auto may_stop = [observer = context.observer()] {
     report_progress(observer, "draw", std::nan(""));
   };
-  const io::Completed done =
-      io::run_program(python_program("report"), python_words(request), {}, std::chrono::hours(1), may_stop);
+  const io::Completed done = io::run_program(python_program("report"), python_words(request), {},
+                                             std::chrono::hours(1), may_stop);
   if (done.timed_out) {
     throw InputError("tabor report: drawing took more than an hour and was ended");
   }

@@ -80,25 +80,26 @@ void declare_options(OptionSet& set, Request& request) {
 }  // namespace
 
 Verb view_verb() {
-  return {.name = "view",
-          .arguments = "SCAN... [options]",
-          .summary = "a workbench in the browser: treatment, contact, oil and friction of scans",
-          .details =
-              "Serves a page on 127.0.0.1 alone, and prints its address with a random token; nothing "
-              "leaves this machine. The page shows scans, their treatment, the contact under a "
-              "pressure, oil and friction while one moves, and the command line, the Python and the "
-              "study file that give the same numbers. It ends when the last page closes. "
-              "Needs the Python package of tabor and Bokeh (docs/view.md). TABOR_PYTHON chooses the "
-              "interpreter, such as that of a virtual environment.",
-          .examples = {"tabor view surfaces/edt_before.x3p",
-                       "tabor view surfaces/edt_before.x3p surfaces/edt_after.x3p --recipe sheet "
-                       "--no-browser"},
-          .declare = [](OptionSet& set) -> Action {
-            const auto request = std::make_shared<Request>();
-            declare_files(set, *request);
-            declare_options(set, *request);
-            return [request](Context& context) { return view(*request, context); };
-          }};
+  return {
+      .name = "view",
+      .arguments = "SCAN... [options]",
+      .summary = "a workbench in the browser: treatment, contact, oil and friction of scans",
+      .details =
+          "Serves a page on 127.0.0.1 alone, and prints its address with a random token; nothing "
+          "leaves this machine. The page shows scans, their treatment, the contact under a "
+          "pressure, oil and friction while one moves, and the command line, the Python and the "
+          "study file that give the same numbers. It ends when the last page closes. "
+          "Needs the Python package of tabor and Bokeh (docs/view.md). TABOR_PYTHON chooses the "
+          "interpreter, such as that of a virtual environment.",
+      .examples = {"tabor view surfaces/edt_before.x3p",
+                   "tabor view surfaces/edt_before.x3p surfaces/edt_after.x3p --recipe sheet "
+                   "--no-browser"},
+      .declare = [](OptionSet& set) -> Action {
+        const auto request = std::make_shared<Request>();
+        declare_files(set, *request);
+        declare_options(set, *request);
+        return [request](Context& context) { return view(*request, context); };
+      }};
 }
 
 }  // namespace tabor::cli
