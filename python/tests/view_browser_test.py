@@ -85,6 +85,18 @@ class Page:
     def choose(self, name, text):
         self.widget(name, "select").select_option(text)
 
+    def moves(self, name, key, times, unit):
+        """Moves a slider by a key; the value in the field beside it, once that has followed."""
+        handle = self.widget(name, ".noUi-handle")
+        before = self.page.evaluate(f"Bokeh.documents[0].get_model_by_name('{name}').value")
+        for _ in range(times):
+            handle.press(key)
+        power = self.page.evaluate(f"Bokeh.documents[0].get_model_by_name('{name}').value")
+        assert abs(abs(power - before) - 0.01 * times) < 0.011  # the page does not move it back
+        text = f"{10.0**power:.3g} {unit}"
+        self.page.wait_for_function(f"Bokeh.documents[0].get_model_by_name('{name}_field').value == '{text}'")
+        return text
+
     def text(self, place):
         return self.page.evaluate(f"Bokeh.documents[0].get_model_by_name('text_{place}').text")
 
@@ -117,17 +129,11 @@ def test_loading_levelling_and_both_sliders_give_the_numbers_of_the_library(page
     state = state.adding("level=plane")
     page.waits_for(state, surface)
 
-    handle = page.widget("pressure", ".noUi-handle")
-    for _ in range(12):
-        handle.press("ArrowRight")
-    state = replace(state, pressure=page.widget("pressure_field").input_value())
+    state = replace(state, pressure=page.moves("pressure", "ArrowRight", 12, "MPa"))
     assert 7 < tb._tabor.parse_si(state.pressure, "pressure", "") / 1e6 < 12
     page.waits_for(state, surface)
 
-    handle = page.widget("density", ".noUi-handle")
-    for _ in range(20):
-        handle.press("ArrowLeft")
-    state = replace(state, density=page.widget("density_field").input_value())
+    state = replace(state, density=page.moves("density", "ArrowLeft", 20, "g/m^2"))
     assert 0.3 < 1e3 * tb._tabor.parse_si(state.density, "areal_density", "") < 0.9
     expected = page.waits_for(state, surface)
 

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from .server import View
 
 __all__ = ["view"]
+_LAST_PORT = 65535
 
 
 def _surfaces(given: Any) -> list[Surface]:
@@ -40,13 +41,16 @@ def view(surface: Any, *, port: Count = 0, browser: bool = True, keep: bool = Fa
     View
         with ``url``, ``wait()`` and ``close()``. The interpreter ends when it does.
     """
+    surfaces = _surfaces(surface)
+    if port > _LAST_PORT:
+        raise ValueError(f"port: got {port}; expected at most {_LAST_PORT}, or 0 for any that is free")
     needs("bokeh", "view()")
     from .page import Opened
     from .server import View, can_show
     from .state import State
 
     start = State("") if recipe is None else State("").following(recipe)
-    found = View([Opened(one, start) for one in _surfaces(surface)], port, keep)
+    found = View([Opened(one, start) for one in surfaces], port, keep)
     print(found.url, flush=True)
     if browser and can_show():
         found.show()

@@ -73,7 +73,10 @@ class Quantity:
             start, end = ends or (self.slider.start, self.slider.end)
             plain = si(text, self._dimension, "") / si(f"1 {self._unit}", self._dimension, "")
             power = math.log10(plain) if plain > 0 else start
-            self.slider.update(start=start, end=end, value=min(max(power, start), end))
+            if (start, end) != (self.slider.start, self.slider.end):
+                self.slider.update(start=start, end=end)
+            if _label(float(self.slider.value), self._unit) != text:  # else it is the slider that moves: it may be further already
+                self.slider.value = min(max(power, start), end)
             self.field.value = text
         finally:
             self._is_showing = False
