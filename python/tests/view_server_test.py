@@ -195,7 +195,8 @@ ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/[A-Za-z0-9]{20,}/")
 
 
 @pytest.mark.parametrize("by", ["module", "program"])
-def test_the_verb_prints_one_line_with_the_address(by, request, scan_file):
+def test_the_verb_prints_one_line_with_the_address_and_leaves_nothing(by, request, scan_file, tmp_path, monkeypatch):
+    monkeypatch.setenv("TMPDIR", str(tmp_path))
     program = request.getfixturevalue("program") if by == "program" else None
     process = started(scan_file, "--recipe", "sheet", program=program)
     try:
@@ -203,8 +204,10 @@ def test_the_verb_prints_one_line_with_the_address(by, request, scan_file):
         assert ADDRESS.fullmatch(url)
         process.url = url
         assert ask(process)[0] == 200
-    finally:
         process.terminate()
+        assert process.wait(60) == 130 and not list(tmp_path.iterdir())
+    finally:
+        process.kill()
         process.communicate(timeout=60)
 
 

@@ -1,6 +1,7 @@
 """The program behind `tabor view`. As a file it takes the compiled package that lies beside it or, where there is none,
 that of the Python that runs it."""
 
+import signal
 import sys
 from pathlib import Path
 
@@ -15,4 +16,6 @@ except ImportError as error:
           "SOURCES[report]' and name its Python in TABOR_PYTHON", file=sys.stderr)
     sys.exit(3)
 if __name__ == "__main__":
+    for ending in (signal.SIGTERM, signal.SIGHUP):  # as Ctrl-C: the server ends, its temporary folder goes
+        signal.signal(ending, signal.default_int_handler)
     sys.exit(main(sys.argv[1:]))
