@@ -43,7 +43,7 @@ class View:
 
     def __init__(self, opened: Sequence[Opened], port: int = 0, keep: bool = False) -> None:
         self._opened, self._keep = tuple(opened), keep
-        self._is_ready = threading.Event()
+        self._is_ready, self._has_ended = threading.Event(), threading.Event()
         self._port = port
         self._seen, self._looks = False, 0
         self._failure: BaseException | None = None
@@ -59,18 +59,17 @@ class View:
     @property
     def is_open(self) -> bool:
         """True until the last page closes."""
-        return self._thread.is_alive()
+        return not self._has_ended.is_set()
 
     def wait(self, seconds: float | None = None) -> bool:
         """Waits until the last page closes, at most so long; True if it did."""
-        self._thread.join(seconds)
-        return not self._thread.is_alive()
+        return self._has_ended.wait(seconds)  # a join that Ctrl-C interrupts takes the thread for ended
 
     def close(self) -> None:
         """Ends the server."""
-        if self._thread.is_alive():
+        if self.is_open:
             self._loop.add_callback(self._loop.stop)
-            self._thread.join()
+            self._has_ended.wait()
 
     def show(self) -> None:
         """Opens the page in a browser."""
@@ -86,6 +85,7 @@ class View:
         except BaseException as failure:
             self._failure = failure
             folder.close()
+            self._has_ended.set()
             return
         finally:
             self._is_ready.set()
@@ -95,6 +95,7 @@ class View:
             server.stop()
             server.unlisten()
             folder.close()
+            self._has_ended.set()
 
     def _start(self, folder: Folder) -> Any:
         sockets, port = bind_sockets(ADDRESS, self._port)
