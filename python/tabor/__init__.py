@@ -27,10 +27,11 @@ from ._slide import Slide, slide
 from ._study import Results, Study
 from ._surface import Parameter, Parameters, Spectra, Spectrum, Surface, read
 from ._tabor import version as __version__
+from .view import view
 
 __all__ = ["Combination", "Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction",
            "FrictionEntry", "FrictionTable", "Lubricant", "Material", "NotConverged", "Parameter",
            "Parameters", "Plateau", "Progress", "Report", "Results", "Scans", "Slide", "Solid", "Spectra",
            "Spectrum", "Study", "Surface", "Volume", "Warning", "cite", "combine", "contact",
            "density_curve", "ehl", "fluid_film", "formats", "friction", "generate", "materials", "rain",
-           "read", "report", "save", "set_threads", "slide"]
+           "read", "report", "save", "set_threads", "slide", "view"]

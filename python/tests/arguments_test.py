@@ -2,6 +2,8 @@
 
 import concurrent.futures
 import functools
+import importlib
+import importlib.util
 import inspect
 import re
 from types import SimpleNamespace
@@ -133,6 +135,7 @@ def calls(folder):
         "ehl.Case.study": (tb.ehl.point(tb.ehl.template("point"), **{"grid.nodes": 65}).study,
                            {"name": "grid", "seed": 1, "jobs": 0, "check": True, "progress": None}),
         "ehl.Solution.save": (t.solved.save, {"file": folder / "d.h5"}), "ehl.Sweep.save": (t.swept.save, {"file": folder / "e.csv"}),
+        "view": (tb.view, {"surface": t.surface, "port": 0, "browser": False, "keep": False, "recipe": "sheet"}),
     }
 
 
@@ -196,6 +199,9 @@ def test_every_public_function_is_asked(folder):
 def everything(folder, monkeypatch):
     monkeypatch.chdir(folder)
     monkeypatch.setattr("tabor._report._made", lambda arguments: [str(folder / "page" / "report.html")])
+    if importlib.util.find_spec("bokeh"):
+        server = importlib.import_module("tabor.view.server")  # tabor.view itself is the function
+        monkeypatch.setattr(server, "View", lambda *_: SimpleNamespace(url="", show=lambda: None))
     return calls(folder)
 
 

@@ -113,7 +113,7 @@ oldest_environment() {
   touch "$venv/complete"
 }
 
-# report_environment: build/report with what `tabor report` makes interactive pages with, from PyPI. Fails where PyPI
+# report_environment: build/report with what `tabor report` makes interactive pages with and `tabor view` its workbench, from PyPI. Fails where PyPI
 # cannot be reached: then pages are drawn with Debian's packages, are not interactive, and a line says so.
 report_environment() {
   local venv=$root/build/report
@@ -124,4 +124,15 @@ report_environment() {
       'bokeh>=3.9,<4' pillow numpy h5py matplotlib jinja2; } >build/report.log 2>&1 ||
     { echo "Pages are not interactive: Bokeh cannot be had from PyPI (build/report.log)"; return 1; }
   touch "$venv/complete"
+}
+
+# workbench_package PRESET: compiles the Python package for the environment of reports, so that the program of the preset has its
+# `tabor view`. Fails where nanobind cannot be had from PyPI.
+workbench_package() {
+  local python=$root/build/report/bin/python3
+  [ -e build/report/complete ] || return 1
+  "$python" -c 'import nanobind' 2>/dev/null ||
+    "$python" -m pip install --quiet --disable-pip-version-check nanobind >>build/report.log 2>&1 || return 1
+  configure "$1" -DTABOR_PYTHON_PACKAGE=ON "-DPython_EXECUTABLE=$python"
+  build "$1" _tabor _tabor_setting_types
 }

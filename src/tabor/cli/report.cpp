@@ -3,11 +3,11 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
 #include <functional>
 #include <memory>
 #include <stdexcept>
 
+#include "tabor/cli/python_program.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/verbs.hpp"
 #include "tabor/core/error.hpp"
@@ -17,8 +17,6 @@
 namespace tabor::cli {
 
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Request {
   std::string result;
@@ -30,52 +28,8 @@ struct Request {
   std::vector<std::string> passed_on;  ///< options with values, as tabor.report takes them
 };
 
-/// That of a complete environment made for reports: beside an installed program, or in the build
-/// folder of the source tree (tools/check/setup.sh). It has Bokeh, which Debian has not.
-std::optional<fs::path> report_python() {
-  std::error_code error;
-  const fs::path self = fs::read_symlink("/proc/self/exe", error);
-  for (const fs::path& folder : {self.parent_path().parent_path() / "share/tabor/report",
-                                 fs::path(TABOR_SOURCE_PYTHON).parent_path() / "build/report"}) {
-    if (fs::exists(folder / "complete", error) && fs::exists(folder / "bin/python3", error)) {
-      return folder / "bin/python3";
-    }
-  }
-  return std::nullopt;
-}
-
-// Then Debian's own interpreter: that is where apt puts numpy, h5py and matplotlib.
-fs::path python() {
-  if (const char* chosen = std::getenv("TABOR_PYTHON")) {
-    if (fs::path(chosen).has_parent_path()) return chosen;
-    if (const auto found = io::find_program(chosen)) return *found;
-    throw InputError("TABOR_PYTHON", "'" + std::string(chosen) + "'", "a program in PATH", "");
-  }
-  if (const auto own = report_python()) return *own;
-  if (fs::exists("/usr/bin/python3")) return "/usr/bin/python3";
-  if (const auto found = io::find_program("python3")) return *found;
-  throw InputError("tabor report", "no python3", "Python 3.9 or newer", "apt install python3");
-}
-
-// Beside an installed program, or in the source tree this program was built from.
-fs::path drawing_program() {
-  std::error_code error;
-  const fs::path self = fs::read_symlink("/proc/self/exe", error);
-  for (const fs::path& folder :
-       {self.parent_path().parent_path() / "share/tabor/python", fs::path(TABOR_SOURCE_PYTHON)}) {
-    const fs::path file = folder / "tabor/report/__main__.py";
-    if (fs::exists(file, error)) return file;
-  }
-  throw InputError("tabor report", "no Python package tabor/report beside the program", "",
-                   "install tabor with 'cmake --install'");
-}
-
-/// -I: neither the folder somebody works in, perhaps one with files of others, nor variables of
-/// the environment nor packages of the user say what is run; only the interpreter's own packages
-/// and the one that the file belongs to. -X utf8: names of files are bytes in any locale.
 std::vector<std::string> python_words(const Request& request) {
-  std::vector<std::string> words{"-I", "-B", "-X", "utf8", "-W", "ignore"};
-  words.push_back(drawing_program().string());
+  std::vector<std::string> words = isolated_python("report");
   words.push_back(request.result);
   words.insert(words.end(), request.passed_on.begin(), request.passed_on.end());
   if (request.output) words.push_back("--output=" + *request.output);
@@ -115,8 +69,8 @@ int report(const Request& request, Context& context) {
   const auto may_stop = [observer = context.observer()] {
     report_progress(observer, "draw", std::nan(""));
   };
-  const io::Completed done =
-      io::run_program(python(), python_words(request), {}, std::chrono::hours(1), may_stop);
+  const io::Completed done = io::run_program(python_program("report"), python_words(request), {},
+                                             std::chrono::hours(1), may_stop);
   if (done.timed_out) {
     throw InputError("tabor report: drawing took more than an hour and was ended");
   }

@@ -52,10 +52,10 @@ Observer Context::observer() const { return progress ? progress->observer() : Ob
 
 const std::vector<Verb>& verbs() {
   static const std::vector<Verb> all = {
-      info_verb(),      convert_verb(), params_verb(),    psd_verb(),      combine_verb(),
-      generate_verb(),  contact_verb(), lubricate_verb(), friction_verb(), slide_verb(),
-      sweep_verb(),     ehl_verb(),     report_verb(),    table_verb(),    formats_verb(),
-      materials_verb(), cite_verb(),    options_verb()};
+      view_verb(),    info_verb(),      convert_verb(), params_verb(),    psd_verb(),
+      combine_verb(), generate_verb(),  contact_verb(), lubricate_verb(), friction_verb(),
+      slide_verb(),   sweep_verb(),     ehl_verb(),     report_verb(),    table_verb(),
+      formats_verb(), materials_verb(), cite_verb(),    options_verb()};
   return all;
 }
 

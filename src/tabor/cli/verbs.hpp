@@ -18,6 +18,7 @@ Verb slide_verb();
 Verb sweep_verb();
 Verb ehl_verb();
 Verb report_verb();
+Verb view_verb();
 Verb table_verb();
 Verb formats_verb();
 Verb materials_verb();

@@ -184,6 +184,12 @@ Completed run_program(const std::filesystem::path& program,
   return completed;
 }
 
+void become_program(const std::filesystem::path& program, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), program.string());
+  execv(program.c_str(), pointers(arguments).data());
+  throw InputError("cannot start " + program.string() + ": " + std::strerror(errno));
+}
+
 TemporaryFolder::TemporaryFolder() {
   std::string pattern = (std::filesystem::temp_directory_path() / "tabor-XXXXXX").string();
   if (mkdtemp(pattern.data()) == nullptr) {

@@ -41,6 +41,11 @@ Completed run_program(const std::filesystem::path& program,
                       std::chrono::milliseconds limit, const std::function<void()>& waiting = {},
                       const ProgramLimits& limits = {}, const std::filesystem::path& folder = {});
 
+/// Becomes another program (no shell), with the streams and the environment of this process. Throws
+/// InputError if it cannot be started; does not return otherwise.
+[[noreturn]] void become_program(const std::filesystem::path& program,
+                                 std::vector<std::string> arguments);
+
 /// Temporary folder that exists as long as this object.
 class TemporaryFolder {
  public:

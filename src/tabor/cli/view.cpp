@@ -1,0 +1,105 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "tabor/cli/python_program.hpp"
+#include "tabor/cli/result.hpp"
+#include "tabor/cli/verbs.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
+#include "tabor/io/files/subprocess.hpp"
+
+namespace tabor::cli {
+
+namespace {
+
+struct Request {
+  ScanRequest scan;
+  std::vector<std::string> files;
+  std::vector<std::string> reading;  ///< options of it, as tabor.view takes them
+  std::uint64_t port = 0;
+  std::string recipe;
+  bool no_browser = false;
+  bool keep = false;
+};
+
+bool is_reading(const Option& option) { return option.group == "Reading"; }
+
+/// Options of reading are checked here, and passed on as they were written.
+void declare_files(OptionSet& set, Request& request) {
+  OptionSet scans;
+  declare_scans(scans, request.scan, request.files);
+  for (Option option : scans.options()) {
+    if (is_reading(option)) {
+      option.assign = [&request, option](const std::string& value) {
+        option.assign(value);
+        request.reading.push_back(option.is_switch() ? option.flag : option.flag + "=" + value);
+      };
+    }
+    set.group(option.group);
+    set.add(option);
+  }
+}
+
+std::vector<std::string> python_words(const Request& request, const Context& context) {
+  std::vector<std::string> words = isolated_python("view");
+  words.insert(words.end(), request.reading.begin(), request.reading.end());
+  for (const std::string& step : request.scan.treatment) words.push_back("--step=" + step);
+  words.push_back(fmt::format("--port={}", request.port));
+  words.push_back(fmt::format("--threads={}", context.threads));
+  if (!request.recipe.empty()) words.push_back("--recipe=" + request.recipe);
+  if (request.no_browser) words.emplace_back("--no-browser");
+  if (request.keep) words.emplace_back("--keep");
+  if (context.json) words.push_back("--json-head=" + io::to_text(json_head(context)));
+  words.emplace_back("--");
+  words.insert(words.end(), request.files.begin(), request.files.end());
+  return words;
+}
+
+int view(const Request& request, Context& context) {
+  constexpr std::uint64_t last_port = 65535;
+  if (request.port > last_port) {
+    throw UsageError(fmt::format("--port: got {}; expected at most {}", request.port, last_port));
+  }
+  check(request.scan);
+  io::become_program(python_program("view"), python_words(request, context));
+}
+
+void declare_options(OptionSet& set, Request& request) {
+  set.group("View");
+  set.choice("--recipe", {"sheet", "part", "pad"},
+             "treatment to begin with, before the steps given: sheet = despike auto, fill "
+             "harmonic, level plane; part = despike auto, fill harmonic, level poly2, edges cut; "
+             "pad = fill nearest, level plane, edges end [none]",
+             request.recipe);
+  set.count("--port", "port of 127.0.0.1 [0: any that is free]", request.port);
+  set.toggle("--no-browser", "print the address, and open no browser", request.no_browser);
+  set.toggle("--keep", "go on when the last page closes", request.keep);
+}
+
+}  // namespace
+
+Verb view_verb() {
+  return {
+      .name = "view",
+      .arguments = "SCAN... [options]",
+      .summary = "a workbench in the browser: treatment, contact, oil and friction of scans",
+      .details =
+          "Serves a page on 127.0.0.1 alone, and prints its address with a random token; nothing "
+          "leaves this machine. The page shows scans, their treatment, the contact under a "
+          "pressure, oil and friction while one moves, and the command line, the Python and the "
+          "study file that give the same numbers. It ends when the last page closes. "
+          "Needs the Python package of tabor and Bokeh (docs/view.md). TABOR_PYTHON chooses the "
+          "interpreter, such as that of a virtual environment.",
+      .examples = {"tabor view surfaces/edt_before.x3p",
+                   "tabor view surfaces/edt_before.x3p surfaces/edt_after.x3p --recipe sheet "
+                   "--no-browser"},
+      .declare = [](OptionSet& set) -> Action {
+        const auto request = std::make_shared<Request>();
+        declare_files(set, *request);
+        declare_options(set, *request);
+        return [request](Context& context) { return view(*request, context); };
+      }};
+}
+
+}  // namespace tabor::cli
