@@ -16,7 +16,8 @@ from ._progress import Progress, watching
 from ._records import Warning, warnings_of
 from ._setting_types import SlideSettings
 from ._settings import CONTACT, DRY_BELOW, OWN_OF_SLIDE, RAIN, SHEAR, SLIDE, TRAPPED, complete, filled, takes
-from ._surface import Array, Surface
+from ._maps import Array
+from ._surface import Surface
 from ._values import Value, si, si_list
 
 
