@@ -15,11 +15,13 @@ from ._cite import cite
 from ._combine import Combination, Volume, combine
 from ._contact import Contact, Material, NotConverged, Solid, contact, materials
 from ._density_curve import DensityCurve, Plateau, density_curve
+from ._errors import InputError, InputFileNotFound, OutputError
 from ._friction import Film, FluidFilm, Friction, Lubricant, fluid_film, friction, rain
 from ._friction_table import FrictionEntry, FrictionTable
 from ._generate import Format, formats, generate
 from ._guesses import NameNotFound
 from ._guesses import missing_name as _missing_name
+from ._load import load
 from ._parameter_table import parameters
 from ._parameters import Parameter, Parameters
 from ._progress import Progress, set_threads
@@ -34,14 +36,15 @@ from ._study import Results, Study
 from ._surface import Surface, read
 from ._tabor import version as __version__
 from ._values import Value
+from ._versions import show_versions
 
 # Warning is not among them: it would take the place of Python's own.
 __all__ = ["Combination", "Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction",
-           "FrictionEntry", "FrictionTable", "Lubricant", "Material", "NameNotFound", "NotConverged", "Parameter",
+           "FrictionEntry", "FrictionTable", "InputError", "InputFileNotFound", "Lubricant", "Material", "NameNotFound", "NotConverged", "OutputError", "Parameter",
            "Parameters", "Plateau", "Progress", "Report", "Results", "Scans", "Section", "Slide", "Solid", "Spectra",
            "Spectrum", "Study", "Surface", "Value", "Volume", "cite", "combine", "contact",
-           "density_curve", "ehl", "fluid_film", "formats", "friction", "generate", "materials", "parameters", "rain",
-           "read", "report", "save", "set_threads", "slide"]
+           "density_curve", "ehl", "fluid_film", "formats", "friction", "generate", "load", "materials", "parameters", "rain",
+           "read", "report", "save", "set_threads", "show_versions", "slide"]
 
 # Pickles and messages name classes where users find them.
 for _name in __all__:

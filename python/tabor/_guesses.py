@@ -61,7 +61,7 @@ GUESSES: Mapping[str, Mapping[str, str]] = {
     },
     "Friction": {
         **dict.fromkeys(("mu", "cof", "friction", "coefficient"), "dry and lubricated are the coefficients of friction"),
-        "mixed": "fluid_film(...).friction_mixed is that of solids and oil",
+        "mixed": "tabor.fluid_film(...).friction_mixed is that of solids and oil",
         "surface": "contact.surface is what was pressed, film.surface what the oil lies on",
     },
     "FluidFilm": {"mu": "friction_mixed is the coefficient of friction", "mixed": "friction_mixed is the coefficient of friction"},

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import _tabor
 from ._arguments import Axes, File, Path, texts, typed, wrong
+from ._errors import require_file
 from ._files import name_of, named_file
 from ._foreign import Carried, Foreign, foreign
 from ._heights import Array, checked, in_metres, pixel_sides, require_spacing
@@ -483,7 +484,9 @@ def read(file: File, *, channel: str | int | None = None, progress: Progress = N
     Raises
     ------
     ValueError
-        What is wrong with the file, or which of these it leaves open. A file that does not exist, too.
+        What is wrong with the file, or which of these it leaves open.
+    InputFileNotFound
+        Where there is no such file; a FileNotFoundError and a ValueError.
     """
     options = _tabor.ReadOptions()
     values = complete(READ, {**settings, "channel": None if channel is None else str(channel)})
@@ -492,5 +495,6 @@ def read(file: File, *, channel: str | int | None = None, progress: Progress = N
         options.pixel_x, options.pixel_y = pixel_sides(pixel)
     filled(options, values)
     with watching(progress) as told, named_file(file) as path:
+        require_file(path)
         found = Surface._of(*_tabor.read(os.fspath(path), options, told))
     return found if path is file else found._named(name_of(file))

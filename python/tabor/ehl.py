@@ -14,6 +14,7 @@ import json
 import math
 import os
 import pathlib
+import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, NamedTuple, Union
 
@@ -22,9 +23,12 @@ import numpy as np
 from . import _tabor
 from ._arguments import Count, Path, Seed, mapping, path, typed, wrong
 from ._contact import NotConverged
+from ._errors import require_file
+from ._groups import Column, columns_of
 from ._guesses import Named, Values, missing_name
+from ._optional import needs
 from ._progress import Progress, watching
-from ._records import Shown, Warning, warnings_of
+from ._records import Shown, Warning, plain_attributes, said, warnings_of
 from ._sweep import Limit, Sweep
 from ._values import in_unit, is_labelled
 
@@ -83,6 +87,30 @@ class Solution(Shown):
             raise ValueError("save: histories and profiles do not travel with a pickle; save it where it is solved")
         self._solved.save(pathlib.Path(file))
 
+    def _all_columns(self) -> Mapping[str, Column]:
+        """Histories, profiles and maps as the file of ``save`` has them."""
+        found: Mapping[str, Column] | None = self.__dict__.get("_columns")
+        if found is None:
+            if self._solved is None:
+                raise ValueError("to_xarray: histories and profiles do not travel with a pickle; take them where it is solved")
+            h5py = needs("h5py", "to_xarray()")
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder, "solution.h5")
+                self.save(path)
+                with h5py.File(path) as file:
+                    found = self.__dict__["_columns"] = columns_of(file)
+        return found
+
+    def to_xarray(self) -> Any:
+        """Histories, profiles and maps as a Dataset with units, ``contact_film`` over ``contact_y`` and ``contact_x``,
+        numbers and warnings as its attributes, to be written as NetCDF; needs xarray and h5py. Raises ValueError for a
+        solution that came out of a pickle, which has its numbers alone."""
+        xarray = needs("xarray", "to_xarray()")
+        columns = {name: (one.dims, one.values, dict(one.attributes)) for name, one in self._all_columns().items()}
+        coords = {name: one for name, one in columns.items() if one[0] == (name,)}
+        return xarray.Dataset({name: one for name, one in columns.items() if name not in coords}, coords,
+                              {**plain_attributes(self.values), **said(self.warnings, self.references)})
+
     def _lines(self) -> list[tuple[str, str]]:
         return [*self.facts, *(("warning", warning.text) for warning in self.warnings)]
 
@@ -106,7 +134,8 @@ class Case(Named):
         elif isinstance(source, Template):
             self._case = _tabor.parse_case(program, source, "case", overrides)
         else:
-            self._case = _tabor.read_case(program, os.fspath(path(source, "case")), overrides)
+            require_file(path(source, "case"))
+            self._case = _tabor.read_case(program, os.fspath(source), overrides)
         self.program = program
         self._name = "case" if isinstance(source, (Mapping, Template)) else os.path.abspath(source)
 

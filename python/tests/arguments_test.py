@@ -20,6 +20,7 @@ WRONG = [None, object(), True, 1.5, -1, 0, 2**70, float("nan"), float("inf"), 1j
 
 #: Classes that the package makes and a user does not.
 MADE_BY_TABOR = {"Combination", "Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction", "FrictionEntry",
+                 "InputError", "InputFileNotFound", "OutputError",
                  "Material", "NameNotFound", "NotConverged", "Parameter", "Parameters", "Plateau", "Progress", "Report", "Section", "Slide", "Spectra", "Spectrum",
                  "Value", "Volume", "ehl.Key", "ehl.Limit", "ehl.Solution", "ehl.Sweep", "ehl.Template"}
 
@@ -103,7 +104,8 @@ def calls(folder):
         "combine": (tb.combine, {"first": t.surface, "second": t.surface, "mode": "wear", "search": False, "shift": (0, 0),
                                  "match": "plane", "threshold": 4.0, "progress": None}),
         "save": (tb.save, {"file": folder / "b.h5", "results": t.contact, "fields": "all", "double": False}),
-        "cite": (tb.cite, {}), "formats": (tb.formats, {}), "materials": (tb.materials, {}),
+        "load": (tb.load, {"file": folder / "b.h5"}),
+        "show_versions": (tb.show_versions, {}), "cite": (tb.cite, {}), "formats": (tb.formats, {}), "materials": (tb.materials, {}),
         "set_threads": (tb.set_threads, {"n": 0}),
         "report": (tb.report, {"result": folder / "results", "out": folder / "page", "html": True, "static": False, "figures": None,
                                "scan": None, "all_scans": False, "pressure": None, "density": None, "error_bar": None}),
@@ -195,7 +197,7 @@ def public():
                       and method not in ("to_xarray", "count", "index", "get", "items", "keys", "values")}
     steps = {f"Surface.{name}" for name, argument, _ in tb._tabor.treatment_steps() if argument}
     return {name for name in names - steps if not name.endswith((".Template",)) and not name.startswith("ehl.Template.")
-            and not name.startswith(("NameNotFound.", "NotConverged.", "Progress"))}
+            and not name.startswith(("InputError.", "InputFileNotFound.", "NameNotFound.", "NotConverged.", "OutputError.", "Progress"))}
 
 
 def test_every_public_function_is_asked(folder):

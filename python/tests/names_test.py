@@ -32,8 +32,6 @@ THERE = {
     "Friction": "plot to_xarray", "Parameters": "Sa get keys items", "DensityCurve": "to_xarray", "Sweep": "min_film_m plot",
     "Solution": "to_xarray",
 }
-#: Not yet there.
-NOT_YET = {"tabor": "load show_versions", "Solution": "to_xarray"}
 
 
 @pytest.fixture(scope="module")
@@ -49,8 +47,6 @@ def things():
 
 @pytest.mark.parametrize("kind, name", [(kind, name) for kind, names in TRIED.items() for name in names.split()])
 def test_it_is_there_or_the_error_says_what_to_write(things, kind, name):
-    if name in NOT_YET.get(kind, "").split():
-        pytest.skip("not yet")
     if name in THERE.get(kind, "").split():
         getattr(things[kind], name)
         return

@@ -17,6 +17,7 @@ def engine(request):
 @pytest.fixture(scope="module")
 def results(rough, steel):
     contact = tb.contact(rough.lowpass("gauss:4um"), 5e7, steel)
+    pytest.importorskip("h5py")
     squeeze = tb.ehl.squeeze(tb.ehl.template("squeeze"))
     words = tb.ehl.point(tb.ehl.template("point"), **{"grid.nodes": 33})
     film = tb.rain(contact.surface, "0.45 g/m^2")
@@ -26,6 +27,7 @@ def results(rough, steel):
             "DensityCurve": tb.density_curve(contact), "Parameters": contact.surface.parameters(["Sa", "hybrid"]), "Spectra": spectra,
             "Spectrum": spectra.radial, "Section": contact.surface.section((0, 0), (2e-5, 1e-5)),
             "Combination": tb.combine(rough, rough, search=False),
+            "Solution": squeeze.solve(), "Solution of a point": words.solve(check=False),
             "Sweep": squeeze.sweep({"lubricant.viscosity": ["0.4 Pa s", "0.5 Pa s"]}),
             "Sweep of words": words.sweep({"roughness.kind": ["lapped-like"], "motion.speed": [0.5, 1.0]}, check=False)}
 
@@ -36,7 +38,7 @@ def test_all_that_goes_to_xarray_is_here(results):
 
 
 NAMES = ["Surface", "Contact", "Film", "Friction", "FluidFilm", "DensityCurve", "Parameters", "Spectra", "Spectrum", "Section",
-         "Combination", "Sweep", "Sweep of words"]
+         "Combination", "Solution", "Solution of a point", "Sweep", "Sweep of words"]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -61,7 +63,7 @@ def test_what_has_a_unit_says_it(results, name):
     data = given if isinstance(given, xarray.Dataset) else given.to_dataset()
     without = {"lubricated_share", "friction_lubricated", "touching", "saturated", "wet", "fill", "converged"}
     for key, array in {**data.data_vars, **data.coords}.items():
-        assert key in without or array.attrs.get("units") or name.startswith("Sweep"), key
+        assert key in without or array.attrs.get("units") or name.startswith("Sweep") or key.endswith(("_share", "_index0")), key
 
 
 def test_warnings_are_there(results):
