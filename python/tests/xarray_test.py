@@ -27,6 +27,7 @@ def results(rough, steel):
             "DensityCurve": tb.density_curve(contact), "Parameters": contact.surface.parameters(["Sa", "hybrid"]), "Spectra": spectra,
             "Spectrum": spectra.radial, "Section": contact.surface.section((0, 0), (2e-5, 1e-5)),
             "Combination": tb.combine(rough, rough, search=False),
+            "Slide": tb.slide(rough, "10 MPa", steel, "3 um", step="1 um", tool="ground:Sa=10nm", check=False),
             "Solution": squeeze.solve(), "Solution of a point": words.solve(check=False),
             "Sweep": squeeze.sweep({"lubricant.viscosity": ["0.4 Pa s", "0.5 Pa s"]}),
             "Sweep of words": words.sweep({"roughness.kind": ["lapped-like"], "motion.speed": [0.5, 1.0]}, check=False)}
@@ -38,7 +39,7 @@ def test_all_that_goes_to_xarray_is_here(results):
 
 
 NAMES = ["Surface", "Contact", "Film", "Friction", "FluidFilm", "DensityCurve", "Parameters", "Spectra", "Spectrum", "Section",
-         "Combination", "Solution", "Solution of a point", "Sweep", "Sweep of words"]
+         "Combination", "Slide", "Solution", "Solution of a point", "Sweep", "Sweep of words"]
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -61,6 +62,10 @@ def test_a_file_of_netcdf_holds_it_all(results, engine, tmp_path, name):
 def test_what_has_a_unit_says_it(results, name):
     given = results[name].to_xarray()
     data = given if isinstance(given, xarray.Dataset) else given.to_dataset()
+    if name == "Slide":
+        assert data.sheet.attrs["units"] == data.gap.attrs["units"] == "m" and data.pressure.attrs["units"] == "Pa"
+        assert data.psd_x.attrs["units"] == "m^3" and data.sheet.dims == ("kept_distance", "y", "x") and data.mean_gap_m.attrs["units"] == "m"
+        return
     without = {"lubricated_share", "friction_lubricated", "touching", "saturated", "wet", "fill", "converged"}
     for key, array in {**data.data_vars, **data.coords}.items():
         assert key in without or array.attrs.get("units") or name.startswith("Sweep") or key.endswith(("_share", "_index0")), key
