@@ -159,12 +159,12 @@ class Friction(Record):
 
     @property
     def liquid_pressure(self) -> Array | None:
-        """Of the oil in each closed pocket [Pa], shape (ny, nx), zero elsewhere; None unless trapped oil carries load."""
+        """Pressure of the oil in each closed pocket [Pa], shape (ny, nx), zero elsewhere; None unless trapped oil carries load."""
         return None if self._trapped is None else self._trapped.liquid_pressure
 
     @property
     def trapped_pressure(self) -> Array | None:
-        """Of solids and trapped oil together [Pa]; None unless trapped oil carries load."""
+        """Pressure of solids and trapped oil together [Pa]; None unless trapped oil carries load."""
         return None if self._trapped is None else self._trapped.pressure
 
     @property
@@ -291,7 +291,7 @@ class FluidFilm(Friction):
 
     @property
     def pressure(self) -> Array:
-        """Of the oil [Pa], shape (ny, nx)."""
+        """Pressure of the oil [Pa], shape (ny, nx)."""
         return self._fluid.pressure
 
     @property

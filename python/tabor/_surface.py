@@ -279,13 +279,13 @@ class Surface(Shown, Operators, TreatmentSteps):
 
     @property
     def name(self) -> str:
-        """Of its file without folders, or the one it was given."""
+        """Name of its file without folders, or the one it was given."""
         is_file = self.format not in ("array", "generated")
         return os.path.basename(self.source) if is_file else self.source
 
     @property
     def format(self) -> str:
-        """Of its file, as in ``tabor formats``; "array" if it is from none."""
+        """Format of its file, as in ``tabor formats``; "array" if it is from none."""
         return self._heights.format
 
     @property
