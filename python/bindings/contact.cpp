@@ -8,6 +8,8 @@
 #include "parameters.hpp"
 #include "records.hpp"
 #include "tabor/cases/states.hpp"
+#include "tabor/contact/contact.hpp"
+#include "tabor/contact/patches.hpp"
 #include "tabor/material/library.hpp"
 #include "tabor/topography/topography.hpp"
 #include "watched.hpp"
@@ -120,6 +122,19 @@ MapView map_of(nb::handle_t<ContactRecord> self) {
   return view_of(nb::cast<const ContactRecord&>(self).state.*map, self);
 }
 
+OwnMap<Mask> touching(const ContactRecord& one) {
+  return handed_over(contact::contact_mask(one.state));
+}
+
+OwnMap<Mask> saturated(const ContactRecord& one, const ContactSettings& settings) {
+  return handed_over(contact::saturated_mask(one.state, settings.pressure_cap()));
+}
+
+OwnMap<contact::LabelMap> patches(const ContactRecord& one, const ContactSettings& settings) {
+  return handed_over(
+      contact::label_patches(contact::contact_mask(one.state), settings.is_periodic()));
+}
+
 /// Takes the boundary from what is said about the edges of the surface; both must agree.
 void take_edges(ContactSettings& settings, const topography::Topography& surface) {
   const auto same = [](std::string_view setting) { return std::string(setting); };
@@ -163,6 +178,9 @@ void bind_contact(nb::module_& module) {
       .def_prop_ro("converged",
                    [](const ContactRecord& self) { return self.convergence.converged(); })
       .def_prop_ro("gap_limit", [](const ContactRecord& self) { return self.state.gap_limit; })
+      .def("touching", &touching)
+      .def("saturated", &saturated, "settings"_a)
+      .def("patches", &patches, "settings"_a)
       .def_prop_ro("pressure", &map_of<&State::pressure>)
       .def_prop_ro("displacement", &map_of<&State::displacement>)
       .def_prop_ro("gap", &map_of<&State::gap>)

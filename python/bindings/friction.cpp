@@ -10,6 +10,7 @@
 #include "tabor/cases/belonging.hpp"
 #include "tabor/cases/density_curve.hpp"
 #include "tabor/cases/states.hpp"
+#include "tabor/friction/wet_contact.hpp"
 #include "tabor/results/density_answer.hpp"
 #include "tabor/topography/topography.hpp"
 #include "watched.hpp"
@@ -41,6 +42,13 @@ FrictionRecord friction_of(const Pair& pair, const cases::Oil& oil, const Contac
   const Mask mask = contact::contact_mask(pair.contact.state);
   return cases::friction_state(pair.contact, {mask, pair.contact.state.gap, pair.surface.grid}, oil,
                                contact, settings);
+}
+
+/// Contact pixels that stand in oil as it was deposited.
+OwnMap<Mask> wet_contact(const ContactRecord& contact, const FilmRecord& film,
+                         const FrictionSettings& settings) {
+  return handed_over(tabor::friction::wet_contact(contact::contact_mask(contact.state),
+                                                  film.film.thickness, settings.dry_below));
 }
 
 /// Trapped oil carries load, the oil flows, a tool presses.
@@ -313,6 +321,7 @@ void bind_friction(nb::module_& module) {
              "film_settings"_a, "settings"_a, "progress"_a.none());
   module.def("trapped_oil", &trapped_oil, "surface"_a, "contact"_a, "film"_a, "contact_settings"_a,
              "trapped_settings"_a, "settings"_a, "progress"_a.none());
+  module.def("wet_contact", &wet_contact, "contact"_a, "film"_a, "settings"_a);
   module.def("check_trapped", &check_trapped, "settings"_a);
   module.def("check_lubricant", &check_lubricant, "settings"_a);
   module.def("density_sentence", &sentence, "curve"_a, "densities"_a);

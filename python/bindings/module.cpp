@@ -4,16 +4,26 @@
 namespace tabor::python {
 namespace {
 
+/// Classes of exceptions, which live as long as the interpreter.
+PyObject* input_error = PyExc_ValueError;
+PyObject* output_error = PyExc_OSError;
+
+/// Takes the classes of the package in place of Python's own.
+void take_errors(const nanobind::object& input, const nanobind::object& output) {
+  input_error = nanobind::object(input).release().ptr();
+  output_error = nanobind::object(output).release().ptr();
+}
+
 /// What the library throws on purpose, as the exception that Python has for it.
 void translate(const std::exception_ptr& thrown, void*) {
   try {
     std::rethrow_exception(thrown);
   } catch (const InputError& error) {
-    PyErr_SetString(PyExc_ValueError, error.what());
+    PyErr_SetString(input_error, error.what());
   } catch (const UsageError& error) {
-    PyErr_SetString(PyExc_ValueError, error.what());
+    PyErr_SetString(input_error, error.what());
   } catch (const OutputError& error) {
-    PyErr_SetString(PyExc_OSError, error.what());
+    PyErr_SetString(output_error, error.what());
   } catch (const Interrupted&) {
     PyErr_SetNone(PyExc_KeyboardInterrupt);
   } catch (const Error& error) {
@@ -27,6 +37,7 @@ void translate(const std::exception_ptr& thrown, void*) {
 NB_MODULE(_tabor, module) {
   using namespace tabor::python;
   nanobind::register_exception_translator(translate);
+  module.def("take_errors", &take_errors, nanobind::arg("input"), nanobind::arg("output"));
   bind_interpreter(module);
   bind_values(module);
   bind_surface(module);

@@ -30,27 +30,32 @@ using topography::Topography;
 
 using Text = std::string;
 using Texts = std::vector<std::string>;
-using WarningState = std::pair<Text, Text>;  // code, text
-using EdgesState = std::pair<std::optional<int>, bool>;
+using WarningState = std::pair<Text, Text>;               // code, text
+using EdgesState = std::pair<std::optional<Text>, bool>;  // what was said of them, found to match
 using TopographyState =
     std::tuple<double, double, bool, double, std::tuple<Text, Text, Text, Text>,
                std::map<Text, Text>, Texts, std::vector<WarningState>, EdgesState>;
+
+/// "tile", "cut" or "end"; None where nothing was said.
+std::optional<Text> edges_of(const Topography& surface) {
+  if (!surface.edges) return std::nullopt;
+  return Text(topography::kEdges.of(*surface.edges));
+}
 
 /// All but the heights.
 TopographyState state_of(const Topography& one) {
   std::vector<WarningState> warnings;
   warnings.reserve(one.warnings.size());
   for (const Warning& warning : one.warnings) warnings.emplace_back(warning.code, warning.text);
-  return {
-      one.grid.lx,
-      one.grid.ly,
-      one.periodic,
-      one.tiles,
-      {one.source, one.format, one.instrument, one.channel},
-      one.metadata,
-      one.history,
-      warnings,
-      {one.edges ? std::optional(static_cast<int>(*one.edges)) : std::nullopt, one.edges_match}};
+  return {one.grid.lx,
+          one.grid.ly,
+          one.periodic,
+          one.tiles,
+          {one.source, one.format, one.instrument, one.channel},
+          one.metadata,
+          one.history,
+          warnings,
+          {edges_of(one), one.edges_match}};
 }
 
 Topography topography_of(const MapArgument& height, const TopographyState& state) {
@@ -64,7 +69,7 @@ Topography topography_of(const MapArgument& height, const TopographyState& state
   one.history = std::get<6>(state);
   for (const auto& [code, text] : std::get<7>(state)) one.warnings.push_back({code, text});
   const auto& [edges, edges_match] = std::get<8>(state);
-  if (edges) one.edges = static_cast<topography::Edges>(*edges);
+  if (edges) one.edges = topography::kEdges.parse(*edges, "edges");
   one.edges_match = edges_match;
   return one;
 }
@@ -89,6 +94,33 @@ Topography make_surface(const MapArgument& height, double dx, double dy, bool pe
 /// Finds edges and warnings of a surface from make_surface().
 void look_at(Topography& surface) {
   watch(nb::none(), [&](const Observer&) { topography::look_at(surface); });
+}
+
+/// The surface with other heights on the same grid, which a step made that Python did: edges stay,
+/// `note` becomes the last line of its history, and warnings about the heights are found anew.
+/// Where a second surface took part, it repeats if both do, and has the edges that both have.
+Topography with_heights(const Topography& surface, const MapArgument& height,
+                        const std::string& note, const Topography* second) {
+  return watched(nb::none(), [&](const Observer&) {
+    Topography one = surface;
+    one.height = field_of(height);
+    one.history.push_back(note);
+    if (second != nullptr) {
+      const bool both_repeat = topography::repeats(surface) && topography::repeats(*second);
+      if (one.edges != second->edges) one.edges = std::nullopt;
+      one.periodic = both_repeat && surface.periodic;
+      one.edges_match = both_repeat;
+    }
+    topography::renew_warnings(one);
+    return one;
+  });
+}
+
+/// The surface as one that came from `source`.
+Topography from_source(const Topography& surface, const std::string& source) {
+  Topography one = surface;
+  one.source = source;
+  return one;
 }
 
 /// With the digest of the file's bytes.
@@ -246,6 +278,9 @@ void bind_surface(nb::module_& module) {
   bind_parameters(options, scan::read_parameters());
   module.def("look_at", &look_at, "surface"_a);
   module.def("make_surface", &make_surface, "height"_a, "dx"_a, "dy"_a, "periodic"_a, "source"_a);
+  module.def("with_heights", &with_heights, "surface"_a, "height"_a, "note"_a,
+             "second"_a.none() = nb::none());
+  module.def("from_source", &from_source, "surface"_a, "source"_a);
   module.def("read", &read, "file"_a, "options"_a, "progress"_a.none());
   module.def("write", &scan::write, "surface"_a, "file"_a);
   module.def("apply", &apply, "surface"_a, "treatment"_a, "progress"_a.none());

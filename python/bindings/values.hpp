@@ -2,9 +2,13 @@
 
 #include <nanobind/ndarray.h>
 
+#include <array>
+#include <cstddef>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "bindings.hpp"
@@ -21,6 +25,21 @@ namespace tabor::python {
 /// A map as a read-only array of NumPy; it is not copied and keeps its owner alive.
 using MapView = nb::ndarray<nb::numpy, const double, nb::ndim<2>, nb::c_contig>;
 MapView view_of(const Field& field, nb::handle owner);
+
+/// A map that was made for Python, which owns it.
+template <typename Map>
+using OwnMap = nb::ndarray<nb::numpy, const typename Map::Scalar, nb::ndim<2>, nb::c_contig>;
+template <typename Map>
+OwnMap<Map> handed_over(Map map) {
+  auto kept = std::make_unique<Map>(std::move(map));
+  const std::array<std::size_t, 2> shape = {static_cast<std::size_t>(kept->rows()),
+                                            static_cast<std::size_t>(kept->cols())};
+  const auto* data = kept->data();
+  const nb::capsule owner(
+      kept.get(), [](void* one) noexcept { std::default_delete<Map>()(static_cast<Map*>(one)); });
+  static_cast<void>(kept.release());
+  return {data, 2, shape.data(), owner};
+}
 
 /// Heights or films that Python hands over: C-ordered float64 of shape (ny, nx).
 using MapArgument = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;

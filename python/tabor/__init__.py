@@ -14,24 +14,51 @@ from . import ehl
 from ._cite import cite
 from ._combine import Combination, Volume, combine
 from ._contact import Contact, Material, NotConverged, Solid, contact, materials
-from ._friction import (DensityCurve, Film, FluidFilm, Friction, Lubricant, Plateau, density_curve, fluid_film,
-                        friction, rain)
+from ._density_curve import DensityCurve, Plateau, density_curve
+from ._errors import InputError, InputFileNotFound, OutputError
+from ._friction import Film, FluidFilm, Friction, Lubricant, fluid_film, friction, rain
 from ._friction_table import FrictionEntry, FrictionTable
 from ._generate import Format, formats, generate
+from ._guesses import NameNotFound
+from ._guesses import missing_name as _missing_name
+from ._load import load
+from ._parameter_table import parameters
+from ._parameters import Parameter, Parameters
 from ._progress import Progress, set_threads
 from ._records import Warning
 from ._report import Report, report
 from ._save import save
 from ._scans import Scans
+from ._section import Section
 from ._slide import Slide, slide
+from ._spectra import Spectra, Spectrum
 from ._study import Results, Study
-from ._surface import Parameter, Parameters, Spectra, Spectrum, Surface, read
+from ._surface import Surface, read
 from ._tabor import version as __version__
+from ._values import Value
+from ._versions import show_versions
 from .view import view
 
+# Warning is not among them: it would take the place of Python's own.
 __all__ = ["Combination", "Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction",
-           "FrictionEntry", "FrictionTable", "Lubricant", "Material", "NotConverged", "Parameter",
-           "Parameters", "Plateau", "Progress", "Report", "Results", "Scans", "Slide", "Solid", "Spectra",
-           "Spectrum", "Study", "Surface", "Volume", "Warning", "cite", "combine", "contact",
-           "density_curve", "ehl", "fluid_film", "formats", "friction", "generate", "materials", "rain",
-           "read", "report", "save", "set_threads", "slide", "view"]
+           "FrictionEntry", "FrictionTable", "InputError", "InputFileNotFound", "Lubricant", "Material", "NameNotFound", "NotConverged", "OutputError", "Parameter",
+           "Parameters", "Plateau", "Progress", "Report", "Results", "Scans", "Section", "Slide", "Solid", "Spectra",
+           "Spectrum", "Study", "Surface", "Value", "Volume", "cite", "combine", "contact",
+           "density_curve", "ehl", "fluid_film", "formats", "friction", "generate", "load", "materials", "parameters", "rain",
+           "read", "report", "save", "set_threads", "show_versions", "slide", "view"]
+
+# Pickles and messages name classes where users find them.
+for _name in __all__:
+    if isinstance(globals()[_name], type):
+        globals()[_name].__module__ = "tabor"
+del _name
+
+
+def __getattr__(name: str) -> object:
+    if name.startswith("_"):
+        raise AttributeError(f"module 'tabor' has no attribute {name!r}", name=name)
+    raise _missing_name("tabor", name, __all__)
+
+
+def __dir__() -> list[str]:
+    return [*__all__, "Warning", "__version__"]

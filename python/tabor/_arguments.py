@@ -13,8 +13,13 @@ from typing import Any, TypeVar, Union, cast
 
 import numpy as np
 
+from ._files import is_open_file
+from ._guesses import ARGUMENTS
+
 #: A file or folder.
 Path = Union[str, "os.PathLike[str]"]
+#: A file by its name, or an open binary one.
+File = Union[str, "os.PathLike[str]", Any]
 #: Of random numbers: a whole number below 2^64.
 Seed = int
 #: How many: a whole number, zero or more.
@@ -106,6 +111,10 @@ def path(value: Any, name: str) -> Path:
     return value
 
 
+def _file(value: Any, name: str) -> File:
+    return value if is_open_file(value) else path(value, name)
+
+
 def _channel(value: Any, name: str) -> str | int:
     return value if isinstance(value, str) else whole(value, name, 0, 2**31 - 1)
 
@@ -133,7 +142,7 @@ def _executor(value: Any, name: str) -> Any:
 
 
 _CHECKS: dict[str, _Check] = {
-    "str": plain_text, "bool": flag, "float": _real, "Path": path, "str | int": _channel, "Axes": _axes,
+    "str": plain_text, "bool": flag, "float": _real, "Path": path, "File": _file, "str | int": _channel, "Axes": _axes,
     "Sequence[str]": texts, "Iterable[str]": texts, "Executor": _executor,
     "int": lambda value, name: whole(value, name, -2**31, 2**31 - 1),
     "Count": lambda value, name: whole(value, name, 0, 2**31 - 1),
@@ -166,7 +175,8 @@ def _check_of(annotation: str, names: Mapping[str, Any]) -> _Check | None:
 
 def _unknown(function: Callable[..., Any], name: str, names: Iterable[str]) -> TypeError:
     """The error for an argument that a function does not have."""
-    near = difflib.get_close_matches(name, names, 1)
+    known = list(names)
+    near = [ARGUMENTS[name]] if ARGUMENTS.get(name) in known else difflib.get_close_matches(name, known, 1)
     title = function.__qualname__.removesuffix(".__init__")
     return TypeError(f"{title}() got an unexpected keyword argument {name!r}" + (f"; did you mean {near[0]!r}?" if near else ""))
 

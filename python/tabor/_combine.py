@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from . import _tabor
 from ._arguments import Axes, typed
+from ._guesses import Values
+from ._maps import Window
 from ._progress import Progress, watching
-from ._records import table_html
+from ._records import Shown, plain_attributes, said
 from ._surface import Surface
 from ._values import Value, si_list
 
@@ -27,11 +28,10 @@ class Volume(NamedTuple):
         return f"{self.volume / cube:.4g} {name} (+- {self.uncertainty / cube:.2g})"
 
 
-class Combination:
+class Combination(Shown):
     """What ``combine`` made of two scans. It does not change."""
 
     surface: Surface  #: the map, on the pixels of the first scan, cut to the overlap
-    values: Mapping[str, Any]  #: numbers by the names of ``tabor combine --json``, whose endings are the units
     warnings: tuple[str, ...]  #: reasons to doubt them
     references: tuple[str, ...]  #: what to cite
 
@@ -40,10 +40,10 @@ class Combination:
         self.__dict__.update(surface=surface, _values=dict(values), warnings=tuple(warnings),
                              references=(methods,) if methods else ())
 
-    def __getattr__(self, name: str) -> Any:
-        if name == "values":
-            return MappingProxyType(self.__dict__["_values"])
-        raise AttributeError(f"a Combination has no {name}")
+    @property
+    def values(self) -> Mapping[str, Any]:
+        """Numbers by the names of ``tabor combine --json``, whose endings are the units."""
+        return Values(self.__dict__["_values"], "Combination")
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError("a Combination does not change")
@@ -76,9 +76,16 @@ class Combination:
         return self._volume("net")
 
     @typed
-    def plot(self, ax: Axes = None) -> Any:
-        """Draws the map; needs matplotlib. Returns the axes."""
-        return self.surface.plot(ax)
+    def plot(self, ax: Axes = None, *, window: Window = None, cmap: str | None = None) -> Any:
+        """Draws the map as ``Surface.plot`` does; needs matplotlib. Returns the axes."""
+        return self.surface.plot(ax, window=window, cmap=cmap)
+
+    def to_xarray(self) -> Any:
+        """The map as a DataArray with coordinates x and y [m], numbers and warnings as its attributes, to be written as
+        NetCDF; needs xarray."""
+        found = self.surface.to_xarray()
+        found.attrs.update(plain_attributes(self.values), **said(self.warnings, self.references))
+        return found
 
     def _lines(self) -> list[tuple[str, str]]:
         along = [_tabor.format_si(one, "m") for one in self.shift]
@@ -90,12 +97,6 @@ class Combination:
             if volume:
                 lines.append((name.replace("_", " "), volume._text()))
         return lines + [("warning", text) for text in self.warnings]
-
-    def __repr__(self) -> str:
-        return "\n".join(["Combination"] + [f"  {heading:<9} {text}" for heading, text in self._lines()])
-
-    def _repr_html_(self) -> str:
-        return table_html("Combination", self._lines())
 
 
 @typed

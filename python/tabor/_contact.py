@@ -6,15 +6,23 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Unpack, overload
 
+import numpy as np
+import numpy.typing as npt
+
 from . import _tabor
 from ._arguments import Axes, typed
-from ._optional import needs
 from ._progress import Progress, watching
 from ._records import Record, attributes
 from ._setting_types import ContactSettings, SolidSettings, SolidValues
 from ._settings import CONTACT, SOLID, complete, documented, filled, takes
-from ._surface import Array, Surface, map_to_xarray, plot_map
+from ._guesses import missing_key
+from ._maps import Array, Kind, Window, chosen, maps_to_xarray, plot_map
+from ._surface import Surface
 from ._values import Value, si_list
+
+
+Flags = npt.NDArray[np.bool_]
+Labels = npt.NDArray[np.int32]
 
 
 class NotConverged(RuntimeError):
@@ -40,9 +48,35 @@ class Material(NamedTuple):
     source: str  #: of the Young's modulus
 
 
-def materials() -> tuple[Material, ...]:
-    """The solids that ``Solid`` knows by name, as ``tabor materials`` lists them."""
-    return tuple(Material(*row) for row in _tabor.materials())
+class Materials(tuple[Material, ...]):
+    """Solids of the library in their order, also by name: ``materials()["aluminium-6016"]``."""
+
+    __slots__ = ()
+
+    def __getitem__(self, key: Any) -> Any:
+        if not isinstance(key, str):
+            return super().__getitem__(key)
+        for one in self:
+            if one.name == key:
+                return one
+        raise missing_key("materials()", key, (one.name for one in self))
+
+
+def materials() -> Materials:
+    """The solids that ``Solid`` knows by name, as ``tabor materials`` lists them.
+
+    Raises
+    ------
+    KeyError
+        Of the result, for a name that is not there, with the nearest.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> tb.materials()["aluminium-6016"].youngs_modulus
+    70000000000.0
+    """
+    return Materials(Material(*row) for row in _tabor.materials())
 
 
 @documented(SOLID)
@@ -156,18 +190,65 @@ class Contact(Record):
         """The certificate is within the tolerance."""
         return self._record.converged
 
+    @property
+    def force(self) -> float:
+        """Load on the whole surface [N]: mean pressure times nominal area."""
+        lx, ly = self.surface.lengths
+        return self.mean_pressure * lx * ly
+
+    @property
+    def max_pressure(self) -> float:
+        """The highest contact pressure [Pa]."""
+        return float(self.values["max_pressure_Pa"])
+
+    @property
+    def touching(self) -> Flags:
+        """True where the solids touch, shape (ny, nx)."""
+        return self._record.touching()
+
+    @property
+    def saturated(self) -> Flags:
+        """True where the pressure has reached the saturation pressure, shape (ny, nx)."""
+        return self._record.saturated(self._settings())
+
+    @property
+    def patches(self) -> Labels:
+        """Number of the patch of each pixel, shape (ny, nx), from 1 on; 0 where nothing touches. Pixels of one patch
+        share edges, across the border too if the contact is periodic; ``patches.max()`` counts them, and
+        ``numpy.bincount(patches.ravel())[1:]`` is the number of pixels of each."""
+        return self._record.patches(self._settings())
+
+    def _kinds(self) -> dict[str, Kind]:
+        """The maps of ``to_xarray``."""
+        tool = {} if self.tool is None else {"tool": Kind("tool", "m", "tool")}
+        return {"pressure": Kind("pressure", "Pa", "pressure"), "displacement": Kind("displacement", "m", "displacement"),
+                "gap": Kind("gap", "m", "gap"), "touching": Kind("touching", "", "touching"),
+                "saturated": Kind("saturated", "", "saturated"), **tool}
+
     def to_xarray(self) -> Any:
-        """Pressure, displacement and gap as a Dataset with coordinates x and y [m], numbers and warnings as its
-        attributes, to be written as NetCDF; needs xarray."""
-        xarray = needs("xarray", "to_xarray()")
-        maps = {"pressure": (self.pressure, "Pa"), "displacement": (self.displacement, "m"), "gap": (self.gap, "m")}
-        return xarray.Dataset({name: map_to_xarray(self.surface, values, name, unit)
-                               for name, (values, unit) in maps.items()}, attrs=attributes(self))
+        """Pressure, displacement, gap and the masks ``touching`` and ``saturated`` as a Dataset with coordinates x and y
+        [m], numbers and warnings as its attributes, to be written as NetCDF; needs xarray."""
+        return maps_to_xarray(self.surface, self, self._kinds(), attributes(self))
 
     @typed
-    def plot(self, ax: Axes = None) -> Any:
-        """Draws the pressure; needs matplotlib. Returns the axes."""
-        return plot_map(self.surface, self.pressure * 1e-6, "pressure [MPa]", ax)
+    def plot(self, field: str = "pressure", ax: Axes = None, *, window: Window = None, cmap: str | None = None) -> Any:
+        """Draws one map in µm; needs matplotlib. Returns the axes. Drawn again into the same axes, it takes the place of
+        the picture before.
+
+        Parameters
+        ----------
+        field : "pressure", "gap", "displacement", "height", "touching", "saturated", "patches" or "tool".
+        ax : axes of matplotlib [the current ones].
+        window : part that is shown: x0, y0, width and height [m] from the upper left corner [all].
+        cmap : name of a colour map of matplotlib [that of its settings].
+
+        Raises
+        ------
+        ValueError
+            For another field, and for a window without a pixel.
+        """
+        kinds = {**self._kinds(), "height": Kind("surface.height", "m", "height"), "patches": Kind("patches", "", "patch")}
+        return plot_map(self.surface, chosen(self, kinds, field), ax, window, cmap)
 
     def _settings(self) -> _tabor.ContactSettings:
         return _settings(self.solid, self._options)

@@ -4,26 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Unpack, overload
-
-import numpy as np
+from typing import Any, Unpack, overload
 
 from . import _tabor
-from ._arguments import Axes, typed, wrong
-from ._contact import Contact, NotConverged
-from ._optional import needs
+from ._arguments import Axes, typed
+from ._contact import Contact, Flags, NotConverged
 from ._progress import Progress, watching
 from ._records import Record, attributes
 from ._setting_types import (
-    CurveSettings,
     FrictionSettings,
     LubricantSettings,
     LubricantValues,
     RainSettings,
     TrappedFrictionSettings,
 )
-from ._settings import CURVE, DRY_BELOW, OIL, RAIN, SHEAR, TRAPPED, complete, documented, filled, takes
-from ._surface import Array, Surface, map_to_xarray, plot_map
+from ._settings import DRY_BELOW, OIL, RAIN, SHEAR, TRAPPED, complete, documented, filled, takes
+from ._maps import Array, Kind, Map, Window, chosen, map_to_xarray, maps_to_xarray, plot_map
+from ._surface import Surface
 from ._values import Value, si, si_list
 
 
@@ -68,9 +65,16 @@ class Film(Record):
         return map_to_xarray(self.surface, self.thickness, "film_thickness", "m", attributes(self))
 
     @typed
-    def plot(self, ax: Axes = None) -> Any:
-        """Draws the thickness; needs matplotlib. Returns the axes."""
-        return plot_map(self.surface, self.thickness, "film thickness [m]", ax)
+    def plot(self, ax: Axes = None, *, window: Window = None, cmap: str | None = None) -> Any:
+        """Draws the thickness in µm; needs matplotlib. Returns the axes.
+
+        Parameters
+        ----------
+        ax : axes of matplotlib [the current ones].
+        window : part that is shown: x0, y0, width and height [m] from the upper left corner [all].
+        cmap : name of a colour map of matplotlib [that of its settings].
+        """
+        return plot_map(self.surface, Map(self.thickness, "m", "film thickness"), ax, window, cmap)
 
 
 @overload
@@ -106,7 +110,7 @@ def shear_settings(options: Mapping[str, Any]) -> _tabor.FrictionSettings:
     return filled(_tabor.FrictionSettings(), options)
 
 
-def _shear(contact: Contact, settings: Mapping[str, Any]) -> dict[str, Any]:
+def shear_of(contact: Contact, settings: Mapping[str, Any]) -> dict[str, Any]:
     """The settings, with the shear strength of the solid unless one is given."""
     options = complete(SHEAR, settings)
     if options["shear_strength"] is None:
@@ -149,13 +153,18 @@ class Friction(Record):
         return float(self.values["lubricated_share"])
 
     @property
+    def wet(self) -> Flags:
+        """True where the contact stands in oil as it was laid down, shape (ny, nx)."""
+        return _tabor.wet_contact(self.contact._record, self.film._record, shear_settings(self._options))
+
+    @property
     def liquid_pressure(self) -> Array | None:
-        """Of the oil in each closed pocket [Pa], shape (ny, nx), zero elsewhere; None unless trapped oil carries load."""
+        """Pressure of the oil in each closed pocket [Pa], shape (ny, nx), zero elsewhere; None unless trapped oil carries load."""
         return None if self._trapped is None else self._trapped.liquid_pressure
 
     @property
     def trapped_pressure(self) -> Array | None:
-        """Of solids and trapped oil together [Pa]; None unless trapped oil carries load."""
+        """Pressure of solids and trapped oil together [Pa]; None unless trapped oil carries load."""
         return None if self._trapped is None else self._trapped.pressure
 
     @property
@@ -167,6 +176,43 @@ class Friction(Record):
     def converged(self) -> bool:
         """Contact, and the oil where it carries load."""
         return bool(self.values["converged"])
+
+    def _kinds(self) -> dict[str, Kind]:
+        """The maps of ``to_xarray`` and ``plot``."""
+        kinds = {"contact_pressure": Kind("contact.pressure", "Pa", "contact pressure"),
+                 "gap": Kind("contact.gap", "m", "gap without oil"), "film_thickness": Kind("film.thickness", "m", "film thickness"),
+                 "touching": Kind("contact.touching", "", "touching"), "wet": Kind("wet", "", "wet contact")}
+        if self._trapped is not None:
+            kinds.update(liquid_pressure=Kind("liquid_pressure", "Pa", "pressure of the trapped oil"),
+                         trapped_pressure=Kind("trapped_pressure", "Pa", "pressure of solids and trapped oil"),
+                         trapped_gap=Kind("trapped_gap", "m", "gap over the trapped oil"))
+        return kinds
+
+    def to_xarray(self) -> Any:
+        """The maps that ``plot`` draws as a Dataset with coordinates x and y [m], numbers and warnings as its
+        attributes, to be written as NetCDF; needs xarray."""
+        return maps_to_xarray(self.contact.surface, self, self._kinds(), attributes(self))
+
+    @typed
+    def plot(self, field: str = "wet", ax: Axes = None, *, window: Window = None, cmap: str | None = None) -> Any:
+        """Draws one map in µm; needs matplotlib. Returns the axes. Drawn again into the same axes, it takes the place of
+        the picture before.
+
+        Parameters
+        ----------
+        field : "wet", "touching", "contact_pressure", "gap" or "film_thickness"; with trapped oil "liquid_pressure",
+            "trapped_pressure" and "trapped_gap"; of a film that flows "fluid_pressure", "fill", "sliding_gap" and
+            "solid_pressure".
+        ax : axes of matplotlib [the current ones].
+        window : part that is shown: x0, y0, width and height [m] from the upper left corner [all].
+        cmap : name of a colour map of matplotlib [that of its settings].
+
+        Raises
+        ------
+        ValueError
+            For another field, and for a window without a pixel.
+        """
+        return plot_map(self.contact.surface, chosen(self, self._kinds(), field), ax, window, cmap)
 
 
 @takes(SHEAR + DRY_BELOW + TRAPPED)
@@ -190,7 +236,7 @@ def friction(contact: Contact, film: Film, *, check: bool = True, progress: Prog
         Unless ``check`` is False.
     """
     oil = complete(TRAPPED, settings)
-    options = {**_shear(contact, settings), **complete(DRY_BELOW, settings)}
+    options = {**shear_of(contact, settings), **complete(DRY_BELOW, settings)}
     given = (contact.surface._topography, contact._record, film._record, contact._settings())
     if not oil["trapped"]:
         _tabor.check_trapped(filled(_tabor.TrappedSettings(), oil))
@@ -201,111 +247,6 @@ def friction(contact: Contact, film: Film, *, check: bool = True, progress: Prog
     if check and not bool(found.values["trapped_converged"]):
         raise NotConverged("friction: the trapped oil did not converge; check=False returns it all the same", found)
     return found
-
-
-class Plateau(NamedTuple):
-    """Densities of the oil over which friction hardly changes: from the one that fills the pockets under the
-    contacts to the one whose level reaches the contacts."""
-
-    first: float  #: [kg/m^2]
-    last: float  #: [kg/m^2]
-    dry_share: float  #: mean share of the contact that stays dry
-    below: float | None = None  #: [kg/m^2] next density of the curve before it: the lower edge lies between
-    beyond: float | None = None  #: [kg/m^2] next density behind it: the upper edge lies between
-
-
-class DensityCurve(NamedTuple):
-    """Friction of one contact against the areal density of the oil, in steps of at most 5 %, for vanishing
-    droplets."""
-
-    mean_pressure: float  #: [Pa]
-    friction_dry: float
-    lubricant_density: Array  #: [kg/m^2], rising
-    lubricated_share: Array  #: of the contact
-    friction_lubricated: Array
-    plateau: Plateau | None  #: None where friction changes throughout
-
-    def says(self, density: Value | Friction | Iterable[Value | Friction] = ()) -> str:
-        """The curve in one sentence, and where densities [kg/m^2] lie on it, by the wet share that it has there; of
-        frictions, by theirs."""
-        is_one = isinstance(density, (str, Friction)) or not isinstance(density, Iterable)
-        given: Any = [density] if is_one else density
-        several = list(given)
-        asked: list[tuple[float, float | None]] = []
-        if any(isinstance(one, Friction) for one in several):
-            asked = [(one.film.lubricant_density, one.lubricated_share) for one in several]
-        elif several:
-            asked = [(one, None) for one in si_list(several, "areal_density", "density")[0]]
-        return _tabor.density_sentence((self.mean_pressure, self.friction_dry, self.lubricant_density.tolist(),
-                                        self.lubricated_share.tolist(), self.friction_lubricated.tolist(),
-                                        self.plateau), asked)
-
-    @typed
-    def plot(self, ax: Axes = None, **style: Any) -> Any:
-        """Draws friction over the density; needs matplotlib. Returns the axes."""
-        ax = ax or needs("matplotlib.pyplot", "plot()").gca()
-        ax.semilogx(self.lubricant_density * 1e3, self.friction_lubricated, **style)
-        ax.set_xlabel("lubricant density [g/m^2]")
-        ax.set_ylabel("friction")
-        return ax
-
-
-def _contacts(contact: Any) -> list[Contact]:
-    if isinstance(contact, Contact):
-        return [contact]
-    expected = "a Contact, as tabor.contact returns it, or a list of them"
-    if not isinstance(contact, Iterable):
-        raise wrong("contact", contact, expected)
-    contacts = list(contact)
-    for one in contacts:
-        if not isinstance(one, Contact):
-            raise wrong("contact", contacts, expected)
-    if not contacts:
-        raise ValueError("contact: got an empty list; expected at least one contact")
-    return contacts
-
-
-@overload
-def density_curve(contact: Contact, *, density: Value | Iterable[Value] = ..., progress: Progress = ...,
-                  **settings: Unpack[CurveSettings]) -> DensityCurve: ...
-@overload
-def density_curve(contact: Iterable[Contact], *, density: Value | Iterable[Value] = ..., progress: Progress = ...,
-                  **settings: Unpack[CurveSettings]) -> list[DensityCurve]: ...
-@takes(CURVE)
-def density_curve(contact: Any, *, density: Value | Iterable[Value] = (), progress: Progress = None,
-                  **settings: Unpack[CurveSettings]) -> Any:
-    """Friction against the density of the oil, from one pass of vanishing droplets (docs/lubrication.md).
-
-    Parameters
-    ----------
-    contact : Contact, or a list of contacts of one surface and solid, which gives a list.
-    density : densities [kg/m^2] that become points of the curve beside its round ones.
-    **settings
-
-    Raises
-    ------
-    ValueError
-        As ``friction`` and ``rain`` do; for a surface without heights, and for contacts that differ in more
-        than the pressure.
-    """
-    contacts = _contacts(contact)
-    first = contacts[0]
-    if any(one._record.surface != first._record.surface or one.solid != first.solid for one in contacts):
-        raise ValueError("contact: got contacts of several surfaces or solids; expected those of one")
-    given: Any = density
-    asked = complete(CURVE, settings)
-    film = film_settings({"model": "limit", **{one.name: asked[one.name] for one in CURVE if one.table == "film"}},
-                         si_list(given, "areal_density", "density")[0] if np.size(given) else [])
-    shear = shear_settings(_shear(first, settings))
-    with watching(progress) as told:
-        rows = _tabor.density_curves(first.surface._topography, [one._record for one in contacts], first._settings(),
-                                     film, shear, told)
-    if not rows:
-        raise ValueError("surface: got one without heights; expected a rough one, on which oil runs downhill")
-    curves = [DensityCurve(pressure, dry, np.array(density), np.array(share), np.array(wet),
-                           None if plateau is None else Plateau(*plateau))
-              for pressure, dry, density, share, wet, plateau in rows]
-    return curves[0] if isinstance(contact, Contact) else curves
 
 
 @documented(OIL)
@@ -350,7 +291,7 @@ class FluidFilm(Friction):
 
     @property
     def pressure(self) -> Array:
-        """Of the oil [Pa], shape (ny, nx)."""
+        """Pressure of the oil [Pa], shape (ny, nx)."""
         return self._fluid.pressure
 
     @property
@@ -367,6 +308,11 @@ class FluidFilm(Friction):
     def solid_pressure(self) -> Array:
         """Contact pressure while sliding [Pa]."""
         return self._fluid.solid_pressure
+
+    def _kinds(self) -> dict[str, Kind]:
+        return {**super()._kinds(), "fluid_pressure": Kind("pressure", "Pa", "pressure of the oil"),
+                "fill": Kind("fill", "", "share of the gap that oil fills"), "sliding_gap": Kind("gap", "m", "gap while sliding"),
+                "solid_pressure": Kind("solid_pressure", "Pa", "contact pressure while sliding")}
 
     @property
     def friction_mixed(self) -> float:
@@ -401,7 +347,7 @@ def fluid_film(contact: Contact, film: Film, lubricant: Lubricant, speed: Value,
     NotConverged
         Unless ``check`` is False.
     """
-    options = _shear(contact, settings)
+    options = shear_of(contact, settings)
     metres_per_second = si(speed, "speed", "speed")
     with watching(progress) as told:
         fluid, record = _tabor.fluid_film(contact.surface._topography, contact._record, film._record,

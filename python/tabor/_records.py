@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import html
 from collections.abc import Callable, Iterable, Mapping
-from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from . import _tabor
 from ._arguments import Path, typed
+from ._guesses import Named, Values
 
 
 class Warning(NamedTuple):
@@ -27,18 +27,25 @@ def warnings_of(texts: Iterable[tuple[str, str, str]]) -> tuple[Warning, ...]:
     return tuple(Warning(*one) for one in texts)
 
 
-def attributes(record: Any) -> dict[str, Any]:
-    """Numbers, warnings and references of a record as attributes that every file of NetCDF takes: switches as 0 and
-    1, lists as lines of a text."""
+def plain_attributes(values: Mapping[str, Any], before: str = "") -> dict[str, Any]:
+    """Numbers as attributes that every file of NetCDF takes: switches as 0 and 1, large whole numbers as floats, tables
+    inside by names with a dot; lists are left out."""
     found: dict[str, Any] = {}
-    for key, value in record.values.items():
+    for key, value in values.items():
         if isinstance(value, bool):
-            found[key] = int(value)
+            found[before + key] = int(value)
         elif isinstance(value, int):
-            found[key] = value if abs(value) < 2**31 else float(value)
+            found[before + key] = value if abs(value) < 2**31 else float(value)
         elif isinstance(value, (float, str)):
-            found[key] = value
-    return {**found, **said(record.warnings, record.references)}
+            found[before + key] = value
+        elif isinstance(value, Mapping):
+            found.update(plain_attributes(value, f"{before}{key}."))
+    return found
+
+
+def attributes(record: Any) -> dict[str, Any]:
+    """Numbers, warnings and references of a record as attributes."""
+    return {**plain_attributes(record.values), **said(record.warnings, record.references)}
 
 
 def said(warnings: Iterable[Any], references: Iterable[str]) -> dict[str, str]:
@@ -51,7 +58,25 @@ def _with_code(warning: Any) -> str:
     return f"{warning.text} [{warning.code}]" if isinstance(warning, Warning) else str(warning)
 
 
-class Record:
+class Shown(Named):
+    """Shows itself as headings and texts."""
+
+    def _lines(self) -> list[tuple[str, str]]:
+        raise NotImplementedError
+
+    def _title(self) -> str:
+        return type(self).__name__
+
+    def __repr__(self) -> str:
+        lines = self._lines()
+        width = max((len(heading) for heading, _ in lines), default=0)
+        return "\n".join([self._title()] + [f"  {heading:<{width}}  {text}" for heading, text in lines])
+
+    def _repr_html_(self) -> str:
+        return table_html(self._title(), self._lines())
+
+
+class Record(Shown):
     """A result that does not change. ``values`` has its numbers by the names that ``--json`` and
     result files give them, whose endings are the units.
 
@@ -66,10 +91,10 @@ class Record:
     @property
     def values(self) -> Mapping[str, Any]:
         """All numbers by name."""
-        found = self.__dict__.get("_values")
+        found: Values | None = self.__dict__.get("_values")
         if found is None:
-            found = self.__dict__["_values"] = self._record.values
-        return MappingProxyType(found)
+            found = self.__dict__["_values"] = Values(self._record.values, type(self).__name__)
+        return found
 
     @property
     def warnings(self) -> tuple[Warning, ...]:
@@ -98,14 +123,6 @@ class Record:
             value = self.values[key]
             lines.append((heading, _tabor.format_si(value, unit) if unit else f"{value:.4g}"))
         return lines + [("warning", warning.text) for warning in self.warnings]
-
-    def __repr__(self) -> str:
-        lines = self._lines()
-        width = max(len(heading) for heading, _ in lines)
-        return "\n".join([type(self).__name__] + [f"  {h:<{width}}  {t}" for h, t in lines])
-
-    def _repr_html_(self) -> str:
-        return table_html(type(self).__name__, self._lines())
 
 
 def table_html(title: str, lines: list[tuple[str, str]], picture: str = "") -> str:

@@ -61,7 +61,7 @@ def _records(results: Any) -> Sequence[Any]:
     """Records of one kind."""
     expected = "a Contact, Film, Friction or FluidFilm, or a list of one kind"
     if isinstance(results, Surface):
-        raise wrong("results", results, f"{expected}; Surface.write writes a surface")
+        raise wrong("results", results, f"{expected}; Surface.save writes a surface")
     if not isinstance(results, (Record, Iterable)) or isinstance(results, (str, bytes, Mapping)):
         raise wrong("results", results, expected)
     several = [results] if isinstance(results, Record) else list(results)

@@ -19,7 +19,7 @@ _Settings = TypeVar("_Settings")
 
 
 def is_surface(value: Any) -> bool:
-    """Whether this is a Surface, which this module knows nothing of."""
+    """True for a Surface, which this module knows nothing of."""
     return hasattr(value, "_topography")
 
 
@@ -78,7 +78,7 @@ class Setting(NamedTuple):
 
     @property
     def takes_surface(self) -> bool:
-        """Whether a Surface may stand in place of the name of a scan file."""
+        """True where a Surface may stand in place of the name of a scan file."""
         return self.name == "tool"
 
     @property

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import NoReturn, Unpack
+from typing import Any, NoReturn, Unpack
 
 import numpy as np
 
@@ -13,15 +13,18 @@ from ._arguments import Path
 from ._contact import NotConverged, Solid, _settings, solid_of
 from ._friction import film_settings, shear_settings
 from ._progress import Progress, watching
-from ._records import Warning, warnings_of
+from ._records import Warning, said, warnings_of
 from ._setting_types import SlideSettings
 from ._settings import CONTACT, DRY_BELOW, OWN_OF_SLIDE, RAIN, SHEAR, SLIDE, TRAPPED, complete, filled, takes
-from ._surface import Array, Surface
+from ._guesses import Named
+from ._maps import Array
+from ._optional import needs
+from ._surface import Surface
 from ._values import Value, si, si_list
 
 
 @dataclass(frozen=True)
-class Slide:
+class Slide(Named):
     """A sheet before, along and after sliding."""
 
     states: Mapping[str, Array]  #: numbers of the states by their keys, as of ``tabor slide --json``; docs/sliding.md
@@ -38,11 +41,43 @@ class Slide:
     references: tuple[str, ...]  #: to cite
     _slid: _tabor.Slid = field(repr=False, compare=False)
 
+    def to_xarray(self) -> Any:
+        """A Dataset with the numbers of the states and the spectra over ``distance``, and the kept maps over
+        ``kept_distance``, y and x, all with units; warnings and references are its attributes, so that it can be written
+        as NetCDF; needs xarray."""
+        xarray = needs("xarray", "to_xarray()")
+        m = {"units": "m"}
+        found: dict[str, Any] = {}
+        for key, values in self.states.items():
+            if key and key != "distance_m":
+                numbers = values.astype(np.int8) if values.dtype == bool else values
+                found[key] = ("distance", numbers, _units_of(key))
+        for axis in "xy":
+            rows = np.array([one[f"psd_{axis}_m3"] for one in self.spectra])
+            found[f"psd_{axis}"] = (("distance", f"q_{axis}"), rows, {"units": "m^3"})
+            found[f"psd_{axis}_before"] = (f"q_{axis}", self.before[f"psd_{axis}_m3"], {"units": "m^3"})
+        gaps = np.full(self.surface.shape, np.nan)
+        for name in dict.fromkeys(name for maps in self.maps.values() for name in maps):
+            layers = np.array([maps.get(name, gaps) for maps in self.maps.values()])
+            found[name] = (("kept_distance", "y", "x"), layers, {"units": "Pa" if "pressure" in name else "m"})
+        distance = self.states["distance_m"]
+        coords = {"distance": ("distance", distance, m), "kept_distance": ("kept_distance", distance[list(self.maps)], m),
+                  "x": ("x", self.surface.x, m), "y": ("y", self.surface.y, m),
+                  **{f"q_{axis}": (f"q_{axis}", self.before[f"q_{axis}_rad_per_m"], {"units": "rad/m"}) for axis in "xy"}}
+        facts = {"step_m": self.step, "steps": self.steps, "converged": int(self.converged)}
+        return xarray.Dataset(found, coords, {**facts, **said(self.warnings, self.references)})
+
     def __repr__(self) -> str:
         return f"<Slide: {_tabor.format_si(float(self.states['distance_m'][-1]), 'm')} in {self.steps} steps, {len(self.states['distance_m'])} states>"
 
     def __reduce__(self) -> NoReturn:
         raise TypeError("a Slide is not pickled: tabor.save writes it to a file")
+
+
+def _units_of(key: str) -> dict[str, str]:
+    """Unit at the end of the name of a number."""
+    ends = {"_m3_per_m2": "m", "_Pa": "Pa", "_m": "m"}
+    return next(({"units": unit} for end, unit in ends.items() if key.endswith(end)), {})
 
 
 def _case(solid: Solid, options: Mapping[str, object], density: float | None) -> _tabor.CaseSettings:

@@ -12,6 +12,7 @@ from typing import Any, Unpack
 from . import _tabor
 from ._arguments import Count, Path, typed, wrong
 from ._contact import Solid, solid_of
+from ._errors import InputFileNotFound, require_file
 from ._friction import Lubricant
 from ._friction_table import FrictionTable
 from ._optional import needs
@@ -106,6 +107,7 @@ class Study:
     @typed
     def read(cls, file: Path) -> Study:
         """A study file of ``tabor sweep``. Raises ValueError with file, line and key."""
+        require_file(file)
         study = cls.__new__(cls)
         study._study = _tabor.read_study(os.fspath(file))
         study._file = pathlib.Path(file)
@@ -184,7 +186,7 @@ class Results:
                  warnings: tuple[str, ...] = ()) -> None:
         self.folder = pathlib.Path(folder)
         if not (self.folder / "results.csv").is_file():
-            raise ValueError(f"{self.folder}: no results.csv; expected a folder of Study.run or tabor sweep")
+            raise InputFileNotFound(f"{self.folder}: no results.csv; expected a folder of Study.run or tabor sweep", str(self.folder))
         told, failures = (outcome.warnings, outcome.failures) if outcome else self._remarks()
         self.warnings: tuple[str, ...] = (*warnings, *told)
         self.failures: tuple[str, ...] = tuple(failures)

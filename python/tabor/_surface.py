@@ -4,149 +4,32 @@ from __future__ import annotations
 
 import base64
 import os
-import struct
-import sys
 import threading
-import zlib
-from collections.abc import Iterable, Mapping
-from types import MappingProxyType
-from typing import Any, NamedTuple, Unpack
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any, Self, Unpack
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _tabor
-from ._arguments import Axes, Path, texts, typed, wrong
-from ._foreign import Carried, Foreign, carried, foreign, spacing
-from ._optional import needs
+from ._arguments import Axes, File, Path, texts, typed, wrong
+from ._errors import require_file
+from ._files import name_of, named_file
+from ._foreign import Carried, Foreign, foreign
+from ._heights import Array, checked, in_metres, pixel_sides, require_spacing
+from ._maps import Map, Window, map_to_xarray, plot_map, thumbnail
+from ._operators import Operators, part_of
+from ._parameters import Parameter, Parameters, selected
 from ._progress import Progress, watching
-from ._records import Warning, said, table_html, warnings_of
+from ._records import Shown, Warning, said, table_html, warnings_of
+from ._section import Section, point_of, section_of
 from ._setting_types import ReadSettings, TreatmentSteps
 from ._settings import READ, complete, filled, takes
-from ._values import Value, in_si, is_labelled, is_quantity, optional_si, si, si_list
+from ._spectra import Spectra, Spectrum
+from ._state import attributes_of, state_of
+from ._values import Value, in_si, is_quantity, optional_si
 
-Array = npt.NDArray[np.float64]
 _STEPS = {name: (argument, text) for name, argument, text in _tabor.treatment_steps()}
-
-
-class Parameter(NamedTuple):
-    """A roughness parameter with everything that is needed to compare it with another program's."""
-
-    symbol: str
-    value: float  #: SI; NaN where it does not exist
-    unit: str
-    definition: str
-    note: str
-    set: str
-
-
-class Parameters(tuple[Parameter, ...]):
-    """Parameters in their order, also by symbol: ``parameters["Sq"].value``."""
-
-    def __getitem__(self, key: Any) -> Any:
-        if not isinstance(key, str):
-            return super().__getitem__(key)
-        for one in self:
-            if one.symbol == key:
-                return one
-        raise KeyError(key)
-
-    def __repr__(self) -> str:
-        return "\n".join(f"{one.symbol:<8} {one.value:<14.6g} {one.unit:<6} {one.definition}" for one in self)
-
-    def _repr_html_(self) -> str:
-        return table_html("Parameters", [(one.symbol, f"{one.value:.6g} {one.unit}   {one.definition}")
-                                         for one in self])
-
-
-class Spectrum(NamedTuple):
-    """A power spectral density over wavevectors q = 2 pi / wavelength."""
-
-    q: Array  #: [rad/m], rising
-    density: Array  #: in ``unit``
-    unit: str  #: "m^3" or "m^4"
-    hurst: float  #: fitted exponent; NaN where there is none
-    hurst_standard_error: float  #: of it, between surfaces of one random kind
-
-    @typed
-    def plot(self, ax: Axes = None, **style: Any) -> Any:
-        """Draws it with logarithmic axes; needs matplotlib. Returns the axes."""
-        ax = ax or needs("matplotlib.pyplot", "plot()").gca()
-        ax.loglog(self.q, self.density, **style)
-        ax.set_xlabel("q [rad/m]")
-        ax.set_ylabel(f"density [{self.unit}]")
-        return ax
-
-
-class Spectra(NamedTuple):
-    """Spectra along x, along y and averaged over rings."""
-
-    x: Spectrum
-    y: Spectrum
-    radial: Spectrum
-    window: str  #: the taper that was used
-    warnings: tuple[Warning, ...]  #: reasons to doubt the exponents
-
-    @typed
-    def plot(self, ax: Axes = None) -> Any:
-        """Draws the radial one; needs matplotlib. Returns the axes."""
-        return self.radial.plot(ax)
-
-
-def pixel_sides(pixel: Any) -> tuple[float, float]:
-    """Sides of a pixel along x and y [m], of one value or two."""
-    lengths, _ = si_list(pixel, "length", "pixel")
-    if len(lengths) > 2:
-        raise ValueError(f"pixel: got {len(lengths)} lengths; expected one, or two for x and y")
-    for length in lengths:
-        if not 0 < length < np.inf:
-            raise ValueError(f"pixel: got {length:g} m; expected a length above zero")
-    return lengths[0], lengths[-1]
-
-
-def _in_metres(z: Any, unit: str | None) -> Any:
-    """Heights in metres, by their own unit or the one that is given; ValueError where these contradict each other."""
-    z, own, name, is_si = Carried(z.height, 1.0, "m", True) if isinstance(z, Surface) else carried(z)
-    given = None if unit is None else _tabor.parse_si(f"1 {unit}", "length", "unit")
-    if given is not None and own is not None and not abs(given - own) <= 1e-9 * given:
-        raise ValueError(f"unit: got {unit!r} for heights that say they are in {name!r}; leave it out")
-    factor = 1.0 if is_si else own if own is not None else given
-    heights = _heights(z)
-    return heights if factor is None or factor == 1.0 else heights * factor
-
-
-def _require_spacing(z: Any, pixel: tuple[float, float]) -> None:
-    """ValueError where an array of xarray has other coordinates."""
-    for axis, side in zip("xy", pixel) if is_labelled(z) else ():
-        own = spacing(z, axis)
-        if own is not None and abs(own - side) > 1e-6 * side:
-            raise ValueError(f"pixel: got {side:g} m along {axis} for an array whose coordinates are {own:g} m apart; "
-                             "leave it out")
-
-
-def _is_masked(z: Any) -> bool:
-    """Asked without loading numpy.ma, which takes a while and locks that a copy of the process may find taken."""
-    masked = getattr(sys.modules.get("numpy.ma"), "MaskedArray", None)
-    return masked is not None and isinstance(z, masked)
-
-
-def _heights(z: Any) -> Array:
-    if _is_masked(z):
-        if z.dtype.kind not in "fiu":
-            raise TypeError(f"heights: got an array of {z.dtype}; expected real numbers")
-        z = np.ma.filled(z.astype(np.float64), np.nan)
-    try:
-        heights = np.asarray(z)
-    except Exception as error:
-        raise TypeError(f"heights: got {type(z).__name__} that is no array; expected real numbers") from error
-    if heights.dtype.kind not in "fiu":
-        raise TypeError(f"heights: got an array of {heights.dtype}; expected real numbers")
-    if heights.ndim != 2 or heights.size == 0:
-        raise ValueError(f"heights: got shape {heights.shape}; expected (ny, nx), row 0 on top")
-    heights = np.ascontiguousarray(heights, dtype=np.float64)
-    if np.isinf(heights).any():
-        raise ValueError("heights: got an infinite height; expected numbers, NaN where there is none")
-    return heights
 
 
 _looking = threading.Lock()  #: one thread at a time looks at heights that were handed over
@@ -161,13 +44,14 @@ def _renew_lock() -> None:
 os.register_at_fork(after_in_child=_renew_lock)
 
 
-class Surface(TreatmentSteps):
+class Surface(Shown, Operators, TreatmentSteps):
     """A height map that does not change; treatments return new ones.
 
     Parameters
     ----------
     z : array_like, shape (ny, nx)
-        Heights [m], row 0 on top, asperities up, NaN or masked where there is none. C-ordered float64
+        Heights [m], row 0 on top, asperities up, NaN or masked where there is none; or a Surface, which is taken
+        with its grid, history and edges. C-ordered float64
         is copied once, anything else is converted first. A quantity of pint, astropy or unyt, or an array of
         xarray with the attribute ``units``, is taken in its own unit. Without ``pixel``: a surface of
         SurfaceTopography, surfalize or gwyfile, or an array of xarray with coordinates x and y and units.
@@ -203,7 +87,11 @@ class Surface(TreatmentSteps):
 
     @typed
     def __init__(self, z: Any, *, pixel: Value | tuple[Value, Value] | None = None, unit: str | None = None,
-                 periodic: bool = False, name: str = "array") -> None:
+                 periodic: bool = False, name: str | None = None) -> None:
+        if isinstance(z, Surface) and pixel is None and unit in (None, "m") and not periodic:
+            same = z if name is None else z._named(name)
+            self.__dict__.update(_heights=same._heights, _is_looked_at=same._is_looked_at, _sha256=same._sha256)
+            return
         if pixel is None:
             other = Foreign(z.height, z.pixel, "m", z.periodic) if isinstance(z, Surface) else foreign(z)
             if other is None:
@@ -213,12 +101,50 @@ class Surface(TreatmentSteps):
                 raise ValueError(f"unit: got {unit!r} for heights that say they are in {other.unit!r}; leave it out")
             z, pixel, unit, periodic = *other[:3], periodic or other.periodic
         dx, dy = pixel_sides(pixel)
-        _require_spacing(z, (dx, dy))
-        heights = _in_metres(z, unit)
-        self.__dict__.update(_heights=_tabor.make_surface(heights, dx, dy, periodic, name), _is_looked_at=False, _sha256="")
+        require_spacing(z, (dx, dy))
+        heights = in_metres(Carried(z.height, 1.0, "m", True) if isinstance(z, Surface) else z, unit)
+        made = _tabor.make_surface(heights, dx, dy, periodic, "array" if name is None else name)
+        self.__dict__.update(_heights=made, _is_looked_at=False, _sha256="")
 
     @classmethod
-    def _of(cls, topography: _tabor.Topography, sha256: str = "") -> Surface:
+    @typed
+    def from_array(cls, z: Any, pixel: Value | tuple[Value, Value], *, unit: str | None = None, periodic: bool = False,
+                   name: str | None = None) -> Self:
+        """A surface of an array of heights; the arguments are those of ``Surface``.
+
+        Examples
+        --------
+        >>> import numpy as np, tabor as tb
+        >>> tb.Surface.from_array(np.zeros((4, 8)), "1 um").lengths
+        (8e-06, 4e-06)
+        """
+        return cls(z, pixel=pixel, unit=unit, periodic=periodic, name=name)
+
+    @classmethod
+    @typed
+    def from_xarray(cls, array: Any) -> Self:
+        """A surface of an array of xarray, shape (ny, nx) or (nx, ny), with coordinates x and y and units. One that
+        ``to_xarray`` made comes back with its history, edges, source and warnings.
+
+        Raises
+        ------
+        TypeError
+            For anything but a DataArray.
+        ValueError
+            Without coordinates and units, and where the coordinates are not evenly spaced.
+        """
+        if not all(hasattr(array, name) for name in ("dims", "coords", "transpose", "attrs", "values")):
+            raise wrong("array", array, "a DataArray of xarray with coordinates x and y and units")
+        plain = cls(array)
+        state = state_of(array.attrs, plain._heights.__getstate__()[1])
+        if state is None:
+            return plain
+        whole = _tabor.Topography.__new__(_tabor.Topography)
+        whole.__setstate__((plain.height, state))
+        return cls._of(whole)
+
+    @classmethod
+    def _of(cls, topography: _tabor.Topography, sha256: str = "") -> Self:
         surface = cls.__new__(cls)
         surface.__dict__.update(_heights=topography, _is_looked_at=True, _sha256=sha256)
         return surface
@@ -232,6 +158,14 @@ class Surface(TreatmentSteps):
                     _tabor.look_at(self._heights)
                     self.__dict__["_is_looked_at"] = True
         return self._heights
+
+    def _named(self, name: str) -> Surface:
+        return Surface._of(_tabor.from_source(self._topography, name), self._sha256)
+
+    def _derived(self, heights: Array, note: str, second: Any = None) -> Self:
+        """With other heights on the same grid; ``second`` is the surface that took part."""
+        kept = _tabor.with_heights(self._topography, checked(heights), note, None if second is None else second._topography)
+        return type(self)._of(kept)
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError("a Surface does not change")
@@ -257,15 +191,76 @@ class Surface(TreatmentSteps):
         return ny, nx
 
     @property
-    def size(self) -> tuple[float, float]:
-        """Sides along x and y [m]."""
+    def ndim(self) -> int:
+        """2, as an array of heights has."""
+        return 2
+
+    @property
+    def size(self) -> int:
+        """Number of pixels, as of an array; ``lengths`` are the sides."""
+        return self.height.size
+
+    def __len__(self) -> int:
+        """Number of rows."""
+        return self.shape[0]
+
+    __iter__ = None  # a surface is no list of rows: surface.height is
+
+    def __getitem__(self, index: Any) -> Surface:
+        """``surface[10:200, 5:100]`` is the part with the rows 10 to 199 and the columns 5 to 99, as ``crop`` makes it:
+        on the same pixels, with its history. Raises ValueError for a step and for a part without pixels, TypeError for
+        anything but slices."""
+        x0, y0, nx, ny = part_of(index, self.shape)
+        if (ny, nx) == self.shape:
+            return self
+        return self.treat(f"crop={x0},{y0},{nx},{ny}")
+
+    @property
+    def lengths(self) -> tuple[float, float]:
+        """Sides (lx, ly) of the surface [m]."""
         return self._heights.lx, self._heights.ly
 
     @property
     def pixel(self) -> tuple[float, float]:
-        """Sides of a pixel along x and y [m]."""
+        """Sides (dx, dy) of a pixel [m]."""
         ny, nx = self.shape
         return self._heights.lx / nx, self._heights.ly / ny
+
+    @property
+    def dx(self) -> float:
+        """Side of a pixel along x [m]."""
+        return self.pixel[0]
+
+    @property
+    def dy(self) -> float:
+        """Side of a pixel along y [m]."""
+        return self.pixel[1]
+
+    @property
+    def x(self) -> Array:
+        """Centres of the columns [m], shape (nx,), from the left edge."""
+        return (np.arange(self.shape[1], dtype=np.float64) + 0.5) * self.dx
+
+    @property
+    def y(self) -> Array:
+        """Centres of the rows [m], shape (ny,), from the upper edge."""
+        return (np.arange(self.shape[0], dtype=np.float64) + 0.5) * self.dy
+
+    @property
+    def extent(self) -> tuple[float, float, float, float]:
+        """(left, right, bottom, top) [m], as ``imshow`` of matplotlib takes it for a map whose row 0 is on top."""
+        lx, ly = self.lengths
+        return 0.0, lx, ly, 0.0
+
+    @property
+    def unit(self) -> str:
+        """Unit of heights and lengths: "m"."""
+        return "m"
+
+    @property
+    def mask(self) -> npt.NDArray[np.bool_]:
+        """True at holes, shape (ny, nx)."""
+        return np.isnan(self.height)
 
     @property
     def periodic(self) -> bool:
@@ -283,8 +278,14 @@ class Surface(TreatmentSteps):
         return self._heights.source
 
     @property
+    def name(self) -> str:
+        """Name of its file without folders, or the one it was given."""
+        is_file = self.format not in ("array", "generated")
+        return os.path.basename(self.source) if is_file else self.source
+
+    @property
     def format(self) -> str:
-        """Of its file, as in ``tabor formats``; "array" if it is from none."""
+        """Format of its file, as in ``tabor formats``; "array" if it is from none."""
         return self._heights.format
 
     @property
@@ -310,19 +311,75 @@ class Surface(TreatmentSteps):
             return Surface._of(_tabor.apply(self._topography, list(steps), told), self._sha256)
 
     @typed
+    def apply(self, function: Callable[[Array], Any], note: str | None = None) -> Surface:
+        """A surface with the heights that a function makes of these, on the same grid; it keeps edges and history.
+
+        Parameters
+        ----------
+        function : takes heights [m], shape (ny, nx), NaN where there is none, and returns as many.
+        note : what the history says [the name of the function].
+
+        Raises
+        ------
+        TypeError
+            For what is no function, and for what it returns if that is no array of real numbers.
+        ValueError
+            Where it returns another shape or infinite heights.
+
+        Examples
+        --------
+        >>> import numpy as np, tabor as tb
+        >>> rough = tb.generate("edt", pixels=64, seed=1)
+        >>> rough.apply(lambda z: np.clip(z, -1e-6, 1e-6), "clip to 1 um").history[-1]
+        'clip to 1 um'
+        """
+        if not callable(function):
+            raise wrong("function", function, "a function of an array of heights")
+        made = checked(function(self.height.copy()), "heights that the function returns")
+        if made.shape != self.shape:
+            raise ValueError(f"heights that the function returns: got shape {made.shape}; expected {self.shape}")
+        return self._derived(made, note or str(getattr(function, "__name__", "apply")))
+
+    @typed
+    def section(self, p: Iterable[Value], q: Iterable[Value]) -> Section:
+        """Heights along the line from p to q, linear between pixel centres.
+
+        Parameters
+        ----------
+        p, q : points (x, y) [m] from the upper left corner, ("10 um", "5 um").
+
+        Raises
+        ------
+        ValueError
+            For points that are not on the surface, and for one point twice.
+
+        Examples
+        --------
+        >>> import tabor as tb
+        >>> rough = tb.generate("edt", pixels=64, pixel="1 um", seed=1)
+        >>> rough.section(("0 um", "32 um"), ("64 um", "32 um")).height.shape
+        (65,)
+        """
+        start, end = (point_of(one, name, self.lengths) for name, one in (("p", p), ("q", q)))
+        return section_of(self.height, self.pixel, start, end)
+
+    @typed
     def parameters(self, symbols: Iterable[str] | None = None, *, progress: Progress = None) -> Parameters:
         """Roughness parameters of the surface as it is (ISO 25178-2 and others, docs/parameters.md), all
-        or those named. Level before. Raises ValueError for an unknown symbol."""
+        or those named. Level before.
+
+        Parameters
+        ----------
+        symbols : "Sa", or a list; a set stands for all of its parameters: "height", "spatial", "hybrid", ...
+
+        Raises
+        ------
+        ValueError
+            For an unknown symbol, with the nearest.
+        """
         with watching(progress) as told:
             every = Parameters(Parameter(*row) for row in _tabor.parameters(self._topography, told))
-        if symbols is None:
-            return every
-        wanted = texts(symbols, "symbols")
-        known = {one.symbol: one for one in every}
-        for symbol in wanted:
-            if symbol not in known:
-                raise ValueError(f"symbols: got {symbol!r}; expected some of {', '.join(known)}")
-        return Parameters(known[symbol] for symbol in wanted)
+        return every if symbols is None else selected(every, texts(symbols, "symbols"))
 
     @typed
     def psd(self, convention: str = "jacobs", window: str | None = None, *, fit_min: Value | None = None,
@@ -346,20 +403,28 @@ class Surface(TreatmentSteps):
         return Spectra(x, y, radial, found["window"], warnings_of(found["warnings"]))
 
     @typed
-    def write(self, file: Path) -> None:
+    def save(self, file: Path) -> None:
         """Writes a scan file by its extension (docs/formats.md). Raises ValueError for an extension that
         no format has, OSError where it cannot be written."""
         _tabor.write(self._topography, os.fspath(file))
 
     def to_xarray(self) -> Any:
-        """The heights as a DataArray with coordinates x and y [m], warnings as its attribute, to be written as
-        NetCDF; needs xarray."""
-        return map_to_xarray(self, self.height, "height", "m", {"source": self.source, **said(self.warnings, ())})
+        """The heights as a DataArray with coordinates x and y [m] and, as attributes, what ``from_xarray`` needs to make
+        the same surface again: history, edges, source, warnings. Its file of NetCDF keeps them; needs xarray."""
+        facts = attributes_of(self._topography.__getstate__()[1])
+        return map_to_xarray(self, self.height, "height", "m", {**facts, **said(self.warnings, ())})
 
     @typed
-    def plot(self, ax: Axes = None) -> Any:
-        """Draws the heights; needs matplotlib. Returns the axes."""
-        return plot_map(self, self.height, "height [m]", ax)
+    def plot(self, ax: Axes = None, *, window: Window = None, cmap: str | None = None) -> Any:
+        """Draws the heights in µm; needs matplotlib. Returns the axes.
+
+        Parameters
+        ----------
+        ax : axes of matplotlib [the current ones].
+        window : part that is shown: x0, y0, width and height [m] from the upper left corner [all].
+        cmap : name of a colour map of matplotlib [that of its settings].
+        """
+        return plot_map(self, Map(self.height, "m", "height"), ax, window, cmap)
 
     def _lines(self) -> list[tuple[str, str]]:
         ny, nx = self.shape
@@ -369,9 +434,6 @@ class Surface(TreatmentSteps):
                  ("heights", "in m, all there" if not self.n_holes else f"in m, {self.n_holes} holes")]
         lines += [("step", step) for step in self.history]
         return lines + [("warning", warning.text) for warning in self.warnings]
-
-    def __repr__(self) -> str:
-        return "\n".join(["Surface"] + [f"  {heading:<8} {text}" for heading, text in self._lines()])
 
     def _repr_html_(self) -> str:
         return table_html("Surface", self._lines(), base64.b64encode(thumbnail(self.height)).decode())
@@ -390,7 +452,8 @@ def _step_text(value: Any, step: str) -> str:
 
 def _add_step(name: str, argument: str, text: str) -> None:
     def with_argument(self: Surface, *values: Any, progress: Progress = None) -> Surface:
-        words = ",".join(_step_text(value, name) for value in values)
+        several = values[0] if len(values) == 1 and isinstance(values[0], (tuple, list)) else values
+        words = ",".join(_step_text(value, name) for value in several)
         return self.treat(f"{name}={words}" if words else name, progress=progress)
 
     def plain(self: Surface, *, progress: Progress = None) -> Surface:
@@ -409,19 +472,21 @@ for _name, (_argument, _text) in _STEPS.items():
 
 
 @takes(READ)
-def read(file: Path, *, channel: str | int | None = None, progress: Progress = None, **settings: Unpack[ReadSettings]) -> Surface:
+def read(file: File, *, channel: str | int | None = None, progress: Progress = None, **settings: Unpack[ReadSettings]) -> Surface:
     """Reads a scan file, recognised by its content (docs/formats.md).
 
     Parameters
     ----------
-    file : its name.
+    file : its name, or an open binary file.
     **settings
     progress : see ``tabor.Progress``.
 
     Raises
     ------
     ValueError
-        What is wrong with the file, or which of these it leaves open. A file that does not exist, too.
+        What is wrong with the file, or which of these it leaves open.
+    InputFileNotFound
+        Where there is no such file; a FileNotFoundError and a ValueError.
     """
     options = _tabor.ReadOptions()
     values = complete(READ, {**settings, "channel": None if channel is None else str(channel)})
@@ -429,48 +494,7 @@ def read(file: Path, *, channel: str | int | None = None, progress: Progress = N
     if pixel is not None:
         options.pixel_x, options.pixel_y = pixel_sides(pixel)
     filled(options, values)
-    with watching(progress) as told:
-        return Surface._of(*_tabor.read(os.fspath(file), options, told))
-
-
-def coordinates(surface: Surface) -> tuple[Array, Array]:
-    """Centres of the columns and of the rows [m], from the upper left corner."""
-    (ny, nx), (dx, dy) = surface.shape, surface.pixel
-    return (np.arange(nx, dtype=np.float64) + 0.5) * dx, (np.arange(ny, dtype=np.float64) + 0.5) * dy
-
-
-def map_to_xarray(surface: Surface, values: Array, name: str, unit: str,
-                  attributes: Mapping[str, Any] = MappingProxyType({})) -> Any:
-    """A map as a DataArray."""
-    xarray = needs("xarray", "to_xarray()")
-    x, y = coordinates(surface)
-    found = xarray.DataArray(values, {"y": y, "x": x}, ("y", "x"), name, {"units": unit, **attributes})
-    found.x.attrs["units"] = found.y.attrs["units"] = "m"
-    return found
-
-
-def plot_map(surface: Surface, values: Array, label: str, ax: Any) -> Any:
-    """A map as a picture with its scale."""
-    ax = ax or needs("matplotlib.pyplot", "plot()").gca()
-    lx, ly = surface.size
-    image = ax.imshow(values, extent=(0, lx * 1e6, ly * 1e6, 0))
-    ax.set_xlabel("x [um]")
-    ax.set_ylabel("y [um]")
-    ax.figure.colorbar(image, ax=ax, label=label)
-    return ax
-
-
-def thumbnail(values: Array, side: int = 128) -> bytes:
-    """A grey PNG of at most side x side pixels, from the 1st to the 99th percentile; holes are black."""
-    step = max(1, -(-max(values.shape) // side))
-    small = values[::step, ::step]
-    known = small[np.isfinite(small)]
-    low, high = np.percentile(known, [1, 99]) if known.size else (0.0, 1.0)
-    share = np.clip((small - low) / (high - low if high > low else 1.0), 0, 1)
-    grey = np.where(np.isfinite(share), 32 + 223 * np.nan_to_num(share), 0).astype(np.uint8)
-    rows = b"".join(b"\0" + row.tobytes() for row in grey)
-    head = struct.pack(">IIBBBBB", grey.shape[1], grey.shape[0], 8, 0, 0, 0, 0)
-    chunks = [(b"IHDR", head), (b"IDAT", zlib.compress(rows)), (b"IEND", b"")]
-    return b"\x89PNG\r\n\x1a\n" + b"".join(
-        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-        for kind, data in chunks)
+    with watching(progress) as told, named_file(file) as path:
+        require_file(path)
+        found = Surface._of(*_tabor.read(os.fspath(path), options, told))
+    return found if path is file else found._named(name_of(file))

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import json
 import pathlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from . import _tabor
+from ._arguments import Axes, Path, typed
+from ._guesses import missing_key
+from ._maps import Array
 from ._optional import needs
-from ._arguments import Path, typed
-from ._records import Warning, said, table_html, warnings_of
-from ._surface import Array
+from ._records import Shown, Warning, said, warnings_of
 
 
 class Limit(NamedTuple):
@@ -23,7 +24,7 @@ class Limit(NamedTuple):
     order: float  #: p of the error ~ spacing^p that they show; NaN where the number does not depend on the grid
 
 
-class Sweep:
+class Sweep(Shown):
     """What was found out about a case with each combination of some values, the last one fastest. It does not
     change."""
 
@@ -76,11 +77,63 @@ class Sweep:
 
     def __getitem__(self, key: str) -> Array:
         """One number of all cases, in the shape of the axes, NaN where a case has none; "wear.mean_depth_m" is
-        that of a table inside. Raises KeyError for what no case has."""
+        that of a table inside. Raises KeyError for what no case has, with the nearest name."""
+        found = self._column(key)
+        if found is None:
+            raise missing_key("Sweep", key, self.keys())
+        return found
+
+    def __getattr__(self, name: str) -> Any:
+        """``sweep.central_film_m`` is ``sweep["central_film_m"]``."""
+        found = None if name.startswith("_") or "rows" not in self.__dict__ else self._column(name)
+        return super().__getattr__(name) if found is None else found
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *(key for key in self.keys() if key.isidentifier())]
+
+    def keys(self) -> tuple[str, ...]:
+        """Names of the numbers of the cases, those of tables inside with a dot."""
+        return tuple(dict.fromkeys(key for row in self.rows for key in _names(row)))
+
+    def _column(self, key: str) -> Array | None:
         found = [_inside(row, key) for row in self.rows]
-        if all(one is None for one in found):
-            raise KeyError(key)
+        if all(one is None for one in found) or any(isinstance(one, (str, tuple, list, Mapping)) for one in found):
+            return None
         return np.array([np.nan if one is None else one for one in found], dtype=np.float64).reshape(self.shape)
+
+    @typed
+    def plot(self, field: str | None = None, ax: Axes = None, **style: Any) -> Any:
+        """Draws one number over the first axis, a line for each combination of the others; needs matplotlib. Returns
+        the axes.
+
+        Parameters
+        ----------
+        field : name of the number, "central_film_m" [the first of ``columns``].
+        ax : axes of matplotlib [the current ones].
+        style : of the lines, as ``Axes.plot`` takes it.
+
+        Raises
+        ------
+        ValueError
+            For a number that no case has, with the nearest name.
+        """
+        key = self.columns[0][0] if field is None else field
+        if self._column(key) is None:
+            raise ValueError(f"field: {missing_key('Sweep', key, self.keys())}")
+        (first, values), *others = self.axes.items()
+        lines = self[key].reshape(len(values), -1)
+        ax = ax or needs("matplotlib.pyplot", "plot()").gca()
+        for line, place in zip(lines.T, np.ndindex(*(len(many) for _, many in others))):
+            said_by = ", ".join(f"{name} = {_text(many[i])}" for (name, many), i in zip(others, place))
+            ax.plot(_coordinate(values), line, **{"label": said_by or None, "marker": ".", **style})
+        if not any(isinstance(one, str) for one in values) and min(values) > 0 and max(values) >= 10 * min(values):
+            ax.set_xscale("log")
+        heading, unit = next(((text, unit) for name, text, unit in self.columns if name == key), (key, ""))
+        ax.set_xlabel(first)
+        ax.set_ylabel(f"{heading or key} [{unit}]" if unit else heading or key)
+        if others:
+            ax.legend()
+        return ax
 
     @property
     def table(self) -> Any:
@@ -107,14 +160,6 @@ class Sweep:
                   for key, limit in self.limits.items() if np.isfinite(limit.value)]
         return [*lines, ("converged", f"{good} of {len(self.rows)}"), *(("warning", warning.text) for warning in self.warnings)]
 
-    def __repr__(self) -> str:
-        lines = self._lines()
-        width = max(len(heading) for heading, _ in lines)
-        return "\n".join(["Sweep"] + [f"  {heading:<{width}}  {text}" for heading, text in lines])
-
-    def _repr_html_(self) -> str:
-        return table_html("Sweep", self._lines())
-
 
 def _coordinate(values: tuple[Any, ...]) -> list[Any]:
     """Of one type: words, where there is one."""
@@ -132,3 +177,16 @@ def _inside(row: Mapping[str, Any], key: str) -> Any:
     table, _, rest = key.partition(".")
     inner = row.get(table)
     return _inside(inner, rest) if rest and isinstance(inner, Mapping) else None
+
+
+def _text(value: Any) -> str:
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def _names(row: Mapping[str, Any], before: str = "") -> Iterator[str]:
+    """Names of the numbers of a row."""
+    for key, value in row.items():
+        if isinstance(value, Mapping):
+            yield from _names(value, f"{before}{key}.")
+        elif isinstance(value, (bool, int, float)):
+            yield before + key

@@ -14,8 +14,8 @@ import json
 import math
 import os
 import pathlib
+import tempfile
 from collections.abc import Iterable, Iterator, Mapping
-from types import MappingProxyType
 from typing import Any, NamedTuple, Union
 
 import numpy as np
@@ -23,8 +23,12 @@ import numpy as np
 from . import _tabor
 from ._arguments import Count, Path, Seed, mapping, path, typed, wrong
 from ._contact import NotConverged
+from ._errors import require_file
+from ._groups import Column, columns_of
+from ._guesses import Named, Values, missing_name
+from ._optional import needs
 from ._progress import Progress, watching
-from ._records import Warning, table_html, warnings_of
+from ._records import Shown, Warning, plain_attributes, said, warnings_of
 from ._sweep import Limit, Sweep
 from ._values import in_unit, is_labelled
 
@@ -48,23 +52,23 @@ class Key(NamedTuple):
     meaning: str
 
 
-class Solution:
+class Solution(Shown):
     """What was found out about a case. It does not change."""
 
-    values: Mapping[str, Any]  #: numbers by the names of ``--json``, whose endings are the units; tables as dicts
     facts: tuple[tuple[str, str], ...]  #: the same for people
     warnings: tuple[Warning, ...]  #: reasons to doubt them
     references: tuple[str, ...]  #: what to cite
     converged: bool
+    program: str  #: "impact", "squeeze", "line" or "point"
 
     def __init__(self, solved: _tabor.SolvedCase, program: str) -> None:
         self.__dict__.update(_solved=solved, program=program, _values=json.loads(solved.json), warnings=warnings_of(solved.warnings),
                              facts=tuple(solved.facts), references=tuple(solved.references), converged=solved.converged)
 
-    def __getattr__(self, name: str) -> Any:
-        if name == "values":
-            return MappingProxyType(self.__dict__["_values"])
-        raise AttributeError(f"a Solution has no {name}")
+    @property
+    def values(self) -> Mapping[str, Any]:
+        """Numbers by the names of ``--json``, whose endings are the units; tables as dicts."""
+        return Values(self.__dict__["_values"], "Solution")
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError("a Solution does not change")
@@ -83,19 +87,38 @@ class Solution:
             raise ValueError("save: histories and profiles do not travel with a pickle; save it where it is solved")
         self._solved.save(pathlib.Path(file))
 
+    def _all_columns(self) -> Mapping[str, Column]:
+        """Histories, profiles and maps as the file of ``save`` has them."""
+        found: Mapping[str, Column] | None = self.__dict__.get("_columns")
+        if found is None:
+            if self._solved is None:
+                raise ValueError("to_xarray: histories and profiles do not travel with a pickle; take them where it is solved")
+            h5py = needs("h5py", "to_xarray()")
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder, "solution.h5")
+                self.save(path)
+                with h5py.File(path) as file:
+                    found = self.__dict__["_columns"] = columns_of(file)
+        return found
+
+    def to_xarray(self) -> Any:
+        """Histories, profiles and maps as a Dataset with units, ``contact_film`` over ``contact_y`` and ``contact_x``,
+        numbers and warnings as its attributes, to be written as NetCDF; needs xarray and h5py. Raises ValueError for a
+        solution that came out of a pickle, which has its numbers alone."""
+        xarray = needs("xarray", "to_xarray()")
+        columns = {name: (one.dims, one.values, dict(one.attributes)) for name, one in self._all_columns().items()}
+        coords = {name: one for name, one in columns.items() if one[0] == (name,)}
+        return xarray.Dataset({name: one for name, one in columns.items() if name not in coords}, coords,
+                              {**plain_attributes(self.values), **said(self.warnings, self.references)})
+
     def _lines(self) -> list[tuple[str, str]]:
         return [*self.facts, *(("warning", warning.text) for warning in self.warnings)]
 
-    def __repr__(self) -> str:
-        lines = self._lines()
-        width = max(len(heading) for heading, _ in lines)
-        return "\n".join([f"Solution of ehl {self.program}"] + [f"  {h:<{width}}  {t}" for h, t in lines])
-
-    def _repr_html_(self) -> str:
-        return table_html(f"Solution of ehl {self.program}", self._lines())
+    def _title(self) -> str:
+        return f"Solution of ehl {self.program}"
 
 
-class Case:
+class Case(Named):
     """A case that can be solved, and pickled for process pools. Raises ValueError for one that makes no sense: keys that
     are unknown or missing, values out of range or of another dimension."""
 
@@ -111,7 +134,8 @@ class Case:
         elif isinstance(source, Template):
             self._case = _tabor.parse_case(program, source, "case", overrides)
         else:
-            self._case = _tabor.read_case(program, os.fspath(path(source, "case")), overrides)
+            require_file(path(source, "case"))
+            self._case = _tabor.read_case(program, os.fspath(source), overrides)
         self.program = program
         self._name = "case" if isinstance(source, (Mapping, Template)) else os.path.abspath(source)
 
@@ -281,3 +305,17 @@ def keys(program: str) -> tuple[Key, ...]:
 def template(program: str) -> Template:
     """A case to start from, with every key there is."""
     return Template(_tabor.case_template(program))
+
+for _class in (Limit, Sweep):
+    _class.__module__ = "tabor.ehl"
+del _class
+
+
+def __getattr__(name: str) -> object:
+    if name.startswith("_"):
+        raise AttributeError(f"module 'tabor.ehl' has no attribute {name!r}", name=name)
+    raise missing_name("tabor.ehl", name, __all__)
+
+
+def __dir__() -> list[str]:
+    return list(__all__)

@@ -22,8 +22,9 @@ WRONG = [None, object(), True, 1.5, -1, 0, 2**70, float("nan"), float("inf"), 1j
 
 #: Classes that the package makes and a user does not.
 MADE_BY_TABOR = {"Combination", "Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction", "FrictionEntry",
-                 "Material", "NotConverged", "Parameter", "Parameters", "Plateau", "Progress", "Report", "Slide", "Spectra", "Spectrum",
-                 "Volume", "Warning", "ehl.Key", "ehl.Limit", "ehl.Solution", "ehl.Sweep", "ehl.Template"}
+                 "InputError", "InputFileNotFound", "OutputError",
+                 "Material", "NameNotFound", "NotConverged", "Parameter", "Parameters", "Plateau", "Progress", "Report", "Section", "Slide", "Spectra", "Spectrum",
+                 "Value", "Volume", "ehl.Key", "ehl.Limit", "ehl.Solution", "ehl.Sweep", "ehl.Template"}
 
 
 @functools.cache
@@ -35,7 +36,7 @@ def things():
     film = tb.rain(surface, "0.45 g/m^2")
     case = tb.ehl.squeeze(tb.ehl.template("squeeze"))
     return SimpleNamespace(surface=surface, solid=solid, contact=contact, film=film, friction=tb.friction(contact, film), case=case,
-                           oil=tb.Lubricant("0.1 Pa s"), curve=tb.density_curve(contact), psd=surface.psd(), solved=case.solve(),
+                           oil=tb.Lubricant("0.1 Pa s"), curve=tb.density_curve(contact), psd=surface.psd(), section=surface.section((0, 0), (1e-5, 1e-5)), solved=case.solve(),
                            combined=tb.combine(surface, surface, search=False),
                            flowing=tb.fluid_film(contact, film, tb.Lubricant("0.1 Pa s"), "1 mm/s"),
                            swept=case.sweep({"lubricant.viscosity": ["0.4 Pa s", "0.5 Pa s"]}))
@@ -45,7 +46,7 @@ def things():
 def folder(tmp_path_factory):
     """With a scan, a study's results and room for files."""
     path = tmp_path_factory.mktemp("arguments")
-    things().surface.write(path / "a.sdf")
+    things().surface.save(path / "a.sdf")
     study = tb.Study({"a": str(path / "a.sdf")}, things().solid, pressure=["20 MPa", "50 MPa"], density="0.45 g/m^2")
     study.run(path / "results")
     return path
@@ -61,12 +62,17 @@ def calls(folder):
     oil = {"dry_below": 1e-9, "trapped": True, "bulk_modulus": 1.5e9}
     rain = {"oil_density": 900, "reading": "conserving", "edge": "closed"}
     study = tb.Study({"a": str(file)}, t.solid, pressure="20 MPa")
+    picture = {"ax": None, "window": (0, 0, 5e-6, 5e-6), "cmap": "viridis"}
     return {
         "Surface": (tb.Surface, {"z": heights(8), "pixel": 1e-6, "unit": "m", "periodic": False, "name": "array"}),
         "Surface.parameters": (t.surface.parameters, {"symbols": ["Sq"], "progress": None}),
         "Surface.psd": (t.surface.psd, {"convention": "jacobs", "window": "none", "fit_min": None, "fit_max": None}),
-        "Surface.write": (t.surface.write, {"file": folder / "b.sdf"}),
-        "Surface.plot": (t.surface.plot, {"ax": None}),
+        "Surface.save": (t.surface.save, {"file": folder / "b.sdf"}),
+        "Surface.plot": (t.surface.plot, picture),
+        "Surface.from_array": (tb.Surface.from_array, {"z": heights(8), "pixel": 1e-6, "unit": "m", "periodic": False, "name": "array"}),
+        "Surface.from_xarray": (tb.Surface.from_xarray, {"array": t.surface.to_xarray()}),
+        "Surface.apply": (t.surface.apply, {"function": np.cbrt, "note": "root"}),
+        "Surface.section": (t.surface.section, {"p": (0, 0), "q": ("5 um", 1e-6)}),
         "Surface.treat": (t.surface.treat, {"progress": None}),
         **{f"Surface.{step}": (getattr(t.surface, step), {"progress": None}) for step in ("mirror",)},
         "read": (tb.read, {"file": file, "channel": None, "pixel": None, "unit": None, "z_scale": None, "override_unit": False}),
@@ -100,7 +106,8 @@ def calls(folder):
         "combine": (tb.combine, {"first": t.surface, "second": t.surface, "mode": "wear", "search": False, "shift": (0, 0),
                                  "match": "plane", "threshold": 4.0, "progress": None}),
         "save": (tb.save, {"file": folder / "b.h5", "results": t.contact, "fields": "all", "double": False}),
-        "cite": (tb.cite, {}), "formats": (tb.formats, {}), "materials": (tb.materials, {}),
+        "load": (tb.load, {"file": folder / "b.h5"}),
+        "show_versions": (tb.show_versions, {}), "cite": (tb.cite, {}), "formats": (tb.formats, {}), "materials": (tb.materials, {}),
         "set_threads": (tb.set_threads, {"n": 0}),
         "report": (tb.report, {"result": folder / "results", "out": folder / "page", "html": True, "static": False, "figures": None,
                                "scan": None, "all_scans": False, "pressure": None, "density": None, "error_bar": None}),
@@ -122,8 +129,13 @@ def calls(folder):
         "Results": (tb.Results, {"folder": folder / "results"}),
         "Results.friction_table": (tb.Results(folder / "results").friction_table, {"group": None, "density": None, "keep": ()}),
         **{f"{name}.plot": (one.plot, {"ax": None}) for name, one in
-           {"Contact": t.contact, "Film": t.film, "Combination": t.combined, "Spectrum": t.psd.x, "Spectra": t.psd,
-            "DensityCurve": t.curve}.items()},
+           {"Section": t.section, "Spectrum": t.psd.x, "Spectra": t.psd, "DensityCurve": t.curve}.items()},
+        "Film.plot": (t.film.plot, picture), "Combination.plot": (t.combined.plot, picture),
+        **{f"{name}.plot": (one.plot, {"field": field, **picture}) for name, one, field in
+           (("Contact", t.contact, "gap"), ("Friction", t.friction, "wet"), ("FluidFilm", t.flowing, "fill"))},
+        "ehl.Sweep.plot": (t.swept.plot, {"field": "min_film_m", "ax": None}),
+        "parameters": (tb.parameters, {"scans": [file, t.surface], "symbols": ["Sq"], "treatment": ["level=plane"], "fields": "{name}", "channel": None,
+                                       "pixel": None, "unit": None, "z_scale": None, "override_unit": False}),
         **{f"{name}.save": (one.save, {"file": folder / "c.h5", "fields": "all", "double": False}) for name, one in
            {"Contact": t.contact, "Film": t.film, "Friction": t.friction, "FluidFilm": t.flowing}.items()},
         **{f"ehl.{name}": (getattr(tb.ehl, name), {"case": tb.ehl.template(name)}) for name in ("impact", "squeeze", "line", "point")},
@@ -141,7 +153,7 @@ def calls(folder):
 
 #: Names that messages have for an argument beside its own.
 ALSO = {"z": "heights", "results": "save|results.csv", "folder": "results.csv|folder", "source": "case", "double": "double",
-        "values": "values|viscosity", "settings": "settings|a", "scans": "scans|scan", "program": "program", "tolerance": "tolerance",
+        "values": "values|viscosity", "settings": "settings|a", "symbols": "symbol", "function": "function", "scans": "scans|scan|no such file", "program": "program", "tolerance": "tolerance",
         "jobs": "jobs", "speed": "speed|lubricant", "lubricant": "lubricant|speed", "pressure": "pressure|scan",
         "counter_youngs_modulus": "counter|modulus", "counter_poissons_ratio": "counter|Poisson|ratio",
         "youngs_modulus": "modulus", "poissons_ratio": "Poisson|ratio", "shift": "shift|overlap", "fit_min": "fit_min|fit_max|range",
@@ -185,10 +197,10 @@ def public():
                 names.add(prefix + name)
             names |= {f"{prefix}{name}.{method}" for method in dir(thing)
                       if not method.startswith("_") and (inspect.isfunction(getattr(thing, method)) or inspect.ismethod(getattr(thing, method)))
-                      and method not in ("to_xarray", "count", "index")}
+                      and method not in ("to_xarray", "count", "index", "get", "items", "keys", "values")}
     steps = {f"Surface.{name}" for name, argument, _ in tb._tabor.treatment_steps() if argument}
     return {name for name in names - steps if not name.endswith((".Template",)) and not name.startswith("ehl.Template.")
-            and not name.startswith(("NotConverged.", "Progress"))}
+            and not name.startswith(("InputError.", "InputFileNotFound.", "NameNotFound.", "NotConverged.", "OutputError.", "Progress"))}
 
 
 def test_every_public_function_is_asked(folder):
@@ -253,7 +265,7 @@ def test_lists_of_arguments_are_asked_too(everything):
     (lambda t: tb.fluid_film(t.contact, t.film, "0.1 Pa s", 1), r'lubricant: got str \'0.1 Pa s\'; expected a Lubricant, such as'),
     (lambda t: tb.Study("study.toml", t.solid), "scans: got str .*; tabor.Study.read takes a study file"),
     (lambda t: tb.Study({"a": t.surface}, t.solid), "scans: got Surface; expected a file, a pattern or tabor.Scans in group 'a'"),
-    (lambda t: tb.save("x.h5", t.surface), "results: got Surface; .*; Surface.write writes a surface"),
+    (lambda t: tb.save("x.h5", t.surface), "results: got Surface; .*; Surface.save writes a surface"),
     (lambda t: tb.rain(t.surface, 0, seed=1.5), "seed: got float 1.5; expected a whole number"),
 ])
 def test_the_type_that_came_and_the_one_that_was_expected_are_said(call, text):

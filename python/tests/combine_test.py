@@ -20,7 +20,7 @@ def scans(tmp_path_factory):
     worn[50:70, 40:70] -= 2e-6
     after = tb.Surface(worn, pixel=sheet.pixel)
     for name, surface in (("before", before), ("after", after)):
-        surface.write(folder / f"{name}.h5")
+        surface.save(folder / f"{name}.h5")
     return folder
 
 

@@ -69,7 +69,7 @@ def test_a_separation_stands_for_the_pressure_that_leads_to_it(rough, steel):
 
 
 def test_a_force_is_a_pressure_on_the_whole_of_a_body_that_ends(rough, steel):
-    area = np.prod(rough.size)
+    area = np.prod(rough.lengths)
     found = tb.contact(rough, solid=steel, force=5e7 * area, boundary="free")
     np.testing.assert_allclose(found.pressure, tb.contact(rough, 5e7, steel, boundary="free").pressure, rtol=1e-6, atol=1e3)
     with pytest.raises(ValueError, match="boundary"):

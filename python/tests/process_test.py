@@ -9,6 +9,8 @@ import textwrap
 
 import pytest
 
+import tabor as tb
+
 HEAD = """
 import os, sys, threading, time
 import numpy as np, numpy.random, tabor as tb
@@ -151,3 +153,12 @@ def test_nothing_is_said_about_what_is_still_there_at_the_end():
         builtins.kept.append(builtins.kept)
         print("end")
     """) == ["end"]
+
+
+def test_pickles_name_classes_where_users_find_them():
+    for name in tb.__all__:
+        thing = getattr(tb, name)
+        if isinstance(thing, type):
+            assert (thing.__module__, thing.__qualname__) == ("tabor", name)
+    for name in ("Case", "Key", "Limit", "Solution", "Sweep"):
+        assert getattr(tb.ehl, name).__module__ == "tabor.ehl"

@@ -132,7 +132,7 @@ def test_what_does_not_belong_into_one_file_is_refused(rough, levelled, steel, t
 
 
 def test_the_scan_is_not_written_over(levelled, steel, tmp_path):
-    levelled.write(tmp_path / "scan.h5")
+    levelled.save(tmp_path / "scan.h5")
     found = tb.contact(tb.read(tmp_path / "scan.h5"), 5e6, steel)
     with pytest.raises(ValueError, match="choose another name"):
         found.save(tmp_path / "scan.h5")

@@ -18,7 +18,7 @@ def folder(tmp_path_factory, scan_file):
     folder = tmp_path_factory.mktemp("scans")
     sheet = tb.read(scan_file).level("plane")
     for i, group in enumerate(GROUPS):
-        sheet.crop(96 * i, 96, 48, 48).write(folder / f"{group}_1.h5")
+        sheet.crop(96 * i, 96, 48, 48).save(folder / f"{group}_1.h5")
     return folder
 
 

@@ -18,7 +18,7 @@ def test_a_surface_has_the_heights_it_was_given():
     np.testing.assert_array_equal(surface.height, z)
     assert surface.shape == (32, 32)
     assert surface.pixel == pytest.approx((2e-6, 1e-6), rel=1e-15)
-    assert surface.size == pytest.approx((64e-6, 32e-6), rel=1e-15)
+    assert surface.lengths == pytest.approx((64e-6, 32e-6), rel=1e-15)
 
 
 @pytest.mark.parametrize("convert", [np.asfortranarray, lambda z: z[::-1][::-1], lambda z: np.repeat(z, 2, 1)[:, ::2],
@@ -216,17 +216,17 @@ def test_a_damaged_hdf5_file_is_a_value_error(tmp_path):
 
 
 def test_what_is_written_is_read_again(tmp_path, rough):
-    rough.write(tmp_path / "a.h5")
+    rough.save(tmp_path / "a.h5")
     np.testing.assert_array_equal(tb.read(tmp_path / "a.h5").height, rough.height)
     with pytest.raises(ValueError, match="a.other"):
-        rough.write(tmp_path / "a.other")
+        rough.save(tmp_path / "a.other")
 
 
 def test_a_pickled_surface_is_the_same(levelled):
     copy = pickle.loads(pickle.dumps(levelled))
     np.testing.assert_array_equal(copy.height, levelled.height)
-    assert (copy.history, copy.warnings, copy.source, copy.size) == (
-        levelled.history, levelled.warnings, levelled.source, levelled.size)
+    assert (copy.history, copy.warnings, copy.source, copy.lengths) == (
+        levelled.history, levelled.warnings, levelled.source, levelled.lengths)
 
 
 def test_a_surface_is_looked_at_once_whoever_asks_first():

@@ -17,9 +17,18 @@ def engine(request):
 @pytest.fixture(scope="module")
 def results(rough, steel):
     contact = tb.contact(rough.lowpass("gauss:4um"), 5e7, steel)
+    pytest.importorskip("h5py")
     squeeze = tb.ehl.squeeze(tb.ehl.template("squeeze"))
     words = tb.ehl.point(tb.ehl.template("point"), **{"grid.nodes": 33})
-    return {"Surface": contact.surface, "Contact": contact, "Film": tb.rain(contact.surface, "0.45 g/m^2"),
+    film = tb.rain(contact.surface, "0.45 g/m^2")
+    spectra = contact.surface.psd()
+    slow = tb.fluid_film(contact, film, tb.Lubricant("0.1 Pa s"), "1 mm/s")
+    return {"Surface": contact.surface, "Contact": contact, "Film": film, "Friction": tb.friction(contact, film), "FluidFilm": slow,
+            "DensityCurve": tb.density_curve(contact), "Parameters": contact.surface.parameters(["Sa", "hybrid"]), "Spectra": spectra,
+            "Spectrum": spectra.radial, "Section": contact.surface.section((0, 0), (2e-5, 1e-5)),
+            "Combination": tb.combine(rough, rough, search=False),
+            "Slide": tb.slide(rough, "10 MPa", steel, "3 um", step="1 um", tool="ground:Sa=10nm", check=False),
+            "Solution": squeeze.solve(), "Solution of a point": words.solve(check=False),
             "Sweep": squeeze.sweep({"lubricant.viscosity": ["0.4 Pa s", "0.5 Pa s"]}),
             "Sweep of words": words.sweep({"roughness.kind": ["lapped-like"], "motion.speed": [0.5, 1.0]}, check=False)}
 
@@ -29,7 +38,11 @@ def test_all_that_goes_to_xarray_is_here(results):
     assert with_it == {name for name in results if " " not in name}
 
 
-@pytest.mark.parametrize("name", ["Surface", "Contact", "Film", "Sweep", "Sweep of words"])
+NAMES = ["Surface", "Contact", "Film", "Friction", "FluidFilm", "DensityCurve", "Parameters", "Spectra", "Spectrum", "Section",
+         "Combination", "Slide", "Solution", "Solution of a point", "Sweep", "Sweep of words"]
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_a_file_of_netcdf_holds_it_all(results, engine, tmp_path, name):
     result = results[name]
     given = result.to_xarray()
@@ -38,11 +51,24 @@ def test_a_file_of_netcdf_holds_it_all(results, engine, tmp_path, name):
     with xarray.open_dataset(tmp_path / "a.nc", engine=engine) as read:
         xarray.testing.assert_allclose(read.load(), data, rtol=0, atol=0)
         attributes = read.attrs if isinstance(given, xarray.Dataset) else read[given.name].attrs
-        for warning in result.warnings:
+        for warning in getattr(result, "warnings", ()):
             assert (warning if isinstance(warning, str) else f"{warning.text} [{warning.code}]") in attributes["warnings"].split("\n")
-        for key, value in getattr(result, "values", {}).items() if name in ("Contact", "Film") else ():
+        for key, value in getattr(result, "values", {}).items() if name in ("Contact", "Film", "Friction", "FluidFilm", "Combination") else ():
             if isinstance(value, (bool, int, float, str)) and value == value:
                 assert attributes[key] == value, key
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_what_has_a_unit_says_it(results, name):
+    given = results[name].to_xarray()
+    data = given if isinstance(given, xarray.Dataset) else given.to_dataset()
+    if name == "Slide":
+        assert data.sheet.attrs["units"] == data.gap.attrs["units"] == "m" and data.pressure.attrs["units"] == "Pa"
+        assert data.psd_x.attrs["units"] == "m^3" and data.sheet.dims == ("kept_distance", "y", "x") and data.mean_gap_m.attrs["units"] == "m"
+        return
+    without = {"lubricated_share", "friction_lubricated", "touching", "saturated", "wet", "fill", "converged"}
+    for key, array in {**data.data_vars, **data.coords}.items():
+        assert key in without or array.attrs.get("units") or name.startswith("Sweep") or key.endswith(("_share", "_index0")), key
 
 
 def test_warnings_are_there(results):

@@ -209,6 +209,23 @@ TEST(FindPatches, DiagonalNeighboursAreSeparate) {
   EXPECT_EQ(find_patches(contact, false).size(), 2);
 }
 
+TEST(LabelPatches, NumbersThemInTheOrderOfTheirCounts) {
+  Mask contact = Mask::Constant(4, 5, false);
+  contact(0, 0) = contact(0, 4) = contact(3, 0) = true;
+  contact(1, 2) = contact(1, 3) = true;
+  for (const bool periodic : {true, false}) {
+    const LabelMap labels = label_patches(contact, periodic);
+    const std::vector<Index> counts = find_patches(contact, periodic).pixel_counts;
+    EXPECT_EQ(labels.maxCoeff(), static_cast<std::int32_t>(counts.size()));
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      EXPECT_EQ((labels == static_cast<std::int32_t>(i + 1)).count(), counts[i]);
+    }
+    EXPECT_TRUE(((labels > 0) == contact).all());
+    EXPECT_EQ(labels(1, 2), labels(1, 3));
+    EXPECT_EQ(labels(0, 0) == labels(0, 4), periodic);
+  }
+}
+
 TEST(CountTransitions, CountsTheOutlineOfABlock) {
   Mask contact = Mask::Constant(8, 8, false);
   contact.block(2, 3, 2, 3) = true;  // 2 rows, 3 columns

@@ -29,6 +29,12 @@ TEST(LubricatedShare, CountsWetPixelsAmongContactPixels) {
   EXPECT_EQ(lubricated_share(contact, row({1e-9, 1e-9, 1e-9, 1e-9, 0})), 1);
 }
 
+TEST(WetContact, IsTheContactUnderAFilmThickEnough) {
+  const Mask wet = wet_contact(mask({true, true, false}), row({1e-7, 1e-9, 1e-6}), 1e-8);
+  EXPECT_TRUE((wet == mask({true, false, false})).all());
+  EXPECT_THROW(wet_contact(mask({true}), row({1e-7, 0})), InputError);
+}
+
 TEST(LubricatedShare, IsZeroWhereNothingTouches) {
   EXPECT_EQ(lubricated_share(mask({false, false}), row({1e-6, 1e-6})), 0);
 }

@@ -1,5 +1,6 @@
 #include "tabor/contact/patches.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -9,14 +10,29 @@
 
 namespace tabor::contact {
 
-Patches find_patches(const Mask& contact, bool periodic) {
+namespace {
+
+using Components = numerics::DisjointSets<std::uint32_t>;
+
+numerics::Runs runs_of(const Mask& contact) {
   const bool* touching = contact.data();
-  const numerics::Runs runs(contact.rows(), contact.cols(),
-                            [touching](Index i) { return touching[i]; });
-  numerics::DisjointSets<std::uint32_t> components(runs.size());
+  return {contact.rows(), contact.cols(), [touching](Index i) { return touching[i]; }};
+}
+
+/// Joins the runs of each patch.
+Components components_of(const numerics::Runs& runs, bool periodic) {
+  Components components(runs.size());
   runs.join_neighbours(periodic, [&components](std::size_t a, std::size_t b, int, int) {
     components.join(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
   });
+  return components;
+}
+
+}  // namespace
+
+Patches find_patches(const Mask& contact, bool periodic) {
+  const numerics::Runs runs = runs_of(contact);
+  Components components = components_of(runs, periodic);
   std::vector<Index> counts(runs.size(), 0);
   for (std::size_t run = 0; run < runs.size(); ++run) {  // raw loop: many runs add to one count
     counts[components.root(static_cast<std::uint32_t>(run))] += runs[run].end - runs[run].begin;
@@ -26,6 +42,25 @@ Patches find_patches(const Mask& contact, bool periodic) {
     if (count > 0) patches.pixel_counts.push_back(count);
   }
   return patches;
+}
+
+LabelMap label_patches(const Mask& contact, bool periodic) {
+  const numerics::Runs runs = runs_of(contact);
+  Components components = components_of(runs, periodic);
+  std::vector<std::int32_t> label_of_root(runs.size(), 0);
+  for (std::size_t run = 0; run < runs.size(); ++run) {  // raw loop: many runs have one root
+    label_of_root[components.root(static_cast<std::uint32_t>(run))] = 1;
+  }
+  std::int32_t last = 0;
+  for (std::int32_t& label : label_of_root) {
+    if (label > 0) label = ++last;
+  }
+  LabelMap labels = LabelMap::Zero(contact.rows(), contact.cols());
+  for (std::size_t run = 0; run < runs.size(); ++run) {
+    const std::int32_t label = label_of_root[components.root(static_cast<std::uint32_t>(run))];
+    std::fill(labels.data() + runs[run].begin, labels.data() + runs[run].end, label);
+  }
+  return labels;
 }
 
 Transitions count_transitions(const Mask& contact, bool periodic) {

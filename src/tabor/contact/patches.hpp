@@ -1,11 +1,16 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "tabor/core/types.hpp"
 
-// Counts the connected patches of a contact and the pixel edges and corners of their outlines.
+// Counts and labels the connected patches of a contact and the pixel edges and corners of their
+// outlines.
 namespace tabor::contact {
+
+/// Numbers of patches; same layout as Field.
+using LabelMap = Eigen::Array<std::int32_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Connected contact patches: pixels that share an edge belong together, across the border too if
 /// the cell is periodic.
@@ -16,6 +21,10 @@ struct Patches {
 
 /// Finds the 4-connected patches; `periodic` joins patches at opposite borders.
 Patches find_patches(const Mask& contact, bool periodic);
+
+/// Returns the number of the patch of each pixel, counted from 1 in the order of `find_patches`; 0
+/// where there is no contact.
+LabelMap label_patches(const Mask& contact, bool periodic);
 
 /// Numbers of neighbouring pixel pairs of which exactly one is in contact.
 struct Transitions {

@@ -27,6 +27,11 @@ void check_sum(double total, const char* what) {
 
 }  // namespace
 
+Mask wet_contact(const Mask& contact, const Field& film, double dry_below) {
+  check_shapes(contact, film);
+  return contact && film > dry_below;
+}
+
 double lubricated_share(const Mask& contact, const Field& film, double dry_below) {
   check_shapes(contact, film);
   check_sum(sum(film), "film");

@@ -1,0 +1,38 @@
+"""Errors are those that users of NumPy expect, and tabor's own."""
+
+import pickle
+
+import pytest
+
+import tabor as tb
+
+
+@pytest.mark.parametrize("call", [lambda path: tb.read(path), lambda path: tb.load(path), lambda path: tb.Study.read(path),
+                                  lambda path: tb.ehl.point(path), lambda path: tb.Results(path)])
+def test_a_file_that_is_not_there_is_not_found(call, tmp_path):
+    pytest.importorskip("h5py")
+    for kind in (FileNotFoundError, OSError, ValueError, tb.InputError, tb.InputFileNotFound):
+        with pytest.raises(kind, match="none.x: no such file|none.x: no results.csv") as raised:
+            call(tmp_path / "none.x")
+    assert raised.value.filename == str(tmp_path / "none.x")
+    copy = pickle.loads(pickle.dumps(raised.value))
+    assert (str(copy), copy.filename, type(copy)) == (str(raised.value), raised.value.filename, tb.InputFileNotFound)
+
+
+def test_what_the_library_refuses_is_a_value_error(rough, tmp_path):
+    for call in (lambda: rough.level("plain"), lambda: tb.Solid("nonsense")):
+        with pytest.raises(tb.InputError) as raised:
+            call()
+        assert isinstance(raised.value, ValueError) and isinstance(pickle.loads(pickle.dumps(raised.value)), tb.InputError)
+
+
+def test_what_cannot_be_written_is_an_os_error(rough, tmp_path):
+    with pytest.raises(tb.OutputError) as raised:
+        rough.save(tmp_path / "none" / "a.sdf")
+    assert isinstance(raised.value, OSError)
+
+
+def test_versions_are_shown(capsys):
+    tb.show_versions()
+    said = capsys.readouterr().out
+    assert f"tabor       {tb.__version__}" in said and "numpy" in said and "Python" in said

@@ -1,0 +1,162 @@
+"""What was saved comes back: maps, numbers, settings, warnings, source."""
+
+import io
+import pickle
+import subprocess
+
+import numpy as np
+import pytest
+
+import tabor as tb
+
+pytest.importorskip("h5py")
+#: What a file does not say of a state.
+NOT_STORED = {"tolerance", "lubricant_density_kg_per_m2", "escaping_fraction", "sliding_speed_m_per_s"}
+SOLID = tb.Solid("aluminium-6016", saturation_pressure="300 MPa")
+
+
+@pytest.fixture(scope="module")
+def tile(scan_file):
+    return tb.read(scan_file).level("plane").crop("96,96,64,64").mirror()
+
+
+@pytest.fixture(scope="module")
+def contacts(tile):
+    return tb.contact(tile, ["2 MPa", "7 MPa"], SOLID, tolerance=1e-5)
+
+
+@pytest.fixture(scope="module")
+def films(tile):
+    return tb.rain(tile, ["0.45 g/m^2", "0.9 g/m^2"], oil_density=850, seed=3)
+
+
+def assert_same(found, given, *maps):
+    assert type(found) is type(given)
+    for name in maps:
+        np.testing.assert_array_equal(getattr(found, name), getattr(given, name), err_msg=name)
+    missing = {key for key, value in given.values.items() if key not in found.values or found.values[key] != value == value}
+    assert missing <= NOT_STORED
+    assert {one.code for one in found.warnings} == {one.code for one in given.warnings}
+    assert set(given.references) <= set(found.references)
+
+
+def assert_same_surface(found, given):
+    np.testing.assert_array_equal(found.height, given.height)
+    assert (found.history, found.source, found.periodic, found.lengths) == (given.history, given.source, given.periodic, given.lengths)
+
+
+def test_contacts(contacts, tmp_path):
+    tb.save(tmp_path / "a.h5", contacts, double=True)
+    for found, given in zip(tb.load(tmp_path / "a.h5"), contacts, strict=True):
+        assert_same(found, given, "pressure", "gap", "touching", "saturated", "patches")
+        np.testing.assert_allclose(found.displacement, given.displacement, atol=given.values["contact_gap_error_m"] + 1e-18)
+        assert_same_surface(found.surface, given.surface)
+        assert found.solid == SOLID and found._options["tolerance"] == 1e-5 and found.converged
+        assert (found.force, found.max_pressure) == (given.force, given.max_pressure)
+
+
+def test_films_and_one_alone(films, tmp_path):
+    tb.save(tmp_path / "a.h5", films, double=True)
+    for found, given in zip(tb.load(tmp_path / "a.h5"), films, strict=True):
+        assert_same(found, given, "thickness")
+        assert found.lubricant_density == pytest.approx(given.lubricant_density, rel=1e-15) and found._options == given._options
+    films[0].save(tmp_path / "b.h5")
+    np.testing.assert_allclose(tb.load(str(tmp_path / "b.h5")).thickness, films[0].thickness, rtol=1e-6)
+
+
+def test_frictions(contacts, films, tmp_path):
+    given = [tb.friction(contact, film, boundary_shear_strength="5 MPa", dry_below="10 nm") for contact in contacts for film in films]
+    tb.save(tmp_path / "a.h5", given, double=True)
+    found = tb.load(tmp_path / "a.h5")
+    for one, other in zip(found, given, strict=True):
+        assert_same(one, other, "wet")
+        np.testing.assert_array_equal(one.contact.pressure, other.contact.pressure)
+        assert one.contact.solid == other.contact.solid and (one.dry, one.lubricated) == (other.dry, other.lubricated)
+        assert {**one._options, "area": None} == other._options and one._options["area"] == "pixels"  # what was in force
+    assert found[0].contact is found[1].contact and found[0].film is found[2].film
+    with pytest.raises(KeyError, match="has no 'n_patches'"):
+        found[0].contact.values["n_patches"]
+
+
+def test_trapped_oil_and_a_flowing_film(contacts, films, tmp_path):
+    trapped = tb.friction(contacts[1], films[1], trapped=True)
+    trapped.save(tmp_path / "a.h5", double=True)
+    assert_same(tb.load(tmp_path / "a.h5"), trapped, "liquid_pressure", "trapped_pressure", "trapped_gap")
+    flowing = tb.fluid_film(contacts[0], films[1], tb.Lubricant("0.1 Pa s", pressure_viscosity=1e-8), "5 mm/s")
+    flowing.save(tmp_path / "b.h5", double=True)
+    found = tb.load(tmp_path / "b.h5")
+    assert_same(found, flowing, "pressure", "fill", "gap", "solid_pressure")
+    assert (found.lubricant, found.speed, found.friction_mixed, found.load_share) == (
+        flowing.lubricant, flowing.speed, flowing.friction_mixed, flowing.load_share)
+
+
+def test_what_is_loaded_computes_on(contacts, films, tmp_path):
+    tb.save(tmp_path / "c.h5", contacts[1], double=True)
+    tb.save(tmp_path / "f.h5", films[1], double=True)
+    contact, film = tb.load(tmp_path / "c.h5"), tb.load(tmp_path / "f.h5")
+    found = tb.friction(contact, film)
+    assert found.lubricated == tb.friction(contacts[1], films[1]).lubricated
+    assert dict(pickle.loads(pickle.dumps(contact)).values) == dict(contact.values)
+    found.save(tmp_path / "again.h5")
+    assert tb.load(tmp_path / "again.h5").dry == found.dry
+
+
+def test_a_load_path_and_a_tool(rough, tmp_path):
+    soft = tb.Solid(youngs_modulus="210 GPa", poissons_ratio=0.3, saturation_pressure="2 GPa", shear_strength="70 MPa")
+    path = tb.contact(rough, [5e7, 2e8, 5e7], soft, load_path=True)
+    tb.save(tmp_path / "a.h5", path, double=True)
+    first, *later = tb.load(tmp_path / "a.h5")
+    assert np.isfinite(first.displacement).all() and np.isnan(later[0].displacement).all()
+    under = tb.contact(rough, "50 MPa", soft, tool="ground:Sa=10nm", tool_x="3 um")
+    under.save(tmp_path / "b.h5", double=True)
+    np.testing.assert_array_equal(tb.load(tmp_path / "b.h5").tool, under.tool)
+    elastic = tb.Solid("aluminium-6016", saturation_pressure="none")
+    tb.contact(rough, "50 MPa", elastic).save(tmp_path / "c.h5")
+    assert tb.load(tmp_path / "c.h5").solid == elastic
+
+
+def test_a_solution(tmp_path):
+    solved = tb.ehl.point(tb.ehl.template("point"), **{"grid.nodes": 33}).solve(check=False)
+    solved.save(tmp_path / "a.h5")
+    found = tb.load(tmp_path / "a.h5")
+    for copy in (found, pickle.loads(pickle.dumps(found))):
+        assert {key: value for key, value in solved.values.items() if value is not None} == {key: copy.values[key] for key in copy.values}
+        assert (copy.program, copy.converged, copy.references) == ("point", solved.converged, solved.references)
+        assert copy.to_xarray().identical(solved.to_xarray()) or list(copy.to_xarray()) == list(solved.to_xarray())
+    assert "contact_film" in found.to_xarray() and "17.1 nm" in repr(found)
+    with pytest.raises(ValueError, match="do not travel with a pickle"):
+        pickle.loads(pickle.dumps(tb.ehl.squeeze(tb.ehl.template("squeeze")).solve())).to_xarray()
+
+
+def test_the_command_line_s_own(program, scan_file, tmp_path):
+    subprocess.run([program, "friction", scan_file, "--level", "plane", "--crop", "96,96,64,64", "--mirror", "--pressure", "2MPa", "--material",
+                    "aluminium-6016", "--density", "0.9g/m^2", "-o", tmp_path / "a.h5", "--quiet"], check=True, capture_output=True)
+    found = tb.load(tmp_path / "a.h5")
+    assert found.contact.solid == tb.Solid("aluminium-6016") and found.film.lubricant_density == pytest.approx(9e-4)
+    assert found.contact.surface.source.endswith("edt_before.x3p") and found.contact.surface.history[0].startswith("level=plane")
+
+
+def test_open_files_and_surfaces(contacts, rough, tmp_path):
+    contacts[0].save(tmp_path / "a.h5")
+    assert tb.load(io.BytesIO((tmp_path / "a.h5").read_bytes())).area_fraction == contacts[0].area_fraction
+    with open(tmp_path / "a.h5", "rb") as file:
+        assert tb.load(file).area_fraction == contacts[0].area_fraction
+    rough.save(tmp_path / "s.h5")
+    np.testing.assert_array_equal(tb.load(tmp_path / "s.h5").height, rough.height)
+
+
+def test_what_cannot_be_loaded_says_why(contacts, scan_file, tmp_path):
+    contacts[0].save(tmp_path / "numbers.h5", fields="none")
+    tb.ehl.squeeze(tb.ehl.template("squeeze")).sweep({"lubricant.viscosity": [0.4]}).save(tmp_path / "sweep.h5")
+    for file, text in (("numbers.h5", "numbers alone"), ("sweep.h5", "it holds ehl squeeze sweep; load takes contacts"), (scan_file, "no result file")):
+        with pytest.raises(tb.InputError, match=text):
+            tb.load(tmp_path / file)
+    with pytest.raises(FileNotFoundError, match="none.h5: no such file"):
+        tb.load(tmp_path / "none.h5")
+
+
+def test_fields_that_are_missing_are_gaps(contacts, tmp_path):
+    contacts[0].save(tmp_path / "a.h5", fields="contact", double=True)
+    found = tb.load(tmp_path / "a.h5")
+    np.testing.assert_array_equal(found.touching, contacts[0].touching)
+    assert np.isnan(found.gap).all()
