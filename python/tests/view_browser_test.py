@@ -111,7 +111,7 @@ class Page:
 @pytest.fixture(scope="module")
 def scan(levelled, tmp_path_factory):
     file = tmp_path_factory.mktemp("scans") / "small.h5"
-    levelled.write(file)
+    levelled.save(file)
     return tb.read(file), State(str(file))
 
 

@@ -25,7 +25,7 @@ FROM_STORED_MAPS = ("spill_over_fraction", "trapped_fraction", "liquid_load_shar
 def small(tmp_path_factory, levelled):
     """A scan that is solved at once, with a name that a shell would take apart."""
     file = tmp_path_factory.mktemp("scan of a sheet") / "it's small.h5"
-    levelled.write(file)
+    levelled.save(file)
     return State(str(file), steps=(Step("level=plane"),))
 
 
@@ -80,7 +80,7 @@ def test_the_python_gives_the_same_numbers_to_the_digit(state, found):
     names = {}
     exec(texts.python(state), names)
     for symbol in PARAMETERS:
-        assert names["surface"].parameters([symbol])[0].value == found[symbol]
+        assert names["surface"].parameters([symbol])[symbol].value == found[symbol]
     values = (names["friction"] if state.has_friction else names["contact"]).values
     for key in ("contact_area_fraction", "friction_dry", "friction_lubricated", "lubricated_share", "certificate"):
         assert values.get(key) == found.get(key)
@@ -109,18 +109,18 @@ def test_what_is_read_with_options_is_read_with_them_everywhere(program, tmp_pat
     names = {}
     exec(texts.python(state), names)
     measured = said_by(program, texts.parameters_command(state))
-    assert measured["parameters"]["Sq"]["value"] == names["surface"].parameters(["Sq"])[0].value
+    assert measured["parameters"]["Sq"]["value"] == names["surface"].parameters(["Sq"]).Sq.value
     assert tb.Study  # the study reads the same two
     assert 'pixel = "2 um"' in texts.study(state) and 'unit = "um"' in texts.study(state)
 
 
 def test_a_surface_in_memory_is_to_be_written_first():
     text = texts.command_line(State(""))
-    assert text.startswith("# first, in Python: surface.write('surface.h5')") and "tabor friction surface.h5" in text
+    assert text.startswith("# first, in Python: surface.save('surface.h5')") and "tabor friction surface.h5" in text
 
 
 def test_a_written_surface_in_memory_has_the_numbers_of_the_page(levelled, tmp_path):
-    levelled.write(tmp_path / "surface.h5")
+    levelled.save(tmp_path / "surface.h5")
     there = numbers(answer_of(tb.read(tmp_path / "surface.h5"), State("")))
     assert numbers(answer_of(levelled, State("")))["friction_lubricated"] == there["friction_lubricated"]
 

@@ -13,7 +13,8 @@ from .._contact import Contact, contact
 from .._friction import Film, Friction, friction, rain
 from .._progress import Told
 from .._records import Warning
-from .._surface import Parameters, Surface
+from .._parameters import Parameters
+from .._surface import Surface
 from .previews import Pace
 from .state import State
 
@@ -59,7 +60,7 @@ class Answer:
 
 def numbers(answer: Answer) -> dict[str, Any]:
     """All numbers by name: symbols of roughness parameters, and the keys of ``--json``."""
-    found: dict[str, Any] = {one.symbol: one.value for one in answer.parameters or ()}
+    found: dict[str, Any] = {one.symbol: one.value for one in (answer.parameters or {}).values()}
     for part in (answer.contact, answer.film, answer.friction):
         found.update({} if part is None else part.values)
     return found

@@ -96,7 +96,7 @@ class Desk:
         """The step that keeps what the maps show."""
         factor = self._axes.unit.factor
         ends = [(float(one.start) / factor, float(one.end) / factor) for one in self._axes.ranges]
-        return crop_step(ends[0], ends[1], self._heights.surface.size)
+        return crop_step(ends[0], ends[1], self._heights.surface.lengths)
 
     def _choose_map(self, kind: str) -> None:
         self._results.kind = kind

@@ -11,7 +11,7 @@ import numpy as np
 
 from .. import _tabor
 from .._records import Warning
-from .._surface import Array
+from .._maps import Array
 
 # As in the pages of `tabor report`: told apart with every common colour blindness (Okabe & Ito 2008).
 SOLID, LIQUID, DRY, WET = "#B9B2A8", "#3A86C8", "#E8862E", "#000000"

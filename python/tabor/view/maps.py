@@ -11,7 +11,8 @@ from bokeh.models.widgets import Div, RangeSlider
 from bokeh.palettes import Cividis256, Greys256, Viridis256
 from bokeh.plotting import figure
 
-from .._surface import Array, Surface
+from .._maps import Array
+from .._surface import Surface
 from .answers import Answer
 from .looks import CURVES, DRY, HOLE, LIQUID, SOLID, STYLE, WET, Unit, limits, shown, unit_for
 
@@ -21,7 +22,7 @@ _TOOLS = "box_zoom,wheel_zoom,reset,save"
 
 def frame_of(surface: Surface) -> tuple[int, int]:
     """Width and height of a map whose pixels are square on the screen [px]."""
-    lx, ly = surface.size
+    lx, ly = surface.lengths
     width, height = FRAME
     scale = min(width / lx, height / ly)
     return max(120, round(lx * scale)), max(90, round(ly * scale))
@@ -31,7 +32,7 @@ class Axes:
     """Ranges along x and y that maps share, in one unit of length."""
 
     def __init__(self, surface: Surface) -> None:
-        self.unit = unit_for(max(surface.size))
+        self.unit = unit_for(max(surface.lengths))
         self.x, self.y = Range1d(), Range1d()
         self.ranges: tuple[Any, Any] = (self.x, self.y)
         self._size: tuple[float, float] | None = None
@@ -39,10 +40,10 @@ class Axes:
 
     def show(self, surface: Surface) -> None:
         """Shows the whole surface if it has another size than the one before."""
-        if self._size == surface.size:
+        if self._size == surface.lengths:
             return
-        self._size = surface.size
-        lx, ly = map(self.unit.of, surface.size)
+        self._size = surface.lengths
+        lx, ly = map(self.unit.of, surface.lengths)
         self.x.update(start=0, end=lx, reset_start=0, reset_end=lx)
         self.y.update(start=ly, end=0, reset_start=ly, reset_end=0)
 
@@ -68,7 +69,7 @@ class Image:
     def show(self, values: Array, surface: Surface) -> int:
         """Shows a map; of how many pixels along a side one is shown."""
         pixels, step = shown(values)
-        lx, ly = map(self._axes.unit.of, surface.size)
+        lx, ly = map(self._axes.unit.of, surface.lengths)
         self._source.data = {"image": [pixels], "dw": [lx], "dh": [ly]}
         return step
 
@@ -113,7 +114,7 @@ class Heights:
         return plot
 
     def _add_line(self) -> None:
-        lx, ly = map(self._axes.unit.of, self.surface.size)
+        lx, ly = map(self._axes.unit.of, self.surface.lengths)
         self.ends = ColumnDataSource({"x": [0.0, lx], "y": [ly / 2, ly / 2]})
         self.plot.line("x", "y", source=self.ends, color="white", line_width=2.5, alpha=0.8)
         self.plot.line("x", "y", source=self.ends, color="black", line_width=1)

@@ -36,7 +36,7 @@ def scan_html(answer: Answer) -> str:
                        ("holes", "holes", repr(surface.n_holes), f"{surface.n_holes} pixels" if surface.n_holes else "none")]
     if answer.tilt is not None:
         rows.append(("tilt x, y", "tilt", repr(answer.tilt), ", ".join(f"{round(1e3 * slope, 6) + 0.0:.3g}" for slope in answer.tilt) + " µm/mm"))
-    rows += [(one.symbol, one.symbol, repr(one.value), si_text(one.value, one.unit)) for one in answer.parameters or ()]
+    rows += [(one.symbol, one.symbol, repr(one.value), si_text(one.value, one.unit)) for one in (answer.parameters or {}).values()]
     return table_html(rows, 2) + failure_html(answer.failures.get("treatment", "")) + warnings_html(answer.warnings["scan"])
 
 

@@ -45,7 +45,7 @@ def fill(document: Document, opened: Sequence[Opened], folder: Folder, address: 
     document.title = "tabor view: " + ", ".join(one.name for one in opened)
     document.template = cast(Any, _TEMPLATE)  # a text is one, too
     shared: dict[tuple[float, float], Axes] = {}  # maps of one size move together
-    desks = [Desk(one.scan, one.state, shared.setdefault(one.scan.size, Axes(one.scan)), _later(document), folder, address) for one in opened]
+    desks = [Desk(one.scan, one.state, shared.setdefault(one.scan.lengths, Axes(one.scan)), _later(document), folder, address) for one in opened]
     title = "".join(f"<b>{html.escape(one.name)}</b>" for one in opened[:1]) if len(opened) == 1 else f"<b>{len(opened)} scans</b>"
     head = Div(text=f"<p>tabor view &nbsp; {title}</p>", stylesheets=[STYLE], name="head")
     body: Any = desks[0].view

@@ -54,7 +54,7 @@ def friction_words(state: State) -> list[str]:
 
 def command_line(state: State) -> str:
     """Lines for a shell; a surface in memory is to be written first."""
-    lines = [] if state.scan else [f"# first, in Python: surface.write({IN_MEMORY!r})"]
+    lines = [] if state.scan else [f"# first, in Python: surface.save({IN_MEMORY!r})"]
     return "\n".join([*lines, parameters_command(state), shlex.join(friction_words(state))])
 
 

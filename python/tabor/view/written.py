@@ -40,7 +40,7 @@ class Folder:
         if answer.surface is None:
             raise ValueError("The treatment fails: there is no surface to write")
         if kind == "scan":
-            answer.surface.write(file)
+            answer.surface.save(file)
             return
         found = answer.friction or answer.contact
         if found is None or answer.is_preview:

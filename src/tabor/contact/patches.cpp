@@ -56,7 +56,7 @@ LabelMap label_patches(const Mask& contact, bool periodic) {
     if (label > 0) label = ++last;
   }
   LabelMap labels = LabelMap::Zero(contact.rows(), contact.cols());
-  for (std::size_t run = 0; run < runs.size(); ++run) {
+  for (std::size_t run = 0; run < runs.size(); ++run) {  // raw loop: roots move as they are found
     const std::int32_t label = label_of_root[components.root(static_cast<std::uint32_t>(run))];
     std::fill(labels.data() + runs[run].begin, labels.data() + runs[run].end, label);
   }
