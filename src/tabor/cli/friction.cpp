@@ -299,6 +299,7 @@ int show(Request request, Context& context) {
 
 }  // namespace
 
+// NOLINTBEGIN(bugprone-suspicious-missing-comma): examples of several lines
 Verb friction_verb() {
   return {
       .name = "friction",
@@ -313,10 +314,8 @@ Verb friction_verb() {
           "which density the pockets under the contacts are full and above which the oil level "
           "reaches the contacts. With --tool a rough tool presses in place of the flat. With "
           "--trapped oil in closed pockets of the gap is squeezed and carries part of the load. "
-          "With "
-          "--fluid reynolds the deposited oil flows while the flat "
-          "slides: it carries "
-          "part of the load and adds viscous shear.",
+          "With --fluid reynolds the deposited oil flows while the flat slides: it carries part of "
+          "the load and adds viscous shear.",
       .examples =
           {"tabor friction surfaces/edt_before.x3p --level plane --pressure 2MPa,7MPa "
            "--material aluminium-6016 --density 0.45g/m^2,0.9g/m^2",
@@ -356,5 +355,6 @@ Verb friction_verb() {
         };
       }};
 }
+// NOLINTEND(bugprone-suspicious-missing-comma)
 
 }  // namespace tabor::cli

@@ -37,7 +37,7 @@ fs::path file_of(const std::string& verb) {
   std::error_code error;
   for (const fs::path& folder : {own_prefix() / "python", own_prefix() / "share/tabor/python",
                                  fs::path(TABOR_SOURCE_PYTHON)}) {
-    const fs::path file = folder / "tabor" / verb / "__main__.py";
+    fs::path file = folder / "tabor" / verb / "__main__.py";
     if (fs::exists(file, error)) return file;
   }
   throw InputError("tabor " + verb, "no Python package tabor/" + verb + " beside the program", "",

@@ -272,6 +272,7 @@ class Engine {
     report_.seconds[job.kind] += seconds;
   }
 
+  // NOLINTBEGIN(clang-analyzer-cplusplus.NewDeleteLeaks): the function objects own their captures
   Monitor monitor_of(std::size_t place) {
     const auto shared = [this](const std::string& stage) -> Observer {
       return [this, stage](const Progress& inner) {
@@ -299,6 +300,7 @@ class Engine {
       return true;
     };
   }
+  // NOLINTEND(clang-analyzer-cplusplus.NewDeleteLeaks)
 
   /// Passes one message on, with the share of the whole run. Throws Interrupted to stop.
   void tell(Progress progress) {

@@ -52,7 +52,8 @@ void check_size(const Contents& contents, double nx, double ny, std::size_t avai
 void check_packed_size(const Contents& contents, double nx, double ny, std::size_t packed_bytes,
                        std::size_t ratio, std::size_t sample_bytes) {
   check_whole(contents, nx, ny);
-  if (nx * ny > static_cast<double>(packed_bytes * ratio / sample_bytes)) {
+  const std::size_t most = packed_bytes * ratio / sample_bytes;
+  if (nx * ny > static_cast<double>(most)) {
     reject(contents, fmt::format("{} x {} pixels in its header", nx, ny),
            fmt::format("as many as its {} bytes can hold", packed_bytes), kDamaged);
   }
