@@ -18,6 +18,7 @@
 #include "tabor/scan/read_parameters.hpp"
 #include "tabor/topography/digest.hpp"
 #include "tabor/topography/edges.hpp"
+#include "tabor/topography/levelling.hpp"
 #include "tabor/topography/treatment.hpp"
 #include "tabor/topography/warnings.hpp"
 #include "values.hpp"
@@ -139,6 +140,26 @@ Topography apply(const Topography& surface, const topography::Treatment& treatme
   return watched(progress, [&](const Observer& observer) {
     return topography::apply(treatment, surface, observer);
   });
+}
+
+/// (name, purpose, steps)
+using RecipeTexts = std::vector<std::tuple<Text, Text, std::vector<Text>>>;
+RecipeTexts recipes() {
+  RecipeTexts texts;
+  for (const topography::Recipe& recipe : topography::recipes()) {
+    texts.emplace_back(recipe.name, recipe.purpose,
+                       std::vector<Text>(recipe.steps.begin(), recipe.steps.end()));
+  }
+  return texts;
+}
+
+/// Slopes of the mean plane along x and y; none where heights do not determine it.
+std::optional<std::pair<double, double>> tilt(const Topography& surface) {
+  const nb::gil_scoped_release release;
+  const auto fit = topography::try_fit_form(surface.height, 1);
+  if (!fit) return std::nullopt;
+  const auto [along_x, along_y] = topography::tilt_of(*fit, surface.grid);
+  return std::pair(along_x, along_y);
 }
 
 using StepTexts = std::vector<std::tuple<Text, Text, Text>>;
@@ -285,6 +306,8 @@ void bind_surface(nb::module_& module) {
   module.def("write", &scan::write, "surface"_a, "file"_a);
   module.def("apply", &apply, "surface"_a, "treatment"_a, "progress"_a.none());
   module.def("treatment_steps", &treatment_steps);
+  module.def("recipes", &recipes);
+  module.def("tilt", &tilt, "surface"_a);
   module.def(
       "digest_of",
       [](const Topography& one) { return topography::digest_of(one.height, one.grid); },

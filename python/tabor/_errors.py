@@ -17,7 +17,6 @@ class OutputError(OSError):
     """A result cannot be written; an OSError."""
 
 
-
 class InputFileNotFound(InputError, FileNotFoundError):
     """A file that is not there: a FileNotFoundError, and a ValueError as other faults of input are."""
 

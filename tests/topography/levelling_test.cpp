@@ -31,6 +31,15 @@ TEST(LevelPlane, RemovesAnExactPlane) {
   EXPECT_LT(level(tilted, Form::plane).height.abs().maxCoeff(), 1e-18);
 }
 
+TEST(FitForm, KnowsTheTiltOfAPlane) {
+  const auto tilted = surface(kGrid, [](double x, double y) { return 1e-3 + 0.2 * x - 0.7 * y; });
+  for (const int degree : {1, 3}) {
+    const auto [along_x, along_y] = tilt_of(fit_form(tilted.height, degree), kGrid);
+    EXPECT_NEAR(along_x, 0.2, 1e-12) << degree;
+    EXPECT_NEAR(along_y, -0.7, 1e-12) << degree;
+  }
+}
+
 TEST(LevelMean, LeavesTheTilt) {
   const auto tilted = surface(kGrid, [](double x, double) { return 1e-3 + 0.2 * x; });
   const auto levelled = level(tilted, Form::mean);

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <set>
+#include <string>
+
 #include "support/sample_surfaces.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/topography/geometry.hpp"
@@ -44,6 +47,16 @@ TEST(Treatment, EqualsTheFunctionsItNames) {
   EXPECT_TRUE(same_bits(apply({"level=poly2"}, rough).height, level(rough, Form::poly2).height));
   EXPECT_TRUE(same_bits(apply({"mirror"}, rough).height, mirror(rough).height));
   EXPECT_TRUE(same_bits(apply({"resample=20,15"}, rough).height, resample(rough, 20, 15).height));
+}
+
+TEST(Recipes, HaveNamesOfTheirOwnAndStepsThatExist) {
+  std::set<std::string> names;
+  for (const Recipe& recipe : recipes()) {
+    EXPECT_NO_THROW(check(recipe.steps)) << recipe.name;
+    EXPECT_FALSE(recipe.purpose.empty()) << recipe.name;
+    EXPECT_TRUE(names.insert(recipe.name).second) << recipe.name;
+  }
+  EXPECT_FALSE(names.empty());
 }
 
 TEST(Treatment, DependsOnTheOrderOfItsSteps) {

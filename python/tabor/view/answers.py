@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 import time
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
+from .. import _tabor
 from .._contact import Contact, contact
 from .._friction import Film, Friction, friction, rain
 from .._progress import Told
@@ -16,11 +16,9 @@ from .._records import Warning
 from .._parameters import Parameters
 from .._surface import Surface
 from .previews import Pace
-from .state import State
+from .state import PARAMETERS, State
 
-PARAMETERS = ("Sa", "Sq", "Sz", "Ssk", "Spk", "Svk", "Sdq")
 _MOST_KEPT = 12  #: results of one stage
-_TILT = re.compile(r"tilt x (\S+), y ([^\s,]+)")
 _Result = TypeVar("_Result")
 
 
@@ -118,7 +116,7 @@ class Bench:
 
         def measure() -> tuple[Parameters, tuple[float, float] | None]:
             with self.pace.of("parameters", surface):
-                return surface.parameters(PARAMETERS, progress=told), tilt_of(surface, told)
+                return surface.parameters(PARAMETERS, progress=told), _tabor.tilt(surface._topography)
 
         try:
             parameters, tilt = self._kept.get("parameters", state.treatment, measure)
@@ -190,15 +188,6 @@ def _contact_key(state: State) -> Hashable:
 
 def _oil_key(state: State) -> Hashable:
     return state.treatment, state.density
-
-
-def tilt_of(surface: Surface, told: Told = None) -> tuple[float, float] | None:
-    """Slopes of the mean plane along x and y, as levelling says them; None where there is no plane."""
-    try:
-        found = _TILT.search(surface.treat("level=plane", progress=told).history[-1])
-    except ValueError:
-        return None
-    return None if found is None else (float(found[1]), float(found[2]))
 
 
 def answer_of(scan: Surface, state: State) -> Answer:

@@ -22,10 +22,10 @@ from .written import Folder
 #: Nothing but this server is asked for anything, whatever the page holds.
 _POLICY = ("default-src 'self'; script-src 'self' 'unsafe-inline' 'unsafe-eval'; style-src 'self' 'unsafe-inline'; "
            "img-src 'self' data: blob:; connect-src 'self' ws://127.0.0.1:*; object-src 'none'; base-uri 'none'; form-action 'none'")
-_TEMPLATE = f"""{{% block preamble %}}
-<meta http-equiv="Content-Security-Policy" content="{_POLICY}"><meta name="referrer" content="no-referrer"><link rel="icon" href="data:,">
-<style>html, body {{{{ margin: 0; background: #FFF; }}}} body {{{{ width: 1250px; margin: 0 auto; font: 14px/1.4 system-ui, sans-serif; }}}}</style>
-{{% endblock %}}""".replace("{{", "{").replace("}}", "}")
+_TEMPLATE = """{% block preamble %}
+<meta http-equiv="Content-Security-Policy" content="POLICY"><meta name="referrer" content="no-referrer"><link rel="icon" href="data:,">
+<style>html, body { margin: 0; background: #FFF; } body { width: 1250px; margin: 0 auto; font: 14px/1.4 system-ui, sans-serif; }</style>
+{% endblock %}""".replace("POLICY", _POLICY)
 
 
 class Opened(NamedTuple):

@@ -15,12 +15,6 @@ _FIRST = {"contact": 3e-7, "oil": 1e-6, "friction": 5e-7, "parameters": 1e-6, "t
 _LEAST_SIDE = 32  #: pixels of a preview
 
 
-def n_pixels(surface: Surface) -> int:
-    """Of the whole surface."""
-    ny, nx = surface.shape
-    return ny * nx
-
-
 class Pace:
     """How long each stage takes for a pixel, as it was timed last."""
 
@@ -32,11 +26,11 @@ class Pace:
         """Times a stage; one that is stopped teaches nothing."""
         begin = time.monotonic()
         yield
-        self._seconds[stage] = (time.monotonic() - begin) / n_pixels(surface)
+        self._seconds[stage] = (time.monotonic() - begin) / surface.size
 
     def expected(self, stage: str, surface: Surface) -> float:
         """[s]"""
-        return self._seconds[stage] * n_pixels(surface)
+        return self._seconds[stage] * surface.size
 
 
 def coarser(surface: Surface, seconds: float, limit: float = LIVE) -> Surface | None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import difflib
 from typing import NamedTuple
 
+from .. import _tabor
+
 
 class Recipe(NamedTuple):
     """A treatment chain with a name. It stands for its steps and for nothing else."""
@@ -14,14 +16,7 @@ class Recipe(NamedTuple):
     steps: tuple[str, ...]  #: as ``Surface.treat`` takes them
 
 
-RECIPES = (
-    Recipe("sheet", "a flat sheet: spikes become holes, holes are closed from their rims, the plane is subtracted",
-           ("despike=auto", "fill=harmonic", "level=plane")),
-    Recipe("part", "a curved part, cut out of a larger one: the same with a form of second order; mirror images continue it",
-           ("despike=auto", "fill=harmonic", "level=poly2", "edges=cut")),
-    Recipe("pad", "a pad whose body ends at the edges of the scan: pores are no spikes, so that heights stay; edges carry load",
-           ("fill=nearest", "level=plane", "edges=end")),
-)
+RECIPES = tuple(Recipe(name, purpose, tuple(steps)) for name, purpose, steps in _tabor.recipes())
 
 
 def recipe(name: str) -> Recipe:

@@ -14,6 +14,8 @@ from .._contact import Solid
 from .recipes import recipe
 
 KNOWN_STEPS = {name: (argument, text) for name, argument, text in _tabor.treatment_steps()}
+#: Symbols of the numbers that are shown of a surface.
+PARAMETERS = ("Sa", "Sq", "Sz", "Ssk", "Spk", "Svk", "Sdq")
 _Kept = TypeVar("_Kept")
 
 

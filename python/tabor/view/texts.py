@@ -8,7 +8,7 @@ import shlex
 from collections.abc import Iterable
 
 from .._settings import OF_SCANS
-from .state import State
+from .state import PARAMETERS, State
 
 IN_MEMORY = "surface.h5"  #: stands for a surface that is in no file
 
@@ -74,7 +74,7 @@ def python(state: State) -> str:
     lines = ["import tabor as tb", "", *_read_line(state)]
     if state.treatment:
         lines.append(f"surface = surface.treat({', '.join(map(repr, state.treatment))})")
-    lines.append("print(surface.parameters(['Sa', 'Sq', 'Sz', 'Ssk', 'Spk', 'Svk', 'Sdq']))")
+    lines.append(f"print(surface.parameters({list(PARAMETERS)}))")
     tool = f"tool={state.tool!r}" if state.tool else ""
     lines.append(f"contact = tb.contact({_arguments('surface', repr(state.pressure), f'tb.Solid({state.material!r})', tool)})")
     if not state.has_friction:

@@ -11,33 +11,34 @@
 namespace tabor::cli {
 namespace {
 
-std::size_t bytes_for(const std::string& file, double bytes_per_pixel) {
+std::size_t bytes_for(const std::string& file) {
+  constexpr double kBytesPerPixel =
+      60;  // of all parameters, or spectra with autocorrelation: 42 at 1024 x 1024
   double n_pixels = 0;
   for (const scan::Channel& one : scan::ScanFile(file).info().channels) {
     n_pixels = std::max(n_pixels, static_cast<double>(one.nx) * static_cast<double>(one.ny));
   }
-  return static_cast<std::size_t>(bytes_per_pixel * n_pixels);
+  return static_cast<std::size_t>(kBytesPerPixel * n_pixels);
 }
 
 }  // namespace
 
-void for_each_scan(const std::vector<std::string>& files, const ScanWork& work,
+void for_each_scan(const std::vector<std::string>& files, const std::string& verb,
+                   const std::function<void(std::size_t place, const Observer&)>& run,
                    const Context& context) {
   std::vector<std::exception_ptr> errors(files.size());
   std::vector<engine::Job> jobs(files.size());
   for (std::size_t i = 0; i < jobs.size(); ++i) {
-    jobs[i].kind = work.verb;
-    jobs[i].stage = work.verb + ' ' + files[i];
-    jobs[i].compute = [&work, &error = errors[i], i](const engine::Monitor& monitor) {
+    jobs[i].kind = verb;
+    jobs[i].stage = verb + ' ' + files[i];
+    jobs[i].compute = [&run, &error = errors[i], i](const engine::Monitor& monitor) {
       try {
-        work.run(i, monitor.own);
+        run(i, monitor.own);
       } catch (const InputError&) {  // the others go on
         error = std::current_exception();
       }
     };
-    jobs[i].memory = [&work, &file = files[i]](const engine::Monitor&) {
-      return bytes_for(file, work.bytes_per_pixel);
-    };
+    jobs[i].memory = [&file = files[i]](const engine::Monitor&) { return bytes_for(file); };
   }
   engine::RunOptions options;
   options.observer = context.observer();

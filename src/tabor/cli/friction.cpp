@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "tabor/cli/contact_request.hpp"
 #include "tabor/cli/density_curve.hpp"
@@ -14,6 +16,7 @@
 #include "tabor/core/resources.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/study/curves_file.hpp"
+#include "tabor/study/friction_graph.hpp"
 #include "tabor/study/friction_table.hpp"
 #include "tabor/study/resolution_scan.hpp"
 #include "tabor/study/scan_friction.hpp"
@@ -44,26 +47,28 @@ struct Solved {
   std::vector<cases::DensityCurve> curves;
   study::CoarsePixels coarse;
   std::vector<study::ResolutionRecord> resolution;
-  std::map<std::string, double> seconds;  ///< wall time by kind of work
+  std::map<std::string, double, std::less<>> seconds;  ///< wall time by kind of work
   int code = kDone;
 };
 
-/// A kind of work: its key in the JSON object, and what a person reads.
-struct Work {
-  const char* kind;
+/// One part of the run in the JSON object and for a person.
+struct TimedPart {
+  std::string_view kind;  ///< of the jobs; those that are none are timed here
   const char* key;
   const char* words;
 };
-constexpr std::array kWorks{Work{"read", "reading", "reading"},
-                            Work{"film", "rain", "rain"},
-                            Work{"wetting doses", "density_curve", "density curve"},
-                            Work{"contact", "contacts", "contacts"},
-                            Work{"trapped oil", "trapped", "trapped oil"},
-                            Work{"fluid", "flow", "flow"},
-                            Work{"coarse pixels", "coarse_pixels", "coarse pixels"},
-                            Work{"resolution", "resolution", "resolution scan"},
-                            Work{"hand on", "writing", "writing"},
-                            Work{"all", "all", ""}};
+constexpr std::string_view kReading = "read", kResolution = "resolution", kAll = "all";
+constexpr auto& kJobs = study::kFrictionJobs;
+constexpr std::array kTimedParts{
+    TimedPart{kReading, "reading", "reading"},
+    TimedPart{kJobs.of(study::FrictionJob::film), "rain", "rain"},
+    TimedPart{kJobs.of(study::FrictionJob::wetting_doses), "density_curve", "density curve"},
+    TimedPart{kJobs.of(study::FrictionJob::contact), "contacts", "contacts"},
+    TimedPart{kJobs.of(study::FrictionJob::trapped), "trapped", "trapped oil"},
+    TimedPart{kJobs.of(study::FrictionJob::fluid), "flow", "flow"},
+    TimedPart{study::kCoarsePixels, "coarse_pixels", "coarse pixels"},
+    TimedPart{kResolution, "resolution", "resolution scan"},
+    TimedPart{study::kHandOn, "writing", "writing"}};
 
 /// With --resolution-scan, a table says it.
 bool compares(const Request& request) {
@@ -90,11 +95,11 @@ Solved solve_all(const Request& request, const topography::Topography& surface,
         study::friction_of(surface, request.settings, receive, maps, options, compares(request));
     solved.curves = std::move(result.density_curves);
     solved.coarse = std::move(result.coarse);
-    solved.seconds = std::move(result.seconds);
+    solved.seconds.insert(result.seconds.begin(), result.seconds.end());
     if (!request.resolution_scan) return;
     const Stopwatch watch;
     solved.resolution = study::resolution_scan(surface, request.settings, solved.records, options);
-    solved.seconds["resolution"] = watch.seconds();
+    solved.seconds[std::string(kResolution)] = watch.seconds();
   });
   for (const cases::FrictionRecord& record : solved.records) {
     if (solved.code == kDone && !record.converged) solved.code = kNotConverged;
@@ -199,27 +204,31 @@ std::string curves_text(const Solved& solved, const Request& request) {
   return '\n' + facts.text() + tables;
 }
 
+double seconds_of(const Solved& solved, std::string_view kind) {
+  const auto found = solved.seconds.find(kind);
+  return found == solved.seconds.end() ? 0 : found->second;
+}
+
 io::Json seconds_json(const Solved& solved) {
   io::Json object;
-  for (const Work& work : kWorks) {
-    const auto found = solved.seconds.find(work.kind);
-    if (found != solved.seconds.end()) object[work.key] = found->second;
+  for (const TimedPart& part : kTimedParts) {
+    if (solved.seconds.contains(part.kind)) object[part.key] = seconds_of(solved, part.kind);
   }
+  object["all"] = seconds_of(solved, kAll);
   return object;
 }
 
-/// Where the time went, what took the longest first.
+/// Where the time went, the longest part first.
 std::string times_text(const Solved& solved) {
   constexpr double kWorthSaying = 0.1;  // [s]
   std::vector<std::pair<double, std::string>> parts;
-  for (const Work& work : kWorks) {
-    const auto found = solved.seconds.find(work.kind);
-    if (found == solved.seconds.end() || found->second < kWorthSaying) continue;
-    if (*work.words != '\0') parts.emplace_back(found->second, work.words);
+  for (const TimedPart& part : kTimedParts) {
+    const double seconds = seconds_of(solved, part.kind);
+    if (seconds >= kWorthSaying) parts.emplace_back(seconds, part.words);
   }
   std::stable_sort(parts.begin(), parts.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
-  std::string text = fmt::format("{:.1f} s", solved.seconds.at("all"));
+  std::string text = fmt::format("{:.1f} s", seconds_of(solved, kAll));
   for (std::size_t i = 0; i < parts.size(); ++i) {
     text += fmt::format("{} {} {:.1f} s", i == 0 ? ":" : ",", parts[i].second, parts[i].first);
   }
@@ -277,8 +286,8 @@ int show(Request request, Context& context) {
     study::write_curves(solved.curves, request.scan.file, solved.records, *file);
     file->commit(context.warnings);
   }
-  solved.seconds["read"] = seconds_of_reading;
-  solved.seconds["all"] = watch.seconds();
+  solved.seconds[std::string(kReading)] = seconds_of_reading;
+  solved.seconds[std::string(kAll)] = watch.seconds();
   io::Json object = json_head(context, scan);
   object.update(results::settings_json(request.settings));
   object["states"] = states_json(cases::friction_columns(), solved.records);

@@ -144,19 +144,13 @@ Measured try_measure(const Request& request, const std::string& file, const Cont
   }
 }
 
-/// Measures all files.
 std::vector<Measured> measure_all(const Request& request, const Context& context) {
-  constexpr double kBytesPerPixel = 100;
-  std::vector<Measured> all(request.files.size());
-  for_each_scan(request.files,
-                {.verb = "params",
-                 .bytes_per_pixel = kBytesPerPixel,
-                 .run =
-                     [&](std::size_t i, const Observer& observer) {
-                       all[i] = try_measure(request, request.files[i], context, observer);
-                     }},
-                context);
-  return all;
+  return measure_each<Measured>(
+      request.files, "params",
+      [&](const std::string& file, const Observer& observer) {
+        return try_measure(request, file, context, observer);
+      },
+      context);
 }
 
 /// What a short table leaves out.

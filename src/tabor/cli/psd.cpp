@@ -70,19 +70,13 @@ Measured measure(const Request& request, const std::string& file, const Context&
   return measured;
 }
 
-/// Measures all files.
 std::vector<Measured> measure_all(const Request& request, const Context& context) {
-  constexpr double kBytesPerPixel = 100;
-  std::vector<Measured> all(request.files.size());
-  for_each_scan(request.files,
-                {.verb = "psd",
-                 .bytes_per_pixel = kBytesPerPixel,
-                 .run =
-                     [&](std::size_t i, const Observer& observer) {
-                       all[i] = measure(request, request.files[i], context, observer);
-                     }},
-                context);
-  return all;
+  return measure_each<Measured>(
+      request.files, "psd",
+      [&](const std::string& file, const Observer& observer) {
+        return measure(request, file, context, observer);
+      },
+      context);
 }
 
 void warn_of(const std::vector<Measured>& all, Context& context) {

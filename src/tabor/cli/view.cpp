@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "tabor/cli/python_program.hpp"
@@ -8,6 +10,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/io/files/subprocess.hpp"
+#include "tabor/topography/treatment.hpp"
 
 namespace tabor::cli {
 
@@ -65,13 +68,22 @@ int view(const Request& request, Context& context) {
   io::become_program(python_program("view"), python_words(request, context));
 }
 
+/// Adds --recipe; its help lists the steps of each as options: "sheet = despike auto, ...".
+void declare_recipe(OptionSet& set, Request& request) {
+  std::vector<std::string> names;
+  std::string help = "treatment to begin with, before the steps given";
+  for (const topography::Recipe& recipe : topography::recipes()) {
+    std::string steps = fmt::format("{}", fmt::join(recipe.steps, ", "));
+    std::replace(steps.begin(), steps.end(), '=', ' ');
+    help += fmt::format("{} {} = {}", names.empty() ? ":" : ";", recipe.name, steps);
+    names.push_back(recipe.name);
+  }
+  set.choice("--recipe", names, help + " [none]", request.recipe);
+}
+
 void declare_options(OptionSet& set, Request& request) {
   set.group("View");
-  set.choice("--recipe", {"sheet", "part", "pad"},
-             "treatment to begin with, before the steps given: sheet = despike auto, fill "
-             "harmonic, level plane; part = despike auto, fill harmonic, level poly2, edges cut; "
-             "pad = fill nearest, level plane, edges end [none]",
-             request.recipe);
+  declare_recipe(set, request);
   set.count("--port", "port of 127.0.0.1 [0: any that is free]", request.port);
   set.toggle("--no-browser", "print the address, and open no browser", request.no_browser);
   set.toggle("--keep", "go on when the last page closes", request.keep);

@@ -194,7 +194,7 @@ CoarsePixels coarse_pixels(const topography::Topography& surface,
 engine::Job hand_on_job(const std::shared_ptr<FrictionInMemory>& store, std::size_t pressure,
                         const std::function<void(const FrictionState&)>& receive) {
   engine::Job job;
-  job.kind = job.stage = "hand on";
+  job.kind = job.stage = kHandOn;
   job.compute = [store, pressure, &receive](const engine::Monitor&) {
     const FrictionInMemory::Solved one = store->take(pressure);
     for (std::size_t d = 0; d < one.frictions.size(); ++d) {
@@ -209,7 +209,7 @@ engine::Job hand_on_job(const std::shared_ptr<FrictionInMemory>& store, std::siz
 engine::Job coarse_job(const std::shared_ptr<FrictionInMemory>& store, const Grid& grid,
                        CoarsePixels& result) {
   engine::Job job;
-  job.kind = job.stage = "coarse pixels";
+  job.kind = job.stage = kCoarsePixels;
   job.memory = [store, &grid](const engine::Monitor&) {
     return bytes_of_job(grid, store->settings());
   };

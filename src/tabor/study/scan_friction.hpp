@@ -35,13 +35,18 @@ struct CoarsePixels {
   std::vector<std::vector<double>> lubricated_shares;
 };
 
+/// Kinds of jobs that this adds to the graph: the calls of `receive`, and the coarse pixels.
+inline constexpr const char* kHandOn = "hand on";
+inline constexpr const char* kCoarsePixels = "coarse pixels";
+
 /// Result of friction_of() beside the states that it hands on.
 struct ScanFrictionResult {
   /// Friction against density, one for each pressure; none where the oil flows, where all densities
   /// are zero, or where it does not run downhill.
   std::vector<cases::DensityCurve> density_curves;
   CoarsePixels coarse = {};
-  /// Wall time of the jobs by kind, each kind's added up; some run side by side.
+  /// Wall time of the jobs by kind, added up over each kind: those of kFrictionJobs
+  /// (friction_graph.hpp), kHandOn and kCoarsePixels. Some run side by side.
   std::map<std::string, double> seconds = {};
 };
 

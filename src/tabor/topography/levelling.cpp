@@ -196,8 +196,8 @@ int degree_of(Form form) { return static_cast<int>(form) - static_cast<int>(Form
 std::string describe(const Topography& topography, const FormFit& fit, double rms_before) {
   std::string text = fmt::format("{} valid points", fit.n_valid);
   if (fit.degree >= 1) {
-    text += fmt::format(", tilt x {:.6g}, y {:.6g}", 2 * fit.coefficients[1] / topography.grid.lx,
-                        2 * fit.coefficients[2] / topography.grid.ly);
+    const auto [along_x, along_y] = tilt_of(fit, topography.grid);
+    text += fmt::format(", tilt x {:.6g}, y {:.6g}", along_x, along_y);
   } else {
     text += ", mean " + format_si(fit.coefficients[0], "m", 6);
   }
@@ -232,6 +232,10 @@ std::optional<FormFit> try_fit_form(const Field& height, int degree) {
   } catch (const InputError&) {
     return std::nullopt;
   }
+}
+
+std::array<double, 2> tilt_of(const FormFit& fit, const Grid& grid) {
+  return {2 * fit.coefficients[1] / grid.lx, 2 * fit.coefficients[2] / grid.ly};
 }
 
 Field remove_form(Field height, const FormFit& fit) {

@@ -36,6 +36,9 @@ FormFit fit_form(const Field& height, int degree);
 /// Fits the form, or returns nullopt when the valid points do not determine it.
 std::optional<FormFit> try_fit_form(const Field& height, int degree);
 
+/// Returns the mean slopes along x and y that a form of degree 1 or more has over the scan.
+std::array<double, 2> tilt_of(const FormFit& fit, const Grid& grid);
+
 /// Returns height minus the fitted form; holes stay holes. Pass heights that are no longer needed
 /// by std::move.
 Field remove_form(Field height, const FormFit& fit);

@@ -217,6 +217,21 @@ Action parse_step(std::string_view text) {
 
 }  // namespace
 
+std::vector<Recipe> recipes() {
+  return {{"sheet",
+           "a flat sheet: spikes become holes, holes are closed from their rims, the plane is "
+           "subtracted",
+           {"despike=auto", "fill=harmonic", "level=plane"}},
+          {"part",
+           "a curved part, cut out of a larger one: the same with a form of second order; mirror "
+           "images continue it",
+           {"despike=auto", "fill=harmonic", "level=poly2", "edges=cut"}},
+          {"pad",
+           "a pad whose body ends at the edges of the scan: pores are no spikes, so that heights "
+           "stay; edges carry load",
+           {"fill=nearest", "level=plane", "edges=end"}}};
+}
+
 std::vector<StepDescription> treatment_steps() {
   std::vector<StepDescription> descriptions;
   for (const Step& step : steps()) descriptions.push_back(step.description);

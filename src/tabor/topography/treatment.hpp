@@ -26,6 +26,14 @@ struct StepDescription {
 };
 std::vector<StepDescription> treatment_steps();
 
+/// Named chain that a kind of surface usually needs; it stands for its steps and for nothing else.
+struct Recipe {
+  std::string name;
+  std::string purpose;  ///< which surfaces it is for, and why these steps
+  Treatment steps;
+};
+std::vector<Recipe> recipes();
+
 /// Checks names and arguments without a surface. Throws InputError naming the nearest match, and
 /// for steps that contradict each other.
 void check(const Treatment& treatment);
