@@ -4,6 +4,7 @@ import doctest
 import importlib
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -21,10 +22,39 @@ def in_the_root():
     os.chdir(before)
 
 
-def test_the_session_of_the_page_prints_what_it_shows():
-    found = doctest.testfile(str(ROOT / "docs" / "python.md"), module_relative=False, encoding="utf-8",
+@pytest.mark.parametrize("page", ["python.md", "first_hour.md"])
+def test_the_session_of_the_page_prints_what_it_shows(page):
+    found = doctest.testfile(str(ROOT / "docs" / page), module_relative=False, encoding="utf-8",
                              optionflags=doctest.REPORT_NDIFF)
     assert found.attempted > 15 and found.failed == 0
+
+
+def names_in_hdf5(page):
+    """(dataset, None) of h5read and (group, attribute) of h5readatt in the MATLAB of a page."""
+    text = (ROOT / "docs" / page).read_text("utf-8")
+    return re.findall(r"h5read(?:att)?\('friction.h5', '([^']+)'(?:, '([^']+)')?\)", text)
+
+
+def test_the_page_for_matlab_names_what_a_file_holds(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    sheet = tb.read("surfaces/edt_before.x3p").level("plane").crop(0, 0, 64, 64)
+    film = tb.rain(sheet, "0.9 g/m^2")
+    tb.save(tmp_path / "friction.h5", [tb.friction(one, film) for one in tb.contact(sheet, ["2 MPa", "7 MPa"], "aluminium-6016")])
+    names = names_in_hdf5("from_matlab.md")
+    assert len(names) > 7
+    with h5py.File(tmp_path / "friction.h5") as file:
+        for place, attribute in names:
+            assert place in file, place
+            assert not attribute or attribute in file[place].attrs, attribute
+
+
+def test_the_pages_for_users_of_others_name_what_is_there():
+    text = "".join((ROOT / "docs" / page).read_text("utf-8") for page in ("glossary.md", "from_tamaas.md", "from_gwyddion.md", "from_surfacetopography.md"))
+    kinds = {"surface": tb.Surface, "contact": tb.Contact, "film": tb.Film, "friction": tb.Friction, "tb": tb}
+    used = set(re.findall(r"\b(surface|contact|film|friction|tb)\.([a-zA-Z]\w*)", text))
+    used = {one for one in used if one[1] not in ("engineering", "h5")}  # a web site, files
+    assert len(used) > 30
+    assert [f"{name}.{member}" for name, member in sorted(used) if not hasattr(kinds[name], member)] == []
 
 
 def test_types_hold():
