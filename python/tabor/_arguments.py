@@ -9,6 +9,7 @@ import operator
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
+from types import MappingProxyType
 from typing import Any, TypeVar, Union, cast
 
 import numpy as np
@@ -193,11 +194,20 @@ def _with_more(function: Callable[..., Any], args: tuple[Any, ...], given: dict[
     return args[:n_own]
 
 
-def typed(function: _Function, settings: Sequence[str] = ()) -> _Function:
+def _renamed(function: Callable[..., Any], given: dict[str, Any], others: Mapping[str, str]) -> None:
+    """Gives arguments their own names where another spelling was used."""
+    for other in others.keys() & given.keys():
+        name = others[other]
+        if name in given:
+            raise TypeError(f"{function.__qualname__.removesuffix('.__init__')}(): {other} and {name} are the same argument; give one of them")
+        given[name] = given.pop(other)
+
+
+def typed(function: _Function, settings: Sequence[str] = (), others: Mapping[str, str] = MappingProxyType({})) -> _Function:
     """The function, with its arguments asked by their annotations first: TypeError says what came and what was
     expected, and names the nearest argument for one that it does not have. Values with units, and what has a type of its
     own in one function alone, are asked there. ``settings`` are arguments that it takes by ``**settings`` (_settings.py),
-    and by place where it takes ``*more``."""
+    and by place where it takes ``*more``; ``others`` are further spellings of them."""
     code = function.__code__
     n_own = code.co_argcount
     names = code.co_varnames[:n_own + code.co_kwonlyargcount]
@@ -211,6 +221,7 @@ def typed(function: _Function, settings: Sequence[str] = ()) -> _Function:
     def asked(*args: Any, **given: Any) -> Any:
         if more is not None and len(args) > n_own:
             args = _with_more(function, args, given, n_own, more)
+        _renamed(function, given, others)
         plain = [check(value, name) if check else value for value, check, name in zip(args, positional, names)]
         for name in given:
             if name in checks:

@@ -21,6 +21,13 @@ def wave(n=64, amplitude=1e-6, wavelength=64e-6):
     return tb.Surface(np.tile(amplitude * np.cos(x), (n, 1)), pixel=wavelength / n, periodic=True)
 
 
+def test_a_solid_takes_the_spelling_of_the_command_line():
+    solid = tb.Solid(youngs_modulus="70 GPa", poisson_ratio=0.33, counter_youngs_modulus="210 GPa", counter_poisson_ratio=0.3)
+    assert solid == tb.Solid(youngs_modulus="70 GPa", poissons_ratio=0.33, counter_youngs_modulus="210 GPa", counter_poissons_ratio=0.3)
+    with pytest.raises(TypeError, match="poisson_ratio and poissons_ratio are the same argument"):
+        tb.Solid(youngs_modulus="70 GPa", poisson_ratio=0.33, poissons_ratio=0.33)
+
+
 def test_a_wave_is_flattened_at_westergaards_pressure():
     solid = tb.Solid(youngs_modulus=1e11, poissons_ratio=0)
     full = np.pi * 1e11 * 1e-6 / 64e-6

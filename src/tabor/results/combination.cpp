@@ -84,14 +84,14 @@ std::vector<std::string> doubts_of(const Combination& c) {
   std::vector<std::string> doubts;
   if (is_ambiguous(c)) {
     doubts.push_back(
-        fmt::format("another shift matches nearly as well ({:.0f} %): if the texture "
-                    "repeats, check the shift",
+        fmt::format("Another shift matches nearly as well ({:.0f} %). Check the shift if the "
+                    "texture repeats",
                     100 * c.registration->runner_up));
   }
   if (const double share = share_of_holes(c); c.wear && share > much) {
     doubts.push_back(fmt::format(
-        "{} of the overlap lie in or beside holes and are left out of the volumes: fill small "
-        "holes (--fill harmonic)",
+        "{} of the overlap lies in or beside holes and is left out of the volumes. Fill small "
+        "holes with --fill harmonic",
         percent(share)));
   }
   return doubts;
