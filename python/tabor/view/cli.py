@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import Any, NoReturn
 
 from .. import set_threads
-from .._surface import read
+from .._read import read
 from .recipes import RECIPES, recipe, said
 from .state import State
 
