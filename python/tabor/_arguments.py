@@ -10,7 +10,7 @@ import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
 from types import MappingProxyType
-from typing import Any, TypeVar, Union, cast
+from typing import Any, Literal, TypeVar, Union, cast, get_origin
 
 import numpy as np
 
@@ -167,7 +167,8 @@ def _instance_check(annotation: str, names: Mapping[str, Any]) -> _Check | None:
 
 def _check_of(annotation: str, names: Mapping[str, Any]) -> _Check | None:
     inner = annotation.removesuffix(" | None")
-    check = _CHECKS.get(inner) or _instance_check(inner, names)
+    is_choice = inner.startswith("Literal[") or get_origin(names.get(inner)) is Literal
+    check = plain_text if is_choice else _CHECKS.get(inner) or _instance_check(inner, names)
     if check is None or inner == annotation:
         return check
     asked = check
@@ -215,7 +216,7 @@ def typed(function: _Function, settings: Sequence[str] = (), others: Mapping[str
     checks = {name: check for name, check in found if check is not None}
     positional = tuple(checks.get(name) for name in names[:n_own])
     known = None if code.co_flags & inspect.CO_VARKEYWORDS and not settings else {*names, *settings}
-    more = [name for name in settings if name not in names] if code.co_flags & inspect.CO_VARARGS else None
+    more = [name for name in settings if name not in names] if settings and code.co_flags & inspect.CO_VARARGS else None
 
     @functools.wraps(function)
     def asked(*args: Any, **given: Any) -> Any:

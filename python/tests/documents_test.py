@@ -2,6 +2,7 @@
 
 import doctest
 import importlib
+import inspect
 import os
 import pathlib
 import re
@@ -67,6 +68,18 @@ def test_types_hold():
     assert checked.returncode == 0, checked.stdout
 
 
+def test_types_of_the_ten_tasks_hold(tmp_path):
+    """As those of a user, who knows the package by its public names."""
+    pytest.importorskip("mypy")
+    package = pathlib.Path(tb.__file__).parent
+    if not (package / "_tabor.pyi").is_file():
+        pytest.skip("the stub of the extension module is not built")
+    checked = subprocess.run([sys.executable, "-m", "mypy", "--config-file", ROOT / "pyproject.toml", "--strict", "--cache-dir", tmp_path,
+                              ROOT / "python" / "tests" / "ten_tasks_test.py"], capture_output=True, text=True, check=False,
+                             env={**os.environ, "MYPYPATH": os.fspath(package.parent)})
+    assert checked.returncode == 0, checked.stdout
+
+
 def test_every_step_has_a_method_and_a_type():
     types = (pathlib.Path(tb.__file__).parent / "_setting_types.py").read_text("utf-8")
     for name, _, text in tb._tabor.treatment_steps():
@@ -91,6 +104,31 @@ def test_examples_of_docstrings_hold():
     for name, text in documented():
         runner.run(parser.get_doctest(text or "", {}, name, None, 0))
     assert runner.tries > 25 and runner.failures == 0
+
+
+#: Arguments with a unit that are typed by overloads.
+DIMENSIONAL = ("pressure", "separation", "force", "density")
+
+
+def functions():
+    """Public functions by their names."""
+    for prefix, module in (("tb.", tb), ("tb.ehl.", tb.ehl)):
+        yield from ((prefix + name, thing) for name in module.__all__ if inspect.isfunction(thing := getattr(module, name)))
+
+
+@pytest.mark.parametrize("name, function", functions())
+def test_functions_say_arguments_units_result_and_an_example(name, function):
+    sections = re.findall(r"^    ?(\w+)\n +-+$", function.__doc__, re.M)
+    signature = inspect.signature(function)
+    assert "Examples" in sections and ">>>" in function.__doc__
+    assert ("Returns" in sections) == (signature.return_annotation != "None")
+    text = re.sub(r"\s+", " ", function.__doc__)
+    own = inspect.signature(inspect.unwrap(function)).parameters
+    for argument in signature.parameters:
+        assert re.search(rf"[ ,]{argument}(, \w+)* : ", text), argument
+        if argument in own and ("Value" in own[argument].annotation or argument in DIMENSIONAL):  # settings_test.py asks the others
+            entry = re.search(rf"[ ,]{argument}(, \w+)* : (.*?)(?= \w+(, \w+)* : | Returns )", text)[2]
+            assert re.search(r"\[[^]]+\]", entry), f"{argument} has no unit"
 
 
 def test_all_that_is_public_is_explained():

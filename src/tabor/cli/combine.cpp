@@ -130,7 +130,8 @@ void write(const Combination& c, CombineMode mode, const std::string& file,
   const auto methods = c.map.metadata.find("methods");
   const std::vector<std::string> keys =
       methods == c.map.metadata.end() ? std::vector<std::string>{} : split(methods->second, ' ');
-  results::write_combination(c, mode, head_of(context, "", keys), context.warnings, file);
+  results::write_combination({c.map, std::string(comparison::name_of(mode)), results::values_of(c)},
+                             head_of(context, "", keys), context.warnings, file);
 }
 
 int show(const Request& request, Context& context) {

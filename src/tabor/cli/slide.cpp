@@ -130,7 +130,7 @@ int show(Request request, Context& context) {
   context.warn(results::findings_of({{.pressure = si(request.settings.mean_pressures.front(), "Pa"),
                                       .warnings = result.warnings}}));
   if (file) {
-    file->add_before(result.before);
+    file->add_run(result);
     file->commit(context.warnings);
   }
   if (request.after) scan::write(result.after, *request.after);
