@@ -15,7 +15,7 @@ version = release = re.search(r"project\(tabor VERSION ([\d.]+)", (ROOT / "CMake
 
 extensions = ["myst_nb", "sphinx.ext.autosummary", "sphinx.ext.mathjax", "numpydoc", "breathe", "sphinx_copybutton", "cpp_pages",
               "python_names"]
-source_suffix = {".md": "myst-nb", ".ipynb": "myst-nb", ".rst": "restructuredtext"}
+source_suffix = {".rst": "restructuredtext", ".md": "myst-nb", ".ipynb": "myst-nb"}  # stubs of names take the first
 exclude_patterns = ["README.md", "docs/site/index.md"]
 
 # Headings are linked to as on GitHub.
@@ -40,5 +40,5 @@ breathe_default_project = "tabor"
 html_theme = "furo"
 html_title = f"tabor {release}"
 html_static_path = [str(HERE / "static")]
-html_css_files = ["tables.css"]
+html_css_files = ["site.css"]
 html_show_sourcelink = False
