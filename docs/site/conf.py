@@ -1,5 +1,6 @@
 """How Sphinx makes the web pages; tools/docs calls it on a folder of links to what is shown."""
 
+import importlib.util
 import pathlib
 import re
 import sys
@@ -7,6 +8,7 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 sys.path.insert(0, str(HERE))
+MATHJAX = pathlib.Path(importlib.util.find_spec("sphinx-mathjax-offline").submodule_search_locations[0])
 
 project = "tabor"
 author = "The tabor authors"
@@ -16,7 +18,8 @@ version = release = re.search(r"project\(tabor VERSION ([\d.]+)", (ROOT / "CMake
 extensions = ["myst_nb", "sphinx.ext.autosummary", "sphinx.ext.mathjax", "numpydoc", "breathe", "sphinx_copybutton", "cpp_pages",
               "python_names"]
 source_suffix = {".rst": "restructuredtext", ".md": "myst-nb", ".ipynb": "myst-nb"}  # stubs of names take the first
-exclude_patterns = ["README.md", "docs/site/index.md"]
+templates_path = [str(HERE / "templates")]
+exclude_patterns = ["README.md", "docs/site/index.md", "docs/site/templates"]
 
 # Headings are linked to as on GitHub.
 myst_heading_anchors = 4
@@ -30,8 +33,7 @@ nb_execution_raise_on_error = True
 
 toc_object_entries = False  # names of members are found by the search
 
-numpydoc_show_class_members = True
-numpydoc_class_members_toctree = False
+numpydoc_show_class_members = False  # autodoc describes them
 autodoc_typehints = "none"
 
 breathe_projects = {"tabor": str(ROOT / "build/api/xml")}
@@ -39,6 +41,7 @@ breathe_default_project = "tabor"
 
 html_theme = "furo"
 html_title = f"tabor {release}"
-html_static_path = [str(HERE / "static")]
+html_static_path = [str(HERE / "static"), str(MATHJAX / "static")]
+mathjax_path = "mathjax/tex-chtml.js"  # beside the pages, which ask nothing of any other address
 html_css_files = ["site.css"]
 html_show_sourcelink = False

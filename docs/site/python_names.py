@@ -1,9 +1,12 @@
-"""Sphinx extension: the Python reference lists every public name of the package, and nothing else."""
+"""Sphinx extension: the Python reference lists every public name of the package, and nothing else; attributes are described by
+the comments beside them."""
 
 import re
+import sys
 
 import tabor
 from sphinx.errors import ExtensionError
+from sphinx.pycode import ModuleAnalyzer
 
 PAGE = "docs/site/python_reference"
 LISTED = re.compile(r"^   ((?:ehl\.)?\w+)$", re.M)
@@ -21,6 +24,18 @@ def compare(app, env, docnames):
         raise ExtensionError(f"{PAGE}.md and the public names of tabor differ in: {', '.join(different)}")
 
 
+def take_comments(app):
+    """Classes say that they are of `tabor`; the comments of their attributes stand in the private module that defines them."""
+    package = ModuleAnalyzer.for_module("tabor")
+    package.analyze()
+    for name in [name for name in sys.modules if name.startswith("tabor._") and name != "tabor._tabor"]:
+        module = ModuleAnalyzer.for_module(name)
+        module.analyze()
+        package.attr_docs.update(module.attr_docs)
+        package.annotations.update(module.annotations)
+
+
 def setup(app):
+    app.connect("builder-inited", take_comments)
     app.connect("env-before-read-docs", compare)
     return {"parallel_read_safe": True}

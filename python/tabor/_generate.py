@@ -57,5 +57,5 @@ class Format(NamedTuple):
 
 
 def formats() -> tuple[Format, ...]:
-    """The formats that ``read`` and ``Surface.write`` know, as ``tabor formats`` lists them."""
+    """The formats that ``read`` and ``Surface.save`` know, as ``tabor formats`` lists them."""
     return tuple(Format(name, text, tuple(extensions), *can) for name, text, extensions, *can in _tabor.formats())

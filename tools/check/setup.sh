@@ -134,7 +134,7 @@ docs_environment() {
   mkdir -p build/docs
   { python3 -m venv --clear "$venv" &&
     "$venv/bin/pip" install --quiet --disable-pip-version-check \
-      'sphinx>=9,<10' furo 'myst-nb>=1.4,<2' 'breathe>=5.1,<6' numpydoc sphinx-copybutton \
+      'sphinx>=9,<10' furo 'myst-nb>=1.4,<2' 'breathe>=5.1,<6' numpydoc sphinx-copybutton sphinx-mathjax-offline \
       numpy matplotlib pandas xarray h5py h5netcdf; } >build/docs/venv.log 2>&1 ||
     { echo "The web pages are not made: their tools cannot be had from PyPI (build/docs/venv.log)"; return 1; }
   touch "$venv/complete"
