@@ -65,17 +65,17 @@ class FrictionTable:
 
     @typed
     def to_abaqus(self, file: Path, *, units: str) -> None:
-        """Writes *FRICTION."""
+        """Writes ``*FRICTION``."""
         self._write(file, "abaqus", units)
 
     @typed
     def to_lsdyna(self, file: Path, *, units: str, first_id: Count = 1) -> None:
-        """Writes *DEFINE_TABLE and *DEFINE_CURVE."""
+        """Writes ``*DEFINE_TABLE`` and ``*DEFINE_CURVE``."""
         self._write(file, "lsdyna", units, first_id)
 
     @typed
     def to_ansys(self, file: Path, *, units: str, first_id: Count = 1) -> None:
-        """Writes TB,FRIC."""
+        """Writes ``TB,FRIC``."""
         self._write(file, "ansys", units, first_id)
 
     @typed

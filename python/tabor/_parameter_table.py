@@ -77,7 +77,7 @@ def parameters(scans: Any, symbols: Iterable[str] | None = None, *, treatment: S
 
     Parameters
     ----------
-    scans : a pattern of files, "scans/*.x3p", or a list of files, patterns and Surfaces.
+    scans : a pattern of files, ``"scans/*.x3p"``, or a list of files, patterns and Surfaces.
     symbols : those of ``Surface.parameters``: symbols, and sets such as "hybrid" [all].
     treatment : steps that each scan goes through, "level=plane".
     fields : form of the names of the files, with columns in braces: "{group}_{place}" gives the columns ``group`` and

@@ -78,6 +78,13 @@ class Docs(unittest.TestCase):
         self.assert_accepted(index)
         self.assert_rejected("no link to films.md", {**index, "docs/films.md": "# Films\n"})
 
+    def test_the_version_is_that_of_the_build(self):
+        tree = {"CMakeLists.txt": "project(tabor VERSION 1.2.3 LANGUAGES CXX)\n", "CITATION.cff": "version: 1.2.3\n",
+                "CHANGELOG.md": "# Changelog\n\n## 1.2.3\n\n## 1.2.2\n"}
+        self.assert_accepted(tree)
+        self.assert_rejected("CITATION.cff: has version 1.2.2; CMakeLists.txt has 1.2.3", {**tree, "CITATION.cff": "version: 1.2.2\n"})
+        self.assert_rejected("CHANGELOG.md: has version -", {**tree, "CHANGELOG.md": "# Changelog\n"})
+
     def test_paths_of_a_machine_are_found(self):
         self.assert_rejected("docs/theory.md:3: path of a machine", self.page("It lies in /" + "home/somebody."))
 
