@@ -49,8 +49,8 @@ CombinedRow combine(const Topography& first, const Topography& second,
 /// Writes the file of `tabor combine -o`; `values` are the numbers of combine() as JSON.
 void save(const std::filesystem::path& file, const Topography& map, const Text& mode,
           const Text& values, const Texts& warnings, const Texts& methods) {
-  std::vector<results::Finding> findings;
-  for (const Text& text : warnings) findings.push_back({.text = text});
+  std::vector<results::Finding> findings(warnings.size());
+  for (std::size_t i = 0; i < findings.size(); ++i) findings[i].text = warnings[i];
   watched(nb::none(), [&](const Observer&) {
     results::write_combination({map, mode, io::Json::parse(values)}, {"tabor.save", "", methods},
                                findings, file);
