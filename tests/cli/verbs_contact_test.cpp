@@ -48,12 +48,13 @@ TEST_F(ContactVerb, HasTheAgreedKeys) {
 
 TEST_F(ContactVerb, TakesPoissonsRatioBySpellingOfPythonToo) {
   Words words = contact("20MPa");
-  const Outcome usual = run_tabor(words);
+  const auto area = [&] {
+    return json_of(words).at("states").at(0).at("contact_area_fraction").get<double>();
+  };
+  const double usual = area();
   std::replace(words.begin(), words.end(), std::string("--poisson-ratio"),
                std::string("--poissons-ratio"));
-  const Outcome other = run_tabor(words);
-  EXPECT_EQ(other.code, 0) << other.err;
-  EXPECT_EQ(other.out, usual.out);
+  EXPECT_EQ(area(), usual);
   const Outcome both = run_tabor(words + Words{"--poisson-ratio", "0.33"});
   EXPECT_EQ(both.code, 2);
   EXPECT_THAT(both.err, HasSubstr("--poisson-ratio is given more than once"));

@@ -361,7 +361,7 @@ TEST(Warnings, AreSaidOnceOverManyStates) {
   const Outcome shown = run_tabor(words);
   EXPECT_EQ(count_lines(shown.err), warnings.size()) << shown.err;
   EXPECT_THAT(shown.err, AllOf(HasSubstr("3 of 6 cases"), HasSubstr("[spill-over]"),
-                               HasSubstr("--edges cut"), HasSubstr("isolated body")));
+                               HasSubstr("--edges cut"), HasSubstr("--edges end")));
 }
 
 /// The words by which people and scripts look for them.

@@ -33,8 +33,8 @@ constexpr double kManyTransforms = 3e8;
 void warn_of_edges(const topography::Topography& surface, Warnings& list) {
   if (topography::repeats(surface)) return;
   list.push_back({"not-periodic",
-                  "The surface is solved as a periodic tile, but opposite edges do not match; use "
-                  "<edges=cut> for a cut-out, <edges=end> for an isolated body"});
+                  "Opposite edges of this periodic tile do not match; use <edges=cut> for a "
+                  "cut-out, <edges=end> for a body"});
 }
 
 /// Share of the load that stands on the border of the patch.
@@ -56,8 +56,8 @@ void warn_of_load_on_edges(const contact::State& state, Warnings& list) {
   if (!(share > kEdgeLoad)) return;
   list.push_back(
       {"edge-load",
-       fmt::format("The outermost {:.0f} % of the free patch carry {:.3g} % of the load, which "
-                   "only a body that ends there does; use <edges=cut> for a cut-out",
+       fmt::format("The outermost {:.0f} % of the free patch carry {:.3g} % of the load; use "
+                   "<edges=cut> unless the body ends there",
                    100 * kEdgeBand, 100 * share),
        share});
 }
@@ -86,9 +86,8 @@ void warn_of_load_on_seams(const topography::Topography& surface, const contact:
   const double share = load_on_seams(state.pressure, surface.tiles);
   if (!(share > kSeamLoad)) return;
   list.push_back({"seam-load",
-                  fmt::format("Strips at the mirror seams carry {:.2g} % of the load ({:.0f} % of "
-                              "a side wide), as heights rise there; remove the form with "
-                              "<level=poly2>",
+                  fmt::format("Heights rise at the mirror seams: strips {1:.0f} % of a side wide "
+                              "carry {0:.3g} % of the load; <level=poly2> helps",
                               100 * share, 100 * kEdgeBand),
                   share});
 }
@@ -110,7 +109,7 @@ void warn_of_slope(const topography::Topography& surface, Warnings& list) {
   if (!(slope > kSteepSlope)) return;
   list.push_back({"steep",
                   fmt::format("Small-slope elasticity fails at an rms slope of {:.2g} (above {}). "
-                              "Check the units; <despike=auto> removes spikes; <lowpass> noise",
+                              "Check units, spikes and noise",
                               slope, kSteepSlope),
                   slope});
 }
@@ -120,8 +119,8 @@ void warn_of_hardness(const ContactSettings& settings, const contact::Summary& s
   const double share = summary.max_pressure / settings.effective_modulus();
   if (settings.saturation_pressure || !(share > kHardestSolid)) return;
   list.push_back({"above-hardness",
-                  fmt::format("The contact pressure exceeds E*/{:.0f}. A metal would yield (give "
-                              "<saturation_pressure>); rubber would leave linear elasticity",
+                  fmt::format("The contact pressure exceeds E*/{:.0f}. A metal would yield "
+                              "(<saturation_pressure>); rubber would not stay linear",
                               1 / kHardestSolid),
                   share});
 }
@@ -133,9 +132,8 @@ void warn_of_patches(const contact::State& state, const contact::Summary& summar
                         static_cast<double>(summary.n_patches);
   if (!(pixels < kFewPixels)) return;
   list.push_back({"resolution",
-                  fmt::format("Contact patches have {:.2g} pixels on average, so the area depends "
-                              "on the resolution; <lowpass_scan> shows it; <resolution_scan> "
-                              "shows it",
+                  fmt::format("Patches of {:.2g} pixels on average: the area depends on the "
+                              "resolution; <lowpass_scan> tells; <resolution_scan> tells",
                               pixels),
                   1 / pixels});
 }
@@ -199,8 +197,8 @@ Warnings of_contact(const topography::Topography& surface, const ContactSettings
   }
   if (!summary.area_correction_valid) {
     list.push_back({"area-correction",
-                    "Contacts end along the pixel grid, where the correction by the perimeter is "
-                    "invalid. The contact area is the counted one"});
+                    "Contacts end along the pixel grid, where correcting by the perimeter is "
+                    "wrong. The counted area is used"});
   }
   warn_of_hardness(settings, summary, list);
   warn_of_bound(settings, summary, list);

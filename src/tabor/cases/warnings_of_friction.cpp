@@ -31,14 +31,14 @@ std::string low_pass_of(const topography::Topography& surface) {
 Warning clamp(const friction::Contact& contact, const friction::Estimate& estimate) {
   if (estimate.at_bound) {
     return {"clamp",
-            "Dry friction equals tau_y/p_sat for any surface, because the contact area is at its "
-            "lower bound; <area=pixels> uses the counted contact"};
+            "Dry friction equals tau_y/p_sat for any surface: contact is at its lower bound; "
+            "<area=pixels> counts pixels"};
   }
   const double excess =
       estimate.area_fraction * contact.saturation_pressure / contact.mean_pressure - 1;
   return {"clamp",
-          fmt::format("Dry friction equals tau_y/p_sat, because almost every contact pixel has "
-                      "yielded. Partly loaded pixels at contact edges add {:.2g} %",
+          fmt::format("Dry friction equals tau_y/p_sat: almost all contact has yielded. Edges of "
+                      "contacts add {:.2g} %",
                       100 * excess),
           excess};
 }
@@ -46,8 +46,8 @@ Warning clamp(const friction::Contact& contact, const friction::Estimate& estima
 void warn_of_size(const char* which, double friction, Warnings& list) {
   if (!(friction > kLargestFriction)) return;
   list.push_back({"implausible-friction",
-                  fmt::format("The {} friction coefficient is {:.3g}, and no solids are known to "
-                              "slide above {}. Check the shear strength and the contact area",
+                  fmt::format("The {} friction coefficient is {:.3g}; no solids are known to slide "
+                              "above {}. Check the shear strength",
                               which, friction, kLargestFriction),
                   friction});
 }
@@ -60,8 +60,8 @@ Warnings of_film(const topography::Topography& surface, const deposition::Film& 
   if (!filter.empty() && film.mean_film > 0) {
     list.push_back(
         {"filtered",
-         fmt::format("The oil lies on a filtered scan ({}). The filter removes small pockets that "
-                     "hold oil, so the wet share is too small",
+         fmt::format("The filter {} removes small pockets that hold oil, so the wet share is too "
+                     "small",
                      filter)});
   }
   if (const double least = film.thickness.minCoeff(); film.flooded || least > 0) {
@@ -75,8 +75,8 @@ Warnings of_film(const topography::Topography& surface, const deposition::Film& 
   if (film.n_droplets > 0 && film.n_droplets < n_pixels) {
     list.push_back(
         {"few-droplets",
-         fmt::format("{} droplets on {} pixels make a map of single droplets, not of their mean; "
-                     "use <model=limit> or a smaller <droplet_height>",
+         fmt::format("{} droplets on {} pixels show chance; use <model=limit> or a smaller "
+                     "<droplet_height>",
                      film.n_droplets, n_pixels),
          1 / static_cast<double>(film.n_droplets)});
   }
@@ -115,8 +115,8 @@ Warnings of_friction(const friction::Contact& contact, const friction::Estimate&
 Warnings of_film_in_gap(double mean_film, double mean_gap) {
   if (!(mean_film > mean_gap)) return {};
   return {{"flooded",
-           fmt::format("The mean film of {} does not fit into the mean gap of {}. The surplus "
-                       "flows away or carries load, which the model leaves out",
+           fmt::format("The mean film of {} does not fit into the mean gap of {}. The model "
+                       "ignores the surplus",
                        format_si(mean_film, "m"), format_si(mean_gap, "m")),
            mean_film / mean_gap}};
 }
@@ -125,8 +125,8 @@ Warnings of_pixel(double coarse_pixel, double coarse_share, double pixel, double
   const double change = std::abs(share - coarse_share) / std::max(share, coarse_share);
   if (!(change > kPixelChange)) return {};
   return {{"pixel",
-           fmt::format("The wet share depends on the pixel size. It is {} with {} and {} with {}, "
-                       "and a finer scan would change it again",
+           fmt::format("The wet share depends on the pixel size: {} with {}, {} with {}. A finer "
+                       "scan would change it",
                        percent(coarse_share), format_si(coarse_pixel, "m"), percent(share),
                        format_si(pixel, "m")),
            change}};

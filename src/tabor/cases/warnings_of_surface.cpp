@@ -69,11 +69,12 @@ Warnings of_spectra(const metrology::PowerSpectra& spectra) {
   look_at("C1D y", spectra.y.hurst);
   look_at("C2D", spectra.radial.hurst);
   if (strange.empty()) return {};
-  return {{"hurst",
-           fmt::format("The Hurst exponent is outside 0 to 1 ({}), which points to noise or "
-                       "filtered heights; <fit_min> and <fit_max> choose another range",
-                       strange),
-           farthest}};
+  return {
+      {"hurst",
+       fmt::format("The Hurst exponent is outside 0 to 1 ({}): noise or a filter; <fit_min> and "
+                   "<fit_max> choose a range",
+                   strange),
+       farthest}};
 }
 
 }  // namespace tabor::cases

@@ -109,7 +109,7 @@ TEST(Warnings, ATreatmentDispelsThoseAboutTheHeightsItMends) {
 
 TEST(Warnings, ATreatmentRaisesNewOnes) {
   EXPECT_THAT(warnings_after({"lowpass=gauss:1mm"}, 1e-8 * noise(64, 60)),
-              Contains(HasSubstr("the cutoff of gauss:1000um is longer")));
+              Contains(HasSubstr("The cutoff of gauss:1000um is longer")));
 }
 
 TEST(Warnings, SpikesAreWarnedOfUntilAStepLooksForThem) {
@@ -122,7 +122,7 @@ TEST(Warnings, SpikesAreWarnedOfUntilAStepLooksForThem) {
 
 TEST(Warnings, StepsOfTheHeightStayWhereAFilterHidesThem) {
   EXPECT_THAT(warnings_after({"lowpass=gauss:8um"}, 1e-9 * (4 * noise(64, 64)).round()),
-              Contains(HasSubstr("heights come in steps of 1 nm")));
+              Contains(HasSubstr("Heights come in steps of 1 nm")));
 }
 
 }  // namespace

@@ -23,8 +23,8 @@ Warnings of_sliding(const sliding::Ploughing& all, double mean_pressure, double 
   }
   if (const double passes = all.distance / tool_length; passes > often) {
     list.push_back({"tool-envelope",
-                    fmt::format("The tool of {} has passed {:.1f} times, so the sheet takes the "
-                                "envelope of the tool. A longer tool gives more realistic friction",
+                    fmt::format("The tool of {} has passed {:.1f} times: the sheet takes its "
+                                "envelope. Use a longer tool",
                                 format_si(tool_length, "m"), passes),
                     passes});
   }
@@ -38,8 +38,8 @@ Warnings of_sliding(const sliding::Ploughing& all, double mean_pressure, double 
   }
   if (all.lost > kMilling * rms_height) {
     list.push_back({"milling",
-                    fmt::format("A layer of {} is worn off a sheet with an Sq of {}. Other "
-                                "choices of displaced material let it rise beside the contact",
+                    fmt::format("A layer of {} is worn off a sheet with an Sq of {}. Let displaced "
+                                "material rise instead",
                                 format_si(all.lost, "m"), format_si(rms_height, "m")),
                     all.lost / rms_height});
   }
