@@ -25,11 +25,7 @@ exclude_patterns = ["README.md", "docs/site/index.md", "docs/site/templates"]
 myst_heading_anchors = 4
 myst_enable_extensions = ["dollarmath"]
 
-# The repository holds notebooks without output: they are run, once as long as they do not change.
-nb_execution_mode = "cache"
-nb_execution_cache_path = str(ROOT / "build/docs/notebooks")
-nb_execution_timeout = 120
-nb_execution_raise_on_error = True
+nb_execution_mode = "off"  # notebooks hold their outputs (tools/notebooks), and the tests run them
 
 toc_object_entries = False  # names of members are found by the search
 

@@ -41,6 +41,7 @@ NB_MODULE(_tabor, module) {
   bind_interpreter(module);
   bind_values(module);
   bind_surface(module);
+  bind_combine(module);
   bind_contact(module);
   bind_film(module);
   bind_friction(module);

@@ -12,9 +12,10 @@ from typing import Any, Unpack
 from ._arguments import path, texts, wrong
 from ._optional import needs
 from ._progress import Progress
+from ._read import read
 from ._setting_types import ReadSettings
 from ._settings import READ, takes
-from ._surface import Surface, read
+from ._surface import Surface
 
 _EXPECTED = 'a pattern of files ("scans/*.x3p"), or a list of files and Surfaces'
 

@@ -335,7 +335,7 @@ TEST_F(EhlPoint, WarnsOfWhatItsEquationsDoNotSee) {
   const Outcome moving =
       run_tabor(words(groups_, {"motion.sliding_speed=0m/s", "roughness.bump.height=5nm",
                                 "roughness.bump.wavelength=200um"}));
-  EXPECT_THAT(moving.err, HasSubstr("stand still"));
+  EXPECT_THAT(moving.err, HasSubstr("solved at rest"));
 }
 
 TEST_F(EhlPoint, RejectsWithTheReason) {

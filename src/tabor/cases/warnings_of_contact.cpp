@@ -32,10 +32,9 @@ constexpr double kManyTransforms = 3e8;
 
 void warn_of_edges(const topography::Topography& surface, Warnings& list) {
   if (topography::repeats(surface)) return;
-  list.push_back(
-      {"not-periodic",
-       "not periodic (opposite edges do not match), yet solved as a tile; a cut-out: <edges=cut>; "
-       "an isolated body: <edges=end>"});
+  list.push_back({"not-periodic",
+                  "The surface is solved as a periodic tile, but opposite edges do not match; use "
+                  "<edges=cut> for a cut-out, <edges=end> for an isolated body"});
 }
 
 /// Share of the load that stands on the border of the patch.
@@ -57,8 +56,8 @@ void warn_of_load_on_edges(const contact::State& state, Warnings& list) {
   if (!(share > kEdgeLoad)) return;
   list.push_back(
       {"edge-load",
-       fmt::format("the outermost {:.0f} % of the free patch carry {:.3g} % of the load, "
-                   "true of an isolated body; a cut-out: <edges=cut>",
+       fmt::format("The outermost {:.0f} % of the free patch carry {:.3g} % of the load, which "
+                   "only a body that ends there does; use <edges=cut> for a cut-out",
                    100 * kEdgeBand, 100 * share),
        share});
 }
@@ -87,8 +86,9 @@ void warn_of_load_on_seams(const topography::Topography& surface, const contact:
   const double share = load_on_seams(state.pressure, surface.tiles);
   if (!(share > kSeamLoad)) return;
   list.push_back({"seam-load",
-                  fmt::format("{:.2g} % of the load stands within {:.0f} % of a side from the "
-                              "mirror's seams, a crest of heights; <level=poly2> first",
+                  fmt::format("Strips at the mirror seams carry {:.2g} % of the load ({:.0f} % of "
+                              "a side wide), as heights rise there; remove the form with "
+                              "<level=poly2>",
                               100 * share, 100 * kEdgeBand),
                   share});
 }
@@ -100,8 +100,8 @@ void warn_of_bound(const ContactSettings& settings, const contact::Summary& summ
   if (summary.contact_area_fraction > least * (1 + kRoundingOfBound)) return;
   list.push_back(
       {"clamp",
-       fmt::format("clamp: the contact area equals P/p_sat, {:.3g} %, whatever the surface: almost "
-                   "every contact pixel has yielded (counted: {:.3g} %)",
+       fmt::format("The contact area equals P/p_sat, {:.3g} %, for any surface, as almost all "
+                   "contact has yielded (counted {:.3g} %)",
                    100 * least, 100 * summary.contact_area_fraction_pixels)});
 }
 
@@ -109,8 +109,8 @@ void warn_of_slope(const topography::Topography& surface, Warnings& list) {
   const double slope = metrology::rms_slope(surface);
   if (!(slope > kSteepSlope)) return;
   list.push_back({"steep",
-                  fmt::format("rms slope {:.2g}, above {}: small-slope elasticity fails; check the "
-                              "units; <despike=auto> for spikes; <lowpass> for noise",
+                  fmt::format("Small-slope elasticity fails at an rms slope of {:.2g} (above {}). "
+                              "Check the units; <despike=auto> removes spikes; <lowpass> noise",
                               slope, kSteepSlope),
                   slope});
 }
@@ -120,8 +120,8 @@ void warn_of_hardness(const ContactSettings& settings, const contact::Summary& s
   const double share = summary.max_pressure / settings.effective_modulus();
   if (settings.saturation_pressure || !(share > kHardestSolid)) return;
   list.push_back({"above-hardness",
-                  fmt::format("The contact pressure exceeds E*/{:.0f}: a metal would yield "
-                              "(<saturation_pressure>), rubber leave linear elasticity",
+                  fmt::format("The contact pressure exceeds E*/{:.0f}. A metal would yield (give "
+                              "<saturation_pressure>); rubber would leave linear elasticity",
                               1 / kHardestSolid),
                   share});
 }
@@ -133,8 +133,9 @@ void warn_of_patches(const contact::State& state, const contact::Summary& summar
                         static_cast<double>(summary.n_patches);
   if (!(pixels < kFewPixels)) return;
   list.push_back({"resolution",
-                  fmt::format("contact patches of {:.2g} pixels on average: area depends on "
-                              "resolution; <lowpass_scan> tells; <resolution_scan> tells",
+                  fmt::format("Contact patches have {:.2g} pixels on average, so the area depends "
+                              "on the resolution; <lowpass_scan> shows it; <resolution_scan> "
+                              "shows it",
                               pixels),
                   1 / pixels});
 }
@@ -158,8 +159,8 @@ void warn_of_sizes(const topography::Topography& surface, const contact::State& 
   if (fast_size(nx) == nx && fast_size(ny) == ny) return;
   list.push_back(
       {"slow-size",
-       fmt::format("{} x {} pixels have the prime factor {}: transforms took several "
-                   "times as long as with {} x {} (<crop>)",
+       fmt::format("{} x {} pixels contain the prime factor {}. Transforms took several times as "
+                   "long as with {} x {} (<crop>)",
                    nx, ny,
                    std::max(spectral::largest_prime_factor(nx), spectral::largest_prime_factor(ny)),
                    fast_size(nx), fast_size(ny))});
@@ -169,10 +170,10 @@ void warn_of_sizes(const topography::Topography& surface, const contact::State& 
 std::string shortfall(const contact::State& state) {
   const Convergence& convergence = state.convergence;
   if (convergence.certificate <= convergence.tolerance) {
-    return fmt::format("gap of {} where solids touch instead of {} at most",
+    return fmt::format("the gap is {} where solids touch, and at most {} was wanted",
                        format_si(state.gap_error, "m"), format_si(state.gap_limit, "m"));
   }
-  return fmt::format("certificate {:.1e} instead of {:.0e}", convergence.certificate,
+  return fmt::format("the certificate is {:.1e}, and {:.0e} was wanted", convergence.certificate,
                      convergence.tolerance);
 }
 
@@ -193,13 +194,13 @@ Warnings of_contact(const topography::Topography& surface, const ContactSettings
   if (convergence.failed()) {
     list.push_back(
         {"not-converged",
-         fmt::format("NOT CONVERGED ({}), {}", name_of(convergence.status), shortfall(state)),
+         fmt::format("NOT CONVERGED ({}): {}", name_of(convergence.status), shortfall(state)),
          convergence.certificate});
   }
   if (!summary.area_correction_valid) {
     list.push_back({"area-correction",
-                    "contacts end along the pixel grid: the perimeter corrects nothing there, the "
-                    "contact area is the counted one"});
+                    "Contacts end along the pixel grid, where the correction by the perimeter is "
+                    "invalid. The contact area is the counted one"});
   }
   warn_of_hardness(settings, summary, list);
   warn_of_bound(settings, summary, list);
@@ -210,7 +211,7 @@ Warnings of_contact(const topography::Topography& surface, const ContactSettings
 Warnings of_stiffness(const contact::Stiffness& stiffness) {
   if (stiffness.convergence.converged()) return {};
   return {{"stiffness",
-           fmt::format("contact stiffness: NOT CONVERGED, residual {:.1e}; do not use it",
+           fmt::format("The contact stiffness is NOT CONVERGED (residual {:.1e}). Do not use it",
                        stiffness.convergence.certificate),
            stiffness.convergence.certificate}};
 }

@@ -10,6 +10,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
 #include "tabor/io/files/subprocess.hpp"
+#include "tabor/scan/read_parameters.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::cli {
@@ -26,7 +27,7 @@ struct Request {
   bool keep = false;
 };
 
-bool is_reading(const Option& option) { return option.group == "Reading"; }
+bool is_reading(const Option& option) { return option.group == scan::kReadingGroup; }
 
 /// Options of reading are checked here, and passed on as they were written.
 void declare_files(OptionSet& set, Request& request) {
@@ -39,7 +40,6 @@ void declare_files(OptionSet& set, Request& request) {
         request.reading.push_back(option.is_switch() ? option.flag : option.flag + "=" + value);
       };
     }
-    set.group(option.group);
     set.add(option);
   }
 }
@@ -71,7 +71,7 @@ int view(const Request& request, Context& context) {
 /// Adds --recipe; its help lists the steps of each as options: "sheet = despike auto, ...".
 void declare_recipe(OptionSet& set, Request& request) {
   std::vector<std::string> names;
-  std::string help = "treatment to begin with, before the steps given";
+  std::string help = "treatment to start with, before the steps given";
   for (const topography::Recipe& recipe : topography::recipes()) {
     std::string steps = fmt::format("{}", fmt::join(recipe.steps, ", "));
     std::replace(steps.begin(), steps.end(), '=', ' ');
@@ -84,9 +84,9 @@ void declare_recipe(OptionSet& set, Request& request) {
 void declare_options(OptionSet& set, Request& request) {
   set.group("View");
   declare_recipe(set, request);
-  set.count("--port", "port of 127.0.0.1 [0: any that is free]", request.port);
-  set.toggle("--no-browser", "print the address, and open no browser", request.no_browser);
-  set.toggle("--keep", "go on when the last page closes", request.keep);
+  set.count("--port", "port of 127.0.0.1 [0: any free one]", request.port);
+  set.toggle("--no-browser", "print the address and do not open a browser", request.no_browser);
+  set.toggle("--keep", "keep running when the last page closes", request.keep);
 }
 
 }  // namespace
@@ -95,14 +95,14 @@ Verb view_verb() {
   return {
       .name = "view",
       .arguments = "SCAN... [options]",
-      .summary = "a workbench in the browser: treatment, contact, oil and friction of scans",
+      .summary = "open a workbench for scans in the browser",
       .details =
-          "Serves a page on 127.0.0.1 alone, and prints its address with a random token; nothing "
-          "leaves this machine. The page shows scans, their treatment, the contact under a "
-          "pressure, oil and friction while one moves, and the command line, the Python and the "
-          "study file that give the same numbers. It ends when the last page closes. "
-          "Needs the Python package of tabor and Bokeh (docs/view.md). TABOR_PYTHON chooses the "
-          "interpreter, such as that of a virtual environment.",
+          "tabor serves a page on 127.0.0.1 alone and prints its address with a random token. "
+          "Nothing leaves this machine. The page shows scans, their treatment, contact, oil and "
+          "friction, and writes the command line, the Python program and the study file with the "
+          "same numbers. The program ends when the last page closes. It needs the Python package "
+          "of tabor and Bokeh (docs/view.md). TABOR_PYTHON chooses the interpreter, such as that "
+          "of a virtual environment.",
       .examples = {"tabor view surfaces/edt_before.x3p",
                    "tabor view surfaces/edt_before.x3p surfaces/edt_after.x3p --recipe sheet "
                    "--no-browser"},

@@ -169,28 +169,33 @@ Action parse_flip(const std::string& argument) {
 const std::array<Step, 11>& steps() {
   static const std::array<Step, 11> table{{
       {{"crop", "x0,y0,nx,ny", "keep a rectangle, in pixels or lengths"}, parse_crop},
-      {{"trim", "MARGIN", "cut a margin off all sides, in pixels or as a length (half a cutoff)"},
-       parse_trim},
+      {{"trim", "MARGIN", "cut a margin off all sides, in pixels or as a length"}, parse_trim},
       {{"despike", "auto|8|8,7|8,7,median",
-        "make holes (or medians) of spikes: robust sigmas off the median, window [8,5]"},
+        "turn spikes into holes (or medians): robust deviations from the median, and window [8,5]"},
        parse_despike},
       {{"level", "none|mean|plane|poly2|poly3|poly4|rows",
-        "subtract a least-squares polynomial (total degree) over the valid points; rows: offsets "
-        "between scan lines, by the median of differences"},
+        "subtract a least-squares polynomial; rows subtracts the offsets between scan lines"},
        parse_level},
-      {{"fill", "harmonic|nearest|mean", "replace holes; harmonic = Laplace from each hole's rim"},
+      {{"fill", "harmonic|nearest|mean",
+        "fill holes; harmonic continues the rim of each hole "
+        "smoothly"},
        parse_fill},
       {{"lowpass",
         "hann:512/L|hann-full:512/L|hann-separable:512/L|hann:8um|gauss:8um|gauss-reflect:8um",
-        "smooth: Hann window in frequency (L = scan side, sqrt(lx ly)) or ISO Gaussian S-filter"},
+        "smooth with a Hann window in frequency (L = scan side) or the ISO Gaussian S-filter"},
        parse_low_pass},
-      {{"highpass", "gauss:250um|hann:8/L", "subtract the low-pass (ISO Gaussian L-filter)"},
+      {{"highpass", "gauss:250um|hann:8/L",
+        "subtract the smoothed surface (gauss: ISO Gaussian "
+        "L-filter)"},
        parse_high_pass},
-      {{"resample", "nx,ny", "area average to fewer pixels, cubic spline to more"}, parse_resample},
-      {{"mirror", "", "tile 2 x 2 with mirror images: periodic without a seam"}, parse_mirror},
+      {{"resample", "nx,ny",
+        "change the number of pixels: area averages to fewer, cubic spline "
+        "to more"},
+       parse_resample},
+      {{"mirror", "", "make the surface periodic with mirror images, 2 x 2"}, parse_mirror},
       {{"edges", "tile|cut|end",
-        "the surface repeats; it is a cut-out, mirrored as --mirror does; the body ends here "
-        "[heights at opposite edges are compared]"},
+        "tile repeats the surface, cut mirrors it as a cut-out, end lets the body end [tile, with "
+        "a warning if opposite edges differ]"},
        parse_edges},
       {{"flip", "x|y", "reverse the columns (x) or the rows (y)"}, parse_flip},
   }};

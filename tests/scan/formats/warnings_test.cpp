@@ -64,8 +64,8 @@ TEST(Warnings, CountTheSpikesThatDespikeTakes) {
   height(10, 10) = 1e-6;
   height(30, 40) = -1e-6;
   EXPECT_EQ(all(map_of(height)),
-            "2 spikes (0.052 %): slopes and contact depend on them; <despike=auto> takes them "
-            "out\n");
+            "The surface has 2 spikes (0.052 % of pixels), which change slopes and contact; "
+            "<despike=auto> removes them\n");
 }
 
 TEST(Warnings, AnOrdinaryMapRaisesNone) { EXPECT_EQ(all(map_of(1e-6 * noise(64, 60))), ""); }

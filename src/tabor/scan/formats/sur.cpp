@@ -169,7 +169,8 @@ Document open_sur(const Contents& contents) {
   }
   warn_of_negative_scale(header.dz, document);
   if (header.is_inverted) {
-    document.warnings.push_back("the file says that its heights were inverted: is up really up?");
+    document.warnings.push_back(
+        "The file says that its heights were inverted. Check that up is up");
   }
   if (header.objects > 1) {
     document.warnings.push_back(

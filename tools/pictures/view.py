@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes the pictures of docs/view.md: the workbench on the sample sheet, in a headless Chromium.
 
-usage: PYTHONPATH=build/PRESET/python build/venv/bin/python tools/pictures     from the project's root
+usage: PYTHONPATH=build/PRESET/python build/venv/bin/python tools/pictures/view.py     from the project's root
 Needs Bokeh and Playwright (tools/check/setup.sh) and Debian's chromium; writes docs/images/view_*.png."""
 
 import pathlib
@@ -16,7 +16,7 @@ from tabor.view.page import Opened
 from tabor.view.server import View
 from tabor.view.state import State
 
-ROOT = pathlib.Path(__file__).resolve().parents[1]
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 IMAGES = ROOT / "docs" / "images"
 COLOURS = 128  # of a picture, which then takes a third of the room
 NAMED = """(name) => { let found = false
