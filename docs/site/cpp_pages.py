@@ -26,13 +26,13 @@ def is_public(name):
 
 
 def namespaces(xml):
-    """(name, purpose) of each namespace that has a description."""
+    """(name, purpose) of each public namespace."""
     for file in sorted(xml.glob("namespace*.xml")):
         compound = ET.parse(file).find("compounddef")
-        name, purpose = compound.findtext("compoundname"), compound.find("detaileddescription")
-        text = " ".join("".join(purpose.itertext()).split())
+        name = compound.findtext("compoundname")
+        parts = ("".join(compound.find(part).itertext()) for part in ("briefdescription", "detaileddescription"))
         if is_public(name):
-            yield name, text
+            yield name, " ".join(" ".join(parts).split())
 
 
 def leave_out_designated_initialisers(xml):
