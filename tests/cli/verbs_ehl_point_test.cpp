@@ -310,7 +310,8 @@ TEST_F(EhlPoint, MovesItsRoughnessWithItsBody) {
   const io::Hdf5Reader reader(file);
   EXPECT_EQ(reader.shape("/history/central_film"),
             std::vector<Index>{history.at("steps").get<Index>() + 1});
-  EXPECT_THAT(run_tabor(words(groups_, bump)).err, HasSubstr("Give motion.duration to let it move"));
+  EXPECT_THAT(run_tabor(words(groups_, bump)).err,
+              HasSubstr("Give motion.duration to let it move"));
 }
 
 TEST_F(EhlPoint, RejectsTransientsThatCannotBe) {
