@@ -19,6 +19,7 @@ nb::dict row_of(const char* table, const ParameterHead& head) {
   row["table"] = table;
   row["name"] = head.name;
   row["argument"] = head.python_argument();
+  row["option"] = head.option();
   row["kind"] = std::string(kValueKinds.of(head.kind));
   row["dimension"] = name_of(head.dimension);
   row["unit"] = si_unit(head.dimension);

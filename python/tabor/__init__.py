@@ -15,7 +15,7 @@ from ._cite import cite
 from ._combine import Combination, Volume, combine
 from ._contact import Contact, Material, NotConverged, Solid, contact, materials
 from ._density_curve import DensityCurve, Plateau, density_curve
-from ._errors import InputError, InputFileNotFound, OutputError
+from ._errors import InputError, InputFileNotFound, InputIncomplete, OutputError
 from ._friction import Film, FluidFilm, Friction, Lubricant, fluid_film, friction, rain
 from ._friction_table import FrictionEntry, FrictionTable
 from ._generate import Format, formats, generate
@@ -41,7 +41,7 @@ from .view import view
 
 # Warning is not among them: it would take the place of Python's own.
 __all__ = ["Combination", "Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction",
-           "FrictionEntry", "FrictionTable", "InputError", "InputFileNotFound", "Lubricant", "Material", "NameNotFound", "NotConverged", "OutputError", "Parameter",
+           "FrictionEntry", "FrictionTable", "InputError", "InputFileNotFound", "InputIncomplete", "Lubricant", "Material", "NameNotFound", "NotConverged", "OutputError", "Parameter",
            "Parameters", "Plateau", "Progress", "Report", "Results", "Scans", "Section", "Slide", "Solid", "Spectra",
            "Spectrum", "Study", "Surface", "Value", "Volume", "cite", "combine", "contact",
            "density_curve", "ehl", "fluid_film", "formats", "friction", "generate", "load", "materials", "parameters", "rain",

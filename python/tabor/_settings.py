@@ -29,6 +29,7 @@ class Setting(NamedTuple):
     table: str  #: "contact", "film", "trapped", "fluid", "friction", "read", "pixels" or "recipe"
     name: str  #: of the property of the settings of the extension module
     argument: str  #: of functions
+    option: str  #: of the command line: "--seed"
     kind: str  #: "number", "numbers", "count", "flag", "word" or "text"
     dimension: str
     unit: str

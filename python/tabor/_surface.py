@@ -400,7 +400,7 @@ class Surface(Shown, Operators, TreatmentSteps):
                                optional_si(fit_max, "wavevector", "fit_max"), told)
         x, y, radial = (Spectrum(np.array(q), np.array(density), *rest)
                         for q, density, *rest in (found[axis] for axis in ("x", "y", "radial")))
-        return Spectra(x, y, radial, found["window"], warnings_of(found["warnings"]))
+        return Spectra(x, y, radial, found["window"], warnings_of(found["warnings"]), found["trusted"])
 
     @typed
     def save(self, file: Path) -> None:
