@@ -29,6 +29,7 @@ nb::dict row_of(const char* table, const ParameterHead& head) {
   row["name"] = head.name;
   row["argument"] = head.python_argument();
   row["other"] = other_argument(head);
+  row["option"] = head.option();
   row["kind"] = std::string(kValueKinds.of(head.kind));
   row["dimension"] = name_of(head.dimension);
   row["unit"] = si_unit(head.dimension);

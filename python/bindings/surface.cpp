@@ -18,6 +18,7 @@
 #include "tabor/topography/digest.hpp"
 #include "tabor/topography/edges.hpp"
 #include "tabor/topography/levelling.hpp"
+#include "tabor/topography/recipes.hpp"
 #include "tabor/topography/treatment.hpp"
 #include "tabor/topography/warnings.hpp"
 #include "values.hpp"
@@ -215,6 +216,7 @@ nb::dict psd(const Topography& surface, const metrology::PsdOptions& options,
   all["y"] = row_of(spectra.y);
   all["radial"] = row_of(spectra.radial);
   all["window"] = std::string(metrology::name_of(spectra.window));
+  all["trusted"] = std::pair(record.trusted.shortest, record.trusted.longest);
   all["warnings"] = shown(record.warnings);
   return all;
 }

@@ -16,7 +16,7 @@ from ._combine import Combination, Volume, combine
 from ._contact import Contact, Material, Materials, NotConverged, Solid, contact, materials
 from ._density_curve import DensityCurve, Plateau, density_curve
 from ._doubts import Doubt
-from ._errors import InputError, InputFileNotFound, OutputError
+from ._errors import InputError, InputFileNotFound, InputIncomplete, OutputError
 from ._friction import Film, FluidFilm, Friction, Lubricant, fluid_film, friction, rain
 from ._friction_table import FrictionEntry, FrictionTable
 from ._generate import Format, formats, generate
@@ -43,7 +43,7 @@ from .view import view
 
 # Warning is not among them: it would take the place of Python's own.
 __all__ = ["Combination", "Contact", "DensityCurve", "Doubt", "Film", "FluidFilm", "Format", "Friction",
-           "FrictionEntry", "FrictionTable", "InputError", "InputFileNotFound", "Lubricant", "Material", "Materials", "NameNotFound", "NotConverged", "OutputError", "Parameter",
+           "FrictionEntry", "FrictionTable", "InputError", "InputFileNotFound", "InputIncomplete", "Lubricant", "Material", "Materials", "NameNotFound", "NotConverged", "OutputError", "Parameter",
            "Parameters", "Plateau", "Progress", "Report", "Results", "Scans", "Section", "Slide", "Solid", "Spectra",
            "Spectrum", "Study", "Surface", "Value", "Volume", "cite", "combine", "contact",
            "density_curve", "ehl", "fluid_film", "formats", "friction", "generate", "load", "materials", "parameters", "rain",

@@ -30,6 +30,7 @@ class Setting(NamedTuple):
     name: str  #: of the property of the settings of the extension module
     argument: str  #: of functions
     other: str  #: as the command line spells it, where that differs: "poisson_ratio"
+    option: str  #: of the command line: "--seed"
     kind: str  #: "number", "numbers", "count", "flag", "word" or "text"
     dimension: str
     unit: str

@@ -15,7 +15,7 @@ from ._groups import numbers_of, texts_of, warnings_in
 from ._guesses import Values
 from ._heights import Array
 from ._read import read
-from ._settings import CONTACT, DRY_BELOW, OIL, RAIN, SHEAR, SOLID, TRAPPED, Setting
+from ._settings import CONTACT, DRY_BELOW, OIL, PLACES, RAIN, SHEAR, SOLID, TRAPPED, Setting
 from ._surface import Surface
 
 #: In the order of the library.
@@ -38,7 +38,7 @@ class Opened:
 
     def settings(self, kinds: Iterable[Setting]) -> dict[str, Any]:
         """Values of settings by their names; of those that the file does not name, the default."""
-        every = [one.name for one in (*SOLID, *CONTACT, *RAIN, *TRAPPED, *SHEAR, *DRY_BELOW, *OIL)]
+        every = [one.name for one in (*SOLID, *CONTACT, *PLACES, *RAIN, *TRAPPED, *SHEAR, *DRY_BELOW, *OIL)]
         found: dict[str, Any] = {}
         for key, value in self.config.items():
             names = [name for name in every if key == name or key.startswith(f"{name}_")]

@@ -38,7 +38,7 @@ void declare_treatment(OptionSet& set, topography::Treatment& treatment) {
                          is_switch = step.argument.empty()](const std::string& value) {
       const std::string text = is_switch ? name : fmt::format("{}={}", name, value);
       topography::check({text});
-      treatment.push_back(text);
+      for (const std::string& one : topography::expanded({text})) treatment.push_back(one);
     };
     Option& option = set.add({.flag = "--" + step.name,
                               .placeholder = step.argument,

@@ -17,6 +17,7 @@
 #include "tabor/topography/geometry.hpp"
 #include "tabor/topography/holes.hpp"
 #include "tabor/topography/levelling.hpp"
+#include "tabor/topography/recipes.hpp"
 #include "tabor/topography/row_offsets.hpp"
 #include "tabor/topography/spikes.hpp"
 #include "tabor/topography/warnings.hpp"
@@ -166,8 +167,13 @@ Action parse_flip(const std::string& argument) {
   };
 }
 
-const std::array<Step, 11>& steps() {
-  static const std::array<Step, 11> table{{
+Action parse_recipe(const std::string& argument);
+
+const std::array<Step, 12>& steps() {
+  static const std::array<Step, 12> table{{
+      {{"recipe", fmt::format("{}", fmt::join(recipe_names(), "|")),
+        "steps that such a scan usually needs: " + recipe_steps()},
+       parse_recipe},
       {{"crop", "x0,y0,nx,ny", "keep a rectangle, in pixels or lengths"}, parse_crop},
       {{"trim", "MARGIN", "cut a margin off all sides, in pixels or as a length"}, parse_trim},
       {{"despike", "auto|8|8,7|8,7,median",
@@ -220,22 +226,18 @@ Action parse_step(std::string_view text) {
                    fmt::format("one of {}{}", fmt::join(names, ", "), suggestion(name, names)), "");
 }
 
-}  // namespace
-
-std::vector<Recipe> recipes() {
-  return {{"sheet",
-           "a flat sheet: spikes become holes, holes are closed from their rims, the plane is "
-           "subtracted",
-           {"despike=auto", "fill=harmonic", "level=plane"}},
-          {"part",
-           "a curved part, cut out of a larger one: the same with a form of second order; mirror "
-           "images continue it",
-           {"despike=auto", "fill=harmonic", "level=poly2", "edges=cut"}},
-          {"pad",
-           "a pad whose body ends at the edges of the scan: pores are no spikes, so that heights "
-           "stay; edges carry load",
-           {"fill=nearest", "level=plane", "edges=end"}}};
+Action parse_recipe(const std::string& argument) {
+  const std::optional<Recipe> recipe = recipe_of(argument);
+  if (!recipe) reject("recipe", argument, recipe_names());
+  std::vector<Action> actions;
+  for (const std::string& step : recipe->steps) actions.push_back(parse_step(step));
+  return [actions](Topography t, const Observer& observer) {
+    for (const Action& act : actions) t = act(std::move(t), observer);
+    return t;
+  };
 }
+
+}  // namespace
 
 std::vector<StepDescription> treatment_steps() {
   std::vector<StepDescription> descriptions;
@@ -243,10 +245,24 @@ std::vector<StepDescription> treatment_steps() {
   return descriptions;
 }
 
+Treatment expanded(const Treatment& treatment) {
+  Treatment steps;
+  for (const std::string& step : treatment) {
+    const auto [name, argument] = split_step(step);
+    const auto recipe = name == "recipe" ? recipe_of(argument) : std::nullopt;
+    if (recipe) {
+      steps.insert(steps.end(), recipe->steps.begin(), recipe->steps.end());
+    } else {
+      steps.push_back(step);
+    }
+  }
+  return steps;
+}
+
 std::optional<Edges> edges_of(const Treatment& treatment) {
   std::optional<Edges> said;
   bool is_mirrored = false;
-  for (const std::string& step : treatment) {
+  for (const std::string& step : expanded(treatment)) {
     const auto [name, argument] = split_step(step);
     is_mirrored = is_mirrored || name == "mirror";
     if (name != "edges") continue;
