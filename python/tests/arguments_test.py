@@ -22,7 +22,7 @@ WRONG = [None, object(), True, 1.5, -1, 0, 2**70, float("nan"), float("inf"), 1j
 
 #: Classes that the package makes and a user does not.
 MADE_BY_TABOR = {"Combination", "Contact", "DensityCurve", "Doubt", "Film", "FluidFilm", "Format", "Friction", "FrictionEntry",
-                 "InputError", "InputFileNotFound", "OutputError",
+                 "InputError", "InputFileNotFound", "InputIncomplete", "OutputError",
                  "Material", "Materials", "NameNotFound", "NotConverged", "Parameter", "Parameters", "Plateau", "Progress", "Report", "Section", "Slide", "Spectra", "Spectrum",
                  "Value", "Volume", "ehl.Key", "ehl.Limit", "ehl.Solution", "ehl.Sweep", "ehl.Template"}
 
@@ -202,7 +202,7 @@ def public():
                       and method not in ("to_xarray", "count", "index", "get", "items", "keys", "values")}
     steps = {f"Surface.{name}" for name, argument, _ in tb._tabor.treatment_steps() if argument}
     return {name for name in names - steps if not name.endswith((".Template",)) and not name.startswith("ehl.Template.")
-            and not name.startswith(("Doubt.", "InputError.", "InputFileNotFound.", "NameNotFound.", "NotConverged.", "OutputError.", "Progress"))}
+            and not name.startswith(("Doubt.", "InputError.", "InputFileNotFound.", "InputIncomplete.", "NameNotFound.", "NotConverged.", "OutputError.", "Progress"))}
 
 
 def test_every_public_function_is_asked(folder):

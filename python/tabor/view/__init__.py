@@ -50,7 +50,7 @@ def view(surface: Any, *, port: Count = 0, browser: bool = True, keep: bool = Fa
     if port > _LAST_PORT:
         raise ValueError(f"port: got {port}; expected at most {_LAST_PORT}, or 0 for any that is free")
     needs("bokeh", "view()")
-    from .page import Opened
+    from .opening import Opened
     from .server import View, can_show
     from .state import State
 
