@@ -88,7 +88,8 @@ class SurfaceFiles:
         draft = pathlib.Path(self._folder.name, "surface.h5")
         surface.save(draft)
         stem = re.sub(r"[^\w.-]+", "_", pathlib.Path(surface.name).stem) or "surface"
-        name = f"{stem}-{hashlib.sha256(draft.read_bytes()).hexdigest()[:12]}.h5"
+        content = repr((_tabor.digest_of(surface._topography), surface.source, surface.history, surface.edges))
+        name = f"{stem}-{hashlib.sha256(content.encode()).hexdigest()[:12]}.h5"  # not of the file, which says when it was written
         return os.fspath(draft.rename(draft.with_name(name)))
 
     def move(self, lines: str, folder: pathlib.Path) -> str:
