@@ -143,7 +143,8 @@ class Bench:
             surface = self.treated(state.treatment, told)
             with self.pace.of("spectrum", surface):
                 before = self.treated(state.unfiltered.treatment, told).psd(progress=told) if state.filters else None
-                return Filtering(surface.psd(window=before and before.window, progress=told), before)  # one window for both
+                window: Any = before.window if before else None
+                return Filtering(surface.psd(window=window, progress=told), before)  # one window for both
 
         try:
             return replace(answer, spectra=self._kept.get("spectrum", state.treatment, analyse))
@@ -185,14 +186,16 @@ class Bench:
     def _contact(self, state: State, surface: Surface, told: Told) -> Contact:
         def solve() -> Contact:
             with self.pace.of("contact", surface):
-                return contact(surface, state.pressure, state.solid, check=False, progress=told, **state.contact_arguments)
+                found: Contact = contact(surface, state.pressure, state.solid, check=False, progress=told, **state.contact_arguments)
+                return found
 
         return self._kept.get("contact", (surface.shape, _contact_key(state)), solve)
 
     def _film(self, state: State, surface: Surface, told: Told) -> Film:
         def fall() -> Film:
             with self.pace.of("oil", surface):
-                return rain(surface, state.density, progress=told, **arguments(state.settings, "film"))
+                found: Film = rain(surface, state.density, progress=told, **arguments(state.settings, "film"))
+                return found
 
         return self._kept.get("oil", (surface.shape, _oil_key(state)), fall)
 

@@ -153,7 +153,9 @@ class Comparison:
     def _compute(self, first: Surface, second: Surface, asked: Combined, told: Watching) -> None:
         told("combine", math.nan, math.nan)
         try:
-            found = combine(first, second, asked.mode, match=asked.match, search=asked.search, progress=told)
+            mode: Any = asked.mode
+            match: Any = asked.match
+            found = combine(first, second, mode, match=match, search=asked.search, progress=told)
         except ValueError as error:
             self._later(partial(self._show_if, asked, None, str(error)))
             return

@@ -95,7 +95,8 @@ class Controls:
             self._tools[state.tool] = state.tool
         self._material = Select(options=names, title="Material", width=160, name="material")
         self._shear = TextInput(title="Shear strength", placeholder="of the material", width=130, name="shear")
-        self._tool = Select(options=[*self._tools], title="Pressed by", width=190, name="tool")
+        tools_there: list[Any] = [*self._tools]
+        self._tool = Select(options=tools_there, title="Pressed by", width=190, name="tool")
         self._oil = Checkbox(label="Oil", width=60, name="oil")
         self._trapped = Checkbox(label="Oil in closed pockets carries load", width=260, name="trapped")
         self._pressure = Quantity("pressure", "Pressure", "MPa", "pressure", pressure_range(state), self._press)

@@ -98,7 +98,7 @@ class Desk:
     @property
     def _looks_at(self) -> str:
         """What stands beside the map of heights."""
-        return ASIDE[int(self._aside.active)]
+        return ASIDE[self._aside.active or 0]
 
     def take(self, state: State) -> None:
         """Shows a state, and computes it; another filter is shown with its spectrum."""

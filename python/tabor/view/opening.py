@@ -98,7 +98,7 @@ def _rubbed(state: State, result: Friction) -> State:
     others.pop("trapped", None)
     strength = others.pop("shear_strength", None) or result.contact.solid.shear_strength
     is_own = strength is not None and (not state.material or strength != Solid(state.material).shear_strength)
-    return _adding(replace(state, shear_strength=shortest(strength, "MPa", "pressure") if is_own else "", trapped=result._trapped is not None),
+    return _adding(replace(state, shear_strength=shortest(strength, "MPa", "pressure") if is_own and strength is not None else "", trapped=result._trapped is not None),
                    different(others, "friction"))
 
 

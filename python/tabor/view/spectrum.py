@@ -6,7 +6,8 @@ import math
 from typing import Any
 
 import numpy as np
-from bokeh.models import BoxAnnotation, Column, ColumnDataSource, HoverTool, Range1d
+from bokeh.models import Column, ColumnDataSource, HoverTool, Range1d
+from bokeh.models.annotations import BoxAnnotation
 from bokeh.models.widgets import Div
 from bokeh.plotting import figure
 
@@ -69,7 +70,7 @@ class SpectrumFigure:
         if found is None or answer.surface is None:
             self.note.text = failure_html(answer.failures.get("spectrum", ""))
             return
-        self._after.data, self._before.data = _points(found.treated.radial), _points(found.unfiltered and found.unfiltered.radial)
+        self._after.data, self._before.data = _points(found.treated.radial), _points(found.unfiltered.radial if found.unfiltered else None)
         steps = list(answer.state.filters)
         self._cutoffs.data = {"wavelength": [1e6 * cutoff(step, answer.surface) for step in steps], "step": steps}
         self._frame(found.unfiltered or found.treated)
