@@ -105,7 +105,8 @@ int dispatch(const Words& args, Context& context, ProgressStyle style) {
     return kDone;
   }
   const Words words(args.begin() + 1, args.end());
-  if (asks_for_version({args.front()})) {
+  // The version and an explanation may be asked for alone, and behind a verb that exists.
+  if (asks_for_version({args.front()})) {  // NOLINT(bugprone-branch-clone)
     context.out << version_line();
   } else if (asks_to_explain({args.front()})) {
     return explain(args, context);

@@ -237,6 +237,7 @@ void declare_lowpass_scan(OptionSet& set, Request& request) {
 
 }  // namespace
 
+// NOLINTBEGIN(bugprone-suspicious-missing-comma): examples of several lines
 Verb contact_verb() {
   return {
       .name = "contact",
@@ -273,5 +274,6 @@ Verb contact_verb() {
         };
       }};
 }
+// NOLINTEND(bugprone-suspicious-missing-comma)
 
 }  // namespace tabor::cli

@@ -149,7 +149,9 @@ void check_keys(const io::Config& config) {
 Words Defaults::words() const {
   Words all;
   all.reserve(used.size());
-  for (const auto& [flag, value] : used) all.push_back(value.empty() ? flag : flag + "=" + value);
+  for (const auto& [flag, value] : used) {
+    all.push_back(value.empty() ? flag : fmt::format("{}={}", flag, value));
+  }
   return all;
 }
 
