@@ -72,7 +72,7 @@ Warnings of_spectra(const metrology::PowerSpectra& spectra) {
   return {
       {"hurst",
        fmt::format("The Hurst exponent is outside 0 to 1 ({}): noise or a filter; <fit_min> and "
-                   "<fit_max> choose a range",
+                   "<fit_max> help",
                    strange),
        farthest}};
 }

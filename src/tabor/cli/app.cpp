@@ -106,7 +106,8 @@ int dispatch(const Words& args, Context& context, ProgressStyle style) {
   }
   const Words words(args.begin() + 1, args.end());
   // The version and an explanation may be asked for alone, and behind a verb that exists.
-  if (asks_for_version({args.front()})) {  // NOLINT(bugprone-branch-clone)
+  // NOLINTNEXTLINE(bugprone-branch-clone)
+  if (asks_for_version({args.front()})) {
     context.out << version_line();
   } else if (asks_to_explain({args.front()})) {
     return explain(args, context);
