@@ -54,6 +54,12 @@ class Docs(unittest.TestCase):
         self.assert_rejected("docs/theory.md:5: tests/contact/gone_test.cpp", self.page("Run\n\n    tests/contact/gone_test.cpp --all"))
         self.assert_rejected("src/tabor/gone", {"README.md": "# tabor\n\n`src/tabor/gone`\n"})
 
+    def test_prose_ends_at_column_100(self):
+        words = "word " * 30
+        self.assert_rejected("docs/theory.md:3: longer than 100 columns", self.page(words.strip()))
+        self.assert_rejected("docs/theory.md:5: longer than 100 columns", self.page("Words.\n\n- " + words.strip()))
+        self.assert_accepted(self.page(f"| {words}|\n|---|\n\n    {words}\n\n```\n{words}\n```\n\n$$\n{words}\n$$"))
+
     def test_patterns_and_names_for_any_name_are_no_paths(self):
         self.assert_accepted(self.page("`tests/contact/*.cpp`, `tests/<module>`, `tests/contact/NAME_test.cpp`, `src/tabor/contact/`"))
 

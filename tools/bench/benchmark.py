@@ -15,6 +15,9 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGE = ROOT / "docs/benchmarks.md"
+sys.path.append(str(ROOT / "tools"))
+
+from markdown_lines import wrapped  # noqa: E402
 TITLE = "# Benchmarks\n\nMeasured numbers, each with the command that made it.\n"
 
 
@@ -79,7 +82,7 @@ def record(title: str, text: str, page: pathlib.Path = PAGE) -> None:
     """Replaces the section of this title in the page, or appends it."""
     page_text = page.read_text("utf-8") if page.is_file() else TITLE
     parts = re.split(r"(?m)^(?=## )", page_text)
-    section = f"## {title}\n\n{text.strip()}\n"
+    section = wrapped(f"## {title}\n\n{text.strip()}\n")
     places = [i for i, part in enumerate(parts) if part.startswith(f"## {title}\n")]
     if places:
         parts[places[0]] = section

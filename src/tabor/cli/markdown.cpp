@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "tabor/cli/layout.hpp"
 #include "tabor/cli/reference.hpp"
 
 namespace tabor::cli {
@@ -40,7 +41,7 @@ std::string markdown_of(const Reference& reference) {
   const Verb& verb = reference.verb;
   std::string text =
       fmt::format("\n## tabor {}\n\n    {}\n\n{}\n", verb.name, reference.usage(), verb.summary);
-  if (!verb.details.empty()) text += fmt::format("\n{}\n", verb.details);
+  if (!verb.details.empty()) text += fmt::format("\n{}\n", wrapped(verb.details, 0));
   for (const OptionGroup& group : reference.groups) {
     if (group.title != kCommonOptions) text += markdown_of(group);
   }
@@ -54,9 +55,12 @@ std::string markdown_of(const Reference& reference) {
 
 std::string options_markdown() {
   std::string text =
-      "# Options\n\nWritten by `tabor options`; do not edit by hand.\n\n"
-      "Dimensional values carry their unit (`7MPa`, `0.45g/m^2`, `\"0.67 um\"`). Treatment options "
-      "act in the order given. Every verb has the common options.\n";
+      "# Options\n\nWritten by `tabor options`; do not edit by hand.\n\n" +
+      wrapped(
+          "Dimensional values carry their unit (`7MPa`, `0.45g/m^2`, `\"0.67 um\"`). Treatment "
+          "options act in the order given. Every verb has the common options.",
+          0) +
+      "\n";
   const std::vector<Reference> all = references();
   text += markdown_of(all.front().groups.back());
   for (const Reference& reference : all) text += markdown_of(reference);
