@@ -15,12 +15,6 @@
 namespace tabor::contact {
 namespace {
 
-bool all_finite(const Field& map) {
-  const double n_finite = sum_over_blocks(
-      map.size(), [](const auto& block) { return block.isFinite().count(); }, map.data());
-  return n_finite == static_cast<double>(map.size());
-}
-
 void check_maps(const elastic::ElasticOperator& elasticity, const Problem& problem) {
   const Grid& grid = elasticity.grid();
   if (problem.height.rows() != grid.ny || problem.height.cols() != grid.nx) {

@@ -15,16 +15,29 @@
 namespace tabor::contact {
 namespace {
 
-/// Rms slope by forward differences, without wrapping around; 0 along an axis of one pixel.
-double rms_slope(const Field& height, const Grid& grid) {
+/// Mean square slope by forward differences, without wrapping around; 0 along an axis of one pixel.
+double mean_square_slope(const Field& height, const Grid& grid) {
   const numerics::SquareSlopes slopes = numerics::mean_square_slopes(height, grid);
   const auto known = [](double value) { return std::isnan(value) ? 0 : value; };
-  return std::sqrt(known(slopes.along_x) + known(slopes.along_y));
+  return known(slopes.along_x) + known(slopes.along_y);
 }
 
-/// Rms pressure [Pa] that full contact needs to flatten the surface: E* / 2 * rms slope.
-double flattening_pressure(const elastic::ElasticOperator& elasticity, const LoadProblem& problem) {
-  return 0.5 * elasticity.effective_modulus() * rms_slope(problem.height, elasticity.grid());
+/// True where the rms slope of a map is above a limit. On most surfaces its first rows show that.
+bool is_steeper(const Field& height, const Grid& grid, double limit) {
+  constexpr Index few = 64;
+  if (grid.ny > 2 * few) {
+    const Grid part{grid.nx, few, grid.lx, static_cast<double>(few) * grid.dy()};
+    const double share = static_cast<double>(few - 1) / static_cast<double>(grid.ny);
+    if (share * mean_square_slope(height.topRows(few), part) > limit * limit) return true;
+  }
+  return mean_square_slope(height, grid) > limit * limit;
+}
+
+/// True where full contact needs an rms pressure above a limit [Pa] to flatten the surface: E* / 2
+/// * rms slope.
+bool is_flattened_above(double limit, const elastic::ElasticOperator& elasticity,
+                        const LoadProblem& problem) {
+  return is_steeper(problem.height, elasticity.grid(), 2 * limit / elasticity.effective_modulus());
 }
 
 /// True where a pressure, and so much more [Pa], is above its cap somewhere.
@@ -37,7 +50,7 @@ bool exceeds(const Field& pressure, double more, const Caps& caps) {
 /// transform. Tried only where the pressure is not far below the flattening pressure.
 bool try_full_contact(elastic::ElasticOperator& elasticity, const LoadProblem& problem,
                       State& state) {
-  if (problem.mean_pressure < 0.25 * flattening_pressure(elasticity, problem) ||
+  if (is_flattened_above(4 * problem.mean_pressure, elasticity, problem) ||
       !elasticity.apply_inverse(problem.height, state.pressure)) {
     return false;
   }
@@ -99,7 +112,7 @@ State run_capped(elastic::ElasticOperator& elasticity, const LoadProblem& proble
   };
   State state;
   const bool probably_idle =
-      problem.caps.lowest(problem.height.size()) > 10 * flattening_pressure(elasticity, problem);
+      !is_flattened_above(0.1 * problem.caps.lowest(problem.height.size()), elasticity, problem);
   if (!probably_idle || !try_elastic(state)) {
     state = state.convergence.stopped() ? stopped_at_start(elasticity, problem, solver)
                                         : run(elasticity, problem, solver, observer);

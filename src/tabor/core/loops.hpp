@@ -118,4 +118,11 @@ inline Extent extent_over(Index n, const double* values) {
 /// Returns the smallest and the largest value of a map.
 inline Extent extent_of(const Field& map) { return extent_over(map.size(), map.data()); }
 
+/// Returns whether all values of a map are finite.
+inline bool all_finite(const Field& map) {
+  const double n_finite = sum_over_blocks(
+      map.size(), [](const auto& block) { return block.isFinite().count(); }, map.data());
+  return n_finite == static_cast<double>(map.size());
+}
+
 }  // namespace tabor

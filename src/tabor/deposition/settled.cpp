@@ -23,7 +23,7 @@ void check(const Field& height, const Grid& grid, const Field& thickness) {
                                  height.rows(), thickness.cols(), thickness.rows()),
                      fmt::format("{} x {} as in the grid", grid.nx, grid.ny), "");
   }
-  if (!thickness.allFinite() || thickness.minCoeff() < 0) {
+  if (!all_finite(thickness) || thickness.minCoeff() < 0) {
     throw InputError("liquid to settle", "a thickness below zero or without end", "zero or more",
                      "");
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/loops.hpp"
 #include "tabor/core/watch.hpp"
 
 namespace tabor::deposition {
@@ -27,7 +28,7 @@ Terrain quantise(const Field& height, Edge edge) {
     throw InputError("surface to lubricate", std::to_string(height.size()) + " pixels",
                      "1 to " + std::to_string(kMostPixels), "");
   }
-  if (!height.allFinite()) {
+  if (!all_finite(height)) {
     throw InputError("surface to lubricate", "missing or infinite heights",
                      "a height at every pixel", "fill the holes first (--fill harmonic)");
   }

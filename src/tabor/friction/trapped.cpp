@@ -6,6 +6,7 @@
 
 #include "tabor/contact/trapped/regions.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/core/loops.hpp"
 
 namespace tabor::friction {
 namespace {
@@ -16,10 +17,22 @@ void check_shape(Index rows, Index cols, const Grid& grid, const char* what) {
   }
 }
 
-/// Liquid [m] summed over contact pixels; the regions' own sums go into `result`, by root.
+/// Liquid [m] summed over the pixels of contact, which lie between the runs of gap.
+double under_contact(const numerics::Runs& gap, const Field& film) {
+  double sum = 0;
+  Index pixel = 0;
+  for (std::size_t run = 0; run < gap.size(); ++run) {
+    for (; pixel < gap[run].begin; ++pixel) sum += film.data()[pixel];
+    pixel = gap[run].end;
+  }
+  for (; pixel < film.size(); ++pixel) sum += film.data()[pixel];
+  return sum;
+}
+
+/// Liquid [m^3] under contact; the regions' own sums go into `result`, by root.
 template <bool periodic>
-double add_up(contact::Regions<periodic>& regions, const Mask& contact, const Field& film,
-              const Field& gap, double pixel_area, std::vector<GapRegion>& result) {
+double add_up(contact::Regions<periodic>& regions, const Field& film, const Field& gap,
+              double pixel_area, std::vector<GapRegion>& result) {
   const numerics::Runs& runs = regions.runs();
   std::vector<std::int32_t> position(runs.size(), -1);
   for (std::size_t run = 0; run < runs.size(); ++run) {
@@ -36,11 +49,7 @@ double add_up(contact::Regions<periodic>& regions, const Mask& contact, const Fi
       region.gap_volume += std::max(gap.data()[pixel], 0.0) * pixel_area;
     }
   }
-  double under_contact = 0;
-  for (Index pixel = 0; pixel < film.size(); ++pixel) {
-    if (contact.data()[pixel]) under_contact += film.data()[pixel];
-  }
-  return under_contact * pixel_area;
+  return under_contact(runs, film) * pixel_area;
 }
 
 /// As add_up() of all regions.
@@ -49,7 +58,7 @@ double add_up_regions(const Mask& contact, const Field& film, const Field& gap, 
                       std::vector<GapRegion>& result) {
   const bool* touching = contact.data();
   contact::Regions<periodic> regions(grid, [touching](Index i) { return !touching[i]; });
-  return add_up(regions, contact, film, gap, grid.pixel_area(), result);
+  return add_up(regions, film, gap, grid.pixel_area(), result);
 }
 
 }  // namespace
@@ -59,7 +68,7 @@ TrappedLiquid trapped_liquid(const Mask& contact, const Field& film, const Field
   check_shape(contact.rows(), contact.cols(), grid, "contact");
   check_shape(film.rows(), film.cols(), grid, "film");
   check_shape(gap.rows(), gap.cols(), grid, "gap");
-  if (!film.allFinite() || !gap.allFinite()) {
+  if (!all_finite(film) || !all_finite(gap)) {
     throw InputError("film or gap has NaN or infinite values");
   }
   TrappedLiquid result;

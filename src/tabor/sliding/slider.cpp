@@ -32,7 +32,7 @@ void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
                     problem.sheet.rows(), problem.tool.cols(), problem.tool.rows()),
         fmt::format("{} x {} and as many rows of the tool", grid.nx, grid.ny), "");
   }
-  if (!problem.tool.allFinite()) {
+  if (!all_finite(problem.tool)) {
     throw InputError("sliding", "a tool with holes or infinite heights", "a height at every pixel",
                      "");
   }

@@ -11,6 +11,7 @@
 #include "tabor/contact/trapped/seals.hpp"
 #include "tabor/contact/trapped/trapped_solver.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/core/loops.hpp"
 #include "tabor/core/units.hpp"
 
 namespace tabor::contact {
@@ -41,7 +42,7 @@ void check(const Problem& problem, const GapLiquid& liquid, const State& dry) {
                     liquid.film.rows(), dry.pressure.cols(), dry.pressure.rows()),
         fmt::format("{} x {} as the heights", problem.height.cols(), problem.height.rows()), "");
   }
-  if (!liquid.film.allFinite() || extent_of(liquid.film).lowest < 0) {
+  if (!all_finite(liquid.film) || extent_of(liquid.film).lowest < 0) {
     throw InputError("trapped liquid", "a film that is negative or NaN somewhere",
                      "zero or more at every pixel", "");
   }
