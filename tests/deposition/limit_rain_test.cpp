@@ -108,13 +108,13 @@ TEST(FirstWettingDose, IsThatOfTheFirstFilmThatIsThere) {
   for (const Model model : {Model::limit, Model::droplets}) {
     for (const Edge edge : {Edge::closed, Edge::periodic, Edge::open}) {
       const Dose dose{.mean_films = {0, 1e-8, 1e-7, 1e-6, 2e-5}, .model = model, .edge = edge};
-      std::vector<Index> pixels(static_cast<std::size_t>(height.size()));
-      std::iota(pixels.begin(), pixels.end(), Index{0});
-      const auto first = first_wetting_doses(height, kGrid, dose, pixels);
+      Mask where = Mask::Constant(height.rows(), height.cols(), true);
+      where(3, 5) = false;
+      const auto first = first_wetting_doses(height, kGrid, dose, where);
       const std::vector<Film> films = deposit(height, kGrid, dose);
       std::size_t n_wrong = 0;
-      for (const Index p : pixels) {
-        std::size_t expected = 0;
+      for (Index p = 0; p < height.size(); ++p) {
+        std::size_t expected = where.data()[p] ? 0 : films.size();
         while (expected < films.size() && !(films[expected].thickness.data()[p] > 0)) ++expected;
         n_wrong += first[static_cast<std::size_t>(p)] == expected ? 0 : 1;
       }
@@ -125,10 +125,14 @@ TEST(FirstWettingDose, IsThatOfTheFirstFilmThatIsThere) {
 
 TEST(FirstWettingDose, TakesRisingDosesOfDropletsAlone) {
   const Field height = textured();
-  EXPECT_THROW(first_wetting_doses(height, kGrid, {.mean_films = {2e-7, 1e-7}}, {0}), InputError);
-  EXPECT_THROW(
-      first_wetting_doses(height, kGrid, {.mean_films = {1e-7}, .model = Model::bottom_fill}, {0}),
-      InputError);
+  const Mask where = Mask::Constant(height.rows(), height.cols(), true);
+  const auto find = [&](const Dose& dose, const Mask& pixels) {
+    return first_wetting_doses(height, kGrid, dose, pixels);
+  };
+  EXPECT_THROW(find({.mean_films = {2e-7, 1e-7}}, where), InputError);
+  EXPECT_THROW(find({.mean_films = {1e-7}, .model = Model::bottom_fill}, where), InputError);
+  EXPECT_THROW(find({.mean_films = {1e-7}}, Mask::Constant(1, 1, true)), InputError);
+  EXPECT_THROW(find({.mean_films = std::vector<double>(65536, 1e-7)}, where), InputError);
 }
 
 }  // namespace

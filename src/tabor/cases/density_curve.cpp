@@ -85,18 +85,8 @@ WettingDoses wetting_doses(const topography::Topography& surface, const FilmSett
   film.lubricant_densities = densities_for(surface, settings);
   WettingDoses doses{film.lubricant_densities, {}};
   if (film.lubricant_densities.empty()) return doses;
-  std::vector<Index> pixels;
-  pixels.reserve(static_cast<std::size_t>(where.count()));
-  for (Index p = 0; p < where.size(); ++p) {
-    if (where.data()[p]) pixels.push_back(p);
-  }
-  const std::vector<std::size_t> of_pixels = deposition::first_wetting_doses(
-      surface.height, surface.grid, dose_of(film), pixels, observer);
-  doses.first.assign(static_cast<std::size_t>(where.size()),
-                     static_cast<std::uint16_t>(film.lubricant_densities.size()));
-  for (std::size_t k = 0; k < pixels.size(); ++k) {
-    doses.first[static_cast<std::size_t>(pixels[k])] = static_cast<std::uint16_t>(of_pixels[k]);
-  }
+  doses.first =
+      deposition::first_wetting_doses(surface.height, surface.grid, dose_of(film), where, observer);
   return doses;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -195,45 +196,44 @@ class Deposition {
   Terrain terrain_;
 };
 
-/// Some pixels of a surface that no dose has wet yet, by their pools and in each from the lowest
-/// up, as its level reaches them: what is still dry then costs nothing.
+/// Pixels of a surface that no dose has wet yet, by their pools and in each from the lowest up, as
+/// its level reaches them: what is still dry then costs nothing.
 class DryPixels {
  public:
-  /// `pixels` must outlive them.
-  DryPixels(const Pools& pools, const std::vector<Index>& pixels)
-      : pixels_(pixels), order_(pixels.size()), n_pools_(pools.count()) {
+  DryPixels(const Pools& pools, const Mask& where)
+      : dry_(static_cast<std::size_t>(where.count())), n_pools_(pools.count()) {
+    const auto n_pixels = static_cast<Pixel>(where.size());
     std::vector<std::int32_t> end(pools.count() + 1, 0);
-    for (const Index p : pixels) ++end[pool_of(pools, static_cast<Pixel>(p)) + 1];
+    for (Pixel p = 0; p < n_pixels; ++p) {
+      if (where.data()[p]) ++end[pool_of(pools, p) + 1];
+    }
     std::partial_sum(end.begin(), end.end(), end.begin());
     std::vector<std::int32_t> next(end.begin(), end.end() - 1);
-    for (std::size_t k = 0; k < pixels.size(); ++k) {
-      const std::size_t pool = pool_of(pools, static_cast<Pixel>(pixels[k]));
-      order_[static_cast<std::size_t>(next[pool]++)] = static_cast<std::int32_t>(k);
+    for (Pixel p = 0; p < n_pixels; ++p) {
+      if (!where.data()[p]) continue;
+      dry_[static_cast<std::size_t>(next[pool_of(pools, p)]++)] = {pools.height(p), p};
     }
     for (std::size_t pool = 0; pool + 1 < end.size(); ++pool) {
       if (end[pool] == end[pool + 1]) continue;
       go_on_or_throw(pool);
-      std::sort(order_.begin() + end[pool], order_.begin() + end[pool + 1],
-                [&](std::int32_t a, std::int32_t b) {
-                  return pools.height(pixel(a)) < pools.height(pixel(b));
-                });
+      std::sort(dry_.begin() + end[pool], dry_.begin() + end[pool + 1],
+                [](const Dry& a, const Dry& b) { return a.height < b.height; });
       parts_.push_back({static_cast<PoolId>(pool), end[pool], end[pool + 1]});
     }
-    heights_.reserve(pixels.size());
-    for (const std::int32_t k : order_) heights_.push_back(pools.height(pixel(k)));
   }
 
   /// Writes `dose` for those that have liquid above them now, or for all.
-  void wet(std::size_t dose, Pools& pools, bool all, std::vector<std::size_t>& first) {
+  void wet(std::uint16_t dose, Pools& pools, bool all, std::vector<std::uint16_t>& first) {
     if (pools.count() != n_pools_) follow_renumbering(pools);
     std::size_t n_left = 0;
     for (std::size_t i = 0; i < parts_.size(); ++i) {
       go_on_or_throw(i);
+      if (i + kFar < parts_.size()) pools.prefetch(parts_[i + kFar].pool);
+      if (i + kNear < parts_.size()) pools.prefetch(pools[parts_[i + kNear].pool].owner);
       Part part = parts_[i];
       const Height level = pools[part.pool].active() ? pools[pools.owner(part.pool)].level : kDry;
-      while (part.begin < part.end &&
-             (all || level > heights_[static_cast<std::size_t>(part.begin)])) {
-        first[static_cast<std::size_t>(order_[static_cast<std::size_t>(part.begin++)])] = dose;
+      while (part.begin < part.end && (all || level > dry(part.begin).height)) {
+        first[static_cast<std::size_t>(dry(part.begin++).pixel)] = dose;
       }
       if (part.begin < part.end) parts_[n_left++] = part;
     }
@@ -241,6 +241,15 @@ class DryPixels {
   }
 
  private:
+  // How many parts ahead of its turn a pool, then its owner, is asked of the memory.
+  static constexpr std::size_t kFar = 32;
+  static constexpr std::size_t kNear = 16;
+
+  struct Dry {
+    Height height;
+    Pixel pixel;
+  };
+
   /// The dry pixels of one pool.
   struct Part {
     PoolId pool;
@@ -252,20 +261,14 @@ class DryPixels {
     return static_cast<std::size_t>(pools.pool_at(p));
   }
 
-  Pixel pixel(std::int32_t k) const {
-    return static_cast<Pixel>(pixels_[static_cast<std::size_t>(k)]);
-  }
+  const Dry& dry(std::int32_t place) const { return dry_[static_cast<std::size_t>(place)]; }
 
   void follow_renumbering(const Pools& pools) {
-    for (Part& part : parts_) {
-      part.pool = pools.pool_at(pixel(order_[static_cast<std::size_t>(part.begin)]));
-    }
+    for (Part& part : parts_) part.pool = pools.pool_at(dry(part.begin).pixel);
     n_pools_ = pools.count();
   }
 
-  const std::vector<Index>& pixels_;
-  std::vector<std::int32_t> order_;  // places among the pixels
-  std::vector<Height> heights_;      // of them, in that order
+  std::vector<Dry> dry_;
   std::vector<Part> parts_;
   std::size_t n_pools_;  // fewer once they have new numbers
 };
@@ -279,9 +282,9 @@ void deposit(const Field& height, const Grid& grid, const Dose& dose, const Film
   Deposition(height, grid, dose, sink).run(observer);
 }
 
-std::vector<std::size_t> first_wetting_doses(const Field& height, const Grid& grid,
-                                             const Dose& dose, const std::vector<Index>& pixels,
-                                             const Observer& observer) {
+std::vector<std::uint16_t> first_wetting_doses(const Field& height, const Grid& grid,
+                                               const Dose& dose, const Mask& where,
+                                               const Observer& observer) {
   const Watch watch(observer, "pools");
   check(height, grid, dose);
   const bool runs_down = dose.model == Model::droplets || dose.model == Model::limit;
@@ -289,11 +292,23 @@ std::vector<std::size_t> first_wetting_doses(const Field& height, const Grid& gr
     throw InputError("doses that wet a pixel first", std::string(name(dose.model)) + ", any order",
                      "rising doses of droplets or their limit", "");
   }
-  std::vector<std::size_t> first(pixels.size(), dose.mean_films.size());
+  constexpr std::size_t most = std::numeric_limits<std::uint16_t>::max();
+  if (dose.mean_films.size() > most) {
+    throw InputError("doses that wet a pixel first", fmt::format("{}", dose.mean_films.size()),
+                     fmt::format("{} at most", most), "");
+  }
+  if (where.rows() != grid.ny || where.cols() != grid.nx) {
+    throw InputError("pixels that a dose wets first",
+                     fmt::format("a map of {} x {}", where.cols(), where.rows()),
+                     fmt::format("{} x {} as the heights", grid.nx, grid.ny), "");
+  }
+  std::vector<std::uint16_t> first(static_cast<std::size_t>(height.size()),
+                                   static_cast<std::uint16_t>(dose.mean_films.size()));
   std::optional<DryPixels> dry;
   const auto look = [&](std::size_t i, const RainState&, Pools& pools) {
-    if (!dry) dry.emplace(pools, pixels);
-    dry->wet(i, pools, dose.edge != Edge::open && pools.beyond() > 0, first);
+    if (!dry) dry.emplace(pools, where);
+    const bool all = dose.edge != Edge::open && pools.beyond() > 0;
+    dry->wet(static_cast<std::uint16_t>(i), pools, all, first);
   };
   const FilmSink no_films;
   Deposition(height, grid, dose, no_films).rain(look, observer);

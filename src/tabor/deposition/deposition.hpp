@@ -80,12 +80,12 @@ std::vector<Film> deposit(const Field& height, const Grid& grid, const Dose& dos
 void deposit(const Field& height, const Grid& grid, const Dose& dose, const FilmSink& sink,
              const Observer& observer = {});
 
-/// Returns, for some pixels (places in the map, row by row), the first dose that wets them: its
-/// place in dose.mean_films, which must rise, or the number of doses where none does. One run
+/// Returns, row by row, the first dose that wets each pixel of `where`: its place in
+/// dose.mean_films, at most 65535 that rise, or their number where none does and elsewhere. One run
 /// through all doses; no film is made. For droplets and their limit. Throws as deposit().
-std::vector<std::size_t> first_wetting_doses(const Field& height, const Grid& grid,
-                                             const Dose& dose, const std::vector<Index>& pixels,
-                                             const Observer& observer = {});
+std::vector<std::uint16_t> first_wetting_doses(const Field& height, const Grid& grid,
+                                               const Dose& dose, const Mask& where,
+                                               const Observer& observer = {});
 
 /// Liquid that has come to rest.
 struct Settled {
