@@ -1,12 +1,13 @@
-# tabor_module(<name> [NO_HOT_LOOPS] SOURCES ... [DEPENDS modules...] [PUBLIC targets...] [PRIVATE targets...]
+# tabor_module(<name> [NO_HOT_LOOPS] [ANY_PROCESSOR] SOURCES ... [DEPENDS modules...] [PUBLIC targets...] [PRIVATE targets...]
 #              [PUBLIC_HEADERS headers...])
 #
 # One static library per folder of src/tabor. A module links the modules it names and nothing else,
 # so that the layer table of docs/architecture.md also holds at link time. Public headers are
 # installed; all others are for this tree alone. One with NO_HOT_LOOPS is not optimised with sanitizers: that
-# would take longer than all runs of the tests.
+# would take longer than all runs of the tests. One with NO_HOT_LOOPS or ANY_PROCESSOR gains nothing from newer
+# processors and is compiled once for all of them (TABOR_PROCESSORS=several).
 function(tabor_module name)
-  cmake_parse_arguments(ARG "NO_HOT_LOOPS" "" "SOURCES;DEPENDS;PUBLIC;PRIVATE;PUBLIC_HEADERS" ${ARGN})
+  cmake_parse_arguments(ARG "NO_HOT_LOOPS;ANY_PROCESSOR" "" "SOURCES;DEPENDS;PUBLIC;PRIVATE;PUBLIC_HEADERS" ${ARGN})
   set(target tabor_${name})
   if(ARG_SOURCES)
     add_library(${target} STATIC ${ARG_SOURCES})
@@ -38,6 +39,32 @@ function(tabor_module name)
   target_link_libraries(${target} ${scope} ${ARG_DEPENDS} ${ARG_PUBLIC})
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
   tabor_public_headers(${target} ${scope} ${name} ${ARG_PUBLIC_HEADERS})
+  if(ARG_SOURCES AND TABOR_SHARED)
+    set_property(GLOBAL APPEND PROPERTY TABOR_FOREIGN_LIBRARIES ${ARG_PUBLIC} ${ARG_PRIVATE})
+    if(ARG_NO_HOT_LOOPS OR ARG_ANY_PROCESSOR)
+      set_property(GLOBAL APPEND PROPERTY TABOR_OBJECTS_ANY_PROCESSOR $<TARGET_OBJECTS:${target}>)
+    else()
+      tabor_module_levels(${target} SOURCES ${ARG_SOURCES} LINK ${ARG_PRIVATE})
+    endif()
+  endif()
+endfunction()
+
+# Compiles the sources of a module once more for each level of processors (TABOR_LEVELS).
+function(tabor_module_levels target)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+  foreach(level IN LISTS TABOR_LEVELS)
+    set(objects ${target}_${level})
+    add_library(${objects} OBJECT ${ARG_SOURCES})
+    target_compile_options(${objects} PRIVATE ${TABOR_COMPILE_OPTIONS} -march=${level})
+    set_target_properties(${objects} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_link_libraries(${objects} PRIVATE ${target} ${ARG_LINK})
+    get_target_property(header_target ${target} PRECOMPILE_HEADERS_REUSE_FROM)
+    if(header_target)
+      target_precompile_headers(${objects} REUSE_FROM ${header_target}_${level})
+    endif()
+    tabor_unity(${objects})
+    set_property(GLOBAL APPEND PROPERTY TABOR_OBJECTS_${level} $<TARGET_OBJECTS:${objects}>)
+  endforeach()
 endfunction()
 
 # Compiles up to eight sources of a target as one (TABOR_UNITY): what they all include and instantiate then costs once.
@@ -196,9 +223,7 @@ if(CMAKE_CXX_COMPILER_LAUNCHER MATCHES "ccache" AND TABOR_PRECOMPILED)
     add_compile_options("SHELL:-Xclang -fno-pch-timestamp")
   endif()
 endif()
-if(TABOR_NATIVE)
-  add_compile_options(-march=native)
-endif()
+include(TaborProcessors)
 
 set(TABOR_TEST_OPTIONS ${TABOR_COMPILE_OPTIONS})
 # Tests take longer to compile than to run; coverage is for the fuzzer, which runs none of them.

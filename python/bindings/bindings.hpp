@@ -11,6 +11,7 @@ namespace nb = nanobind;
 void bind_interpreter(nb::module_& module);
 void bind_values(nb::module_& module);
 void bind_surface(nb::module_& module);
+void bind_combine(nb::module_& module);
 void bind_contact(nb::module_& module);
 void bind_film(nb::module_& module);
 void bind_friction(nb::module_& module);

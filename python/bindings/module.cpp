@@ -6,11 +6,14 @@ namespace {
 
 /// Classes of exceptions, which live as long as the interpreter.
 PyObject* input_error = PyExc_ValueError;
+PyObject* incomplete_error = PyExc_ValueError;
 PyObject* output_error = PyExc_OSError;
 
 /// Takes the classes of the package in place of Python's own.
-void take_errors(const nanobind::object& input, const nanobind::object& output) {
+void take_errors(const nanobind::object& input, const nanobind::object& incomplete,
+                 const nanobind::object& output) {
   input_error = nanobind::object(input).release().ptr();
+  incomplete_error = nanobind::object(incomplete).release().ptr();
   output_error = nanobind::object(output).release().ptr();
 }
 
@@ -18,6 +21,8 @@ void take_errors(const nanobind::object& input, const nanobind::object& output) 
 void translate(const std::exception_ptr& thrown, void*) {
   try {
     std::rethrow_exception(thrown);
+  } catch (const IncompleteError& error) {
+    PyErr_SetString(incomplete_error, error.what());
   } catch (const InputError& error) {
     PyErr_SetString(input_error, error.what());
   } catch (const UsageError& error) {
@@ -37,10 +42,12 @@ void translate(const std::exception_ptr& thrown, void*) {
 NB_MODULE(_tabor, module) {
   using namespace tabor::python;
   nanobind::register_exception_translator(translate);
-  module.def("take_errors", &take_errors, nanobind::arg("input"), nanobind::arg("output"));
+  module.def("take_errors", &take_errors, nanobind::arg("input"), nanobind::arg("incomplete"),
+             nanobind::arg("output"));
   bind_interpreter(module);
   bind_values(module);
   bind_surface(module);
+  bind_combine(module);
   bind_contact(module);
   bind_film(module);
   bind_friction(module);

@@ -22,6 +22,10 @@ if TYPE_CHECKING:
     from ._surface import Surface
 
 
+#: Surfaces that can be made.
+RecipeKind = Literal[KINDS]
+
+
 class TreatmentSteps:
     """Steps as methods of a surface, which _surface.py makes."""
 
@@ -63,7 +67,8 @@ def main():
              "SlideSettings": tables.SLIDE, "CurveSettings": tables.CURVE, "SolidSettings": tables.SOLID, "StudySettings": tables.STUDY,
              "ReadSettings": [one for one in tables.READ if one.name != "channel"],  # which may be a number, too
              "ScanSettings": [one for one in tables.OF_SCANS if one.name != "channel"], "LubricantSettings": tables.OIL[1:], "GenerateSettings": tables.PIXELS + tables.RECIPE}
-    text = HEAD + "".join(step_method(*step) for step in tables._tabor.treatment_steps()).rstrip("\n") + "\n"
+    kinds = ", ".join(map(repr, tables._tabor.recipe_kinds()))
+    text = HEAD.replace("KINDS", kinds) + "".join(step_method(*step) for step in tables._tabor.treatment_steps()).rstrip("\n") + "\n"
     text += "".join(settings_class(name, settings) for name, settings in parts.items())
     text += values_class("SolidValues", tables.SOLID, {"youngs_modulus", "poissons_ratio"})
     text += values_class("LubricantValues", tables.OIL, {"viscosity"})

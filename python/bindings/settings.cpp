@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "parameters.hpp"
 #include "tabor/cases/slide/slide.hpp"
 #include "tabor/scan/read_parameters.hpp"
@@ -14,11 +16,20 @@
 namespace tabor::python {
 namespace {
 
+/// The argument as the command line spells it, where that differs: "poisson_ratio".
+std::string other_argument(const ParameterHead& head) {
+  std::string other = head.option().substr(2);
+  std::replace(other.begin(), other.end(), '-', '_');
+  return other == head.python_argument() ? "" : other;
+}
+
 nb::dict row_of(const char* table, const ParameterHead& head) {
   nb::dict row;
   row["table"] = table;
   row["name"] = head.name;
   row["argument"] = head.python_argument();
+  row["other"] = other_argument(head);
+  row["option"] = head.option();
   row["kind"] = std::string(kValueKinds.of(head.kind));
   row["dimension"] = name_of(head.dimension);
   row["unit"] = si_unit(head.dimension);

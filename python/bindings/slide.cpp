@@ -64,6 +64,7 @@ Slid slide(const Topography& surface, cases::CaseSettings settings, const SlideS
 nb::dict states_of(const Slid& slid) {
   nb::dict states;
   for (const auto& column : cases::slide_columns(cases::parts_of(slid.settings, slid.sliding))) {
+    if (column.key.empty()) continue;  // of the table on the terminal alone
     std::vector<double> values;
     values.reserve(slid.result.states.size());
     for (const cases::SlideRecord& one : slid.result.states) {
@@ -123,7 +124,7 @@ void save(const Slid& slid, results::FieldsTarget target) {
                 .film = slid.film.size() > 0 ? &slid.film : nullptr},
                parts);
     }
-    file.add_before(slid.result.before);
+    file.add_run(slid.result);
     std::vector<results::Finding> findings =
         results::findings_of({{.pressure = si(slid.settings.mean_pressures.front(), "Pa"),
                                .warnings = slid.result.warnings}});

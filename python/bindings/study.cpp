@@ -1,11 +1,17 @@
 #include <nanobind/stl/filesystem.h>
+#include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <map>
+
 #include "bindings.hpp"
+#include "tabor/cases/records.hpp"
+#include "tabor/cases/slide/slide.hpp"
 #include "tabor/forming/deck.hpp"
 #include "tabor/io/files/atomic_file.hpp"
 #include "tabor/io/hdf5/guard.hpp"
@@ -13,6 +19,7 @@
 #include "tabor/study/friction_table.hpp"
 #include "tabor/study/sweep.hpp"
 #include "tabor/study/tables.hpp"
+#include "values.hpp"
 #include "watched.hpp"
 
 namespace tabor::python {
@@ -114,6 +121,24 @@ std::vector<std::string> study_warnings(const Outcome& outcome) {
   return lines;
 }
 
+/// What a run says about its numbers: (code, text, class) of each finding.
+ShownWarnings findings_of(const Outcome& outcome) {
+  ShownWarnings list;
+  for (const results::Finding& one : outcome.findings) {
+    list.emplace_back(one.code, results::statement_of(one), cases::name_of(one.kind()));
+  }
+  return list;
+}
+
+/// Units of the columns of studies by their keys.
+std::map<std::string, std::string> column_units() {
+  std::map<std::string, std::string> units;
+  for (const ColumnHead& one : cases::friction_columns()) units[one.key] = one.unit;
+  for (const ColumnHead& one : cases::slide_columns()) units[one.key] = one.unit;
+  units.erase("");
+  return units;
+}
+
 /// (warnings, failures) as results.h5 tells them.
 std::pair<std::vector<std::string>, std::vector<std::string>> remarks(
     const std::filesystem::path& results) {
@@ -163,7 +188,9 @@ void bind_study(nb::module_& module) {
       .def_ro("n_not_converged", &Outcome::n_not_converged)
       .def_ro("n_contacts", &Outcome::n_contacts)
       .def_ro("failures", &Outcome::failures)
-      .def_prop_ro("warnings", &study_warnings);
+      .def_prop_ro("warnings", &study_warnings)
+      .def_prop_ro("findings", &findings_of);
+  module.def("column_units", &column_units);
   module.def(
       "read_study", [](const std::filesystem::path& file) { return study::read_study(file); },
       "file"_a);

@@ -13,12 +13,12 @@
 #include "tabor/core/error.hpp"
 #include "tabor/metrology/areal/parameters.hpp"
 #include "tabor/metrology/spectra/psd.hpp"
-#include "tabor/results/combination.hpp"
 #include "tabor/scan/file.hpp"
 #include "tabor/scan/read_parameters.hpp"
 #include "tabor/topography/digest.hpp"
 #include "tabor/topography/edges.hpp"
 #include "tabor/topography/levelling.hpp"
+#include "tabor/topography/recipes.hpp"
 #include "tabor/topography/treatment.hpp"
 #include "tabor/topography/warnings.hpp"
 #include "values.hpp"
@@ -216,39 +216,9 @@ nb::dict psd(const Topography& surface, const metrology::PsdOptions& options,
   all["y"] = row_of(spectra.y);
   all["radial"] = row_of(spectra.radial);
   all["window"] = std::string(metrology::name_of(spectra.window));
+  all["trusted"] = std::pair(record.trusted.shortest, record.trusted.longest);
   all["warnings"] = shown(record.warnings);
   return all;
-}
-
-/// How two scans are put together; names are those of the command line.
-comparison::CombineOptions combine_options(const std::string& mode, const std::string& match,
-                                           bool search, const std::vector<double>& shift,
-                                           double threshold) {
-  comparison::CombineOptions options;
-  const auto known_mode = comparison::combine_mode_from(mode);
-  if (!known_mode) throw InputError("mode", "'" + mode + "'", "wear, difference or composite", "");
-  const auto known_match = comparison::level_match_from(match);
-  if (!known_match) throw InputError("match", "'" + match + "'", "none, offset or plane", "");
-  options.mode = *known_mode;
-  options.level = *known_match;
-  options.search = search;
-  options.threshold = threshold;
-  if (!shift.empty()) {
-    options.shift_x = shift.at(0);
-    options.shift_y = shift.at(1);
-  }
-  return options;
-}
-
-/// (map, numbers as JSON, warnings)
-using CombinedRow = std::tuple<Topography, Text, Texts>;
-CombinedRow combine(const Topography& first, const Topography& second,
-                    const comparison::CombineOptions& options, const nb::object& progress) {
-  comparison::Combination found = watched(progress, [&](const Observer& observer) {
-    return comparison::combine(first, second, options, observer);
-  });
-  const Text values = io::to_text(results::values_of(found));
-  return {std::move(found.map), values, results::doubts_of(found)};
 }
 
 ShownWarnings warnings_about(const Topography& surface) {
@@ -313,16 +283,6 @@ void bind_surface(nb::module_& module) {
       [](const Topography& one) { return topography::digest_of(one.height, one.grid); },
       "surface"_a);
   module.def("require_no_holes", &require_no_holes, "surface"_a);
-  nb::class_<comparison::CombineOptions>(module, "CombineOptions")
-      .def(
-          "__init__",
-          [](comparison::CombineOptions* self, const std::string& mode, const std::string& match,
-             bool search, const std::vector<double>& shift, double threshold) {
-            new (self)
-                comparison::CombineOptions(combine_options(mode, match, search, shift, threshold));
-          },
-          "mode"_a, "match"_a, "search"_a, "shift"_a, "threshold"_a);
-  module.def("combine", &combine, "first"_a, "second"_a, "options"_a, "progress"_a.none());
   module.def("parameters", &parameters, "surface"_a, "progress"_a.none());
   module.def(
       "psd",

@@ -157,6 +157,11 @@ void bind_values(nb::module_& module) {
   module.def(
       "advised", [](const std::string& text) { return advised(text, spelled); }, nb::arg("text"));
   module.attr("version") = std::string(kVersion);
+  module.def("si_units", [] {
+    nb::dict units;
+    for (const auto& [name, one] : dimensions()) units[name.data()] = si_unit(one);
+    return units;
+  });
   module.def(
       "parse_si",
       [](const std::string& text, const std::string& dimension, const std::string& name) {

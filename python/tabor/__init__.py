@@ -13,9 +13,10 @@ _os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 from . import ehl
 from ._cite import cite
 from ._combine import Combination, Volume, combine
-from ._contact import Contact, Material, NotConverged, Solid, contact, materials
+from ._contact import Contact, Material, Materials, NotConverged, Solid, contact, materials
 from ._density_curve import DensityCurve, Plateau, density_curve
-from ._errors import InputError, InputFileNotFound, OutputError
+from ._doubts import Doubt
+from ._errors import InputError, InputFileNotFound, InputIncomplete, OutputError
 from ._friction import Film, FluidFilm, Friction, Lubricant, fluid_film, friction, rain
 from ._friction_table import FrictionEntry, FrictionTable
 from ._generate import Format, formats, generate
@@ -25,6 +26,7 @@ from ._load import load
 from ._parameter_table import parameters
 from ._parameters import Parameter, Parameters
 from ._progress import Progress, set_threads
+from ._read import read
 from ._records import Warning
 from ._report import Report, report
 from ._save import save
@@ -33,22 +35,22 @@ from ._section import Section
 from ._slide import Slide, slide
 from ._spectra import Spectra, Spectrum
 from ._study import Results, Study
-from ._surface import Surface, read
+from ._surface import Surface
 from ._tabor import version as __version__
 from ._values import Value
 from ._versions import show_versions
 from .view import view
 
 # Warning is not among them: it would take the place of Python's own.
-__all__ = ["Combination", "Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction",
-           "FrictionEntry", "FrictionTable", "InputError", "InputFileNotFound", "Lubricant", "Material", "NameNotFound", "NotConverged", "OutputError", "Parameter",
+__all__ = ["Combination", "Contact", "DensityCurve", "Doubt", "Film", "FluidFilm", "Format", "Friction",
+           "FrictionEntry", "FrictionTable", "InputError", "InputFileNotFound", "InputIncomplete", "Lubricant", "Material", "Materials", "NameNotFound", "NotConverged", "OutputError", "Parameter",
            "Parameters", "Plateau", "Progress", "Report", "Results", "Scans", "Section", "Slide", "Solid", "Spectra",
            "Spectrum", "Study", "Surface", "Value", "Volume", "cite", "combine", "contact",
            "density_curve", "ehl", "fluid_film", "formats", "friction", "generate", "load", "materials", "parameters", "rain",
            "read", "report", "save", "set_threads", "show_versions", "slide", "view"]
 
 # Pickles and messages name classes where users find them.
-for _name in __all__:
+for _name in (*__all__, "Warning"):
     if isinstance(globals()[_name], type):
         globals()[_name].__module__ = "tabor"
 del _name

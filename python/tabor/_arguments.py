@@ -9,7 +9,8 @@ import operator
 import os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Executor
-from typing import Any, TypeVar, Union, cast
+from types import MappingProxyType
+from typing import Any, Literal, TypeVar, Union, cast, get_origin
 
 import numpy as np
 
@@ -166,7 +167,8 @@ def _instance_check(annotation: str, names: Mapping[str, Any]) -> _Check | None:
 
 def _check_of(annotation: str, names: Mapping[str, Any]) -> _Check | None:
     inner = annotation.removesuffix(" | None")
-    check = _CHECKS.get(inner) or _instance_check(inner, names)
+    is_choice = inner.startswith("Literal[") or get_origin(names.get(inner)) is Literal
+    check = plain_text if is_choice else _CHECKS.get(inner) or _instance_check(inner, names)
     if check is None or inner == annotation:
         return check
     asked = check
@@ -193,11 +195,20 @@ def _with_more(function: Callable[..., Any], args: tuple[Any, ...], given: dict[
     return args[:n_own]
 
 
-def typed(function: _Function, settings: Sequence[str] = ()) -> _Function:
+def _renamed(function: Callable[..., Any], given: dict[str, Any], others: Mapping[str, str]) -> None:
+    """Gives arguments their own names where another spelling was used."""
+    for other in others.keys() & given.keys():
+        name = others[other]
+        if name in given:
+            raise TypeError(f"{function.__qualname__.removesuffix('.__init__')}(): {other} and {name} are the same argument; give one of them")
+        given[name] = given.pop(other)
+
+
+def typed(function: _Function, settings: Sequence[str] = (), others: Mapping[str, str] = MappingProxyType({})) -> _Function:
     """The function, with its arguments asked by their annotations first: TypeError says what came and what was
     expected, and names the nearest argument for one that it does not have. Values with units, and what has a type of its
     own in one function alone, are asked there. ``settings`` are arguments that it takes by ``**settings`` (_settings.py),
-    and by place where it takes ``*more``."""
+    and by place where it takes ``*more``; ``others`` are further spellings of them."""
     code = function.__code__
     n_own = code.co_argcount
     names = code.co_varnames[:n_own + code.co_kwonlyargcount]
@@ -205,12 +216,13 @@ def typed(function: _Function, settings: Sequence[str] = ()) -> _Function:
     checks = {name: check for name, check in found if check is not None}
     positional = tuple(checks.get(name) for name in names[:n_own])
     known = None if code.co_flags & inspect.CO_VARKEYWORDS and not settings else {*names, *settings}
-    more = [name for name in settings if name not in names] if code.co_flags & inspect.CO_VARARGS else None
+    more = [name for name in settings if name not in names] if settings and code.co_flags & inspect.CO_VARARGS else None
 
     @functools.wraps(function)
     def asked(*args: Any, **given: Any) -> Any:
         if more is not None and len(args) > n_own:
             args = _with_more(function, args, given, n_own, more)
+        _renamed(function, given, others)
         plain = [check(value, name) if check else value for value, check, name in zip(args, positional, names)]
         for name in given:
             if name in checks:

@@ -17,6 +17,11 @@ def cite(*results: Any) -> str:
     ----------
     results : contacts, films, frictions, results of studies, or result files; none for all methods there are.
 
+    Returns
+    -------
+    str
+        Entries with an empty line between them.
+
     Raises
     ------
     ValueError

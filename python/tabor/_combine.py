@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 import json
+import pathlib
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from . import _tabor
-from ._arguments import Axes, typed
+from ._arguments import Axes, Path, typed
+from ._doubts import tell
 from ._guesses import Values
 from ._maps import Window
 from ._progress import Progress, watching
-from ._records import Shown, plain_attributes, said
+from ._records import Shown, Warning, plain_attributes, said
 from ._surface import Surface
 from ._values import Value, si_list
+
+
+Mode = Literal["wear", "difference", "composite"]
+Match = Literal["plane", "offset", "none"]
+#: Numbers of the search for the shift, beside the shift.
+_OF_SEARCH = ("uncertainty_x_m", "uncertainty_y_m", "overlap", "distinction", "runner_up", "iterations")
 
 
 class Volume(NamedTuple):
@@ -32,12 +40,13 @@ class Combination(Shown):
     """What ``combine`` made of two scans. It does not change."""
 
     surface: Surface  #: the map, on the pixels of the first scan, cut to the overlap
+    mode: Mode  #: "wear", "difference" or "composite"
     warnings: tuple[str, ...]  #: reasons to doubt them
     references: tuple[str, ...]  #: what to cite
 
-    def __init__(self, surface: Surface, values: Mapping[str, Any], warnings: Sequence[str]) -> None:
+    def __init__(self, surface: Surface, mode: Mode, values: Mapping[str, Any], warnings: Sequence[str]) -> None:
         methods = surface.metadata.get("methods", "")
-        self.__dict__.update(surface=surface, _values=dict(values), warnings=tuple(warnings),
+        self.__dict__.update(surface=surface, mode=mode, _values=dict(values), warnings=tuple(warnings),
                              references=(methods,) if methods else ())
 
     @property
@@ -80,6 +89,16 @@ class Combination(Shown):
         """Draws the map as ``Surface.plot`` does; needs matplotlib. Returns the axes."""
         return self.surface.plot(ax, window=window, cmap=cmap)
 
+    @typed
+    def save(self, file: Path) -> None:
+        """Writes the file of ``tabor combine -o``, which ends with .h5. Raises ValueError for another ending, OSError where it
+        cannot be written."""
+        path = pathlib.Path(file)
+        if path.suffix not in (".h5", ".hdf5"):
+            raise ValueError(f"{path}: expected a name that ends with .h5 or .hdf5; surface.save writes the map as a scan file")
+        _tabor.save_combination(path, self.surface._topography, self.mode, json.dumps(dict(self.values)), list(self.warnings),
+                                list(self.references))
+
     def to_xarray(self) -> Any:
         """The map as a DataArray with coordinates x and y [m], numbers and warnings as its attributes, to be written as
         NetCDF; needs xarray."""
@@ -99,9 +118,28 @@ class Combination(Shown):
         return lines + [("warning", text) for text in self.warnings]
 
 
+def _without(numbers: Mapping[str, Any], before: str) -> dict[str, Any]:
+    """Numbers whose names begin so, by the rest of their names."""
+    return {key.removeprefix(before): value for key, value in numbers.items() if key.startswith(before)}
+
+
+def combination_of(surface: Surface, numbers: Mapping[str, Any], warnings: Sequence[str]) -> Combination:
+    """The combination of a file, which has the numbers of volumes and of the search beside the others."""
+    volumes = {name: _without(numbers, f"{name}_") for name in ("worn", "piled_up", "net") if f"{name}_volume_m3" in numbers}
+    of_wear = {key: numbers[key] for key in ("noise_m", "noise_area_m2", "noise_floor_m3", "threshold_m") if key in numbers}
+    of_search = {key: numbers[key] for key in _OF_SEARCH if key in numbers}
+    shift = {key: numbers[key] for key in ("shift_x_m", "shift_y_m")}
+    inside = {"mode", *of_wear, *of_search, *(f"{name}_{key}" for name, values in volumes.items() for key in values)}
+    values: dict[str, Any] = {key: value for key, value in numbers.items() if key not in inside}
+    values["registration"] = {**shift, **of_search} if of_search else None
+    if volumes:
+        values["wear"] = {**volumes, **of_wear}
+    return Combination(surface, numbers["mode"], values, warnings)
+
+
 @typed
-def combine(first: Surface, second: Surface, mode: str = "wear", *, search: bool = True,
-            shift: Iterable[Value] | None = None, match: str = "plane", threshold: float = 4.0,
+def combine(first: Surface, second: Surface, mode: Mode = "wear", *, search: bool = True,
+            shift: Iterable[Value] | None = None, match: Match = "plane", threshold: float = 4.0,
             progress: Progress = None) -> Combination:
     """Registers two scans and subtracts them, or adds two faces, as ``tabor combine`` does.
 
@@ -116,6 +154,12 @@ def combine(first: Surface, second: Surface, mode: str = "wear", *, search: bool
     match : offset or tilt between the scans that is fitted where nothing changed, and removed: "plane", "offset" or
         "none".
     threshold : a change counts from here on, in standard deviations of the noise.
+    progress : see ``tabor.Progress``.
+
+    Returns
+    -------
+    Combination
+        The map on the pixels of the first scan [m], shift [m], volumes [m^3] and warnings.
 
     Raises
     ------
@@ -138,4 +182,5 @@ def combine(first: Surface, second: Surface, mode: str = "wear", *, search: bool
     options = _tabor.CombineOptions(mode, match, search, lengths, float(threshold))
     with watching(progress) as told:
         topography, values, doubts = _tabor.combine(first._topography, second._topography, options, told)
-    return Combination(Surface._of(topography), json.loads(values), doubts)
+    tell(Warning("", text) for text in doubts)
+    return Combination(Surface._of(topography), mode, json.loads(values), doubts)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Unpack, overload
+from typing import Any, Literal, NamedTuple, Unpack, overload
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _tabor
 from ._arguments import Axes, typed
+from ._doubts import tell
 from ._progress import Progress, watching
 from ._records import Record, attributes
 from ._setting_types import ContactSettings, SolidSettings, SolidValues
@@ -20,6 +21,11 @@ from ._maps import Array, Kind, Window, chosen, maps_to_xarray, plot_map
 from ._surface import Surface
 from ._values import Value, si_list
 
+
+#: What lies beyond the boundary of a surface.
+Edges = Literal["tile", "cut", "end"]
+#: Maps that ``Contact.plot`` draws.
+ContactField = Literal["pressure", "gap", "displacement", "height", "touching", "saturated", "patches", "tool"]
 
 Flags = npt.NDArray[np.bool_]
 Labels = npt.NDArray[np.int32]
@@ -64,6 +70,11 @@ class Materials(tuple[Material, ...]):
 
 def materials() -> Materials:
     """The solids that ``Solid`` knows by name, as ``tabor materials`` lists them.
+
+    Returns
+    -------
+    tuple of Material
+        With moduli and pressures [Pa] and their source, also by name.
 
     Raises
     ------
@@ -231,7 +242,7 @@ class Contact(Record):
         return maps_to_xarray(self.surface, self, self._kinds(), attributes(self))
 
     @typed
-    def plot(self, field: str = "pressure", ax: Axes = None, *, window: Window = None, cmap: str | None = None) -> Any:
+    def plot(self, field: ContactField = "pressure", ax: Axes = None, *, window: Window = None, cmap: str | None = None) -> Any:
         """Draws one map in µm; needs matplotlib. Returns the axes. Drawn again into the same axes, it takes the place of
         the picture before.
 
@@ -273,23 +284,24 @@ def _controls(given: Mapping[str, Any]) -> tuple[dict[str, list[float]], bool]:
     return controls, single
 
 
+@overload  # a text is a list of texts, too
+def contact(  # type: ignore[overload-overlap]
+        surface: Surface, pressure: Value, solid: Solid | str, *, edges: Edges | None = ..., check: bool = ...,
+        progress: Progress = ..., **settings: Unpack[ContactSettings]) -> Contact: ...
 @overload
-def contact(surface: Surface, pressure: Value, solid: Solid | str, *, edges: str | None = ..., check: bool = ...,
-            progress: Progress = ..., **settings: Unpack[ContactSettings]) -> Contact: ...
-@overload
-def contact(surface: Surface, pressure: Iterable[Value], solid: Solid | str, *, edges: str | None = ..., check: bool = ...,
+def contact(surface: Surface, pressure: Iterable[Value], solid: Solid | str, *, edges: Edges | None = ..., check: bool = ...,
             progress: Progress = ..., **settings: Unpack[ContactSettings]) -> list[Contact]: ...
 @overload
 def contact(surface: Surface, *, solid: Solid | str, separation: Value | None = ..., force: Value | None = ...,
-            edges: str | None = ..., check: bool = ..., progress: Progress = ...,
+            edges: Edges | None = ..., check: bool = ..., progress: Progress = ...,
             **settings: Unpack[ContactSettings]) -> Contact: ...
 @overload
 def contact(surface: Surface, *, solid: Solid | str, separation: Iterable[Value] | None = ...,
-            force: Iterable[Value] | None = ..., edges: str | None = ..., check: bool = ..., progress: Progress = ...,
+            force: Iterable[Value] | None = ..., edges: Edges | None = ..., check: bool = ..., progress: Progress = ...,
             **settings: Unpack[ContactSettings]) -> list[Contact]: ...
 @takes(CONTACT)
 def contact(surface: Surface, pressure: Any = None, solid: Solid | str | None = None, *, separation: Any = None,
-            force: Any = None, edges: str | None = None, check: bool = True, progress: Progress = None,
+            force: Any = None, edges: Edges | None = None, check: bool = True, progress: Progress = None,
             **settings: Unpack[ContactSettings]) -> Any:
     """Presses a rigid flat on a rough surface (docs/theory.md).
 
@@ -307,6 +319,12 @@ def contact(surface: Surface, pressure: Any = None, solid: Solid | str | None = 
     check : raise NotConverged where the tolerance is not reached; its ``result`` is what was.
     progress : see ``tabor.Progress``.
 
+    Returns
+    -------
+    Contact
+        Pressure [Pa], gap [m], area, certificate and warnings; a list of contacts for several pressures, separations or
+        forces.
+
     Raises
     ------
     ValueError
@@ -314,6 +332,17 @@ def contact(surface: Surface, pressure: Any = None, solid: Solid | str | None = 
         nothing touches, two of pressure, separation and force, unknown names.
     NotConverged
         Unless ``check`` is False.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> sheet = tb.generate("edt", pixels=64, seed=1)
+    >>> one = tb.contact(sheet, "7 MPa", "aluminium-6016")
+    >>> one.pressure.shape, 0 < one.area_fraction < 0.1
+    ((64, 64), True)
+    >>> several = tb.contact(sheet, ["2 MPa", "7 MPa"], "aluminium-6016")
+    >>> several[1].area_fraction == one.area_fraction
+    True
     """
     controls, single = _controls({"pressure": pressure, "separation": separation, "force": force})
     if not any(controls.values()):
@@ -336,4 +365,6 @@ def contact(surface: Surface, pressure: Any = None, solid: Solid | str | None = 
             raise NotConverged(f"contact at {_tabor.format_si(one.mean_pressure, 'Pa')}: {one.values['status']} at "
                                f"certificate {one.certificate:.2g}, asked for {options['tolerance']:g}; check=False returns "
                                "it all the same", found[0] if single else found)
+    for one in found:
+        tell(one.warnings)
     return found[0] if single else found

@@ -121,12 +121,26 @@ def density_curve(contact: Any, *, density: Value | Iterable[Value] = (), progre
     contact : Contact, or a list of contacts of one surface and solid, which gives a list.
     density : densities [kg/m^2] that become points of the curve beside its round ones.
     **settings
+    progress : see ``tabor.Progress``.
+
+    Returns
+    -------
+    DensityCurve
+        Friction and wet share over the density [kg/m^2]; a list of curves for a list of contacts.
 
     Raises
     ------
     ValueError
         As ``friction`` and ``rain`` do; for a surface without heights, and for contacts that differ in more
         than the pressure.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> sheet = tb.generate("edt", pixels=64, seed=1)
+    >>> curve = tb.density_curve(tb.contact(sheet, "7 MPa", "aluminium-6016"), boundary_shear_strength="5 MPa")
+    >>> bool(curve.friction_lubricated.min() < curve.friction_dry)
+    True
     """
     contacts = _contacts(contact)
     first = contacts[0]

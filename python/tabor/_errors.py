@@ -13,6 +13,10 @@ class InputError(ValueError):
     """What is given cannot be read or makes no sense; a ValueError."""
 
 
+class InputIncomplete(InputError):
+    """A file that is sound but leaves open what only the user knows: a unit, the side of a pixel, which channel."""
+
+
 class OutputError(OSError):
     """A result cannot be written; an OSError."""
 
@@ -39,4 +43,4 @@ def require_file(file: Any) -> None:
         raise InputFileNotFound(f"{name}: no such file", name)
 
 
-_tabor.take_errors(InputError, OutputError)
+_tabor.take_errors(InputError, InputIncomplete, OutputError)

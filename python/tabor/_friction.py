@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Unpack, overload
+from typing import Any, Literal, TypeVar, Unpack, overload
 
 from . import _tabor
 from ._arguments import Axes, typed
 from ._contact import Contact, Flags, NotConverged
+from ._doubts import tell
 from ._progress import Progress, watching
 from ._records import Record, attributes
 from ._setting_types import (
@@ -22,6 +23,11 @@ from ._settings import DRY_BELOW, OIL, RAIN, SHEAR, TRAPPED, complete, documente
 from ._maps import Array, Kind, Map, Window, chosen, map_to_xarray, maps_to_xarray, plot_map
 from ._surface import Surface
 from ._values import Value, si, si_list
+
+
+#: Maps that ``Friction.plot`` draws, those of trapped oil and of a film that flows included.
+FrictionField = Literal["wet", "touching", "contact_pressure", "gap", "film_thickness", "liquid_pressure", "trapped_pressure",
+                        "trapped_gap", "fluid_pressure", "fill", "sliding_gap", "solid_pressure"]
 
 
 def film_settings(options: Mapping[str, Any], densities: Sequence[float]) -> _tabor.FilmSettings:
@@ -77,8 +83,9 @@ class Film(Record):
         return plot_map(self.surface, Map(self.thickness, "m", "film thickness"), ax, window, cmap)
 
 
-@overload
-def rain(surface: Surface, density: Value, *, progress: Progress = ..., **settings: Unpack[RainSettings]) -> Film: ...
+@overload  # a text is a list of texts, too
+def rain(  # type: ignore[overload-overlap]
+        surface: Surface, density: Value, *, progress: Progress = ..., **settings: Unpack[RainSettings]) -> Film: ...
 @overload
 def rain(surface: Surface, density: Iterable[Value], *, progress: Progress = ...,
          **settings: Unpack[RainSettings]) -> list[Film]: ...
@@ -91,17 +98,34 @@ def rain(surface: Surface, density: Any, *, progress: Progress = None, **setting
     surface : Surface without holes.
     density : areal density as dosed [kg/m^2], "0.45 g/m^2"; several give a list of films of one rain.
     **settings
+    progress : see ``tabor.Progress``.
+
+    Returns
+    -------
+    Film
+        Thickness [m] and wet share; a list of films for several densities.
 
     Raises
     ------
     ValueError
         For holes, negative densities, unknown names.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> sheet = tb.generate("edt", pixels=64, seed=1)
+    >>> thin, thick = tb.rain(sheet, ["0.45 g/m^2", "0.9 g/m^2"], oil_density=900, seed=1)
+    >>> f"{1e6 * thick.thickness.mean():.3f} um"
+    '1.000 um'
     """
     densities, single = si_list(density, "areal_density", "density")
     options = complete(RAIN, settings)
     _tabor.require_no_holes(surface._topography)
     with watching(progress) as told:
         films = [Film(record, surface, options) for record in _tabor.rain(surface._topography, film_settings(options, densities), told)]
+    tell(surface.warnings)
+    for one in films:
+        tell(one.warnings)
     return films[0] if single else films
 
 
@@ -194,7 +218,7 @@ class Friction(Record):
         return maps_to_xarray(self.contact.surface, self, self._kinds(), attributes(self))
 
     @typed
-    def plot(self, field: str = "wet", ax: Axes = None, *, window: Window = None, cmap: str | None = None) -> Any:
+    def plot(self, field: FrictionField = "wet", ax: Axes = None, *, window: Window = None, cmap: str | None = None) -> Any:
         """Draws one map in µm; needs matplotlib. Returns the axes. Drawn again into the same axes, it takes the place of
         the picture before.
 
@@ -215,6 +239,14 @@ class Friction(Record):
         return plot_map(self.contact.surface, chosen(self, self._kinds(), field), ax, window, cmap)
 
 
+_AnyFriction = TypeVar("_AnyFriction", bound=Friction)
+
+
+def _told(found: _AnyFriction) -> _AnyFriction:
+    tell(found.warnings)
+    return found
+
+
 @takes(SHEAR + DRY_BELOW + TRAPPED)
 def friction(contact: Contact, film: Film, *, check: bool = True, progress: Progress = None,
              **settings: Unpack[TrappedFrictionSettings]) -> Friction:
@@ -224,9 +256,16 @@ def friction(contact: Contact, film: Film, *, check: bool = True, progress: Prog
 
     Parameters
     ----------
+    contact : of a surface.
+    film : the oil on that surface.
     **settings
     check : raise NotConverged where trapped oil does not converge; its ``result`` is what was reached.
     progress : see ``tabor.Progress``.
+
+    Returns
+    -------
+    Friction
+        Coefficients of friction, dry and lubricated, and the wet share of the contact.
 
     Raises
     ------
@@ -234,19 +273,28 @@ def friction(contact: Contact, film: Film, *, check: bool = True, progress: Prog
         Without a shear strength, for one out of range, for a film on another surface.
     NotConverged
         Unless ``check`` is False.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> sheet = tb.generate("edt", pixels=64, seed=1)
+    >>> pressed, oil = tb.contact(sheet, "7 MPa", "aluminium-6016"), tb.rain(sheet, "3 g/m^2")
+    >>> found = tb.friction(pressed, oil, shear_strength="70 MPa", boundary_shear_strength="5 MPa")
+    >>> 0 < found.lubricated <= found.dry
+    True
     """
     oil = complete(TRAPPED, settings)
     options = {**shear_of(contact, settings), **complete(DRY_BELOW, settings)}
     given = (contact.surface._topography, contact._record, film._record, contact._settings())
     if not oil["trapped"]:
         _tabor.check_trapped(filled(_tabor.TrappedSettings(), oil))
-        return Friction(_tabor.friction(*given, shear_settings(options)), contact, film, options)
+        return _told(Friction(_tabor.friction(*given, shear_settings(options)), contact, film, options))
     with watching(progress) as told:
         trapped, record = _tabor.trapped_oil(*given, filled(_tabor.TrappedSettings(), oil), shear_settings(options), told)
     found = Friction(record, contact, film, options, trapped, oil)
     if check and not bool(found.values["trapped_converged"]):
         raise NotConverged("friction: the trapped oil did not converge; check=False returns it all the same", found)
-    return found
+    return _told(found)
 
 
 @documented(OIL)
@@ -340,12 +388,26 @@ def fluid_film(contact: Contact, film: Film, lubricant: Lubricant, speed: Value,
     check : raise NotConverged where film and load do not balance; its ``result`` is what was reached.
     progress : see ``tabor.Progress``.
 
+    Returns
+    -------
+    FluidFilm
+        Friction with the film that flows: pressure of the oil [Pa], gap [m], mixed friction, share of the load.
+
     Raises
     ------
     ValueError
         As ``friction`` does.
     NotConverged
         Unless ``check`` is False.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> tile = tb.generate("edt", pixels=32, seed=1)
+    >>> pressed, oil = tb.contact(tile, "2 MPa", "aluminium-6016"), tb.rain(tile, "0.9 g/m^2")
+    >>> wet = tb.fluid_film(pressed, oil, tb.Lubricant("0.1 Pa s"), "5 mm/s")
+    >>> 0 <= wet.load_share < 1
+    True
     """
     options = shear_of(contact, settings)
     metres_per_second = si(speed, "speed", "speed")
@@ -356,4 +418,4 @@ def fluid_film(contact: Contact, film: Film, lubricant: Lubricant, speed: Value,
     found = FluidFilm(record, contact, film, options, fluid, lubricant, metres_per_second)
     if check and not found.converged:
         raise NotConverged("fluid film: film and load do not balance; check=False returns it all the same", found)
-    return found
+    return _told(found)

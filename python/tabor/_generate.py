@@ -6,13 +6,13 @@ from typing import NamedTuple, Unpack
 
 from . import _tabor
 from ._arguments import Seed
-from ._setting_types import GenerateSettings
+from ._setting_types import GenerateSettings, RecipeKind
 from ._settings import PIXELS, RECIPE, complete, takes
 from ._surface import Surface
 
 
 @takes(PIXELS + RECIPE)
-def generate(kind: str, *, seed: Seed = 1, **settings: Unpack[GenerateSettings]) -> Surface:
+def generate(kind: RecipeKind, *, seed: Seed = 1, **settings: Unpack[GenerateSettings]) -> Surface:
     """Makes a surface; the same arguments give the same bits, on any number of threads.
 
     Parameters
@@ -20,6 +20,11 @@ def generate(kind: str, *, seed: Seed = 1, **settings: Unpack[GenerateSettings])
     kind : "self-affine", "edt", "ground", "sinusoid", "sphere" or "bump".
     **settings
     seed : of random numbers.
+
+    Returns
+    -------
+    Surface
+        With heights [m] on the grid that was asked for.
 
     Raises
     ------
@@ -57,5 +62,17 @@ class Format(NamedTuple):
 
 
 def formats() -> tuple[Format, ...]:
-    """The formats that ``read`` and ``Surface.write`` know, as ``tabor formats`` lists them."""
+    """The formats that ``read`` and ``Surface.save`` know, as ``tabor formats`` lists them.
+
+    Returns
+    -------
+    tuple of Format
+        With names, extensions and whether they are read and written.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> [one.name for one in tb.formats() if ".x3p" in one.extensions]
+    ['x3p']
+    """
     return tuple(Format(name, text, tuple(extensions), *can) for name, text, extensions, *can in _tabor.formats())

@@ -12,9 +12,10 @@ from typing import Any, Unpack
 from ._arguments import path, texts, wrong
 from ._optional import needs
 from ._progress import Progress
+from ._read import read
 from ._setting_types import ReadSettings
 from ._settings import READ, takes
-from ._surface import Surface, read
+from ._surface import Surface
 
 _EXPECTED = 'a pattern of files ("scans/*.x3p"), or a list of files and Surfaces'
 
@@ -76,7 +77,7 @@ def parameters(scans: Any, symbols: Iterable[str] | None = None, *, treatment: S
 
     Parameters
     ----------
-    scans : a pattern of files, "scans/*.x3p", or a list of files, patterns and Surfaces.
+    scans : a pattern of files, ``"scans/*.x3p"``, or a list of files, patterns and Surfaces.
     symbols : those of ``Surface.parameters``: symbols, and sets such as "hybrid" [all].
     treatment : steps that each scan goes through, "level=plane".
     fields : form of the names of the files, with columns in braces: "{group}_{place}" gives the columns ``group`` and

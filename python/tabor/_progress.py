@@ -18,7 +18,23 @@ Told = Union[Callable[[str, float, float], Any], None]
 
 @typed
 def set_threads(n: Count) -> None:
-    """How many threads computations use; 0, as many as there are processors. Results do not depend on it."""
+    """Limits the threads of computations. Results do not depend on it.
+
+    Parameters
+    ----------
+    n : so many; 0, as many as there are processors.
+
+    Raises
+    ------
+    TypeError, ValueError
+        For what is no whole number of zero or more.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> tb.set_threads(2)
+    >>> tb.set_threads(0)
+    """
     _tabor.set_threads(n)
 
 

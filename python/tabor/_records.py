@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import html
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from . import _tabor
 from ._arguments import Path, typed
 from ._guesses import Named, Values
+
+
+#: Maps that a file holds: all, heights with pressure and film alone, or none.
+Fields = Literal["all", "contact", "none"]
 
 
 class Warning(NamedTuple):
@@ -109,11 +113,16 @@ class Record(Shown):
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"a {type(self).__name__} does not change")
 
+    def __getstate__(self) -> dict[str, Any]:
+        return {key: dict(one) if isinstance(one, Values) else one for key, one in self.__dict__.items()}
+
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
+        if "_values" in state:
+            self.__dict__["_values"] = Values(state["_values"], type(self).__name__)
 
     @typed
-    def save(self, file: Path, *, fields: str = "all", double: bool = False) -> None:
+    def save(self, file: Path, *, fields: Fields = "all", double: bool = False) -> None:
         """Writes it as ``tabor.save`` does."""
         self._write(file, self, fields=fields, double=double)
 

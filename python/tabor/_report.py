@@ -8,7 +8,7 @@ import os
 import pathlib
 import subprocess
 import sys
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from ._arguments import Count, Path, path, typed, wrong
 from ._optional import needs_all
@@ -85,7 +85,7 @@ def _made(arguments: dict[str, Any]) -> list[str]:
 @typed
 def report(result: Any, out: Path | None = None, *, html: bool = True, static: bool = False,
            figures: str | None = None, scan: Count | None = None, all_scans: bool = False, pressure: Value | None = None, density: Value | None = None,
-           error_bar: str | None = None) -> Report:
+           error_bar: Literal["std", "sem"] | None = None) -> Report:
     """One self-contained page, as ``tabor report`` makes it; needs ``pip install tabor[report]``.
 
     Parameters
@@ -101,6 +101,11 @@ def report(result: Any, out: Path | None = None, *, html: bool = True, static: b
         ones computed.
     error_bar : of a study: "std", standard deviation, or "sem", standard error of the mean ["std"].
 
+    Returns
+    -------
+    Report
+        The page and all files.
+
     Raises
     ------
     ImportError
@@ -109,6 +114,13 @@ def report(result: Any, out: Path | None = None, *, html: bool = True, static: b
         For what is no result of tabor, and for options that it has no use for.
     OSError
         Where the folder cannot be written.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> pressed = tb.contact(tb.generate("edt", pixels=32, seed=1), "7 MPa", "aluminium-6016")
+    >>> tb.report(pressed, "pressed").page  # doctest: +SKIP
+    PosixPath('pressed/report.html')
     """
     needs_all(("h5py", "matplotlib", *(("jinja2",) if html else ())), "report")
     if error_bar not in (None, "std", "sem"):

@@ -9,13 +9,17 @@ from typing import Any
 
 from . import _tabor
 from ._arguments import Path, typed, wrong
+from ._combine import Combination
 from ._contact import Contact
 from ._friction import Film, FluidFilm, Friction, film_settings, shear_settings
+from ._parameters import Parameters
 from ._progress import Progress, watching
-from ._records import Record
+from ._records import Fields, Record
 from ._settings import filled
 from ._slide import Slide
 from ._surface import Surface
+from ._sweep import Sweep
+from .ehl import Solution
 
 
 def _target(file: Path, surface: Surface, fields: str, double: bool) -> _tabor.Target:
@@ -83,7 +87,7 @@ def _surface(results: Sequence[Any]) -> Surface:
 
 
 @typed
-def save(file: Path, results: Record | Iterable[Record] | Slide, *, fields: str = "all",
+def save(file: Path, results: Record | Iterable[Record] | Slide | Combination | Parameters | Solution | Sweep, *, fields: Fields = "all",
          double: bool = False, progress: Progress = None) -> None:
     """Writes the file that the command line writes with ``-o`` (docs/results.md): ``tabor report`` and
     ``tabor cite`` read it, and ``read`` its surface.
@@ -92,9 +96,11 @@ def save(file: Path, results: Record | Iterable[Record] | Slide, *, fields: str 
     ----------
     file : its name, which ends with .h5, or with .vti for the maps alone, for ParaView.
     results : contacts, films, frictions or films that flow, of one surface and under the same settings but
-        for pressure and density; or one slide.
+        for pressure and density; or one slide, combination, solution or sweep of ``ehl``; or parameters, whose file ends
+        with .json.
     fields : "all" maps; "contact", heights, pressure and film alone; or "none".
     double : maps in double precision.
+    progress : see ``tabor.Progress``.
 
     Raises
     ------
@@ -102,9 +108,23 @@ def save(file: Path, results: Record | Iterable[Record] | Slide, *, fields: str 
         For results that do not belong into one file.
     OSError
         Where it cannot be written; a file that is there stays as it is.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile, tabor as tb
+    >>> sheet = tb.generate("edt", pixels=32, seed=1)
+    >>> contacts = tb.contact(sheet, ["2 MPa", "7 MPa"], "aluminium-6016")
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     tb.save(pathlib.Path(folder, "contacts.h5"), contacts)
+    ...     tb.read(pathlib.Path(folder, "contacts.h5")).shape
+    (32, 32)
     """
     if isinstance(results, Slide):
+        if results._slid is None:
+            raise ValueError("save: what the file of a slide is made of does not travel with a pickle or a file; save it where it slides")
         return results._slid.save(_target(file, results.surface, fields, double))
+    if isinstance(results, (Combination, Parameters, Solution, Sweep)):
+        return results.save(file)
     several = _records(results)
     first = several[0]
     surface = _surface(several)
@@ -122,4 +142,4 @@ def save(file: Path, results: Record | Iterable[Record] | Slide, *, fields: str 
             _save_frictions(target, surface, several, told)
 
 
-Record._write = staticmethod(save)
+Record._write = Slide._write = staticmethod(save)

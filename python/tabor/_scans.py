@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 import glob
+import hashlib
 import json
 import os
+import pathlib
+import re
+import tempfile
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, Unpack
+from typing import Any, Literal, Unpack
 
+from . import _tabor
 from ._arguments import Path, mapping, path, wrong
 from ._setting_types import ScanSettings
 from ._settings import OF_SCANS, Setting, complete, documented, is_surface, takes
+from ._surface import Surface
 from ._values import Value, si_list
 
 
@@ -32,7 +38,7 @@ def quantity(value: float, unit: str) -> str:
 def line(setting: Setting, value: Any) -> str:
     """A plain value of a setting as a study file has it."""
     if is_surface(value):
-        raise TypeError(f"{setting.argument}: a study reads it from a file: surface.write('tool.h5'), then the name of the file")
+        raise TypeError(f"{setting.argument}: a study reads it from a file: surface.save('tool.h5'), then the name of the file")
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, str):
@@ -69,6 +75,35 @@ def table(name: str, lines: Mapping[str, str | None]) -> str:
     return f"\n{name}\n{body}" if name else body
 
 
+class SurfaceFiles:
+    """Files of surfaces in memory, for as long as a study needs them; those of the same surface have the same name."""
+
+    def __init__(self) -> None:
+        self._folder: tempfile.TemporaryDirectory[str] | None = None
+
+    def add(self, surface: Surface) -> str:
+        """Writes the file of a surface; returns its name."""
+        if self._folder is None:
+            self._folder = tempfile.TemporaryDirectory()
+        draft = pathlib.Path(self._folder.name, "surface.h5")
+        surface.save(draft)
+        stem = re.sub(r"[^\w.-]+", "_", pathlib.Path(surface.name).stem) or "surface"
+        content = repr((_tabor.digest_of(surface._topography), surface.source, surface.history, surface.edges))
+        name = f"{stem}-{hashlib.sha256(content.encode()).hexdigest()[:12]}.h5"  # not of the file, which says when it was written
+        return os.fspath(draft.rename(draft.with_name(name)))
+
+    def move(self, lines: str, folder: pathlib.Path) -> str:
+        """Copies the files into the folder ``surfaces`` beside a study file, and returns its lines, which name them there."""
+        if self._folder is None:
+            return lines
+        place = folder / "surfaces"
+        for file in sorted(pathlib.Path(self._folder.name).iterdir()):
+            place.mkdir(exist_ok=True)
+            if not (place / file.name).exists():
+                _tabor.write_file(place / file.name, file.read_bytes())
+        return lines.replace(text(self._folder.name + os.sep)[1:-1], "surfaces/")
+
+
 def _files(pattern: Path) -> list[str]:
     found = sorted(glob.glob(os.fspath(pattern)))
     if not found:
@@ -82,7 +117,7 @@ class Scans:
 
     Parameters
     ----------
-    files : file, pattern or list of them.
+    files : file, pattern, Surface or list of them.
     pressure : mean pressures [Pa].
     density : areal densities of the oil [kg/m^2].
     treatment : steps, "level=plane".
@@ -97,14 +132,14 @@ class Scans:
     """
 
     @takes(OF_SCANS)
-    def __init__(self, files: Path | Sequence[Path], *, pressure: Value | Iterable[Value] | None = None,
+    def __init__(self, files: Path | Surface | Sequence[Path | Surface], *, pressure: Value | Iterable[Value] | None = None,
                  density: Value | Iterable[Value] | None = None, treatment: Sequence[str] | None = None,
-                 contact: str | None = None, reading: str | None = None, channel: str | int | None = None,
+                 contact: Literal["elastic", "saturated"] | None = None, reading: Literal["conserving", "literal"] | None = None, channel: str | int | None = None,
                  **settings: Unpack[ScanSettings]) -> None:
-        if not isinstance(files, (str, os.PathLike)) and (not isinstance(files, Iterable) or isinstance(files, bytes)):
-            raise wrong("files", files, "the name of a file, a pattern, or a list of them")
-        several = (files,) if isinstance(files, (str, os.PathLike)) else tuple(files)
-        self.files: tuple[Path, ...] = tuple(path(one, "files") for one in several)
+        given: Any = (files,) if isinstance(files, (str, os.PathLike, Surface)) else files
+        if not isinstance(given, Iterable) or isinstance(given, bytes):
+            raise wrong("files", files, "the name of a file, a pattern, a Surface, or a list of them")
+        self.files: tuple[Path | Surface, ...] = tuple(one if isinstance(one, Surface) else path(one, "files") for one in given)
         values = complete(OF_SCANS, {**settings, "channel": None if channel is None else str(channel)})
         self._lines: dict[str, str | None] = {
             "pressure": pressures(pressure), "density": densities(density),
@@ -115,30 +150,30 @@ class Scans:
 
     def __repr__(self) -> str:
         own = "".join(f", {key}={value}" for key, value in self._lines.items() if value is not None)
-        return f"Scans({', '.join(map(str, self.files))}{own})"
+        names = (one.name if isinstance(one, Surface) else str(one) for one in self.files)
+        return f"Scans({', '.join(names)}{own})"
 
-    def _tables(self, group: str) -> str:
-        return "".join(table("[[scan]]", {"file": text(file), "group": text(group), **self._lines})
-                       for pattern in self.files for file in _files(pattern))
+    def _tables(self, group: str, surfaces: SurfaceFiles) -> str:
+        files = [file for one in self.files for file in ([surfaces.add(one)] if isinstance(one, Surface) else _files(one))]
+        return "".join(table("[[scan]]", {"file": text(file), "group": text(group), **self._lines}) for file in files)
 
 
-def scan_tables(scans: Mapping[str, Any]) -> str:
-    """The [[scan]] tables of groups with a file, a pattern, ``Scans``, or a list of them each."""
+def scan_tables(scans: Mapping[str, Any], surfaces: SurfaceFiles) -> str:
+    """The [[scan]] tables of groups with a file, a pattern, a Surface, ``Scans``, or a list of them each."""
     if not isinstance(scans, Mapping):
         more = "; tabor.Study.read takes a study file" if isinstance(scans, (str, os.PathLike)) else ""
         raise wrong("scans", scans, f'groups with their files, {{"before": "before_*.x3p"}}{more}')
     tables = ""
     for group, members in mapping(scans, "scans").items():
         for one in _members(members, group):
-            tables += (one if isinstance(one, Scans) else Scans(one))._tables(group)
+            tables += (one if isinstance(one, Scans) else Scans(one))._tables(group, surfaces)
     return tables
 
 
-def _members(members: Any, group: str) -> list[Path | Scans]:
-    single = isinstance(members, (str, os.PathLike, Scans))
+def _members(members: Any, group: str) -> list[Any]:
+    single = isinstance(members, (str, os.PathLike, Scans, Surface))
     several = [members] if single or not isinstance(members, (list, tuple)) else list(members)
     for one in several:
-        if not isinstance(one, (str, os.PathLike, Scans)):
-            raise wrong("scans", one, f"a file, a pattern or tabor.Scans in group {group!r}, or a list of them; a study "
-                                      "reads its scans itself")
+        if not isinstance(one, (str, os.PathLike, Scans, Surface)):
+            raise wrong("scans", one, f"a file, a pattern, a Surface or tabor.Scans in group {group!r}, or a list of them")
     return several

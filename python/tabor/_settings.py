@@ -29,6 +29,8 @@ class Setting(NamedTuple):
     table: str  #: "contact", "film", "trapped", "fluid", "friction", "read", "pixels" or "recipe"
     name: str  #: of the property of the settings of the extension module
     argument: str  #: of functions
+    other: str  #: as the command line spells it, where that differs: "poisson_ratio"
+    option: str  #: of the command line: "--seed"
     kind: str  #: "number", "numbers", "count", "flag", "word" or "text"
     dimension: str
     unit: str
@@ -181,7 +183,8 @@ def takes(settings: Sequence[Setting]) -> Callable[[_Function], _Function]:
     ``**settings`` stands, and asked by name. It receives those that are given, as they are: see ``complete``."""
 
     def decorate(function: _Function) -> _Function:
-        asked: Any = typed(function, [one.argument for one in settings])
+        asked: Any = typed(function, [one.argument for one in settings],
+                           {one.other: one.argument for one in settings if one.other})
         asked.__signature__ = _signature(function, settings)
         asked.__doc__ = (function.__doc__ or "").replace("    **settings\n", _lines(settings))
         return cast(_Function, asked)

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NoReturn, Unpack
+from typing import Any, ClassVar, Unpack
 
 import numpy as np
 
 from . import _tabor
-from ._arguments import Path
+from ._arguments import Path, typed
 from ._contact import NotConverged, Solid, _settings, solid_of
+from ._doubts import tell
 from ._friction import film_settings, shear_settings
 from ._progress import Progress, watching
-from ._records import Warning, said, warnings_of
+from ._records import Fields, Warning, said, warnings_of
 from ._setting_types import SlideSettings
 from ._settings import CONTACT, DRY_BELOW, OWN_OF_SLIDE, RAIN, SHEAR, SLIDE, TRAPPED, complete, filled, takes
 from ._guesses import Named
@@ -39,19 +40,20 @@ class Slide(Named):
     converged: bool  #: every contact along the way
     warnings: tuple[Warning, ...]
     references: tuple[str, ...]  #: to cite
-    _slid: _tabor.Slid = field(repr=False, compare=False)
+    _slid: _tabor.Slid | None = field(repr=False, compare=False)  # what a file is made of; None out of a file or a pickle
+    _write: ClassVar[Callable[..., None]]  # ``tabor.save``, which puts itself here
 
     def to_xarray(self) -> Any:
         """A Dataset with the numbers of the states and the spectra over ``distance``, and the kept maps over
         ``kept_distance``, y and x, all with units; warnings and references are its attributes, so that it can be written
         as NetCDF; needs xarray."""
         xarray = needs("xarray", "to_xarray()")
-        m = {"units": "m"}
+        m, units = {"units": "m"}, _tabor.column_units()
         found: dict[str, Any] = {}
         for key, values in self.states.items():
-            if key and key != "distance_m":
+            if key != "distance_m":
                 numbers = values.astype(np.int8) if values.dtype == bool else values
-                found[key] = ("distance", numbers, _units_of(key))
+                found[key] = ("distance", numbers, {"units": units[key]} if units.get(key) else {})
         for axis in "xy":
             rows = np.array([one[f"psd_{axis}_m3"] for one in self.spectra])
             found[f"psd_{axis}"] = (("distance", f"q_{axis}"), rows, {"units": "m^3"})
@@ -70,14 +72,15 @@ class Slide(Named):
     def __repr__(self) -> str:
         return f"<Slide: {_tabor.format_si(float(self.states['distance_m'][-1]), 'm')} in {self.steps} steps, {len(self.states['distance_m'])} states>"
 
-    def __reduce__(self) -> NoReturn:
-        raise TypeError("a Slide is not pickled: tabor.save writes it to a file")
+    def __getstate__(self) -> dict[str, Any]:
+        kept = {number: {name: np.array(one) for name, one in maps.items()} for number, maps in self.maps.items()}
+        return {**self.__dict__, "maps": kept, "_slid": None}
 
-
-def _units_of(key: str) -> dict[str, str]:
-    """Unit at the end of the name of a number."""
-    ends = {"_m3_per_m2": "m", "_Pa": "Pa", "_m": "m"}
-    return next(({"units": unit} for end, unit in ends.items() if key.endswith(end)), {})
+    @typed
+    def save(self, file: Path, *, fields: Fields = "all", double: bool = False) -> None:
+        """Writes the file of ``tabor slide -o``, as ``tabor.save`` does. Raises ValueError for a slide out of a file or a
+        pickle, which lacks what its file is made of."""
+        self._write(file, self, fields=fields, double=double)
 
 
 def _case(solid: Solid, options: Mapping[str, object], density: float | None) -> _tabor.CaseSettings:
@@ -110,12 +113,25 @@ def slide(surface: Surface, pressure: Value, solid: Solid | str, distance: Value
     check : raise NotConverged where a contact does not reach the tolerance; its ``result`` is what was reached.
     progress : see ``tabor.Progress``.
 
+    Returns
+    -------
+    Slide
+        Numbers of the states along the way, maps of some of them, spectra, and the sheet after.
+
     Raises
     ------
     ValueError
         Without a distance, a tool or a saturation pressure, for lengths that do not fit, for what ``contact`` rejects.
     NotConverged
         Unless ``check`` is False.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> sheet = tb.generate("edt", pixels=32, seed=1)
+    >>> slid = tb.slide(sheet, "7 MPa", "aluminium-6016", "2.68 um", step="0.67 um", tool="ground:Sa=0.1um")
+    >>> slid.steps, slid.after.shape
+    (4, (32, 32))
     """
     options = complete(SLIDE, settings)
     solid = solid_of(solid)
@@ -138,4 +154,5 @@ def slide(surface: Surface, pressure: Value, solid: Solid | str, distance: Value
                   warnings_of(slid.warnings), tuple(slid.references), slid)
     if check and not found.converged:
         raise NotConverged("slide: a contact did not converge; check=False returns it all the same", found)
+    tell(found.warnings)
     return found

@@ -11,6 +11,7 @@ from ._arguments import Axes, typed
 from ._maps import Array
 from ._optional import needs
 from ._records import Shown, Warning, said
+from ._tabor import format_si
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -56,6 +57,7 @@ class Spectra(Shown):
     radial: Spectrum
     window: str  #: the taper that was used
     warnings: tuple[Warning, ...]  #: reasons to doubt the exponents
+    trusted: tuple[float, float]  #: shortest and longest wavelength to rely on [m], rules of thumb (docs/filters_and_spectra.md)
 
     @typed
     def plot(self, ax: Axes = None, **style: Any) -> Any:
@@ -69,9 +71,11 @@ class Spectra(Shown):
         named = {"density_x": ("q_x", self.x), "density_y": ("q_y", self.y), "density_radial": ("q_radial", self.radial)}
         return xarray.Dataset({name: (dim, one.density, one._attributes()) for name, (dim, one) in named.items()},
                               {dim: (dim, one.q, {"units": "rad/m"}) for dim, one in named.values()},
-                              {"window": self.window, **said(self.warnings, ())})
+                              {"window": self.window, "trusted_wavelengths_m": list(self.trusted), **said(self.warnings, ())})
 
     def _lines(self) -> list[tuple[str, str]]:
         lines = [(name, ", ".join(text for _, text in one._lines()[:2]) + f", Hurst {one._lines()[2][1]}")
                  for name, one in (("x", self.x), ("y", self.y), ("radial", self.radial))]
-        return [*lines, ("window", self.window), *(("warning", one.text) for one in self.warnings)]
+        shortest, longest = (format_si(one, "m") for one in self.trusted)
+        reliable = f"wavelengths from {shortest} to {longest}" if self.trusted[0] < self.trusted[1] else "no wavelength"
+        return [*lines, ("window", self.window), ("trusted", reliable), *(("warning", one.text) for one in self.warnings)]

@@ -7,20 +7,24 @@ import os
 import pathlib
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
-from typing import Any, Unpack
+from typing import Any, Literal, Unpack
 
 from . import _tabor
 from ._arguments import Count, Path, typed, wrong
-from ._contact import Solid, solid_of
+from ._cases import study_to_xarray
+from ._contact import Edges, Solid, solid_of
+from ._doubts import tell
 from ._errors import InputFileNotFound, require_file
 from ._friction import Lubricant
 from ._friction_table import FrictionTable
 from ._optional import needs
 from ._parts import run as run_parts
 from ._progress import Progress, watching
-from ._scans import Scans, densities, line, pressures, scan_tables, speeds, table, text, texts
+from ._records import warnings_of
+from ._scans import Scans, SurfaceFiles, densities, line, pressures, scan_tables, speeds, table, text, texts
 from ._setting_types import StudySettings
 from ._settings import OF_STUDIES, OF_STUDY_SLIDES, OIL, SOLID, STUDY, complete, documented, takes
+from ._surface import Surface
 from ._values import Value
 
 
@@ -52,8 +56,8 @@ class Study:
     Parameters
     ----------
     scans : mapping
-        Groups with a file, a pattern, ``Scans`` with settings of their own, or a list of them each;
-        averages are taken over a group.
+        Groups with a file, a pattern, a Surface, ``Scans`` with settings of their own, or a list of them each;
+        averages are taken over a group. Surfaces are written into the folder of the results, as scan files.
     solid : Solid
         That the surfaces are of, or the name of a material.
     pressure : mean pressures [Pa]; needed unless all scans have their own.
@@ -75,15 +79,16 @@ class Study:
     _study: _tabor.Study
 
     @takes(STUDY)
-    def __init__(self, scans: Mapping[str, Path | Scans | Sequence[Path | Scans]], solid: Solid | str, *,
+    def __init__(self, scans: Mapping[str, Path | Surface | Scans | Sequence[Path | Surface | Scans]], solid: Solid | str, *,
                  pressure: Value | Iterable[Value] | None = None, density: Value | Iterable[Value] = 0.0,
                  treatment: Sequence[str] = (), lubricant: Lubricant | None = None,
                  speed: Value | Iterable[Value] | None = None,
-                 slide: Mapping[str, Any] | None = None, edges: str | None = None, title: str = "study",
+                 slide: Mapping[str, Any] | None = None, edges: Edges | None = None, title: str = "study",
                  **settings: Unpack[StudySettings]) -> None:
         if (lubricant is None) != (speed is None):
             raise ValueError("Study: oil that flows needs both a lubricant and a speed")
-        tables = scan_tables(scans)
+        self._surfaces = SurfaceFiles()
+        tables = scan_tables(scans, self._surfaces)
         solid = solid_of(solid)
         values = complete(STUDY, settings)
         for one in SOLID:
@@ -114,7 +119,7 @@ class Study:
         return study
 
     def _write(self, file: pathlib.Path) -> _tabor.Study:
-        file.write_text(self._text, "utf-8")
+        file.write_text(self._surfaces.move(self._text, file.parent), "utf-8")
         return _tabor.read_study(os.fspath(file))
 
     @property
@@ -127,7 +132,7 @@ class Study:
 
     @typed
     def run(self, folder: Path, *, jobs: Count = 0, retry: bool = False, executor: Executor | None = None,
-            threads: Count = 1, store: str = "shared", progress: Progress = None) -> Results:
+            threads: Count = 1, store: Literal["shared", "return"] = "shared", progress: Progress = None) -> Results:
         """Computes what the store in the folder does not hold yet. Ctrl-C keeps what is finished; the same
         call, or ``tabor sweep FOLDER/study.toml -o FOLDER``, continues.
 
@@ -165,6 +170,7 @@ class Study:
                                        threads=threads, returns=store == "return", told=told)
                 retry = False
             outcome = _tabor.run_study(study, path, jobs, retry, told)
+        tell(warnings_of(outcome.findings))
         return Results(folder, outcome, n_contacts, tuple(warnings))
 
 
@@ -237,6 +243,23 @@ class Results:
     def table(self) -> Any:
         """The rows as a DataFrame; needs pandas."""
         return needs("pandas", "table").read_csv(self.folder / "results.csv")
+
+    def to_xarray(self) -> Any:
+        """The rows as a Dataset over ``scan``, pressure, density and, where oil flows, speed, by the names of the columns
+        and with their units; ``group`` stands along the scans, what was not computed is NaN. Warnings and failures are
+        attributes, so that it can be written as NetCDF; needs xarray.
+
+        Raises
+        ------
+        ValueError
+            Where there is no row.
+        """
+        rows = self.rows
+        if not rows:
+            raise ValueError(f"{self.folder}: no row to make an array of")
+        found = study_to_xarray(rows, _tabor.column_units())
+        lines = {"warnings": "\n".join(self.warnings), "failures": "\n".join(self.failures)}
+        return found.assign_attrs({key: text for key, text in lines.items() if text})
 
     def __repr__(self) -> str:
         return f"Results in {self.folder}: {len(self.rows)} rows"

@@ -1,4 +1,4 @@
-"""Surfaces: read, made of an array, treated, measured."""
+"""Surfaces: made of an array, treated, measured."""
 
 from __future__ import annotations
 
@@ -6,31 +6,31 @@ import base64
 import os
 import threading
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, Self, Unpack
+from typing import Any, Literal, Self
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _tabor
-from ._arguments import Axes, File, Path, texts, typed, wrong
-from ._errors import require_file
-from ._files import name_of, named_file
+from ._arguments import Axes, Path, texts, typed, wrong
+from ._doubts import tell
 from ._foreign import Carried, Foreign, foreign
 from ._heights import Array, checked, in_metres, pixel_sides, require_spacing
 from ._maps import Map, Window, map_to_xarray, plot_map, thumbnail
+from ._on_grid import OnGrid
 from ._operators import Operators, part_of
 from ._parameters import Parameter, Parameters, selected
 from ._progress import Progress, watching
 from ._records import Shown, Warning, said, table_html, warnings_of
 from ._section import Section, point_of, section_of
-from ._setting_types import ReadSettings, TreatmentSteps
-from ._settings import READ, complete, filled, takes
+from ._setting_types import TreatmentSteps
 from ._spectra import Spectra, Spectrum
 from ._state import attributes_of, state_of
-from ._values import Value, in_si, is_quantity, optional_si
+from ._steps import add_steps
+from ._values import Value, optional_si
 
-_STEPS = {name: (argument, text) for name, argument, text in _tabor.treatment_steps()}
-
+#: Conventions of power spectra (docs/filters_and_spectra.md).
+Convention = Literal["jacobs", "persson", "gwyddion"]
+Taper = Literal["none", "hann"]
 
 _looking = threading.Lock()  #: one thread at a time looks at heights that were handed over
 
@@ -44,7 +44,7 @@ def _renew_lock() -> None:
 os.register_at_fork(after_in_child=_renew_lock)
 
 
-class Surface(Shown, Operators, TreatmentSteps):
+class Surface(Shown, OnGrid, Operators, TreatmentSteps):
     """A height map that does not change; treatments return new ones.
 
     Parameters
@@ -184,26 +184,6 @@ class Surface(Shown, Operators, TreatmentSteps):
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> Any:
         return np.array(self.height, dtype=dtype) if copy or dtype else self.height
 
-    @property
-    def shape(self) -> tuple[int, int]:
-        """(ny, nx)"""
-        ny, nx = self.height.shape
-        return ny, nx
-
-    @property
-    def ndim(self) -> int:
-        """2, as an array of heights has."""
-        return 2
-
-    @property
-    def size(self) -> int:
-        """Number of pixels, as of an array; ``lengths`` are the sides."""
-        return self.height.size
-
-    def __len__(self) -> int:
-        """Number of rows."""
-        return self.shape[0]
-
     __iter__ = None  # a surface is no list of rows: surface.height is
 
     def __getitem__(self, index: Any) -> Surface:
@@ -214,53 +194,6 @@ class Surface(Shown, Operators, TreatmentSteps):
         if (ny, nx) == self.shape:
             return self
         return self.treat(f"crop={x0},{y0},{nx},{ny}")
-
-    @property
-    def lengths(self) -> tuple[float, float]:
-        """Sides (lx, ly) of the surface [m]."""
-        return self._heights.lx, self._heights.ly
-
-    @property
-    def pixel(self) -> tuple[float, float]:
-        """Sides (dx, dy) of a pixel [m]."""
-        ny, nx = self.shape
-        return self._heights.lx / nx, self._heights.ly / ny
-
-    @property
-    def dx(self) -> float:
-        """Side of a pixel along x [m]."""
-        return self.pixel[0]
-
-    @property
-    def dy(self) -> float:
-        """Side of a pixel along y [m]."""
-        return self.pixel[1]
-
-    @property
-    def x(self) -> Array:
-        """Centres of the columns [m], shape (nx,), from the left edge."""
-        return (np.arange(self.shape[1], dtype=np.float64) + 0.5) * self.dx
-
-    @property
-    def y(self) -> Array:
-        """Centres of the rows [m], shape (ny,), from the upper edge."""
-        return (np.arange(self.shape[0], dtype=np.float64) + 0.5) * self.dy
-
-    @property
-    def extent(self) -> tuple[float, float, float, float]:
-        """(left, right, bottom, top) [m], as ``imshow`` of matplotlib takes it for a map whose row 0 is on top."""
-        lx, ly = self.lengths
-        return 0.0, lx, ly, 0.0
-
-    @property
-    def unit(self) -> str:
-        """Unit of heights and lengths: "m"."""
-        return "m"
-
-    @property
-    def mask(self) -> npt.NDArray[np.bool_]:
-        """True at holes, shape (ny, nx)."""
-        return np.isnan(self.height)
 
     @property
     def periodic(self) -> bool:
@@ -364,13 +297,14 @@ class Surface(Shown, Operators, TreatmentSteps):
         return section_of(self.height, self.pixel, start, end)
 
     @typed
-    def parameters(self, symbols: Iterable[str] | None = None, *, progress: Progress = None) -> Parameters:
+    def parameters(self, symbols: Iterable[str] | None = None, *more: str, progress: Progress = None) -> Parameters:
         """Roughness parameters of the surface as it is (ISO 25178-2 and others, docs/parameters.md), all
-        or those named. Level before.
+        or those named: ``parameters("Sa", "Sq")``. Level before.
 
         Parameters
         ----------
-        symbols : "Sa", or a list; a set stands for all of its parameters: "height", "spatial", "hybrid", ...
+        symbols, more : "Sa", one by one or as a list; a set stands for all of its parameters: "height", "spatial",
+            "hybrid", ...
 
         Raises
         ------
@@ -378,11 +312,13 @@ class Surface(Shown, Operators, TreatmentSteps):
             For an unknown symbol, with the nearest.
         """
         with watching(progress) as told:
-            every = Parameters(Parameter(*row) for row in _tabor.parameters(self._topography, told))
-        return every if symbols is None else selected(every, texts(symbols, "symbols"))
+            every = Parameters((Parameter(*row) for row in _tabor.parameters(self._topography, told)), source=self.source,
+                               history=self.history, warnings=self.warnings)
+        tell(self.warnings)
+        return every if symbols is None else selected(every, [*texts(symbols, "symbols"), *texts(more, "symbols")])
 
     @typed
-    def psd(self, convention: str = "jacobs", window: str | None = None, *, fit_min: Value | None = None,
+    def psd(self, convention: Convention = "jacobs", window: Taper | None = None, *, fit_min: Value | None = None,
             fit_max: Value | None = None, progress: Progress = None) -> Spectra:
         """Power spectra along x, along y and radial (docs/filters_and_spectra.md).
 
@@ -398,9 +334,11 @@ class Surface(Shown, Operators, TreatmentSteps):
         with watching(progress) as told:
             found = _tabor.psd(self._topography, convention, window, optional_si(fit_min, "wavevector", "fit_min"),
                                optional_si(fit_max, "wavevector", "fit_max"), told)
+        doubts = warnings_of(found["warnings"])
+        tell(doubts)
         x, y, radial = (Spectrum(np.array(q), np.array(density), *rest)
                         for q, density, *rest in (found[axis] for axis in ("x", "y", "radial")))
-        return Spectra(x, y, radial, found["window"], warnings_of(found["warnings"]))
+        return Spectra(x, y, radial, found["window"], doubts, found["trusted"])
 
     @typed
     def save(self, file: Path) -> None:
@@ -439,62 +377,4 @@ class Surface(Shown, Operators, TreatmentSteps):
         return table_html("Surface", self._lines(), base64.b64encode(thumbnail(self.height)).decode())
 
 
-def _step_text(value: Any, step: str) -> str:
-    """One part of the argument of a step; a quantity is a length."""
-    if isinstance(value, str):
-        return value
-    if is_quantity(value):
-        return f"{float(in_si(value, 'length', step))!r} m"
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
-        raise wrong(step, value, f"its argument, {_STEPS[step][0]}")
-    return str(value)
-
-
-def _add_step(name: str, argument: str, text: str) -> None:
-    def with_argument(self: Surface, *values: Any, progress: Progress = None) -> Surface:
-        several = values[0] if len(values) == 1 and isinstance(values[0], (tuple, list)) else values
-        words = ",".join(_step_text(value, name) for value in several)
-        return self.treat(f"{name}={words}" if words else name, progress=progress)
-
-    def plain(self: Surface, *, progress: Progress = None) -> Surface:
-        return self.treat(name, progress=progress)
-
-    method = with_argument if argument else plain
-    method.__name__ = name
-    method.__qualname__ = f"Surface.{name}"
-    method.__doc__ = f"{text[0].upper()}{text[1:]}." + (
-        f"\n\nThe argument: {argument}; several may be given one by one." if argument else "")
-    setattr(Surface, name, method)
-
-
-for _name, (_argument, _text) in _STEPS.items():
-    _add_step(_name, _argument, _text)
-
-
-@takes(READ)
-def read(file: File, *, channel: str | int | None = None, progress: Progress = None, **settings: Unpack[ReadSettings]) -> Surface:
-    """Reads a scan file, recognised by its content (docs/formats.md).
-
-    Parameters
-    ----------
-    file : its name, or an open binary file.
-    **settings
-    progress : see ``tabor.Progress``.
-
-    Raises
-    ------
-    ValueError
-        What is wrong with the file, or which of these it leaves open.
-    InputFileNotFound
-        Where there is no such file; a FileNotFoundError and a ValueError.
-    """
-    options = _tabor.ReadOptions()
-    values = complete(READ, {**settings, "channel": None if channel is None else str(channel)})
-    pixel = values.pop("pixel")
-    if pixel is not None:
-        options.pixel_x, options.pixel_y = pixel_sides(pixel)
-    filled(options, values)
-    with watching(progress) as told, named_file(file) as path:
-        require_file(path)
-        found = Surface._of(*_tabor.read(os.fspath(path), options, told))
-    return found if path is file else found._named(name_of(file))
+add_steps(Surface)

@@ -89,7 +89,7 @@ class Sweep(Shown):
         return super().__getattr__(name) if found is None else found
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *(key for key in self.keys() if key.isidentifier())]
+        return sorted({*super().__dir__(), *(key for key in self.keys() if key.isidentifier())})
 
     def keys(self) -> tuple[str, ...]:
         """Names of the numbers of the cases, those of tables inside with a dot."""

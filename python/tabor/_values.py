@@ -4,20 +4,27 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from typing import Any, Union
+from typing import Any, Protocol, Union
 
 import numpy as np
 
 from . import _tabor
 from ._arguments import kind_of
 
+
+class Quantity(Protocol):
+    """A number, or an array, with its unit: of pint, astropy or unyt."""
+
+    def to(self, unit: Any, /) -> Any:
+        """The same in another unit."""
+
+
 #: An SI number, a text with its unit ("7 MPa"), a quantity of pint, astropy or unyt, or a number of
 #: xarray with the attribute ``units``.
-Value = Union[float, int, str, Any]
+Value = Union[float, int, str, "np.number[Any]", Quantity]
 
-_UNITS = {"length": "m", "wavevector": "1/m", "pressure": "Pa", "areal_density": "kg/m^2",
-          "density": "kg/m^3", "speed": "m/s", "viscosity": "Pa*s", "per_pressure": "1/Pa", "pressure_gradient": "Pa/m",
-          "none": ""}
+#: SI unit of each dimension, "kg/m^2".
+_UNITS = _tabor.si_units()
 
 
 def si(value: Value, dimension: str, name: str) -> float:

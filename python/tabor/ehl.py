@@ -16,13 +16,14 @@ import os
 import pathlib
 import tempfile
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, NamedTuple, Union
+from typing import Any, Literal, NamedTuple, Union
 
 import numpy as np
 
 from . import _tabor
 from ._arguments import Count, Path, Seed, mapping, path, typed, wrong
 from ._contact import NotConverged
+from ._doubts import tell
 from ._errors import require_file
 from ._groups import Column, columns_of
 from ._guesses import Named, Values, missing_name
@@ -33,6 +34,12 @@ from ._sweep import Limit, Sweep
 from ._values import in_unit, is_labelled
 
 __all__ = ["Case", "Key", "Limit", "Solution", "Sweep", "Template", "impact", "keys", "line", "point", "squeeze", "template"]
+
+
+#: Programs of ``tabor ehl``.
+Program = Literal["impact", "squeeze", "line", "point"]
+#: What a case may be varied in to see how far its numbers depend on it.
+Varied = Literal["grid", "domain", "time-step"]
 
 
 class Template(str):
@@ -59,9 +66,9 @@ class Solution(Shown):
     warnings: tuple[Warning, ...]  #: reasons to doubt them
     references: tuple[str, ...]  #: what to cite
     converged: bool
-    program: str  #: "impact", "squeeze", "line" or "point"
+    program: Program
 
-    def __init__(self, solved: _tabor.SolvedCase, program: str) -> None:
+    def __init__(self, solved: _tabor.SolvedCase, program: Program) -> None:
         self.__dict__.update(_solved=solved, program=program, _values=json.loads(solved.json), warnings=warnings_of(solved.warnings),
                              facts=tuple(solved.facts), references=tuple(solved.references), converged=solved.converged)
 
@@ -123,7 +130,7 @@ class Case(Named):
     are unknown or missing, values out of range or of another dimension."""
 
     @typed
-    def __init__(self, program: str, source: Source, settings: Mapping[str, Any]) -> None:
+    def __init__(self, program: Program, source: Source, settings: Mapping[str, Any]) -> None:
         if not isinstance(source, (str, os.PathLike, Mapping)):
             raise wrong("case", source, "a case file, its keys as a mapping, or tabor.ehl.template(...)")
         units = _units(program)
@@ -144,10 +151,10 @@ class Case(Named):
         """The case as the text of its file."""
         return self._case.toml
 
-    def __getstate__(self) -> tuple[str, str, str]:
+    def __getstate__(self) -> tuple[Program, str, str]:
         return self.program, self._name, self.toml
 
-    def __setstate__(self, state: tuple[str, str, str]) -> None:
+    def __setstate__(self, state: tuple[Program, str, str]) -> None:
         self.program, self._name, text = state
         self._case = _tabor.parse_case(self.program, text, self._name, [])
 
@@ -162,6 +169,7 @@ class Case(Named):
             found = Solution(_tabor.solve_case(self._case, seed, told), self.program)
         if check and not found.converged:
             raise NotConverged(f"ehl {self.program}: the film does not converge; check=False returns it all the same", found)
+        tell(found.warnings)
         return found
 
     @typed
@@ -195,7 +203,7 @@ class Case(Named):
         return self._swept(swept, given, check)
 
     @typed
-    def study(self, name: str = "grid", *, seed: Seed = 1, jobs: Count = 0, check: bool = True,
+    def study(self, name: Varied = "grid", *, seed: Seed = 1, jobs: Count = 0, check: bool = True,
               progress: Progress = None) -> Sweep:
         """How far the result depends on the grid, as ``tabor ehl --study`` does: the case with coarser and finer ones
         around its own, each solved by itself; ``limits`` are what the numbers tend to.
@@ -222,6 +230,7 @@ class Case(Named):
             bad = sum(not row["converged"] for row in found.rows)
             raise NotConverged(f"ehl {self.program}: {bad} of {len(found.rows)} films do not converge; check=False "
                                "returns all the same", found)
+        tell(found.warnings)
         return found
 
 
@@ -276,34 +285,154 @@ def _plain(toml: str) -> str:
 
 
 def impact(case: Source, **settings: Any) -> Case:
-    """A ball falls on a lubricated flat. Raises ValueError for unknown keys, with the nearest one."""
+    """A ball falls on a lubricated flat.
+
+    Parameters
+    ----------
+    case : a case file, its keys as a mapping, or ``template("impact")``.
+    settings : keys that override those of the case, with their units: ``**{"motion.speed": "0.1 m/s"}``.
+
+    Returns
+    -------
+    Case
+        That can be solved, swept over values and varied in its grid.
+
+    Raises
+    ------
+    ValueError
+        For unknown keys, with the nearest one, and for values that make no sense.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> tb.ehl.impact(tb.ehl.template("impact")).program
+    'impact'
+    """
     return Case("impact", case, settings)
 
 
 def squeeze(case: Source, **settings: Any) -> Case:
-    """A roller closes on a sliding flat. Raises ValueError for unknown keys, with the nearest one."""
+    """A roller closes on a sliding flat.
+
+    Parameters
+    ----------
+    case : a case file, its keys as a mapping, or ``template("squeeze")``.
+    settings : keys that override those of the case, with their units: ``**{"motion.speed": "0.1 m/s"}``.
+
+    Returns
+    -------
+    Case
+        That can be solved, swept over values and varied in its grid.
+
+    Raises
+    ------
+    ValueError
+        For unknown keys, with the nearest one, and for values that make no sense.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> tb.ehl.squeeze(tb.ehl.template("squeeze")).program
+    'squeeze'
+    """
     return Case("squeeze", case, settings)
 
 
 def line(case: Source, **settings: Any) -> Case:
-    """A line contact, smooth, rough or worn. Raises ValueError for unknown keys, with the nearest one."""
+    """A line contact, smooth, rough or worn.
+
+    Parameters
+    ----------
+    case : a case file, its keys as a mapping, or ``template("line")``.
+    settings : keys that override those of the case, with their units: ``**{"motion.speed": "0.1 m/s"}``.
+
+    Returns
+    -------
+    Case
+        That can be solved, swept over values and varied in its grid.
+
+    Raises
+    ------
+    ValueError
+        For unknown keys, with the nearest one, and for values that make no sense.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> tb.ehl.line(tb.ehl.template("line")).program
+    'line'
+    """
     return Case("line", case, settings)
 
 
 def point(case: Source, **settings: Any) -> Case:
-    """A point contact, smooth or rough. Raises ValueError for unknown keys, with the nearest one."""
+    """A point contact, smooth or rough.
+
+    Parameters
+    ----------
+    case : a case file, its keys as a mapping, or ``template("point")``.
+    settings : keys that override those of the case, with their units: ``**{"motion.speed": "0.1 m/s"}``.
+
+    Returns
+    -------
+    Case
+        That can be solved, swept over values and varied in its grid.
+
+    Raises
+    ------
+    ValueError
+        For unknown keys, with the nearest one, and for values that make no sense.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> tb.ehl.point(tb.ehl.template("point")).program
+    'point'
+    """
     return Case("point", case, settings)
 
 
 @typed
-def keys(program: str) -> tuple[Key, ...]:
-    """All keys of the cases of a program: "impact", "squeeze", "line" or "point"."""
+def keys(program: Program) -> tuple[Key, ...]:
+    """All keys of the cases of a program.
+
+    Parameters
+    ----------
+    program : "impact", "squeeze", "line" or "point".
+
+    Returns
+    -------
+    tuple of Key
+        With names, units, defaults and meanings.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> [one.unit for one in tb.ehl.keys("point") if one.name == "motion.speed"]
+    ['m/s']
+    """
     return tuple(Key(*row) for row in _tabor.case_keys(program))
 
 
 @typed
-def template(program: str) -> Template:
-    """A case to start from, with every key there is."""
+def template(program: Program) -> Template:
+    """A case to start from, with every key there is.
+
+    Parameters
+    ----------
+    program : "impact", "squeeze", "line" or "point".
+
+    Returns
+    -------
+    Template
+        The text of a case file.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> "viscosity" in tb.ehl.template("squeeze")
+    True
+    """
     return Template(_tabor.case_template(program))
 
 for _class in (Limit, Sweep):

@@ -21,9 +21,9 @@ WRONG = [None, object(), True, 1.5, -1, 0, 2**70, float("nan"), float("inf"), 1j
          SimpleNamespace(units="m")]
 
 #: Classes that the package makes and a user does not.
-MADE_BY_TABOR = {"Combination", "Contact", "DensityCurve", "Film", "FluidFilm", "Format", "Friction", "FrictionEntry",
-                 "InputError", "InputFileNotFound", "OutputError",
-                 "Material", "NameNotFound", "NotConverged", "Parameter", "Parameters", "Plateau", "Progress", "Report", "Section", "Slide", "Spectra", "Spectrum",
+MADE_BY_TABOR = {"Combination", "Contact", "DensityCurve", "Doubt", "Film", "FluidFilm", "Format", "Friction", "FrictionEntry",
+                 "InputError", "InputFileNotFound", "InputIncomplete", "OutputError",
+                 "Material", "Materials", "NameNotFound", "NotConverged", "Parameter", "Parameters", "Plateau", "Progress", "Report", "Section", "Slide", "Spectra", "Spectrum",
                  "Value", "Volume", "ehl.Key", "ehl.Limit", "ehl.Solution", "ehl.Sweep", "ehl.Template"}
 
 
@@ -39,6 +39,7 @@ def things():
                            oil=tb.Lubricant("0.1 Pa s"), curve=tb.density_curve(contact), psd=surface.psd(), section=surface.section((0, 0), (1e-5, 1e-5)), solved=case.solve(),
                            combined=tb.combine(surface, surface, search=False),
                            flowing=tb.fluid_film(contact, film, tb.Lubricant("0.1 Pa s"), "1 mm/s"),
+                           slid=tb.slide(surface, 5e7, solid, surface.dx, tool="ground:Sa=10nm", check=False),
                            swept=case.sweep({"lubricant.viscosity": ["0.4 Pa s", "0.5 Pa s"]}))
 
 
@@ -137,7 +138,8 @@ def calls(folder):
         "parameters": (tb.parameters, {"scans": [file, t.surface], "symbols": ["Sq"], "treatment": ["level=plane"], "fields": "{name}", "channel": None,
                                        "pixel": None, "unit": None, "z_scale": None, "override_unit": False}),
         **{f"{name}.save": (one.save, {"file": folder / "c.h5", "fields": "all", "double": False}) for name, one in
-           {"Contact": t.contact, "Film": t.film, "Friction": t.friction, "FluidFilm": t.flowing}.items()},
+           {"Contact": t.contact, "Film": t.film, "Friction": t.friction, "FluidFilm": t.flowing, "Slide": t.slid}.items()},
+        "Combination.save": (t.combined.save, {"file": folder / "f.h5"}), "Parameters.save": (t.surface.parameters("Sq").save, {"file": folder / "p.json"}),
         **{f"ehl.{name}": (getattr(tb.ehl, name), {"case": tb.ehl.template(name)}) for name in ("impact", "squeeze", "line", "point")},
         "ehl.keys": (tb.ehl.keys, {"program": "line"}), "ehl.template": (tb.ehl.template, {"program": "line"}),
         "ehl.Case": (tb.ehl.Case, {"program": "squeeze", "source": tb.ehl.template("squeeze"), "settings": {}}),
@@ -200,7 +202,7 @@ def public():
                       and method not in ("to_xarray", "count", "index", "get", "items", "keys", "values")}
     steps = {f"Surface.{name}" for name, argument, _ in tb._tabor.treatment_steps() if argument}
     return {name for name in names - steps if not name.endswith((".Template",)) and not name.startswith("ehl.Template.")
-            and not name.startswith(("InputError.", "InputFileNotFound.", "NameNotFound.", "NotConverged.", "OutputError.", "Progress"))}
+            and not name.startswith(("Doubt.", "InputError.", "InputFileNotFound.", "InputIncomplete.", "NameNotFound.", "NotConverged.", "OutputError.", "Progress"))}
 
 
 def test_every_public_function_is_asked(folder):
@@ -264,7 +266,7 @@ def test_lists_of_arguments_are_asked_too(everything):
     (lambda t: tb.friction(t.contact, [t.film, t.film]), "film: got list of Film; expected a Film"),
     (lambda t: tb.fluid_film(t.contact, t.film, "0.1 Pa s", 1), r'lubricant: got str \'0.1 Pa s\'; expected a Lubricant, such as'),
     (lambda t: tb.Study("study.toml", t.solid), "scans: got str .*; tabor.Study.read takes a study file"),
-    (lambda t: tb.Study({"a": t.surface}, t.solid), "scans: got Surface; expected a file, a pattern or tabor.Scans in group 'a'"),
+    (lambda t: tb.Study({"a": t.film}, t.solid), "scans: got Film; expected a file, a pattern, a Surface or tabor.Scans in group 'a'"),
     (lambda t: tb.save("x.h5", t.surface), "results: got Surface; .*; Surface.save writes a surface"),
     (lambda t: tb.rain(t.surface, 0, seed=1.5), "seed: got float 1.5; expected a whole number"),
 ])

@@ -2,8 +2,10 @@
 
 import doctest
 import importlib
+import inspect
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -21,10 +23,39 @@ def in_the_root():
     os.chdir(before)
 
 
-def test_the_session_of_the_page_prints_what_it_shows():
-    found = doctest.testfile(str(ROOT / "docs" / "python.md"), module_relative=False, encoding="utf-8",
+@pytest.mark.parametrize("page", ["python.md", "first_hour.md"])
+def test_the_session_of_the_page_prints_what_it_shows(page):
+    found = doctest.testfile(str(ROOT / "docs" / page), module_relative=False, encoding="utf-8",
                              optionflags=doctest.REPORT_NDIFF)
     assert found.attempted > 15 and found.failed == 0
+
+
+def names_in_hdf5(page):
+    """(dataset, None) of h5read and (group, attribute) of h5readatt in the MATLAB of a page."""
+    text = (ROOT / "docs" / page).read_text("utf-8")
+    return re.findall(r"h5read(?:att)?\('friction.h5', '([^']+)'(?:, '([^']+)')?\)", text)
+
+
+def test_the_page_for_matlab_names_what_a_file_holds(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    sheet = tb.read("surfaces/edt_before.x3p").level("plane").crop(0, 0, 64, 64)
+    film = tb.rain(sheet, "0.9 g/m^2")
+    tb.save(tmp_path / "friction.h5", [tb.friction(one, film) for one in tb.contact(sheet, ["2 MPa", "7 MPa"], "aluminium-6016")])
+    names = names_in_hdf5("from_matlab.md")
+    assert len(names) > 7
+    with h5py.File(tmp_path / "friction.h5") as file:
+        for place, attribute in names:
+            assert place in file, place
+            assert not attribute or attribute in file[place].attrs, attribute
+
+
+def test_the_pages_for_users_of_others_name_what_is_there():
+    text = "".join((ROOT / "docs" / page).read_text("utf-8") for page in ("glossary.md", "from_tamaas.md", "from_gwyddion.md", "from_surfacetopography.md"))
+    kinds = {"surface": tb.Surface, "contact": tb.Contact, "film": tb.Film, "friction": tb.Friction, "tb": tb}
+    used = set(re.findall(r"\b(surface|contact|film|friction|tb)\.([a-zA-Z]\w*)", text))
+    used = {one for one in used if one[1] not in ("engineering", "h5", "cavitation")}  # a web site, files, a key of case files
+    assert len(used) > 30
+    assert [f"{name}.{member}" for name, member in sorted(used) if not hasattr(kinds[name], member)] == []
 
 
 def test_types_hold():
@@ -34,6 +65,18 @@ def test_types_hold():
         pytest.skip("the stub of the extension module is not built")
     checked = subprocess.run([sys.executable, "-m", "mypy", "--config-file", ROOT / "pyproject.toml", "--cache-dir",
                               os.devnull, package], capture_output=True, text=True, check=False)
+    assert checked.returncode == 0, checked.stdout
+
+
+def test_types_of_the_ten_tasks_hold(tmp_path):
+    """As those of a user, who knows the package by its public names."""
+    pytest.importorskip("mypy")
+    package = pathlib.Path(tb.__file__).parent
+    if not (package / "_tabor.pyi").is_file():
+        pytest.skip("the stub of the extension module is not built")
+    checked = subprocess.run([sys.executable, "-m", "mypy", "--config-file", ROOT / "pyproject.toml", "--strict", "--cache-dir", tmp_path,
+                              ROOT / "python" / "tests" / "ten_tasks_test.py"], capture_output=True, text=True, check=False,
+                             env={**os.environ, "MYPYPATH": os.fspath(package.parent)})
     assert checked.returncode == 0, checked.stdout
 
 
@@ -61,6 +104,31 @@ def test_examples_of_docstrings_hold():
     for name, text in documented():
         runner.run(parser.get_doctest(text or "", {}, name, None, 0))
     assert runner.tries > 25 and runner.failures == 0
+
+
+#: Arguments with a unit that are typed by overloads.
+DIMENSIONAL = ("pressure", "separation", "force", "density")
+
+
+def functions():
+    """Public functions by their names."""
+    for prefix, module in (("tb.", tb), ("tb.ehl.", tb.ehl)):
+        yield from ((prefix + name, thing) for name in module.__all__ if inspect.isfunction(thing := getattr(module, name)))
+
+
+@pytest.mark.parametrize("name, function", functions())
+def test_functions_say_arguments_units_result_and_an_example(name, function):
+    sections = re.findall(r"^    ?(\w+)\n +-+$", function.__doc__, re.M)
+    signature = inspect.signature(function)
+    assert "Examples" in sections and ">>>" in function.__doc__
+    assert ("Returns" in sections) == (signature.return_annotation != "None")
+    text = re.sub(r"\s+", " ", function.__doc__)
+    own = inspect.signature(inspect.unwrap(function)).parameters
+    for argument in signature.parameters:
+        assert re.search(rf"[ ,]{argument}(, \w+)* : ", text), argument
+        if argument in own and ("Value" in own[argument].annotation or argument in DIMENSIONAL):  # settings_test.py asks the others
+            entry = re.search(rf"[ ,]{argument}(, \w+)* : (.*?)(?= \w+(, \w+)* : | Returns )", text)[2]
+            assert re.search(r"\[[^]]+\]", entry), f"{argument} has no unit"
 
 
 def test_all_that_is_public_is_explained():

@@ -2,6 +2,7 @@
 
 import io
 import pickle
+import pickletools
 import subprocess
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 import tabor as tb
 
-pytest.importorskip("h5py")
+h5py = pytest.importorskip("h5py")
 #: What a file does not say of a state.
 NOT_STORED = {"tolerance", "lubricant_density_kg_per_m2", "escaping_fraction", "sliding_speed_m_per_s"}
 SOLID = tb.Solid("aluminium-6016", saturation_pressure="300 MPa")
@@ -128,6 +129,103 @@ def test_a_solution(tmp_path):
         pickle.loads(pickle.dumps(tb.ehl.squeeze(tb.ehl.template("squeeze")).solve())).to_xarray()
 
 
+def test_a_sweep(tmp_path):
+    swept = tb.ehl.point(tb.ehl.template("point"), **{"grid.nodes": 33}).sweep(
+        {"roughness.kind": ["lapped-like"], "motion.speed": ["0.1 m/s", "1 m/s"]}, check=False)
+    swept.save(tmp_path / "a.h5")
+    found = tb.load(tmp_path / "a.h5")
+    for copy in (found, pickle.loads(pickle.dumps(found))):
+        assert (dict(copy.axes), copy.columns, copy.references, copy.converged) == (dict(swept.axes), swept.columns, swept.references, swept.converged)
+        assert [one.code for one in copy.warnings] == [one.code for one in swept.warnings]
+        assert [row["warnings"] for row in copy.rows] == [row["warnings"] for row in swept.rows]
+        for key, _, _ in swept.columns:
+            np.testing.assert_array_equal(copy[key], swept[key])
+        assert copy.to_xarray().equals(swept.to_xarray())
+    with pytest.raises(ValueError, match="does not travel"):
+        found.save(tmp_path / "b.h5")
+
+
+def test_a_slide(tile, tmp_path):
+    given = tb.slide(tile, "7 MPa", SOLID, "4 um", step="0.67 um", every="1.34 um", density="0.9 g/m^2", tool="ground:Sa=0.1um", trapped=True)
+    given.save(tmp_path / "a.h5", double=True)
+    found = tb.load(tmp_path / "a.h5")
+    for copy in (found, pickle.loads(pickle.dumps(found)), pickle.loads(pickle.dumps(given))):
+        assert list(copy.states) == list(given.states) and "" not in copy.states
+        for key, values in given.states.items():
+            np.testing.assert_array_equal(copy.states[key], values, err_msg=key)
+            assert copy.states[key].dtype == values.dtype
+        assert {number: set(maps) for number, maps in copy.maps.items()} == {number: set(maps) for number, maps in given.maps.items()}
+        np.testing.assert_array_equal(copy.after.height, given.after.height)
+        assert (copy.after.history, copy.step, copy.steps, copy.steady, copy.converged) == (
+            given.after.history, given.step, given.steps, given.steady, given.converged)
+        assert {one.code for one in copy.warnings} == {one.code for one in given.warnings} and set(copy.references) == set(given.references)
+        assert copy.to_xarray().equals(given.to_xarray())
+        with pytest.raises(ValueError, match="does not travel"):
+            tb.save(tmp_path / "b.h5", copy)
+
+
+def test_a_slide_of_the_command_line(program, scan_file, tmp_path):
+    subprocess.run([program, "slide", scan_file, "--level", "plane", "--crop", "96,96,32,32", "--mirror", "--pressure", "7MPa", "--material",
+                    "aluminium-6016", "--tool", "ground:Sa=0.1um", "--distance", "2um", "-o", tmp_path / "a.h5", "--quiet"],
+                   check=True, capture_output=True)
+    found = tb.load(tmp_path / "a.h5")
+    assert found.steps * found.step == pytest.approx(found.states["distance_m"][-1]) and found.after.history[-1].startswith("slide: ")
+
+
+@pytest.mark.parametrize("options", [{"shift": (0, 0), "match": "none"}, {"mode": "difference"}, {"mode": "composite", "match": "none"}])
+def test_a_combination(tile, options, tmp_path):
+    given = tb.combine(tile, tile.apply(lambda z: np.minimum(z, 1e-6), "worn"), **options)
+    given.save(tmp_path / "a.h5")
+    found = tb.load(tmp_path / "a.h5")
+    np.testing.assert_allclose(found.surface.height, given.surface.height, rtol=1e-6)
+    registration = given.values["registration"]
+    known = {**given.values, "registration": registration and {key: one for key, one in registration.items() if key != "correlation"}}
+    assert dict(found.values) == {key: one for key, one in known.items() if one is not None or key == "registration"}
+    assert (found.mode, found.warnings, found.references, found.worn) == (given.mode, given.warnings, given.references, given.worn)
+    with pytest.raises(ValueError, match="ends with .h5"):
+        given.save(tmp_path / "a.sdf")
+
+
+def test_parameters_and_those_of_the_command_line(program, scan_file, tmp_path):
+    given = tb.read(scan_file).level("plane").parameters()
+    given.save(tmp_path / "a.json")
+    run = subprocess.run([program, "params", scan_file, "--level", "plane", "--set", "all", "--json"], check=True, capture_output=True)
+    (tmp_path / "b.json").write_bytes(run.stdout)
+    for found in (tb.load(tmp_path / "a.json"), tb.load(tmp_path / "b.json")):
+        assert [(one.symbol, one.unit, one.definition, one.set, one.note) for one in found.values()] == [
+            (one.symbol, one.unit, one.definition, one.set, one.note) for one in given.values()]
+        np.testing.assert_array_equal([*found.values()], [*given.values()])
+        assert found.history == given.history and [one.code for one in found.warnings] == [one.code for one in given.warnings]
+        assert found.source.endswith("edt_before.x3p")
+    (tmp_path / "c.json").write_text("{}")
+    with pytest.raises(tb.InputError, match="c.json: no parameters of one scan"):
+        tb.load(tmp_path / "c.json")
+    with pytest.raises(ValueError, match="ends with .json"):
+        given.save(tmp_path / "a.h5")
+
+
+def test_a_study_by_its_folder_or_its_file(tile, tmp_path):
+    given = tb.Study({"a": tile}, SOLID, pressure="7 MPa", density="0.9 g/m^2").run(tmp_path / "r")
+    for name in ("r", "r/results.h5"):
+        found = tb.load(tmp_path / name)
+        assert (found.rows, found.warnings, found.answers) == (given.rows, given.warnings, given.answers)
+    assert pickle.loads(pickle.dumps(given)).rows == given.rows
+    with pytest.raises(FileNotFoundError, match="no results.csv"):
+        tb.load(tmp_path)
+
+
+def test_pickles_name_public_classes(contacts, films, tile):
+    """So that they survive modules that are renamed; the classes of the extension module are named as such."""
+    results = [contacts[0], films[0], tb.friction(contacts[0], films[0]), tile, tile.parameters("Sa"), tile.psd(), SOLID, tb.Lubricant(0.1),
+               tb.density_curve(contacts[0]), tile.section((0, 0), (1e-5, 0)), contacts[0].warnings, tb.materials()]
+    case = tb.ehl.squeeze(tb.ehl.template("squeeze"))
+    results += [case, case.solve(), case.sweep({"lubricant.viscosity": [0.4]})]
+    for one in results:
+        _ = getattr(one, "values", None)  # kept once they were asked for
+        names = {text for opcode, text, _ in pickletools.genops(pickle.dumps(one, 2)) if opcode.name == "GLOBAL"}
+        assert not {name for name in names if name.startswith("tabor._") and not name.startswith("tabor._tabor ")}, type(one)
+
+
 def test_the_command_line_s_own(program, scan_file, tmp_path):
     subprocess.run([program, "friction", scan_file, "--level", "plane", "--crop", "96,96,64,64", "--mirror", "--pressure", "2MPa", "--material",
                     "aluminium-6016", "--density", "0.9g/m^2", "-o", tmp_path / "a.h5", "--quiet"], check=True, capture_output=True)
@@ -147,8 +245,9 @@ def test_open_files_and_surfaces(contacts, rough, tmp_path):
 
 def test_what_cannot_be_loaded_says_why(contacts, scan_file, tmp_path):
     contacts[0].save(tmp_path / "numbers.h5", fields="none")
-    tb.ehl.squeeze(tb.ehl.template("squeeze")).sweep({"lubricant.viscosity": [0.4]}).save(tmp_path / "sweep.h5")
-    for file, text in (("numbers.h5", "numbers alone"), ("sweep.h5", "it holds ehl squeeze sweep; load takes contacts"), (scan_file, "no result file")):
+    with h5py.File(tmp_path / "other.h5", "w") as file:
+        file.attrs.update(format="tabor", kind="spectra")
+    for file, text in (("numbers.h5", "numbers alone"), ("other.h5", "it holds spectra; load takes contacts"), (scan_file, "no result file")):
         with pytest.raises(tb.InputError, match=text):
             tb.load(tmp_path / file)
     with pytest.raises(FileNotFoundError, match="none.h5: no such file"):

@@ -1,5 +1,7 @@
 """Names that users of NumPy, xarray and other packages try: each is there, or the error says what to write."""
 
+import types
+
 import numpy as np
 import pytest
 
@@ -114,6 +116,19 @@ def test_materials_by_name():
     with pytest.raises(KeyError) as raised:
         tb.materials()["aluminum"]
     assert str(raised.value).startswith("materials() has no 'aluminum'; did you mean 'aluminium-")
+
+
+@pytest.mark.parametrize("kind", [kind for kind in TRIED if kind != "tabor"])
+def test_completion_of_an_object_offers_what_is_explained(things, kind):
+    """No module, no helper of the package, and nothing without a word about it."""
+    thing = things[kind]
+    names = [name for name in dir(thing) if not name.startswith("_")]
+    assert names == sorted(set(names))
+    for name in names:
+        found = getattr(thing, name)
+        assert not isinstance(found, types.ModuleType), name
+        if callable(found):
+            assert found.__doc__ and getattr(found, "__module__", "tabor").partition(".")[0] in ("tabor", "collections", "typing", "abc"), name
 
 
 def test_what_completion_offers_is_public():

@@ -37,6 +37,7 @@ def test_sets_stand_for_their_parameters(found, levelled):
     assert dict(hybrid) == dict(found.sets["hybrid"]) and {"Sdq", "Sdr"} <= set(hybrid)
     assert list(levelled.parameters(["Sq", "hybrid", "Sq"])) == ["Sq", *hybrid]
     assert list(levelled.parameters("Sq")) == ["Sq"]
+    assert dict(levelled.parameters("Sa", "Sq", "hybrid")) == dict(levelled.parameters(["Sa", "Sq", "hybrid"]))
 
 
 def test_a_name_that_is_none_has_its_nearest(found, levelled):
@@ -49,6 +50,11 @@ def test_a_name_that_is_none_has_its_nearest(found, levelled):
         levelled.parameters(["Ra"])
     with pytest.raises(ValueError, match="symbols: got 'sq'; .*did you mean 'Sq'"):
         levelled.parameters(["sq"])
+
+
+def test_they_know_their_surface(found, levelled):
+    assert (found.source, found.history, found.warnings) == (levelled.source, levelled.history, levelled.warnings)
+    assert found.sets["hybrid"].source == levelled.parameters("Sa").source == levelled.source
 
 
 def test_a_pickle_keeps_them(found):

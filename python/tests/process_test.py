@@ -15,7 +15,8 @@ HEAD = """
 import os, sys, threading, time
 import numpy as np, numpy.random, tabor as tb
 from concurrent.futures import ProcessPoolExecutor
-import multiprocessing
+import multiprocessing, warnings
+warnings.simplefilter("ignore", tb.Doubt)
 def surface(n=128):
     return tb.Surface(1e-6 * np.random.default_rng(1).standard_normal((n, n)), pixel=1e-6, periodic=True)
 def area(pressure):

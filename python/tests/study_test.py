@@ -47,6 +47,28 @@ def test_edges_are_those_of_single_calls(folder, tmp_path):
     assert len(row) == 1 and row[0]["friction_dry"] == one.dry
 
 
+def test_surfaces_in_memory_are_scans(program, folder, tmp_path):
+    """The same bits as alone; the folder has all that the command line needs to go on."""
+    sheets = [tb.read(folder / f"{group}_1.h5") for group in GROUPS]
+    own = tb.Surface(sheets[0].height, pixel=sheets[0].pixel, name="a/b: mine", periodic=True)
+    study = tb.Study({"both": sheets, "own": tb.Scans(own, pressure="5 MPa")}, "aluminium-6016", pressure=["2 MPa", "7 MPa"], density="0.9 g/m^2",
+                     treatment=["level=plane"])
+    assert study.n_cases == 5
+    found = study.run(tmp_path / "r", jobs=2)
+    for row, surface in zip([found.rows[1], found.rows[3], found.rows[4]], [*sheets, own]):
+        alone = surface.level("plane")
+        pressed = tb.contact(alone, row["mean_pressure_Pa"], "aluminium-6016")
+        assert tb.friction(pressed, tb.rain(alone, "0.9 g/m^2")).lubricated == row["friction_lubricated"]
+    assert {str(row["scan"]).partition("-")[0] for row in found.rows} == {"surfaces/before_1", "surfaces/after_1", "surfaces/b_mine"}
+    assert study.run(tmp_path / "r").n_contacts == 0
+    again = tb.Study({"both": sheets, "own": tb.Scans(own, pressure="5 MPa")}, "aluminium-6016", pressure=["2 MPa", "7 MPa"],
+                     density="0.9 g/m^2", treatment=["level=plane"])
+    assert again.run(tmp_path / "r").n_contacts == 0
+    run = subprocess.run([program, "sweep", tmp_path / "r" / "study.toml", "-o", tmp_path / "r", "--json"], capture_output=True, text=True,
+                         check=True)
+    assert '"n_computed_contacts": 0' in run.stdout
+
+
 def test_a_finished_study_is_not_computed_again(folder, tmp_path):
     study = study_of(folder)
     assert study.run(tmp_path / "r").n_contacts == 4
@@ -214,7 +236,7 @@ def test_a_folder_tells_the_warnings_and_failures_of_its_run(folder, tmp_path):
     study = tb.Study({"before": [folder / "before_1.h5", twice], "small": tb.Scans(folder / "after_1.h5", treatment=["crop=0,0,500,500"])},
                      tb.Solid("aluminium-6016"), pressure=["2 MPa", "7 MPa"], density="0.45 g/m^2", treatment=["level=plane"])
     ran = study.run(tmp_path / "r")
-    assert len(ran.warnings) > 2 and any("hold the same bytes" in one for one in ran.warnings) and len(ran.failures) == 2
+    assert len(ran.warnings) > 2 and any("are the same file" in one for one in ran.warnings) and len(ran.failures) == 2
     read = tb.Results(tmp_path / "r")
     assert read.warnings == ran.warnings and read.failures == ran.failures
     assert study.run(tmp_path / "r").warnings == ran.warnings

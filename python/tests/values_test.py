@@ -25,6 +25,30 @@ def test_a_quantity_of_another_dimension_is_refused(rough, steel):
         tb.contact(rough, pint.UnitRegistry()("5 mm"), steel)
 
 
+@pytest.mark.parametrize("text", ["225 mPa·s", "225 mPa.s", "225 millipascal * second", "0.225 Pa*s", "0.225 kg/m/s"])
+def test_units_are_written_as_people_and_programs_write_them(text):
+    assert tb.Lubricant(text).viscosity == pytest.approx(0.225, rel=1e-15)
+
+
+@pytest.mark.parametrize("text", ["50 MPa", "7251.8868 psi", "0.9 g/m**2", "900 kg/m^3", "3 um", "0.2 N", "5 mm/s", "2e-8 1/Pa", "0.1 Pa s", "0.3"])
+def test_quantities_of_pint_and_their_texts_are_the_same(text):
+    """In all formats of pint that are no mathematics: "50 megapascal", "50 MPa", "0.9 g/m²"."""
+    pint = pytest.importorskip("pint")
+    quantity = pint.UnitRegistry()(text)
+    dimension = {"MPa": "pressure", "psi": "pressure", "g/m**2": "areal_density", "kg/m^3": "density", "um": "length", "N": "force", "mm/s": "speed",
+                 "1/Pa": "per_pressure", "Pa s": "viscosity", "": "none"}[text.partition(" ")[2]]
+    number = tb._values.si(quantity, dimension, "x")
+    for written in (text, str(quantity), f"{quantity:~}", f"{quantity:~P}", f"{quantity:P}", f"{quantity:C}", f"{quantity:~C}"):
+        if "×" not in written:  # 2×10⁻⁸ is print, no number of a program
+            assert tb._values.si(written, dimension, "x") == pytest.approx(number, rel=1e-12), written
+
+
+def test_a_force_may_be_a_quantity(rough, steel):
+    pint = pytest.importorskip("pint")
+    found = tb.contact(rough, force=pint.UnitRegistry()("10 mN"), solid=steel, boundary="free")
+    assert found.force == pytest.approx(0.01, rel=1e-9)
+
+
 @pytest.mark.parametrize("text, part", [("7", "unit"), ("7 mm", "pressure"), ("7 MPx", "MPx"), ("", "pressure")])
 def test_a_text_without_its_unit_is_refused_in_one_line(rough, steel, text, part):
     with pytest.raises(ValueError, match=part) as refused:

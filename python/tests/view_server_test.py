@@ -20,11 +20,11 @@ pytest.importorskip("bokeh", reason="no Bokeh: the workbench is not served")
 
 from tabor.view import cli
 from tabor.view.answers import answer_of
-from tabor.view.page import Opened
+from tabor.view.opening import Opened
 from tabor.view.server import View
 from tabor.view.state import State
 from tabor.view.worker import Stopped, Worker
-from tabor.view.written import Folder
+from tabor.view.written import Folder, scan_extensions, write_answer
 
 
 @pytest.fixture(scope="module")
@@ -132,14 +132,28 @@ def test_written_files_are_handed_out_by_their_names_alone(levelled):
     folder = Folder()
     try:
         answer = answer_of(levelled, State(""))
-        scan, result = folder.write("scan", answer), folder.write("result", answer)
+        scan, result = write_answer(folder, "scan", answer), write_answer(folder, "result", answer)
         assert tb.read(folder.file(scan)).shape == levelled.shape
         assert folder.file(result).stat().st_size > 1000
         assert folder.file("../" + scan) is None and folder.file("/etc/passwd") is None
         place = folder.file(scan).parents[1]
+        folder.drop(result)
+        assert folder.file(result) is None and not (place / result).exists()
     finally:
         folder.close()
     assert not place.exists()
+
+
+@pytest.mark.parametrize("extension", [".h5", ".x3p", ".gwy", ".sdf", ".gsf", ".npy"])
+def test_a_treated_scan_is_written_in_any_format(levelled, extension):
+    assert extension in scan_extensions()
+    folder = Folder()
+    try:
+        name = write_answer(folder, "scan", answer_of(levelled, State("")), extension)
+        given = {"pixel": levelled.dx, "unit": "m"} if extension == ".npy" else {}
+        assert name.endswith(extension) and tb.read(folder.file(name), **given).shape == levelled.shape
+    finally:
+        folder.close()
 
 
 def test_a_new_task_stops_the_old_one():
@@ -198,7 +212,8 @@ ADDRESS = re.compile(r"http://127\.0\.0\.1:\d+/[A-Za-z0-9]{20,}/")
 def test_the_verb_prints_one_line_with_the_address_and_leaves_nothing(by, request, scan_file, tmp_path, monkeypatch):
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     program = request.getfixturevalue("program") if by == "program" else None
-    process = started(scan_file, "--recipe", "sheet", program=program)
+    treated = ["--step", "level=plane"] if by == "module" else ["--recipe", "sheet"]
+    process = started(scan_file, *treated, program=program)
     try:
         url = process.stdout.readline().strip()
         assert ADDRESS.fullmatch(url)
@@ -206,6 +221,25 @@ def test_the_verb_prints_one_line_with_the_address_and_leaves_nothing(by, reques
         assert ask(process)[0] == 200
         process.terminate()
         assert process.wait(60) == 130 and not list(tmp_path.iterdir())
+    finally:
+        process.kill()
+        process.communicate(timeout=60)
+
+
+MOST_MEMORY = 150e6  #: of an idle server, beside the scan and what was computed of it [bytes]
+
+
+@pytest.mark.skipif(not os.path.exists("/proc/self/status"), reason="no /proc: memory is not measured")
+def test_an_idle_server_is_small(scan_file):
+    process = started(scan_file, "--keep", "--no-browser")
+    try:
+        process.url = process.stdout.readline().strip()
+        ask(process)  # a page, whose workbench computes
+        time.sleep(5)
+        with open(f"/proc/{process.pid}/status") as status:
+            (resident,) = (1024 * int(line.split()[1]) for line in status if line.startswith("VmRSS:"))
+        maps = 12  # of doubles: the scan, contact, film, friction
+        assert resident < MOST_MEMORY + maps * tb.read(scan_file).height.nbytes
     finally:
         process.kill()
         process.communicate(timeout=60)
@@ -224,7 +258,8 @@ def test_with_json_the_address_is_a_key(program, scan_file):
 
 @pytest.mark.parametrize("words, code, text", [
     (["nothing.x3p"], 3, "nothing.x3p: no such file"), (["SCAN", "--port", "99999"], 2, "--port"), (["SCAN", "--recipe", "shet"], 2, "sheet"),
-    (["SCAN", "--level", "plain"], 2, "plane"), ([], 2, "SCAN"), (["SCAN", "--pixel", "3"], 2, "pixel")])
+    (["SCAN", "--level", "plain"], 2, "plane"), ([], 2, "SCAN"), (["SCAN", "--pixel", "3"], 2, "pixel"),
+    (["SCAN", "--tool", "nothing.x3p"], 3, "nothing.x3p"), (["SCAN", "--tool", "grnd:Sa=1um"], 3, "ground"), (["SCAN", "--tool-repeats"], 2, "--tool")])
 def test_what_is_wrong_is_said_in_one_line(program, scan_file, words, code, text):
     process = started(*(scan_file if word == "SCAN" else word for word in words), program=program)
     _, said = process.communicate(timeout=120)

@@ -13,7 +13,10 @@ from conftest import ROOT
 from tabor.view import texts
 from tabor.view.answers import PARAMETERS, Bench, answer_of, numbers
 from tabor.view.previews import LIVE, coarser
-from tabor.view.recipes import RECIPES, recipe, said
+from tabor.view.opening import opened, shortest
+from tabor.view.recipes import RECIPES, recipe
+from tabor.view.settings import option_words
+from tabor.view.spectrum import cutoff
 from tabor.view.state import History, State, Step
 
 #: A study computes these from the maps of its store, which are in single precision (docs/results.md).
@@ -39,9 +42,10 @@ def states(small):
     yield "shear", replace(small, material="copper", shear_strength="120 MPa")
     yield "contact alone", replace(small, material="glass")
     yield "pad", small.following("pad")
+    yield "settings", replace(small, settings=(("seed", "7"), ("poissons_ratio", "0.3"), ("dry_below", "10 nm"), ("tolerance", "1e-7")))
 
 
-NAMES = ("levelled", "off", "cropped", "trapped", "tool", "dry", "shear", "contact alone", "pad")
+NAMES = ("levelled", "off", "cropped", "trapped", "tool", "dry", "shear", "contact alone", "pad", "settings")
 
 
 @pytest.fixture(params=NAMES)
@@ -147,9 +151,9 @@ def test_undo_goes_back_and_redo_forth():
 
 @pytest.mark.parametrize("one", RECIPES, ids=lambda one: one.name)
 def test_a_recipe_is_the_steps_it_prints(one, small, levelled):
-    assert said(one) == f"recipe {one.name}: {', '.join(one.steps)}"
     assert small.following(one.name).treatment == one.steps
-    assert len(levelled.treat(*one.steps).history) >= len(one.steps)
+    named = levelled.recipe(one.name)
+    assert named.history == levelled.treat(*one.steps).history and (named.height == levelled.treat(*one.steps).height).all()
 
 
 def test_an_unknown_recipe_names_the_nearest():
@@ -189,8 +193,112 @@ def test_each_warning_is_said_once_beside_what_it_concerns(levelled):
     assert "clamp" in {one.code for one in warnings["contact"]}
 
 
-def test_the_table_of_recipes_is_that_of_the_program(program):
-    done = subprocess.run([program, "view", "--help"], capture_output=True, text=True, check=True)
-    shown = " ".join(done.stdout.split())
-    for one in RECIPES:
-        assert f"{one.name} = {', '.join(step.replace('=', ' ') for step in one.steps)}" in shown
+@pytest.mark.parametrize("one", RECIPES, ids=lambda one: one.name)
+def test_the_program_prints_a_recipe_as_its_steps(program, small, one):
+    words = [program, "params", small.scan, "--recipe", one.name]
+    printed = subprocess.run(words, capture_output=True, text=True, check=True).stdout
+    assert f"treatment {', '.join(one.steps)}" in " ".join(printed.split())
+    measured = json.loads(subprocess.run([*words, "--json"], capture_output=True, text=True, check=True).stdout)
+    assert measured["treatment"] == list(one.steps)
+    assert measured["parameters"]["Sq"]["value"] == tb.read(small.scan).treat(*one.steps).parameters(["Sq"]).Sq.value
+
+
+def test_a_study_takes_a_recipe_for_its_steps(program, small, tmp_path):
+    """The same case under both names: the second run finds what the first one stored."""
+    text = texts.study(small.following("sheet"))
+    steps = text[text.index("steps = "):].splitlines()[0]
+    said = []
+    for name, line in (("typed", steps), ("named", 'steps = ["recipe=sheet"]')):
+        (tmp_path / f"{name}.toml").write_text(text.replace(steps, line))
+        subprocess.run([program, "sweep", tmp_path / f"{name}.toml", "-o", tmp_path / name, "--quiet"], check=True, capture_output=True)
+        said.append((tmp_path / name / "results.csv").read_text())
+    rows = [next(csv.DictReader(one.splitlines())) for one in said]
+    assert {key: value for key, value in rows[0].items() if "seconds" not in key} == {key: value for key, value in rows[1].items() if "seconds" not in key}
+
+
+def saved(result, tmp_path):
+    result.save(tmp_path / "result.h5", double=True)
+    return opened(State(str(tmp_path / "result.h5")))
+
+
+def test_a_result_file_opens_with_its_settings(program, levelled, tmp_path):
+    pressed = tb.contact(levelled, "5.5 MPa", tb.Solid("aluminium-6016", saturation_pressure="300 MPa"), tool="ground:Sa=0.1um")
+    rubbed = tb.friction(pressed, tb.rain(levelled, "0.7 g/m^2", seed=5), trapped=True, shear_strength="150 MPa")
+    found = saved(rubbed, tmp_path)
+    state = found.state
+    assert (state.pressure, state.density, state.tool, state.shear_strength) == ("5.5 MPa", "0.7 g/m^2", "ground:Sa=0.1um", "150 MPa")
+    assert state.trapped and state.material == "aluminium-6016" and dict(state.settings).items() >= {"saturation_pressure": "300000000.0 Pa", "seed": "5"}.items()
+    again = answer_of(found.scan, state)
+    assert again.friction.lubricated == rubbed.lubricated and again.contact.values["mean_gap_m"] == pressed.values["mean_gap_m"]
+    assert "--saturation-pressure" in texts.command_line(state) and "--seed 5" in texts.command_line(state)
+    solved = said_by(program, texts.command_line(state).splitlines()[1])["states"][0]
+    assert solved["friction_lubricated"] == rubbed.lubricated
+
+
+def test_a_result_file_of_a_solid_of_its_own_opens(levelled, tmp_path):
+    solid = tb.Solid(youngs_modulus="100 GPa", poissons_ratio=0.3)
+    state = saved(tb.contact(levelled, "5 MPa", solid), tmp_path).state
+    assert (state.material, state.solid.youngs_modulus, state.solid.saturation_pressure) == ("", 100e9, None)
+    assert option_words(state.settings, "solid") == ["--youngs-modulus", "100000000000.0 Pa", "--poisson-ratio", "0.3"]
+
+
+def test_a_file_of_a_surface_alone_opens_as_a_scan(levelled, tmp_path):
+    levelled.save(tmp_path / "surface.h5")
+    found = opened(State(str(tmp_path / "surface.h5")))
+    assert found.state == State(str(tmp_path / "surface.h5")) and not found.note and not found.asks
+
+
+def test_a_file_without_a_pixel_asks(tmp_path):
+    (tmp_path / "heights.txt").write_text("1 2 3\n2 3 4\n1 1 2\n")
+    found = opened(State(str(tmp_path / "heights.txt")))
+    assert found.scan is None and "pixel" in found.asks
+    known = opened(State(str(tmp_path / "heights.txt"), (("pixel", "1 um,2 um"), ("unit", "um"))))
+    assert known.scan.pixel == pytest.approx((1e-6, 2e-6)) and not known.asks
+    with pytest.raises(ValueError, match="no such file"):
+        opened(State(str(tmp_path / "nothing.txt")))
+
+
+def test_the_shortest_text_is_exact():
+    for value in (7e6, 5.5e6, 1e6 / 3, 123456.789):
+        assert tb._tabor.parse_si(shortest(value, "MPa", "pressure"), "pressure", "") == value
+    assert shortest(7e6, "MPa", "pressure") == "7 MPa"
+
+
+def test_cutoffs_are_those_of_the_filters(levelled):
+    assert cutoff("lowpass=gauss:8um", levelled) == pytest.approx(8e-6)
+    lx, ly = levelled.lengths
+    assert cutoff("lowpass=hann:16/L", levelled) == pytest.approx((lx * ly) ** 0.5 / 16)
+
+
+def test_a_spectrum_shows_what_filters_take_away(levelled):
+    bench, state = Bench(levelled), State("").adding("lowpass=gauss:8um")
+    found = bench.analysed(bench.treated_answer(state)).spectra
+    short = found.treated.radial.q > 2 * 3.1415926 / 2e-6
+    assert (found.treated.radial.density[short] < 1e-3 * found.unfiltered.radial.density[short]).all()
+    plain = bench.analysed(bench.treated_answer(State(""))).spectra
+    assert plain.unfiltered is None and (plain.treated.radial.density == found.unfiltered.radial.density).all()
+
+
+def test_a_spectrum_with_holes_says_what_to_do(levelled):
+    heights = levelled.height.copy()
+    heights[3, 4] = float("nan")
+    bench = Bench(tb.Surface(heights, pixel=levelled.pixel))
+    assert "fill" in bench.analysed(bench.treated_answer(State(""))).failures["spectrum"]
+
+
+@pytest.mark.parametrize("mode, match, search", [("wear", "plane", True), ("difference", "none", False), ("wear", "offset", False)])
+def test_the_texts_of_a_difference_give_its_numbers_to_the_digit(program, levelled, small, tmp_path, mode, match, search):
+    worn = levelled.height.copy()
+    worn[30:60, 40:70] -= 0.5e-6
+    tb.Surface(worn, pixel=levelled.pixel).save(tmp_path / "worn.h5")
+    asked = texts.Combined(small, replace(small, scan=str(tmp_path / "worn.h5")), mode, match, search)
+    expected = tb.combine(tb.read(small.scan).level("plane"), tb.read(tmp_path / "worn.h5").level("plane"), mode, match=match, search=search).values
+    printed = said_by(program, texts.combined_command(asked))
+    names = {}
+    exec(texts.combined_python(asked), names)
+    assert names["found"].values == expected and {key: printed[key] for key in expected} == dict(expected)
+
+
+def test_a_difference_of_scans_treated_differently_has_no_command(small):
+    asked = texts.Combined(small, small.adding("mirror"), "wear", "plane", True)
+    assert texts.combined_command(asked).startswith("# ") and "mirror" in texts.combined_python(asked)

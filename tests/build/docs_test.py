@@ -73,6 +73,18 @@ class Docs(unittest.TestCase):
     def test_files_that_a_readme_of_a_module_names_exist(self):
         self.assert_rejected("README.md:3: gone.hpp does not exist", {"src/tabor/contact/README.md": "# contact\n\n`gone.hpp`\n"})
 
+    def test_the_index_links_to_every_page(self):
+        index = {"docs/README.md": "# Documents\n\n[theory](theory.md)\n"}
+        self.assert_accepted(index)
+        self.assert_rejected("no link to films.md", {**index, "docs/films.md": "# Films\n"})
+
+    def test_the_version_is_that_of_the_build(self):
+        tree = {"CMakeLists.txt": "project(tabor VERSION 1.2.3 LANGUAGES CXX)\n", "CITATION.cff": "version: 1.2.3\n",
+                "CHANGELOG.md": "# Changelog\n\n## 1.2.3\n\n## 1.2.2\n"}
+        self.assert_accepted(tree)
+        self.assert_rejected("CITATION.cff: has version 1.2.2; CMakeLists.txt has 1.2.3", {**tree, "CITATION.cff": "version: 1.2.2\n"})
+        self.assert_rejected("CHANGELOG.md: has version -", {**tree, "CHANGELOG.md": "# Changelog\n"})
+
     def test_paths_of_a_machine_are_found(self):
         self.assert_rejected("docs/theory.md:3: path of a machine", self.page("It lies in /" + "home/somebody."))
 

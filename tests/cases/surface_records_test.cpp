@@ -46,6 +46,19 @@ TEST(SurfaceSummary, OfAWave) {
   EXPECT_NEAR(record.rms, kAmplitude / std::sqrt(2), 1e-9 * kAmplitude);
 }
 
+TEST(SurfaceSummary, MeasuresTheTiltOverBothSides) {
+  topography::Topography surface = wave();
+  for (Index x = 0; x < surface.grid.nx; ++x) {
+    surface.height.col(x) =
+        3e-6 * (static_cast<double>(x) + 0.5) / static_cast<double>(surface.grid.nx);
+  }
+  for (Index y = 0; y < surface.grid.ny; ++y) {
+    surface.height.row(y) +=
+        4e-6 * (static_cast<double>(y) + 0.5) / static_cast<double>(surface.grid.ny);
+  }
+  EXPECT_NEAR(summary_of(surface).tilt, 5e-6, 1e-15);  // 3 along x, 4 along y
+}
+
 TEST(SurfaceSummary, LeavesHolesOut) {
   const SurfaceRecord record = summary_of(holed());
   EXPECT_EQ(record.missing_pixels, 1);

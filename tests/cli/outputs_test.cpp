@@ -134,7 +134,7 @@ class Outputs : public testing::Test {
 constexpr const char* kOver = "never written over";
 
 /// Verbs that write into a folder have tests of their own below.
-const std::set<std::string> kFolderVerbs = {"report", "sweep"};
+const std::set<std::string> kFolderVerbs = {"report", "sweep", "man"};
 
 TEST_F(Outputs, OfEveryVerbAreTriedHere) {
   const auto known = calls();
@@ -150,7 +150,8 @@ TEST_F(Outputs, OfEveryVerbAreTriedHere) {
 }
 
 TEST_F(Outputs, AndInputsAreDeclaredByEveryVerb) {
-  const std::set<std::string> words = {"ehl PROGRAM", "generate KIND"};
+  const std::set<std::string> words = {"ehl PROGRAM", "generate KIND", "completion SHELL",
+                                       "man VERB"};
   for (const cli::Verb& verb : cli::verbs()) {
     const cli::OptionSet set = cli::options_of(verb);
     for (const cli::Option& option : set.options()) {
@@ -165,6 +166,13 @@ TEST_F(Outputs, AndInputsAreDeclaredByEveryVerb) {
       EXPECT_EQ(option.names, cli::FileRole::input) << name;
     }
   }
+}
+
+TEST_F(Outputs, OfManGoIntoAFolderAndNotOverAFile) {
+  const std::string folder = file("man1");
+  EXPECT_EQ(run_tabor({"man", "contact", "-o", folder}).code, 0);
+  EXPECT_EQ(bytes_of(folder + "/tabor-contact.1"), run_tabor({"man", "contact"}).out);
+  expect_rejected({"man", "-o", file("in.h5")}, 5, "in.h5");
 }
 
 TEST_F(Outputs, NeverReplaceAnInputByWhateverName) {

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
 #include "tabor/cli/interrupt.hpp"
@@ -42,6 +44,20 @@ TEST_F(ContactVerb, HasTheAgreedKeys) {
         "peak_memory_bytes"}) {
     EXPECT_TRUE(result.at("states").at(0).contains(key)) << key;
   }
+}
+
+TEST_F(ContactVerb, TakesPoissonsRatioBySpellingOfPythonToo) {
+  Words words = contact("20MPa");
+  const auto area = [&] {
+    return json_of(words).at("states").at(0).at("contact_area_fraction").get<double>();
+  };
+  const double usual = area();
+  std::replace(words.begin(), words.end(), std::string("--poisson-ratio"),
+               std::string("--poissons-ratio"));
+  EXPECT_EQ(area(), usual);
+  const Outcome both = run_tabor(words + Words{"--poisson-ratio", "0.33"});
+  EXPECT_EQ(both.code, 2);
+  EXPECT_THAT(both.err, HasSubstr("--poisson-ratio is given more than once"));
 }
 
 TEST_F(ContactVerb, AreaGrowsWithPressureAndReachesTheTolerance) {

@@ -268,7 +268,7 @@ TEST(EhlLine, GivesNoFrictionOfSolidsThatTheCaseSaysNothingOf) {
   EXPECT_TRUE(json["friction_coefficient"].is_null());
   EXPECT_TRUE(json["friction_force_N_per_m"].is_null());
   EXPECT_TRUE(json["friction_fluid"].is_number());
-  EXPECT_THAT(io::to_text(json["warnings"]), HasSubstr("frictionless"));
+  EXPECT_THAT(io::to_text(json["warnings"]), HasSubstr("boundary-friction"));
   EXPECT_THAT(run_tabor(bare).out, HasSubstr("friction coefficient  -"));
 }
 

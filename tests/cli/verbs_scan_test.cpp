@@ -232,7 +232,7 @@ TEST_F(ScanVerbs, WarningsSpeakOfTheSurfaceAsItWasTreated) {
   topography::Topography tilted = scan::read(file("flat.txt"));
   for (Index x = 0; x < 64; ++x) tilted.height.col(x) += 1e-6 * static_cast<double>(x);
   scan::write(tilted, folder_ / "tilted.sdf");
-  EXPECT_THAT(run_tabor({"params", file("tilted.sdf")}).err, HasSubstr("no levelling"));
+  EXPECT_THAT(run_tabor({"params", file("tilted.sdf")}).err, HasSubstr("not levelled"));
   EXPECT_THAT(run_tabor({"params", file("tilted.sdf"), "--level", "plane"}).err,
               testing::Not(HasSubstr("tilt")));
 }

@@ -97,7 +97,7 @@ TEST_F(SignalVerbs, PsdWarningsExponentsOfNoSelfAffineSurface) {
       run_tabor({"convert", file("a.sdf"), file("smooth.sdf"), "--lowpass", "gauss:20um"}).code, 0);
   const Outcome outcome =
       run_tabor({"psd", file("smooth.sdf"), "--fit-min", "0.3/um", "--fit-max", "0.6/um"});
-  EXPECT_THAT(outcome.err, HasSubstr("Hurst exponent outside 0 to 1 (C1D"));
+  EXPECT_THAT(outcome.err, HasSubstr("Hurst exponent is outside 0 to 1 (C1D"));
   EXPECT_THAT(run_tabor({"psd", file("a.sdf")}).err, testing::Not(HasSubstr("Hurst")));
 }
 
@@ -182,7 +182,7 @@ TEST_F(SignalVerbs, CombineSaysHowMuchHolesLeaveOut) {
   }
   scan::write(scan, folder_ / "holes.sdf");
   EXPECT_THAT(run_tabor({"combine", file("a.sdf"), file("holes.sdf")}).err,
-              testing::ContainsRegex("[0-9.]+ % of the overlap lie in or beside holes"));
+              testing::ContainsRegex("[0-9.]+ % of the overlap lies in or beside holes"));
 }
 
 TEST_F(SignalVerbs, CombineShowsATableToPeople) {

@@ -255,9 +255,9 @@ TEST(Warnings, NoteWhatWasDoneBehindTheDoubts) {
   const Words words = {"params",  (folder / "scan.h5").string(), "--despike", "auto", "--fill",
                        "harmonic"};
   const std::string shown = run_tabor(words).err;
-  EXPECT_THAT(shown, AllOf(testing::StartsWith("warning: no levelling"),
+  EXPECT_THAT(shown, AllOf(testing::StartsWith("warning: The surface is not levelled"),
                            HasSubstr("\nnote: despike took 1 spike"),
-                           HasSubstr("\nnote: pixels are not square")));
+                           HasSubstr("\nnote: Pixels are not square")));
   EXPECT_EQ(shown.rfind("warning:"), 0u) << shown;
 }
 
@@ -361,7 +361,7 @@ TEST(Warnings, AreSaidOnceOverManyStates) {
   const Outcome shown = run_tabor(words);
   EXPECT_EQ(count_lines(shown.err), warnings.size()) << shown.err;
   EXPECT_THAT(shown.err, AllOf(HasSubstr("3 of 6 cases"), HasSubstr("[spill-over]"),
-                               HasSubstr("--edges cut"), HasSubstr("isolated body")));
+                               HasSubstr("--edges cut"), HasSubstr("--edges end")));
 }
 
 /// The words by which people and scripts look for them.

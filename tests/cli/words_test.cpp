@@ -9,11 +9,11 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-TEST(Words, NoneShowTheOverviewAsAUsageError) {
+TEST(Words, NoneGreetOnStandardOutput) {
   const Outcome outcome = run_tabor({});
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_EQ(outcome.out, "");
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("contact"), HasSubstr("sweep")));
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_THAT(outcome.out, AllOf(HasSubstr("tabor info SCAN"), HasSubstr("tabor --help")));
 }
 
 TEST(Words, UnknownVerbNamesTheNearest) {
@@ -30,7 +30,11 @@ TEST(Words, OptionsBeforeTheVerbAreExplained) {
 }
 
 TEST(Words, VersionAndHelpGoToStandardOutput) {
-  EXPECT_THAT(run_tabor({"--version"}).out, testing::StartsWith("tabor "));
+  const std::string version = run_tabor({"--version"}).out;
+  EXPECT_THAT(version, testing::StartsWith("tabor "));
+  EXPECT_EQ(run_tabor({"-V"}).out, version);
+  EXPECT_EQ(run_tabor({"contact", "--version"}).out, version);
+  EXPECT_EQ(run_tabor({"contact", "absent.h5", "-V"}).out, version);
   EXPECT_THAT(run_tabor({"--help"}).out, HasSubstr("Exit codes"));
   EXPECT_EQ(run_tabor({"help", "contact"}).out, run_tabor({"contact", "--help"}).out);
 }

@@ -50,6 +50,10 @@ class Solvers(Benchmark):
         rows = self.rows("16", "deposition", 16)
         self.assertLessEqual({"limit", "droplets", "naive"}, {word for row in rows for word in row})
 
+    def test_processors(self):
+        rows = self.rows("friction", "processors", BUILD / "tools/tabor", BUILD / "tools/tabor", 64, "turns=1")
+        self.assertEqual((len(rows), len(rows[0])), (1, 1 + 2 + 2 * 3), rows)  # name, "s", and twice "s (ratio)"
+
     def test_report_page(self):
         rows = self.rows("--static", "report_page", BUILD / "tools/tabor", 32, "turns=1", "pressures=5MPa", f"json={self.folder / 'rows.json'}")
         self.assertEqual((len(rows), rows[0][-1]), (1, "1"))  # a page alone

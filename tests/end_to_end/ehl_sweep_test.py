@@ -52,9 +52,9 @@ class EhlSweepTest(ProgramTest):
             self.assertEqual(out, "")
             self.assertFalse((self.folder / "out.h5").exists())
             if stop == signal.SIGTERM:
-                self.assertIn("are kept in out.h5.cases; the same command continues", err)
+                self.assertIn("the same command continues with ", err)
         again, said, err = self.results("out.h5", words)
-        self.assertRegex(err, rf"[{stops[-1]}-{N_CASES}] of {N_CASES} cases were done, kept in out.h5.cases")
+        self.assertRegex(err, rf"[{stops[-1]}-{N_CASES}] of {N_CASES} finished cases were found in out.h5.cases")
         self.assertEqual(said, expected)
         self.assertEqual(again, code)
         whole, out = self.numbers("whole.h5"), self.numbers("out.h5")

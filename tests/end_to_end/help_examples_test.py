@@ -9,11 +9,12 @@ import unittest
 from program import ALUMINIUM, SOURCE, ProgramTest
 
 VERBS = ["info", "convert", "params", "psd", "combine", "generate", "contact", "lubricate", "friction", "sweep",
-         "ehl", "report", "table", "formats", "cite", "options"]
+         "ehl", "report", "table", "formats", "cite", "options", "completion", "man"]
 
 
 def examples_of(help_text):
-    return [shlex.split(line) for line in help_text.split("Examples:\n")[1].splitlines() if line.strip()]
+    lines = help_text.split("Examples:\n")[1].replace("\\\n", "").splitlines()
+    return [shlex.split(line) for line in lines if line.strip()]
 
 
 class HelpExamples(ProgramTest):

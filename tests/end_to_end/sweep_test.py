@@ -71,7 +71,7 @@ class Interrupted(SweepTest):
         expected = self.reference()
         code, _, err = self.stop_after(4, signal.SIGINT, n_cases=1)
         self.assertEqual(code, 130, err)
-        self.assertIn("kept in out", err)
+        self.assertIn("the same command continues with the finished cases in out", err)
         self.assertGreaterEqual(len(self.table().splitlines()), 2)
         resumed = self.json("sweep", "study.toml", "-o", "out")
         self.assertEqual(self.table(), expected)
@@ -183,7 +183,7 @@ class HelpExamples(ProgramTest):
     def test_of_sweep_work(self):
         shutil.copytree(SOURCE / "examples/06_study", self.folder / "examples/06_study")
         help_text = self.tabor("sweep", "--help").stdout
-        for line in help_text.split("Examples:\n")[1].splitlines():
+        for line in help_text.split("Examples:\n")[1].replace("\\\n", "").splitlines():
             done = self.tabor(*shlex.split(line)[1:])
             self.assertEqual(done.returncode, 0, f"{line}\n{done.stderr}")
 

@@ -125,8 +125,8 @@ TEST(FluidWarnings, SayWhetherTheOilStillMoves) {
     Patch patch;
     patch.state.convergence.status = Status::iteration_limit;
     patch.state.film.convergence.status = status;
-    EXPECT_THAT(patch.warnings(), Contains(HasSubstr("film NOT CONVERGED")));
-    const auto moves = Contains(HasSubstr("oil still on the move"));
+    EXPECT_THAT(patch.warnings(), Contains(HasSubstr("film is NOT CONVERGED")));
+    const auto moves = Contains(HasSubstr("oil is still moving"));
     if (status == Status::converged) {
       EXPECT_THAT(patch.warnings(), Not(moves));
     } else {

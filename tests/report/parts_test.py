@@ -5,6 +5,7 @@ import contextlib
 import io
 import re
 import stat
+import sys
 import tempfile
 import unittest
 import zlib
@@ -328,11 +329,13 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual(message.count("\n"), 1, message)
                 self.assertIn(str(argument), message)
 
-    def test_a_missing_library_is_named_with_its_apt_line(self):
-        with mock.patch.object(dependencies, "_is_importable", lambda name: name != "h5py"):
-            code, message = self.run_cli("any.h5")
-        self.assertEqual(code, 3)
-        self.assertIn("apt install python3-h5py", message)
+    def test_a_missing_library_is_named_with_the_line_that_installs_it(self):
+        for base, expected in ((sys.prefix, "apt install python3-h5py"), ("/elsewhere", f"{sys.executable} -m pip install h5py")):
+            with (mock.patch.object(dependencies, "_is_importable", lambda name: name != "h5py"),
+                  mock.patch.object(sys, "base_prefix", base)):
+                code, message = self.run_cli("any.h5")
+            self.assertEqual(code, 3)
+            self.assertIn(expected, message)
 
     def test_a_pressure_without_unit_ends_with_3(self):
         self.assertEqual(self.run_cli("any.h5", "--pressure", "7")[0], 3)

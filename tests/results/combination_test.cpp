@@ -24,12 +24,18 @@ Combination worn(CombineMode mode) {
   return comparison::combine(before, after, options);
 }
 
+void write(const Combination& combination, CombineMode mode, const ResultHead& head,
+           const std::filesystem::path& file) {
+  write_combination(
+      {combination.map, std::string(comparison::name_of(mode)), values_of(combination)}, head, {},
+      file);
+}
+
 TEST(Combination, IsKeptWithItsNumbers) {
   const test::Folder folder;
   const Combination combination = worn(CombineMode::wear);
-  write_combination(combination, CombineMode::wear,
-                    {.command = "tabor combine a b", .config_toml = "", .methods = {}}, {},
-                    folder / "worn.h5");
+  write(combination, CombineMode::wear,
+        {.command = "tabor combine a b", .config_toml = "", .methods = {}}, folder / "worn.h5");
   const io::Hdf5Reader file(folder / "worn.h5");
   EXPECT_EQ(file.text("/", "command"), "tabor combine a b");
   EXPECT_EQ(file.text("/combination", "mode"), "wear");
@@ -42,8 +48,7 @@ TEST(Combination, IsKeptWithItsNumbers) {
 
 TEST(Combination, HasNoVolumesWithoutWear) {
   const test::Folder folder;
-  write_combination(worn(CombineMode::difference), CombineMode::difference, {}, {},
-                    folder / "less.h5");
+  write(worn(CombineMode::difference), CombineMode::difference, {}, folder / "less.h5");
   const io::Hdf5Reader file(folder / "less.h5");
   EXPECT_EQ(file.text("/combination", "mode"), "difference");
   EXPECT_FALSE(file.has_attribute("/combination", "worn_volume_m3"));

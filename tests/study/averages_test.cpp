@@ -80,8 +80,8 @@ TEST(AveragesCsv, LeavesCellsWithoutValueEmpty) {
   EXPECT_EQ(averages_csv(averages({row("A, left", 5e6, 0.25)})),
             "group,mean_pressure_Pa,lubricant_density_g_per_m2,n,friction_dry_mean,"
             "friction_dry_std,friction_dry_sem,friction_lubricated_mean,friction_lubricated_std,"
-            "friction_lubricated_sem\n"
-            "\"A, left\",5000000,0,1,0.25,,,0.125,,\n");
+            "friction_lubricated_sem,left_out\n"
+            "\"A, left\",5000000,0,1,0.25,,,0.125,,,\n");
 }
 
 Row sliding(double speed, double mixed) {
@@ -117,8 +117,9 @@ TEST(AveragesCsv, AddsColumnsWhereTheOilFlows) {
             "friction_dry_std,friction_dry_sem,friction_lubricated_mean,friction_lubricated_std,"
             "friction_lubricated_sem,sliding_speed_m_per_s,fluid_load_share_mean,"
             "fluid_load_share_std,fluid_load_share_sem,friction_viscous_mean,friction_viscous_std,"
-            "friction_viscous_sem,friction_mixed_mean,friction_mixed_std,friction_mixed_sem\n"
-            "A,5000000,0,1,0.25,,,0.125,,,0.5,0.1,,,0.01,,,0.2,,\n");
+            "friction_viscous_sem,friction_mixed_mean,friction_mixed_std,friction_mixed_sem,"
+            "left_out\n"
+            "A,5000000,0,1,0.25,,,0.125,,,0.5,0.1,,,0.01,,,0.2,,,\n");
 }
 
 TEST(AveragesCsv, HasTheLoadThatTrappedOilCarries) {
@@ -129,8 +130,8 @@ TEST(AveragesCsv, HasTheLoadThatTrappedOilCarries) {
   const std::string csv =
       averages_csv(averages(rows), {.trapped = true, .fluid = false, .tool = false});
   EXPECT_THAT(csv, testing::HasSubstr("friction_lubricated_sem,liquid_load_share_mean,"
-                                      "liquid_load_share_std,liquid_load_share_sem\n"));
-  EXPECT_THAT(csv, testing::HasSubstr(",0.25,0.1767766952966369,0.125\n"));
+                                      "liquid_load_share_std,liquid_load_share_sem,left_out\n"));
+  EXPECT_THAT(csv, testing::HasSubstr(",0.25,0.1767766952966369,0.125,\n"));
   EXPECT_THAT(averages_csv(averages(rows)), testing::Not(testing::HasSubstr("liquid")));
 }
 
@@ -149,6 +150,30 @@ TEST(ResultsCsv, HasTheAgreedColumns) {
             "case_id,scan,group,mean_pressure_Pa,lubricant_density_g_per_m2,contact_area_fraction,"
             "contact_area_fraction_pixels,saturated_area_fraction,mean_gap_m,lubricated_share,"
             "spill_over_fraction,friction_dry,friction_lubricated,certificate,converged\n");
+}
+
+/// The mean over the scans of the spread over the places of the tool, where every scan has one.
+TEST(AveragesCsv, HasTheSpreadOverThePlacesOfATool) {
+  std::vector<Row> rows{row("A", 5e6, 0.25), row("A", 5e6, 0.35)};
+  for (Row& one : rows) one.tool.emplace();
+  rows[0].tool->spread = cases::ToolSpread{0.01, 0.125, 0.5};
+  rows[1].tool->spread = cases::ToolSpread{0.03, 0.375, 0.25};
+  const std::vector<Average> means = averages(rows);
+  ASSERT_TRUE(means.front().tool_spread.has_value());
+  EXPECT_DOUBLE_EQ(means.front().tool_spread->area_fraction, 0.02);
+  EXPECT_DOUBLE_EQ(means.front().tool_spread->friction_dry, 0.25);
+  EXPECT_DOUBLE_EQ(means.front().tool_spread->friction_lubricated, 0.375);
+  const std::string csv = averages_csv(means, {.trapped = false, .fluid = false, .tool = true});
+  EXPECT_NE(csv.find("friction_dry_std_of_places"), std::string::npos);
+  rows[1].tool->spread.reset();
+  EXPECT_FALSE(averages(rows).front().tool_spread.has_value());
+}
+
+TEST(AveragesCsv, SaysWhyAFrictionTableLeavesARowOut) {
+  Row unsettled = row("A", 5e6, 0.25);
+  unsettled.converged = false;
+  const std::string csv = averages_csv(averages({unsettled}));
+  EXPECT_NE(csv.find(",not-converged\n"), std::string::npos) << csv;
 }
 
 }  // namespace

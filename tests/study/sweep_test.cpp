@@ -412,7 +412,7 @@ TEST(Sweep, WarnsAboutTwoScansWithTheSameBytes) {
   const Outcome outcome = example.run();
   EXPECT_EQ(outcome.n_contacts, 4u);  // the copy's contacts are in the store already
   ASSERT_EQ(outcome.warnings.size(), 1u);
-  EXPECT_THAT(outcome.warnings[0], HasSubstr("scan_1.h5 and scan_3.h5 hold the same bytes"));
+  EXPECT_THAT(outcome.warnings[0], HasSubstr("scan_1.h5 and scan_3.h5 are the same file"));
 }
 
 /// Whoever opens the results later reads what the run said: of the sweep, and of its rows.

@@ -176,7 +176,7 @@ TEST(Fill, InventedHeightsStayAWarningWhateverFollows) {
           apply({"fill=" + std::string(name_of(fill)), "level=plane", "mirror"}, holed);
       const auto warnings = texts_of(treated.warnings);
       EXPECT_THAT(warnings, testing::Contains(testing::HasSubstr("were holes")));
-      EXPECT_THAT(warnings, testing::Contains(testing::HasSubstr("most of the area is invented"))
+      EXPECT_THAT(warnings, testing::Contains(testing::HasSubstr("Most of the area is invented"))
                                 .Times(share > 0.5 ? 1 : 0));
     }
   }

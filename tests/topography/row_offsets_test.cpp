@@ -116,7 +116,7 @@ TEST(RowJumps, AreWarnedAboutWithBothSizes) {
   ASSERT_THAT(codes_of(scan), Contains("row-jumps"));
   for (const Warning& warning : warnings(scan)) {
     if (warning.code != "row-jumps") continue;
-    EXPECT_THAT(warning.text, testing::ContainsRegex("rows jump: (1.9|2.0|2.1|2)[0-9]* (u|µ)m"));
+    EXPECT_THAT(warning.text, testing::ContainsRegex("Rows jump by (1.9|2.0|2.1|2)[0-9]* (u|µ)m"));
     EXPECT_THAT(warning.text, HasSubstr("<level=rows>"));
   }
   EXPECT_THAT(codes_of(apply({"level=rows"}, scan)), Not(Contains("row-jumps")));

@@ -9,6 +9,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/topography/geometry.hpp"
 #include "tabor/topography/levelling.hpp"
+#include "tabor/topography/recipes.hpp"
 
 namespace tabor::topography::test {
 
@@ -59,6 +60,25 @@ TEST(Recipes, HaveNamesOfTheirOwnAndStepsThatExist) {
   EXPECT_FALSE(names.empty());
 }
 
+TEST(Recipes, AreTheirSteps) {
+  const auto rough = noise(kGrid);
+  for (const Recipe& recipe : recipes()) {
+    const auto named = apply({"flip=x", "recipe=" + recipe.name}, rough);
+    Treatment written{"flip=x"};
+    written.insert(written.end(), recipe.steps.begin(), recipe.steps.end());
+    const auto typed = topography::apply(written, rough);  // std::apply takes vectors, too
+    EXPECT_TRUE(same_bits(named.height, typed.height)) << recipe.name;
+    EXPECT_EQ(named.history, typed.history) << recipe.name;
+    EXPECT_EQ(expanded({"flip=x", "recipe=" + recipe.name}), written);
+  }
+}
+
+TEST(Recipes, ContradictStepsAsTheirOwnStepsDo) {
+  EXPECT_EQ(edges_of({"recipe=part"}), Edges::cut);
+  EXPECT_THAT(message_of({"recipe=pad", "edges=cut"}), HasSubstr("'cut' after 'end'"));
+  EXPECT_THAT(message_of({"recipe=pad", "mirror"}), HasSubstr("with mirror"));
+}
+
 TEST(Treatment, DependsOnTheOrderOfItsSteps) {
   const auto rough = noise(kGrid);
   const Field a = apply({"level=plane", "crop=0,0,20,30"}, rough).height;
@@ -97,6 +117,7 @@ TEST(CheckTreatment, NamesTheNearestStepOrValue) {
   EXPECT_THAT(message_of({"level=plan"}), HasSubstr("did you mean 'plane'"));
   EXPECT_THAT(message_of({"fill=harmonc"}), HasSubstr("did you mean 'harmonic'"));
   EXPECT_THAT(message_of({"lowpass=han:512/L"}), HasSubstr("did you mean 'hann'"));
+  EXPECT_THAT(message_of({"recipe=shet"}), HasSubstr("did you mean 'sheet'"));
 }
 
 TEST(CheckTreatment, RejectsWhatMakesNoSense) {

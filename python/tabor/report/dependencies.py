@@ -1,8 +1,9 @@
-"""Names the Debian package of a Python library that is absent, before anything imports it."""
+"""Names the package of a Python library that is absent, before anything imports it."""
 
 import contextlib
 import importlib
 import os
+import sys
 from pathlib import Path
 
 from tabor.report.errors import InputError
@@ -16,17 +17,24 @@ DEBIAN_PACKAGES = {
 
 
 def missing_packages(names):
-    return [DEBIAN_PACKAGES[name] for name in names if not _is_importable(name)]
+    return [DEBIAN_PACKAGES[name] for name in _missing(names)]
 
 
 def require(names):
-    """Raises InputError with the apt line that brings what is absent."""
-    missing = missing_packages(names)
+    """Raises InputError with the line for apt, or in a virtual environment for pip, that brings what is absent."""
+    missing = _missing(names)
     if missing:
-        raise InputError(
-            f"the report needs Python libraries that are not installed; "
-            f"install them with: apt install {' '.join(missing)}"
-        )
+        raise InputError(f"the report needs Python libraries that are not installed; install them with: {_remedy(missing)}")
+
+
+def _missing(names):
+    return [name for name in names if not _is_importable(name)]
+
+
+def _remedy(missing):
+    if sys.prefix != sys.base_prefix:
+        return f"{sys.executable} -m pip install {' '.join(missing)}"
+    return f"apt install {' '.join(DEBIAN_PACKAGES[name] for name in missing)}"
 
 
 def _is_importable(name):

@@ -40,12 +40,17 @@ def view(surface: Any, *, port: Count = 0, browser: bool = True, keep: bool = Fa
     -------
     View
         with ``url``, ``wait()`` and ``close()``. The interpreter ends when it does.
+
+    Examples
+    --------
+    >>> import tabor as tb
+    >>> tb.view(tb.read("surfaces/edt_before.x3p"), recipe="sheet")  # doctest: +SKIP
     """
     surfaces = _surfaces(surface)
     if port > _LAST_PORT:
         raise ValueError(f"port: got {port}; expected at most {_LAST_PORT}, or 0 for any that is free")
     needs("bokeh", "view()")
-    from .page import Opened
+    from .opening import Opened
     from .server import View, can_show
     from .state import State
 

@@ -13,13 +13,23 @@ from .._contact import Contact, contact
 from .._friction import Film, Friction, friction, rain
 from .._progress import Told
 from .._records import Warning
+from .._spectra import Spectra
 from .._parameters import Parameters
 from .._surface import Surface
 from .previews import Pace
+from .settings import arguments
 from .state import PARAMETERS, State
 
 _MOST_KEPT = 12  #: results of one stage
 _Result = TypeVar("_Result")
+
+
+@dataclass(frozen=True)
+class Filtering:
+    """Spectra of a surface: treated, and without its filters where it has some."""
+
+    treated: Spectra
+    unfiltered: Spectra | None
 
 
 @dataclass(frozen=True)
@@ -31,10 +41,11 @@ class Answer:
     pressed: Surface | None = None  #: that was pressed: the treated one, or a coarser one
     parameters: Parameters | None = None
     tilt: tuple[float, float] | None = None  #: slopes of the mean plane along x and y
+    spectra: Filtering | None = None
     contact: Contact | None = None
     film: Film | None = None
     friction: Friction | None = None
-    failures: dict[str, str] = field(default_factory=dict)  #: by "treatment", "contact", "oil", "friction"
+    failures: dict[str, str] = field(default_factory=dict)  #: by "treatment", "spectrum", "contact", "oil", "friction"
     is_preview: bool = False  #: contact, oil and friction are those of ``pressed``, which has larger pixels
     seconds: float = 0.0  #: that contact, oil and friction took
 
@@ -124,6 +135,22 @@ class Bench:
             return replace(answer, failures={**answer.failures, "treatment": str(error)})
         return replace(answer, parameters=parameters, tilt=tilt)
 
+    def analysed(self, answer: Answer, told: Told = None) -> Answer:
+        """The answer with the spectra of its surface, or why there are none."""
+        state = answer.state
+
+        def analyse() -> Filtering:
+            surface = self.treated(state.treatment, told)
+            with self.pace.of("spectrum", surface):
+                before = self.treated(state.unfiltered.treatment, told).psd(progress=told) if state.filters else None
+                window: Any = before.window if before else None
+                return Filtering(surface.psd(window=window, progress=told), before)  # one window for both
+
+        try:
+            return replace(answer, spectra=self._kept.get("spectrum", state.treatment, analyse))
+        except ValueError as error:
+            return replace(answer, spectra=None, failures={**answer.failures, "spectrum": str(error)})
+
     def treated_answer(self, state: State, told: Told = None) -> Answer:
         """The treated surface alone, or why there is none."""
         try:
@@ -159,14 +186,16 @@ class Bench:
     def _contact(self, state: State, surface: Surface, told: Told) -> Contact:
         def solve() -> Contact:
             with self.pace.of("contact", surface):
-                return contact(surface, state.pressure, state.solid, check=False, tool=state.tool or None, progress=told)
+                found: Contact = contact(surface, state.pressure, state.solid, check=False, progress=told, **state.contact_arguments)
+                return found
 
         return self._kept.get("contact", (surface.shape, _contact_key(state)), solve)
 
     def _film(self, state: State, surface: Surface, told: Told) -> Film:
         def fall() -> Film:
             with self.pace.of("oil", surface):
-                return rain(surface, state.density, progress=told)
+                found: Film = rain(surface, state.density, progress=told, **arguments(state.settings, "film"))
+                return found
 
         return self._kept.get("oil", (surface.shape, _oil_key(state)), fall)
 
@@ -176,18 +205,17 @@ class Bench:
             return None
         def rub() -> Friction:
             with self.pace.of("friction", pressed.surface):
-                return friction(pressed, film, check=False, trapped=state.trapped, shear_strength=state.shear_strength or None,
-                                progress=told)
+                return friction(pressed, film, check=False, trapped=state.trapped, progress=told, **state.friction_arguments)
 
         return self._kept.get("friction", (pressed.surface.shape, state), rub)
 
 
 def _contact_key(state: State) -> Hashable:
-    return state.treatment, state.pressure, state.material, state.tool
+    return state.treatment, state.pressure, state.material, state.tool, state.settings
 
 
 def _oil_key(state: State) -> Hashable:
-    return state.treatment, state.density
+    return state.treatment, state.density, state.settings
 
 
 def answer_of(scan: Surface, state: State) -> Answer:

@@ -35,11 +35,11 @@ class Chain:
         self._rows = Column(children=[], name="chain")
         steps: list[Any] = [_ADD, *OFFERED]
         recipes: list[Any] = [_RECIPE, *(one.name for one in RECIPES)]
-        self._add = Select(options=steps, value=_ADD, width=170, name="add")
+        self._add = Select(options=steps, value=_ADD, width=160, name="add")
         self._recipe = Select(options=recipes, value=_RECIPE, width=100, name="recipe")
         self._undo = Button(label="Undo", width=60, name="undo")
         self._redo = Button(label="Redo", width=60, name="redo")
-        self._said = Div(stylesheets=[STYLE], width=600)
+        self._said = Div(stylesheets=[STYLE], width=565)
         cropping = Button(label="Crop to view", width=100, name="crop")
         self._add.on_change("value", lambda _a, _o, text: self._chosen(self._add, _ADD, text, self._state.adding))
         self._recipe.on_change("value", lambda _a, _o, name: self._follow(name))

@@ -5,19 +5,18 @@ from __future__ import annotations
 import argparse
 import json
 import sys
+import warnings
 from collections.abc import Sequence
 from typing import Any, NoReturn
 
-from .. import set_threads
-from .._surface import read
-from .recipes import RECIPES, recipe, said
+from .. import Doubt, set_threads
 from .state import State
 
 DONE, USAGE, INPUT, INTERRUPTED = 0, 2, 3, 130
 _READING = {"channel": "NAME", "pixel": "DX[,DY]", "unit": "UNIT", "z_scale": "LENGTH"}
 EXAMPLES = """examples:
   tabor view surfaces/edt_before.x3p
-  tabor view surfaces/edt_before.x3p surfaces/edt_after.x3p --recipe sheet --no-browser
+  tabor view surfaces/edt_before.x3p surfaces/edt_after.x3p --step level=plane --no-browser
 """
 
 
@@ -50,13 +49,12 @@ def main(arguments: Sequence[str]) -> int:
 
 def _serve(options: argparse.Namespace) -> int:
     import_bokeh()
-    from .page import Opened
+    from .opening import opened
     from .server import View, can_show
 
+    warnings.simplefilter("ignore", Doubt)  # the page shows them
     set_threads(options.threads)
-    states = [_state(file, options) for file in options.scans]
-    opened = [Opened(_read(state), state) for state in states]
-    view = View(opened, options.port, options.keep)
+    view = View([opened(_state(file, options)) for file in options.scans], options.port, options.keep)
     try:
         _say(view.url, options)
         if not options.no_browser and can_show():
@@ -83,24 +81,16 @@ def _say(url: str, options: argparse.Namespace) -> None:
         print(url, flush=True)
     else:
         print(json.dumps({**json.loads(options.json_head), "url": url, "warnings": []}, ensure_ascii=False), flush=True)
-    if options.recipe and options.json_head is None:
-        print(said(recipe(options.recipe)), file=sys.stderr, flush=True)
+    if options.step and options.json_head is None:
+        print("treatment: " + ", ".join(options.step), file=sys.stderr, flush=True)
 
 
 def _state(file: str, options: argparse.Namespace) -> State:
     given = [(name, getattr(options, name)) for name in _READING if getattr(options, name) is not None]
     given += [("override_unit", "True")] if options.override_unit else []
-    start = State(file, tuple(given))
-    if options.recipe is not None:
-        start = start.following(options.recipe)
-    return start.adding(*options.step)
-
-
-def _read(state: State) -> Any:
-    reading: dict[str, Any] = {name: True if value == "True" else value for name, value in state.reading}
-    if "," in reading.get("pixel", ""):
-        reading["pixel"] = tuple(reading["pixel"].split(","))
-    return read(state.scan, **reading)
+    settings = dict(one.split("=", 1) for one in options.setting)
+    tool = settings.pop("tool", "")
+    return State(file, tuple(given), tool=tool, settings=tuple(settings.items())).adding(*options.step)
 
 
 def _fail(text: str, code: int) -> int:
@@ -115,9 +105,8 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--port", type=int, default=0, metavar="N", help="port of 127.0.0.1 [any that is free]")
     parser.add_argument("--no-browser", action="store_true", help="print the address and open no browser")
     parser.add_argument("--keep", action="store_true", help="go on when the last page closes")
-    recipes = ", ".join(f"{one.name} = {' '.join(one.steps)}" for one in RECIPES)
-    parser.add_argument("--recipe", choices=[one.name for one in RECIPES], help=f"treatment to begin with: {recipes}")
     parser.add_argument("--step", action="append", default=[], metavar="STEP", help="step of the treatment to begin with, such as level=plane")
+    parser.add_argument("--setting", action="append", default=[], metavar="NAME=VALUE", help="setting of contact, oil or friction by its name in Python, such as seed=7")
     for name, placeholder in _READING.items():
         parser.add_argument(f"--{name.replace('_', '-')}", metavar=placeholder, help="as of 'tabor info'")
     parser.add_argument("--override-unit", action="store_true", help="as of 'tabor info'")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -14,10 +14,12 @@ from .._contact import materials
 from .._values import si
 from .looks import STYLE, failure_html
 from .maps import KINDS
+from .settings import PARTS
 from .state import State
 
 TOOLS = {"flat": "", "ground tool, Sa 0.05 µm": "ground:Sa=0.05um", "ground tool, Sa 0.1 µm": "ground:Sa=0.1um",
          "ground tool, Sa 0.2 µm": "ground:Sa=0.2um", "ground tool, Sa 0.4 µm": "ground:Sa=0.4um"}
+OWN_SOLID = "as given"  #: a solid that is not of the library
 DENSITIES = (-2.0, 2.0)  #: powers of ten of the slider [g/m^2]
 DRY = "0 g/m^2"
 Change = Callable[[State], None]
@@ -85,13 +87,16 @@ class Quantity:
 class Controls:
     """Shows what a state says of the contact and the oil, and tells of the state that a move gives."""
 
-    def __init__(self, state: State, change: Change, choose_map: Callable[[str], None]) -> None:
+    def __init__(self, state: State, tools: Mapping[str, str], change: Change, choose_map: Callable[[str], None]) -> None:
         self._state, self._change, self._is_showing = state, change, False
-        names: list[Any] = [one.name for one in materials()]
-        tools: list[Any] = [*TOOLS]
+        names: list[Any] = [one.name for one in materials()] + ([] if state.material else [OWN_SOLID])
+        self._tools = {**TOOLS, **tools}
+        if state.tool not in self._tools.values():
+            self._tools[state.tool] = state.tool
         self._material = Select(options=names, title="Material", width=160, name="material")
         self._shear = TextInput(title="Shear strength", placeholder="of the material", width=130, name="shear")
-        self._tool = Select(options=tools, title="Pressed by", width=190, name="tool")
+        tools_there: list[Any] = [*self._tools]
+        self._tool = Select(options=tools_there, title="Pressed by", width=190, name="tool")
         self._oil = Checkbox(label="Oil", width=60, name="oil")
         self._trapped = Checkbox(label="Oil in closed pockets carries load", width=260, name="trapped")
         self._pressure = Quantity("pressure", "Pressure", "MPa", "pressure", pressure_range(state), self._press)
@@ -100,7 +105,7 @@ class Controls:
         self._maps = RadioButtonGroup(labels=list(KINDS), active=0, name="maps")
         self._material.on_change("value", lambda _a, _o, name: self._of_material(name))
         self._shear.on_change("value", lambda _a, _o, text: self._rubbed(text.strip()))
-        self._tool.on_change("value", lambda _a, _o, name: self._tell(replace(self._state, tool=TOOLS[name])))
+        self._tool.on_change("value", lambda _a, _o, name: self._tell(replace(self._state, tool=self._tools[name])))
         self._oil.on_change("active", lambda _a, _o, is_on: self._tell(replace(self._state, density=self._wetness if is_on else DRY)))
         self._trapped.on_change("active", lambda _a, _o, is_on: self._tell(replace(self._state, trapped=is_on)))
         self._maps.on_change("active", lambda _a, _o, place: choose_map(KINDS[place]))
@@ -131,7 +136,10 @@ class Controls:
 
     def _of_material(self, name: str) -> None:
         """Another material; a pressure beyond its range moves into it."""
-        state = replace(self._state, material=name)
+        if self._is_showing or name == OWN_SOLID:
+            return
+        solid = {one.name for one in PARTS["solid"]}  # values of its own belong to the solid before
+        state = replace(self._state, material=name, settings=tuple(one for one in self._state.settings if one[0] not in solid))
         low, high = pressure_range(state)
         power = math.log10(si(state.pressure, "pressure", "pressure") / 1e6)
         if not low <= power <= high:
@@ -144,8 +152,8 @@ class Controls:
         try:
             is_wet = si(state.density, "areal_density", "density") > 0
             self._wetness = state.density if is_wet else self._wetness
-            self._material.value, self._shear.value = state.material, state.shear_strength
-            known = {text: name for name, text in TOOLS.items()}
+            self._material.value, self._shear.value = state.material or OWN_SOLID, state.shear_strength
+            known = {text: name for name, text in self._tools.items()}
             self._tool.value = known.get(state.tool, "flat")
             self._oil.active, self._trapped.active = is_wet, state.trapped
             self._pressure.show(state.pressure, pressure_range(state))

@@ -13,6 +13,7 @@ from bokeh.plotting import figure
 from .answers import Answer
 from .controls import pressure_range
 from .looks import CURVES, STYLE
+from .pictures import add_saving
 from .state import State
 
 N_POINTS = 9  #: of a whole curve
@@ -26,15 +27,15 @@ def family(state: State) -> Hashable:
 class Curve:
     """The figure: a point for each full answer of one family, the working point among them."""
 
-    def __init__(self) -> None:
+    def __init__(self, file: str) -> None:
         self._family: Hashable = None
         self._points: dict[float, tuple[float, float]] = {}
         self._source = ColumnDataSource({"pressure": [], "dry": [], "lubricated": []})
         self._here = ColumnDataSource({"pressure": [], "dry": [], "lubricated": []})
         self.range = Range1d(start=0.1, end=100)  # [MPa]
         self._top = Range1d(start=0, end=1)
-        self.plot: Any = figure(width=610, height=250, x_axis_type="log", x_range=self.range, y_range=self._top, x_axis_label="mean pressure [MPa]", y_axis_label="friction",
-                                tools="box_zoom,wheel_zoom,reset,save", toolbar_location="above", name="curve")
+        self.plot: Any = figure(width=660, height=250, x_axis_type="log", x_range=self.range, y_range=self._top, x_axis_label="mean pressure [MPa]", y_axis_label="friction",
+                                tools="box_zoom,wheel_zoom,reset", toolbar_location="right", name="curve")
         self.plot.toolbar.logo = None
         self.plot.toolbar.active_scroll = None
         for name, marker in (("dry", "circle"), ("lubricated", "square")):
@@ -42,7 +43,8 @@ class Curve:
             self.plot.line("pressure", name, source=self._source, color=colour, line_width=1.5)
             self.plot.scatter("pressure", name, source=self._source, marker=marker, size=5, color=colour, legend_label=name)
             self.plot.scatter("pressure", name, source=self._here, marker=marker, size=13, line_width=2, line_color=colour, fill_color="white")
-        self.plot.add_tools(HoverTool(tooltips=[("pressure", "@pressure{0.000} MPa"), ("dry", "@dry{0.0000}"), ("lubricated", "@lubricated{0.0000}")]))
+        self.plot.add_tools(HoverTool(visible=False, tooltips=[("pressure", "@pressure{0.000} MPa"), ("dry", "@dry{0.0000}"), ("lubricated", "@lubricated{0.0000}")]))
+        add_saving(self.plot, f"{file}_friction")
         self.plot.legend.update(location="bottom_left", orientation="horizontal", background_fill_alpha=0.7)
         self.draw = Button(label=f"Draw {N_POINTS} pressures", width=150, name="draw")
         self.note = Div(text="<p class='note'>A point for each pressure that was fully computed; the large one is here.</p>", stylesheets=[STYLE], width=440)

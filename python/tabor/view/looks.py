@@ -68,6 +68,11 @@ def shown(values: Array) -> tuple[np.typing.NDArray[np.float32], int]:
     return np.ascontiguousarray(values[::step, ::step], dtype=np.float32), step
 
 
+def ordinal(number: int) -> str:
+    """2nd, 3rd, 4th: of numbers up to 20."""
+    return {1: "1st", 2: "2nd", 3: "3rd"}.get(number, f"{number}th")
+
+
 def limits(values: Array) -> tuple[float, float, float, float]:
     """Least and largest value, and those that all but a two-hundredth lie between; of heights that are there."""
     known = values[np.isfinite(values)]

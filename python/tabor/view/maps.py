@@ -14,15 +14,16 @@ from bokeh.plotting import figure
 from .._maps import Array
 from .._surface import Surface
 from .answers import Answer
-from .looks import CURVES, DRY, HOLE, LIQUID, SOLID, STYLE, WET, Unit, limits, shown, unit_for
+from .looks import CURVES, DRY, HOLE, LIQUID, SOLID, STYLE, WET, Unit, limits, ordinal, shown, unit_for
+from .pictures import add_saving
 
 FRAME = (340, 320)  #: largest width and height of a map [px of the screen]
-_TOOLS = "box_zoom,wheel_zoom,reset,save"
+_TOOLS = "box_zoom,wheel_zoom,reset"
 
 
-def frame_of(surface: Surface) -> tuple[int, int]:
-    """Width and height of a map whose pixels are square on the screen [px]."""
-    lx, ly = surface.lengths
+def frame_of(lengths: tuple[float, float]) -> tuple[int, int]:
+    """Width and height of a map of these sides whose pixels are square on the screen [px]."""
+    lx, ly = lengths
     width, height = FRAME
     scale = min(width / lx, height / ly)
     return max(120, round(lx * scale)), max(90, round(ly * scale))
@@ -31,30 +32,31 @@ def frame_of(surface: Surface) -> tuple[int, int]:
 class Axes:
     """Ranges along x and y that maps share, in one unit of length."""
 
-    def __init__(self, surface: Surface) -> None:
-        self.unit = unit_for(max(surface.lengths))
+    def __init__(self, lengths: tuple[float, float]) -> None:
+        self.unit = unit_for(max(lengths))
         self.x, self.y = Range1d(), Range1d()
         self.ranges: tuple[Any, Any] = (self.x, self.y)
-        self._size: tuple[float, float] | None = None
-        self.show(surface)
+        self.lengths: tuple[float, float] = (0.0, 0.0)
+        self.show(lengths)
 
-    def show(self, surface: Surface) -> None:
-        """Shows the whole surface if it has another size than the one before."""
-        if self._size == surface.lengths:
+    def show(self, lengths: tuple[float, float]) -> None:
+        """Shows a whole surface of these sides if they are others than before."""
+        if self.lengths == lengths:
             return
-        self._size = surface.lengths
-        lx, ly = map(self.unit.of, surface.lengths)
+        self.lengths = lengths
+        lx, ly = map(self.unit.of, lengths)
         self.x.update(start=0, end=lx, reset_start=0, reset_end=lx)
         self.y.update(start=ly, end=0, reset_start=ly, reset_end=0)
 
-    def figure(self, surface: Surface, **look: Any) -> Any:
-        """An empty map with these axes."""
-        width, height = frame_of(surface)
+    def figure(self, file: str, **look: Any) -> Any:
+        """An empty map with these axes; pictures of it are saved under the name of a file."""
+        width, height = frame_of(self.lengths)
         plot = figure(x_range=self.x, y_range=self.y, frame_width=width, frame_height=height, tools=_TOOLS,
-                      toolbar_location="above", x_axis_label=f"x [{self.unit.name}]", y_axis_label=f"y [{self.unit.name}]", **look)
+                      toolbar_location="right", x_axis_label=f"x [{self.unit.name}]", y_axis_label=f"y [{self.unit.name}]", **look)
         plot.toolbar.logo = None
         plot.toolbar.active_scroll = None
         plot.grid.visible = False
+        add_saving(plot, file)
         return plot
 
 
@@ -63,18 +65,22 @@ class Image:
 
     def __init__(self, plot: Any, axes: Axes, mapper: Any) -> None:
         self._axes = axes
-        self._source = ColumnDataSource({"image": [], "dw": [], "dh": []})
-        self.glyph = plot.image("image", x=0, y=0, dw="dw", dh="dh", source=self._source, color_mapper=mapper, level="image")
+        self._source = ColumnDataSource({"image": [], "x": [], "y": [], "dw": [], "dh": []})
+        self.glyph = plot.image("image", x="x", y="y", dw="dw", dh="dh", source=self._source, color_mapper=mapper, level="image")
 
-    def show(self, values: Array, surface: Surface) -> int:
-        """Shows a map; of how many pixels along a side one is shown."""
+    def show(self, values: Array, surface: Surface, corner: tuple[float, float] = (0.0, 0.0)) -> int:
+        """Shows a map, whose upper left corner is at a place [m]; of how many pixels along a side one is shown."""
         pixels, step = shown(values)
-        lx, ly = map(self._axes.unit.of, surface.lengths)
-        self._source.data = {"image": [pixels], "dw": [lx], "dh": [ly]}
+        (x, y), (lx, ly) = map(self._axes.unit.of, corner), map(self._axes.unit.of, surface.lengths)
+        self._source.data = {"image": [pixels], "x": [x], "y": [y], "dw": [lx], "dh": [ly]}
         return step
 
+    def clear(self) -> None:
+        """Shows nothing."""
+        self._source.data = {name: [] for name in ("image", "x", "y", "dw", "dh")}
 
-def _colour_bar(plot: Any, mapper: Any) -> Any:
+
+def colour_bar(plot: Any, mapper: Any) -> Any:
     bar = ColorBar(color_mapper=mapper, width=12, ticker=BasicTicker(desired_num_ticks=5), padding=4)
     plot.add_layout(bar, "right")
     return bar
@@ -83,15 +89,15 @@ def _colour_bar(plot: Any, mapper: Any) -> Any:
 class Heights:
     """The heights of the treated scan: map, colour range, histogram and the section along a line."""
 
-    def __init__(self, scan: Surface, axes: Axes) -> None:
-        self._axes, self.surface = axes, scan
+    def __init__(self, scan: Surface, axes: Axes, file: str) -> None:
+        self._axes, self.surface, self._file = axes, scan, file
         least, largest, _, _ = limits(scan.height)
         self.unit: Unit = unit_for(largest - least)
         self._mapper = LinearColorMapper(palette=Viridis256, nan_color=HOLE)
-        self.plot = axes.figure(scan, name="height", output_backend="canvas")
+        self.plot = axes.figure(f"{file}_heights", name="height", output_backend="canvas")
         self._image = Image(self.plot, axes, self._mapper)
         self.plot.title.text = f"height z [{self.unit.name}]"
-        _colour_bar(self.plot, self._mapper)
+        colour_bar(self.plot, self._mapper)
         self.surface = scan
         self._add_line()
         self.colours = RangeSlider(start=0, end=1, value=(0, 1), step=0.001, title=f"Colour range [{self.unit.name}]", width=460,
@@ -100,22 +106,24 @@ class Heights:
                                                     code="mapper.low = slider.value[0]; mapper.high = slider.value[1]"))
         self.note = Div(stylesheets=[STYLE], visible=False)
         self._bars = ColumnDataSource({"left": [], "right": [], "top": []})
-        self.histogram = self._small("histogram", f"z [{self.unit.name}]", "share of pixels [%]", 250)
+        self.histogram = self._small("histogram", f"z [{self.unit.name}]", "share of pixels [%]", 240)
         self.histogram.quad(left="left", right="right", top="top", bottom=0, source=self._bars, color="#6B7A8F")
-        self._profile = ColumnDataSource({"s": [], "z": []})
-        self.section = self._small("section", f"along the line [{axes.unit.name}]", f"z [{self.unit.name}]", 340)
+        self._profile = ColumnDataSource({"s": [], "z": []}, name="profile")
+        self.section = self._small("section", f"along the line [{axes.unit.name}]", f"z [{self.unit.name}]", 325)
         self.section.line("s", "z", source=self._profile, color=CURVES["lubricated"])
 
     def _small(self, name: str, x: str, y: str, width: int) -> Any:
-        plot = figure(width=width, height=170, tools="reset,box_zoom", toolbar_location=None, x_axis_label=x, y_axis_label=y,
+        plot = figure(width=width, height=205, tools="box_zoom,reset", toolbar_location="right", x_axis_label=x, y_axis_label=y,
                       x_range=Range1d(), y_range=Range1d(), name=name)
+        plot.toolbar.logo = None
+        add_saving(plot, f"{self._file}_{name}")
         plot.xaxis.ticker = BasicTicker(desired_num_ticks=4)
         plot.yaxis.ticker = BasicTicker(desired_num_ticks=4)
         return plot
 
     def _add_line(self) -> None:
         lx, ly = map(self._axes.unit.of, self.surface.lengths)
-        self.ends = ColumnDataSource({"x": [0.0, lx], "y": [ly / 2, ly / 2]})
+        self.ends = ColumnDataSource({"x": [0.0, lx], "y": [ly / 2, ly / 2]}, name="ends")
         self.plot.line("x", "y", source=self.ends, color="white", line_width=2.5, alpha=0.8)
         self.plot.line("x", "y", source=self.ends, color="black", line_width=1)
         handles = self.plot.scatter("x", "y", source=self.ends, size=11, fill_color="white", line_color="black")
@@ -126,12 +134,12 @@ class Heights:
 
     def show(self, surface: Surface) -> None:
         """Shows the heights of a surface; the colour range follows where they changed."""
-        self._axes.show(surface)
+        self._axes.show(surface.lengths)
         self.surface = surface
-        width, height = frame_of(surface)
+        width, height = frame_of(surface.lengths)
         self.plot.update(frame_width=width, frame_height=height)
         step = self._image.show(self.unit.of(surface.height), surface)
-        self.note.update(text=f"<p class='note'>The map shows every {_ordinal(step)} pixel along x and y.</p>", visible=step > 1)
+        self.note.update(text=f"<p class='note'>The map shows every {ordinal(step)} pixel along x and y.</p>", visible=step > 1)
         least, largest, low, high = limits(self.unit.of(surface.height))
         self.colours.update(start=least, end=largest, value=(low, high), step=(largest - least) / 500)
         self._mapper.update(low=low, high=high)
@@ -160,10 +168,6 @@ def _span(axis: Any, values: Array, margin: float) -> None:
     axis.update(start=least - room, end=largest + room, reset_start=least - room, reset_end=largest + room)
 
 
-def _ordinal(number: int) -> str:
-    return {2: "2nd", 3: "3rd"}.get(number, f"{number}th")
-
-
 def section(surface: Surface, ends: list[Any], unit: Unit) -> tuple[Array, Array]:
     """Places along the line between two ends [unit], and the heights of the pixels there [m]."""
     (x0, y0), (x1, y1) = ends
@@ -186,12 +190,12 @@ _LEGEND = "".join(f"<span class='key' style='background:{colour}'></span>{text}"
 class Results:
     """One map of what was computed: contact and oil, pressure, gap or oil film."""
 
-    def __init__(self, scan: Surface, axes: Axes) -> None:
+    def __init__(self, axes: Axes, file: str) -> None:
         self._axes = axes
         self._mapper = LinearColorMapper(palette=[SOLID, LIQUID, DRY, WET], low=-0.5, high=3.5, nan_color=HOLE)
-        self.plot = axes.figure(scan, name="result", output_backend="canvas")
+        self.plot = axes.figure(f"{file}_result", name="result", output_backend="canvas")
         self._image = Image(self.plot, axes, self._mapper)
-        self._bar = _colour_bar(self.plot, self._mapper)
+        self._bar = colour_bar(self.plot, self._mapper)
         self.legend = Div(text=_LEGEND, stylesheets=[STYLE], name="legend")
         self.kind = KINDS[0]
 
@@ -203,7 +207,7 @@ class Results:
         self.plot.visible = found is not None
         if found is None or whole is None:
             return
-        width, height = frame_of(whole)
+        width, height = frame_of(whole.lengths)
         self.plot.update(frame_width=width, frame_height=height)
         values, title, palette, low, high = found
         is_legend = not title

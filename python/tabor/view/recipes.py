@@ -27,8 +27,3 @@ def recipe(name: str) -> Recipe:
         hint = f"; did you mean {near[0]!r}?" if near else ""
         raise ValueError(f"recipe: got {name!r}; expected {', '.join(known)}{hint}")
     return known[name]
-
-
-def said(one: Recipe) -> str:
-    """The recipe as it is printed: its name and the steps it stands for."""
-    return f"recipe {one.name}: {', '.join(one.steps)}"

@@ -18,7 +18,8 @@ from tornado.httpserver import HTTPServer
 from tornado.ioloop import IOLoop
 
 from .guard import ADDRESS, Guarded, new_token
-from .page import Opened, fill
+from .opening import Opened
+from .page import fill
 from .written import Folder, Hand
 
 _LOOK = 500  #: how often is looked whether a page is open [ms]
@@ -42,7 +43,7 @@ class View:
     url: str  #: address with the token
 
     def __init__(self, opened: Sequence[Opened], port: int = 0, keep: bool = False) -> None:
-        self._opened, self._keep = tuple(opened), keep
+        self._opened, self._keep = list(opened), keep
         self._is_ready, self._has_ended = threading.Event(), threading.Event()
         self._port = port
         self._seen, self._looks = False, 0

@@ -7,13 +7,15 @@ A state is a plain value that does not change. ``texts`` writes it as a command 
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Generic, TypeVar
+from typing import Any, Generic, TypeVar
 
 from .. import _tabor
 from .._contact import Solid
 from .recipes import recipe
+from .settings import Given, arguments
 
 KNOWN_STEPS = {name: (argument, text) for name, argument, text in _tabor.treatment_steps()}
+FILTERS = ("lowpass", "highpass")  #: steps that a spectrum shows
 #: Symbols of the numbers that are shown of a surface.
 PARAMETERS = ("Sa", "Sq", "Sz", "Ssk", "Spk", "Svk", "Sdq")
 _Kept = TypeVar("_Kept")
@@ -45,12 +47,13 @@ class State:
     scan: str  #: name of the file; "" for a surface in memory
     reading: tuple[tuple[str, str], ...] = ()  #: how the file is read: (("pixel", "0.67 um"), ("unit", "um"))
     steps: tuple[Step, ...] = ()
-    material: str = "aluminium-6016"
+    material: str = "aluminium-6016"  #: "" where the settings alone say what the surface is of
     shear_strength: str = ""  #: of dry contact; "" for that of the material
     pressure: str = "7 MPa"  #: mean pressure, load over nominal area
     density: str = "0.9 g/m^2"  #: areal density of the oil; "0 g/m^2" is dry
     tool: str = ""  #: rough tool in place of the flat, "ground:Sa=0.1um"; "" for a flat
     trapped: bool = False  #: oil in closed pockets carries load
+    settings: Given = ()  #: others, as the command or the file that opened the scan has them: (("seed", "7"),)
 
     @property
     def treatment(self) -> tuple[str, ...]:
@@ -58,9 +61,29 @@ class State:
         return tuple(step.text for step in self.steps if step.is_on)
 
     @property
+    def filters(self) -> tuple[str, ...]:
+        """The filters among the treatment."""
+        return tuple(step for step in self.treatment if step.partition("=")[0] in FILTERS)
+
+    @property
+    def unfiltered(self) -> State:
+        """The state without its filters."""
+        return replace(self, steps=tuple(step for step in self.steps if step.name not in FILTERS))
+
+    @property
     def solid(self) -> Solid:
         """What the surface is of."""
-        return Solid(self.material)
+        return Solid(self.material or None, **arguments(self.settings, "solid"))
+
+    @property
+    def contact_arguments(self) -> dict[str, Any]:
+        """What else ``contact`` is given."""
+        return {**arguments(self.settings, "contact"), **({"tool": self.tool} if self.tool else {})}
+
+    @property
+    def friction_arguments(self) -> dict[str, Any]:
+        """What else ``friction`` is given."""
+        return {**arguments(self.settings, "friction"), **({"shear_strength": self.shear_strength} if self.shear_strength else {})}
 
     @property
     def has_friction(self) -> bool:

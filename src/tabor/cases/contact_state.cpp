@@ -36,7 +36,7 @@ ContactRecord solve(elastic::ElasticOperator& elasticity, const Field& height,
   const double fft_before = elasticity.fft_seconds();
   ContactRecord record;
   record.state = contact::solve(elasticity, problem, settings.solver, observer);
-  throw_if_stopped(record.state.convergence);  // half a state is of no use to anybody
+  throw_if_stopped(record.state.convergence);  // a partial solution is not a result
   record.convergence = record.state.convergence;
   record.summary =
       contact::summarise(record.state, problem, elasticity.grid(), settings.is_periodic());

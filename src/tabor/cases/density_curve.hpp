@@ -40,13 +40,13 @@ struct WettingDoses {
 /// place of the tool.
 bool has_density_curve(const CaseSettings& settings);
 
-/// Finds the first wetting doses of the pixels of `where`, in the shape of the surface; the others
+/// Finds the first doses that wet the pixels of `where`, in the shape of the surface; the others
 /// count as wet by none. All doses are reached in one pass of vanishing droplets (Model::limit),
 /// whatever model the settings ask for. Throws as density_curves().
 WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
                            const Mask& where, const Observer& observer = {});
 
-/// Finds the first wetting doses of all pixels: needs no contact, and serves any.
+/// Finds the first doses that wet each pixel. They need no contact and hold for any.
 WettingDoses wetting_doses(const topography::Topography& surface, const FilmSettings& settings,
                            const Observer& observer = {});
 

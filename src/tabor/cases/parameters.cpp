@@ -1,9 +1,13 @@
 #include "tabor/cases/parameters.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tabor::cases {
 namespace {
+
+constexpr const char* kContactGroup = "Contact";
+constexpr const char* kMaterialGroup = "Material";
 
 const Bounds kPoissonsRatio{
     .least = -1, .most = 0.5, .least_is_out = true, .text = "above -1 and at most 0.5"};
@@ -30,6 +34,7 @@ const Parameters<ContactSettings>& contact_parameters() {
            .bounds = bounds::above_zero,
            .study_key = "material.youngs_modulus",
            .placeholder = "E",
+           .group = kMaterialGroup,
            .is_of_material = true,
            .needed = Needed::unless_material},
           &Settings::youngs_modulus),
@@ -40,6 +45,7 @@ const Parameters<ContactSettings>& contact_parameters() {
            .study_key = "material.poissons_ratio",
            .flag = "--poisson-ratio",
            .placeholder = "NU",
+           .group = kMaterialGroup,
            .is_of_material = true,
            .needed = Needed::unless_material},
           &Settings::poissons_ratio),
@@ -50,7 +56,8 @@ const Parameters<ContactSettings>& contact_parameters() {
            .bounds = bounds::above_zero,
            .study_key = "material.counter_youngs_modulus",
            .placeholder = "E2",
-           .absent = "rigid"},
+           .absent = "rigid",
+           .group = kMaterialGroup},
           &Settings::counter_youngs_modulus),
       One({.name = "counter_poissons_ratio",
            .help = "Poisson's ratio of the flat",
@@ -58,10 +65,11 @@ const Parameters<ContactSettings>& contact_parameters() {
            .bounds = kPoissonsRatio,
            .study_key = "material.counter_poissons_ratio",
            .flag = "--counter-poisson-ratio",
-           .placeholder = "NU2"},
+           .placeholder = "NU2",
+           .group = kMaterialGroup},
           &Settings::counter_poissons_ratio),
       One({.name = "saturation_pressure",
-           .help = "cap on the contact pressure (none: elastic)",
+           .help = "largest contact pressure, at which the body yields",
            .example = "240 MPa",
            .dimension = dimension::pressure,
            .bounds = bounds::above_zero,
@@ -69,12 +77,13 @@ const Parameters<ContactSettings>& contact_parameters() {
            .placeholder = "PS",
            .absent = "none",
            .none = "none",
+           .group = kMaterialGroup,
            .is_of_material = true,
            .identity = Identity::yes},
           &Settings::saturation_pressure)
           .with_identifying_value([](const Settings& one) { return Cell(one.pressure_cap()); }),
       One({.name = "boundary",
-           .help = "whether the scan repeats, or is loaded alone, as with edges that end",
+           .help = "the surface repeats, or stands alone as with --edges end",
            .example = "periodic",
            .study_key = "contact.boundary",
            .absent = "periodic",
@@ -84,13 +93,13 @@ const Parameters<ContactSettings>& contact_parameters() {
             return Cell(std::string(kBoundaries.of(one.boundary_in_force())));
           }),
       One({.name = "solver",
-           .help = "polonsky-keer is the textbook baseline",
+           .help = "solver of the contact; polonsky-keer is the textbook method",
            .example = "fast",
            .study_key = "contact.solver",
            .identity = Identity::yes},
           &Settings::solver, kSolvers),
       One({.name = "tolerance",
-           .help = "certificate to reach, 1e-12 to 1e-4",
+           .help = "certificate to reach, from 1e-12 to 1e-4",
            .example = "1e-6",
            .bounds = kTolerance,
            .study_key = "contact.tolerance",
@@ -98,20 +107,20 @@ const Parameters<ContactSettings>& contact_parameters() {
            .identity = Identity::yes},
           &Settings::tolerance),
       One({.name = "load_path",
-           .help = "the pressures are one history: the plastic indentation a state leaves is kept "
-                   "in the next, so that reloading below the largest is elastic"},
+           .help = "take the pressures as one history, in which each state starts from the "
+                   "plastic indentation of the one before"},
           &Settings::load_path)};
   static const Parameters<Settings> with_tool =
-      joined(all, {within(tool_parameters(), &Settings::tool)});
+      joined(grouped(kContactGroup, all), {within(tool_parameters(), &Settings::tool)});
   return with_tool;
 }
 
 const Parameters<FilmSettings>& film_parameters() {
   using Settings = FilmSettings;
   using One = Parameter<Settings>;
-  static const Parameters<Settings> all{
+  static const Parameters<Settings> table{
       One({.name = "lubricant_density",
-           .help = "areal lubricant density as dosed, a list or a range as for pressures",
+           .help = "areal density of the lubricant as applied, a list or a range as for pressures",
            .example = "0.45 g/m^2,0.9 g/m^2",
            .dimension = dimension::areal_density,
            .bounds = bounds::zero_or_more,
@@ -122,7 +131,7 @@ const Parameters<FilmSettings>& film_parameters() {
            .needed = Needed::yes},
           &Settings::lubricant_densities),
       One({.name = "oil_density",
-           .help = "density of the liquid",
+           .help = "density of the oil itself",
            .example = "900 kg/m^3",
            .dimension = dimension::density,
            .bounds = bounds::above_zero,
@@ -131,26 +140,26 @@ const Parameters<FilmSettings>& film_parameters() {
            .identity = Identity::yes},
           &Settings::oil_density),
       One({.name = "model",
-           .help = "droplets run downhill, limit: the same of vanishing droplets, one level, a "
-                   "constant film",
+           .help = "oil settles as droplets that run downhill, as their limit for vanishing size, "
+                   "to one level, or as a constant film",
            .example = "droplets",
            .study_key = "lubricant.model",
            .identity = Identity::yes},
           &Settings::model, deposition::kModels),
       One({.name = "reading",
-           .help = "a full pit passes the rest of a droplet on, or drops it",
+           .help = "excess of a droplet that fills a depression: conserve or drop",
            .example = "conserving",
            .study_key = "lubricant.reading",
            .identity = Identity::yes},
           &Settings::reading, deposition::kReadings),
       One({.name = "edge",
-           .help = "what the border of the scan is",
+           .help = "oil at the border of the scan stays, reappears at the opposite side, or leaves",
            .example = "closed",
            .study_key = "lubricant.edge",
            .identity = Identity::yes},
           &Settings::edge, deposition::kEdges),
       One({.name = "droplet_height",
-           .help = "droplet volume / pixel area",
+           .help = "size of a droplet, as its volume over the area of a pixel",
            .example = "0.1 um",
            .dimension = dimension::length,
            .bounds = bounds::above_zero,
@@ -160,25 +169,26 @@ const Parameters<FilmSettings>& film_parameters() {
            .identity = Identity::yes},
           &Settings::droplet_height),
       One({.name = "seed",
-           .help = "of the places where droplets fall",
+           .help = "seed of the random places where droplets fall",
            .example = "1",
            .study_key = "lubricant.seed",
            .placeholder = "S",
            .identity = Identity::yes},
           &Settings::seed)};
+  static const Parameters<Settings> all = grouped("Oil", table);
   return all;
 }
 
 const Parameters<TrappedSettings>& trapped_parameters() {
   using Settings = TrappedSettings;
   using One = Parameter<Settings>;
-  static const Parameters<Settings> all{
+  static const Parameters<Settings> table{
       One({.name = "trapped",
-           .help = "oil in closed pockets of the gap carries load as far as their seals hold",
+           .help = "let oil in closed pockets of the gap carry load, as far as their seals hold",
            .study_key = "lubricant.trapped"},
           &Settings::trapped),
       One({.name = "bulk_modulus",
-           .help = "of the trapped oil (inf: incompressible)",
+           .help = "bulk modulus of the trapped oil; inf makes it incompressible",
            .example = "1.5 GPa",
            .dimension = dimension::pressure,
            .bounds = kBulkModulus,
@@ -187,15 +197,16 @@ const Parameters<TrappedSettings>& trapped_parameters() {
            .none = "inf",
            .identity = Identity::yes},
           &Settings::bulk_modulus)};
+  static const Parameters<Settings> all = grouped("Oil", table);
   return all;
 }
 
 const Parameters<FluidSettings>& fluid_parameters() {
   using Settings = FluidSettings;
   using One = Parameter<Settings>;
-  static const Parameters<Settings> all{
+  static const Parameters<Settings> table{
       One({.name = "fluid",
-           .help = "with reynolds the deposited oil flows and carries part of the load",
+           .help = "with reynolds the oil flows and carries part of the load",
            .example = "none",
            .study_key = "lubricant.fluid"},
           &Settings::fluid, kFluids),
@@ -220,7 +231,7 @@ const Parameters<FluidSettings>& fluid_parameters() {
            .identity = Identity::yes},
           &Settings::viscosity),
       One({.name = "pressure_viscosity",
-           .help = "its growth with pressure by Roelands' law",
+           .help = "growth of the viscosity with pressure, by Roelands' law",
            .example = "2e-8 1/Pa",
            .dimension = dimension::per_pressure,
            .bounds = bounds::above_zero,
@@ -239,13 +250,14 @@ const Parameters<FluidSettings>& fluid_parameters() {
            .absent = "Newtonian",
            .identity = Identity::yes},
           &Settings::eyring_stress)};
+  static const Parameters<Settings> all = grouped("Flowing oil", table);
   return all;
 }
 
 const Parameters<FrictionSettings>& friction_parameters() {
   using Settings = FrictionSettings;
   using One = Parameter<Settings>;
-  static const Parameters<Settings> all{
+  static const Parameters<Settings> table{
       One({.name = "shear_strength",
            .help = "shear strength of the contact",
            .example = "70 MPa",
@@ -269,7 +281,7 @@ const Parameters<FrictionSettings>& friction_parameters() {
           &Settings::boundary_shear_strength)
           .with_value_in_force(tau_of_wet_contact),
       One({.name = "boundary_shear_share",
-           .help = "the same as a share of the shear strength",
+           .help = "shear strength of wet contact as a share of that of dry contact",
            .example = "0.1",
            .bounds = kShare,
            .study_key = "boundary_shear_share",
@@ -277,22 +289,24 @@ const Parameters<FrictionSettings>& friction_parameters() {
           &Settings::boundary_shear_share)
           .with_value_in_force([](const Settings&) { return Cell(); }),  // the strength says it
       One({.name = "area",
-           .help = "what friction uses, the contact area (perimeter-corrected) or the counted "
-                   "contact (pixels)",
+           .help = "area that friction uses: the contact area corrected for its perimeter, or the "
+                   "counted pixels",
            .example = "pixels",
            .study_key = "area",
            .absent = "pixels with a saturation pressure, else corrected"},
           &Settings::area, friction::kAreas),
       One({.name = "dry_below",
-           .help = "a film no thicker than this does not count as wet",
+           .help = "a film up to this thickness counts as dry",
            .example = "2 nm",
            .dimension = dimension::length,
            .bounds = bounds::zero_or_more,
            .study_key = "lubricant.dry_below",
            .placeholder = "T",
            .absent = "0 nm",
+           .group = "Oil",
            .identity = Identity::unless_default},
           &Settings::dry_below)};
+  static const Parameters<Settings> all = grouped("Friction", table);
   return all;
 }
 
@@ -300,7 +314,7 @@ const Parameters<CaseSettings>& case_parameters() {
   static const Parameters<CaseSettings> all = [] {
     Parameters<CaseSettings> list{
         {{.name = "mean_pressure",
-          .help = "mean pressure, load / nominal area, a list or a range such as "
+          .help = "mean pressure (load over nominal area), a list or a range such as "
                   "2MPa..15MPa:7 or 1MPa..100MPa:log:5",
           .example = "2 MPa,7 MPa",
           .dimension = dimension::pressure,
@@ -312,20 +326,21 @@ const Parameters<CaseSettings>& case_parameters() {
           .needed = Needed::yes},
          &CaseSettings::mean_pressures},
         {{.name = "separation",
-          .help = "in place of pressures: height of the flat over the zero of heights, which is "
-                  "their mean once levelled, a list or a range as for pressures",
+          .help = "instead of pressures: height of the flat above the mean height of a levelled "
+                  "surface, a list or a range as for pressures",
           .example = "0.5 um",
           .dimension = dimension::length,
           .placeholder = "D[,D2,...]"},
          &CaseSettings::separations},
         {{.name = "force",
-          .help = "in place of pressures: force on the whole surface, which must end (boundary "
+          .help = "instead of pressures: force on the whole surface, which must end (boundary "
                   "free), a list or a range as for pressures",
           .example = "1 N",
           .dimension = dimension::force,
           .bounds = bounds::above_zero,
           .placeholder = "F[,F2,...]"},
          &CaseSettings::forces}};
+    list = grouped(kContactGroup, std::move(list));
     for (const Parameters<CaseSettings>& part :
          {within(contact_parameters(), &CaseSettings::contact),
           within(film_parameters(), &CaseSettings::film),

@@ -26,8 +26,8 @@ std::optional<Objection> objection_to_pressure(double pressure, const ContactSet
       .setting = "mean_pressure",
       .got = format_si(pressure, "Pa"),
       .expected = "less than the saturation pressure " + format_si(settings.pressure_cap(), "Pa"),
-      .remedy = fmt::format("no contact that saturates there can carry this load; "
-                            "lower {} or raise {}",
+      .remedy = fmt::format("a contact that saturates there cannot carry this load; lower {} or "
+                            "raise {}",
                             spelling("mean_pressure"), spelling("saturation_pressure"))};
 }
 
@@ -130,8 +130,8 @@ std::optional<Objection> objection_to_controls(const CaseSettings& settings, boo
                        (boundary_is_known || settings.contact.boundary.has_value());
   if (settings.forces.empty() || !repeats) return std::nullopt;
   return objection_to_use(
-      "force", fmt::format("{} presses a body that ends: use {} free, or {} for a surface "
-                           "that repeats",
+      "force", fmt::format("{} needs a body that ends; use {} free, or {} for a surface that "
+                           "repeats",
                            spelling("force"), spelling("boundary"), spelling("mean_pressure")));
 }
 
@@ -172,14 +172,13 @@ std::optional<Objection> objection(const FluidSettings& settings, const ContactS
   friction::lubricant_of(settings.oil());
   if (contact.tool.is_rough()) {
     return objection_to_use(
-        "tool", fmt::format("{}is solved under a flat: a rough tool changes the gap while it "
-                            "slides; leave out one of them",
+        "tool", fmt::format("{}needs a flat; leave out the rough tool, which would change the gap "
+                            "as it slides",
                             asked));
   }
   if (contact.is_periodic()) return std::nullopt;
-  return objection_to_use("boundary",
-                          fmt::format("{}is solved on a patch that repeats: use {} periodic", asked,
-                                      spelling("boundary")));
+  return objection_to_use("boundary", fmt::format("{}needs a surface that repeats; use {} periodic",
+                                                  asked, spelling("boundary")));
 }
 
 std::optional<Objection> objection_to_trapped(const CaseSettings& all, const Spelling& spelling) {
@@ -188,7 +187,7 @@ std::optional<Objection> objection_to_trapped(const CaseSettings& all, const Spe
   const std::string trapped = spelling("trapped");
   if (all.friction.dry_below > 0 && all.fluid.flows()) {
     return objection_to_use("dry_below",
-                            fmt::format("{} is for oil that stays where it was laid; leave out {}",
+                            fmt::format("{} applies to oil that does not flow; leave out {}",
                                         spelling("dry_below"), spelling("fluid")));
   }
   if (!settings.is_asked()) {
@@ -197,14 +196,13 @@ std::optional<Objection> objection_to_trapped(const CaseSettings& all, const Spe
                             fmt::format("{} needs {}", spelling("bulk_modulus"), trapped));
   }
   if (all.fluid.flows()) {
-    return objection_to_use("trapped", fmt::format("oil is trapped or flows: leave out {} or {}",
+    return objection_to_use("trapped", fmt::format("oil is either trapped or flows; leave out {} "
+                                                   "or {}",
                                                    trapped, spelling("fluid")));
   }
   if (all.contact.load_path) {
-    return objection_to_use("trapped",
-                            fmt::format("{} is solved on the surface as it is, not on what a load "
-                                        "path has left of it; leave out {}",
-                                        trapped, spelling("load_path")));
+    return objection_to_use("trapped", fmt::format("{} needs the undeformed surface; leave out {}",
+                                                   trapped, spelling("load_path")));
   }
   return std::nullopt;
 }

@@ -6,6 +6,7 @@
 
 #include "tabor/metrology/areal/parameters.hpp"
 #include "tabor/topography/edges.hpp"
+#include "tabor/topography/levelling.hpp"
 #include "tabor/topography/warnings.hpp"
 
 namespace tabor::cases {
@@ -26,6 +27,7 @@ const Columns<SurfaceRecord>& surface_columns() {
       {"height_min_m", "m", "", &Record::min},
       {"height_max_m", "m", "", &Record::max},
       {"height_rms_m", "m", "", &Record::rms},
+      {"tilt_m", "m", "", &Record::tilt},
       {"height_quantum_m", "m", "", &Record::quantum}};
   return all;
 }
@@ -47,6 +49,10 @@ SurfaceRecord summary_of(const topography::Topography& surface) {
     record.max = std::max(record.max, z);
   }
   record.rms = metrology::rms_height(surface);
+  if (const auto plane = topography::try_fit_form(surface.height, 1)) {
+    const auto [along_x, along_y] = topography::tilt_of(*plane, surface.grid);
+    record.tilt = std::hypot(along_x * surface.grid.lx, along_y * surface.grid.ly);
+  }
   const double quantum = topography::height_quantum(surface.height);
   if (quantum > 0) record.quantum = quantum;
   return record;

@@ -17,6 +17,7 @@ struct SurfaceRecord {
   double min = kNoValue;      ///< [m]
   double max = kNoValue;      ///< [m]
   double rms = kNoValue;      ///< about the mean [m]
+  double tilt = kNoValue;     ///< by how much the least-squares plane rises over both sides [m]
   double quantum = kNoValue;  ///< step that all heights are multiples of [m]; NaN without one
 
   /// Returns the share of the pixels without a height.

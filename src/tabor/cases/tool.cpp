@@ -107,9 +107,9 @@ bool ToolSettings::is_scan() const {
 const Parameters<ToolSettings>& tool_parameters() {
   using Settings = ToolSettings;
   using One = tabor::Parameter<Settings>;
-  static const Parameters<Settings> all{
+  static const Parameters<Settings> table{
       One({.name = "tool",
-           .help = "rough tool in place of the flat: a scan, or a generator with its numbers",
+           .help = "rough tool instead of the flat: a scan, or a generator with its numbers",
            .example = "ground:Sa=0.1um",
            .study_key = "contact.tool",
            .placeholder = "SCAN|RECIPE",
@@ -121,7 +121,7 @@ const Parameters<ToolSettings>& tool_parameters() {
             return Cell(one.sha256.empty() ? *one.tool : one.sha256);
           }),
       One({.name = "tool_x",
-           .help = "place of the tool along x, rounded to whole pixels",
+           .help = "position of the tool along x, rounded to whole pixels",
            .example = "100 um",
            .dimension = dimension::length,
            .study_key = "contact.tool_x",
@@ -130,13 +130,13 @@ const Parameters<ToolSettings>& tool_parameters() {
            .identity = Identity::unless_default},
           &Settings::tool_x),
       One({.name = "tool_places",
-           .help = "places of the tool, evenly along it, over which friction is averaged",
+           .help = "number of positions along the tool over which friction is averaged",
            .example = "1",
            .study_key = "contact.tool_places",
            .placeholder = "N"},
           &Settings::tool_places),
       One({.name = "tool_lowpass",
-           .help = "low-pass filter of the tool, as of a scan",
+           .help = "low-pass filter for the tool, as for a scan",
            .example = "gauss:8um",
            .study_key = "contact.tool_lowpass",
            .placeholder = "FILTER",
@@ -144,10 +144,11 @@ const Parameters<ToolSettings>& tool_parameters() {
            .identity = Identity::unless_default},
           &Settings::tool_lowpass),
       One({.name = "tool_repeats",
-           .help = "a tool shorter than the sheet is put down again and again",
+           .help = "repeat a tool that is shorter than the sheet",
            .study_key = "contact.tool_repeats",
            .identity = Identity::unless_default},
           &Settings::tool_repeats)};
+  static const Parameters<Settings> all = grouped("Rough tool", table);
   return all;
 }
 
@@ -223,8 +224,8 @@ Warnings of_tool(const topography::Topography& sheet, const Tool& tool) {
   const double own = metrology::rms_height(sheet);
   if (!(tool.rms_height > own)) return {};
   return {{"rough-tool",
-           fmt::format("the tool (Sq {}) is rougher than the sheet (Sq {}): the softer body is the "
-                       "one that yields, here the sheet",
+           fmt::format("The tool (Sq {}) is rougher than the sheet (Sq {}). The model takes the "
+                       "sheet as the softer body that yields",
                        format_si(tool.rms_height, "m"), format_si(own, "m")),
            tool.rms_height / own}};
 }

@@ -32,10 +32,9 @@ constexpr double kManyTransforms = 3e8;
 
 void warn_of_edges(const topography::Topography& surface, Warnings& list) {
   if (topography::repeats(surface)) return;
-  list.push_back(
-      {"not-periodic",
-       "not periodic (opposite edges do not match), yet solved as a tile; a cut-out: <edges=cut>; "
-       "an isolated body: <edges=end>"});
+  list.push_back({"not-periodic",
+                  "Opposite edges of this periodic tile do not match; use <edges=cut> for a "
+                  "cut-out, <edges=end> for a body"});
 }
 
 /// Share of the load that stands on the border of the patch.
@@ -57,8 +56,8 @@ void warn_of_load_on_edges(const contact::State& state, Warnings& list) {
   if (!(share > kEdgeLoad)) return;
   list.push_back(
       {"edge-load",
-       fmt::format("the outermost {:.0f} % of the free patch carry {:.3g} % of the load, "
-                   "true of an isolated body; a cut-out: <edges=cut>",
+       fmt::format("The outermost {:.0f} % of the free patch carry {:.3g} % of the load; use "
+                   "<edges=cut> unless the body ends there",
                    100 * kEdgeBand, 100 * share),
        share});
 }
@@ -87,8 +86,8 @@ void warn_of_load_on_seams(const topography::Topography& surface, const contact:
   const double share = load_on_seams(state.pressure, surface.tiles);
   if (!(share > kSeamLoad)) return;
   list.push_back({"seam-load",
-                  fmt::format("{:.2g} % of the load stands within {:.0f} % of a side from the "
-                              "mirror's seams, a crest of heights; <level=poly2> first",
+                  fmt::format("Heights rise at the mirror seams: strips {1:.0f} % of a side wide "
+                              "carry {0:.3g} % of the load; <level=poly2> helps",
                               100 * share, 100 * kEdgeBand),
                   share});
 }
@@ -100,8 +99,8 @@ void warn_of_bound(const ContactSettings& settings, const contact::Summary& summ
   if (summary.contact_area_fraction > least * (1 + kRoundingOfBound)) return;
   list.push_back(
       {"clamp",
-       fmt::format("clamp: the contact area equals P/p_sat, {:.3g} %, whatever the surface: almost "
-                   "every contact pixel has yielded (counted: {:.3g} %)",
+       fmt::format("The contact area equals P/p_sat, {:.3g} %, for any surface, as almost all "
+                   "contact has yielded (counted {:.3g} %)",
                    100 * least, 100 * summary.contact_area_fraction_pixels)});
 }
 
@@ -109,8 +108,8 @@ void warn_of_slope(const topography::Topography& surface, Warnings& list) {
   const double slope = metrology::rms_slope(surface);
   if (!(slope > kSteepSlope)) return;
   list.push_back({"steep",
-                  fmt::format("rms slope {:.2g}, above {}: small-slope elasticity fails; check the "
-                              "units; <despike=auto> for spikes; <lowpass> for noise",
+                  fmt::format("Small-slope elasticity fails at an rms slope of {:.2g} (above {}). "
+                              "Check units, spikes and noise",
                               slope, kSteepSlope),
                   slope});
 }
@@ -120,8 +119,8 @@ void warn_of_hardness(const ContactSettings& settings, const contact::Summary& s
   const double share = summary.max_pressure / settings.effective_modulus();
   if (settings.saturation_pressure || !(share > kHardestSolid)) return;
   list.push_back({"above-hardness",
-                  fmt::format("The contact pressure exceeds E*/{:.0f}: a metal would yield "
-                              "(<saturation_pressure>), rubber leave linear elasticity",
+                  fmt::format("The contact pressure exceeds E*/{:.0f}. A metal would yield "
+                              "(<saturation_pressure>); rubber would not stay linear",
                               1 / kHardestSolid),
                   share});
 }
@@ -133,7 +132,7 @@ void warn_of_patches(const contact::State& state, const contact::Summary& summar
                         static_cast<double>(summary.n_patches);
   if (!(pixels < kFewPixels)) return;
   list.push_back({"resolution",
-                  fmt::format("contact patches of {:.2g} pixels on average: area depends on "
+                  fmt::format("Patches of {:.2g} pixels on average: the area depends on the "
                               "resolution; <lowpass_scan> tells; <resolution_scan> tells",
                               pixels),
                   1 / pixels});
@@ -158,8 +157,8 @@ void warn_of_sizes(const topography::Topography& surface, const contact::State& 
   if (fast_size(nx) == nx && fast_size(ny) == ny) return;
   list.push_back(
       {"slow-size",
-       fmt::format("{} x {} pixels have the prime factor {}: transforms took several "
-                   "times as long as with {} x {} (<crop>)",
+       fmt::format("{} x {} pixels contain the prime factor {}. Transforms took several times as "
+                   "long as with {} x {} (<crop>)",
                    nx, ny,
                    std::max(spectral::largest_prime_factor(nx), spectral::largest_prime_factor(ny)),
                    fast_size(nx), fast_size(ny))});
@@ -169,10 +168,10 @@ void warn_of_sizes(const topography::Topography& surface, const contact::State& 
 std::string shortfall(const contact::State& state) {
   const Convergence& convergence = state.convergence;
   if (convergence.certificate <= convergence.tolerance) {
-    return fmt::format("gap of {} where solids touch instead of {} at most",
+    return fmt::format("the gap is {} where solids touch, and at most {} was wanted",
                        format_si(state.gap_error, "m"), format_si(state.gap_limit, "m"));
   }
-  return fmt::format("certificate {:.1e} instead of {:.0e}", convergence.certificate,
+  return fmt::format("the certificate is {:.1e}, and {:.0e} was wanted", convergence.certificate,
                      convergence.tolerance);
 }
 
@@ -193,13 +192,13 @@ Warnings of_contact(const topography::Topography& surface, const ContactSettings
   if (convergence.failed()) {
     list.push_back(
         {"not-converged",
-         fmt::format("NOT CONVERGED ({}), {}", name_of(convergence.status), shortfall(state)),
+         fmt::format("NOT CONVERGED ({}): {}", name_of(convergence.status), shortfall(state)),
          convergence.certificate});
   }
   if (!summary.area_correction_valid) {
     list.push_back({"area-correction",
-                    "contacts end along the pixel grid: the perimeter corrects nothing there, the "
-                    "contact area is the counted one"});
+                    "Contacts end along the pixel grid, where correcting by the perimeter is "
+                    "wrong. The counted area is used"});
   }
   warn_of_hardness(settings, summary, list);
   warn_of_bound(settings, summary, list);
@@ -210,7 +209,7 @@ Warnings of_contact(const topography::Topography& surface, const ContactSettings
 Warnings of_stiffness(const contact::Stiffness& stiffness) {
   if (stiffness.convergence.converged()) return {};
   return {{"stiffness",
-           fmt::format("contact stiffness: NOT CONVERGED, residual {:.1e}; do not use it",
+           fmt::format("The contact stiffness is NOT CONVERGED (residual {:.1e}). Do not use it",
                        stiffness.convergence.certificate),
            stiffness.convergence.certificate}};
 }

@@ -31,14 +31,14 @@ std::string low_pass_of(const topography::Topography& surface) {
 Warning clamp(const friction::Contact& contact, const friction::Estimate& estimate) {
   if (estimate.at_bound) {
     return {"clamp",
-            "Dry friction equals tau_y/p_sat: the area is at its bound and says nothing of the "
-            "surface; <area=pixels> counts it"};
+            "Dry friction equals tau_y/p_sat for any surface: contact is at its lower bound; "
+            "<area=pixels> counts pixels"};
   }
   const double excess =
       estimate.area_fraction * contact.saturation_pressure / contact.mean_pressure - 1;
   return {"clamp",
-          fmt::format("Dry friction equals tau_y/p_sat: almost every contact pixel has yielded. "
-                      "Partly loaded pixels at contact edges add {:.2g} %",
+          fmt::format("Dry friction equals tau_y/p_sat: almost all contact has yielded. Edges of "
+                      "contacts add {:.2g} %",
                       100 * excess),
           excess};
 }
@@ -46,8 +46,8 @@ Warning clamp(const friction::Contact& contact, const friction::Estimate& estima
 void warn_of_size(const char* which, double friction, Warnings& list) {
   if (!(friction > kLargestFriction)) return;
   list.push_back({"implausible-friction",
-                  fmt::format("{} friction of {:.3g}: above {} no solids slide; check the shear "
-                              "strength and the contact area",
+                  fmt::format("The {} friction coefficient is {:.3g}; no solids are known to slide "
+                              "above {}. Check the shear strength",
                               which, friction, kLargestFriction),
                   friction});
 }
@@ -60,14 +60,14 @@ Warnings of_film(const topography::Topography& surface, const deposition::Film& 
   if (!filter.empty() && film.mean_film > 0) {
     list.push_back(
         {"filtered",
-         fmt::format("oil on a filtered scan ({}): pockets that it smooths away hold oil, "
-                     "the wet share is larger without",
+         fmt::format("The filter {} removes small pockets that hold oil, so the wet share is too "
+                     "small",
                      filter)});
   }
   if (const double least = film.thickness.minCoeff(); film.flooded || least > 0) {
     list.push_back({"flood",
-                    fmt::format("a mean film of {} floods the surface: its highest point is under "
-                                "{} of oil, no contact is dry",
+                    fmt::format("A mean film of {} floods the surface. The highest point lies "
+                                "under {} of oil, so no contact is dry",
                                 format_si(film.mean_film, "m"), format_si(least, "m")),
                     least});
   }
@@ -75,15 +75,16 @@ Warnings of_film(const topography::Topography& surface, const deposition::Film& 
   if (film.n_droplets > 0 && film.n_droplets < n_pixels) {
     list.push_back(
         {"few-droplets",
-         fmt::format("{} droplets for {} pixels: the map shows single ones, not their mean; "
-                     "<model=limit> or a smaller <droplet_height>",
+         fmt::format("{} droplets on {} pixels show chance; use <model=limit> or a smaller "
+                     "<droplet_height>",
                      film.n_droplets, n_pixels),
          1 / static_cast<double>(film.n_droplets)});
   }
   if (film.lost_volume > 0) {
     const double share = film.lost_volume / film.dosed_volume;
     list.push_back({"oil-lost",
-                    fmt::format("{} of the liquid ran off the open edges", percent(share)), share});
+                    fmt::format("{} of the liquid ran off over the open edges", percent(share)),
+                    share});
   }
   return list;
 }
@@ -102,8 +103,8 @@ Warnings of_friction(const friction::Contact& contact, const friction::Estimate&
   }
   if (contact.lubricated_share > kWetShare && settings.boundary_strength() == 0) {
     list.push_back({"frictionless",
-                    fmt::format("wet contact counts as frictionless, and {} of the contact is wet; "
-                                "<boundary_shear_strength> gives it friction",
+                    fmt::format("{} of the contact is wet and counts as frictionless; "
+                                "<boundary_shear_strength> gives wet contact a friction",
                                 percent(contact.lubricated_share)),
                     contact.lubricated_share});
   }
@@ -114,8 +115,8 @@ Warnings of_friction(const friction::Contact& contact, const friction::Estimate&
 Warnings of_film_in_gap(double mean_film, double mean_gap) {
   if (!(mean_film > mean_gap)) return {};
   return {{"flooded",
-           fmt::format("a mean film of {} in a mean gap of {}: oil that does not fit flows away or "
-                       "carries load",
+           fmt::format("The mean film of {} does not fit into the mean gap of {}. The model "
+                       "ignores the surplus",
                        format_si(mean_film, "m"), format_si(mean_gap, "m")),
            mean_film / mean_gap}};
 }
@@ -124,8 +125,8 @@ Warnings of_pixel(double coarse_pixel, double coarse_share, double pixel, double
   const double change = std::abs(share - coarse_share) / std::max(share, coarse_share);
   if (!(change > kPixelChange)) return {};
   return {{"pixel",
-           fmt::format("the wet share depends on the pixel: {} with {}, {} with {}; a finer scan "
-                       "would change it again",
+           fmt::format("The wet share depends on the pixel size: {} with {}, {} with {}. A finer "
+                       "scan would change it",
                        percent(coarse_share), format_si(coarse_pixel, "m"), percent(share),
                        format_si(pixel, "m")),
            change}};
@@ -137,21 +138,21 @@ Warnings of_trapped(const TrappedRecord& trapped) {
   if (convergence.failed()) {
     list.push_back(
         {"trapped-oil",
-         fmt::format("trapped oil NOT CONVERGED ({}), certificate {:.1e} instead of "
-                     "{:.0e}",
+         fmt::format("Trapped oil is NOT CONVERGED ({}): the certificate is {:.1e}, and {:.0e} "
+                     "was wanted",
                      name_of(convergence.status), convergence.certificate, convergence.tolerance),
          convergence.certificate});
   } else if (!trapped.liquid.seals_settled) {
     list.push_back({"trapped-oil",
-                    fmt::format("the seals of pockets still weaken after {} solutions: their oil "
-                                "carries less than is said",
+                    fmt::format("The seals of pockets still weaken after {} solutions. The oil "
+                                "carries less load than reported",
                                 trapped.liquid.seal_rounds),
                     trapped.liquid.load_share});
   }
   if (const double leaked = trapped.liquid.leaked_fraction; leaked > kSpillOver) {
     list.push_back({"leaked",
-                    fmt::format("{} of the oil in pockets leaks out through their seals; where it "
-                                "goes is not followed",
+                    fmt::format("{} of the oil in pockets leaks through their seals. tabor does "
+                                "not follow where it goes",
                                 percent(leaked)),
                     leaked});
   }

@@ -35,8 +35,8 @@ std::optional<Warning> not_levelled(const topography::Topography& surface) {
   if (before <= after * (1 + kNegligibleTilt)) return std::nullopt;
   return Warning{
       "not-levelled",
-      fmt::format("no levelling: heights are used as read (Sq {}, {} without its plane); "
-                  "<level=plane> removes it",
+      fmt::format("The surface is not levelled (Sq {}, {} without its plane); <level=plane> "
+                  "removes the tilt",
                   format_si(before, "m"), format_si(after, "m")),
       after > 0 ? before / after : 0};
 }
@@ -69,11 +69,12 @@ Warnings of_spectra(const metrology::PowerSpectra& spectra) {
   look_at("C1D y", spectra.y.hurst);
   look_at("C2D", spectra.radial.hurst);
   if (strange.empty()) return {};
-  return {{"hurst",
-           fmt::format("Hurst exponent outside 0 to 1 ({}): noise, or filtered heights; "
-                       "<fit_min>, <fit_max> choose",
-                       strange),
-           farthest}};
+  return {
+      {"hurst",
+       fmt::format("The Hurst exponent is outside 0 to 1 ({}): noise or a filter; <fit_min> and "
+                   "<fit_max> help",
+                   strange),
+       farthest}};
 }
 
 }  // namespace tabor::cases

@@ -1,7 +1,6 @@
 #include "tabor/cli/app.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -20,7 +19,6 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/core/printable.hpp"
-#include "tabor/core/text.hpp"
 #include "tabor/core/version.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/io/files/protection.hpp"
@@ -31,24 +29,13 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-const Verb& find_verb(const std::string& name) {
-  std::vector<std::string> names;
-  for (const Verb& verb : verbs()) {
-    if (verb.name == name) return verb;
-    names.push_back(verb.name);
-  }
-  if (name.starts_with('-')) {
-    throw UsageError(
-        fmt::format("'{}' before the verb; options follow it: tabor VERB {}", name, name));
-  }
-  throw UsageError(fmt::format("unknown verb: got '{}'; expected {}{}; see 'tabor --help'", name,
-                               fmt::join(names, ", "), suggestion(name, names)));
+bool has_either(const Words& words, const std::string& flag, const std::string& short_flag) {
+  return std::any_of(words.begin(), words.end(),
+                     [&](const std::string& word) { return word == flag || word == short_flag; });
 }
 
-bool asks_for_help(const Words& words) {
-  return std::any_of(words.begin(), words.end(),
-                     [](const std::string& word) { return word == "--help" || word == "-h"; });
-}
+bool asks_for_help(const Words& words) { return has_either(words, kHelp, kHelpShort); }
+bool asks_for_version(const Words& words) { return has_either(words, kVersionFlag, kVersionShort); }
 
 // The words as a shell would need them, so that a result file's command can be pasted.
 std::string quoted(const Words& words) {
@@ -60,6 +47,8 @@ std::string quoted(const Words& words) {
   }
   return line;
 }
+
+std::string version_line() { return fmt::format("tabor {}\n", kVersion); }
 
 void check_written(std::ostream& out) {
   out.flush();
@@ -111,21 +100,25 @@ int run_verb(const Verb& verb, const Words& typed, Context& context, ProgressSty
 
 int dispatch(const Words& args, Context& context, ProgressStyle style) {
   if (args.empty()) {
-    context.err << overview();
-    return kUsage;
+    context.out << greeting();
+    check_written(context.out);
+    return kDone;
   }
   const Words words(args.begin() + 1, args.end());
-  if (args.front() == "--version") {
-    context.out << "tabor " << kVersion << '\n';
+  // The version and an explanation may be asked for alone, and behind a verb that exists.
+  // NOLINTNEXTLINE(bugprone-branch-clone)
+  if (asks_for_version({args.front()})) {
+    context.out << version_line();
   } else if (asks_to_explain({args.front()})) {
     return explain(args, context);
-  } else if (args.front() == "--help" || args.front() == "-h" ||
-             (args.front() == "help" && words.empty())) {
+  } else if (asks_for_help({args.front()}) || (args.front() == "help" && words.empty())) {
     context.out << overview();
   } else if (args.front() == "help") {
     context.out << help_of(find_verb(words.front()), words.size() > 1 ? words[1] : "");
   } else if (const Verb& verb = find_verb(args.front()); asks_for_help(words)) {
     context.out << help_of(verb, words.front());
+  } else if (asks_for_version(words)) {
+    context.out << version_line();
   } else if (asks_to_explain(words)) {
     return explain(words, context);
   } else {

@@ -28,7 +28,7 @@ int show(const std::vector<std::string>& files, Context& context) {
 Verb cite_verb() {
   return {.name = "cite",
           .arguments = "[RESULT.h5 ...]",
-          .summary = "BibTeX of the methods a result file used; without a file, of all methods",
+          .summary = "print BibTeX entries for the methods of a result, or for all methods",
           .examples = {"tabor cite", "tabor cite --json"},
           .declare = [](OptionSet& set) -> Action {
             const auto files = std::make_shared<std::vector<std::string>>();

@@ -130,7 +130,8 @@ void write(const Combination& c, CombineMode mode, const std::string& file,
   const auto methods = c.map.metadata.find("methods");
   const std::vector<std::string> keys =
       methods == c.map.metadata.end() ? std::vector<std::string>{} : split(methods->second, ' ');
-  results::write_combination(c, mode, head_of(context, "", keys), context.warnings, file);
+  results::write_combination({c.map, std::string(comparison::name_of(mode)), results::values_of(c)},
+                             head_of(context, "", keys), context.warnings, file);
 }
 
 int show(const Request& request, Context& context) {
@@ -162,21 +163,25 @@ int show(const Request& request, Context& context) {
 void declare_options(OptionSet& set, Request& request) {
   declare_scan(set, request.scan);
   set.group("Combination");
-  set.input("SECOND", "the scan after wear, or the other face", request.second);
+  set.input("SECOND", "scan after wear, or the other face", request.second);
   set.choice("--mode", {"wear", "difference", "composite"},
-             "A - B with volumes, A - B, or A + B turned over: two faces in contact [wear]",
+             "A - B with volumes (wear), A - B alone (difference), or two faces in contact, A + B "
+             "turned over (composite) [wear]",
              request.mode);
-  set.toggle("--no-register", "take the scans as they lie, corner on corner", request.no_register);
+  set.toggle("--no-register", "do not search a shift; put the scans corner on corner",
+             request.no_register);
   set.quantities("--shift", "DX,DY",
-                 "shift of B, not searched: what is at x in A is at x + DX in B; --shift=-3um,1um",
+                 "give the shift of B instead of searching it; a point at x in A is at x + DX in "
+                 "B, e.g. --shift=-3um,1um",
                  dimension::length, request.shift);
   set.choice("--match", {"none", "offset", "plane"},
-             "offset or tilt between the scans to fit where nothing changed, and to remove [plane]",
+             "offset or tilt between the scans to remove, fitted where nothing changed [plane]",
              request.match);
   set.number("--threshold", "SIGMAS",
-             "a change counts from here on, in deviations of the noise [4]", request.threshold);
+             "smallest change that counts, in standard deviations of the noise [4]",
+             request.threshold);
   set.group("Output");
-  set.output("OUT", "write the map as a scan file, see 'tabor formats'", scan_extensions(),
+  set.output("OUT", "save the map as a scan file, see 'tabor formats'", scan_extensions(),
              request.output);
 }
 
@@ -185,10 +190,10 @@ void declare_options(OptionSet& set, Request& request) {
 Verb combine_verb() {
   return {.name = "combine",
           .arguments = "SCAN SECOND [options]",
-          .summary = "register two scans and subtract them (wear volume), or add two faces",
+          .summary = "align two scans and subtract them (wear volume), or add two faces",
           .details =
-              "Both scans are read and treated alike. Rotation is not corrected: scans must be "
-              "equally oriented.",
+              "Both scans are read and treated in the same way. The scans must have the same "
+              "orientation, because rotation is not corrected.",
           .examples = {"tabor combine surfaces/edt_before.x3p surfaces/edt_before.x3p --level "
                        "plane --mode difference",
                        "tabor combine surfaces/edt_before.x3p surfaces/edt_after.x3p --level plane "

@@ -100,7 +100,6 @@ void CommandFiles::fills(const fs::path& folder) {
 OptionSet noting_files(const OptionSet& set, NamedFiles& named) {
   OptionSet noting;
   for (Option option : set.options()) {
-    noting.group(option.group);
     if (option.names != FileRole::none) {
       option.assign = [option, &named](const std::string& word) {
         option.assign(word);

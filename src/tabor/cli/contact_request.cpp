@@ -12,17 +12,26 @@
 #include "tabor/cli/parameter_options.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/material/library.hpp"
 
 namespace tabor::cli {
 
 namespace {
+
+std::vector<std::string> names_of_materials() {
+  std::vector<std::string> names;
+  for (const material::NamedSolid& solid : material::solids()) names.push_back(solid.name);
+  return names;
+}
 
 void declare_material(OptionSet& set, cases::CaseSettings& settings) {
   set.add(
       {.flag = kMaterial,
        .placeholder = "NAME",
        .help = "take E, NU and, where known, PS and TAU from the library ('tabor materials'); "
-               "options override them",
+               "options override single values",
+       .group = parameter_of(cases::contact_parameters(), "youngs_modulus").group,
+       .words = names_of_materials(),
        .is_base = true,
        .assign = [&settings](const std::string& name) { cases::take_material(name, settings); }});
 }
@@ -33,14 +42,13 @@ void declare_all(OptionSet& set, const Parameters<Settings>& parameters, Setting
                  std::initializer_list<std::string_view> left_out = {}) {
   for (const Parameter<Settings>& one : parameters) {
     if (std::find(left_out.begin(), left_out.end(), one.name) == left_out.end()) {
-      declare(set, one, settings);
+      declare(set, one, settings).may_name_file = one.name == "tool";
     }
   }
 }
 
 /// A contact has one place of the tool; friction is averaged over several.
 void declare_tool(OptionSet& set, cases::ToolSettings& settings, bool has_one_place) {
-  set.group("Tool");
   if (has_one_place) return declare_all(set, cases::tool_parameters(), settings, {"tool_places"});
   declare_all(set, cases::tool_parameters(), settings);
 }
@@ -48,7 +56,6 @@ void declare_tool(OptionSet& set, cases::ToolSettings& settings, bool has_one_pl
 }  // namespace
 
 void declare_contact(OptionSet& set, cases::CaseSettings& settings, Controls controls) {
-  set.group("Contact");
   Option& pressure =
       declare(set, parameter_of(cases::case_parameters(), "mean_pressure"), settings);
   if (controls == Controls::all) {
@@ -64,7 +71,6 @@ void declare_contact(OptionSet& set, cases::CaseSettings& settings, Controls con
 }
 
 void declare_film(OptionSet& set, cases::FilmSettings& settings, bool is_needed) {
-  set.group("Lubricant");
   const char* const density = "lubricant_density";
   Option& option = declare(set, parameter_of(cases::film_parameters(), density), settings);
   option.required = is_needed;
@@ -81,12 +87,10 @@ void declare_trapped(OptionSet& set, cases::CaseSettings& settings) {
 }
 
 void declare_fluid(OptionSet& set, cases::FluidSettings& settings) {
-  set.group("Fluid film");
   declare_all(set, cases::fluid_parameters(), settings);
 }
 
 void declare_friction(OptionSet& set, cases::FrictionSettings& settings) {
-  set.group("Friction");
   declare_all(set, cases::friction_parameters(), settings, {"dry_below"});  // among those of oil
 }
 
@@ -94,10 +98,10 @@ void declare_fields(OptionSet& set, FieldsRequest& request) {
   declare_output(set, request.output);
   constexpr const char* file = "--output";
   set.choice("--fields", results::kFields,
-             "maps in OUT: contact has heights, pressure and film [all]", request.options.fields)
+             "maps to save in OUT; contact means heights, pressure and film [all]",
+             request.options.fields)
       .only_with = file;
-  set.toggle("--double", "keep maps in OUT in double precision", request.options.doubles)
-      .only_with = file;
+  set.toggle("--double", "save maps in double precision", request.options.doubles).only_with = file;
   declare_csv(set, "one row per state with the keys of --json", request.csv);
 }
 
@@ -188,7 +192,7 @@ int until_interrupted(Context& context, const std::function<void()>& make_states
   try {
     make_states();
   } catch (const Interrupted&) {
-    context.warn(fmt::format("interrupted: only the {} that were finished are shown", what));
+    context.warn(fmt::format("Interrupted. Only the finished {} are shown", what));
     return kInterrupted;
   }
   return kDone;

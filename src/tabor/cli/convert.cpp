@@ -133,18 +133,18 @@ void declare_maps(OptionSet& set, Request& request) {
   constexpr const char* kField = "--field";
   set.group("Maps of a result");
   set.text(kField, "NAME|all",
-           "take this map of a result of contact, lubricate, friction, sweep or ehl point: height, "
-           "pressure, gap, film_thickness, displacement, contact (1 where solids touch), "
-           "fluid_pressure, ...; .vti .gwy .csv hold any number, .xyz .npy .txt one",
+           "write this map of a result: height, pressure, gap, film_thickness, displacement, "
+           "contact (1 where solids touch), fluid_pressure, ... (.vti .gwy .csv hold any number "
+           "of maps, .xyz .npy .txt one)",
            request.field);
   set.add({.flag = "--state",
            .placeholder = "N|all",
-           .help = "of which state: the number in the result, from 0 [0]",
+           .help = "number of the state in the result, from 0 [0]",
            .only_with = kField,
            .assign = [&choice = request.choice](const std::string& text) {
              choice.state = parse_state(text);
            }});
-  set.count("--scan", "of which scan of a study, from 0 [the only one]", request.scan_number)
+  set.count("--scan", "number of the scan in a study, from 0 [the only one]", request.scan_number)
       .only_with = kField;
 }
 
@@ -177,7 +177,7 @@ Verb convert_verb() {
             declare_scan(set, request->scan);
             declare_maps(set, *request);
             set.group("Output");
-            Option& out = set.positional("OUT", "the file to write", request->output);
+            Option& out = set.positional("OUT", "file to write", request->output);
             out.names = FileRole::output;
             out.extensions = all_extensions();
             return [request](Context& context) { return convert(*request, context); };

@@ -27,7 +27,8 @@ constexpr const char* kFile = "tabor.toml";
 /// False for options that say what one command reads, writes or prints.
 bool may_have_default(const Option& option) {
   return !option.is_positional() && option.names == FileRole::none && option.flag != kFlag &&
-         option.flag != "--json" && option.flag != kExplain;
+         option.flag != "--json" && option.flag != kExplain && option.flag != kHelp &&
+         option.flag != kVersionFlag;
 }
 
 /// "--shear-strength" as a key of the file.
@@ -72,8 +73,10 @@ std::string file_for(const Words& words) {
 }
 
 bool is_typed(const Option& option, const Words& words) {
-  return typed(option.flag, words) ||
-         (!option.short_flag.empty() && typed(option.short_flag, words));
+  const auto is_there = [&](const std::string& flag) {
+    return !flag.empty() && typed(flag, words).has_value();
+  };
+  return is_there(option.flag) || is_there(option.short_flag) || is_there(option.also);
 }
 
 bool is_typed(const std::string& flag, const std::vector<Option>& options, const Words& words) {
@@ -120,8 +123,7 @@ class Trial {
   Action action_;  // holds the variables
 };
 
-/// The keys of one verb's options, the last word of each having been said: a key in the table of
-/// the verb replaces the same one of all verbs.
+/// Defaults for one verb. A key in the verb's own table overrides the same key at top level.
 std::map<std::string, std::string> keys_for(const std::string& verb, const io::Config& config) {
   std::map<std::string, std::string> keys;  // by option
   for (const std::string& path : config.keys()) {
@@ -136,8 +138,8 @@ void check_keys(const io::Config& config) {
     config.reject_unknown(known_keys());
   } catch (const InputError& error) {
     throw InputError(
-        fmt::format("{}; keys are options of 'tabor options' without dashes, files "
-                    "excepted; {} none ignores the file",
+        fmt::format("{}. Keys are the options of 'tabor options' without dashes, except those "
+                    "that name files. {} none ignores the file",
                     error.what(), kFlag));
   }
 }
@@ -147,7 +149,9 @@ void check_keys(const io::Config& config) {
 Words Defaults::words() const {
   Words all;
   all.reserve(used.size());
-  for (const auto& [flag, value] : used) all.push_back(value.empty() ? flag : flag + "=" + value);
+  for (const auto& [flag, value] : used) {
+    all.push_back(value.empty() ? flag : fmt::format("{}={}", flag, value));
+  }
   return all;
 }
 

@@ -33,12 +33,17 @@ struct Request {
   CsvRequest csv;
 };
 
-const ehl::Program& find_program(const std::string& name) {
+std::vector<std::string> names_of_programs() {
   std::vector<std::string> names;
+  for (const ehl::Program& program : ehl::programs()) names.push_back(program.name);
+  return names;
+}
+
+const ehl::Program& find_program(const std::string& name) {
   for (const ehl::Program& program : ehl::programs()) {
     if (program.name == name) return program;
-    names.push_back(program.name);
   }
+  const std::vector<std::string> names = names_of_programs();
   throw UsageError(fmt::format("ehl: got program '{}'; expected {}; see 'tabor ehl --help'{}", name,
                                fmt::join(names, ", "), suggestion(name, names)));
 }
@@ -97,15 +102,16 @@ std::vector<SweepAxis> take_axes(const std::vector<SweepAxis>& axes, io::Config&
 
 void check_combination(const Request& request, const std::vector<SweepAxis>& swept) {
   if (request.study && (!swept.empty() || request.output)) {
-    throw UsageError("--study varies one thing by itself: no range in --set and no -o beside it");
+    throw UsageError(
+        "--study allows neither a range in --set nor -o, because it chooses the "
+        "values itself");
   }
   if ((request.run.shard || request.run.retry) && (swept.empty() || !request.output)) {
     throw UsageError(
-        "--shard and --retry work on the cases that a sweep keeps: give a range or a list in --set "
-        "and -o OUT.h5");
+        "--shard and --retry need a sweep; give a range or a list in --set, and -o OUT.h5");
   }
   if (request.run.shard && request.csv.is_asked()) {
-    throw UsageError("--csv has all cases: give it to the run without --shard");
+    throw UsageError("--csv writes all cases; give it to the run without --shard");
   }
 }
 
@@ -137,41 +143,43 @@ std::string details() {
     text += fmt::format(" {} - {}.", program.name, program.summary);
   }
   return text +
-         " 'tabor ehl PROGRAM --help' lists the keys of its cases; docs/ehl.md, docs/ehl_line.md "
-         "and "
-         "docs/ehl_point.md explain what they do. A sweep with -o keeps its finished cases; if "
-         "it is stopped, the same command continues it. With --shard it leaves its part beside "
-         "OUT.h5, which the same command without --shard writes.";
+         " 'tabor ehl PROGRAM --help' lists the keys of a case. docs/ehl.md, docs/ehl_line.md and "
+         "docs/ehl_point.md explain them. A sweep with -o saves its finished cases, and the same "
+         "command continues a stopped sweep. With --shard it saves its part beside OUT.h5; the "
+         "same command without --shard then writes OUT.h5.";
 }
 
 void declare_options(OptionSet& set, Request& request) {
   set.group("Case");
-  set.positional("PROGRAM", "impact, squeeze, line or point", request.program);
-  set.input("CASE.toml", "the case: bodies, lubricant, motion, grid", request.file).unless =
+  set.positional("PROGRAM", "impact, squeeze, line or point", request.program).words =
+      names_of_programs();
+  set.input("CASE.toml", "case file with bodies, lubricant, motion and grid", request.file).unless =
       kTemplate;
   declare_template(set, "a case file to start from, with every key of the program",
                    request.wants_template);
   Option& axis = set.add(
       {.flag = "--set",
        .placeholder = "KEY=VALUE",
-       .help = "change one value of the case; a range as in ball.speed=0.05m/s..1m/s:log:5 or a "
-               "list as in grid.nodes=65,97,145 computes all of its values (and all combinations "
-               "of several)",
+       .help = "change a value of the case; a range such as ball.speed=0.05m/s..1m/s:log:5 or a "
+               "list such as grid.nodes=65,97,145 computes every value, and several options every "
+               "combination",
        .assign = [&](const std::string& text) { request.axes.push_back(parse_axis(text)); }});
   axis.repeatable = true;
   set.add({.flag = "--domain",
            .placeholder = "auto",
-           .help = "a domain, and a grid unless the case has one, large enough for the film of a "
-                   "point contact; the "
-                   "same as --set grid.domain=auto",
+           .help = "choose a domain, and a grid unless the case has one, large enough for the film "
+                   "of a point contact; the same as --set grid.domain=auto",
+           .words = {"auto"},
            .assign = [&](const std::string& text) {
              if (text != "auto") throw UsageError("--domain: got '" + text + "'; expected auto");
              request.axes.push_back(parse_axis("grid.domain=auto"));
            }});
   set.text("--study", "grid|domain|time-step",
-           "how far the result depends on the grid, the domain or the time step", request.study);
+           "show how much the result depends on the grid, the domain or the time step",
+           request.study)
+      .words = {"grid", "domain", "time-step"};
   set.group("Output");
-  set.output("OUT.h5", "keep histories, profiles and maps, or the numbers of a sweep",
+  set.output("OUT.h5", "save histories, profiles and maps, or the numbers of a sweep",
              hdf5_extensions(), request.output);
   declare_csv(set, "one row per case with the keys of --json", request.csv);
   set.group("Many cases");
@@ -184,10 +192,9 @@ std::vector<HelpTable> key_tables() {
   for (const ehl::Program& program : ehl::programs()) {
     HelpTable table{.word = program.name,
                     .title = fmt::format("Keys of a case of 'tabor ehl {}'", program.name),
-                    .headings = {"key", "unit", "default", "meaning"},
-                    .rows = {}};
+                    .keys = {}};
     for (const ParameterHead& key : program.keys) {
-      table.rows.push_back({key.name, key.shown_unit(), key.when_absent(), key.meaning()});
+      table.keys.push_back({key.name, key.shown_unit(), key.when_absent(), key.meaning()});
     }
     tables.push_back(std::move(table));
   }
@@ -206,7 +213,9 @@ constexpr const char* kStribeckCurve =
 Verb ehl_verb() {
   return {.name = "ehl",
           .arguments = "PROGRAM CASE.toml [options]",
-          .summary = "films under load: impact, squeeze and slide, line and point contacts",
+          .summary =
+              "compute films under load for impact, squeeze and slide, line and point "
+              "contacts",
           .details = details(),
           .examples = {"tabor ehl impact examples/09_ball_drop/safa_gohar.toml -o impact.h5",
                        kRestitutionMap, "tabor ehl line examples/11_hdpe_glycerol/hdpe.toml",

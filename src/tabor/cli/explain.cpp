@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "tabor/cli/help.hpp"
+#include "tabor/cli/layout.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"

@@ -139,11 +139,12 @@ void say_what_was_found(const study::EhlFound& found, const std::string& folder,
   }
   if (context.quiet) return;
   if (found.n_kept > 0) {
-    say(fmt::format("{} of {} cases were done, kept in {}", found.n_kept, found.n_cases, folder),
+    say(fmt::format("{} of {} finished cases were found in {}", found.n_kept, found.n_cases,
+                    folder),
         context);
   }
   if (found.n_unused > 0) {
-    say(fmt::format("{} cases in {} are not used: of another case file, sweep or version",
+    say(fmt::format("{} cases in {} belong to another case file, sweep or version and are not used",
                     found.n_unused, folder),
         context);
   }
@@ -180,7 +181,7 @@ int end_early(const FilmSweep& sweep, const study::EhlOutcome& outcome, Context&
     if (outcome.n_kept == 0) throw;
     return fail(
         context,
-        fmt::format("interrupted; {} of {} cases are kept in {}; the same command continues",
+        fmt::format("interrupted; the same command continues with {} of {} finished cases in {}",
                     outcome.n_kept, outcome.results.size(), sweep.folder().string()),
         kInterrupted);
   }

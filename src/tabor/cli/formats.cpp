@@ -48,14 +48,13 @@ int list_formats(Context& context) {
 }  // namespace
 
 Verb formats_verb() {
-  return {.name = "formats",
-          .arguments = "[options]",
-          .summary = "list the scan formats that can be read and written",
-          .details =
-              "Formats are told apart by their content; the extension only matters for "
-              "writing.",
-          .examples = {"tabor formats", "tabor formats --json"},
-          .declare = [](OptionSet&) { return list_formats; }};
+  return {
+      .name = "formats",
+      .arguments = "[options]",
+      .summary = "list the scan formats that can be read and written",
+      .details = "tabor recognises a file by its content. The extension matters only for writing.",
+      .examples = {"tabor formats", "tabor formats --json"},
+      .declare = [](OptionSet&) { return list_formats; }};
 }
 
 }  // namespace tabor::cli

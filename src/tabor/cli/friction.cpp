@@ -315,16 +315,15 @@ Verb friction_verb() {
       .arguments =
           "SCAN --pressure P --youngs-modulus E --poisson-ratio NU --density D "
           "--shear-strength TAU [options]",
-      .summary = "dry and lubricated Bowden-Tabor friction coefficients",
+      .summary = "compute dry and lubricated friction coefficients (Bowden-Tabor)",
       .details =
-          "Friction is the real contact area times the shear strength over the pressure; "
-          "contact that stands in liquid carries no shear, or that of --boundary-shear-strength. "
-          "'--density 0g/m^2' asks for dry friction alone. One sentence per pressure says from "
-          "which density the pockets under the contacts are full and above which the oil level "
-          "reaches the contacts. With --tool a rough tool presses in place of the flat. With "
-          "--trapped oil in closed pockets of the gap is squeezed and carries part of the load. "
-          "With --fluid reynolds the deposited oil flows while the flat slides: it carries part of "
-          "the load and adds viscous shear.",
+          "Friction is the real contact area times the shear strength, over the pressure. Wet "
+          "contact has no shear strength unless you give --boundary-shear-strength. '--density "
+          "0g/m^2' computes dry friction alone. One sentence per pressure says which density "
+          "fills the pockets under the contacts and above which density the oil reaches the "
+          "contacts. With --tool a rough tool replaces the flat. With --trapped the oil in closed "
+          "pockets of the gap carries part of the load. With --fluid reynolds the oil flows while "
+          "the flat slides, carries part of the load and adds viscous shear.",
       .examples =
           {"tabor friction surfaces/edt_before.x3p --level plane --pressure 2MPa,7MPa "
            "--material aluminium-6016 --density 0.45g/m^2,0.9g/m^2",
@@ -352,8 +351,8 @@ Verb friction_verb() {
         declare_fluid(set, settings.fluid);
         declare_friction(set, settings.friction);
         set.toggle("--resolution-scan",
-                   "repeat with pixels twice and four times as large and behind low-passes: how "
-                   "far wet share and friction depend on the pixel",
+                   "repeat with pixels twice and four times as large and with low-passes, to show "
+                   "how wet share and friction depend on the pixel",
                    request->resolution_scan);
         set.toggle("--density-curve", "print friction against the density of the oil",
                    request->density_curve);

@@ -201,8 +201,8 @@ void declare_options(OptionSet& set, Request& request) {
   set.group("Table");
   set.input("RESULTS", "folder of 'tabor sweep', or a file of 'tabor friction -o'",
             request.results);
-  set.choice("--for", forming::kPrograms, "the program whose input is written", request.program)
-      .required = true;
+  set.choice("--for", forming::kPrograms, "forming code to write for", request.program).required =
+      true;
   set.add({.flag = "--units",
            .placeholder = "L,T,M",
            .help = "units of length, time and mass (or force) of the deck, e.g. mm,s,t for MPa",
@@ -210,9 +210,9 @@ void declare_options(OptionSet& set, Request& request) {
            .assign = [&request](const std::string& words) {
              request.units = forming::unit_system(words);
            }});
-  set.text("--group", "NAME", "group of scans, where the study has several", request.choice.group);
+  set.text("--group", "NAME", "group of scans, if the study has several", request.choice.group);
   set.quantities("--density", "D[,D2,...]",
-                 "lubricant densities, of those computed [all]; 0g/m^2 is dry friction",
+                 "computed lubricant densities to write; 0g/m^2 is dry friction [all]",
                  dimension::areal_density, request.choice.lubricant_densities);
   set.add({.flag = "--keep",
            .placeholder = "CODE[,CODE2,...]",
@@ -222,8 +222,8 @@ void declare_options(OptionSet& set, Request& request) {
            }});
   set.add({.flag = "--id",
            .placeholder = "N",
-           .help = "first number of what is numbered: tables and curves (lsdyna), materials "
-                   "(ansys), friction cards (openradioss) [1]",
+           .help = "first number of tables and curves (lsdyna), materials (ansys) or friction "
+                   "cards (openradioss) [1]",
            .assign = [&request](const std::string& word) { request.first_id = id_of(word); }});
   set.group("Output");
   set.output("FILE", "write the deck to a file [the terminal]", all_extensions(), request.output);
@@ -234,15 +234,14 @@ void declare_options(OptionSet& set, Request& request) {
 Verb table_verb() {
   return {.name = "table",
           .arguments = "RESULTS --for PROGRAM --units L,T,M [options]",
-          .summary = "friction over pressure, oil density and speed, as input of a forming code",
+          .summary = "write friction as input for a forming code",
           .details =
-              "Means over the scans of a group, of a study or of one scan: friction against mean "
-              "pressure, areal density of the lubricant and, where the oil flows, sliding speed. "
-              "Numbers under a warning that they cannot be trusted (not-converged, flood, "
-              "frictionless, implausible-friction, those of a film that flows) are left out and "
-              "named. A deck has "
-              "no units: --units says which its own are, such as mm,s,t (MPa), m,s,kg (Pa), "
-              "mm,ms,kg (GPa) or in,s,lbf (psi). docs/friction_tables.md shows each format.",
+              "The table gives friction against mean pressure, areal density of the lubricant "
+              "and, for oil that flows, sliding speed, as means over the scans of a group. tabor "
+              "leaves out and names numbers with a serious warning (not-converged, flood, "
+              "frictionless, implausible-friction, those of flowing oil). A deck carries no "
+              "units, so give them with --units, such as mm,s,t (MPa), m,s,kg (Pa), mm,ms,kg "
+              "(GPa) or in,s,lbf (psi). docs/friction_tables.md shows each format.",
           .examples = {"tabor table study_results --for abaqus --units mm,s,t --group before",
                        "tabor table study_results --for lsdyna --units mm,s,t --group before "
                        "--density 0.45g/m^2 -o friction.k"},

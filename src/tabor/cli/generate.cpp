@@ -94,11 +94,8 @@ void declare_settings(OptionSet& set, bool of_rough, synthesis::Request& recipe)
 
 void declare_options(OptionSet& set, Request& request) {
   set.group("Surface");
-  std::vector<std::string> kinds = synthesis::recipe_kinds();
-  const std::string last = kinds.back();
-  kinds.pop_back();
-  set.positional("KIND", fmt::format("{} or {}", fmt::join(kinds, ", "), last),
-                 request.recipe.kind);
+  const std::vector<std::string> kinds = synthesis::recipe_kinds();
+  set.positional("KIND", one_of(kinds), request.recipe.kind).words = kinds;
   set.output("OUT", "the file to write; its extension is the format", scan_extensions(),
              request.output)
       .required = true;

@@ -1,17 +1,23 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tabor/cli/verb.hpp"
 
-// Makes the help texts and docs/options.md from the declared options of the verbs.
+// Prints the help texts for a terminal from the description of the verbs (reference.hpp).
 namespace tabor::cli {
 
+/// A command that a newcomer tries in the first hour, with what it shows.
+struct FirstStep {
+  std::string command;  ///< "tabor info SCAN"
+  std::string purpose;
+};
+const std::vector<FirstStep>& first_steps();
+
+std::string greeting();  ///< `tabor` alone
 std::string overview();  ///< `tabor --help`
 /// Returns the text of `tabor VERB --help`, with what the verb adds for a word after it.
 std::string help_of(const Verb& verb, const std::string& word = "");
-/// Breaks a text at blanks so that it fits the screen; all lines but the first are indented.
-std::string wrapped(const std::string& text, std::size_t indent);
-std::string options_markdown();  ///< docs/options.md, from the same declarations
 
 }  // namespace tabor::cli

@@ -65,10 +65,10 @@ int show(const Request& request, Context& context) {
 Verb lubricate_verb() {
   return {.name = "lubricate",
           .arguments = "SCAN --density D [options]",
-          .summary = "where the lubricant collects: droplets, their limit, or bottom fill",
+          .summary = "compute where the lubricant collects",
           .details =
-              "The mean film is the areal density divided by the density of the oil. Several "
-              "densities are reached in one run.",
+              "The mean film thickness is the areal density divided by the density of the oil. "
+              "One run computes several densities.",
           .examples = {"tabor lubricate surfaces/edt_before.x3p --level plane --density "
                        "0.45g/m^2,0.9g/m^2",
                        "tabor lubricate surfaces/edt_before.x3p --level plane --density 0.9g/m^2 "

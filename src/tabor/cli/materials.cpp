@@ -68,11 +68,12 @@ int list_materials(Context& context) {
 Verb materials_verb() {
   return {.name = "materials",
           .arguments = "[options]",
-          .summary = "list the solids that --material knows, with their sources",
+          .summary = "list the materials of --material, with their sources",
           .details =
-              "Young's modulus E and Poisson's ratio nu; where one number serves for the name, the "
-              "saturation pressure p_sat and the shear strength tau_y of dry contacts. Values of "
-              "your own sheet are better: every option overrides the library.",
+              "The table gives Young's modulus E and Poisson's ratio nu. It gives the saturation "
+              "pressure p_sat and the shear strength tau_y of dry contacts where one number "
+              "describes the material. Values of your own sheet are better, and every option "
+              "overrides the library.",
           .examples = {"tabor materials", "tabor materials --json"},
           .declare = [](OptionSet&) { return list_materials; }};
 }

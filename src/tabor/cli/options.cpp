@@ -37,7 +37,8 @@ std::string chosen_word(const std::string& flag, const std::string& word,
 }
 
 Option& OptionSet::add(Option option) {
-  option.group = group_;
+  if (option.group.empty()) option.group = group_;
+  group_ = option.group;
   return options_.emplace_back(std::move(option));
 }
 
@@ -98,6 +99,7 @@ Option& OptionSet::choice(const std::string& flag, const std::vector<std::string
   return add({.flag = flag,
               .placeholder = fmt::format("{}", fmt::join(words, "|")),
               .help = help,
+              .words = words,
               .assign = assign});
 }
 

@@ -23,28 +23,36 @@ enum class FileRole {
 struct Option {
   std::string flag;              ///< "--pressure", or "SCAN" for a positional argument
   std::string short_flag = {};   ///< "-o", mostly ""
+  std::string also = {};         ///< "--poissons-ratio": understood too, and not listed
   std::string placeholder = {};  ///< "P[,P2,...]", "" for a switch
   std::string help = {};
-  std::string group = {};
+  std::string group = {};               ///< heading in help; "": that of the option before
+  std::vector<std::string> words = {};  ///< values to choose from, or samples of them
   bool required = false;
   std::string unless = {};     ///< "--material": neither required nor a default where this is given
   std::string only_with = {};  ///< "--lowpass-scan": means something only where this is given
   bool is_base = false;        ///< assigned before all others, which override it
   bool repeatable = false;
   FileRole names = FileRole::none;
-  std::string if_bare = {};  ///< value where no word with one of its extensions follows; "": none
+  bool may_name_file = false;  ///< a word that names a file or something else, as of --tool
+  std::string if_bare = {};    ///< value where no word with one of its extensions follows; "": none
   std::vector<std::string> extensions = {};             ///< of an output: ".h5"; empty: not checked
   std::function<void(const std::string&)> assign = {};  ///< throws InputError or UsageError
 
   bool is_positional() const { return flag.front() != '-'; }
   bool is_switch() const { return !is_positional() && placeholder.empty(); }
+  bool is_path() const { return names != FileRole::none || may_name_file; }
+  /// True for the flag, its short form and its other spelling.
+  bool is_called(const std::string& word) const {
+    return word == flag || (!word.empty() && (word == short_flag || word == also));
+  }
 };
 
 /// The options of one verb. Every declaration binds a variable, whose value at that moment is the
 /// default; parse() assigns the given values in the order of the command line.
 class OptionSet {
  public:
-  /// Sets the heading of the options declared from here on.
+  /// Sets the heading of the options declared from here on, up to one that has its own.
   void group(const std::string& title) { group_ = title; }
 
   Option& add(Option option);

@@ -1,4 +1,4 @@
-#include "tabor/cli/help.hpp"
+#include "tabor/cli/markdown.hpp"
 #include "tabor/cli/result.hpp"
 #include "tabor/cli/verbs.hpp"
 
@@ -17,7 +17,7 @@ int show(Context& context) {
 Verb options_verb() {
   return {.name = "options",
           .arguments = "",
-          .summary = "print the reference of all options as Markdown (docs/options.md)",
+          .summary = "print all options as Markdown (docs/options.md)",
           .examples = {"tabor options", "tabor options --json"},
           .declare = [](OptionSet&) -> Action { return show; }};
 }

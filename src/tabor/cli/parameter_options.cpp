@@ -63,7 +63,10 @@ Option option_of(const ParameterHead& parameter, bool has_default) {
                 .placeholder = parameter.words.empty()
                                    ? parameter.placeholder
                                    : fmt::format("{}", fmt::join(parameter.words, "|")),
-                .help = help_of(parameter, has_default)};
+                .help = help_of(parameter, has_default),
+                .group = parameter.group,
+                .words = parameter.words};
+  if (parameter.option_by_name() != option.flag) option.also = parameter.option_by_name();
   option.required = parameter.needed != Needed::no;
   if (parameter.is_of_material) option.unless = kMaterial;
   return option;

@@ -264,9 +264,9 @@ void declare_parameters(OptionSet& set, Request& request) {
            .help = "height, hybrid, function, volume, spatial, feature, spectral, profile, all "
                    "[height,hybrid,function in a table; all in --json, --csv and -o]",
            .assign = [&request](const std::string& text) { request.sets = sets_from(text); }});
-  set.choice("--stencil", {"forward", "seven-point"}, "differences of Sdq [forward]",
+  set.choice("--stencil", {"forward", "seven-point"}, "finite differences for Sdq [forward]",
              request.stencil);
-  set.choice("--triangles", {"two", "four"}, "triangles of each cell for Sdr [two, both ways]",
+  set.choice("--triangles", {"two", "four"}, "triangles per cell for Sdr [two, in both ways]",
              request.triangles);
   set.add({.flag = "--material-ratios",
            .placeholder = "P,Q",
@@ -274,7 +274,9 @@ void declare_parameters(OptionSet& set, Request& request) {
            .assign = [&options](const std::string& text) { assign_ratios(options, text); }});
   set.quantity("--smr-height", "C", "height of Smr(c) above the mean [0um]", dimension::length,
                options.smr_height);
-  set.number("--acf-threshold", "S", "where the autocorrelation ends, for Sal and Str [0.2]",
+  set.number("--acf-threshold", "S",
+             "value at which the autocorrelation counts as decayed, for "
+             "Sal and Str [0.2]",
              options.acf_threshold);
   set.number("--pruning", "SHARE", "Wolf pruning of hills and dales, share of Sz [0.05]",
              options.pruning);
@@ -283,12 +285,13 @@ void declare_parameters(OptionSet& set, Request& request) {
 void declare_profiles(OptionSet& set, Request& request) {
   set.group("Profiles along x and y");
   set.choice("--profile-standard", {"iso21920", "iso4287"},
-             "over the evaluation length, or means of sampling lengths [iso21920]",
+             "parameters over the evaluation length (ISO 21920) or means of sampling lengths (ISO "
+             "4287) [iso21920]",
              request.profile_standard);
   set.choice("--profile-kind", {"roughness", "primary", "waviness"},
              "R, P or W parameters [roughness]", request.profile_kind);
   set.choice("--profile-ends", {"regression", "trim"},
-             "filter up to the ends, or leave lc/2 out at either end [regression]",
+             "filter up to the ends, or cut lc/2 off at both ends [regression]",
              request.profile_ends);
   set.quantity("--profile-cutoff", "LC", "cut-off lc of the filter [setting class of ISO 21920-3]",
                dimension::length, request.options.profile.cutoff);
@@ -312,11 +315,11 @@ Verb params_verb() {
   return {
       .name = "params",
       .arguments = "SCAN [SCAN...] [options]",
-      .summary = "roughness parameters (ISO 25178-2, ISO 21920-2), each with its definition",
+      .summary = "compute roughness parameters (ISO 25178-2, ISO 21920-2) with definitions",
       .details =
-          "Several scans stand side by side, each treated in the same way. A scan that cannot "
-          "be read is named, the others are measured all the same, and the exit code is 3. With "
-          "--group the CSV has a row per group and parameter: its mean, then the scans.",
+          "Several scans stand side by side, treated in the same way. If a scan cannot be read, "
+          "tabor names it, measures the others and ends with exit code 3. With --group the CSV "
+          "has a row per group and parameter, with its mean and then the scans.",
       .examples = {"tabor params surfaces/edt_before.x3p --level plane",
                    "tabor params surfaces/edt_before.x3p --level plane --lowpass gauss:8um "
                    "--set height,function --json",

@@ -75,11 +75,9 @@ class WordSorter {
 
   const Option& find(const std::string& flag, const std::string& whole) const {
     for (const Option& option : set_.options()) {
-      if (!option.is_positional() && (option.flag == flag || option.short_flag == flag)) {
-        return option;
-      }
+      if (!option.is_positional() && option.is_called(flag)) return option;
     }
-    std::vector<std::string> flags = {"--help"};
+    std::vector<std::string> flags;
     for (const Option& option : set_.options()) {
       if (!option.is_positional()) flags.push_back(option.flag);
     }

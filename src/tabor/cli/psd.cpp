@@ -87,7 +87,7 @@ void warn_of(const std::vector<Measured>& all, Context& context) {
   context.warn(results::findings_of(cases));
   for (const Measured& one : all) {
     if (!one.record.spectra) {
-      context.warn("no power spectra: they need every height (--fill harmonic)");
+      context.warn("Power spectra need every height. Fill holes with --fill harmonic");
     }
   }
 }
@@ -172,18 +172,17 @@ void declare_options(OptionSet& set, Request& request) {
   set.choice("--psd-convention", {"jacobs", "persson", "gwyddion"},
              "normalisation [jacobs: Jacobs, Junge & Pastewka 2017]", request.convention);
   set.choice("--window", {"none", "hann"},
-             "taper against edges that do not match [none where they do, else hann]",
-             request.window);
+             "taper for edges that do not match [none if they match, else hann]", request.window);
   set.quantity("--fit-min", "Q",
                "smallest wavevector of the Hurst fit, 2 pi/wavelength, e.g. 0.1/um",
                dimension::wavevector, request.fit_min);
   set.quantity("--fit-max", "Q", "largest wavevector of the Hurst fit", dimension::wavevector,
                request.fit_max);
   set.quantity("--tip-radius", "R",
-               "of a probing tip: says at which wavelengths it shows, e.g. 2um", dimension::length,
-               request.tip_radius);
-  set.toggle("--acf", "also the autocorrelation, Sal and Str (holes may stay)", request.acf);
-  set.toggle("--hdf", "also mean square height differences over the lag (holes may stay)",
+               "radius of the probing tip, to show which wavelengths it changes, e.g. 2um",
+               dimension::length, request.tip_radius);
+  set.toggle("--acf", "add the autocorrelation, Sal and Str (allows holes)", request.acf);
+  set.toggle("--hdf", "add mean square height differences over the lag (allows holes)",
              request.hdf);
   set.group("Output");
   std::vector<std::string> extensions = hdf5_extensions();
@@ -198,10 +197,10 @@ void declare_options(OptionSet& set, Request& request) {
 Verb psd_verb() {
   return {.name = "psd",
           .arguments = "SCAN [SCAN...] [options]",
-          .summary = "power spectra along x, along y and radial, with fitted Hurst exponents",
+          .summary = "compute power spectra along x, along y and radially, with Hurst exponents",
           .details =
-              "The curves themselves are in the JSON object, in the -o file and in --csv. Several "
-              "scans are treated alike; --group adds the mean of their spectra.",
+              "--json, -o and --csv hold the curves themselves. Several scans are treated in the "
+              "same way; --group adds the mean of their spectra.",
           .examples = {"tabor psd surfaces/edt_before.x3p --level plane",
                        "tabor psd surfaces/edt_before.x3p --level plane --window none --json",
                        "tabor psd surfaces/edt_before.x3p --level plane --acf --hdf -o curves.csv",

@@ -31,12 +31,13 @@ std::optional<fs::path> report_python() {
   return std::nullopt;
 }
 
-/// The package of the build folder has the compiled module; those beside an installed program and
-/// in the source tree have not, and `view` then takes the one that the interpreter has.
+/// The packages of the build folder and of a wheel, which holds the program, have the compiled
+/// module; those beside an installed program and in the source tree have not, and `view` then takes
+/// the one that the interpreter has.
 fs::path file_of(const std::string& verb) {
   std::error_code error;
   for (const fs::path& folder : {own_prefix() / "python", own_prefix() / "share/tabor/python",
-                                 fs::path(TABOR_SOURCE_PYTHON)}) {
+                                 own_prefix().parent_path(), fs::path(TABOR_SOURCE_PYTHON)}) {
     fs::path file = folder / "tabor" / verb / "__main__.py";
     if (fs::exists(file, error)) return file;
   }

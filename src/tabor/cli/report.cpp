@@ -125,17 +125,18 @@ void declare_options(OptionSet& set, Request& request) {
   set.group("Report");
   set.input("RESULT", "folder of 'tabor sweep', or a file written with -o", request.result);
   Option& output =
-      set.text("--output", "DIR", "where to write [beside the result]", request.output);
+      set.text("--output", "DIR", "folder of the page [beside the result]", request.output);
   output.short_flag = "-o";
   output.names = FileRole::folder;
   pass_on(set, request, "--figures", "FORMATS",
-          "write figures and their tables too: png, svg, pdf or several, as png,svg",
+          "also write figures and their tables, as png, svg, pdf or a list such as png,svg",
           checked_formats);
-  set.toggle("--static", "still figures, as where Bokeh or Pillow is absent", request.is_static);
-  set.toggle("--no-html", "figures and tables only [--figures png,svg]", request.no_html);
+  set.toggle("--static", "make a static page, as without Bokeh or Pillow", request.is_static);
+  set.toggle("--no-html", "write figures and tables only [--figures png,svg]", request.no_html);
   set.group("Report of a study");
-  pass_on(set, request, "--scan", "N", "scan that the maps show, counted from 0", checked_scan);
-  set.toggle("--all-scans", "maps of every scan", request.all_scans);
+  pass_on(set, request, "--scan", "N", "number of the scan that the maps show, from 0",
+          checked_scan);
+  set.toggle("--all-scans", "show maps of every scan", request.all_scans);
   pass_on(set, request, "--pressure", "P",
           "pressure that the maps show (nearest computed), e.g. 7MPa",
           in_unit("--pressure", dimension::pressure, "Pa"));
@@ -143,7 +144,8 @@ void declare_options(OptionSet& set, Request& request) {
           "lubricant density that the maps show (nearest computed), e.g. 0.45g/m^2",
           in_unit("--density", dimension::areal_density, "g/m^2"));
   set.choice("--error-bar", {"std", "sem"},
-             "standard deviation or standard error of the mean [std]", request.error_bar);
+             "error bars show the standard deviation or the standard error of the mean [std]",
+             request.error_bar);
 }
 
 }  // namespace
@@ -151,14 +153,13 @@ void declare_options(OptionSet& set, Request& request) {
 Verb report_verb() {
   return {.name = "report",
           .arguments = "RESULT [options]",
-          .summary = "one self-contained HTML page from a study or a result file, and figures",
+          .summary = "make one HTML page, and figures, from a study or a result file",
           .details =
-              "The page is interactive where Bokeh and Pillow are installed, as tools/quickstart "
-              "does in a "
-              "private environment, and still otherwise. "
-              "Needs python3-numpy, python3-h5py, python3-matplotlib and python3-jinja2. "
-              "TABOR_PYTHON chooses another interpreter, such as that of a virtual environment; "
-              "PYTHONPATH, packages of the user and the current folder are not looked at.",
+              "The page is interactive if Bokeh and Pillow are installed, as by tools/quickstart, "
+              "and static otherwise. It needs python3-numpy, python3-h5py, python3-matplotlib and "
+              "python3-jinja2. TABOR_PYTHON chooses another interpreter, such as that of a "
+              "virtual environment. tabor ignores PYTHONPATH, packages of the user and the "
+              "current folder.",
           .examples = {"tabor report study_results",
                        "tabor report contact.h5 -o contact_page --figures png,pdf"},
           .declare = [](OptionSet& set) -> Action {

@@ -99,7 +99,7 @@ void declare_output(OptionSet& set, std::optional<std::string>& target) {
   std::vector<std::string> extensions = hdf5_extensions();
   extensions.emplace_back(".vti");
   set.output("OUT.h5|OUT.vti",
-             "keep the maps of every state in an HDF5 file, or for ParaView in a .vti", extensions,
+             "save the maps of every state in an HDF5 file, or in a .vti for ParaView", extensions,
              target);
 }
 

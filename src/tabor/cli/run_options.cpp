@@ -13,14 +13,14 @@ constexpr std::uint64_t kMostJobs = 1024;
 
 void declare_run_options(OptionSet& set, RunRequest& request) {
   set.count("--jobs",
-            "cases computed at the same time, each with its own memory [as many as there are "
-            "threads and room for]",
+            "number of cases computed at the same time, each with its own memory [as many as "
+            "threads and memory allow]",
             request.jobs);
   set.add({.flag = "--shard",
            .placeholder = "I/N",
            .help = "compute only part I of N; all parts may share one folder",
            .assign = [&](const std::string& text) { request.shard = engine::parse_shard(text); }});
-  set.toggle("--retry", "compute failed and not converged cases again", request.retry);
+  set.toggle("--retry", "compute failed and unconverged cases again", request.retry);
 }
 
 engine::RunOptions run_options(const RunRequest& request, const Context& context) {

@@ -22,8 +22,13 @@ namespace {
 using topography::Topography;
 
 void declare_reading(OptionSet& set, scan::ReadOptions& read) {
-  set.group("Reading");
   for (const auto& parameter : scan::read_parameters()) declare(set, parameter, read);
+}
+
+/// "mean|plane" -> mean, plane; nothing for an argument that is not said by samples.
+std::vector<std::string> samples_of(const std::string& argument) {
+  const std::vector<std::string> words = split(argument, '|');
+  return words.size() > 1 ? words : std::vector<std::string>();
 }
 
 void declare_treatment(OptionSet& set, topography::Treatment& treatment) {
@@ -33,11 +38,12 @@ void declare_treatment(OptionSet& set, topography::Treatment& treatment) {
                          is_switch = step.argument.empty()](const std::string& value) {
       const std::string text = is_switch ? name : fmt::format("{}={}", name, value);
       topography::check({text});
-      treatment.push_back(text);
+      for (const std::string& one : topography::expanded({text})) treatment.push_back(one);
     };
     Option& option = set.add({.flag = "--" + step.name,
                               .placeholder = step.argument,
                               .help = step.help,
+                              .words = samples_of(step.argument),
                               .assign = assign});
     option.repeatable = true;
   }
@@ -80,18 +86,19 @@ class ScanDigest {
 }  // namespace
 
 void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment) {
-  set.group("Scan");
+  set.group("Surface");
   set.input("SCAN", "a scan file, see 'tabor formats'", request.file);
   declare_reading(set, request.read);
   if (with_treatment) declare_treatment(set, request.treatment);
 }
 
-void declare_scans(OptionSet& set, ScanRequest& request, std::vector<std::string>& files) {
+void declare_scans(OptionSet& set, ScanRequest& request, std::vector<std::string>& files,
+                   bool with_treatment) {
   OptionSet one;
-  declare_scan(one, request);
+  declare_scan(one, request, with_treatment);
   for (const Option& option : one.options()) {
-    set.group(option.group);
     if (option.is_positional()) {
+      set.group(option.group);
       set.positionals("SCAN", "scan files, see 'tabor formats'; two or more stand side by side",
                       files)
           .names = option.names;

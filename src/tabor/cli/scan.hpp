@@ -31,7 +31,8 @@ struct Scan {
 /// own, applied in the order given.
 void declare_scan(OptionSet& set, ScanRequest& request, bool with_treatment = true);
 /// Declares any number of scans, all read and treated alike.
-void declare_scans(OptionSet& set, ScanRequest& request, std::vector<std::string>& files);
+void declare_scans(OptionSet& set, ScanRequest& request, std::vector<std::string>& files,
+                   bool with_treatment = true);
 
 /// Throws UsageError where steps of the treatment contradict each other.
 void check(const ScanRequest& request);

@@ -38,8 +38,8 @@ void declare_groups(OptionSet& set, std::vector<ScanGroup>& groups) {
   set.group("Groups of scans");
   set.add({.flag = "--group",
            .placeholder = "NAME=PATTERN",
-           .help = "mean and standard deviation over the scans whose names fit, with * and ?, e.g. "
-                   "'before=*before*'; again for more groups",
+           .help = "mean and standard deviation over the scans whose names match, with * and ?, "
+                   "e.g. 'before=*before*'; repeat it for more groups",
            .repeatable = true,
            .assign = [&groups](const std::string& text) { groups.push_back(parse_group(text)); }});
 }

@@ -130,7 +130,7 @@ int show(Request request, Context& context) {
   context.warn(results::findings_of({{.pressure = si(request.settings.mean_pressures.front(), "Pa"),
                                       .warnings = result.warnings}}));
   if (file) {
-    file->add_before(result.before);
+    file->add_run(result);
     file->commit(context.warnings);
   }
   if (request.after) scan::write(result.after, *request.after);
@@ -146,13 +146,13 @@ Verb slide_verb() {
   return {
       .name = "slide",
       .arguments = "SCAN --tool TOOL --pressure P --distance L|--until-steady [options]",
-      .summary = "a rough tool slides over the sheet: friction, ploughing, the sheet after",
+      .summary = "slide a rough tool over the sheet, for friction, ploughing and the sheet after",
       .details =
-          "Each step is a contact on the sheet that the steps before have left; saturated pixels "
-          "are displaced. Ploughing is the work of it over load and distance, and is part of the "
-          "friction coefficients. The tool slides along +x. With --density oil is rained on the "
-          "sheet before: it stays on its pixels (friction wet, a lower bound), and in a second "
-          "account contacts squeeze it out (an upper bound).",
+          "Each step is a contact on the sheet as the steps before left it, and displaces the "
+          "material of saturated pixels. Ploughing is the work of this over load and distance; "
+          "the friction coefficients include it. The tool slides along +x. With --density the "
+          "sheet is oiled first. Oil that stays on its pixels gives a lower bound of friction; "
+          "oil that contacts squeeze out gives an upper bound.",
       .examples = {"tabor slide surfaces/edt_before.x3p --level plane --crop 0,0,128,128 --mirror "
                    "--material aluminium-6016 --tool ground:Sa=0.1um,length=1mm --pressure 10MPa "
                    "--distance 20um",
@@ -165,7 +165,6 @@ Verb slide_verb() {
         declare_scan(set, request->scan);
         cases::CaseSettings& settings = request->settings;
         declare_contact(set, settings, Controls::sliding);
-        set.group("Sliding");
         for (const auto& one : cases::slide_parameters()) {
           Option& option = declare(set, one, request->sliding);
           if (one.name == "displaced") take_wear(option, request->sliding);
@@ -174,14 +173,16 @@ Verb slide_verb() {
         declare_trapped(set, settings);
         declare_friction(set, settings.friction);
         set.group("Output");
-        Option& after =
-            set.text("--after", "OUT", "write the sheet after sliding; its extension is the format",
-                     request->after);
+        Option& after = set.text("--after", "OUT",
+                                 "save the sheet after sliding; the extension gives the "
+                                 "format",
+                                 request->after);
         after.names = FileRole::output;
         after.extensions = scan_extensions();
         set.text("--checkpoint", "DIR",
-                 "keep the run in DIR while it lasts: the same command goes on after it was killed",
-                 request->checkpoint);
+                 "save the run in DIR while it lasts; the same command continues a killed run",
+                 request->checkpoint)
+            .may_name_file = true;
         declare_fields(set, request->file);
         return [request](Context& context) {
           take_edges(request->scan, request->settings.contact);

@@ -178,11 +178,10 @@ int sweep(const Request& request, Context& context) {
   try {
     outcome = study::run(study, request.folder(), options_for(request, context));
   } catch (const Interrupted&) {
-    return fail(
-        context,
-        fmt::format("interrupted; the finished cases are kept in {}; the same command continues",
-                    printable(request.folder().string())),
-        kInterrupted);
+    return fail(context,
+                fmt::format("interrupted; the same command continues with the finished cases in {}",
+                            printable(request.folder().string())),
+                kInterrupted);
   }
   for (const std::string& warning : outcome.warnings) context.warn(warning);
   context.warn(outcome.findings);
@@ -210,14 +209,14 @@ study::Change parse_change(const std::string& text) {
 
 void declare_options(OptionSet& set, Request& request) {
   set.group("Study");
-  set.input("STUDY.toml", "the study: scans, treatment, material, pressures, densities",
+  set.input("STUDY.toml", "study file with scans, treatment, material, pressures and densities",
             request.study)
       .unless = kTemplate;
   declare_template(set, "a study file to start from", request.wants_template);
   set.add(
       {.flag = "--set",
        .placeholder = "KEY=VALUE",
-       .help = "a value in place of that in the file, e.g. lubricant.model=limit; repeatable",
+       .help = "replace a value of the file, e.g. lubricant.model=limit; may be repeated",
        .repeatable = true,
        .assign = [&](const std::string& text) { request.changes.push_back(parse_change(text)); }});
   set.output("DIR", "folder of the results [STUDY_results]", {}, request.directory);
@@ -229,12 +228,11 @@ void declare_options(OptionSet& set, Request& request) {
 Verb sweep_verb() {
   return {.name = "sweep",
           .arguments = "STUDY.toml [-o DIR] [options]",
-          .summary = "scans x pressures x densities of a study, resumable",
+          .summary = "compute a study of scans, pressures and densities, resumable",
           .details =
-              "Finished cases are kept and skipped when the same command runs again; the "
-              "tables are rebuilt each time. A [[scan]] may have a pressure, density, treatment, "
-              "contact (elastic or saturated) and reading of its own. With lubricant.fluid = "
-              "\"reynolds\", "
+              "Finished cases are saved, and the same command skips them when it runs again and "
+              "rebuilds the tables. A [[scan]] may have its own pressure, density, treatment, "
+              "contact (elastic or saturated) and reading. With lubricant.fluid = \"reynolds\", "
               "lubricant.viscosity and a list sweep.sliding_speed the deposited oil flows, "
               "carries part of the load and adds viscous friction at each speed.",
           .examples = {"tabor sweep examples/06_study/study.toml -o study_results",

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "tabor/cli/layout.hpp"
 #include "tabor/core/printable.hpp"
 #include "tabor/core/units.hpp"
 
@@ -13,19 +14,13 @@ namespace tabor::cli {
 
 namespace {
 
-// Characters on the screen: UTF-8 continuation bytes have no width.
-std::size_t width(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 bool is_numeric(const std::string& cell) {
   return !cell.empty() && (std::isdigit(static_cast<unsigned char>(cell.front())) ||
                            cell.front() == '-' || cell.front() == '.');
 }
 
 std::string aligned(const std::string& cell, std::size_t column_width, bool right) {
-  const std::string blanks(column_width - std::min(column_width, width(cell)), ' ');
+  const std::string blanks(column_width - std::min(column_width, width_on_screen(cell)), ' ');
   return right ? blanks + cell : cell + blanks;
 }
 
@@ -63,10 +58,10 @@ std::string Table::text() const {
   std::vector<std::size_t> widths;
   std::vector<bool> right;
   for (std::size_t column = 0; column < headings_.size(); ++column) {
-    std::size_t column_width = width(headings_[column]);
+    std::size_t column_width = width_on_screen(headings_[column]);
     bool numeric = !rows_.empty();
     for (const auto& cells : rows_) {
-      column_width = std::max(column_width, width(cells[column]));
+      column_width = std::max(column_width, width_on_screen(cells[column]));
       numeric = numeric && is_numeric(cells[column]);
     }
     widths.push_back(column_width);
@@ -92,7 +87,9 @@ void Facts::fact(const std::string& label, const std::string& value) {
 
 std::string Facts::text() const {
   std::size_t column_width = 0;
-  for (const auto& [label, value] : lines_) column_width = std::max(column_width, width(label));
+  for (const auto& [label, value] : lines_) {
+    column_width = std::max(column_width, width_on_screen(label));
+  }
   std::string text;
   for (const auto& [label, value] : lines_) {
     text += aligned(label, column_width, false) + "  " + value + '\n';

@@ -1,12 +1,18 @@
 #include "tabor/cli/verb.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <set>
 #include <sstream>
 
 #include "tabor/cli/contact_request.hpp"
 #include "tabor/cli/explain.hpp"
+#include "tabor/cli/reference.hpp"
 #include "tabor/cli/verbs.hpp"
+#include "tabor/core/error.hpp"
+#include "tabor/core/text.hpp"
 
 namespace tabor::cli {
 
@@ -48,6 +54,16 @@ bool Context::has_default(const std::string& flag) const {
                      [&](const auto& used) { return used.first == flag; });
 }
 
+namespace {
+
+std::vector<std::string> warning_codes() {
+  std::vector<std::string> codes;
+  for (const cases::CodeEntry& entry : cases::all_codes()) codes.emplace_back(entry.code);
+  return codes;
+}
+
+}  // namespace
+
 Observer Context::observer() const { return progress ? progress->observer() : Observer{}; }
 
 const std::vector<Verb>& verbs() {
@@ -55,20 +71,49 @@ const std::vector<Verb>& verbs() {
       view_verb(),    info_verb(),      convert_verb(), params_verb(),    psd_verb(),
       combine_verb(), generate_verb(),  contact_verb(), lubricate_verb(), friction_verb(),
       slide_verb(),   sweep_verb(),     ehl_verb(),     report_verb(),    table_verb(),
-      formats_verb(), materials_verb(), cite_verb(),    options_verb()};
+      formats_verb(), materials_verb(), cite_verb(),    options_verb(),   completion_verb(),
+      man_verb()};
   return all;
 }
 
+std::vector<std::string> names_of_verbs() {
+  std::vector<std::string> names;
+  for (const Verb& verb : verbs()) names.push_back(verb.name);
+  return names;
+}
+
+const Verb& find_verb(const std::string& name) {
+  for (const Verb& verb : verbs()) {
+    if (verb.name == name) return verb;
+  }
+  if (name.starts_with('-')) {
+    throw UsageError(
+        fmt::format("'{}' before the verb; options follow it: tabor VERB {}", name, name));
+  }
+  const std::vector<std::string> names = names_of_verbs();
+  throw UsageError(fmt::format("unknown verb: got '{}'; expected {}{}; see 'tabor --help'", name,
+                               fmt::join(names, ", "), suggestion(name, names)));
+}
+
 void declare_common(OptionSet& set, Context& context) {
-  set.group("Common options");
+  set.group(kCommonOptions);
   static std::optional<std::string> nobody;  // looked for before options are read
+  static bool nothing = false;
+  set.toggle(kHelp, "show this text", nothing).short_flag = kHelpShort;
+  set.toggle(kVersionFlag, "print the version", nothing).short_flag = kVersionShort;
   set.toggle("--json", "print one JSON object and nothing else", context.json);
   set.toggle("--quiet", "show no progress", context.quiet);
-  set.text(kExplain, "CODE", "say what the code of a warning means, and do nothing else", nobody);
-  set.count("--threads", "threads to use [all cores]; results never depend on it", context.threads);
-  set.text("--defaults", "FILE|none", "file of default options [tabor.toml here, if there is one]",
-           nobody);
-  set.count("--seed", "seed of everything random [1]", context.seed);
+  set.text(kExplain, "CODE", "explain the code of a warning and do nothing else", nobody).words =
+      warning_codes();
+  set.count("--threads", "number of threads; results do not depend on it [all cores]",
+            context.threads);
+  Option& defaults = set.text("--defaults", "FILE|none",
+                              "file of default options [tabor.toml in this folder, if there is "
+                              "one]",
+                              nobody);
+  defaults.words = {"none"};
+  defaults.may_name_file = true;
+  set.count("--seed", "seed of all random numbers [1]", context.seed);
 }
 
 OptionSet options_of(const Verb& verb) {
@@ -81,7 +126,6 @@ OptionSet options_of(const Verb& verb) {
   OptionSet described;
   for (Option option : set.options()) {
     option.assign = nullptr;
-    described.group(option.group);
     described.add(option);
   }
   return described;

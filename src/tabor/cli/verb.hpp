@@ -46,15 +46,28 @@ struct Context {
   std::uint64_t seed_or_default() const { return seed.value_or(1); }
 };
 
+/// Options that end the program before a verb runs; they stand anywhere on the command line.
+inline constexpr const char* kHelp = "--help";
+inline constexpr const char* kHelpShort = "-h";
+inline constexpr const char* kVersionFlag = "--version";
+inline constexpr const char* kVersionShort = "-V";
+
 /// Runs a verb whose options are parsed; returns its exit code.
 using Action = std::function<int(Context&)>;
 
-/// Table that the help of a verb adds for a word: `tabor ehl impact --help`.
+/// One key of a file that a verb reads.
+struct HelpKey {
+  std::string name;         ///< "ball.radius"
+  std::string unit;         ///< "m", "" for plain numbers and words
+  std::string when_absent;  ///< what holds where it is not given: "7 MPa", "required"
+  std::string meaning;
+};
+
+/// Keys that the help of a verb lists for a word: `tabor ehl impact --help`.
 struct HelpTable {
   std::string word;  ///< "impact"
   std::string title;
-  std::vector<std::string> headings;
-  std::vector<std::vector<std::string>> rows;
+  std::vector<HelpKey> keys;
 };
 
 /// One verb of the command line. declare() binds the options to variables owned by the Action it
@@ -71,8 +84,12 @@ struct Verb {
 
 /// Returns all verbs in the order of the help.
 const std::vector<Verb>& verbs();
+std::vector<std::string> names_of_verbs();
 
-/// Declares --json, --quiet, --threads and --seed, which every verb has.
+/// Returns the verb of this name. Throws UsageError with the nearest name where there is none.
+const Verb& find_verb(const std::string& name);
+
+/// Declares --help, --version, --json, --quiet, --threads, --seed and others that every verb has.
 void declare_common(OptionSet& set, Context& context);
 
 /// Returns a spelling of advice by these options: "--level plane" for <level=plane>.

@@ -24,5 +24,7 @@ Verb formats_verb();
 Verb materials_verb();
 Verb cite_verb();
 Verb options_verb();
+Verb completion_verb();
+Verb man_verb();
 
 }  // namespace tabor::cli

@@ -32,7 +32,7 @@ topography::Topography onto_coarser_pixels(topography::Topography a, const Grid&
   a.grid.ny = a.height.rows();
   if (a.grid.nx < 2 || a.grid.ny < 2) {
     throw InputError("combination of two scans", "a scan smaller than the other's pixels",
-                     "scans of similar size", "are the pixel sizes right?");
+                     "scans of similar size", "check the pixel sizes");
   }
   a.grid.lx = dx * static_cast<double>(a.grid.nx);
   a.grid.ly = dy * static_cast<double>(a.grid.ny);

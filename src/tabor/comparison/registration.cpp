@@ -174,8 +174,8 @@ class Refinement {
 
 [[noreturn]] void reject(const std::string& got, const std::string& expected) {
   throw InputError("registration of two scans", got, expected,
-                   "are they of the same place, equally oriented, levelled? else give the shift "
-                   "yourself (--shift) or take the scans as they lie (--no-register)");
+                   "check that both scans show the same place in the same orientation and are "
+                   "levelled, or give the shift (--shift) or none (--no-register)");
 }
 
 /// Heights without waves longer than an eighth of the smaller scan's shorter side, which nearly

@@ -134,7 +134,7 @@ void ProjectedGradient::certify() {
   }
 }
 
-/// True if the answer is good enough; puts pixels on their bounds that are inside in name only.
+/// True if the answer is good enough; moves pixels that are hardly inside their bounds onto them.
 bool ProjectedGradient::meets_conditions() {
   std::vector<double>& pressure = candidates_.values.pressure;
   const std::vector<double>& residual = candidates_.values.residual;

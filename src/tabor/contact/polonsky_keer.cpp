@@ -74,8 +74,8 @@ double ConjugateGradient::level() const {
   return -shift_for_load(trial, load, caps_) / step_length_;
 }
 
-/// Certifies the pressure; where that is good enough, puts pixels on their bounds that are inside
-/// in name only and tells whether the answer is converged.
+/// Certifies the pressure. If that is good enough, moves pixels that are hardly inside their bounds
+/// onto them, and returns true if the answer is converged.
 Conditions::Settled ConjugateGradient::settle(Convergence& convergence) {
   const auto n = static_cast<std::size_t>(pressure_.size());
   const std::span<const double> gap(gap_.data(), n);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -79,8 +80,51 @@ Dimension added(Dimension a, Dimension b) {
   return {a.metre + b.metre, a.kilogram + b.kilogram, a.second + b.second, a.kelvin + b.kelvin};
 }
 
-/// One unit name, with or without a prefix, without a power.
-std::optional<Quantity> find_unit(std::string_view name) {
+/// Spelled out parts of units.
+struct Spelling {
+  std::string_view word, symbol;
+};
+
+constexpr std::array kSpelledPrefixes{
+    Spelling{"nano", "n"}, Spelling{"micro", "u"}, Spelling{"milli", "m"}, Spelling{"centi", "c"},
+    Spelling{"kilo", "k"}, Spelling{"mega", "M"},  Spelling{"giga", "G"},  Spelling{"", ""}};
+
+constexpr std::array kSpelledUnits{Spelling{"meter", "m"},
+                                   Spelling{"metre", "m"},
+                                   Spelling{"pascal", "Pa"},
+                                   Spelling{"newton", "N"},
+                                   Spelling{"second", "s"},
+                                   Spelling{"sec", "s"},
+                                   Spelling{"gram", "g"},
+                                   Spelling{"kelvin", "K"},
+                                   Spelling{"poise", "P"},
+                                   Spelling{"angstrom", "Ang"},
+                                   Spelling{"micron", "um"},
+                                   Spelling{"liter", "l"},
+                                   Spelling{"litre", "l"},
+                                   Spelling{"minute", "min"},
+                                   Spelling{"hour", "h"},
+                                   Spelling{"degree", "deg"},
+                                   Spelling{"percent", "%"},
+                                   Spelling{"dimensionless", "1"},
+                                   Spelling{"pound_force_per_square_inch", "psi"}};
+
+/// "micrometers" -> "um"; "" for what is no unit.
+std::string symbol_of_words(std::string_view words) {
+  const std::string word = lower(words);
+  for (const auto& [prefix, prefix_symbol] : kSpelledPrefixes) {
+    if (!word.starts_with(prefix)) continue;
+    const std::string_view rest = std::string_view(word).substr(prefix.size());
+    for (const auto& [unit, symbol] : kSpelledUnits) {
+      const bool is_plural = rest.ends_with('s') && rest.substr(0, rest.size() - 1) == unit;
+      if (rest == unit || is_plural) return std::string(prefix_symbol) + std::string(symbol);
+    }
+  }
+  return "";
+}
+
+/// A unit by its symbol, with or without a prefix.
+std::optional<Quantity> find_symbol(std::string_view name) {
   for (const Unit& unit : kUnits) {
     if (name == unit.name) return Quantity{unit.factor, unit.dimension};
   }
@@ -96,17 +140,20 @@ std::optional<Quantity> find_unit(std::string_view name) {
   return std::nullopt;
 }
 
+/// One unit, "um" or "micrometers", without a power.
+std::optional<Quantity> find_unit(std::string_view name) {
+  const auto unit = find_symbol(name);
+  return unit ? unit : find_symbol(symbol_of_words(name));
+}
+
 constexpr int kHighestPower = 9;  // of a unit that means something
 
-/// "m^2", "m2", "s^-1", "m²": a unit and its integer power.
+/// "m^2", "m2", "s^-1": a unit and its integer power.
 std::optional<Quantity> find_power(std::string_view factor) {
   int power = 1;
   std::string_view name = factor;
-  if (name.ends_with("²") || name.ends_with("³")) {
-    power = name.ends_with("²") ? 2 : 3;
-    name.remove_suffix(std::string_view("²").size());
-  } else if (const std::size_t digits = name.find_first_of("^-0123456789");
-             digits != std::string_view::npos && digits > 0) {
+  if (const std::size_t digits = name.find_first_of("^-0123456789");
+      digits != std::string_view::npos && digits > 0) {
     const std::string_view exponent = name.substr(digits + (name[digits] == '^' ? 1 : 0));
     const auto [end, error] =
         std::from_chars(exponent.data(), exponent.data() + exponent.size(), power);
@@ -121,15 +168,46 @@ std::optional<Quantity> find_power(std::string_view factor) {
   return Quantity{std::pow(unit->value, power), scaled(unit->dimension, power)};
 }
 
+/// Signs of other programs and of print, and what stands for them here.
+constexpr std::array kSigns{Spelling{" ** ", "^"},   Spelling{"**", "^"},     Spelling{"·", "*"},
+                            Spelling{"\u22c5", "*"}, Spelling{"\u207b", "-"}, Spelling{"¹", "1"},
+                            Spelling{"²", "2"},      Spelling{"³", "3"}};
+
+void replace_all(std::string& text, std::string_view part, std::string_view by) {
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at)) {
+    text.replace(at, part.size(), by);
+    at += by.size();
+  }
+}
+
+/// True for a full stop between two units, as in "mPa.s".
+bool is_product(std::string_view expression, std::size_t dot) {
+  const auto is_letter = [&](std::size_t place) {
+    return place < expression.size() && std::isalpha(static_cast<unsigned char>(expression[place]));
+  };
+  return dot > 0 && expression[dot - 1] != '.' && is_letter(dot + 1);
+}
+
+/// "gram / meter ** 2" -> "gram / meter^2", "mPa.s" and "mPa·s" -> "mPa*s", "s⁻¹" -> "s-1"
+std::string with_plain_signs(std::string_view expression) {
+  std::string plain(expression);
+  for (const auto& [sign, stands_for] : kSigns) replace_all(plain, sign, stands_for);
+  for (std::size_t i = 0; i < plain.size(); ++i) {
+    if (plain[i] == '.' && is_product(plain, i)) plain[i] = '*';
+  }
+  return plain;
+}
+
 /// "g/m^2", "Pa s", "Pa*s", "1/Pa", "kg m^-3": factors left to right, one '/' inverts what follows
 /// it directly. On failure `culprit` holds the factor that is not a unit.
-std::optional<Quantity> find_expression(std::string_view expression, std::string& culprit) {
+std::optional<Quantity> find_expression(std::string_view text, std::string& culprit) {
+  const std::string expression = with_plain_signs(text);
   Quantity result{1, {}};
   int sign = 1;
   std::size_t begin = 0;
   while (begin < expression.size()) {
     const std::size_t end = std::min(expression.find_first_of(" */", begin), expression.size());
-    const std::string_view factor = expression.substr(begin, end - begin);
+    const std::string_view factor = std::string_view(expression).substr(begin, end - begin);
     if (!factor.empty()) {
       const auto unit = find_power(factor);
       if (!unit) {
@@ -144,37 +222,6 @@ std::optional<Quantity> find_expression(std::string_view expression, std::string
     begin = end + 1;
   }
   return result;
-}
-
-/// Spelled out parts of units.
-struct Spelling {
-  std::string_view word, symbol;
-};
-
-constexpr std::array kSpelledPrefixes{
-    Spelling{"nano", "n"}, Spelling{"micro", "u"}, Spelling{"milli", "m"}, Spelling{"centi", "c"},
-    Spelling{"kilo", "k"}, Spelling{"mega", "M"},  Spelling{"giga", "G"},  Spelling{"", ""}};
-
-constexpr std::array kSpelledUnits{
-    Spelling{"meter", "m"},      Spelling{"metre", "m"},   Spelling{"pascal", "Pa"},
-    Spelling{"newton", "N"},     Spelling{"second", "s"},  Spelling{"sec", "s"},
-    Spelling{"gram", "g"},       Spelling{"kelvin", "K"},  Spelling{"poise", "P"},
-    Spelling{"angstrom", "Ang"}, Spelling{"micron", "um"}, Spelling{"liter", "l"},
-    Spelling{"litre", "l"},      Spelling{"degree", "deg"}};
-
-/// "micrometers" -> "um"
-std::string symbol_of_words(std::string_view words) {
-  std::string word = lower(words);
-  if (word.size() > 3 && word.back() == 's') word.pop_back();
-  for (const auto& [prefix, prefix_symbol] : kSpelledPrefixes) {
-    if (!word.starts_with(prefix)) continue;
-    for (const auto& [unit, symbol] : kSpelledUnits) {
-      if (word.substr(prefix.size()) == unit) {
-        return std::string(prefix_symbol) + std::string(symbol);
-      }
-    }
-  }
-  return "";
 }
 
 /// Letters that two words of one length have alike.
@@ -203,7 +250,7 @@ std::vector<std::string> units_of_other_case(std::string_view name) {
 std::string similar_unit(std::string_view factor, std::string_view likely) {
   const std::size_t end = std::min(factor.find_first_of("^-0123456789"), factor.size());
   const std::string_view name = factor.substr(0, end);
-  std::string best = symbol_of_words(name);
+  std::string best;
   for (const std::string& unit : units_of_other_case(name)) {
     if (unit == likely || best.empty() || n_alike(unit, name) > n_alike(best, name)) best = unit;
     if (unit == likely) break;

@@ -19,8 +19,8 @@ std::optional<Warning> sheared_too_hard(const material::Shear& shear, double str
   const double ratio = std::abs(stress) / pressure;
   if (!is_newtonian || !(ratio > kYieldRatio)) return std::nullopt;
   return Warning{"newtonian-shear",
-                 fmt::format("a Newtonian film would be sheared at {}, {} times the pressure; set "
-                             "lubricant.eyring_stress",
+                 fmt::format("A Newtonian film would have a shear stress of {}, {} times its "
+                             "pressure. Give lubricant.eyring_stress",
                              si(stress, "Pa"), plain(ratio, 2)),
                  ratio};
 }
@@ -28,12 +28,11 @@ std::optional<Warning> sheared_too_hard(const material::Shear& shear, double str
 /// A warning where solids carry a share of the load and no law says how they rub.
 std::optional<Warning> frictionless(const Asperities& asperities, double load_share) {
   if (!(load_share > 0) || asperities.has_friction()) return std::nullopt;
-  return Warning{
-      "boundary-friction",
-      fmt::format("solids carry {} of the load as if frictionless, so that none is known; "
-                  "give asperities.friction_coefficient",
-                  percent(load_share, 2)),
-      load_share};
+  return Warning{"boundary-friction",
+                 fmt::format("Solids carry {} of the load and their friction is unknown. Give "
+                             "asperities.friction_coefficient",
+                             percent(load_share, 2)),
+                 load_share};
 }
 
 }  // namespace

@@ -68,10 +68,11 @@ Warnings warnings(const FluidFilmState& state, const FluidFilmProblem& problem) 
   if (state.convergence.failed()) {
     found.push_back(
         {"fluid-film",
-         fmt::format("film NOT CONVERGED ({}), load balance {:.1e}, gap {:.1e} instead of {:.0e}{}",
+         fmt::format("The film is NOT CONVERGED ({}): the load balance is {:.1e} and the gap "
+                     "{:.1e}, but {:.0e} was wanted{}",
                      name_of(state.convergence.status), state.load_error, state.gap_error,
                      problem.tolerance,
-                     state.film.convergence.converged() ? "" : ", oil still on the move"),
+                     state.film.convergence.converged() ? "" : ", and oil is still moving"),
          std::max(state.load_error, state.gap_error)});
   }
   const double highest = state.film.pressure.maxCoeff();
@@ -80,8 +81,9 @@ Warnings warnings(const FluidFilmState& state, const FluidFilmProblem& problem) 
   }
   if (highest > problem.contact.bounds.upper) {
     found.push_back({"fluid-pressure",
-                     "the oil's pressure reaches " + format_si(highest, "Pa") +
-                         ", more than the solids bear: the film is too thin for its pixels there",
+                     "The oil pressure reaches " + format_si(highest, "Pa") +
+                         ", more than the solids bear, because pixels do not resolve the thin "
+                         "film there",
                      highest / problem.contact.bounds.upper});
   }
   return found;

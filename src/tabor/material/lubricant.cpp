@@ -20,7 +20,7 @@ std::string in_GPa(double pressure) { return fmt::format("{:.3g} GPa", pressure 
 void check(const char* what, const PressureRange& range, double pressure, const char* remedy) {
   if (!range.contains(pressure)) {
     throw InputError(what, in_GPa(pressure),
-                     fmt::format("between {} and {}, where the law has a meaning in numbers",
+                     fmt::format("between {} and {}, the range in which the law can be evaluated",
                                  in_GPa(range.lowest), in_GPa(range.highest)),
                      remedy);
   }
@@ -64,7 +64,7 @@ Warnings warnings(const Lubricant& lubricant, double highest_pressure) {
     if (highest_pressure > range.highest) {
       warnings.push_back(
           {code,
-           fmt::format("the pressure reaches {}; the {} law is commonly trusted up to {}",
+           fmt::format("The pressure reaches {}, but the {} law is trusted only up to {}",
                        in_GPa(highest_pressure), law, in_GPa(range.highest)),
            highest_pressure / range.highest});
     }

@@ -63,8 +63,9 @@ bool Bounds::contain(double value) const {
   return least_is_out ? value > least : value >= least;
 }
 
-std::string ParameterHead::option() const {
-  if (!flag.empty()) return flag;
+std::string ParameterHead::option() const { return flag.empty() ? option_by_name() : flag; }
+
+std::string ParameterHead::option_by_name() const {
   std::string option = "--" + name;
   std::replace(option.begin(), option.end(), '_', '-');
   return option;

@@ -74,6 +74,8 @@ struct ParameterHead {
   std::string absent = {};              ///< what holds where it is not given: "rigid"
   std::string none = {};                ///< the word for no value: "auto"; of a number without a
                                         ///< bound, for infinity: "inf"
+  std::string group = {};               ///< heading of its option in help: "Material"; grouped()
+                                        ///< gives it to the rest of a table
   bool is_of_material = false;          ///< a named material gives it
   ValueKind kind = ValueKind::number;   ///< says the constructor
   Needed needed = Needed::no;
@@ -81,6 +83,7 @@ struct ParameterHead {
   std::string default_text = {};  ///< "7 MPa", "true"; says heads_of()
 
   std::string option() const;                      ///< "--saturation-pressure"
+  std::string option_by_name() const;              ///< "--poissons-ratio" beside --poisson-ratio
   std::string python_argument() const;             ///< "saturation_pressure"
   std::string json_key() const;                    ///< "saturation_pressure_Pa"
   std::string study_table() const;                 ///< "material" of a study file; "": its head
@@ -314,6 +317,15 @@ struct Parameter : ParameterHead {
 template <typename Settings>
 using Parameters = std::vector<Parameter<Settings>>;
 
+/// The same table, with this heading for every parameter that has none of its own.
+template <typename Settings>
+Parameters<Settings> grouped(const std::string& heading, Parameters<Settings> table) {
+  for (Parameter<Settings>& one : table) {
+    if (one.group.empty()) one.group = heading;
+  }
+  return table;
+}
+
 /// The parameters of settings that are a part of others.
 template <typename Settings, typename Part>
 Parameters<Settings> within(const Parameters<Part>& parameters, Part Settings::*part) {
@@ -363,7 +375,7 @@ std::vector<ParameterHead> heads_of(const Parameters<Settings>& parameters) {
 
 /// What is wrong with settings before anything is computed.
 struct Objection {
-  std::string setting;  ///< "saturation_pressure": whoever asked knows how he called it
+  std::string setting;  ///< "saturation_pressure"; the caller maps it to its own spelling
   std::string got;
   std::string expected;
   std::string remedy = {};

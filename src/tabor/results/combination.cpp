@@ -84,34 +84,33 @@ std::vector<std::string> doubts_of(const Combination& c) {
   std::vector<std::string> doubts;
   if (is_ambiguous(c)) {
     doubts.push_back(
-        fmt::format("another shift matches nearly as well ({:.0f} %): if the texture "
-                    "repeats, check the shift",
+        fmt::format("Another shift matches nearly as well ({:.0f} %). Check the shift if the "
+                    "texture repeats",
                     100 * c.registration->runner_up));
   }
   if (const double share = share_of_holes(c); c.wear && share > much) {
     doubts.push_back(fmt::format(
-        "{} of the overlap lie in or beside holes and are left out of the volumes: fill small "
-        "holes (--fill harmonic)",
+        "{} of the overlap lies in or beside holes and is left out of the volumes. Fill small "
+        "holes with --fill harmonic",
         percent(share)));
   }
   return doubts;
 }
 
-void write_combination(const Combination& combination, comparison::CombineMode mode,
-                       const ResultHead& head, const std::vector<Finding>& warnings,
-                       const std::filesystem::path& file) {
+void write_combination(const StoredCombination& combination, const ResultHead& head,
+                       const std::vector<Finding>& warnings, const std::filesystem::path& file) {
   io::Hdf5Writer writer(file);
   write_result_head(writer, head);
   writer.attribute("/", "default", "surface");
   topography::write_surface_group(writer, combination.map, combination.map.source);
   writer.group("/combination");
-  writer.attribute("/combination", "mode", std::string(comparison::name_of(mode)));
-  io::Json values = values_of(combination);
+  writer.attribute("/combination", "mode", combination.mode);
+  io::Json values = combination.values;
+  io::Json registration = values.at("registration");
   values.erase("registration");
-  if (combination.registration) {  // its correlation is of the search, that of the overlap stays
-    io::Json found = json_of(*combination.registration);
-    found.erase("correlation");
-    values.update(found);
+  if (registration.is_object()) {  // its correlation is of the search, that of the overlap stays
+    registration.erase("correlation");
+    values.update(registration);
   }
   write_numbers(writer, "", values);
   write_warnings(writer, warnings);

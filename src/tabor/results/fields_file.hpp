@@ -135,8 +135,9 @@ class FieldsFile {
 
   /// Adds the state NNNN of a slide, with the maps that are stored of it and its spectra.
   void add(std::size_t number, const cases::SlideState& state, const cases::SlideParts& parts);
-  /// Adds the spectra of the sheet before sliding.
-  void add_before(const cases::SheetSpectra& spectra);
+  /// Adds what a slide says beside its states: spectra of the sheet before, number and length of
+  /// the steps, whether sliding became steady.
+  void add_run(const cases::SlideResult& result);
 
   /// Adds /states/NNNN: scalars as attributes, the first field as what viewers plot.
   void add_state(std::size_t number, const NamedCells& scalars,

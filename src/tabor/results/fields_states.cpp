@@ -172,8 +172,12 @@ void FieldsFile::add(std::size_t number, const cases::SlideState& state,
   write_spectra(fmt::format("/spectra/{:04}", number), state.spectra);
 }
 
-void FieldsFile::add_before(const cases::SheetSpectra& spectra) {
-  write_spectra("/spectra/before", spectra);
+void FieldsFile::add_run(const cases::SlideResult& result) {
+  write_spectra("/spectra/before", result.before);
+  writer_.attribute("/states", "step_m", result.step);
+  writer_.attribute("/states", "steps", static_cast<std::int64_t>(result.steps));
+  if (result.steady) writer_.attribute("/states", "steady", std::int64_t{*result.steady});
+  writer_.attribute("/states", "history", result.after.history.back());
 }
 
 void FieldsFile::write_spectra(const std::string& group, const cases::SheetSpectra& spectra) {

@@ -43,7 +43,7 @@ Field heights_of(const Layer& layer, double factor, std::vector<std::string>& wa
     n_absurd += absurd;
   });
   if (n_absurd > 0) {
-    warnings.push_back(fmt::format("{} heights beyond 1000 km taken as missing", n_absurd.load()));
+    warnings.push_back(fmt::format("{} heights beyond 1000 km count as missing", n_absurd.load()));
   }
   return height;
 }

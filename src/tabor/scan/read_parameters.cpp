@@ -29,7 +29,7 @@ void set_pixel(ReadOptions& options, const std::vector<double>& sides) {
 
 const Parameters<ReadOptions>& read_parameters() {
   using One = Parameter<ReadOptions>;
-  static const Parameters<ReadOptions> all{
+  static const Parameters<ReadOptions> table{
       One({.name = "channel",
            .help = "height channel, by name or number as in 'tabor info'",
            .example = "1",
@@ -51,13 +51,14 @@ const Parameters<ReadOptions>& read_parameters() {
            .placeholder = "UNIT"},
           &ReadOptions::unit),
       One({.name = "z_scale",
-           .help = "height of one count, for integer images",
+           .help = "height of one grey step, for images of whole numbers",
            .example = "1 nm",
            .dimension = dimension::length,
            .placeholder = "LENGTH"},
           &ReadOptions::z_scale),
-      One({.name = "override_unit", .help = "pixel and unit win over what the file says"},
+      One({.name = "override_unit", .help = "let --pixel and --unit override what the file says"},
           &ReadOptions::override_unit)};
+  static const Parameters<ReadOptions> all = grouped(kReadingGroup, table);
   return all;
 }
 

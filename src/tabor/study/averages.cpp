@@ -62,6 +62,24 @@ Mean mean_over(const std::vector<const Row*>& rows, const Value& value) {
   return mean_of(values);
 }
 
+template <typename Has>
+bool all_have(const std::vector<const Row*>& rows, const Has& has) {
+  return !rows.empty() &&
+         std::all_of(rows.begin(), rows.end(), [&](const Row* row) { return has(*row); });
+}
+
+/// The spread over the places of a tool, mean of the scans; absent where one has none.
+std::optional<cases::ToolSpread> mean_tool_spread(const std::vector<const Row*>& rows) {
+  const auto has_spread = [](const Row& row) { return row.tool && row.tool->spread; };
+  if (!all_have(rows, has_spread)) return std::nullopt;
+  const auto mean_spread = [&](double cases::ToolSpread::*value) {
+    return mean_over(rows, [=](const Row& row) { return *row.tool->spread.*value; }).mean;
+  };
+  return cases::ToolSpread{mean_spread(&cases::ToolSpread::area_fraction),
+                           mean_spread(&cases::ToolSpread::friction_dry),
+                           mean_spread(&cases::ToolSpread::friction_lubricated)};
+}
+
 /// What a friction table takes of a row.
 FrictionNumber friction_number_of(const Row& row) {
   FrictionNumber number;
@@ -89,8 +107,8 @@ Average average_over(const Key& key, const std::vector<const Row*>& rows) {
   average.friction_dry = mean_over(rows, [](const Row& row) { return row.friction_dry; });
   average.friction_lubricated =
       mean_over(rows, [](const Row& row) { return row.friction_lubricated; });
-  const auto is_trapped = [](const Row* row) { return row->trapped.has_value(); };
-  if (!rows.empty() && std::all_of(rows.begin(), rows.end(), is_trapped)) {
+  average.tool_spread = mean_tool_spread(rows);
+  if (all_have(rows, [](const Row& row) { return row.trapped.has_value(); })) {
     average.liquid_load_share =
         mean_over(rows, [](const Row& row) { return row.trapped->load_share; });
   }
@@ -140,12 +158,22 @@ Columns<Average> average_columns(const cases::FrictionParts& parts) {
   add_mean("friction_dry", &Average::friction_dry, columns);
   add_mean("friction_lubricated", &Average::friction_lubricated, columns);
   if (parts.trapped) add_mean("liquid_load_share", &Average::liquid_load_share, columns);
-  if (!parts.fluid) return columns;
-  Columns<FluidAverage> fluid{{"sliding_speed_m_per_s", "m/s", "", &FluidAverage::sliding_speed}};
-  add_mean("fluid_load_share", &FluidAverage::load_share, fluid);
-  add_mean("friction_viscous", &FluidAverage::friction_viscous, fluid);
-  add_mean("friction_mixed", &FluidAverage::friction_mixed, fluid);
-  return joined(columns, within(fluid, &Average::fluid));
+  if (parts.tool) {
+    const Columns<cases::ToolSpread> spread{
+        {"friction_area_fraction_std_of_places", "", "", &cases::ToolSpread::area_fraction},
+        {"friction_dry_std_of_places", "", "", &cases::ToolSpread::friction_dry},
+        {"friction_lubricated_std_of_places", "", "", &cases::ToolSpread::friction_lubricated}};
+    columns = joined(columns, within(spread, &Average::tool_spread));
+  }
+  if (parts.fluid) {
+    Columns<FluidAverage> fluid{{"sliding_speed_m_per_s", "m/s", "", &FluidAverage::sliding_speed}};
+    add_mean("fluid_load_share", &FluidAverage::load_share, fluid);
+    add_mean("friction_viscous", &FluidAverage::friction_viscous, fluid);
+    add_mean("friction_mixed", &FluidAverage::friction_mixed, fluid);
+    columns = joined(columns, within(fluid, &Average::fluid));
+  }
+  columns.push_back({"left_out", "", kLeftOutHeading, &Average::left_out});
+  return columns;
 }
 
 }  // namespace tabor::study

@@ -33,7 +33,8 @@ struct Average {
   std::size_t n = 0;
   Mean friction_dry;
   Mean friction_lubricated;
-  std::optional<Mean> liquid_load_share;  ///< where oil is trapped
+  std::optional<Mean> liquid_load_share;         ///< where oil is trapped
+  std::optional<cases::ToolSpread> tool_spread;  ///< over the places of a tool, mean of the scans
   std::optional<FluidAverage> fluid;
   std::string
       left_out;  ///< why a friction table leaves it out (friction_table.hpp); "" if it does not
@@ -54,8 +55,8 @@ void add_mean(const std::string& name, OfRecord Record::*mean, Columns<Record>& 
   }
 }
 
-/// Returns the columns of averages.csv, results.h5 and JSON, with those of trapped oil and of a
-/// flowing film where there are some.
+/// Returns the columns of averages.csv, results.h5 and JSON, with those of trapped oil, of the
+/// places of a tool and of a flowing film where there are some.
 Columns<Average> average_columns(const cases::FrictionParts& parts);
 
 }  // namespace tabor::study

@@ -32,9 +32,12 @@ void write_axes(io::Hdf5Writer& writer, const std::vector<SweepAxis>& axes) {
   writer.write("/sweep/shape", shape);
 }
 
-/// An array per column.
+/// An array per column, and the order of the columns.
 void write_columns(io::Hdf5Writer& writer, const ehl::CaseColumns& columns,
                    const Results& results) {
+  std::vector<std::string> keys;
+  for (const ColumnHead& column : columns) keys.push_back(column.key);
+  writer.attribute("/sweep", "columns", keys);
   std::vector<double> values(results.size());
   const auto write = [&](const ColumnHead& column) {
     const std::string path = "/sweep/" + column.key;

@@ -20,8 +20,9 @@ namespace tabor::study {
 
 /// Kind of a job of the graph.
 enum class FrictionJob { film, wetting_doses, contact, wet_shares, trapped, fluid, friction };
-inline constexpr auto kFrictionJobs = names<FrictionJob>(
-    "film", "wetting doses", "contact", "wet shares", "trapped oil", "fluid", "friction");
+inline constexpr auto kFrictionJobs =
+    names<FrictionJob>("film", "doses that change the wet share", "contact", "wet shares",
+                       "trapped oil", "fluid", "friction");
 /// Returns the kind of an engine's job, by which a report counts what was computed.
 inline std::string kind_of(FrictionJob job) { return std::string(kFrictionJobs.of(job)); }
 

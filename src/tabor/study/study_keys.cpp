@@ -71,7 +71,7 @@ topography::Treatment read_steps(const io::Config& config, std::string_view key)
   } catch (const InputError& error) {
     throw InputError(config.place(key) + ": " + error.what());
   }
-  return steps;
+  return topography::expanded(steps);
 }
 
 }  // namespace tabor::study

@@ -53,8 +53,8 @@ std::vector<std::string> copies_in(const Study& study, const std::vector<ScanTas
     for (std::size_t j = 0; j < i; ++j) {
       if (count_twice(study, tasks, i, j)) {
         warnings.push_back(
-            fmt::format("{} and {} hold the same bytes; where one average has both, its error is "
-                        "too small",
+            fmt::format("{} and {} are the same file. The error of an average over both is too "
+                        "small",
                         study.scans[j].label, study.scans[i].label));
       }
     }

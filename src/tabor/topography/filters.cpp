@@ -152,7 +152,7 @@ void check_cutoff(const Filter& filter, double wavelength, const Grid& grid) {
   if (!(wavelength <= 100 * side)) {
     throw InputError("cutoff of a filter", format_si(wavelength, "m"),
                      fmt::format("at most 100 times the scan's {}", format_si(side, "m")),
-                     fmt::format("is the unit in {} right?", to_string(filter)));
+                     fmt::format("check the unit in {}", to_string(filter)));
   }
 }
 
@@ -160,12 +160,12 @@ void check_cutoff(const Filter& filter, double wavelength, const Grid& grid) {
 std::string warning_about(const Filter& filter, double wavelength, const Grid& grid) {
   if (wavelength > (is_profile(grid) ? scan_side(grid) : std::min(grid.lx, grid.ly))) {
     return fmt::format(
-        "the cutoff of {} is longer than the scan ({} x {}): hardly more than a mean passes",
+        "The cutoff of {} is longer than the scan ({} x {}), so little more than the mean remains",
         to_string(filter), format_si(grid.lx, "m"), format_si(grid.ly, "m"));
   }
   const double pixel = std::max(grid.dx(), grid.dy());
   if (is_gaussian(filter.kind) && wavelength < 2 * pixel) {
-    return fmt::format("the cutoff of {} is below two pixels ({}): it changes hardly anything",
+    return fmt::format("The cutoff of {} is below two pixels ({}), so it changes almost nothing",
                        to_string(filter), format_si(2 * pixel, "m"));
   }
   return "";

@@ -125,9 +125,9 @@ void warn_of_invented(Index n_filled, Fill fill, Topography& topography) {
   if (share < kTell) return;
   topography.warnings.push_back(
       {.code = "filled-holes",
-       .text = fmt::format(
-           "{}{:.3g} % of the pixels were holes and have heights of fill={}, which nobody measured",
-           share > kMost ? "most of the area is invented: " : "", 100 * share, name_of(fill))});
+       .text = fmt::format("{}{:.3g} % of the pixels were holes; fill={} made up their heights",
+                           share > kMost ? "Most of the area is invented: " : "", 100 * share,
+                           name_of(fill))});
 }
 
 }  // namespace

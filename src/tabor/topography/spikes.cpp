@@ -397,8 +397,8 @@ void look_again(const Field& after, const Mask& taken, const SpikeRule& rule, Wa
   if (n == 0) return;
   list.push_back(
       {.code = "spikes",
-       .text = fmt::format("{} left by a window of {} pixels: spikes that stand together hide each "
-                           "other; a further <{}> takes {}",
+       .text = fmt::format("{} left after a window of {} pixels, because neighbouring spikes hide "
+                           "each other; another <{}> removes {}",
                            n == 1 ? std::string("1 spike is") : fmt::format("{} spikes are", n),
                            rule.window, text_of(further), n == 1 ? "it" : "them")});
 }

@@ -17,6 +17,7 @@
 #include "tabor/topography/geometry.hpp"
 #include "tabor/topography/holes.hpp"
 #include "tabor/topography/levelling.hpp"
+#include "tabor/topography/recipes.hpp"
 #include "tabor/topography/row_offsets.hpp"
 #include "tabor/topography/spikes.hpp"
 #include "tabor/topography/warnings.hpp"
@@ -166,31 +167,41 @@ Action parse_flip(const std::string& argument) {
   };
 }
 
-const std::array<Step, 11>& steps() {
-  static const std::array<Step, 11> table{{
+Action parse_recipe(const std::string& argument);
+
+const std::array<Step, 12>& steps() {
+  static const std::array<Step, 12> table{{
+      {{"recipe", fmt::format("{}", fmt::join(recipe_names(), "|")),
+        "steps that such a scan usually needs: " + recipe_steps()},
+       parse_recipe},
       {{"crop", "x0,y0,nx,ny", "keep a rectangle, in pixels or lengths"}, parse_crop},
-      {{"trim", "MARGIN", "cut a margin off all sides, in pixels or as a length (half a cutoff)"},
-       parse_trim},
+      {{"trim", "MARGIN", "cut a margin off all sides, in pixels or as a length"}, parse_trim},
       {{"despike", "auto|8|8,7|8,7,median",
-        "make holes (or medians) of spikes: robust sigmas off the median, window [8,5]"},
+        "turn spikes into holes (or medians): robust deviations from the median, and window [8,5]"},
        parse_despike},
       {{"level", "none|mean|plane|poly2|poly3|poly4|rows",
-        "subtract a least-squares polynomial (total degree) over the valid points; rows: offsets "
-        "between scan lines, by the median of differences"},
+        "subtract a least-squares polynomial; rows subtracts the offsets between scan lines"},
        parse_level},
-      {{"fill", "harmonic|nearest|mean", "replace holes; harmonic = Laplace from each hole's rim"},
+      {{"fill", "harmonic|nearest|mean",
+        "fill holes; harmonic continues the rim of each hole "
+        "smoothly"},
        parse_fill},
       {{"lowpass",
         "hann:512/L|hann-full:512/L|hann-separable:512/L|hann:8um|gauss:8um|gauss-reflect:8um",
-        "smooth: Hann window in frequency (L = scan side, sqrt(lx ly)) or ISO Gaussian S-filter"},
+        "smooth with a Hann window in frequency (L = scan side) or the ISO Gaussian S-filter"},
        parse_low_pass},
-      {{"highpass", "gauss:250um|hann:8/L", "subtract the low-pass (ISO Gaussian L-filter)"},
+      {{"highpass", "gauss:250um|hann:8/L",
+        "subtract the smoothed surface (gauss: ISO Gaussian "
+        "L-filter)"},
        parse_high_pass},
-      {{"resample", "nx,ny", "area average to fewer pixels, cubic spline to more"}, parse_resample},
-      {{"mirror", "", "tile 2 x 2 with mirror images: periodic without a seam"}, parse_mirror},
+      {{"resample", "nx,ny",
+        "change the number of pixels: area averages to fewer, cubic spline "
+        "to more"},
+       parse_resample},
+      {{"mirror", "", "make the surface periodic with mirror images, 2 x 2"}, parse_mirror},
       {{"edges", "tile|cut|end",
-        "the surface repeats; it is a cut-out, mirrored as --mirror does; the body ends here "
-        "[heights at opposite edges are compared]"},
+        "tile repeats the surface, cut mirrors it as a cut-out, end lets the body end [tile, with "
+        "a warning if opposite edges differ]"},
        parse_edges},
       {{"flip", "x|y", "reverse the columns (x) or the rows (y)"}, parse_flip},
   }};
@@ -215,22 +226,18 @@ Action parse_step(std::string_view text) {
                    fmt::format("one of {}{}", fmt::join(names, ", "), suggestion(name, names)), "");
 }
 
-}  // namespace
-
-std::vector<Recipe> recipes() {
-  return {{"sheet",
-           "a flat sheet: spikes become holes, holes are closed from their rims, the plane is "
-           "subtracted",
-           {"despike=auto", "fill=harmonic", "level=plane"}},
-          {"part",
-           "a curved part, cut out of a larger one: the same with a form of second order; mirror "
-           "images continue it",
-           {"despike=auto", "fill=harmonic", "level=poly2", "edges=cut"}},
-          {"pad",
-           "a pad whose body ends at the edges of the scan: pores are no spikes, so that heights "
-           "stay; edges carry load",
-           {"fill=nearest", "level=plane", "edges=end"}}};
+Action parse_recipe(const std::string& argument) {
+  const std::optional<Recipe> recipe = recipe_of(argument);
+  if (!recipe) reject("recipe", argument, recipe_names());
+  std::vector<Action> actions;
+  for (const std::string& step : recipe->steps) actions.push_back(parse_step(step));
+  return [actions](Topography t, const Observer& observer) {
+    for (const Action& act : actions) t = act(std::move(t), observer);
+    return t;
+  };
 }
+
+}  // namespace
 
 std::vector<StepDescription> treatment_steps() {
   std::vector<StepDescription> descriptions;
@@ -238,10 +245,24 @@ std::vector<StepDescription> treatment_steps() {
   return descriptions;
 }
 
+Treatment expanded(const Treatment& treatment) {
+  Treatment steps;
+  for (const std::string& step : treatment) {
+    const auto [name, argument] = split_step(step);
+    const auto recipe = name == "recipe" ? recipe_of(argument) : std::nullopt;
+    if (recipe) {
+      steps.insert(steps.end(), recipe->steps.begin(), recipe->steps.end());
+    } else {
+      steps.push_back(step);
+    }
+  }
+  return steps;
+}
+
 std::optional<Edges> edges_of(const Treatment& treatment) {
   std::optional<Edges> said;
   bool is_mirrored = false;
-  for (const std::string& step : treatment) {
+  for (const std::string& step : expanded(treatment)) {
     const auto [name, argument] = split_step(step);
     is_mirrored = is_mirrored || name == "mirror";
     if (name != "edges") continue;

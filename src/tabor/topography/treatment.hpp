@@ -14,7 +14,8 @@ namespace tabor::topography {
 /// A treatment chain is an ordered list of steps in canonical text, exactly as a study file writes
 /// them: "level=plane", "fill=harmonic", "lowpass=hann:512/L", "lowpass=gauss:8um",
 /// "highpass=gauss:250um", "crop=x0,y0,nx,ny", "trim=125um", "despike=6,5", "resample=nx,ny",
-/// "mirror", "edges=cut", "flip=x". The command line's `--level plane` is the step "level=plane".
+/// "mirror", "edges=cut", "flip=x", "recipe=sheet". The command line's `--level plane` is the step
+/// "level=plane".
 using Treatment = std::vector<std::string>;
 
 /// Name of a step with the form of its argument and one line of help (for options.md, `--help` and
@@ -26,13 +27,8 @@ struct StepDescription {
 };
 std::vector<StepDescription> treatment_steps();
 
-/// Named chain that a kind of surface usually needs; it stands for its steps and for nothing else.
-struct Recipe {
-  std::string name;
-  std::string purpose;  ///< which surfaces it is for, and why these steps
-  Treatment steps;
-};
-std::vector<Recipe> recipes();
+/// Returns the chain with each recipe, such as "recipe=sheet", replaced by its steps (recipes.hpp).
+Treatment expanded(const Treatment& treatment);
 
 /// Checks names and arguments without a surface. Throws InputError naming the nearest match, and
 /// for steps that contradict each other.

@@ -133,8 +133,8 @@ void warn_of_pixels(const Grid& grid, Warnings& list) {
   constexpr double kSquare = 1e-3;
   if (std::abs(grid.dx() / grid.dy() - 1) > kSquare) {
     list.push_back({.code = "pixels-not-square",
-                    .text = fmt::format("pixels are not square: {} x {}", format_si(grid.dx(), "m"),
-                                        format_si(grid.dy(), "m"))});
+                    .text = fmt::format("Pixels are not square ({} x {})",
+                                        format_si(grid.dx(), "m"), format_si(grid.dy(), "m"))});
   }
 }
 
@@ -144,8 +144,8 @@ void warn_of_rows(const Topography& topography, Warnings& list) {
   if (!found.are_offsets()) return;
   list.push_back(
       {.code = "row-jumps",
-       .text = fmt::format("rows jump: {} from row to row against {} within rows; <level=rows> "
-                           "takes the offsets out",
+       .text = fmt::format("Rows jump by {} from one to the next, compared with {} within rows; "
+                           "<level=rows> removes the offsets",
                            format_si(found.size, "m", 3), format_si(found.within_rows, "m", 3))});
 }
 
@@ -155,7 +155,7 @@ void warn_of_holes(const Topography& topography, Warnings& list) {
   list.push_back(
       {.code = "missing-pixels",
        .text = fmt::format(
-           "{} of {} pixels are missing ({:.2g} %); <fill=harmonic> fills them", n_holes,
+           "{} of {} pixels are missing ({:.2g} %); <fill=harmonic> fills the holes", n_holes,
            topography.grid.size(),
            100 * static_cast<double>(n_holes) / static_cast<double>(topography.grid.size()))});
 }
@@ -165,7 +165,7 @@ void warn_of_quantum(double quantum, double rms, Warnings& list) {
   constexpr double kPlane = 1e-6;  // heights on a plane but for rounding
   if (quantum > kCoarse * rms && rms > kPlane * quantum) {
     list.push_back({.code = "height-steps",
-                    .text = fmt::format("heights come in steps of {}, {:.2g} of their rms",
+                    .text = fmt::format("Heights come in steps of {}, which is {:.2g} of their rms",
                                         format_si(quantum, "m"), quantum / rms)});
   }
 }
@@ -175,8 +175,8 @@ void warn_of_spikes(const Field& height, Warnings& list) {
   if (spikes == 0) return;
   list.push_back({.code = "spikes",
                   .text = fmt::format(
-                      "{} spike{} ({:.2g} %): slopes and contact depend on them; <despike=auto> "
-                      "takes them out",
+                      "The surface has {} spike{} ({:.2g} % of pixels), which change slopes and "
+                      "contact; <despike=auto> removes them",
                       spikes, spikes == 1 ? "" : "s",
                       100 * static_cast<double>(spikes) / static_cast<double>(height.size()))});
 }
@@ -232,7 +232,9 @@ bool is_of_heights(const Warning& warning) {
 Warnings about_heights(const Topography& topography, const Rms& rms) {
   Warnings list;
   if (is_profile(topography.grid)) {
-    list.push_back({.code = "profile", .text = "a profile of one row: areal results do not apply"});
+    list.push_back({.code = "profile",
+                    .text = "The scan is a profile of one row, so areal "
+                            "results do not apply"});
   } else {
     warn_of_pixels(topography.grid, list);
     warn_of_rows(topography, list);
@@ -242,7 +244,8 @@ Warnings about_heights(const Topography& topography, const Rms& rms) {
     list.push_back(
         {.code = "tilt",
          .text = fmt::format(
-             "tilt is larger than roughness: Sq {} becomes {} without its plane; <level=plane>",
+             "The tilt is larger than the roughness (Sq {}, {} without its plane); <level=plane> "
+             "removes it",
              format_si(rms.as_is, "m"), format_si(rms.levelled, "m"))});
   }
   return list;

@@ -143,7 +143,7 @@ TEST(Tiff, WhereWhiteIsZeroGivesTheCountsOfTheFileAndSaysSo) {
         test::read_bytes(folder, test::tiff(bits, 1, 1), counts_of(1e-9));
     EXPECT_TRUE(test::same_bits(dark.height, bright.height)) << bits;
     EXPECT_EQ(dark.format, "tiff");
-    EXPECT_THAT(texts_of(dark.warnings), testing::Contains(testing::HasSubstr("white is zero")));
+    EXPECT_THAT(texts_of(dark.warnings), testing::Contains(testing::HasSubstr("White is zero")));
   }
 }
 

@@ -64,8 +64,8 @@ TEST(Warnings, CountTheSpikesThatDespikeTakes) {
   height(10, 10) = 1e-6;
   height(30, 40) = -1e-6;
   EXPECT_EQ(all(map_of(height)),
-            "2 spikes (0.052 %): slopes and contact depend on them; <despike=auto> takes them "
-            "out\n");
+            "The surface has 2 spikes (0.052 % of pixels), which change slopes and contact; "
+            "<despike=auto> removes them\n");
 }
 
 TEST(Warnings, AnOrdinaryMapRaisesNone) { EXPECT_EQ(all(map_of(1e-6 * noise(64, 60))), ""); }
@@ -109,7 +109,7 @@ TEST(Warnings, ATreatmentDispelsThoseAboutTheHeightsItMends) {
 
 TEST(Warnings, ATreatmentRaisesNewOnes) {
   EXPECT_THAT(warnings_after({"lowpass=gauss:1mm"}, 1e-8 * noise(64, 60)),
-              Contains(HasSubstr("the cutoff of gauss:1000um is longer")));
+              Contains(HasSubstr("The cutoff of gauss:1000um is longer")));
 }
 
 TEST(Warnings, SpikesAreWarnedOfUntilAStepLooksForThem) {
@@ -122,7 +122,7 @@ TEST(Warnings, SpikesAreWarnedOfUntilAStepLooksForThem) {
 
 TEST(Warnings, StepsOfTheHeightStayWhereAFilterHidesThem) {
   EXPECT_THAT(warnings_after({"lowpass=gauss:8um"}, 1e-9 * (4 * noise(64, 64)).round()),
-              Contains(HasSubstr("heights come in steps of 1 nm")));
+              Contains(HasSubstr("Heights come in steps of 1 nm")));
 }
 
 }  // namespace

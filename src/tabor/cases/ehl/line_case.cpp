@@ -89,11 +89,12 @@ void warn_of_convergence(const LineRecord& record, Warnings& warnings) {
   if (!film.converged()) {
     warnings.push_back(
         {"no-film",
-         fmt::format("the film was not found ({}): more nodes, a lower load or less viscosity",
+         fmt::format("The film was not found ({}). Try more nodes, a lower load or a lower "
+                     "viscosity",
                      name_of(film.status))});
   }
   if (record.wear && !record.wear->convergence.converged()) {
-    warnings.push_back({"lost-film", "the film was lost while the track wore"});
+    warnings.push_back({"lost-film", "The film was lost while the track wore"});
   }
 }
 

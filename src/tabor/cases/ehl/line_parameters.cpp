@@ -48,7 +48,7 @@ Parameters<LineSettings> body_parameters() {
                .help = "u_s/u_m, instead of sliding_speed: follows u_m in a sweep; 2: one body "
                        "stands still",
                .example = "2",
-               .absent = "of sliding_speed"},
+               .absent = "from sliding_speed"},
               &Settings::slide_to_roll_ratio)};
 }
 

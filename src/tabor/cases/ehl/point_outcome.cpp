@@ -32,8 +32,8 @@ Warnings warnings_of(const PointProblem& problem, bool is_still) {
   if (problem.roughness.size() > 0 && is_still &&
       std::abs(std::abs(problem.sliding_speed) - at_rest) > 1e-6 * at_rest) {
     warnings.push_back({"resting-roughness",
-                        "the roughness is taken to stand still, but its surface moves; "
-                        "motion.duration lets it move"});
+                        "The roughness is solved at rest although its surface moves. Give "
+                        "motion.duration to let it move"});
   }
   return warnings;
 }
@@ -62,8 +62,8 @@ PointOutcome outcome_of(const io::Config& config, const PointProblem& problem,
   }
   if (!film.convergence.converged()) {
     outcome.warnings.push_back(
-        {"no-film", fmt::format("the film was not found ({}): more nodes, or a sweep down from a "
-                                "higher speed",
+        {"no-film", fmt::format("The film was not found ({}). Try more nodes, or a sweep down "
+                                "from a higher speed",
                                 name_of(film.convergence.status))});
   }
   outcome.write = [problem, film, observer = setting.observer](io::Hdf5Writer& writer) {
@@ -80,7 +80,7 @@ void add_dry_contact(const Observer& observer, PointOutcome& outcome) {
                         .convergence = dry.convergence};
   add(dry.warnings, outcome.warnings);
   if (!dry.convergence.converged()) {
-    outcome.warnings.push_back({"dry-contact", fmt::format("the dry contact was not found ({})",
+    outcome.warnings.push_back({"dry-contact", fmt::format("The dry contact was not found ({})",
                                                            name_of(dry.convergence.status))});
   }
 }

@@ -126,8 +126,8 @@ Warnings coarse_nodes(const PointProblem& problem, const Grid& surface) {
   const double pixel = std::min(surface.dx(), surface.dy());
   if (spacing <= kCoarse * pixel) return {};
   return {{"coarse-roughness",
-           fmt::format("nodes are {} apart, pixels {}: roughness shorter than {} is averaged "
-                       "away; give more nodes",
+           fmt::format("Nodes are {} apart and pixels {}, so roughness shorter than {} is "
+                       "averaged out. Give more nodes",
                        si(spacing, "m"), si(pixel, "m"), si(2 * spacing, "m")),
            spacing / pixel}};
 }

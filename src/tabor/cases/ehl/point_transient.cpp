@@ -113,8 +113,8 @@ PointOutcome transient_outcome(const io::Config& config, const CaseSetting& sett
   outcome.transient = solved.film.convergence;
   if (!solved.film.convergence.converged()) {
     outcome.warnings.push_back(
-        {"lost-film", fmt::format("no film was found after {}: where solids would touch, the "
-                                  "transient ends",
+        {"lost-film", fmt::format("No film was found after {}. The transient ends where solids "
+                                  "would touch",
                                   si(solved.film.history.back().time, "s"))});
   }
   outcome.write = [fields = outcome.write, history = solved.film.history](io::Hdf5Writer& writer) {

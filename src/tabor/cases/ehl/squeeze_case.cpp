@@ -101,8 +101,8 @@ CaseResult solve_linear(const LinearSqueeze& linear, double layer) {
   result.convergence = exact();
   if (result.min_film <= 0) {
     result.reason =
-        "the film would close, and no equation goes on from there: more damping, more stiffness or "
-        "a thicker layer";
+        "The film would close, and the equations end there. Try more damping, more stiffness or a "
+        "thicker layer";
     void_what_follows(layer - linear.displacement(result.time_max_force) > 0, result);
   }
   result.history.resize(1);

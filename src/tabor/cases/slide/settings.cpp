@@ -31,7 +31,7 @@ double distance_of(const SlideSettings& sliding, const Tool& tool, double dx) {
 const Parameters<SlideSettings>& slide_parameters() {
   using Settings = SlideSettings;
   using One = tabor::Parameter<Settings>;
-  static const Parameters<Settings> all{
+  static const Parameters<Settings> table{
       One({.name = "distance",
            .help = "distance of sliding",
            .example = "100 um",
@@ -64,13 +64,15 @@ const Parameters<SlideSettings>& slide_parameters() {
            .identity = Identity::yes},
           &Settings::every),
       One({.name = "displaced",
-           .help = "where displaced material goes: beside its contact, evenly up, or off the sheet",
+           .help = "where displaced material goes: up beside its contact, evenly over the sheet, "
+                   "or away",
            .example = "near",
            .study_key = "slide.displaced",
            .identity = Identity::yes},
           &Settings::displaced, sliding::kDisplaced),
       One({.name = "reach",
-           .help = "how far displaced material rises beside its contact, at least two pixels",
+           .help = "width over which displaced material rises beside its contact, at least two "
+                   "pixels",
            .example = "2 um",
            .dimension = dimension::length,
            .bounds = bounds::above_zero,
@@ -79,8 +81,7 @@ const Parameters<SlideSettings>& slide_parameters() {
            .identity = Identity::yes},
           &Settings::reach),
       One({.name = "wear_coefficient",
-           .help = "k of Archard: where solids touch, k times the pressure wears off over each "
-                   "length of sliding",
+           .help = "Archard's k: depth worn off per distance and pressure where solids touch",
            .example = "1e-15 m^2/N",
            .dimension = dimension::per_pressure,
            .unit = "m^2/N",
@@ -91,7 +92,7 @@ const Parameters<SlideSettings>& slide_parameters() {
            .identity = Identity::yes},
           &Settings::wear_coefficient),
       One({.name = "hardening",
-           .help = "rise of the saturation pressure of a pixel over the depth that it has yielded",
+           .help = "rise of the saturation pressure of a pixel per depth of yielding",
            .example = "100 MPa/um",
            .dimension = dimension::pressure_gradient,
            .bounds = bounds::above_zero,
@@ -101,26 +102,27 @@ const Parameters<SlideSettings>& slide_parameters() {
            .identity = Identity::unless_default},
           &Settings::hardening),
       One({.name = "liquid",
-           .help = "oil stays on its pixels (a lower bound of friction), and in a second account "
-                   "is squeezed out of contacts (an upper bound)",
+           .help = "oil stays on its pixels (lower bound of friction), or is squeezed out of "
+                   "contacts (upper bound), or both are computed",
            .example = "both",
            .study_key = "slide.liquid",
            .identity = Identity::yes},
           &Settings::liquid, kSlidingOils),
       One({.name = "until_steady",
-           .help = "end before the distance once a period of the tool displaces under 1 % of the "
-                   "first, and friction changes by under 1 %",
+           .help = "end early once a period of the tool displaces under 1 % of the first and "
+                   "friction changes by under 1 %",
            .study_key = "slide.until_steady",
            .identity = Identity::unless_default},
           &Settings::until_steady),
       One({.name = "maps_at",
-           .help = "distances whose maps are kept, beside those of both ends",
+           .help = "distances at which maps are saved, in addition to both ends",
            .example = "20 um,50 um",
            .dimension = dimension::length,
            .bounds = bounds::zero_or_more,
            .placeholder = "L[,L2,...]",
            .absent = "both ends"},
           &Settings::maps_at)};
+  static const Parameters<Settings> all = grouped("Sliding", table);
   return all;
 }
 
@@ -208,38 +210,42 @@ std::optional<Objection> objection(const SlideSettings& settings, const CaseSett
   if (!all.contact.saturation_pressure && !settings.wear_coefficient) {
     return objection_to_use(
         "saturation_pressure",
-        fmt::format("an elastic contact displaces nothing: sliding needs {} or {}",
+        fmt::format("sliding needs {} or {}, because an elastic contact displaces nothing",
                     spelling("saturation_pressure"), spelling("wear_coefficient")));
   }
   if (settings.hardening && !all.contact.saturation_pressure) {
-    return objection_to_use("hardening", fmt::format("an elastic sheet does not harden: give {}",
+    return objection_to_use("hardening", fmt::format("hardening needs {}, because an elastic "
+                                                     "sheet does not harden",
                                                      spelling("saturation_pressure")));
   }
   if (settings.hardening && all.trapped.is_asked()) {
     return objection_to_use(
-        "hardening", fmt::format("trapped oil is not solved on a sheet that hardens: leave out {}",
+        "hardening", fmt::format("trapped oil is not solved on a sheet that hardens; leave out {}",
                                  spelling("trapped")));
   }
   if (all.mean_pressures.size() != 1 || all.film.lubricant_densities.size() > 1) {
     const std::string setting =
         all.mean_pressures.size() != 1 ? "mean_pressure" : "lubricant_density";
     return objection_to_use(
-        setting, fmt::format("the sheet changes as it slides: give one {}", spelling(setting)));
+        setting,
+        fmt::format("give one {}, because the sheet changes as it slides", spelling(setting)));
   }
   if (all.contact.load_path) {
     return objection_to_use(
         "load_path",
-        fmt::format("sliding keeps what it displaces: leave out {}", spelling("load_path")));
+        fmt::format("leave out {}, because sliding keeps the displaced material in any case",
+                    spelling("load_path")));
   }
   if (all.trapped.is_asked() && all.film.lubricant_densities.empty()) {
-    return objection_to_use("trapped", fmt::format("{} needs oil: give {}", spelling("trapped"),
+    return objection_to_use("trapped", fmt::format("{} needs oil; give {}", spelling("trapped"),
                                                    spelling("lubricant_density")));
   }
   if (auto found = objection_to_trapped(all, spelling)) return found;
   if (auto found = objection_to_bounds(slide_parameters(), settings)) return found;
   if (!settings.distance && !settings.until_steady) {
-    return objection_to_use("distance", fmt::format("how far? give {} or {}", spelling("distance"),
-                                                    spelling("until_steady")));
+    return objection_to_use(
+        "distance", fmt::format("the distance is missing; give {} or {}", spelling("distance"),
+                                spelling("until_steady")));
   }
   const double distance = settings.distance.value_or(std::numeric_limits<double>::infinity());
   if (settings.step && *settings.step > distance) {

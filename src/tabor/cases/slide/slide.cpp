@@ -438,7 +438,7 @@ void Run::warn() {
   add(of_sliding(all_, pressure(), metrology::rms_height(surface_), tool_.grid.lx, result_.steady),
       result_.warnings);
   if (!converged_) {
-    result_.warnings.push_back({"not-converged", "some contacts along the way: NOT CONVERGED",
+    result_.warnings.push_back({"not-converged", "Some contacts along the way are NOT CONVERGED",
                                 slider_.displacing().convergence.certificate});
   }
   const SlideRecord& last = result_.states.back();

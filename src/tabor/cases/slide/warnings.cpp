@@ -16,30 +16,30 @@ Warnings of_sliding(const sliding::Ploughing& all, double mean_pressure, double 
   Warnings list;
   if (steady == false) {
     list.push_back({"not-steady",
-                    fmt::format("after {} sliding is not steady: the sheet still changes, and "
+                    fmt::format("Sliding is not steady after {}. The sheet still changes, and "
                                 "friction with it",
                                 format_si(all.distance, "m")),
                     0});
   }
   if (const double passes = all.distance / tool_length; passes > often) {
     list.push_back({"tool-envelope",
-                    fmt::format("the tool of {} has passed {:.1f} times: the sheet takes its "
-                                "envelope; a longer tool has more to show",
+                    fmt::format("The tool of {} has passed {:.1f} times: the sheet takes its "
+                                "envelope. Use a longer tool",
                                 format_si(tool_length, "m"), passes),
                     passes});
   }
   if (const double apart = all.certificate(mean_pressure); apart > kFineStep) {
     list.push_back(
         {"tool-pixel",
-         fmt::format("bounds on ploughing differ by {:.2g} of it: the tool is rougher along x than "
-                     "the step resolves",
+         fmt::format("The bounds on ploughing differ by {:.2g} of its value, because the step "
+                     "does not resolve the tool along x",
                      apart),
          apart});
   }
   if (all.lost > kMilling * rms_height) {
     list.push_back({"milling",
-                    fmt::format("{} of the sheet is worn off, its Sq was {}: material that is kept "
-                                "rises beside its contact",
+                    fmt::format("A layer of {} is worn off a sheet with an Sq of {}. Let displaced "
+                                "material rise instead",
                                 format_si(all.lost, "m"), format_si(rms_height, "m")),
                     all.lost / rms_height});
   }

@@ -60,7 +60,7 @@ class IterateConditions {
   /// liquid and without pressure.
   double gap_error(const Iterate& now) const;
 
-  /// Moves pixels to the bound next to which their pressure is in name only; the other solids share
+  /// Moves pixels to the bound that their pressure hardly differs from; the other solids share
   /// the load. Returns the load that moved, as a share of all; moves nothing where that is more
   /// than kMostSettled.
   double settle(Iterate& now) const;

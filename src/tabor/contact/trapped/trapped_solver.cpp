@@ -29,6 +29,8 @@ constexpr double kMostStep = 20;
 // Factor of the steps of pistons: longer where the minimum along a step lies behind its end.
 constexpr double kLeastPiston = 0.25, kMostPiston = 32;
 constexpr double kLonger = 1.5, kShorter = 0.5;
+// Share of the last step in the next one: less is not worth a projection, more leads astray.
+constexpr double kLeastMomentum = 0.05, kMostMomentum = 1;
 constexpr double kShort = 0.5;    // of a step to its minimum: it was too long
 constexpr double kMargin = 0.05;  // of the length scale
 
@@ -71,11 +73,31 @@ class TwoMetricGradient {
   void choose_active_set();
   void find_direction();
   void choose_step();
-  double project_step(Metric metric);
+  double project_step(Metric metric, double momentum = 0);
+  double conjugate_share() const;
+  double add_momentum(double slope);
   bool move();
   void accept(double length);
 
   double r(std::size_t pixel) const { return now_.v.data()[pixel] - now_.lambda; }
+  /// Change of the pressures that the trial asks for [Pa]; `k`, `j` count pixels outside and inside
+  /// pockets.
+  double change_outside(std::size_t k) const {
+    return trial_.outside[k] - now_.pressure.data()[outside_[k]];
+  }
+  double change_inside(std::size_t j) const {
+    return trial_.inside[j] - now_.pressure.data()[pockets_.pixels[j]];
+  }
+  /// Sum of the trial's changes times a map.
+  double along_trial(const FieldF& map) const {
+    return sum_over(outside_.size(),
+                    [&](std::size_t k) {
+                      return change_outside(k) * static_cast<double>(map.data()[outside_[k]]);
+                    }) +
+           sum_over(pockets_.pixels.size(), [&](std::size_t j) {
+             return change_inside(j) * static_cast<double>(map.data()[pockets_.pixels[j]]);
+           });
+  }
 
   elastic::ElasticOperator& elasticity_;
   const LoadProblem& problem_;
@@ -99,14 +121,16 @@ class TwoMetricGradient {
   FieldF work_;       // r on the active set, then dp, then S dp
   FieldF response_;   // S dp of the last step [m]
   FieldF previous_;   // direction of the last step [Pa], 0 where it moved nothing
+  FieldF change_;     // dp of the last step [Pa]
   PixelList active_;  // solid contact that may move
   std::vector<std::uint8_t> is_active_;  // of all pixels
   PixelList outside_;                    // pixels outside pockets that may move
   double outside_below_ = 0;             // all whose v lies below are among them [m]
   Wanted trial_;
   std::vector<double> trial_levels_;
-  double step_ = 1;            // tau
-  double step_curvature_ = 0;  // of the step before, on solid contact [Pa m]
+  double step_ = 1;             // tau
+  double step_curvature_ = 0;   // of the step before, on solid contact [Pa m]
+  double whole_curvature_ = 0;  // of the step before, <dp, S dp> [Pa m]
   double refresh_below_ = kFirstRefresh;
   bool residual_is_fresh_ = false;
   double best_certificate_ = std::numeric_limits<double>::infinity();
@@ -230,21 +254,40 @@ void TwoMetricGradient::choose_step() {
   }
 }
 
-/// Tries a step: trial_ and trial_levels_, dp into work_. Returns the slope of the energy along it
-/// [Pa m]; a positive one where nothing could be tried.
-double TwoMetricGradient::project_step(Metric metric) {
+/// Share of the last step that makes the trial conjugate to it: <S dp_last, trial + share dp_last>
+/// vanishes.
+double TwoMetricGradient::conjugate_share() const {
+  if (!(whole_curvature_ > 0)) return 0;
+  return std::min(-along_trial(response_) / whole_curvature_, kMostMomentum);
+}
+
+/// Adds that share to a trial which leads downhill, as the conjugate gradients of the dry solver
+/// do; not where it then leads uphill. Returns the slope, as project_step().
+double TwoMetricGradient::add_momentum(double slope) {
+  const double share = conjugate_share();
+  if (!(share > kLeastMomentum)) return slope;
+  const double with_momentum = project_step(Metric::preconditioned, share);
+  return with_momentum < 0 ? with_momentum : project_step(Metric::preconditioned);
+}
+
+/// Tries a step and a share of the last one: trial_ and trial_levels_, dp into work_. Returns the
+/// slope of the energy along it [Pa m]; a positive one where nothing could be tried.
+double TwoMetricGradient::project_step(Metric metric, double momentum) {
   const std::vector<float>& direction = direction_.whole();
   const double alone = direction_.diagonal() * slower_;
   if (metric != Metric::scalar) {
     for_each(active_.size(), [&](std::size_t k) { work_.data()[active_[k]] = direction[k]; });
   }
+  const auto carried_on = [&](std::size_t i) {
+    return momentum > 0 ? momentum * static_cast<double>(change_.data()[i]) : 0.0;
+  };
   trial_.outside.resize(outside_.size());
   for_each(outside_.size(), [&](std::size_t k) {
     const std::size_t i = outside_[k];
     const double change = metric == Metric::scalar || !is_active_[i]
                               ? alone * r(i)
                               : step_ * static_cast<double>(work_.data()[i]);
-    trial_.outside[k] = now_.pressure.data()[i] - change;
+    trial_.outside[k] = now_.pressure.data()[i] - change + carried_on(i);
   });
   trial_.inside.resize(pockets_.pixels.size());
   std::vector<double> steps(pockets_.size());
@@ -255,7 +298,7 @@ double TwoMetricGradient::project_step(Metric metric) {
       const double change = metric == Metric::scalar || !is_active_[i]
                                 ? steps[k] * r(i)
                                 : step_ * static_cast<double>(work_.data()[i]);
-      trial_.inside[j] = now_.pressure.data()[i] - change;
+      trial_.inside[j] = now_.pressure.data()[i] - change + carried_on(i);
     }
   });
   trial_.step = alone;
@@ -285,7 +328,9 @@ double TwoMetricGradient::project_step(Metric metric) {
 bool TwoMetricGradient::move() {
   slower_ = 1;
   double slope = project_step(Metric::preconditioned);
-  if (slope >= 0) {
+  if (slope < 0) {
+    slope = add_momentum(slope);
+  } else {
     direction_.drop_long_waves();
     slope = project_step(Metric::preconditioned);
     n_compact_steps_ += 1;
@@ -297,25 +342,14 @@ bool TwoMetricGradient::move() {
     direction_.clear();
   }
   if (slope >= 0) return false;
-  const auto change_outside = [&](std::size_t k) {
-    return trial_.outside[k] - now_.pressure.data()[outside_[k]];
-  };
-  const auto change_inside = [&](std::size_t j) {
-    return trial_.inside[j] - now_.pressure.data()[pockets_.pixels[j]];
-  };
   elasticity_.apply(work_, work_);
   convergence_.operator_applications += 1;
   convergence_.fft_pairs += 1;
-  const double curvature =
-      sum_over(outside_.size(),
-               [&](std::size_t k) {
-                 return change_outside(k) * static_cast<double>(work_.data()[outside_[k]]);
-               }) +
-      sum_over(pockets_.pixels.size(), [&](std::size_t j) {
-        return change_inside(j) * static_cast<double>(work_.data()[pockets_.pixels[j]]);
-      });
+  const double curvature = along_trial(work_);
   const double free_length = curvature > 0 ? -slope / curvature : 2;
-  accept(std::min(1.0, free_length));
+  const double length = std::min(1.0, free_length);
+  whole_curvature_ = length * length * curvature;
+  accept(length);
   piston_factor_ = std::clamp(piston_factor_ * (free_length > 1        ? kLonger
                                                 : free_length < kShort ? kShorter
                                                                        : 1.0),
@@ -329,6 +363,7 @@ void TwoMetricGradient::accept(double length) {
   for_each(previous_.size(), [&](Index i) { previous_(i) = 0; });
   for_each(active_.size(),
            [&](std::size_t k) { previous_.data()[active_[k]] = direction_.whole()[k]; });
+  for_each(change_.size(), [&](Index i) { change_(i) = 0; });
   const auto factor = static_cast<float>(length);
   for_each(response_.size(), [&](Index i) {
     response_(i) = work_(i) * factor;
@@ -341,6 +376,7 @@ void TwoMetricGradient::accept(double length) {
     double& p = now_.pressure.data()[outside_[k]];
     const double after = std::clamp(stepped(p, trial_.outside[k]), 0.0, cap_);
     const double change = after - p;
+    change_.data()[outside_[k]] = static_cast<float>(change);
     p = after;
     return change * static_cast<double>(response_.data()[outside_[k]]);
   });
@@ -349,6 +385,7 @@ void TwoMetricGradient::accept(double length) {
     double& p = now_.pressure.data()[i];
     const double after = std::clamp(stepped(p, trial_.inside[j]), 0.0, cap_);
     const double change = after - p;
+    change_.data()[i] = static_cast<float>(change);
     p = after;
     return is_active_[i] ? change * static_cast<double>(response_.data()[i]) : 0.0;
   });
@@ -376,7 +413,7 @@ SealedState TwoMetricGradient::run(const State& start, const std::vector<double>
     state.is_start = true;
     return state;
   }
-  for (FieldF* map : {&work_, &response_, &previous_}) {
+  for (FieldF* map : {&work_, &response_, &previous_, &change_}) {
     *map = uninitialised_map<FieldF>(ny, nx);
     for_each(map->size(), [map](Index i) { (*map)(i) = 0; });
   }

@@ -46,7 +46,7 @@ void check_layer(const ImpactProblem& problem, double dry_radius) {
       fmt::format("{}, in which the ball is wet to a radius of {}", format_si(problem.layer, "m"),
                   format_si(wet, "m")),
       fmt::format("a radius above {}, that of the dry contact", format_si(dry_radius, "m")),
-      "a layer this thin is squeezed out: give a thicker layer or a slower ball");
+      "give a thicker layer or a slower ball, because such a thin layer is squeezed out");
 }
 
 void check_domain(double domain_radius, double dry_radius) {
@@ -315,8 +315,8 @@ class Impact {
     if (result_.end != ImpactEnd::rebound || radii >= kWideDomain) return;
     result_.warnings.push_back(
         {"short-domain",
-         fmt::format("the film ends at {:.2g} radii of the dry contact: rebound and force depend "
-                     "on the domain",
+         fmt::format("The film reaches {:.2g} radii of the dry contact, so rebound and force "
+                     "depend on the domain",
                      radii),
          1 / radii});
   }

@@ -30,7 +30,7 @@ void check_domain(const LineProblem& problem) {
     throw InputError("domain of a line contact",
                      fmt::format("{:.4g} m beside the centre", beside_centre),
                      fmt::format("more than the half width of Hertz, {:.4g} m", half_width),
-                     "make the domain longer or leave it to the program");
+                     "make the domain longer, or leave it out");
   }
   const double spacing = x[1] - x[0];
   const double film = film_groups_of(problem).moes_min_film();
@@ -162,7 +162,7 @@ void check_line(const LineProblem& problem) {
   if (!(half_width < problem.radius)) {
     throw InputError("load of a line contact", fmt::format("{} N/m", problem.load),
                      fmt::format("a contact narrower than its radius, {} m", problem.radius),
-                     "the theory of small deformations ends before");
+                     "the theory holds only for small deformations");
   }
   material::check_pressure(problem.lubricant, hertz_of(problem).max_pressure);
   check(problem.asperities);

@@ -48,8 +48,8 @@ Warnings warnings_of(const LineProblem& problem, const LineResult& result) {
   if (result.max_pressure_before_spike < result.pressure.maxCoeff()) {
     warnings.push_back(
         {"pressure-spike",
-         fmt::format("the largest pressure is that of a spike at the outlet and grows with the "
-                     "number of nodes; {} without it",
+         fmt::format("The largest pressure is a spike at the outlet that grows with the number of "
+                     "nodes. Without it the pressure is {}",
                      si(result.max_pressure_before_spike, "Pa")),
          result.pressure.maxCoeff() / result.max_pressure_before_spike});
   }
@@ -59,8 +59,8 @@ Warnings warnings_of(const LineProblem& problem, const LineResult& result) {
   if (nodes < 2) {
     warnings.push_back(
         {"coarse-grid",
-         fmt::format("{:.2g} nodes where the film is built up leave its thickness uncertain; give "
-                     "about {:.2g} times as many",
+         fmt::format("Only {:.2g} nodes lie where the film builds up, so its thickness is "
+                     "uncertain. Use {:.2g} times as many",
                      nodes, 3 / nodes),
          1 / nodes});
   }

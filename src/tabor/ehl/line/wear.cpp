@@ -46,7 +46,7 @@ void check(const WearProblem& problem) {
     throw InputError("outlet of a film that goes to and fro",
                      fmt::format("{} m", problem.contact.outlet),
                      fmt::format("as long as the inlet, {} m", -x[0]),
-                     "it is the inlet on the way back; leave it to the program");
+                     "leave it out, because the outlet becomes the inlet on the way back");
   }
 }
 
@@ -81,8 +81,8 @@ Warnings warnings_of(const WearProblem& problem, double time_step) {
   const double factor = move / (kLargestMove * length);
   return {
       {"coarse-steps",
-       fmt::format("a step moves the track by {:.2g} of a half width or wave, which blurs the "
-                   "film; give {:.0f} steps per cycle",
+       fmt::format("A step moves the track by {:.2g} of a half width or wave, which blurs the "
+                   "film. Give {:.0f} steps per cycle",
                    move / length, std::ceil(factor * static_cast<double>(problem.steps_per_cycle))),
        factor}};
 }

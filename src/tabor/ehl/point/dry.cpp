@@ -47,7 +47,7 @@ PointResult solve_point_dry(const PointProblem& problem, const Observer& observe
   result.load_error = std::abs(sum(state.pressure) * result.grid.pixel_area() / problem.load - 1);
   result.convergence = state.convergence;
   if (reaches_border(state.pressure)) {
-    result.warnings.push_back({"dry-contact", "the contact reaches the border of the domain"});
+    result.warnings.push_back({"dry-contact", "The dry contact reaches the border of the domain"});
   }
   return result;
 }

@@ -108,7 +108,7 @@ void check_point(const PointProblem& problem) {
   if (!(hertz.half_axis_x < problem.radius_x && hertz.half_axis_y < problem.radius_y)) {
     throw InputError("load of a point contact", fmt::format("{} N", problem.load),
                      "a contact narrower than its radii",
-                     "the theory of small deformations ends before");
+                     "the theory holds only for small deformations");
   }
   material::check_pressure(problem.lubricant, hertz.max_pressure);
 }

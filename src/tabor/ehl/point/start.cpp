@@ -51,8 +51,8 @@ Warnings warnings_of(const PointProblem& problem, const PointResult& result) {
   if (on_grid > kLargeError) {
     warnings.push_back(
         {"coarse-grid",
-         fmt::format("the grid makes the central film too thin, by an estimated {}; more nodes, "
-                     "{:.2g} times as many, make it 1 %",
+         fmt::format("The grid makes the central film too thin by about {}. Use {:.2g} times as "
+                     "many nodes for 1 %",
                      percent(on_grid, 2), std::sqrt(on_grid / 0.01)),
          on_grid});
   }
@@ -60,8 +60,8 @@ Warnings warnings_of(const PointProblem& problem, const PointResult& result) {
   if (on_domain > kLargeError) {
     warnings.push_back(
         {"short-domain",
-         fmt::format("pressure carries load where the domain ends: the central film is too thin by "
-                     "about {}; grid.domain = \"auto\"",
+         fmt::format("The domain cuts off pressure that carries load, so the central film is too "
+                     "thin by about {}. Give grid.domain = \"auto\"",
                      percent(on_domain, 2)),
          on_domain});
   }
@@ -71,15 +71,15 @@ Warnings warnings_of(const PointProblem& problem, const PointResult& result) {
   const double inlet = (problem.inlet - 1) * half_axis / length;
   if (inlet < kInletLengths && !(on_domain > kLargeError)) {
     warnings.push_back({"short-inlet",
-                        fmt::format("the inlet is {:.2g} lengths sqrt(2 R h) long; 4 or more keep "
-                                    "the film from starving",
+                        fmt::format("The inlet is only {:.2g} lengths sqrt(2 R h) long, so the "
+                                    "film may starve. Use 4 or more",
                                     inlet),
                         1 / inlet});
   }
   const Index nx = result.grid.nx;
   if (result.pressure.col(nx - 2).maxCoeff() > 0) {
     warnings.push_back(
-        {"short-outlet", "the film reaches the end of the domain: give a longer outlet"});
+        {"short-outlet", "The film reaches the end of the domain. Give a longer outlet"});
   }
   return warnings;
 }

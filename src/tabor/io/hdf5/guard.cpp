@@ -3,10 +3,13 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#if defined(__linux__)
+#include <sys/prctl.h>
+#endif
 
 #include <fmt/format.h>
 
@@ -92,7 +95,9 @@ void limit_wait(unsigned seconds) {
 
 /// The copy ends with the process it was made by, which may be gone already.
 void end_with(pid_t original) {
+#if defined(__linux__)
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+#endif
   if (::getppid() != original) ::_exit(1);
 }
 

@@ -156,11 +156,11 @@ void RowDecoder::accept(std::string_view bytes) {
 void warn_of_surplus(const Cursor& behind_map, Document& document) {
   if (behind_map.left() == 0) return;
   document.warnings.push_back(fmt::format(
-      "{} bytes follow the map: its size or type may be stated wrongly", behind_map.left()));
+      "{} bytes follow the map. The file may state a wrong size or type", behind_map.left()));
 }
 
 void warn_of_negative_scale(double scale, Document& document) {
-  if (scale < 0) document.warnings.push_back("the height scale is negative: is up really up?");
+  if (scale < 0) document.warnings.push_back("The height scale is negative. Check that up is up");
 }
 
 namespace {

@@ -52,7 +52,8 @@ Document open_png(const Contents& contents) {
   const auto counts = std::make_shared<const Field>(std::move(image.counts));
   Document document{.format = "png"};
   if (image.bits < 16) {
-    document.warnings.push_back(fmt::format("only {} bits per pixel: coarse heights", image.bits));
+    document.warnings.push_back(
+        fmt::format("Heights are coarse, with only {} bits per pixel", image.bits));
   }
   Layer layer{.name = "grey values",
               .is_count = true,

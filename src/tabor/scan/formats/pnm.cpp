@@ -71,7 +71,8 @@ Document open_pnm(const Contents& contents) {
   Document document{.format = "pgm"};
   constexpr double kMostOfAByte = 255;
   if (most <= kMostOfAByte) {
-    document.warnings.push_back(fmt::format("only {} steps of grey: coarse heights", most));
+    document.warnings.push_back(
+        fmt::format("Heights are coarse, with only {} steps of grey", most));
   }
   const std::size_t size = most > kMostOfAByte ? 2 : 1;
   check_size(contents, nx, ny, rest.size() / size);

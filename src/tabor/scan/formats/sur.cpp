@@ -215,7 +215,8 @@ Object take_object(const Contents& contents) {
 void warn_of_heights(const Header& header, Document& document) {
   warn_of_negative_scale(header.dz, document);
   if (header.is_inverted) {
-    document.warnings.push_back("the file says that its heights were inverted: is up really up?");
+    document.warnings.push_back(
+        "The file says that its heights were inverted. Check that up is up");
   }
 }
 

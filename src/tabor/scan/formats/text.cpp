@@ -150,7 +150,8 @@ Layer as_matrix(const Contents& contents, TextNumbers numbers, const TextHeader&
 TextLayers read_matrix(const Contents& contents, TextNumbers numbers, const TextHeader& header) {
   TextLayers read{.format = "matrix", .layers = {}};
   if (header.one_per_line && numbers.n_rows() != numbers.n_columns()) {
-    read.warnings.push_back("a square map is assumed: the file does not tell its rows");
+    read.warnings.push_back(
+        "The file does not give the number of rows, so a square map is assumed");
   }
   const bool is_plain = !header.is_map && !header.one_per_line;
   if (!(header.nx && header.ny) && !header.one_per_line) reject_blocks(contents, numbers);

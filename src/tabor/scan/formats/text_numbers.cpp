@@ -358,7 +358,7 @@ namespace {
            "write NaN where a height is missing");
   }
   reject(contents, fmt::format("'{}' on line {}", block.wrong.substr(0, 40), line), "a number",
-         "remove or comment what is not data");
+         "remove lines that are not data, or mark them as comments");
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ std::optional<TextLayers> as_points(const TextNumbers& numbers, const TextHeader
       fmt::format("coordinates in steps of {:g} and {:g} without a unit", x->step, y->step);
   TextLayers read{.format = "xyz", .layers = {}};
   if (layer.nx == 1 || layer.ny == 1) {
-    read.warnings.push_back("a single row of points: square pixels are assumed");
+    read.warnings.push_back("The file has a single row of points, so square pixels are assumed");
   }
   read.layers.push_back(std::move(layer));
   return read;

@@ -58,10 +58,11 @@ Document open_tiff(const Contents& contents) {
     document.warnings.push_back(fmt::format("only the first of {} images is read", image.n_images));
   }
   if (image.bits < 16) {
-    document.warnings.push_back(fmt::format("only {} bits per pixel: coarse heights", image.bits));
+    document.warnings.push_back(
+        fmt::format("Heights are coarse, with only {} bits per pixel", image.bits));
   }
   if (image.white_is_zero) {
-    document.warnings.push_back("white is zero in this picture: its dark pixels are high");
+    document.warnings.push_back("White is zero in this picture, so dark pixels are high");
   }
   Layer layer{
       .name = "grey values", .is_count = true, .nx = image.nx, .ny = image.ny, .load = [contents] {

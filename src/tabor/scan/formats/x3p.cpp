@@ -192,13 +192,15 @@ Field unpack(const Archive& archive, const Links& links, const Matrix& matrix, I
     decoder.accept(piece.substr(n_skipped));
   });
   if (!links.digest.empty() && digest.hexadecimal() != links.digest) {
-    warnings.push_back("the data do not match their MD5 checksum: changed after export");
+    warnings.push_back("The data do not match their MD5 checksum. They were changed after export");
   }
   if (links.valid != nullptr) {
     const std::string bits = archive.read(*links.valid);
     if (!links.valid_digest.empty() &&
         io::md5(std::as_bytes(std::span(bits))) != links.valid_digest) {
-      warnings.push_back("the valid points do not match their MD5 checksum: changed after export");
+      warnings.push_back(
+          "The valid points do not match their MD5 checksum. They were changed "
+          "after export");
     }
     apply_valid_points(field, bits, k * matrix.nx * matrix.ny);
   }
@@ -229,7 +231,7 @@ const Axis& y_axis(const Matrix& matrix) {
 void add_layers(Document& document, const Matrix& matrix, const Load& load) {
   if (!matrix.z.increment && is_integer(matrix.z.sample)) {
     document.warnings.push_back(
-        "whole numbers without an Increment are heights in metres (ISO 25178-72)");
+        "Whole numbers without an Increment are read as heights in metres (ISO 25178-72)");
   }
   warn_of_negative_scale(matrix.z.increment.value_or(1), document);
   for (Index k = 0; k < matrix.n_layers; ++k) {
@@ -288,7 +290,7 @@ Document open_x3p(const Contents& contents) {
   const Matrix matrix = describe(contents, root, n_samples_of(contents, *archive, root));
   if (is_rotated(contents, root)) {
     document.warnings.push_back(
-        "the Rotation of its axes is not applied: rows and heights as stored");
+        "The Rotation of the axes is not applied. Rows and heights are as stored");
   }
   const io::XmlElement link = root.at("Record3/DataLink");
   const io::XmlElement list = root.at("Record3/DataList");
