@@ -53,6 +53,14 @@ TEST(Yaml, AliasesThatMultiplyAndDeepNestingAreRejected) {
     bomb += "]\n";
   }
   EXPECT_THAT(rejection(bomb), testing::HasSubstr("more than 1000000 values"));
+  std::string long_text = "- &t '" + std::string(1 << 20, 'x') + "'\n";
+  for (int i = 0; i < 100; ++i) long_text += "- *t\n";
+  EXPECT_THAT(rejection(long_text), testing::HasSubstr("more than 1000000 values"));
+  std::string nested;
+  for (int i = 0; i < 90; ++i) nested += "&a" + std::to_string(i) + " [";
+  for (int i = 0; i < 20000; ++i) nested += "1,";
+  EXPECT_THAT(rejection(nested + "1" + std::string(90, ']')),
+              testing::HasSubstr("more than 1000000 values"));
   EXPECT_THAT(rejection(std::string(200, '[') + std::string(200, ']')),
               testing::HasSubstr("nested more than 100 deep"));
 }

@@ -188,9 +188,9 @@ Field read_tiff(const std::filesystem::path& file, const std::function<void(doub
 
 namespace {
 
-/// GDAL's tag, which libtiff does not know.
+/// Declares GDAL's tag, which libtiff does not know. The library points to the name.
 void declare_missing_tag(TIFF* tiff) {
-  char name[] = "GDALNoDataValue";
+  static char name[] = "GDALNoDataValue";
   const TIFFFieldInfo field{kMissingTag, TIFF_VARIABLE, TIFF_VARIABLE, TIFF_ASCII, FIELD_CUSTOM, 1,
                             0,           name};
   TIFFMergeFieldInfo(tiff, &field, 1);

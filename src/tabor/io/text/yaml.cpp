@@ -43,12 +43,13 @@ Json plain_scalar(const std::string& text) {
   return value && std::isfinite(*value) ? Json(*value) : Json(text);
 }
 
-/// Number of values in a tree.
+/// Returns the number of values in a tree; 16 bytes of text count as one more.
 std::size_t count(const Json& value) {
+  constexpr std::size_t kBytes = 16;
   std::size_t n = 1;
-  if (value.is_structured()) {
-    for (const Json& child : value) n += count(child);
-  }
+  if (value.is_string()) n += value.get_ref<const std::string&>().size() / kBytes;
+  if (!value.is_structured()) return n;
+  for (const auto& [key, child] : value.items()) n += count(child) + key.size() / kBytes;
   return n;
 }
 
@@ -141,7 +142,9 @@ class Builder {
   }
 
   Json remembered(const std::string& anchor, Json value) {
-    if (!anchor.empty()) anchors_[anchor] = value;
+    if (anchor.empty()) return value;
+    count_values(count(value));  // anchors inside of each other are copied again and again
+    anchors_[anchor] = value;
     return value;
   }
 
