@@ -19,7 +19,7 @@ io::Json index_of(const topography::Topography& topography) {
   measurement["name"] = name;
   measurement["datafile"]["squeezed-netcdf"] = kHeights;
   measurement["size"] = {topography.grid.lx};
-  if (topography.grid.ny > 1) measurement["size"].push_back(topography.grid.ly);
+  if (!is_line(topography.grid)) measurement["size"].push_back(topography.grid.ly);
   measurement["unit"] = "m";
   measurement["is_periodic"] = topography.periodic;
   measurement["has_undefined_data"] = topography::count_holes(topography) > 0;

@@ -130,7 +130,7 @@ Document open_classic(const Contents& contents) {
   Layer layer = is_line ? line_layer(contents, header, *heights, document)
                         : map_layer(contents, header, *heights);
   const NetcdfSurface surface{.x = axis_of(header, "x"),
-                              .y = is_line ? axis_of(header, "x") : axis_of(header, "y"),
+                              .y = is_line ? std::nullopt : std::optional(axis_of(header, "y")),
                               .unit = text_of(heights->attributes, "unit"),
                               .json = text_of(header.attributes, "json")};
   complete(surface, layer, document);
@@ -147,7 +147,7 @@ io::Json json_or_null(const std::string& text) {
   }
 }
 
-std::string text_of(const io::Json& object, const std::string& key) {
+std::string text_in(const io::Json& object, const std::string& key) {
   return object.contains(key) && object.at(key).is_string() ? object.at(key).get<std::string>()
                                                             : "";
 }
@@ -156,7 +156,7 @@ std::string text_of(const io::Json& object, const std::string& key) {
 void describe(const std::string& text, Document& document) {
   const io::Json remarks = text.empty() ? io::Json() : json_or_null(text);
   if (!remarks.is_object()) return;
-  if (remarks.contains("instrument")) document.instrument = text_of(remarks["instrument"], "name");
+  if (remarks.contains("instrument")) document.instrument = text_in(remarks["instrument"], "name");
   for (const auto& [key, value] : remarks.items()) {
     if (value.is_string()) document.metadata[key] = value.get<std::string>();
   }
@@ -174,18 +174,18 @@ void complete(const NetcdfSurface& surface, Layer& layer, Document& document) {
     return *axis.length * unit_factor(axis.unit, dimension::length).value_or(kHole) /
            static_cast<double>(n);
   };
-  const bool is_row = layer.ny == 1;
+  const auto said = [](const char* name, const NetcdfAxis& axis) {
+    return fmt::format("{}:length = {:g} {}", name, axis.length.value_or(kHole), axis.unit);
+  };
   if (!layer.pixel_x) {
     layer.pixel_x = pixel(surface.x, layer.nx);
-    layer.pixel_y = is_row && !surface.y.length ? layer.pixel_x : pixel(surface.y, layer.ny);
-    layer.said_x =
-        fmt::format("x:length = {:g} {}", surface.x.length.value_or(kHole), surface.x.unit);
-    layer.said_y =
-        fmt::format("y:length = {:g} {}", surface.y.length.value_or(kHole), surface.y.unit);
+    layer.pixel_y = surface.y ? pixel(*surface.y, layer.ny) : layer.pixel_x;
+    layer.said_x = said("x", surface.x);
+    layer.said_y = surface.y ? said("y", *surface.y) : layer.said_x;
   }
   // SurfaceTopography has one unit for all; line scans name it at the positions only.
   layer.unit = surface.unit.empty() ? surface.x.unit : surface.unit;
-  document.periodic = surface.x.is_periodic && surface.y.is_periodic;
+  document.periodic = surface.x.is_periodic && (!surface.y || surface.y->is_periodic);
   describe(surface.json, document);
   const auto name = document.metadata.find("name");
   layer.name = name == document.metadata.end() ? "height" : name->second;

@@ -90,7 +90,7 @@ Document describe(const Contents& contents) {
   Document document{.format = "nc"};
   Layer layer = is_line ? line_layer(contents, reader, document) : map_layer(contents, reader);
   complete({.x = axis_of(reader, "/x"),
-            .y = axis_of(reader, is_line ? "/x" : "/y"),
+            .y = is_line ? std::nullopt : std::optional(axis_of(reader, "/y")),
             .unit = text_of(reader, kHeights, "unit"),
             .json = text_of(reader, "/", "json")},
            layer, document);

@@ -17,10 +17,10 @@ struct NetcdfAxis {
 
 /// Description of a surface but for its heights.
 struct NetcdfSurface {
-  NetcdfAxis x;
-  NetcdfAxis y;           ///< that of x for a line
-  std::string unit = {};  ///< of the heights
-  std::string json = {};  ///< further remarks
+  NetcdfAxis x = {};
+  std::optional<NetcdfAxis> y = {};  ///< nullopt for a line, whose pixels are taken as square
+  std::string unit = {};             ///< of the heights
+  std::string json = {};             ///< further remarks
 };
 
 /// Fills in unit, pixel and name of a layer whose size and heights are known, and the remarks of

@@ -27,13 +27,13 @@ std::string remarks_of(const topography::Topography& topography) {
   return io::to_text(remarks, -1);
 }
 
-/// A line has no y. Heights come last: only the last variable may be larger than 4 GiB.
+/// Heights come last: only the last variable may be larger than 4 GiB.
 NetcdfHeader header_of(const topography::Topography& topography) {
   const Grid& grid = topography.grid;
   NetcdfHeader header{.attributes = {{"json", remarks_of(topography)}}, .variables = {}};
   header.variables.push_back(axis("x", grid.nx, grid.lx, topography.periodic));
   auto places = header.variables[0].dimensions;
-  if (grid.ny > 1) {
+  if (!is_line(grid)) {
     header.variables.push_back(axis("y", grid.ny, grid.ly, topography.periodic));
     places.push_back(header.variables[1].dimensions[0]);
   }
@@ -72,12 +72,17 @@ std::string column_of(const Field& height, Index x) {
 
 }  // namespace
 
+bool is_line(const Grid& grid) {
+  constexpr double kRounding = 1e-9;
+  return grid.ny == 1 && std::abs(grid.dy() - grid.dx()) <= kRounding * grid.dx();
+}
+
 void append_nc(const topography::Topography& topography, const io::Append& append) {
   NetcdfHeader header = header_of(topography);
   const Grid& grid = topography.grid;
   append(netcdf_header_bytes(header));
   append(positions_of(grid.nx, grid.dx()));
-  if (grid.ny > 1) append(positions_of(grid.ny, grid.dy()));
+  if (!is_line(grid)) append(positions_of(grid.ny, grid.dy()));
   if (header.variable("mask") != nullptr) append(mask_of(topography.height));
   for (Index x = 0; x < grid.nx; ++x) append(column_of(topography.height, x));
 }

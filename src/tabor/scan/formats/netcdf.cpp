@@ -11,6 +11,8 @@ namespace {
 constexpr std::size_t kAlignment = 4;
 constexpr std::uint32_t kDimensions = 10, kVariables = 11, kAttributes = 12;
 constexpr std::uint32_t kText = 2;
+/// Limits far above those of any map: a header must not become much larger in memory.
+constexpr std::uint64_t kLongestName = 1024, kMostItems = 100'000, kMostNumbers = 1024;
 
 /// Number types of the specification, by code.
 std::optional<Sample> sample_of(std::uint32_t code) {
@@ -54,6 +56,14 @@ class HeaderReader {
     return version_ == 5 ? cursor_.take<std::uint64_t>() : cursor_.take<std::uint32_t>();
   }
 
+  void count_items(std::uint64_t n) {
+    if (n <= kMostItems - n_items_) {
+      n_items_ += n;
+      return;
+    }
+    reject(contents_, fmt::format("a header of more than {} items", kMostItems), "a map", kDamaged);
+  }
+
   /// Returns the number of elements of a list, each of which takes more than 4 bytes.
   std::uint64_t begin_list(std::uint32_t expected) {
     const auto tag = cursor_.take<std::uint32_t>();
@@ -63,6 +73,7 @@ class HeaderReader {
       reject(contents_, fmt::format("a list {} of {} elements", tag, n), "a NetCDF header",
              kDamaged);
     }
+    count_items(n);
     return n;
   }
 
@@ -73,7 +84,13 @@ class HeaderReader {
     return bytes;
   }
 
-  std::string take_name() { return std::string(take_padded(take_count())); }
+  std::string take_name() {
+    const std::uint64_t size = take_count();
+    if (size > kLongestName) {
+      reject(contents_, fmt::format("a name of {} bytes", size), "a NetCDF header", kDamaged);
+    }
+    return std::string(take_padded(size));
+  }
 
   Sample take_type(std::uint32_t code) {
     const auto sample = sample_of(code);
@@ -90,7 +107,7 @@ class HeaderReader {
     }
     const std::string_view bytes = take_padded(n * size_of(sample));
     if (code == kText) return std::string(bytes.substr(0, bytes.find('\0')));
-    if (n == 0) return std::vector<double>{};
+    if (n == 0 || n > kMostNumbers) return std::vector<double>{};
     const Raster raster{
         .sample = sample, .order = std::endian::big, .nx = static_cast<Index>(n), .ny = 1};
     const Field values = decode(contents_.part(bytes), bytes, raster);
@@ -118,7 +135,7 @@ class HeaderReader {
   NetcdfVariable take_variable() {
     NetcdfVariable variable{.name = take_name()};
     const std::uint64_t n = take_count();
-    if (n > cursor_.left() / kAlignment) reject(contents_, "too many dimensions", "", kDamaged);
+    count_items(n);
     for (std::uint64_t i = 0; i < n; ++i) variable.dimensions.push_back(take_dimension());
     variable.attributes = take_attributes();
     variable.sample = take_type(cursor_.take<std::uint32_t>());
@@ -130,6 +147,7 @@ class HeaderReader {
   Contents contents_;
   Cursor cursor_;
   std::uint8_t version_ = 1;
+  std::uint64_t n_items_ = 0;
   std::vector<NetcdfDimension> dimensions_;
 };
 

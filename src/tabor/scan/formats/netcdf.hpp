@@ -43,7 +43,8 @@ struct NetcdfHeader {
 /// True where the bytes begin like a classic NetCDF file of versions 1, 2 or 5.
 bool is_netcdf(std::string_view head);
 
-/// Reads the header. Throws InputError for a damaged one.
+/// Reads the header; lists of more than 1024 numbers come back empty. Throws InputError for a
+/// damaged one.
 NetcdfHeader read_netcdf_header(const Contents& contents);
 
 /// Return an attribute as text or as one number; "" and nullopt if there is no such attribute.

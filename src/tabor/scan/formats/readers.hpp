@@ -47,6 +47,8 @@ std::string note_sur(const topography::Topography& topography);
 Match identify_nc(std::string_view head);
 Document open_nc(const Contents& contents);
 void write_nc(const topography::Topography& topography, const std::filesystem::path& file);
+/// True for a row of square pixels, which NetCDF holds as a line without y.
+bool is_line(const Grid& grid);
 /// Appends what write_nc() writes, for files inside of others.
 void append_nc(const topography::Topography& topography, const io::Append& append);
 
@@ -99,6 +101,7 @@ Document open_datx(const Contents& contents);
 Match identify_tiff(std::string_view head);
 Document open_tiff(const Contents& contents);
 void write_tiff(const topography::Topography& topography, const std::filesystem::path& file);
+std::string note_tiff(const topography::Topography& topography);
 
 Match identify_png(std::string_view head);
 Document open_png(const Contents& contents);
