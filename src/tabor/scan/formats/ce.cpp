@@ -32,7 +32,7 @@ struct Measurement {
   std::vector<double> size = {};
   std::string unit = {};
   double height_scale = 1;
-  bool is_periodic = false;
+  std::optional<bool> is_periodic = {};
   std::string fill = {};     ///< how missing heights were filled
   std::string detrend = {};  ///< what was subtracted
 
@@ -68,8 +68,10 @@ Measurement measurement_of(const io::Json& entry, const std::string& surface) {
   const auto is = [&](const char* key, bool (io::Json::*kind)() const noexcept) {
     return entry.is_object() && entry.contains(key) && (entry[key].*kind)();
   };
-  if (is("height_scale", &io::Json::is_number)) one.height_scale = entry["height_scale"];
-  if (is("is_periodic", &io::Json::is_boolean)) one.is_periodic = entry["is_periodic"];
+  if (is("height_scale", &io::Json::is_number)) {
+    one.height_scale = entry["height_scale"].get<double>();
+  }
+  if (is("is_periodic", &io::Json::is_boolean)) one.is_periodic = entry["is_periodic"].get<bool>();
   one.fill = text_of(entry, "fill_undefined_data_mode");
   one.detrend = text_of(entry, "detrend_mode");
   return one;
@@ -77,10 +79,12 @@ Measurement measurement_of(const io::Json& entry, const std::string& surface) {
 
 std::vector<Measurement> measurements_of(const Contents& contents, const io::Json& index) {
   std::vector<Measurement> all;
-  for (const io::Json& surface : list_of(index, "surfaces")) {
+  const io::Json surfaces = list_of(index, "surfaces");
+  for (const io::Json& surface : surfaces) {
     for (const io::Json& entry : list_of(surface, "topographies")) {
       all.push_back(measurement_of(entry, text_of(surface, "name")));
-      const Measurement& one = all.back();
+      Measurement& one = all.back();
+      if (surfaces.size() > 1 && !one.surface.empty()) one.name = one.surface + ": " + one.name;
       if (one.entry().empty()) {
         reject(contents, "measurement '" + one.name + "' without a data file", "its name",
                kDamaged);
@@ -110,7 +114,7 @@ io::Json index_of(const Contents& contents, const Archive& archive) {
   try {
     return io::parse_json(text);
   } catch (const InputError& error) {
-    throw InputError(name + ": " + error.what());
+    throw InputError(name + ": " + error.what() + "; " + kDamaged);
   }
 }
 
@@ -184,8 +188,7 @@ void complete(const Measurement& one, Layer& layer) {
 std::vector<std::string> treatment_of(const Measurement& one) {
   if (one.prepared.empty() || one.original.empty()) return {};
   std::vector<std::string> notes{
-      fmt::format("heights as {} treated them (detrend: {}); the archive also holds the file of "
-                  "the instrument, {}",
+      fmt::format("{} has treated these heights (detrend: {}); the archive also holds {}",
                   kProvider, one.detrend.empty() ? "unknown" : one.detrend, one.original)};
   if (!one.fill.empty() && one.fill != "do-not-fill") {
     notes.push_back(fmt::format("{} may have filled missing heights ({})", kProvider, one.fill));
@@ -233,6 +236,16 @@ std::vector<Layer> layers_of(const Contents& contents, std::shared_ptr<const Arc
   return layers;
 }
 
+/// What the file of the only measurement says about its heights.
+void describe(const Document& opened, Document& document) {
+  document.instrument = opened.instrument;
+  document.metadata = opened.metadata;
+  document.history = opened.history;
+  document.lasting = opened.lasting;
+  document.tiles = opened.tiles;
+  document.edges = opened.edges;
+}
+
 }  // namespace
 
 Match identify_ce(std::string_view head) { return is_zip(head) ? Match::maybe : Match::no; }
@@ -242,26 +255,24 @@ Document open_ce(const Contents& contents) {
   const io::Json index = index_of(contents, *archive);
   if (!index.is_object() || !index.contains("surfaces")) {
     throw Unrecognised(contents, fmt::format("an index without surfaces (so not {})", kProvider),
-                       "");
+                       "unpack it if it holds several files");
   }
   const std::vector<Measurement> measurements = measurements_of(contents, index);
-  Document document{.format = kName};
-  document.periodic = measurements.front().is_periodic;
+  Document document{.format = kName, .periodic = true};
   check_unpacked_size(contents, *archive, measurements);
   for (const Measurement& one : measurements) {
-    if (one.is_periodic != document.periodic) document.periodic = false;
     Member(contents, *archive, one.entry()).with([&](const Document& opened) {
+      if (measurements.size() == 1) describe(opened, document);
+      if (!one.is_periodic.value_or(opened.periodic)) document.periodic = false;
       for (Layer& layer : layers_of(contents, archive, one, opened)) {
         document.layers.push_back(std::move(layer));
       }
-      if (measurements.size() == 1) {
-        document.instrument = opened.instrument;
-        document.metadata = opened.metadata;
-        document.history = opened.history;
-      }
     });
   }
-  document.metadata["surface"] = measurements.front().surface;
+  const std::string& surface = measurements.front().surface;
+  if (!surface.empty() && measurements.back().surface == surface) {
+    document.metadata["surface"] = surface;
+  }
   if (document.layers.empty()) reject(contents, "no heights in its measurements", "heights");
   return document;
 }

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "tabor/core/text.hpp"
+#include "tabor/core/units.hpp"
 #include "tabor/io/text/xml.hpp"
 #include "tabor/scan/formats/archive.hpp"
 #include "tabor/scan/formats/profile.hpp"
@@ -39,7 +40,6 @@ class Workbook {
 
   /// Returns the cells of a sheet in the columns A, E and F.
   Cells cells(const std::string& sheet) {
-    if (shared_.empty()) take_shared_texts();
     std::string target = sheets_.at(sheet);
     if (!target.starts_with("/")) target = "xl/" + target;
     const io::XmlDocument document(text(target), name_of(sheet));
@@ -47,7 +47,9 @@ class Workbook {
     for (const io::XmlElement& row : document.root().at("sheetData").children("row")) {
       for (const io::XmlElement& cell : row.children("c")) {
         const std::string place = cell.attribute("r");
-        if (std::string_view("AEF").find(place.substr(0, 1)) == std::string_view::npos) continue;
+        if (place.empty() || std::string_view("AEF").find(place[0]) == std::string_view::npos) {
+          continue;
+        }
         cells[place] = text_of(cell);
       }
     }
@@ -69,10 +71,11 @@ class Workbook {
     }
   }
 
-  std::string text_of(const io::XmlElement& cell) const {
+  std::string text_of(const io::XmlElement& cell) {
     if (cell.attribute("t") == "inlineStr") return cell.at("is/t").text();
     const std::string value = cell.at("v").text();
     if (cell.attribute("t") != "s") return value;
+    if (shared_.empty()) take_shared_texts();
     const double index = parse_number(value).value_or(-1);
     const bool is_known = index >= 0 && index < static_cast<double>(shared_.size());
     if (!is_known) reject(contents_, "a cell with a text that is not there", "", kDamaged);
@@ -85,18 +88,30 @@ class Workbook {
   std::vector<std::string> shared_;
 };
 
-/// The letters at the end of "Ra 3.308 um" or "2.5mm".
-std::string unit_at_end(const std::string& text) {
-  const std::size_t digit = text.find_last_of("0123456789.");
-  return digit == std::string::npos ? "" : std::string(trim(text.substr(digit + 1)));
-}
-
-/// The first parameter that has a unit.
-std::string unit_of_heights(const Cells& cells) {
-  for (const auto& [place, text] : cells) {
-    if (place.starts_with("A") && !unit_at_end(text).empty()) return unit_at_end(text);
+/// The first unit of length behind a number: of "Ra 3.308 um", "R1max 2um" or "2.5mm".
+std::string unit_in(const std::string& text) {
+  constexpr std::string_view kDigits = "0123456789.", kEnds = " \t(),;";
+  std::size_t begin = text.find_first_of(kDigits);
+  while (begin != std::string::npos) {
+    const std::size_t unit = text.find_first_not_of(kDigits, begin);
+    if (unit == std::string::npos) break;
+    const std::string_view behind = trim(std::string_view(text).substr(unit));
+    const std::string_view word = behind.substr(0, behind.find_first_of(kEnds));
+    if (unit_factor(word, dimension::length)) return std::string(word);
+    begin = text.find_first_of(kDigits, unit);
   }
   return "";
+}
+
+/// The unit of the first parameter that has one.
+std::string unit_of_heights(const Cells& cells) {
+  std::map<double, std::string> units;
+  for (const auto& [place, text] : cells) {
+    const auto row = parse_number(place.substr(1));
+    const std::string unit = unit_in(text);
+    if (place.starts_with("A") && row && !unit.empty()) units[*row] = unit;
+  }
+  return units.empty() ? "" : units.begin()->second;
 }
 
 /// Rows with a number in both columns, from the top.
@@ -136,7 +151,7 @@ Document open_mitutoyo(const Contents& contents) {
   if (date != certificate.end()) document.metadata["Date"] = date->second;
   document.layers.push_back(
       profile_layer(even_profile(contents, std::move(positions), std::move(heights)),
-                    cut_off == certificate.end() ? "" : unit_at_end(cut_off->second),
+                    cut_off == certificate.end() ? "" : unit_in(cut_off->second),
                     unit_of_heights(data), document));
   return document;
 }

@@ -277,13 +277,12 @@ Layer line_layer(const Contents& contents, const Items& items, const std::string
   return layer;
 }
 
-bool ends_with(const std::string& path, std::string_view end) { return path.ends_with(end); }
-
 void add_layers(const Contents& contents, const Items& items, Document& document) {
   for (const auto& [path, item] : items) {
-    const bool is_map = path.starts_with("/2D_Data/") && ends_with(path, "/Matrix");
-    const bool is_line = path.starts_with("/1D_Data/") && ends_with(path, "/Array") &&
-                         !ends_with(path, "/PositionArray/Array");
+    if (item.nx == 0) continue;  // of a kind without values
+    const bool is_map = path.starts_with("/2D_Data/") && path.ends_with("/Matrix");
+    const bool is_line = path.starts_with("/1D_Data/") && path.ends_with("/Array") &&
+                         !path.ends_with("/PositionArray/Array");
     const std::string folder = path.substr(0, path.rfind('/'));
     if (is_map) document.layers.push_back(map_layer(contents, items, folder, item));
     if (is_line) document.layers.push_back(line_layer(contents, items, folder, item));

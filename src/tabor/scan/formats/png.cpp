@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "tabor/core/units.hpp"
@@ -77,8 +79,9 @@ void write_png(const topography::Topography& topography, const std::filesystem::
   picture.counts.reserve(static_cast<std::size_t>(topography.height.size()));
   for (Index i = 0; i < topography.height.size(); ++i) {
     const double z = topography.height.data()[i];
-    const double count = std::isnan(z) ? 0 : std::round((z - range.least) / step);
-    picture.counts.push_back(static_cast<std::uint16_t>(std::clamp(count, 0.0, 65535.0)));
+    const double count =
+        std::isnan(z) ? 0 : std::clamp<double>(std::round((z - range.least) / step), 1, kMost);
+    picture.counts.push_back(static_cast<std::uint16_t>(count));
   }
   if (topography::count_holes(topography) > 0) picture.transparent = std::uint16_t{0};
   Remarks remarks = remarks_of(topography);

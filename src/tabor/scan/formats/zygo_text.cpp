@@ -3,7 +3,7 @@
 // (MetroPro Reference Guide OMP-0347, "ASCII data file").
 #include <fmt/format.h>
 
-#include <memory>
+#include <algorithm>
 
 #include "tabor/core/text.hpp"
 #include "tabor/scan/formats/bytes.hpp"
@@ -24,10 +24,14 @@ struct Header {
   std::string_view data;  ///< behind the '#' that ends the header
 };
 
+/// The parts of a line between blanks and tabs.
 std::vector<std::string> words_of(std::string_view line) {
+  constexpr std::string_view kBlanks = " \t\r";
   std::vector<std::string> words;
-  for (std::string& word : split(line, ' ')) {
-    if (!word.empty()) words.push_back(std::move(word));
+  for (std::size_t begin = line.find_first_not_of(kBlanks); begin != std::string_view::npos;) {
+    const std::size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
+    words.emplace_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(kBlanks, end);
   }
   return words;
 }
