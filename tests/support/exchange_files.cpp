@@ -169,6 +169,13 @@ std::string opdx() {
          folder("2D_Data", folder("Raw", map));
 }
 
+std::string opdx_number(const std::string& name, double value) {
+  ByteFile number;
+  number.append(value);
+  return std::string("VCA DATA\x01\0\0\x55", 12) +
+         folder("2D_Data", folder("Raw", item(name, '\x0d', number.bytes())));
+}
+
 std::string zygo_points() {
   return zygo_header("Zygo XYZ Data File - Format 1") +
          "10 20 1\n11 20 2\n12 20 3\n10 21 4\n11 21 5\n12 21 No Data\n#";

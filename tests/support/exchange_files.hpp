@@ -13,7 +13,9 @@ std::string netcdf(int version = 2);
 /// A line scan at the positions 0 1 3 4.5 um with the heights 1 2 0 3 um.
 std::string netcdf_line();
 
-std::string opdx();         ///< values in nm, scaled by 0.5
+std::string opdx();  ///< values in nm, scaled by 0.5
+/// A measurement whose only item of 2D_Data is a number.
+std::string opdx_number(const std::string& name, double value);
 std::string zygo_points();  ///< no unit; pixels of 2 um x 2 um
 std::string zygo_counts();  ///< 600 nm, scale 0.5, 4096 counts; pixels of 2 um x 2 um
 

@@ -77,6 +77,31 @@ TEST_F(Netcdf, LiesAboutSizesAreRejected) {
   EXPECT_THAT(test::rejection(folder, bytes), HasSubstr("as its header says"));
 }
 
+TEST_F(Netcdf, LongNamesAndListsAreRejected) {
+  const std::string head("CDF\x01\0\0\0\0", 8), dimensions("\0\0\0\x0a", 4);
+  const std::string long_name = head + dimensions + std::string("\0\0\0\x01\0\0\x10\0", 8);
+  EXPECT_THAT(test::rejection(folder, long_name + std::string(5000, 'x')),
+              HasSubstr("a name of 4096 bytes"));
+  const std::string long_list = head + dimensions + std::string("\0\x03\0\0", 4);
+  EXPECT_THAT(test::rejection(folder, long_list + std::string(1 << 20, '\0')),
+              HasSubstr("more than 100000 items"));
+}
+
+TEST_F(Netcdf, RowsOfAnyPixelComeBack) {
+  topography::Topography row = test::small_map();
+  row.height = Field(row.height.row(0));
+  for (const double dy : {2e-6, 7e-6}) {  // a line without y, and a map of one row
+    row.grid = {.nx = row.height.cols(), .ny = 1, .lx = 10e-6, .ly = dy};
+    for (const char* name : {"row.nc", "row.zip"}) {
+      write(row, folder / name);
+      const topography::Topography read_back = read(folder / name);
+      EXPECT_TRUE(test::same_bits(read_back.height, row.height)) << name;
+      EXPECT_DOUBLE_EQ(read_back.grid.dx(), 2e-6) << name;
+      EXPECT_DOUBLE_EQ(read_back.grid.dy(), dy) << name;
+    }
+  }
+}
+
 TEST_F(Netcdf, BasedOnHdf5GivesTheSameMap) {
   io::Hdf5Writer writer(folder / "a.nc");
   Field x_first(3, 2);
@@ -137,6 +162,13 @@ TEST_F(Container, MessagesNameArchiveAndEntry) {
               HasSubstr((folder / "scan.bin").string() + ": a.txt: got 2 numbers on line 2"));
 }
 
+TEST_F(Container, OtherArchivesAreRejectedInOneShortLine) {
+  EXPECT_THAT(test::rejection(folder, io::zip({{"a.txt", "1 2\n"}})),
+              HasSubstr("a ZIP archive without main.xml (so not X3P), index.xml (so not PLUX), "
+                        "meta.yml (so not contact.engineering), xl/workbook.xml (so not a "
+                        "spreadsheet)"));
+}
+
 TEST_F(Container, InAContainerIsRejected) {
   const std::string bytes = test::container_of_original("a.zip", test::container());
   EXPECT_NE(test::rejection(folder, bytes), "");
@@ -151,6 +183,32 @@ TEST_F(Container, MeasurementsAreChannels) {
   ReadOptions options;
   options.channel = "q";
   EXPECT_EQ(test::read_bytes(folder, bytes, options).channel, "q");
+}
+
+TEST_F(Container, SurfacesStandBeforeTheirMeasurements) {
+  const std::string index =
+      "surfaces: [{name: a, topographies: [{name: p, datafile: {squeezed-netcdf: a.nc}}]},"
+      " {name: b, topographies: [{name: p, datafile: {squeezed-netcdf: a.nc}}]}]";
+  test::put_bytes(folder / "a.zip", io::zip({{"meta.yml", index}, {"a.nc", test::netcdf()}}));
+  const FileInfo info = inspect(folder / "a.zip");
+  ASSERT_EQ(info.channels.size(), 2u);
+  EXPECT_EQ(info.channels[0].name, "a: p");
+  EXPECT_EQ(info.channels[1].name, "b: p");
+}
+
+TEST_F(Container, IndexWinsOverTheFileInPeriodicity) {
+  topography::Topography map = test::small_map();
+  map.periodic = true;
+  write(map, folder / "map.nc");
+  const std::string bytes = test::bytes_of(folder / "map.nc");
+  const auto is_periodic = [&](const std::string& said) {
+    const std::string index =
+        "surfaces: [{topographies: [{name: p, datafile: {squeezed-netcdf: a.nc}" + said + "}]}]";
+    return test::read_bytes(folder, io::zip({{"meta.yml", index}, {"a.nc", bytes}})).periodic;
+  };
+  EXPECT_TRUE(is_periodic(""));
+  EXPECT_TRUE(is_periodic(", is_periodic: true"));
+  EXPECT_FALSE(is_periodic(", is_periodic: false"));
 }
 
 TEST_F(Container, BrokenIndicesAreRejected) {
@@ -175,6 +233,19 @@ TEST_F(Spreadsheet, OfMitutoyoGivesItsProfile) {
   expected << 1e-6, 2e-6, 4e-6, 8e-6;
   EXPECT_TRUE(test::same_bits(line.height, expected));
   EXPECT_NEAR(line.grid.dx(), 0.1e-3, 1e-15);
+}
+
+TEST_F(Spreadsheet, CellsWithoutAPlaceAreLeftOut) {
+  const std::string whole = test::mitutoyo();
+  const io::ZipReader archive(whole, "a");
+  std::vector<io::ZipContent> parts;
+  for (const io::ZipEntry& entry : archive.entries()) {
+    std::string bytes = archive.read(entry, 1 << 20);
+    const std::size_t row = bytes.find("<row>");
+    if (row != std::string::npos) bytes.insert(row + 5, "<c><v>1</v></c><c r=\"EE1\"><v>1</v></c>");
+    parts.push_back({entry.name, bytes});
+  }
+  EXPECT_EQ(test::read_bytes(folder, io::zip(parts)).grid.nx, 4);
 }
 
 TEST_F(Spreadsheet, OfOthersIsNotTaken) {
@@ -225,6 +296,14 @@ TEST_F(ZygoText, PointsNeedTheirUnit) {
   EXPECT_DOUBLE_EQ(map.grid.dx(), 2e-6);
 }
 
+TEST_F(ZygoText, TabsSeparateAsBlanksDo) {
+  ReadOptions options;
+  options.unit = "um";
+  std::string bytes = test::zygo_points();
+  bytes.replace(bytes.find("12 20 3"), 7, "12\t20\t3");
+  EXPECT_TRUE(test::same_bits(test::read_bytes(folder, bytes, options).height, one_to_five(1e-6)));
+}
+
 TEST_F(ZygoText, PointsOutsideTheFieldAndCutFilesAreRejected) {
   ReadOptions options;
   options.unit = "um";
@@ -258,6 +337,7 @@ TEST_F(Picture, TiffHasSinglePrecisionAndHoles) {
   write(map, folder / "map.tif");
   const topography::Topography read_back = read(folder / "map.tif");
   EXPECT_TRUE(test::same_bits(read_back.height, map.height.cast<float>().cast<double>()));
+  EXPECT_THAT(note_of(map, folder / "map.tif"), HasSubstr("single precision"));
   EXPECT_DOUBLE_EQ(read_back.grid.dx(), map.grid.dx());
   EXPECT_DOUBLE_EQ(read_back.grid.dy(), map.grid.dy());
 }
@@ -271,6 +351,16 @@ TEST_F(Picture, LeavesNothingBehindOnAFullDisk) {
     EXPECT_THROW(write(large, folder / name), OutputError) << name;
   }
   EXPECT_EQ(folder.n_files(), 0u);
+}
+
+using Opdx = Exchange;
+
+TEST_F(Opdx, ItemsOfOtherKindsAreNoHeights) {
+  std::string bytes = test::opdx();
+  bytes.replace(bytes.find("\x06\0\0\0Matrix", 0, 10), 10, "\x06\0\0\0Mitrax", 10);
+  EXPECT_THAT(test::rejection(folder, bytes), HasSubstr("neither 2D_Data nor 1D_Data"));
+  const std::string number = test::opdx_number("Matrix", 3);
+  EXPECT_THAT(test::rejection(folder, number), HasSubstr("neither 2D_Data nor 1D_Data"));
 }
 
 using StylusText = Exchange;

@@ -110,13 +110,13 @@ Match identify_gwyddion(std::string_view) { return Match::maybe; }
 Document open_gwyddion(const Contents& contents) {
   if (!gwyddion_program()) {
     throw Unrecognised(contents, "content of no format tabor reads itself",
-                       "for about 150 instrument formats install Gwyddion: "
+                       "for about 150 instrument formats install Gwyddion 2: "
                        "sudo apt install gwyddion");
   }
   const auto bytes = std::make_shared<const std::string>(converted(contents));
   if (bytes->empty()) {
     throw Unrecognised(contents, "content neither tabor nor Gwyddion recognises",
-                       "'tabor formats' lists what can be read");
+                       "'tabor formats' lists what can be read, with Gwyddion 2");
   }
   Document document = open_gwy(contents.part(*bytes));
   document.format = "gwyddion";

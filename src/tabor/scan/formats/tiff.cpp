@@ -80,4 +80,6 @@ void write_tiff(const topography::Topography& topography, const std::filesystem:
   io::write_tiff(topography.height, text, file);
 }
 
+std::string note_tiff(const topography::Topography&) { return "heights in single precision, in m"; }
+
 }  // namespace tabor::scan::format
