@@ -105,7 +105,7 @@ TEST(Formats, NameTheirTierAndWhetherGwyddionIsInstalled) {
     tiers[row.at("name").get<std::string>()] = row.at("tier").get<std::string>();
   }
   EXPECT_EQ(tiers.at("x3p"), "read and write");
-  for (const char* name : {"plux", "vk", "bcr", "datx", "tiff"}) {
+  for (const char* name : {"plux", "vk", "bcr", "datx", "opdx"}) {
     EXPECT_EQ(tiers.at(name), "read");
   }
   EXPECT_EQ(tiers.at("vti"), "write");

@@ -6,6 +6,7 @@
 #include "fuzz/png.hpp"
 #include "study/example_study.hpp"
 #include "support/container_files.hpp"
+#include "support/exchange_files.hpp"
 #include "support/folder.hpp"
 #include "support/instrument_files.hpp"
 #include "support/sample_map.hpp"
@@ -65,6 +66,23 @@ void add_containers(std::vector<Seed>& seeds) {
   }
   seeds.push_back({"tiff", "float", test::tiff(32, 3)});
   seeds.push_back({"tiff", "missing", test::tiff(16, 1, 1, "2.0")});
+}
+
+void add_exchange(std::vector<Seed>& seeds) {
+  for (const int version : {1, 2, 5}) {
+    seeds.push_back({"nc", "version-" + std::to_string(version), test::netcdf(version)});
+  }
+  seeds.push_back({"nc", "line", test::netcdf_line()});
+  seeds.push_back({"ce", "json", test::container("index.json")});
+  seeds.push_back({"ce", "yaml", test::container("meta.yml")});
+  seeds.push_back({"ce", "original", test::container_of_original("a.txt", "1 2\n3 4\n")});
+  seeds.push_back({"mitutoyo", "profile", test::mitutoyo()});
+  seeds.push_back({"opdx", "map", test::opdx()});
+  seeds.push_back({"sur", "layers", test::layered_sur()});
+  seeds.push_back({"stylus-text", "hfm", "X;Y;valid\n[mm];[mm];[1/0]\n0;1;1\n1;2;0\n3;2;1\n"});
+  seeds.push_back({"stylus-text", "dektak", "a,b\nScan Data\n\nLateral um,Raw nm,\n0,1,\n1,2,\n"});
+  seeds.push_back({"zygo-text", "points", test::zygo_points()});
+  seeds.push_back({"zygo-text", "counts", test::zygo_counts()});
 }
 
 void add_texts(std::vector<Seed>& seeds) {
@@ -147,6 +165,7 @@ std::vector<Seed> seeds() {
   add_written(all);
   add_instruments(all);
   add_containers(all);
+  add_exchange(all);
   add_texts(all);
   add_archives(all);
   add_words(all);

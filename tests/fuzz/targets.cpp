@@ -154,14 +154,14 @@ void run_json(std::string_view bytes) {
 
 /// Formats whose files hold compressed parts.
 bool is_packed(const std::string& format) {
-  static constexpr std::string_view names[]{"h5",   "x3p", "sur",  "png",
-                                            "plux", "vk",  "datx", "tiff"};
+  static constexpr std::string_view names[]{"h5",   "x3p",  "sur", "png",      "plux", "vk",
+                                            "datx", "tiff", "ce",  "mitutoyo", "nc"};
   return std::find(std::begin(names), std::end(names), format) != std::end(names);
 }
 
 /// Formats that HDF5 reads. tools/fuzz lets no single block of theirs be larger than 320 MiB.
 std::size_t library_bytes(const std::string& format) {
-  return format == "h5" || format == "datx" ? std::size_t{768} << 20 : 0;
+  return format == "h5" || format == "datx" || format == "nc" ? std::size_t{768} << 20 : 0;
 }
 
 std::vector<Target> make_targets() {

@@ -30,6 +30,7 @@ class Tabor(CMakePackage):
     depends_on("nlohmann-json")
     depends_on("openssl")
     depends_on("pugixml")
+    depends_on("libyaml")
     depends_on("tomlplusplus")
     depends_on("zlib-api")
     depends_on("py-h5py", type="run")

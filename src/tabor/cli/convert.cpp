@@ -55,6 +55,11 @@ int convert_scan(const Request& request, Context& context) {
   Facts facts;
   describe(scan, facts);
   facts.fact("written", request.output);
+  const std::string note = scan::note_of(scan.surface, request.output);
+  if (!note.empty()) {
+    object["note"] = note;
+    facts.fact("note", note);
+  }
   return finish(context, object, facts.text());
 }
 
@@ -158,8 +163,9 @@ Verb convert_verb() {
           .arguments = "SCAN OUT [options]",
           .summary = "write a scan, or maps of a result, in another format",
           .details =
-              "The format follows the extension of OUT: .h5 .gwy .gsf .sdf .asdf .x3p .npy "
-              ".txt .xyz .vti. With --field the maps of a result are written instead, of contact, "
+              "The format follows the extension of OUT: .h5 .x3p .gwy .gsf .sdf .asdf .npy "
+              ".sur .nc .zip (contact.engineering) .png .tif .txt .xyz .stl .vti. With --field the "
+              "maps of a result are written instead, of contact, "
               "lubricate, "
               "friction, a study or ehl point: --field film_thickness.",
           .examples = {"tabor convert surfaces/edt_before.x3p edt.gwy",

@@ -25,29 +25,6 @@ using format::Document;
 using format::Format;
 using format::Layer;
 
-/// The first format that recognises the content opens it.
-Document open(const Contents& contents) {
-  const std::string_view head = contents.bytes.substr(0, format::kHeadSize);
-  std::string found;
-  std::string remedy;
-  std::string last_found;  // one reader may stand behind two rows
-  std::string last_remedy;
-  for (const Format& row : format::table()) {
-    if (row.identify == nullptr || row.identify(head) == format::Match::no) continue;
-    try {
-      return row.open(contents);
-    } catch (const format::Unrecognised& rejection) {
-      if (rejection.got() != last_found) found += (found.empty() ? "" : "; ") + rejection.got();
-      if (rejection.remedy() != last_remedy) {
-        remedy += (remedy.empty() ? "" : "; or ") + rejection.remedy();
-      }
-      last_found = rejection.got();
-      last_remedy = rejection.remedy();
-    }
-  }
-  throw InputError(contents.file.string(), found, "a scan file", remedy);
-}
-
 /// Heights in metres. What is not finite after scaling is a hole; so is what no surface can have,
 /// such as a mark of missing points that the format does not know.
 Field heights_of(const Layer& layer, double factor, std::vector<std::string>& warnings) {
@@ -109,13 +86,16 @@ std::vector<FormatRow> formats() {
   return rows;
 }
 
-std::optional<fs::path> gwyddion_program() { return io::find_program("gwyddion"); }
+std::optional<fs::path> gwyddion_program() {
+  const auto program = io::find_program("gwyddion");
+  return program ? program : io::find_program("gwyconvert");
+}
 
 struct ScanFile::Opened {
   Opened(const fs::path& file, const Observer& watching)
       : observer(watching), mapped(file), contents{file, mapped.bytes(), &mapped, &observer} {
     const Watch watch(observer, "read");
-    document = open(contents);
+    document = format::open_document(contents);
   }
 
   Observer observer;
@@ -209,6 +189,11 @@ void require_writer(const fs::path& file) {
 void write(const topography::Topography& topography, const fs::path& file) {
   require_writer(file);
   writer_for(file)->write(topography, file);
+}
+
+std::string note_of(const topography::Topography& topography, const fs::path& file) {
+  const Format* row = writer_for(file);
+  return row == nullptr || row->note == nullptr ? "" : row->note(topography);
 }
 
 std::string sha256(const fs::path& file) { return io::sha256_of_file(file); }

@@ -59,7 +59,8 @@ struct FormatRow {
 /// Returns all formats, in the order in which they are tried.
 std::vector<FormatRow> formats();
 
-/// Returns the Gwyddion program that converts files of other formats, if it is installed.
+/// Returns the program that converts files of other formats, gwyddion or gwyconvert, if one is
+/// installed.
 std::optional<std::filesystem::path> gwyddion_program();
 
 /// Opens a scan file: recognises it by its content and describes it without loading heights. The
@@ -93,9 +94,14 @@ topography::Topography read(const std::filesystem::path& file, const ReadOptions
 /// Throws InputError if no format that can be written has the file name's extension.
 void require_writer(const std::filesystem::path& file);
 
-/// Writes by the file name's extension (.h5 .gwy .gsf .sdf .x3p .npy .txt .xyz .vti), to a
-/// temporary name that is then renamed. Throws OutputError, or InputError for an unknown extension.
+/// Writes by the file name's extension (.h5 .x3p .nc .zip .gwy .gsf .sdf .asdf .npy .sur .png
+/// .tif .txt .xyz .stl .vti), to a temporary name that is then renamed. Throws OutputError, or
+/// InputError for an unknown extension.
 void write(const topography::Topography& topography, const std::filesystem::path& file);
+
+/// Returns what a file of this name does not hold exactly, or needs to be read: "16 bits: heights
+/// in steps of 2 nm"; "" if there is nothing to say.
+std::string note_of(const topography::Topography& topography, const std::filesystem::path& file);
 
 /// Returns the SHA-256 of the file's bytes, hexadecimal.
 std::string sha256(const std::filesystem::path& file);

@@ -42,7 +42,8 @@ TEST_P(BinaryFile, TruncatedAnywhereIsRejected) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, BinaryFile,
-                         ::testing::Values(".gwy", ".gsf", ".sdf", ".x3p", ".npy"),
+                         ::testing::Values(".gwy", ".gsf", ".sdf", ".x3p", ".npy", ".nc", ".zip",
+                                           ".sur"),
                          [](const auto& suite) { return std::string(suite.param).substr(1); });
 
 TEST_P(AnyFile, WithAFlippedBitIsReadOrRejectedButNeverBreaksTheProgram) {

@@ -182,6 +182,17 @@ Field some_values() {
 
 const std::string kOfNoFormat("\x01\x02\x03", 3);
 
+TEST(Gwyddion, GwyconvertStandsInWhereItFails) {
+  const Folder programs, folder;
+  put_converter(programs, converted(some_values(), 4e-6, 3e-6, "m", "m"), "height");
+  put_program(programs / "gwyconvert", "cp '" + (programs / "made.gwy").string() + "' \"$2\"\n");
+  const Path path(programs.path().string() + ":/usr/bin:/bin");
+  put_program(programs / "gwyddion", "exit 1\n");
+  const topography::Topography map = test::read_bytes(folder, kOfNoFormat);
+  EXPECT_EQ(map.format, "gwyddion");
+  EXPECT_EQ(map.height(2, 3), 200);
+}
+
 TEST(Gwyddion, ASizeThatItInventsIsNotKnown) {
   const Folder programs, folder;
   const Path path(programs.path().string() + ":/usr/bin:/bin");

@@ -3,6 +3,7 @@
 
 #include "scan/formats/sample.hpp"
 #include "support/container_files.hpp"
+#include "support/exchange_files.hpp"
 #include "support/instrument_files.hpp"
 
 namespace tabor::scan {
@@ -38,7 +39,8 @@ TEST_P(Instrument, GivesHeightsHolesAndPixelsOfItsLayout) {
   const topography::Topography map = test::read_bytes(folder, GetParam().bytes());
   EXPECT_EQ(map.format, GetParam().format);
   EXPECT_TRUE(close(map.height, GetParam().heights));
-  const double dy = std::string(GetParam().format) == "metropro" ? 2e-6 : 4e-6;
+  const std::string format = GetParam().format;
+  const double dy = format == "metropro" || format == "zygo-text" ? 2e-6 : 4e-6;
   EXPECT_NEAR(map.grid.dx(), 2e-6, 1e-12);
   EXPECT_NEAR(map.grid.dy(), dy, 1e-12);
 }
@@ -89,8 +91,16 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"bcr", test::bcr, expected(0.5e-9)},
         Case{"bcr", [] { return test::bcrf(false); }, expected(1e-9)},
         Case{"bcr", [] { return test::bcrf(true); }, expected(1e-9)},
+        Case{"opdx", test::opdx, expected(0.5e-9)},
+        Case{"zygo-text", test::zygo_counts, expected(0.5 * 600e-9 / 4096)},
+        Case{"nc", [] { return test::netcdf(); }, expected(1e-6)},
+        Case{"ce", [] { return test::container("index.json"); }, expected(1e-6)},
         Case{"nms", test::nms, without_hole(1e-6)}),
-    [](const auto& suite) { return suite.param.format + std::to_string(suite.index); });
+    [](const auto& suite) {
+      std::string name = suite.param.format;
+      std::erase(name, '-');
+      return name + std::to_string(suite.index);
+    });
 
 TEST(DigitalSurf, LayersWithoutHeightsAreRejected) {
   const Folder folder;

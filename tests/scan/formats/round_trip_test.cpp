@@ -58,7 +58,8 @@ TEST_P(RoundTrip, OfOnePixelRowsWorks) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, RoundTrip,
-                         ::testing::Values(".h5", ".gwy", ".sdf", ".asdf", ".x3p", ".txt", ".xyz"),
+                         ::testing::Values(".h5", ".gwy", ".sdf", ".asdf", ".x3p", ".txt", ".xyz",
+                                           ".nc", ".zip"),
                          [](const auto& suite) { return std::string(suite.param).substr(1); });
 
 TEST(H5, RemembersThatHeightsWereInvented) {
@@ -196,7 +197,8 @@ TEST(FormatTable, SaysWhatItReadsAndWrites) {
     EXPECT_TRUE(row.reads || row.writes) << row.name;
     n_read_and_write += row.reads && row.writes;
   }
-  EXPECT_EQ(n_read_and_write, 9u);  // h5 x3p gwy gsf sdf sdf-ascii npy matrix xyz
+  // h5 x3p nc ce gwy gsf sdf sdf-ascii npy sur png tiff matrix xyz
+  EXPECT_EQ(n_read_and_write, 14u);
 }
 
 }  // namespace

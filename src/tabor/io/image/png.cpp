@@ -75,6 +75,60 @@ void write_to(std::FILE* stream, const Picture& picture, std::string name) {
   png_write_end(writer.png, writer.info);
 }
 
+/// Writes a grey picture row by row; PNG stores the high byte first.
+void write_to(std::FILE* stream, const GreyPicture& picture, std::string name) {
+  const Writer writer(&name);
+  png_init_io(writer.png, stream);
+  png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(picture.nx),
+               static_cast<png_uint_32>(picture.ny), 16, PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  if (picture.transparent) {
+    png_color_16 grey{};
+    grey.gray = *picture.transparent;
+    png_set_tRNS(writer.png, writer.info, nullptr, 0, &grey);
+  }
+  for (const auto& [keyword, text] : picture.remarks) {
+    png_text chunk{};
+    chunk.compression = PNG_TEXT_COMPRESSION_NONE;
+    chunk.key = const_cast<char*>(keyword.c_str());
+    chunk.text = const_cast<char*>(text.c_str());
+    chunk.text_length = text.size();
+    png_set_text(writer.png, writer.info, &chunk, 1);
+  }
+  png_write_info(writer.png, writer.info);
+  png_set_swap(writer.png);
+  for (Index row = 0; row < picture.ny; ++row) {
+    png_write_row(writer.png,
+                  reinterpret_cast<png_const_bytep>(picture.counts.data() + row * picture.nx));
+  }
+  png_write_end(writer.png, writer.info);
+}
+
+/// Writes under a temporary name, which is then renamed.
+template <typename Any>
+void write_picture(const Any& picture, const std::filesystem::path& file) {
+  TemporaryFile temporary(file);
+  Stream stream(std::fopen(temporary.path().c_str(), "wb"), &std::fclose);
+  if (!stream) throw OutputError(file.string() + ": cannot write: " + std::strerror(errno));
+  write_to(stream.get(), picture, file.string());
+  if (std::fclose(stream.release()) != 0) {
+    throw OutputError(file.string() + ": cannot write: " + std::strerror(errno));
+  }
+  temporary.commit();
+}
+
+/// The remarks that stand before the pixels.
+std::map<std::string, std::string> remarks_of(const Reader& reader) {
+  png_textp texts = nullptr;
+  int n = 0;
+  png_get_text(reader.png, reader.info, &texts, &n);
+  std::map<std::string, std::string> remarks;
+  for (int i = 0; i < n; ++i) {
+    if (texts[i].text != nullptr) remarks[texts[i].key] = texts[i].text;
+  }
+  return remarks;
+}
+
 /// Rejects sizes that the file's own bytes cannot hold: deflate unpacks to at most 1032 times its
 /// size (zlib technical note).
 void check_size(const Reader& reader, const std::filesystem::path& file) {
@@ -112,14 +166,11 @@ void check_grey(const Reader& reader, const std::string& name) {
 }  // namespace
 
 void write_png(const Picture& picture, const std::filesystem::path& file) {
-  TemporaryFile temporary(file);
-  Stream stream(std::fopen(temporary.path().c_str(), "wb"), &std::fclose);
-  if (!stream) throw OutputError(file.string() + ": cannot write: " + std::strerror(errno));
-  write_to(stream.get(), picture, file.string());
-  if (std::fclose(stream.release()) != 0) {
-    throw OutputError(file.string() + ": cannot write: " + std::strerror(errno));
-  }
-  temporary.commit();
+  write_picture(picture, file);
+}
+
+void write_png(const GreyPicture& picture, const std::filesystem::path& file) {
+  write_picture(picture, file);
 }
 
 GreyImage read_png(const std::filesystem::path& file) {
@@ -134,6 +185,7 @@ GreyImage read_png(const std::filesystem::path& file) {
   check_grey(reader, name);
   GreyImage image;
   image.bits = png_get_bit_depth(reader.png, reader.info);
+  image.remarks = remarks_of(reader);
   png_set_packing(reader.png);
   png_set_interlace_handling(reader.png);
   png_read_update_info(reader.png, reader.info);

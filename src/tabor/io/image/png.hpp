@@ -2,6 +2,9 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "tabor/core/types.hpp"
@@ -20,11 +23,24 @@ struct Picture {
 /// Writes a picture. Throws OutputError.
 void write_png(const Picture& picture, const std::filesystem::path& file);
 
+/// Grey picture of 16 bits per pixel with remarks, rows from the top.
+struct GreyPicture {
+  Index nx = 0;
+  Index ny = 0;
+  std::vector<std::uint16_t> counts = {};
+  std::optional<std::uint16_t> transparent = {};    ///< the count of pixels without a value
+  std::map<std::string, std::string> remarks = {};  ///< chunks tEXt, by their keywords
+};
+
+/// Writes a grey picture. Throws OutputError.
+void write_png(const GreyPicture& picture, const std::filesystem::path& file);
+
 /// Grey values of a PNG with 1 to 16 bits per sample, as counts (no scaling). read_png() rejects a
 /// colour picture, as colours are no heights, and throws InputError.
 struct GreyImage {
   Field counts;  ///< (ny, nx), NaN where the picture is transparent
   int bits = 8;  ///< per sample, as in the file
+  std::map<std::string, std::string> remarks = {};  ///< as GreyPicture has them
 };
 GreyImage read_png(const std::filesystem::path& file);
 

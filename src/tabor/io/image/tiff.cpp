@@ -15,6 +15,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/text.hpp"
+#include "tabor/io/files/atomic_file.hpp"
 
 namespace tabor::io {
 namespace {
@@ -37,16 +38,21 @@ int note_error(TIFF*, void* message, const char*, const char* format, va_list ar
 
 int ignore_warning(TIFF*, void*, const char*, const char*, va_list) { return 1; }
 
+/// Opens a file; null, and the reason in `message`, if that fails.
+TIFF* open(const std::filesystem::path& file, const char* mode, std::string& message) {
+  const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(
+      TIFFOpenOptionsAlloc(), &TIFFOpenOptionsFree);
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), &note_error, &message);
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), &ignore_warning, nullptr);
+  TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), kMaxAllocation);
+  return TIFFOpenExt(file.c_str(), mode, options.get());
+}
+
 /// An open TIFF file.
 class Tiff {
  public:
   explicit Tiff(const std::filesystem::path& file) : name_(file.string()) {
-    const std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)> options(
-        TIFFOpenOptionsAlloc(), &TIFFOpenOptionsFree);
-    TIFFOpenOptionsSetErrorHandlerExtR(options.get(), &note_error, &message_);
-    TIFFOpenOptionsSetWarningHandlerExtR(options.get(), &ignore_warning, nullptr);
-    TIFFOpenOptionsSetMaxSingleMemAlloc(options.get(), kMaxAllocation);
-    tiff_ = TIFFOpenExt(file.c_str(), "r", options.get());
+    tiff_ = open(file, "r", message_);
     if (tiff_ == nullptr) fail();
   }
   ~Tiff() {
@@ -94,6 +100,10 @@ TiffDescription describe(const Tiff& tiff) {
   image.is_tiled = TIFFIsTiled(tiff) != 0;
   image.starts_top_left =
       tiff.number<std::uint16_t>(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT) == ORIENTATION_TOPLEFT;
+  const char* text = nullptr;
+  if (TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &text) == 1 && text != nullptr) {
+    image.text = text;
+  }
   image.has_park_tags = TIFFFindField(tiff, kParkTag, TIFF_ANY) != nullptr;
   return image;
 }
@@ -174,6 +184,59 @@ Field read_tiff(const std::filesystem::path& file, const std::function<void(doub
     }
   }
   return samples;
+}
+
+namespace {
+
+/// Declares GDAL's tag, which libtiff does not know. The library points to the name.
+void declare_missing_tag(TIFF* tiff) {
+  static char name[] = "GDALNoDataValue";
+  const TIFFFieldInfo field{kMissingTag, TIFF_VARIABLE, TIFF_VARIABLE, TIFF_ASCII, FIELD_CUSTOM, 1,
+                            0,           name};
+  TIFFMergeFieldInfo(tiff, &field, 1);
+}
+
+void set_tags(TIFF* tiff, const Field& map, const std::string& text) {
+  constexpr int kBits = 32;
+  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(map.cols()));
+  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(map.rows()));
+  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, kBits);
+  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
+  TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
+  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
+  TIFFSetField(tiff, TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
+  TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+  TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, TIFFDefaultStripSize(tiff, 0));
+  TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, text.c_str());
+  declare_missing_tag(tiff);
+  TIFFSetField(tiff, kMissingTag, "nan");
+}
+
+bool write_rows(TIFF* tiff, const Field& map) {
+  for (Index y = 0; y < map.rows(); ++y) {
+    FieldF row = map.row(y).cast<float>();
+    if (TIFFWriteScanline(tiff, row.data(), static_cast<std::uint32_t>(y)) != 1) return false;
+  }
+  return TIFFFlush(tiff) == 1;
+}
+
+}  // namespace
+
+void write_tiff(const Field& map, const std::string& text, const std::filesystem::path& file) {
+  TemporaryFile temporary(file);
+  constexpr Index kLargeMap = Index{1} << 29;  // beyond, offsets need 64 bits
+  std::string message;
+  TIFF* tiff = open(temporary.path(), map.size() < kLargeMap ? "w" : "w8", message);
+  bool is_written = tiff != nullptr;
+  if (is_written) {
+    set_tags(tiff, map, text);
+    is_written = write_rows(tiff, map);
+    TIFFClose(tiff);
+  }
+  if (!is_written || !message.empty()) {
+    throw OutputError(file.string() + ": cannot write: " + message);
+  }
+  temporary.commit();
 }
 
 }  // namespace tabor::io

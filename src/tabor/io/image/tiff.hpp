@@ -2,10 +2,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "tabor/core/types.hpp"
 
-// Reads the first image of a TIFF file as numbers.
+// Reads the first image of a TIFF file as numbers, and writes maps as TIFF.
 namespace tabor::io {
 
 /// Description of the first image of a TIFF file, from its tags.
@@ -22,6 +23,7 @@ struct TiffDescription {
   bool starts_top_left = true;
   bool has_park_tags = false;  ///< Park Systems keeps heights in tags of its own
   int n_images = 1;
+  std::string text = {};  ///< the tag ImageDescription
 };
 
 /// Reads the description. Throws InputError if the file is no TIFF or damaged.
@@ -33,5 +35,9 @@ TiffDescription describe_tiff(const std::filesystem::path& file);
 /// share of rows read so far.
 Field read_tiff(const std::filesystem::path& file,
                 const std::function<void(double share)>& progress = {});
+
+/// Writes a map in single precision, grey, in strips, with `text` in the tag ImageDescription; NaN
+/// is named as the missing sample. Throws OutputError.
+void write_tiff(const Field& map, const std::string& text, const std::filesystem::path& file);
 
 }  // namespace tabor::io

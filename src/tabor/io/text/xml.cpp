@@ -10,9 +10,10 @@
 namespace tabor::io {
 namespace {
 
-/// True if an element has this name, whatever prefix its namespace has.
-bool is_called(const pugi::xml_node& node, std::string_view name) {
-  const std::string_view full = node.name();
+/// True if an element or attribute has this name, whatever prefix its namespace has.
+template <typename Named>
+bool is_called(const Named& named, std::string_view name) {
+  const std::string_view full = named.name();
   return full.substr(full.find(':') + 1) == name;
 }
 
@@ -28,6 +29,12 @@ std::string XmlElement::text() const {
     }
   }
   return std::string(trim(text));
+}
+
+std::string XmlElement::attribute(std::string_view name) const {
+  return pugi::xml_node(node_)
+      .find_attribute([&](const pugi::xml_attribute& one) { return is_called(one, name); })
+      .value();
 }
 
 XmlElement XmlElement::at(std::string_view path) const {

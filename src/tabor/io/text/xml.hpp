@@ -23,6 +23,9 @@ class XmlElement {
   std::string name() const;  ///< with its namespace prefix
   std::string text() const;  ///< of this element alone, without surrounding blanks
 
+  /// Returns the value of an attribute, name without namespace prefix; "" if there is none.
+  std::string attribute(std::string_view name) const;
+
   /// Returns the first descendant along "Record1/Axes/CX", names without namespace prefixes.
   XmlElement at(std::string_view path) const;
   std::vector<XmlElement> children(const std::string& name) const;

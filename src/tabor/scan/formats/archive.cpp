@@ -50,8 +50,9 @@ Archive::Archive(const Contents& contents, const std::string& main, const std::s
   folder_ = found.substr(0, found.size() - main.size());
 }
 
-std::string Archive::main() const {
-  const io::ZipEntry& entry = find(main_);
+std::string Archive::main() const { return text(find(main_)); }
+
+std::string Archive::text(const io::ZipEntry& entry) const {
   const std::size_t likely = std::max(kAnyMain, kMainRatio * contents_.bytes.size());
   return zip_.read(entry, std::min(kMaxMain, likely));
 }

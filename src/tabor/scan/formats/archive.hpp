@@ -30,6 +30,9 @@ class Archive {
   /// Returns the entry that a link names, of any size.
   const io::ZipEntry& find(std::string link) const;
 
+  /// Returns an entry of text under the limits of the main document.
+  std::string text(const io::ZipEntry& entry) const;
+
   const io::ZipEntry& main_entry() const { return find(main_); }
 
   /// Reads all of an entry, if it is not larger than deflate and the free memory allow.

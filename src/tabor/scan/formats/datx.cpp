@@ -73,7 +73,7 @@ Document describe(const Contents& contents) {
   const io::Hdf5Reader reader(contents.file);
   if (!reader.exists(kMetaData)) {
     throw Unrecognised(contents, "an HDF5 file without /MetaData (so not Zygo's DATX)",
-                       "tabor reads the HDF5 files it writes and Zygo's");
+                       "tabor reads the HDF5 files it writes, Zygo's and NetCDF");
   }
   const std::string path = surface_path(contents, reader.records(kMetaData));
   const std::array<Index, 2> shape = reader.map_shape(path);

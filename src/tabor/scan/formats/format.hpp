@@ -85,6 +85,8 @@ struct Format {
   void (*write)(const topography::Topography& topography,
                 const std::filesystem::path& file) = nullptr;
   bool via_gwyddion = false;
+  /// What writing changes, for the user; null: nothing.
+  std::string (*note)(const topography::Topography& topography) = nullptr;
 };
 
 /// Returns all formats in the order in which they are tried.
@@ -105,6 +107,10 @@ class Unrecognised : public InputError {
   std::string got_;
   std::string remedy_;
 };
+
+/// Returns the document of the first format in the table that recognises the content, but for the
+/// format named `except`. Throws InputError if none does.
+Document open_document(const Contents& contents, std::string_view except = {});
 
 /// Throws InputError "<file>: got ...; expected ...; <remedy>".
 [[noreturn]] void reject(const Contents& contents, const std::string& got,

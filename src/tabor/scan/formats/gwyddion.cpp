@@ -1,4 +1,6 @@
-// Every other format: Gwyddion, if installed, converts the file in a process of its own.
+// Every other format: Gwyddion, if installed, converts the file in a process of its own. The
+// program is gwyddion of version 2, or gwyconvert (PyPI: gwyddionpy-converter), which is built from
+// its file modules.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,6 +18,7 @@ namespace tabor::scan::format {
 namespace {
 
 constexpr std::chrono::seconds kTimeLimit{120};
+constexpr const char* kConverter = "gwyconvert";
 
 /// Some readers of Gwyddion believe a damaged file that claims gigabytes. The program itself takes
 /// some hundred MiB of addresses; a sound file of packed 8 bit counts becomes several maps of
@@ -29,6 +32,14 @@ io::ProgramLimits limits_for(std::size_t file_bytes) {
           .file = (std::uint64_t{64} << 20) + maps};
 }
 
+/// What to tell the program; gwyconvert has no options.
+std::vector<std::string> arguments_of(const std::filesystem::path& program,
+                                      const std::filesystem::path& input,
+                                      const std::filesystem::path& output) {
+  if (program.filename() == kConverter) return {input.string(), output.string()};
+  return {"--convert-to-gwy=" + output.string(), input.string()};
+}
+
 /// The converted file, or "" if Gwyddion made none. A temporary home, because Gwyddion writes its
 /// settings and a log there; one file per call, because with several it reports success when only
 /// some could be read.
@@ -36,8 +47,7 @@ std::string convert(const Contents& contents, const std::filesystem::path& progr
   const io::TemporaryFolder folder;
   const std::filesystem::path output = folder.path() / "converted.gwy";
   const io::Completed run = io::run_program(
-      program,
-      {"--convert-to-gwy=" + output.string(), std::filesystem::absolute(contents.file).string()},
+      program, arguments_of(program, std::filesystem::absolute(contents.file), output),
       {{"HOME", folder.path().string()}, {"LC_ALL", "C.UTF-8"}, {"LANGUAGE", ""}}, kTimeLimit,
       [&contents] {
         constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
@@ -51,6 +61,16 @@ std::string convert(const Contents& contents, const std::filesystem::path& progr
   std::ifstream stream(output, std::ios::binary);
   const bool is_whole = run.exit_code < 128;  // no signal, such as that of a limit, ended it
   return is_whole ? std::string{std::istreambuf_iterator<char>(stream), {}} : "";
+}
+
+/// The file as the first program converts it that can; "" if none can.
+std::string converted(const Contents& contents) {
+  for (const char* name : {"gwyddion", kConverter}) {
+    const auto program = io::find_program(name);
+    std::string bytes = program ? convert(contents, *program) : "";
+    if (!bytes.empty()) return bytes;
+  }
+  return "";
 }
 
 /// Gwyddion takes 0 for a size that it does not find; what it finds is no less.
@@ -88,16 +108,15 @@ void restore_counts(Layer& layer) {
 Match identify_gwyddion(std::string_view) { return Match::maybe; }
 
 Document open_gwyddion(const Contents& contents) {
-  const auto program = gwyddion_program();
-  if (!program) {
+  if (!gwyddion_program()) {
     throw Unrecognised(contents, "content of no format tabor reads itself",
-                       "for about 150 instrument formats install Gwyddion: "
+                       "for about 150 instrument formats install Gwyddion 2: "
                        "sudo apt install gwyddion");
   }
-  const auto bytes = std::make_shared<const std::string>(convert(contents, *program));
+  const auto bytes = std::make_shared<const std::string>(converted(contents));
   if (bytes->empty()) {
     throw Unrecognised(contents, "content neither tabor nor Gwyddion recognises",
-                       "'tabor formats' lists what can be read");
+                       "'tabor formats' lists what can be read, with Gwyddion 2");
   }
   Document document = open_gwy(contents.part(*bytes));
   document.format = "gwyddion";

@@ -162,7 +162,7 @@ Document describe(const Contents& contents) {
   const io::Hdf5Reader reader(contents.file);
   if (!reader.exists(kHeight)) {
     throw Unrecognised(contents, "an HDF5 file without /surface/height",
-                       "tabor reads the HDF5 files it writes and Zygo's");
+                       "tabor reads the HDF5 files it writes, Zygo's and NetCDF");
   }
   require_known_version(contents, reader);
   const std::array<Index, 2> shape = reader.map_shape(kHeight);

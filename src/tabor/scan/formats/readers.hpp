@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tabor/io/files/atomic_file.hpp"
 #include "tabor/scan/formats/format.hpp"
 #include "tabor/scan/maps.hpp"
 
@@ -40,6 +41,32 @@ void write_npy_map(const MapSet& maps, const std::filesystem::path& file);
 
 Match identify_sur(std::string_view head);
 Document open_sur(const Contents& contents);
+void write_sur(const topography::Topography& topography, const std::filesystem::path& file);
+std::string note_sur(const topography::Topography& topography);
+
+Match identify_nc(std::string_view head);
+Document open_nc(const Contents& contents);
+void write_nc(const topography::Topography& topography, const std::filesystem::path& file);
+/// True for a row of square pixels, which NetCDF holds as a line without y.
+bool is_line(const Grid& grid);
+/// Appends what write_nc() writes, for files inside of others.
+void append_nc(const topography::Topography& topography, const io::Append& append);
+
+Match identify_ce(std::string_view head);
+Document open_ce(const Contents& contents);
+void write_ce(const topography::Topography& topography, const std::filesystem::path& file);
+
+Match identify_mitutoyo(std::string_view head);
+Document open_mitutoyo(const Contents& contents);
+
+Match identify_stylus_text(std::string_view head);
+Document open_stylus_text(const Contents& contents);
+
+Match identify_zygo_text(std::string_view head);
+Document open_zygo_text(const Contents& contents);
+
+Match identify_opdx(std::string_view head);
+Document open_opdx(const Contents& contents);
 
 Match identify_plu(std::string_view head);
 Document open_plu(const Contents& contents);
@@ -73,9 +100,16 @@ Document open_datx(const Contents& contents);
 
 Match identify_tiff(std::string_view head);
 Document open_tiff(const Contents& contents);
+void write_tiff(const topography::Topography& topography, const std::filesystem::path& file);
+std::string note_tiff(const topography::Topography& topography);
 
 Match identify_png(std::string_view head);
 Document open_png(const Contents& contents);
+void write_png(const topography::Topography& topography, const std::filesystem::path& file);
+std::string note_png(const topography::Topography& topography);
+
+void write_stl(const topography::Topography& topography, const std::filesystem::path& file);
+std::string note_stl(const topography::Topography& topography);
 
 Match identify_pnm(std::string_view head);
 Document open_pnm(const Contents& contents);

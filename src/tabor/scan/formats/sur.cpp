@@ -1,6 +1,9 @@
-// SUR, Digital Surf's surface files (Mountains and many instruments), plain and compressed.
+// SUR, Digital Surf's surface files (Mountains and many instruments), plain and compressed. A file
+// of several layers holds one object after the other, each with a header of its own (RosettaSciIO,
+// digitalsurf).
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tabor/core/text.hpp"
@@ -16,6 +19,10 @@ constexpr std::string_view kPlain = "DIGITAL SURF";
 constexpr std::string_view kCompressed = "DSCOMPRESSED";
 constexpr int kProfile = 1;
 constexpr int kSurface = 2;
+/// Objects whose first layer holds heights: series of surfaces, layers of one surface, and surfaces
+/// with intensity, colours, or both.
+constexpr int kLayered[]{5, 8, 11, 13, 16};
+constexpr std::size_t kMostLayers = 1000;
 
 struct Header {
   int objects = 1;
@@ -77,11 +84,16 @@ std::optional<double> lateral(double pixel, const std::string& unit) {
 
 void require_surface(const Contents& contents, const Header& header) {
   // Gwyddion writes type 1 (profile) for surfaces.
-  const bool is_surface = header.type == kSurface || (header.type == kProfile && header.ny >= 1);
+  const bool is_surface =
+      header.type == kSurface || (header.type == kProfile && header.ny >= 1) ||
+      std::find(std::begin(kLayered), std::end(kLayered), header.type) != std::end(kLayered);
   if (!is_surface) {
     reject(contents, fmt::format("a Digital Surf object of type {}", header.type),
-           "a surface (type 2)", "export the height layer alone");
+           "a surface (type 2), alone or with further layers", "export the height layer alone");
   }
+}
+
+void require_samples(const Contents& contents, const Header& header) {
   if (header.n_points != 0 && header.n_points != header.nx * header.ny) {
     reject(contents, fmt::format("{} points", header.n_points),
            fmt::format("{} x {}", header.nx, header.ny), kDamaged);
@@ -138,15 +150,36 @@ Field heights(const Contents& contents, std::size_t data_begin, const Raster& ra
   return decode(contents, unpacked, raster, to_heights(header));
 }
 
-}  // namespace
-
-Match identify_sur(std::string_view head) {
-  return head.starts_with(kPlain) || head.starts_with(kCompressed) ? Match::yes : Match::no;
+bool has_object(std::string_view bytes) {
+  return bytes.starts_with(kPlain) || bytes.starts_with(kCompressed);
 }
 
-Document open_sur(const Contents& contents) {
+/// Bytes of the data of an object, at most up to the end of the file.
+std::size_t data_size(const Contents& contents, std::size_t data_begin, const Raster& raster) {
+  if (!contents.bytes.starts_with(kCompressed)) return byte_size(raster);
+  Cursor cursor(contents);
+  cursor.seek(data_begin);
+  const auto n_streams = cursor.take<std::uint32_t>();
+  std::size_t size = sizeof n_streams;
+  for (std::uint32_t i = 0; i < n_streams; ++i) {
+    cursor.skip(sizeof(std::uint32_t));  // unpacked
+    size += 2 * sizeof(std::uint32_t) + cursor.take<std::uint32_t>();
+    if (size > contents.bytes.size()) reject(contents, "streams beyond its end", "", kDamaged);
+  }
+  return size;
+}
+
+/// One object and the bytes it takes.
+struct Object {
+  Header header;
+  Layer layer;
+  std::size_t size = 0;
+};
+
+/// Reads the object that `contents` begins with.
+Object take_object(const Contents& contents) {
   const Header header = take_header(contents);
-  require_surface(contents, header);
+  require_samples(contents, header);
   const bool is_compressed = contents.bytes.starts_with(kCompressed);
   Raster raster{.sample = header.bits == 16 ? Sample::i16 : Sample::i32};
   // A deflate stream unpacks to at most 1032 times its size.
@@ -159,37 +192,69 @@ Document open_sur(const Contents& contents) {
   }
   raster.nx = static_cast<Index>(header.nx);
   raster.ny = static_cast<Index>(header.ny);
-  Cursor cursor(contents);
   const std::size_t data_begin = 512 + header.n_skipped;
-  cursor.seek(data_begin);
-  Document document{.format = "sur"};
-  if (!is_compressed) {
-    cursor.take(byte_size(raster));
-    if (header.objects <= 1) warn_of_surplus(cursor, document);
-  }
+  const auto dx = lateral(header.dx, header.dx_unit);
+  const bool is_profile = raster.ny == 1 && header.dy_unit.empty();
+  Object object{.header = header,
+                .layer = {.name = header.name.empty() ? "height" : header.name,
+                          .unit = header.dz_unit,
+                          .nx = raster.nx,
+                          .ny = raster.ny,
+                          .pixel_x = dx,
+                          .pixel_y = is_profile ? dx : lateral(header.dy, header.dy_unit),
+                          .said_x = fmt::format("a spacing of {:g} {}", header.dx, header.dx_unit),
+                          .said_y = fmt::format("a spacing of {:g} {}", header.dy, header.dy_unit),
+                          .load = [contents, data_begin, raster, header] {
+                            return heights(contents, data_begin, raster, header);
+                          }}};
+  object.size = data_begin + data_size(contents, data_begin, raster);
+  Cursor(contents).skip(object.size);  // all of it is there
+  return object;
+}
+
+void warn_of_heights(const Header& header, Document& document) {
   warn_of_negative_scale(header.dz, document);
   if (header.is_inverted) {
     document.warnings.push_back(
         "The file says that its heights were inverted. Check that up is up");
   }
-  if (header.objects > 1) {
-    document.warnings.push_back(
-        fmt::format("only the first of {} objects is read", header.objects));
+}
+
+/// Layers behind the first one: intensity and colours have no unit of length.
+void take_further_layers(const Contents& contents, std::size_t begin, Document& document) {
+  std::string_view rest = contents.bytes.substr(begin);
+  while (has_object(rest) && document.layers.size() < kMostLayers) {
+    Object object = take_object(contents.part(rest));
+    object.layer.is_picture = object.layer.unit.empty();
+    if (object.header.name.empty()) {
+      object.layer.name = fmt::format("layer {}", document.layers.size());
+    }
+    document.layers.push_back(std::move(object.layer));
+    rest.remove_prefix(object.size);
   }
-  const auto dx = lateral(header.dx, header.dx_unit);
-  const bool is_profile = raster.ny == 1 && header.dy_unit.empty();
-  document.layers.push_back(
-      {.name = header.name.empty() ? "height" : header.name,
-       .unit = header.dz_unit,
-       .nx = raster.nx,
-       .ny = raster.ny,
-       .pixel_x = dx,
-       .pixel_y = is_profile ? dx : lateral(header.dy, header.dy_unit),
-       .said_x = fmt::format("a spacing of {:g} {}", header.dx, header.dx_unit),
-       .said_y = fmt::format("a spacing of {:g} {}", header.dy, header.dy_unit),
-       .load = [contents, data_begin, raster, header] {
-         return heights(contents, data_begin, raster, header);
-       }});
+}
+
+}  // namespace
+
+Match identify_sur(std::string_view head) { return has_object(head) ? Match::yes : Match::no; }
+
+Document open_sur(const Contents& contents) {
+  require_surface(contents, take_header(contents));
+  Object first = take_object(contents);
+  Document document{.format = "sur"};
+  warn_of_heights(first.header, document);
+  document.layers.push_back(std::move(first.layer));
+  take_further_layers(contents, first.size, document);
+  const auto n_objects = static_cast<std::size_t>(std::max(first.header.objects, 1));
+  if (document.layers.size() < n_objects) {
+    document.warnings.push_back(
+        fmt::format("only {} of {} layers are in the file", document.layers.size(), n_objects));
+  }
+  if (n_objects == 1 && document.layers.size() == 1 && contents.bytes.starts_with(kPlain)) {
+    Cursor cursor(contents);
+    cursor.skip(first.size);
+    warn_of_surplus(cursor, document);
+  }
   return document;
 }
 
