@@ -22,6 +22,7 @@
 #include "tabor/core/text.hpp"
 #include "tabor/core/version.hpp"
 #include "tabor/io/files/protection.hpp"
+#include "tabor/spectral/fft.hpp"
 #include "tabor/topography/treatment.hpp"
 
 namespace tabor::python {
@@ -157,6 +158,7 @@ void bind_values(nb::module_& module) {
   module.def(
       "advised", [](const std::string& text) { return advised(text, spelled); }, nb::arg("text"));
   module.attr("version") = std::string(kVersion);
+  module.attr("transforms") = spectral::transform_library();
   module.def("si_units", [] {
     nb::dict units;
     for (const auto& [name, one] : dimensions()) units[name.data()] = si_unit(one);

@@ -22,7 +22,7 @@ def show_versions() -> None:
     tabor       ...
     """
     lines = {"tabor": _tabor.version, "Python": sys.version.split()[0], "system": platform.platform(), "threads": str(_tabor.threads()),
-             "processors": str(os.cpu_count())}
+             "processors": str(os.cpu_count()), "transforms": _tabor.transforms}
     for name in _PACKAGES:
         try:
             lines[name] = importlib.metadata.version(name)

@@ -36,3 +36,4 @@ def test_versions_are_shown(capsys):
     tb.show_versions()
     said = capsys.readouterr().out
     assert f"tabor       {tb.__version__}" in said and "numpy" in said and "Python" in said
+    assert "transforms  FFTW 3." in said or "transforms  ducc0 " in said

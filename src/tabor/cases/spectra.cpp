@@ -5,6 +5,7 @@
 #include "tabor/cases/warnings.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/metrology/areal/parameters.hpp"
+#include "tabor/spectral/fft.hpp"
 
 namespace tabor::cases {
 
@@ -36,7 +37,7 @@ SpectraRecord spectra_of(const topography::Topography& surface, const SpectraSet
   if (needs_spectra || topography::count_holes(surface) == 0) {
     record.spectra = metrology::power_spectra(surface, settings.psd);
     record.warnings = of_spectra(*record.spectra);
-    record.references = {"jacobs2017", "frigo2005"};
+    record.references = {"jacobs2017", spectral::transform_reference()};
   }
   if (record.with_tip) record.references.emplace_back("sanner2022");
   if (settings.autocorrelation) {

@@ -140,7 +140,7 @@ void warn_of_patches(const contact::State& state, const contact::Summary& summar
 
 /// The next size below that transforms are fast with.
 Index fast_size(Index n) {
-  constexpr Index kFastPrime = 13;  // FFTW has fast kernels up to it
+  constexpr Index kFastPrime = 13;  // FFTW has kernels up to it, ducc0 to 11
   while (spectral::largest_prime_factor(n) > kFastPrime) --n;
   return n;
 }

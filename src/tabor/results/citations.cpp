@@ -6,6 +6,7 @@
 #include "tabor/core/version.hpp"
 #include "tabor/io/hdf5/guard.hpp"
 #include "tabor/results/bibliography.hpp"
+#include "tabor/spectral/fft.hpp"
 
 namespace tabor::results {
 namespace {
@@ -67,7 +68,9 @@ ReferenceKeys references_in(const std::filesystem::path& file) {
 }
 
 ReferenceKeys with_software(ReferenceKeys keys) {
-  if (keys.contains("stanley1997") || keys.contains("love1929")) keys.insert("frigo2005");
+  if (keys.contains("stanley1997") || keys.contains("love1929")) {
+    keys.insert(spectral::transform_reference());
+  }
   if (keys.contains("costagliola2021")) keys.insert("salmon2011");
   return keys;
 }

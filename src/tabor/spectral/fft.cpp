@@ -4,9 +4,8 @@
 #include <numbers>
 #include <vector>
 
-#include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
-#include "tabor/spectral/fftw_library.hpp"
+#include "tabor/spectral/transform_library.hpp"
 
 namespace tabor::spectral {
 
@@ -59,14 +58,16 @@ Index RealFft2d<Real>::nx() const {
 template <typename Real>
 void RealFft2d<Real>::forward(const Real* map, Complex* spectrum) const {
   rows_forward(plans_->rows, map, ny(), nx(), spectrum);
-  for_each_column(spectrum, ny(), spectrum_columns(), ny(),
-                  [this](Index, Complex* column) { plans_->columns.forward(column); });
+  for_each_column_bundle(
+      plans_->columns, spectrum, ny(), spectrum_columns(),
+      [](ColumnBlock<Real>& block, Index bundle, Index, Index) { block.forward(bundle); });
 }
 
 template <typename Real>
 void RealFft2d<Real>::inverse(Complex* spectrum, Real* map) const {
-  for_each_column(spectrum, ny(), spectrum_columns(), ny(),
-                  [this](Index, Complex* column) { plans_->columns.inverse(column); });
+  for_each_column_bundle(
+      plans_->columns, spectrum, ny(), spectrum_columns(),
+      [](ColumnBlock<Real>& block, Index bundle, Index, Index) { block.inverse(bundle); });
   const Real scale = Real(1) / static_cast<Real>(nx() * ny());
   rows_inverse(plans_->rows, spectrum, ny(), nx(), scale, map);
 }
@@ -101,20 +102,19 @@ void Convolution<Real>::apply(const Real* in, const Multiplier<Real>& multiplier
   State& s = *state_;
   rows_forward(s.rows, in, s.ny, s.nx, s.spectrum.data());
   const Index n = s.columns.n();
-  for_each_column(s.spectrum.data(), s.ny, s.rows.n_frequencies(), n,
-                  [&](Index kx, std::complex<Real>* column) {
-                    thread_local std::vector<Real> factors;
-                    factors.resize(static_cast<std::size_t>(n / 2 + 1));
-                    multiplier(kx, factors);
-                    s.columns.forward(column);
-                    column[0] *= factors[0];
-                    for (Index ky = 1; ky <= n / 2; ++ky) {
-                      const Real factor = factors[static_cast<std::size_t>(ky)];
-                      column[ky] *= factor;
-                      if (n - ky != ky) column[n - ky] *= factor;
-                    }
-                    s.columns.inverse(column);
-                  });
+  const auto n_factors = static_cast<std::size_t>(n / 2 + 1);
+  for_each_column_bundle(
+      s.columns, s.spectrum.data(), s.ny, s.rows.n_frequencies(),
+      [&](ColumnBlock<Real>& block, Index bundle, Index kx, Index count) {
+        thread_local std::vector<Real> factors;
+        factors.resize(n_factors * static_cast<std::size_t>(ColumnBlock<Real>::kTogether));
+        for (Index i = 0; i < count; ++i) {
+          multiplier(kx + i, {factors.data() + static_cast<std::size_t>(i) * n_factors, n_factors});
+        }
+        block.forward(bundle);
+        block.multiply(bundle, factors.data());
+        block.inverse(bundle);
+      });
   const Real scale = Real(1) / static_cast<Real>(n * s.rows.n());
   rows_inverse(s.rows, s.spectrum.data(), s.ny, s.nx, scale, out);
 }
@@ -134,14 +134,22 @@ void forward_rows(
 
 namespace {
 
-/// Replaces n/2 + 1 values of an even sequence of n by its (real) spectrum.
-void transform_even(const RowTransform<double>& transform, double* values, Index stride) {
+/// Replaces `count` even sequences of n by their (real) spectra: n/2 + 1 values each, `step` values
+/// apart, and the sequences `stride` values apart.
+void transform_even(const RowTransform<double>& transform, double* values, Index count, Index step,
+                    Index stride) {
   const Index n = transform.n();
-  Buffer<double, double> sequence(n);
-  Buffer<std::complex<double>, double> spectrum(n / 2 + 1);
-  for (Index k = 0; k < n; ++k) sequence.data()[k] = values[std::min(k, n - k) * stride];
-  transform.forward(sequence.data(), spectrum.data());
-  for (Index k = 0; k <= n / 2; ++k) values[k * stride] = spectrum.data()[k].real();
+  for_each_row_bundle(transform, count, [&](RowBundle<double>& rows, Index first, Index together) {
+    for (Index i = 0; i < together; ++i) {
+      const double* const sequence = values + (first + i) * stride;
+      for (Index k = 0; k < n; ++k) rows.row(i)[k] = sequence[std::min(k, n - k) * step];
+    }
+    rows.forward(together);
+    for (Index i = 0; i < together; ++i) {
+      double* const sequence = values + (first + i) * stride;
+      for (Index k = 0; k <= n / 2; ++k) sequence[k * step] = rows.spectrum(i)[k].real();
+    }
+  });
 }
 
 }  // namespace
@@ -152,60 +160,10 @@ Field even_spectrum(Index ny, Index nx, const std::function<double(Index y, Inde
   Field spectrum(nx / 2 + 1, ny / 2 + 1);
   parallel_for(spectrum.rows(), 1, [&](Index x, Index) {
     for (Index y = 0; y <= ny / 2; ++y) spectrum(x, y) = value(y, x);
-    transform_even(along_y, &spectrum(x, 0), 1);
   });
-  parallel_for(spectrum.cols(), 8, [&](Index begin, Index end) {
-    for (Index y = begin; y < end; ++y) transform_even(along_x, &spectrum(0, y), spectrum.cols());
-  });
+  transform_even(along_y, spectrum.data(), spectrum.rows(), 1, spectrum.cols());
+  transform_even(along_x, spectrum.data(), spectrum.cols(), spectrum.cols(), 1);
   return spectrum;
-}
-
-namespace {
-
-std::filesystem::path single_precision_file(const std::filesystem::path& file) {
-  return std::filesystem::path(file).concat(".float");
-}
-
-template <typename Real>
-void measure(Index n) {
-  Buffer<std::complex<Real>, Real> values(n + 2);
-  auto* complex = as_fftw(values.data());
-  auto* real = reinterpret_cast<Real*>(values.data());
-  Buffer<Real, Real> other(2 * (n + 2));
-  auto* other_complex = as_fftw(reinterpret_cast<std::complex<Real>*>(other.data()));
-  const unsigned flags = FFTW_MEASURE | FFTW_DESTROY_INPUT;
-  const int size = static_cast<int>(n);
-  for (auto plan : {Fftw<Real>::plan_c2c(size, complex, complex, FFTW_FORWARD, flags),
-                    Fftw<Real>::plan_c2c(size, complex, complex, FFTW_BACKWARD, flags),
-                    Fftw<Real>::plan_r2c(size, real, other_complex, flags),
-                    Fftw<Real>::plan_c2r(size, complex, other.data(), flags)}) {
-    Fftw<Real>::destroy(plan);
-  }
-}
-
-}  // namespace
-
-void load_wisdom(const std::filesystem::path& file) {
-  const std::lock_guard lock(planner_mutex);
-  const bool loaded = fftw_import_wisdom_from_filename(file.c_str()) != 0 &&
-                      fftwf_import_wisdom_from_filename(single_precision_file(file).c_str()) != 0;
-  if (!loaded) {
-    throw InputError("FFT wisdom " + file.string(), "no readable pair of FFTW wisdom files",
-                     "files written by this version of FFTW", "measure them again");
-  }
-  wisdom_is_loaded = true;
-}
-
-void measure_wisdom(Index ny, Index nx, const std::filesystem::path& file) {
-  const std::lock_guard lock(planner_mutex);
-  for (const Index n : {nx, ny, 2 * nx, 2 * ny}) {
-    measure<double>(n);
-    measure<float>(n);
-  }
-  if (fftw_export_wisdom_to_filename(file.c_str()) == 0 ||
-      fftwf_export_wisdom_to_filename(single_precision_file(file).c_str()) == 0) {
-    throw OutputError("cannot write FFT wisdom to " + file.string());
-  }
 }
 
 }  // namespace tabor::spectral

@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "tabor/core/types.hpp"
 
@@ -30,10 +31,10 @@ using Multiplier = std::function<void(Index kx, std::span<Real> values)>;
 /// Transforms real maps by a two-dimensional FFT: maps of shape (ny, nx) to half spectra of shape
 /// (ny, nx/2 + 1).
 ///
-/// Rows and columns are transformed one by one with the same one-dimensional plans, so that the
-/// result has the same bits for any thread count. The forward transform is not normalised; the
-/// inverse divides by nx * ny. Real is float or double. Cheap to construct; safe to use from
-/// several threads once constructed.
+/// Rows and columns are transformed with the same one-dimensional plans, each in a bundle that the
+/// thread count does not change, so that the result has the same bits for any thread count. The
+/// forward transform is not normalised; the inverse divides by nx * ny. Real is float or double.
+/// Cheap to construct; safe to use from several threads once constructed.
 template <typename Real>
 class RealFft2d {
  public:
@@ -89,10 +90,18 @@ void forward_rows(
     const Field& map,
     Eigen::Array<std::complex<double>, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& spectrum);
 
+/// Returns name and version of the library of transforms that tabor is built with (TABOR_FFT), such
+/// as "FFTW 3.3.10" or "ducc0 0.42.0".
+std::string transform_library();
+/// Returns the key of that library in the bibliography.
+std::string transform_reference();
+
 /// Loads measured plans of FFTW, which make transforms faster. Every later plan uses them; plans
 /// without stored wisdom are estimated, so that two runs with the same file give the same bits.
+/// Throws InputError if there are none, and with ducc0, which measures no plans.
 void load_wisdom(const std::filesystem::path& file);
-/// Measures plans for maps of this shape (seconds to minutes) and stores everything known.
+/// Measures plans for maps of this shape (seconds to minutes) and stores everything known. Throws
+/// OutputError if they cannot be written, and InputError with ducc0.
 void measure_wisdom(Index ny, Index nx, const std::filesystem::path& file);
 
 }  // namespace tabor::spectral

@@ -2,26 +2,17 @@
 #pragma once
 
 #include <fftw3.h>
-#include <pthread.h>
 
 #include <algorithm>
 #include <complex>
-#include <mutex>
+#include <functional>
+#include <memory>
 #include <new>
 
-#include "tabor/core/error.hpp"
 #include "tabor/core/large_pages.hpp"
-#include "tabor/core/parallel.hpp"
+#include "tabor/core/types.hpp"
 
 namespace tabor::spectral {
-
-/// FFTW's planner is not thread-safe; its plans are.
-inline std::mutex planner_mutex;
-/// Makes fork() wait for the planner, so that a copy of the process finds it in a consistent state
-/// and unlocked.
-[[maybe_unused]] inline const int keeps_planner_free = ::pthread_atfork(
-    [] { planner_mutex.lock(); }, [] { planner_mutex.unlock(); }, [] { planner_mutex.unlock(); });
-inline bool wisdom_is_loaded = false;
 
 template <typename Real>
 struct Fftw;
@@ -63,16 +54,16 @@ class Buffer {
   explicit Buffer(Index n)
       : data_(static_cast<T*>(Fftw<Real>::allocate(sizeof(T) * static_cast<std::size_t>(n)))) {
     if (data_ == nullptr) throw std::bad_alloc();
-    ask_for_large_pages(data_, static_cast<std::size_t>(n));
+    ask_for_large_pages(data_.get(), static_cast<std::size_t>(n));
   }
-  ~Buffer() { Fftw<Real>::release(data_); }
-  Buffer(const Buffer&) = delete;
-  Buffer& operator=(const Buffer&) = delete;
-  T* data() { return data_; }
-  const T* data() const { return data_; }
+  T* data() { return data_.get(); }
+  const T* data() const { return data_.get(); }
 
  private:
-  T* data_;
+  struct Release {
+    void operator()(T* data) const { Fftw<Real>::release(data); }
+  };
+  std::unique_ptr<T, Release> data_;
 };
 
 template <typename Real>
@@ -84,26 +75,19 @@ auto* as_fftw(std::complex<Real>* values) {
 template <typename Real>
 class Plan {
  public:
-  template <typename Make>
-  explicit Plan(const Make& make) {
-    const std::lock_guard lock(planner_mutex);
-    if (wisdom_is_loaded) plan_ = make(FFTW_MEASURE | FFTW_WISDOM_ONLY | FFTW_DESTROY_INPUT);
-    if (plan_ == nullptr) plan_ = make(FFTW_ESTIMATE | FFTW_DESTROY_INPUT);
-    if (plan_ == nullptr) throw Error("FFTW made no plan");
-  }
-  ~Plan() {
-    const std::lock_guard lock(planner_mutex);
-    Fftw<Real>::destroy(plan_);
-  }
+  using Handle = typename Fftw<Real>::Plan;
+
+  explicit Plan(const std::function<Handle(unsigned flags)>& make);
+  ~Plan();
   Plan(const Plan&) = delete;
   Plan& operator=(const Plan&) = delete;
-  typename Fftw<Real>::Plan handle() const { return plan_; }
+  Handle handle() const { return plan_; }
 
  private:
-  typename Fftw<Real>::Plan plan_ = nullptr;
+  Handle plan_ = nullptr;
 };
 
-/// Real transforms of single rows, through aligned buffers.
+/// Plans of real transforms of single rows, through aligned buffers.
 template <typename Real>
 class RowTransform {
  public:
@@ -140,7 +124,7 @@ class RowTransform {
   Plan<Real> inverse_;
 };
 
-/// In-place complex transforms of single columns.
+/// Plans of in-place complex transforms of single columns.
 template <typename Real>
 class ColumnTransform {
  public:
@@ -171,75 +155,85 @@ class ColumnTransform {
   Plan<Real> inverse_;
 };
 
-inline constexpr Index kRowsPerBlock = 16;
-inline constexpr Index kColumnsPerBlock =
-    16;  // whole cache lines of a row, and the block stays in L2
-
-/// Stride of one column inside a block buffer, rounded up to a multiple of the vector length.
+/// Holds a row and its spectrum while they are transformed.
 template <typename Real>
-Index column_stride(Index n) {
-  constexpr Index step = 64 / static_cast<Index>(sizeof(std::complex<Real>));
-  return (n + step - 1) / step * step;
-}
+class RowBundle {
+ public:
+  using Complex = std::complex<Real>;
+  static constexpr Index kTogether = 1;  ///< rows that are transformed together
 
-/// Transforms the n_rows rows of `map` (length row_length, zero-padded to the plan's length).
+  explicit RowBundle(const RowTransform<Real>& transform)
+      : transform_(&transform), row_(transform.n()), spectrum_(transform.n_frequencies()) {}
+
+  Real* row(Index) { return row_.data(); }
+  Complex* spectrum(Index) { return spectrum_.data(); }
+  void forward(Index) { transform_->forward(row_.data(), spectrum_.data()); }
+  void inverse(Index) { transform_->inverse(spectrum_.data(), row_.data()); }
+
+ private:
+  const RowTransform<Real>* transform_;
+  Buffer<Real, Real> row_;
+  Buffer<Complex, Real> spectrum_;
+};
+
+/// Holds a block of columns while they are transformed: one after the other, each contiguous.
 template <typename Real>
-void rows_forward(const RowTransform<Real>& transform, const Real* map, Index n_rows,
-                  Index row_length, std::complex<Real>* spectrum) {
-  const Index n_frequencies = transform.n_frequencies();
-  parallel_for(n_rows, kRowsPerBlock, [&](Index begin, Index end) {
-    Buffer<Real, Real> row(transform.n());
-    Buffer<std::complex<Real>, Real> frequencies(n_frequencies);
-    for (Index y = begin; y < end; ++y) {
-      std::copy_n(map + y * row_length, row_length, row.data());
-      std::fill(row.data() + row_length, row.data() + transform.n(), Real(0));
-      transform.forward(row.data(), frequencies.data());
-      std::copy_n(frequencies.data(), n_frequencies, spectrum + y * n_frequencies);
-    }
-  });
-}
+class ColumnBlock {
+ public:
+  using Complex = std::complex<Real>;
+  static constexpr Index kTogether = 1;  ///< columns that are transformed together
 
-/// Inverse of rows_forward, times `scale`; only the first row_length values of each row are stored.
-template <typename Real>
-void rows_inverse(const RowTransform<Real>& transform, const std::complex<Real>* spectrum,
-                  Index n_rows, Index row_length, Real scale, Real* map) {
-  const Index n_frequencies = transform.n_frequencies();
-  parallel_for(n_rows, kRowsPerBlock, [&](Index begin, Index end) {
-    Buffer<Real, Real> row(transform.n());
-    Buffer<std::complex<Real>, Real> frequencies(n_frequencies);
-    for (Index y = begin; y < end; ++y) {
-      std::copy_n(spectrum + y * n_frequencies, n_frequencies, frequencies.data());
-      transform.inverse(frequencies.data(), row.data());
-      std::transform(row.data(), row.data() + row_length, map + y * row_length,
-                     [scale](Real value) { return value * scale; });
-    }
-  });
-}
+  ColumnBlock(const ColumnTransform<Real>& transform, Index n_columns)
+      : transform_(&transform),
+        n_columns_(n_columns),
+        stride_((transform.n() + kStep - 1) / kStep * kStep),
+        values_(stride_ * n_columns) {}
 
-/// Calls work(kx, column) for every column of the spectrum: a contiguous buffer of n values of
-/// which the first n_rows come from and go back to the spectrum; the rest starts as zero.
-template <typename Real, typename Work>
-void for_each_column(std::complex<Real>* spectrum, Index n_rows, Index n_columns, Index n,
-                     const Work& work) {
-  const Index stride = column_stride<Real>(n);
-  parallel_for(n_columns, kColumnsPerBlock, [&](Index begin, Index end) {
-    Buffer<std::complex<Real>, Real> columns(stride * (end - begin));
+  /// Takes the first values of all columns from n_rows rows, which lie `width` values apart.
+  void load(const Complex* rows, Index width, Index n_rows) {
+    n_loaded_ = n_rows;
     for (Index y = 0; y < n_rows; ++y) {
-      for (Index x = begin; x < end; ++x) {
-        columns.data()[(x - begin) * stride + y] = spectrum[y * n_columns + x];
-      }
+      for (Index x = 0; x < n_columns_; ++x) column(x)[y] = rows[y * width + x];
     }
-    for (Index x = begin; x < end; ++x) {
-      std::complex<Real>* column = columns.data() + (x - begin) * stride;
-      std::fill(column + n_rows, column + n, std::complex<Real>(0));
-      work(x, column);
-    }
+  }
+  /// Writes the first values of all columns to rows.
+  void store(Complex* rows, Index width, Index n_rows) {
     for (Index y = 0; y < n_rows; ++y) {
-      for (Index x = begin; x < end; ++x) {
-        spectrum[y * n_columns + x] = columns.data()[(x - begin) * stride + y];
-      }
+      for (Index x = 0; x < n_columns_; ++x) rows[y * width + x] = column(x)[y];
     }
-  });
-}
+  }
+
+  /// Transforms a bundle; values that were not loaded are zero.
+  void forward(Index bundle) {
+    std::fill(column(bundle) + n_loaded_, column(bundle) + transform_->n(), Complex(0));
+    transform_->forward(column(bundle));
+  }
+  void inverse(Index bundle) { transform_->inverse(column(bundle)); }
+
+  /// Multiplies a bundle by factors of frequencies 0 .. n/2, kTogether times: once for each column.
+  void multiply(Index bundle, const Real* factors) {
+    const Index n = transform_->n();
+    Complex* const values = column(bundle);
+    values[0] *= factors[0];
+    for (Index ky = 1; ky <= n / 2; ++ky) {
+      values[ky] *= factors[ky];
+      if (n - ky != ky) values[n - ky] *= factors[ky];
+    }
+  }
+
+  /// Makes column() valid for the columns of a bundle, and pack() ends that.
+  void unpack(Index) {}
+  void pack(Index) {}
+  Complex* column(Index x) { return values_.data() + x * stride_; }
+
+ private:
+  static constexpr Index kStep = 64 / static_cast<Index>(sizeof(Complex));  // alignment of vectors
+
+  const ColumnTransform<Real>* transform_;
+  Index n_columns_;
+  Index n_loaded_ = 0;
+  Index stride_;
+  Buffer<Complex, Real> values_;
+};
 
 }  // namespace tabor::spectral

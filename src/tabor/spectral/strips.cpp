@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "tabor/core/parallel.hpp"
-#include "tabor/spectral/fftw_library.hpp"
+#include "tabor/spectral/transform_library.hpp"
 
 namespace tabor::spectral {
 
@@ -38,14 +37,15 @@ void StripTransform<Real>::rows_forward(const RowSource<Real>& map, ColumnRange 
                                         Strip& strip) const {
   const Plans& p = *plans_;
   strip.resize(static_cast<std::size_t>(p.ny * range.size()));
-  parallel_for(p.ny, kRowsPerStripBlock, [&](Index begin, Index end) {
-    Buffer<Real, Real> row(p.rows.n());
-    Buffer<Complex, Real> frequencies(p.rows.n_frequencies());
-    for (Index y = begin; y < end; ++y) {
-      map(y, {row.data(), static_cast<std::size_t>(p.nx)});
-      std::fill(row.data() + p.nx, row.data() + p.rows.n(), Real(0));
-      p.rows.forward(row.data(), frequencies.data());
-      std::copy_n(frequencies.data() + range.begin, range.size(), strip.data() + y * range.size());
+  for_each_row_bundle(p.rows, p.ny, [&](RowBundle<Real>& rows, Index y, Index count) {
+    for (Index i = 0; i < count; ++i) {
+      map(y + i, {rows.row(i), static_cast<std::size_t>(p.nx)});
+      std::fill(rows.row(i) + p.nx, rows.row(i) + p.rows.n(), Real(0));
+    }
+    rows.forward(count);
+    for (Index i = 0; i < count; ++i) {
+      std::copy_n(rows.spectrum(i) + range.begin, range.size(),
+                  strip.data() + (y + i) * range.size());
     }
   });
 }
@@ -54,39 +54,35 @@ template <typename Real>
 void StripTransform<Real>::for_columns(std::span<Strip* const> strips, ColumnRange range,
                                        const ColumnWork& work, bool back) const {
   const Plans& p = *plans_;
-  const Index n = p.columns.n(), width = range.size(), n_maps = std::ssize(strips);
-  const Index stride = column_stride<Real>(n);
+  const Index width = range.size();
+  constexpr Index together = ColumnBlock<Real>::kTogether;
   parallel_for(width, kColumnsPerStripBlock, [&](Index begin, Index end) {
-    const Index n_columns = end - begin;
-    Buffer<Complex, Real> block(stride * n_columns * n_maps);
-    const auto column = [&](Index map, Index x) {
-      return block.data() + (map * n_columns + x - begin) * stride;
-    };
-    for (Index map = 0; map < n_maps; ++map) {
-      const Strip& strip = *strips[static_cast<std::size_t>(map)];
-      for (Index y = 0; y < p.ny; ++y) {
-        for (Index x = begin; x < end; ++x) {
-          column(map, x)[y] = strip[static_cast<std::size_t>(y * width + x)];
-        }
-      }
+    std::vector<ColumnBlock<Real>> blocks;
+    blocks.reserve(strips.size());
+    for (const Strip* const strip : strips) {
+      blocks.emplace_back(p.columns, end - begin);
+      blocks.back().load(strip->data() + begin, width, p.ny);
     }
     std::vector<Complex*> columns(strips.size());
-    for (Index x = begin; x < end; ++x) {
-      for (Index map = 0; map < n_maps; ++map) {
-        Complex* values = columns[static_cast<std::size_t>(map)] = column(map, x);
-        std::fill(values + p.ny, values + n, Complex(0));
-        p.columns.forward(values);
+    for (Index first = begin; first < end; first += together) {
+      const Index bundle = (first - begin) / together;
+      for (ColumnBlock<Real>& block : blocks) {
+        block.forward(bundle);
+        block.unpack(bundle);
       }
-      work(range.begin + x, columns);
-      for (Index map = 0; back && map < n_maps; ++map) p.columns.inverse(column(map, x));
-    }
-    for (Index map = 0; back && map < n_maps; ++map) {
-      Strip& strip = *strips[static_cast<std::size_t>(map)];
-      for (Index y = 0; y < p.ny; ++y) {
-        for (Index x = begin; x < end; ++x) {
-          strip[static_cast<std::size_t>(y * width + x)] = column(map, x)[y];
+      for (Index x = first; x < std::min(first + together, end); ++x) {
+        for (std::size_t map = 0; map < blocks.size(); ++map) {
+          columns[map] = blocks[map].column(x - begin);
         }
+        work(range.begin + x, columns);
       }
+      for (std::size_t map = 0; back && map < blocks.size(); ++map) {
+        blocks[map].pack(bundle);
+        blocks[map].inverse(bundle);
+      }
+    }
+    for (std::size_t map = 0; back && map < blocks.size(); ++map) {
+      blocks[map].store(strips[map]->data() + begin, width, p.ny);
     }
   });
 }
@@ -107,15 +103,16 @@ template <typename Real>
 void StripTransform<Real>::rows_inverse(const Strip& strip, ColumnRange range,
                                         const RowSink& sink) const {
   const Plans& p = *plans_;
-  parallel_for(p.ny, kRowsPerStripBlock, [&](Index begin, Index end) {
-    Buffer<Real, Real> row(p.rows.n());
-    Buffer<Complex, Real> frequencies(p.rows.n_frequencies());
-    for (Index y = begin; y < end; ++y) {
+  for_each_row_bundle(p.rows, p.ny, [&](RowBundle<Real>& rows, Index y, Index count) {
+    for (Index i = 0; i < count; ++i) {
       // The inverse destroys its input: zeros are written anew for every row.
-      std::fill(frequencies.data(), frequencies.data() + p.rows.n_frequencies(), Complex(0));
-      std::copy_n(strip.data() + y * range.size(), range.size(), frequencies.data() + range.begin);
-      p.rows.inverse(frequencies.data(), row.data());
-      sink(y, {row.data(), static_cast<std::size_t>(p.rows.n())});
+      Complex* const frequencies = rows.spectrum(i);
+      std::fill(frequencies, frequencies + p.rows.n_frequencies(), Complex(0));
+      std::copy_n(strip.data() + (y + i) * range.size(), range.size(), frequencies + range.begin);
+    }
+    rows.inverse(count);
+    for (Index i = 0; i < count; ++i) {
+      sink(y + i, {rows.row(i), static_cast<std::size_t>(p.rows.n())});
     }
   });
 }
