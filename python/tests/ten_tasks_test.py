@@ -151,7 +151,7 @@ def test_9_a_slider_over_the_pressure(sheet: tb.Surface) -> None:
     shown = widgets.interactive(show, pressure=widgets.FloatSlider(7, min=1, max=50))
     shown.update()
     shown.children[0].value = 20
-    assert len(seen) == 2 and seen[0] < seen[1]
+    assert len(set(seen)) == 2 and seen[0] < seen[-1]  # versions differ in how often they call
 
 
 def test_10_the_same_surface_in_surface_topography_and_back(sheet: tb.Surface) -> None:
