@@ -186,7 +186,7 @@ class ColumnBlock {
   ColumnBlock(const ColumnTransform<Real>& transform, Index n_columns)
       : transform_(&transform),
         n_columns_(n_columns),
-        stride_((transform.n() + kStep - 1) / kStep * kStep),
+        stride_((transform.n() / kStep + 1) * kStep),
         values_(stride_ * n_columns) {}
 
   /// Takes the first values of all columns from n_rows rows, which lie `width` values apart.
@@ -227,7 +227,8 @@ class ColumnBlock {
   Complex* column(Index x) { return values_.data() + x * stride_; }
 
  private:
-  static constexpr Index kStep = 64 / static_cast<Index>(sizeof(Complex));  // alignment of vectors
+  // Columns begin at cache lines, and never so far apart that they share the few places of one.
+  static constexpr Index kStep = 64 / static_cast<Index>(sizeof(Complex));
 
   const ColumnTransform<Real>* transform_;
   Index n_columns_;
