@@ -6,7 +6,6 @@ import signal
 import threading
 import time
 
-import h5py
 import numpy as np
 import pytest
 
@@ -379,6 +378,7 @@ SLIDING = {"tool": "ground:Sa=10nm,groove-length=20um", "density": "0.1 g/m^2"}
 
 def test_a_slide_has_maps_and_spectra_and_writes_the_file_of_the_terminal(rough, steel, tmp_path):
     step = 2 * rough.pixel[0]
+    h5py = pytest.importorskip("h5py")
     found = tb.slide(rough, "50 MPa", steel, 3 * step, step=step, every=step, maps_at=[step], **SLIDING)
     assert sorted(found.maps) == [0, 1, 3] and found.steady is None
     last = found.maps[3]

@@ -10,6 +10,9 @@ import pytest
 
 import tabor as tb
 from conftest import ROOT
+
+pytest.importorskip("bokeh", reason="no Bokeh: the workbench is not there")
+
 from tabor.view import texts
 from tabor.view.answers import PARAMETERS, Bench, answer_of, numbers
 from tabor.view.previews import LIVE, coarser
