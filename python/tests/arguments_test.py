@@ -15,6 +15,8 @@ import tabor as tb
 from tabor import _settings
 from conftest import heights
 
+pytest.importorskip("xarray", reason="no xarray: arguments of it are not asked")
+
 #: None of them is what most arguments are; what an argument takes all the same is no fault.
 WRONG = [None, object(), True, 1.5, -1, 0, 2**70, float("nan"), float("inf"), 1j, b"x", "nonsense", "5 m", "", [], {}, (),
          [object()], [None], {"a": object()}, {1: 2}, np.array(["x"]), np.ones((2, 2)), np.datetime64("2020-01-01"), print,
