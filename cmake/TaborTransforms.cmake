@@ -25,7 +25,8 @@ function(tabor_download_ducc0 folder)
   file(WRITE ${place}/requirements.txt "ducc0==${version} --hash=sha256:${digest}\n")
   find_package(Python3 REQUIRED COMPONENTS Interpreter)
   set(problem "no pip was found")
-  # A build that pip itself runs has an interpreter without pip, which PYTHONPATH hides.
+  # Where pip runs this build, it sets PYTHONPATH so that its interpreter does not find pip, and a tool such as build
+  # makes an environment that has none: then the system's interpreter downloads.
   foreach(python ${Python3_EXECUTABLE} /usr/bin/python3)
     if(EXISTS ${archive})
       break()
@@ -34,7 +35,7 @@ function(tabor_download_ducc0 folder)
     execute_process(
       COMMAND ${CMAKE_COMMAND} -E env --unset=PYTHONPATH
               ${python} -m pip download --quiet --no-deps --no-binary ducc0 --dest ${place} -r ${place}/requirements.txt
-      OUTPUT_VARIABLE problem ERROR_VARIABLE problem RESULT_VARIABLE status)
+      OUTPUT_VARIABLE problem ERROR_VARIABLE problem)
   endforeach()
   if(NOT EXISTS ${archive})
     message(FATAL_ERROR "TABOR_FFT=ducc0 compiles sources of ducc0 ${version}, and pip cannot download them:\n${problem}\n"
