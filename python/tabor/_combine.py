@@ -32,8 +32,8 @@ class Volume(NamedTuple):
     area: float  #: [m^2]
 
     def _text(self) -> str:
-        name, cube = ("mm^3", 1e-9) if abs(self.volume) >= 1e-12 else ("um^3", 1e-18)
-        return f"{self.volume / cube:.4g} {name} (+- {self.uncertainty / cube:.2g})"
+        name, cube = ("mm^3", 1e-9) if abs(self.volume) >= 1e-12 else ("µm^3", 1e-18)
+        return f"{self.volume / cube:.4g} {name} (± {self.uncertainty / cube:.2g})"
 
 
 class Combination(Shown):

@@ -147,6 +147,23 @@ TEST_F(LubricantVerbs, FrictionSaysWhereTheTimeWent) {
   EXPECT_THAT(run_tabor(words).out, testing::ContainsRegex("\ntime +[0-9.]+ s"));
 }
 
+TEST_F(LubricantVerbs, FrictionSaysHowFarDropletsAreFromTheirLimit) {
+  const Words droplets = friction("2MPa,7MPa", "0.45g/m^2,0.9g/m^2") + Words{"--droplet", "2um"};
+  const io::Json of_droplets = json_of(droplets);
+  const io::Json of_limit = json_of(droplets + Words{"--model", "limit"});
+  double largest = 0;
+  for (std::size_t i = 0; i < of_droplets.at("states").size(); ++i) {
+    const auto friction_in = [&](const io::Json& object) {
+      return object.at("states").at(i).at("friction_lubricated").get<double>();
+    };
+    largest = std::max(largest, std::abs(friction_in(of_droplets) - friction_in(of_limit)));
+  }
+  EXPECT_GT(largest, 0);
+  EXPECT_NEAR(of_droplets.at("limit_difference").at("friction").get<double>(), largest, 1e-12);
+  EXPECT_FALSE(of_limit.contains("limit_difference"));
+  EXPECT_THAT(run_tabor(droplets).out, testing::ContainsRegex("\nlimit +friction with vanishing"));
+}
+
 TEST_F(LubricantVerbs, FrictionIsAreaTimesShearStrengthOverPressure) {
   for (const char* area : {"corrected", "pixels"}) {
     const io::Json state =

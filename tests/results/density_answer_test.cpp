@@ -84,5 +84,31 @@ TEST(DensityAnswer, AsksForEachDensityOfTheRecordsOnce) {
   EXPECT_EQ(asked.front().lubricated_share, 0.25);
 }
 
+TEST(DensityAnswer, FindsWhereFrictionLiesFarthestFromTheLimit) {
+  cases::DensityCurve at_two = curve();
+  at_two.mean_pressure = 2e6;
+  cases::DensityCurve at_five = curve();
+  at_five.mean_pressure = 5e6;
+  cases::FrictionRecord near;
+  near.mean_pressure = 2e6;
+  near.lubricant_density = std::nextafter(1.15e-3, 1);  // a unit was changed
+  near.friction_lubricated = 0.2401;
+  cases::FrictionRecord far = near, off = near, elsewhere = near;
+  far.mean_pressure = 5e6;
+  far.lubricant_density = 1.2e-3;
+  far.friction_lubricated = 0.1948;
+  off.lubricant_density = 1.17e-3;  // no point of the curve
+  off.friction_lubricated = 0.1;
+  elsewhere.mean_pressure = 7e6;  // no curve
+  elsewhere.friction_lubricated = 0.1;
+  const auto most = difference_from_limit({at_two, at_five}, {near, off, far, elsewhere});
+  ASSERT_TRUE(most);
+  EXPECT_NEAR(most->friction, 2e-4, 1e-12);
+  EXPECT_EQ(most->mean_pressure, 5e6);
+  EXPECT_EQ(most->lubricant_density, 1.2e-3);
+  EXPECT_FALSE(difference_from_limit({at_two}, {off, elsewhere}));
+  EXPECT_FALSE(difference_from_limit({}, {near}));
+}
+
 }  // namespace
 }  // namespace tabor::results

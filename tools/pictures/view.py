@@ -48,7 +48,7 @@ def keep(page, name, height, top=0):
     page.wait_for_timeout(300)
     file = IMAGES / f"view_{name}.png"
     page.screenshot(path=file, clip={"x": 0, "y": top, "width": 1280, "height": height})
-    Image.open(file).convert("RGB").quantize(COLOURS).save(file, optimize=True)
+    Image.open(file).convert("RGB").quantize(COLOURS, Image.Quantize.FASTOCTREE).save(file, optimize=True)
     print(file.relative_to(ROOT), file.stat().st_size // 1000, "kB")
 
 
@@ -72,8 +72,10 @@ def walk(page):
     settled(page)
     keep(page, "moved", 1240)
     control(page, "add", "select").select_option("lowpass=gauss:8um")
-    page.wait_for_function("Bokeh.documents[0].get_model_by_name('spectrum_source').data.density.length > 0")
+    page.wait_for_selector("[data-name=busy]")
+    page.wait_for_selector("[data-name=whole]", state="detached")
     settled(page)
+    page.wait_for_function("Bokeh.documents[0].get_model_by_name('spectrum_source').data.density.length > 0")
     keep(page, "filtered", 1000)
     control(page, "undo", "button").click()
     page.get_by_text("3-D", exact=True).click()

@@ -96,6 +96,8 @@ io::Json json_of(const cases::DensityCurve& curve, const std::vector<AskedDensit
     const auto place = results::place_of(curve, one.lubricated_share);
     places.push_back({{"lubricant_density_g_per_m2", in_grams(one.lubricant_density)},
                       {"lubricated_share", io::number(one.lubricated_share)},
+                      {"limit_lubricated_share",
+                       io::number(results::lubricated_share_at(curve, one.lubricant_density))},
                       {"place", place ? io::Json(results::kPlaces.of(*place)) : io::Json()}});
   }
   return {{"mean_pressure_Pa", curve.mean_pressure},

@@ -186,6 +186,29 @@ void add_curves(const Solved& solved, io::Json& object) {
   object["density_curves"] = all;
 }
 
+/// How far friction with droplets of finite size is from that with vanishing ones.
+std::optional<results::LimitDifference> limit_difference(const Solved& solved,
+                                                         const Request& request) {
+  if (request.settings.film.model != deposition::Model::droplets) return std::nullopt;
+  return results::difference_from_limit(solved.curves, solved.records);
+}
+
+void add_limit(const results::LimitDifference& most, io::Json& object) {
+  object["limit_difference"] = {
+      {"friction", most.friction},
+      {"mean_pressure_Pa", most.mean_pressure},
+      {"lubricant_density_g_per_m2", in_g_per_m2(most.lubricant_density)}};
+}
+
+void describe_limit(const results::LimitDifference& most, Facts& facts) {
+  const std::string difference =
+      most.friction > 0
+          ? fmt::format("differs by at most {:.1g} ({} with {})", most.friction,
+                        si(most.mean_pressure, "Pa"), results::density_text(most.lubricant_density))
+          : "is the same";
+  facts.fact("limit", "friction with vanishing droplets (--model limit, faster) " + difference);
+}
+
 /// What each curve says, and with --density-curve the curves.
 std::string curves_text(const Solved& solved, const Request& request) {
   if (solved.curves.empty()) return "";
@@ -201,6 +224,7 @@ std::string curves_text(const Solved& solved, const Request& request) {
     }
     tables += '\n' + table.text();
   }
+  if (const auto most = limit_difference(solved, request)) describe_limit(*most, facts);
   return '\n' + facts.text() + tables;
 }
 
@@ -295,6 +319,7 @@ int show(Request request, Context& context) {
     object["pixel_dependence"] = pixels_json(solved, scan.surface.grid);
   }
   add_curves(solved, object);
+  if (const auto most = limit_difference(solved, request)) add_limit(*most, object);
   if (request.resolution_scan) {
     object["resolution"] = states_json(study::resolution_columns(), solved.resolution);
   }

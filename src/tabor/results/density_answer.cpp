@@ -13,7 +13,8 @@
 namespace tabor::results {
 namespace {
 
-constexpr double kDry = 0.01;  // so small a wet share is none
+constexpr double kDry = 0.01;       // so small a wet share is none
+constexpr double kRounding = 1e-9;  // of a density whose unit was changed
 
 bool is_dry(const cases::Plateau& plateau) { return 1 - plateau.value < kDry; }
 
@@ -89,6 +90,28 @@ std::vector<AskedDensity> asked_at(double mean_pressure,
   return asked;
 }
 
+std::optional<LimitDifference> difference_from_limit(
+    const std::vector<cases::DensityCurve>& curves,
+    const std::vector<cases::FrictionRecord>& records) {
+  std::optional<LimitDifference> largest;
+  for (const cases::DensityCurve& curve : curves) {
+    for (const cases::FrictionRecord& record : records) {
+      if (record.mean_pressure != curve.mean_pressure || curve.lubricant_densities.empty()) {
+        continue;
+      }
+      const std::size_t point = point_at(curve, record.lubricant_density * (1 - kRounding));
+      if (!cases::are_same_density(curve.lubricant_densities[point], record.lubricant_density)) {
+        continue;
+      }
+      const double difference =
+          std::abs(record.friction_lubricated - curve.friction_lubricated[point]);
+      if (std::isnan(difference) || (largest && difference <= largest->friction)) continue;
+      largest = {difference, record.mean_pressure, record.lubricant_density};
+    }
+  }
+  return largest;
+}
+
 std::optional<Place> place_of(const cases::DensityCurve& curve, double lubricated_share) {
   if (!curve.plateau) return std::nullopt;
   const double above = (1 - lubricated_share) - curve.plateau->value;
@@ -100,8 +123,8 @@ double lubricated_share_at(const cases::DensityCurve& curve, double lubricant_de
   const std::vector<double>& all = curve.lubricant_densities;
   const std::vector<double>& shares = curve.lubricated_shares;
   if (all.empty()) return 0;
-  const std::size_t next = point_at(curve, lubricant_density * (1 - 1e-9));
-  if (next == 0 || lubricant_density >= all[next] * (1 - 1e-9)) return shares[next];
+  const std::size_t next = point_at(curve, lubricant_density * (1 - kRounding));
+  if (next == 0 || lubricant_density >= all[next] * (1 - kRounding)) return shares[next];
   const double part =
       std::log(lubricant_density / all[next - 1]) / std::log(all[next] / all[next - 1]);
   return shares[next - 1] + part * (shares[next] - shares[next - 1]);

@@ -27,6 +27,19 @@ struct AskedDensity {
 std::vector<AskedDensity> asked_at(double mean_pressure,
                                    const std::vector<cases::FrictionRecord>& records);
 
+/// Largest difference of a friction from that of vanishing droplets, and where it is.
+struct LimitDifference {
+  double friction = 0;           ///< its absolute value
+  double mean_pressure = 0;      ///< [Pa]
+  double lubricant_density = 0;  ///< [kg/m^2]
+};
+
+/// Returns how far the lubricated friction of the records, from films of any model, lies from the
+/// curves, which are of vanishing droplets (Model::limit). nullopt where no record is on a curve.
+std::optional<LimitDifference> difference_from_limit(
+    const std::vector<cases::DensityCurve>& curves,
+    const std::vector<cases::FrictionRecord>& records);
+
 /// Returns the position of a wet share on the curve; nullopt for a curve without a plateau.
 std::optional<Place> place_of(const cases::DensityCurve& curve, double lubricated_share);
 

@@ -87,8 +87,10 @@ std::vector<FormatRow> formats() {
 }
 
 std::optional<fs::path> gwyddion_program() {
-  const auto program = io::find_program("gwyddion");
-  return program ? program : io::find_program("gwyconvert");
+  for (const char* const name : kGwyddionPrograms) {
+    if (auto program = io::find_program(name)) return program;
+  }
+  return std::nullopt;
 }
 
 struct ScanFile::Opened {

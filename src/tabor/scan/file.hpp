@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -59,7 +60,10 @@ struct FormatRow {
 /// Returns all formats, in the order in which they are tried.
 std::vector<FormatRow> formats();
 
-/// Returns the program that converts files of other formats, gwyddion or gwyconvert, if one is
+/// Programs that convert files of other formats, the preferred one first.
+inline constexpr std::array kGwyddionPrograms{"gwyddion", "gwyconvert"};
+
+/// Returns the program that converts files of other formats, the first of the list, if one is
 /// installed.
 std::optional<std::filesystem::path> gwyddion_program();
 

@@ -5,6 +5,7 @@
 #include "tabor/io/files/zip.hpp"
 #include "tabor/io/text/json.hpp"
 #include "tabor/scan/formats/bytes.hpp"
+#include "tabor/scan/formats/netcdf.hpp"
 #include "tabor/scan/formats/readers.hpp"
 
 namespace tabor::scan::format {

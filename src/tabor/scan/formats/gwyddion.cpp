@@ -18,7 +18,6 @@ namespace tabor::scan::format {
 namespace {
 
 constexpr std::chrono::seconds kTimeLimit{120};
-constexpr const char* kConverter = "gwyconvert";
 
 /// Some readers of Gwyddion believe a damaged file that claims gigabytes. The program itself takes
 /// some hundred MiB of addresses; a sound file of packed 8 bit counts becomes several maps of
@@ -36,7 +35,7 @@ io::ProgramLimits limits_for(std::size_t file_bytes) {
 std::vector<std::string> arguments_of(const std::filesystem::path& program,
                                       const std::filesystem::path& input,
                                       const std::filesystem::path& output) {
-  if (program.filename() == kConverter) return {input.string(), output.string()};
+  if (program.filename() == kGwyddionPrograms[1]) return {input.string(), output.string()};
   return {"--convert-to-gwy=" + output.string(), input.string()};
 }
 
@@ -65,7 +64,7 @@ std::string convert(const Contents& contents, const std::filesystem::path& progr
 
 /// The file as the first program converts it that can; "" if none can.
 std::string converted(const Contents& contents) {
-  for (const char* name : {"gwyddion", kConverter}) {
+  for (const char* const name : kGwyddionPrograms) {
     const auto program = io::find_program(name);
     std::string bytes = program ? convert(contents, *program) : "";
     if (!bytes.empty()) return bytes;

@@ -72,11 +72,6 @@ std::string column_of(const Field& height, Index x) {
 
 }  // namespace
 
-bool is_line(const Grid& grid) {
-  constexpr double kRounding = 1e-9;
-  return grid.ny == 1 && std::abs(grid.dy() - grid.dx()) <= kRounding * grid.dx();
-}
-
 void append_nc(const topography::Topography& topography, const io::Append& append) {
   NetcdfHeader header = header_of(topography);
   const Grid& grid = topography.grid;

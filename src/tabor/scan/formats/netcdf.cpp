@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace tabor::scan::format {
 namespace {
@@ -245,6 +246,11 @@ const NetcdfVariable* NetcdfHeader::variable(std::string_view name) const {
   const auto found = std::find_if(variables.begin(), variables.end(),
                                   [&](const auto& variable) { return variable.name == name; });
   return found == variables.end() ? nullptr : &*found;
+}
+
+bool is_line(const Grid& grid) {
+  constexpr double kRounding = 1e-9;
+  return grid.ny == 1 && std::abs(grid.dy() - grid.dx()) <= kRounding * grid.dx();
 }
 
 bool is_netcdf(std::string_view head) {

@@ -40,6 +40,9 @@ struct NetcdfHeader {
   const NetcdfVariable* variable(std::string_view name) const;
 };
 
+/// True for a row of square pixels, which SurfaceTopography stores as a line without y.
+bool is_line(const Grid& grid);
+
 /// True where the bytes begin like a classic NetCDF file of versions 1, 2 or 5.
 bool is_netcdf(std::string_view head);
 

@@ -47,8 +47,6 @@ std::string note_sur(const topography::Topography& topography);
 Match identify_nc(std::string_view head);
 Document open_nc(const Contents& contents);
 void write_nc(const topography::Topography& topography, const std::filesystem::path& file);
-/// True for a row of square pixels, which NetCDF holds as a line without y.
-bool is_line(const Grid& grid);
 /// Appends what write_nc() writes, for files inside of others.
 void append_nc(const topography::Topography& topography, const io::Append& append);
 
