@@ -26,7 +26,7 @@ def _metres(unit: Any, name: str) -> float:
 
 
 def _of_surface_topography(other: Any) -> Foreign:
-    heights = np.ma.asarray(other.heights()).T  # [x, y] there
+    heights = np.asanyarray(other.heights()).T  # [x, y] there
     ny, nx = heights.shape
     lx, ly = other.physical_sizes
     metres = _metres(other.unit, "unit of the surface")

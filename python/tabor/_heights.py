@@ -59,7 +59,7 @@ def checked(z: Any, name: str = "heights") -> Array:
     if _is_masked(z):
         if z.dtype.kind not in "fiu":
             raise TypeError(f"{name}: got an array of {z.dtype}; expected real numbers")
-        z = np.ma.filled(z.astype(np.float64), np.nan)
+        z = z.astype(np.float64).filled(np.nan)
     try:
         heights = np.asarray(z)
     except Exception as error:

@@ -117,6 +117,7 @@ def test_a_load_path_and_a_tool(rough, tmp_path):
 
 
 def test_a_solution(tmp_path):
+    pytest.importorskip("xarray")
     solved = tb.ehl.point(tb.ehl.template("point"), **{"grid.nodes": 33}).solve(check=False)
     solved.save(tmp_path / "a.h5")
     found = tb.load(tmp_path / "a.h5")
@@ -130,6 +131,7 @@ def test_a_solution(tmp_path):
 
 
 def test_a_sweep(tmp_path):
+    pytest.importorskip("xarray")
     swept = tb.ehl.point(tb.ehl.template("point"), **{"grid.nodes": 33}).sweep(
         {"roughness.kind": ["lapped-like"], "motion.speed": ["0.1 m/s", "1 m/s"]}, check=False)
     swept.save(tmp_path / "a.h5")
@@ -146,6 +148,7 @@ def test_a_sweep(tmp_path):
 
 
 def test_a_slide(tile, tmp_path):
+    pytest.importorskip("xarray")
     given = tb.slide(tile, "7 MPa", SOLID, "4 um", step="0.67 um", every="1.34 um", density="0.9 g/m^2", tool="ground:Sa=0.1um", trapped=True)
     given.save(tmp_path / "a.h5", double=True)
     found = tb.load(tmp_path / "a.h5")

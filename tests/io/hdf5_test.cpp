@@ -11,6 +11,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/parallel.hpp"
 #include "tabor/io/files/atomic_file.hpp"
+#include "tabor/io/hdf5/library.hpp"
 
 namespace tabor::io {
 namespace {
@@ -188,6 +189,22 @@ TEST(Hdf5, OtherExternalLinksAreNotFollowed) {
     EXPECT_THAT(test::rejection([&] { reader.field("/surface/height"); }),
                 HasSubstr("a link into another file"))
         << target;
+  }
+}
+
+/// As h5py opens it where it shares the library with this program.
+TEST(Hdf5, AFileIsReadWhileOthersOfTheProcessHaveItOpen) {
+  const Folder folder;
+  const auto file = folder / "a.h5";
+  write_sample(file);
+  const hdf5::Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
+  H5Pset_fclose_degree(access, H5F_CLOSE_WEAK);
+  for (const bool locks : {true, false}) {
+    H5Pset_file_locking(access, locks, true);
+    const hdf5::Handle theirs(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), &H5Fclose);
+    ASSERT_TRUE(theirs.valid());
+    EXPECT_TRUE(same(Hdf5Reader(file).field("/surface/height"), sample_map(5, 7))) << locks;
+    EXPECT_GT(H5Lexists(theirs, "surface", H5P_DEFAULT), 0);  // still open
   }
 }
 

@@ -13,6 +13,7 @@ from tabor.report.still import uri
 LARGEST_GRID = 1024  # pixels along a side of which all are kept
 LARGEST_SIDE = 8192  # pixels of a picture; a larger map is thinned
 LARGEST_CODE = 2**26  # of a map's range: sums of a few stay within 32 bits
+ROWS_AT_ONCE = 64  # of a map whose values become colours: what is between stays in the caches
 DIGITS = 5  # a step is at most 10^-5 of the range of nearly all values
 
 # A contact picture is two layers: where film is, in the colours of contact, and on it what hides all that is no contact.
@@ -27,16 +28,23 @@ def thinning(shape, largest=LARGEST_SIDE):
     return max(1, math.ceil(max(shape) / largest))
 
 
-def coloured(values, limits, colours, ground, quality):
+def coloured(values, limits, colours, ground, quality, offset=0.0):
     """A data: URI of a WebP picture of a map; values that are NaN have the colour `ground`.
 
-    values: (ny, nx); limits: the values of the first and last of the 255 colours; colours: uint8 (256, 3), of which
-    the first is not used.
+    values: (ny, nx); limits: the values, less the offset, of the first and last of the 255 colours; colours: uint8 (256, 3),
+    of which the first is not used.
     """
     step = thinning(values.shape)
+    thinned = values[::step, ::step]
+    steps = np.empty(thinned.shape, dtype=np.uint8)
+    for start in range(0, len(steps), ROWS_AT_ONCE):
+        rows = (thinned[start : start + ROWS_AT_ONCE] - np.float32(offset)).astype(np.float32, copy=False)
+        steps[start : start + ROWS_AT_ONCE] = _steps(rows, *limits)
     table = np.array(colours, dtype=np.uint8)
     table[0] = ground
-    return _webp(table[_steps(values[::step, ::step], *limits)], quality)
+    picture = Image.fromarray(steps, "P")
+    picture.putpalette(table.tobytes())
+    return _webp(picture.convert("RGB"), quality)
 
 
 def contact_layer(state):
@@ -129,5 +137,5 @@ def _steps(values, low, high):
 
 def _webp(picture, quality):
     stream = io.BytesIO()
-    Image.fromarray(picture, "RGB").save(stream, "WEBP", quality=quality, method=2)
+    picture.save(stream, "WEBP", quality=quality, method=2)
     return uri("image/webp", stream.getvalue())

@@ -6,25 +6,42 @@ import numpy as np
 
 from tabor.report import units
 
+ROWS_AT_ONCE = 64
 MOST = 4_000_000  # heights that the distribution is made of: evenly spread ones of a larger map
 
 
 def amplitudes(height):
     """{name: text} of Sa, Sq, Ssk, Sku, Sz; {} without heights, and no Ssk, Sku of a constant."""
-    z = height[np.isfinite(height)].astype(float)
-    if z.size == 0:
+    n, total = 0, 0.0
+    for z in _parts(height):
+        n, total = n + z.size, total + z.sum()
+    if n == 0:
         return {}
-    z -= z.mean()
-    sq = math.sqrt(np.mean(z * z))
-    found = {"Sa": units.length(np.mean(np.abs(z))), "Sq": units.length(sq)}
+    sums, lowest, highest = np.zeros(4), math.inf, -math.inf
+    for z in _parts(height):
+        z -= total / n
+        squared = z * z
+        sums += np.abs(z).sum(), squared.sum(), (squared * z).sum(), (squared * squared).sum()
+        lowest, highest = min(lowest, z.min(initial=math.inf)), max(highest, z.max(initial=-math.inf))
+    sa, square, cube, fourth = sums / n
+    sq = math.sqrt(square)
+    found = {"Sa": units.length(sa), "Sq": units.length(sq)}
     if sq > 0:
-        found["Ssk"] = units.number(np.mean(z**3) / sq**3, 4)
-        found["Sku"] = units.number(np.mean(z**4) / sq**4, 4)
-    return {**found, "Sz": units.length(z.max() - z.min())}
+        found["Ssk"] = units.number(cube / sq**3, 4)
+        found["Sku"] = units.number(fourth / sq**4, 4)
+    return {**found, "Sz": units.length(highest - lowest)}
+
+
+def _parts(height):
+    """Valid heights [m], some rows at a time: a large map is not copied."""
+    for start in range(0, len(height), ROWS_AT_ONCE):
+        rows = height[start : start + ROWS_AT_ONCE]
+        yield rows[np.isfinite(rows)].astype(float)
 
 
 def sorted_heights(height, mean=True):
     """Valid heights [m] about their mean, or as they are, from high to low."""
-    z = height[np.isfinite(height)].astype(float)
-    z = z[:: 1 + (z.size - 1) // MOST] if z.size else z
+    known = np.isfinite(height)
+    z = height.ravel() if known.all() else height[known]
+    z = (z[:: 1 + (z.size - 1) // MOST] if z.size else z).astype(float)
     return np.sort(z - (z.mean() if mean and z.size else 0.0))[::-1]

@@ -9,7 +9,8 @@ from tabor.report import encoding, map_axes, names, units
 from tabor.report.example import richest_window, shores
 
 BUDGET = 7.6e6  # bytes of the maps of a page of at most 10 MB
-QUALITIES = {92: 2.0, 80: 1.0, 60: 0.68, 40: 0.52}  # of WebP, with the size of a picture by that of the second
+TRIED = 92  # quality of the pictures that tell how large others are
+QUALITIES = {TRIED: 1.0, 80: 0.5, 60: 0.34, 40: 0.26}  # of WebP, with the size of a picture by that of the tried one
 SMALLEST_GRID = 128  # pixels along a side, where several scans share a page
 LOW, HIGH = 0.5, 99.5  # percentiles at which colours end
 
@@ -90,6 +91,15 @@ def of_example(example, name="maps"):
     )
 
 
+@dataclass
+class _FilmMap:
+    """What a page has of a film, of which the rest of a large map is given back."""
+
+    wet: np.ndarray  # of every pixel
+    thickness: np.ndarray  # on the grid [m]
+    top: float  # the end of its colours [m]
+
+
 def encoded(maps, share=1.0, budget=None):
     """The JSON object that templates/viewer.js reads, and the pictures by their ids: ({...}, {id: data URI}).
 
@@ -106,7 +116,7 @@ class _Encoder:
 
     def __init__(self, maps, share, budget):
         self.maps, self.left = maps, budget
-        self.pictures = {}
+        self.pictures, self.tried = {}, {}
         self.last = -1, None
         self.with_gap = [place for place, choice in enumerate(maps.contacts) if "gap" in choice.load]
         self.step = encoding.thinning(maps.height.shape, max(SMALLEST_GRID, int(encoding.LARGEST_GRID * math.sqrt(share))))
@@ -115,7 +125,7 @@ class _Encoder:
         height = self.maps.height
         has_mean = np.isfinite(height).any() and not self.maps.is_difference
         self.mean = float(np.nanmean(height, dtype=float)) if has_mean else 0.0
-        self.films = [np.asarray(choice.load["film"]()) for choice in self.maps.films]
+        self.films = [self._film_map(np.asarray(choice.load["film"]())) for choice in self.maps.films]
         self._choose_steps()
         contacts, line = self._contacts()
         films = [self._film(place) for place in range(len(self.films))]
@@ -141,6 +151,9 @@ class _Encoder:
             "left_out": self._add_gaps(contacts),
         }, self.pictures
 
+    def _film_map(self, film):
+        return _FilmMap(film > 0, self._on_grid(film).copy(), self._limits(film[film > 0])[1])
+
     def _on_grid(self, values):
         return values[:: self.step, :: self.step]
 
@@ -154,7 +167,7 @@ class _Encoder:
         heights = np.asarray(sample, dtype=float) - self.mean
         self.height_limits = self._limits(heights)
         usual = [self.height_limits[1] - self.height_limits[0]]
-        usual += [10 * top for film in self.films if (top := self._limits(film[film > 0])[1]) > 0 and (film > 0).any()]
+        usual += [10 * film.top for film in self.films if film.top > 0 and film.wet.any()]
         finite = heights[np.isfinite(heights)]
         self.power = encoding.power_of(min(usual), float(np.ptp(finite)) if finite.size else 0.0)
         self.codes, self.height_hole = encoding.codes_of(heights, self.power)
@@ -195,11 +208,10 @@ class _Encoder:
     def _film(self, place):
         """Thickness, and where there is any, however thin."""
         film = self.films[place]
-        codes, hole = encoding.codes_of(self._on_grid(film), self.power)
-        limits = 0.0, self._limits(film[film > 0])[1]
-        part = self._part(limits, self._kept(encoding.packed(codes, self.codes, is_level=True), hole))
+        codes, hole = encoding.codes_of(film.thickness, self.power)
+        part = self._part((0.0, film.top), self._kept(encoding.packed(codes, self.codes, is_level=True), hole))
         label = self.maps.films[place].label
-        return {"label": label, "file": names.of_state(label), "wet": self._classes(film > 0), **part}
+        return {"label": label, "file": names.of_state(label), "wet": self._classes(film.wet), **part}
 
     def _part(self, limits, array, power=None, scale=None):
         """Numbers with the ends of their colours and their unit."""
@@ -210,23 +222,27 @@ class _Encoder:
         """Pictures of all pixels, where the grid has not all, of the best quality with which everything fits, else of the least."""
         if not self._is_thinned:
             return
-        shown = (self.maps.height - np.float32(self.mean)).astype(np.float32, copy=False)
         if self.maps.contacts and not films:
             self._keep("wet", encoding.wet_layer(np.zeros((1, 1))))
         for place, (part, film) in enumerate(zip(films, self.films)):
-            part["wet_picture"] = self._keep(f"wet{place}", encoding.wet_layer(self.touched & (film > 0)))
-        self.quality = self._quality(shown, height)
-        height["picture"] = self._picture("height", "height", shown, height)
+            part["wet_picture"] = self._keep(f"wet{place}", encoding.wet_layer(self.touched & film.wet))
+        self.quality = self._quality(height)
+        height["picture"] = self._picture("height", "height", self.maps.height, height)
 
-    def _quality(self, shown, height):
-        second = 80
-        pictures, arrays, count = len(_picture("height", shown, height["limits"], second)), 0, len(self.with_gap)
+    def _quality(self, height):
+        pictures, arrays, count = self._try("height", "height", self.maps.height, height["limits"]), 0, len(self.with_gap)
         if count:
-            gap, array = self._gap_array(self.with_gap[0])
-            pictures += count * len(_picture("gap", gap, self._gap_limits(gap), second))
+            place = self.with_gap[0]
+            gap, array = self._gap_array(place)
+            pictures += count * self._try(f"gap{place}", "gap", gap, self._gap_limits(gap))
             arrays = count * len(array["data"])
         fitting = [quality for quality, size in QUALITIES.items() if size * pictures + arrays <= self.left]
         return max(fitting, default=min(QUALITIES))
+
+    def _try(self, name, panel, values, limits):
+        """Bytes of a picture, which is kept: it may be that of the page."""
+        self.tried[name] = self._encoded(panel, values, limits, TRIED)
+        return len(self.tried[name])
 
     def _gap_array(self, place):
         """(gap, its array); the gap is read once: it is asked for twice in a row."""
@@ -262,7 +278,13 @@ class _Encoder:
         return [place for place in dict.fromkeys(preferred) if place in places]
 
     def _picture(self, name, panel, values, part):
-        return self._keep(name, _picture(panel, values, part["limits"], self.quality))
+        tried = self.tried.pop(name, None)
+        is_it = tried is not None and self.quality == TRIED
+        return self._keep(name, tried if is_it else self._encoded(panel, values, part["limits"], self.quality))
+
+    def _encoded(self, panel, values, limits, quality):
+        offset = self.mean if panel == "height" else 0.0
+        return encoding.coloured(values, limits, _table(COLOURS[panel]), HOLE, quality, offset)
 
     def _kept(self, array, hole):
         self.left -= len(array["data"])
@@ -285,18 +307,14 @@ class _Encoder:
 
     def _line(self, touching):
         """Ends of the first section, in pixels: along x through the most wet contact, without contact the most shores, of the richest window."""
-        wet = touching & (self.films[self.maps.first[1]] > 0) if self.films else touching
+        wet = touching & self.films[self.maps.first[1]].wet if self.films else touching
         interest = wet if wet.any() else touching
         if self.films and not interest.any():
-            interest = shores(self.films[self.maps.first[1]] > 0)
+            interest = shores(self.films[self.maps.first[1]].wet)
         window = richest_window(interest)
         counts = window.of(interest).sum(axis=1)
         row = window.y0 + (int(np.argmax(counts)) if counts.max() > 0 else len(counts) // 2)
         return [[window.x0, row], [window.x1 - 1, row]]
-
-
-def _picture(panel, values, limits, quality):
-    return encoding.coloured(values, limits, _table(COLOURS[panel]), HOLE, quality)
 
 
 def _table(colours):

@@ -133,22 +133,32 @@ H5FD_class_t describe_driver() {
   return driver;
 }
 
-}  // namespace
-
-Handle file_access() {
+/// Properties without locks: files get their name only when they are complete, so nobody needs a
+/// lock on them, and network file systems without locks would fail to open them.
+Handle file_access(H5F_close_degree_t degree) {
   follow_store_links_only();
   Handle access(H5Pcreate(H5P_FILE_ACCESS), &H5Pclose);
-  // Files get their name only when they are complete, so nobody needs a lock on them; and network
-  // file systems without locks would fail to open them.
   H5Pset_file_locking(access, false, true);
-  H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+  H5Pset_fclose_degree(access, degree);
   return access;
+}
+
+}  // namespace
+
+hid_t open_for_reading(const std::string& file) {
+  // Others of this process may have it open with the same library, as Debian's h5py does. All must
+  // then ask for the same degree and locks (H5F_open of HDF5 1.10.7 and later).
+  const Handle access = file_access(H5F_CLOSE_WEAK);
+  const hid_t opened = H5Fopen(file.c_str(), H5F_ACC_RDONLY, access);
+  if (opened >= 0) return opened;
+  H5Pset_file_locking(access, true, true);
+  return H5Fopen(file.c_str(), H5F_ACC_RDONLY, access);
 }
 
 Handle writing_access() {
   static const H5FD_class_t driver = describe_driver();
   static const hid_t registered = H5FDregister(&driver);
-  Handle access = file_access();
+  Handle access = file_access(H5F_CLOSE_STRONG);
   H5Pset_driver(access, registered, nullptr);
   return access;
 }

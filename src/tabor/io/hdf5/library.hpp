@@ -66,9 +66,9 @@ bool is_store_file(const std::string& target);
 /// session.
 void follow_store_links_only();
 
-/// Returns the access properties of files: without locks of HDF5's own, closed with everything in
-/// them.
-Handle file_access();
+/// Opens a file for reading; negative where it cannot be. To be called within a session. It stays
+/// open until its last object is closed.
+hid_t open_for_reading(const std::string& file);
 
 /// Returns the access properties for writing, through a driver that records a failing write instead
 /// of reporting it to HDF5, which would crash at the end of the program over a file it could not

@@ -26,9 +26,7 @@ hid_t open_in(const fs::path& file, const char* object) {
   } catch (const InputError&) {
     return -1;
   }
-  const Handle access = file_access();
-  H5Pset_fclose_degree(access, H5F_CLOSE_WEAK);  // stays open until the object is closed
-  const Handle opened(H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), &H5Fclose);
+  const Handle opened(open_for_reading(file.string()), &H5Fclose);
   return opened.valid() ? H5Oopen(opened, object, H5P_DEFAULT) : -1;
 }
 

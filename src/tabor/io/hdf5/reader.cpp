@@ -84,8 +84,7 @@ struct Hdf5Reader::File {
   static hid_t open(const fs::path& file) {
     const RegularFile regular(file);  // the library would wait for a pipe
     const Session session;
-    const Handle access = file_access();
-    return H5Fopen(file.c_str(), H5F_ACC_RDONLY, access);
+    return open_for_reading(file.string());
   }
 
   [[noreturn]] void fail(const std::string& path, const std::string& problem) const {
