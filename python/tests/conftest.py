@@ -2,12 +2,14 @@
 
 import os
 import pathlib
+import signal
 
 import numpy as np
 import pytest
 
 import tabor as tb
 
+signal.signal(signal.SIGINT, signal.default_int_handler)  # in the background Python ignores Ctrl-C, which some tests send
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 

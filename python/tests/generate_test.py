@@ -68,7 +68,8 @@ def test_a_file_is_cited_as_on_the_command_line(program, tmp_path):
 def test_results_are_cited_with_the_software_below_them(rough, steel):
     dry = tb.contact(rough, 5e7, steel)
     text = tb.cite(dry, tb.rain(rough, "0.2 g/m^2"))
-    assert text.startswith("@software{tabor,") and "{frigo2005," in text and "{salmon2011," in text
+    transforms = "{ducc0," if tb._tabor.transforms.startswith("ducc0") else "{frigo2005,"
+    assert text.startswith("@software{tabor,") and transforms in text and "{salmon2011," in text
     for key in dry.references:
         assert f"{{{key}," in text
     assert "{hdf5," not in text and "{salmon2011," not in tb.cite(dry)
