@@ -11,6 +11,9 @@
 #include <stdexcept>
 #include <thread>
 
+#include "tabor/core/error.hpp"
+#include "tabor/core/watch.hpp"
+
 namespace tabor {
 namespace {
 
@@ -82,6 +85,51 @@ TEST_F(Parallel, ACopyThatAsksForMoreThreadsStillEnds) {
     set_thread_count(3);
     return sum(values) == expected;
   }));
+}
+
+TEST_F(Parallel, TwoPiecesOfWorkShareTheThreads) {
+  for (const int threads : {1, 2, 5}) {
+    set_thread_count(threads);
+    int of_first = 0, of_second = 0;
+    run_both([&] { of_first = thread_count(); }, [&] { of_second = thread_count(); }, {}, "");
+    EXPECT_EQ(of_first, std::max(1, threads / 2));
+    EXPECT_EQ(of_second, of_first);
+    EXPECT_EQ(thread_count(), threads);
+  }
+}
+
+TEST_F(Parallel, WhatEitherPieceOfWorkThrowsIsRethrown) {
+  const auto nothing = [] {};
+  const auto fails = [] { throw std::runtime_error("no"); };
+  for (const int threads : {1, 2}) {
+    set_thread_count(threads);
+    EXPECT_THROW(run_both(fails, nothing, {}, ""), std::runtime_error);
+    EXPECT_THROW(run_both(nothing, fails, {}, ""), std::runtime_error);
+  }
+}
+
+TEST_F(Parallel, AStopEndsBothPiecesOfWork) {
+  set_thread_count(2);
+  std::atomic<int> n_begun = 0, n_stopped = 0;
+  const auto endless = [&] {
+    ++n_begun;
+    try {
+      while (true) go_on_or_throw();
+    } catch (const Interrupted&) {
+      ++n_stopped;
+      throw;
+    }
+  };
+  const Observer until_both_run = [&](const Progress&) { return n_begun < 2; };
+  const auto watched = [&] {
+    const Watch inner(until_both_run, "first");
+    endless();
+  };
+  EXPECT_THROW(run_both(watched, endless, until_both_run, "second"), Interrupted);
+  EXPECT_EQ(n_stopped, 2);
+  const Observer until_it_runs = [&](const Progress&) { return n_begun < 3; };
+  EXPECT_THROW(run_both([] {}, endless, until_it_runs, "second"), Interrupted);
+  EXPECT_EQ(n_stopped, 3);
 }
 
 TEST_F(Parallel, ALimitHoldsForItsOwnThread) {

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <exception>
+#include <future>
 #include <limits>
 #include <mutex>
 #include <vector>
@@ -15,6 +17,8 @@
 
 namespace tabor {
 namespace {
+
+constexpr std::chrono::milliseconds kPatience{20};  // between two looks at other work
 
 std::atomic<int> requested_threads = 0;
 thread_local const std::atomic<int>* own_limit = nullptr;
@@ -96,6 +100,37 @@ void parallel_for(Index n, Index block, const std::function<void(Index, Index)>&
     const Index begin = k * block;
     body(begin, std::min(n, begin + block));
   });
+}
+
+void run_both(const std::function<void()>& first, const std::function<void()>& second,
+              const Observer& observer, std::string_view stage) {
+  const int n_threads = omp_in_parallel() != 0 ? 1 : thread_count();
+  if (n_threads == 1) {
+    first();
+    second();
+    return;
+  }
+  const std::atomic<int> half = n_threads / 2;
+  std::atomic<bool> ends = false;
+  std::future<void> other = std::async(std::launch::async, [&] {
+    const ThreadLimit limit(half);
+    const Observer until_the_end = [&](const Progress&) { return !ends; };
+    const Watch watch(until_the_end, "");
+    second();
+  });
+  try {
+    {
+      const ThreadLimit limit(half);
+      first();
+    }
+    Watch watch(observer, stage);
+    while (other.wait_for(kPatience) != std::future_status::ready) go_on_or_throw();
+  } catch (...) {
+    ends = true;
+    other.wait();
+    throw;
+  }
+  other.get();
 }
 
 double deterministic_sum(Index n, const std::function<double(Index, Index)>& partial) {

@@ -3,7 +3,9 @@
 #include <atomic>
 #include <functional>
 #include <optional>
+#include <string_view>
 
+#include "tabor/core/convergence.hpp"
 #include "tabor/core/types.hpp"
 
 // Runs loops, sums and maxima on all threads; results have the same bits for any number of them.
@@ -45,6 +47,13 @@ inline constexpr Index kSmallestForThreads = Index{128} * 128;
 /// Calls body(begin, end) for consecutive blocks of [0, n), `block` items each, on all threads.
 /// Blocks are the same whatever the thread count; loops of a single block run serially.
 void parallel_for(Index n, Index block, const std::function<void(Index begin, Index end)>& body);
+
+/// Runs two pieces of work at the same time, each with half of the threads; one after the other
+/// where there is one thread. The second has no observer of its own: while the first runs, what
+/// watches that one stops both, and then `observer`, under this stage. Rethrows what either throws;
+/// where the first does, the second is stopped.
+void run_both(const std::function<void()>& first, const std::function<void()>& second,
+              const Observer& observer, std::string_view stage);
 
 /// Returns the sum of partial(begin, end) over fixed blocks, added in block order: the same bits
 /// for any thread count.

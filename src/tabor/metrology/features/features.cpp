@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/parallel.hpp"
 #include "tabor/core/rows.hpp"
 #include "tabor/metrology/features/neighbours.hpp"
 #include "tabor/metrology/features/watershed.hpp"
@@ -180,8 +181,9 @@ std::vector<Parameter> feature_parameters(const topography::Topography& topograp
   const double lowest = topography.height.minCoeff<Eigen::PropagateNumbers>();
   const double highest = topography.height.maxCoeff<Eigen::PropagateNumbers>();
   const double least = options.pruning * (highest - lowest);
-  const auto hills = means_of(topography, MotifKind::hill, least, observer);
-  const auto dales = means_of(topography, MotifKind::dale, least, observer);
+  FeatureMeans hills, dales;
+  run_both([&] { hills = means_of(topography, MotifKind::hill, least, observer); },
+           [&] { dales = means_of(topography, MotifKind::dale, least, {}); }, observer, "dales");
   const double mean = mean_height(topography.height, lowest);
   const auto summits = count_summits(topography);
   const double area = summits.candidates * topography.grid.pixel_area();
