@@ -53,6 +53,20 @@ TEST_F(StudyVerbs, SweepSaysWhatItDidAndAverages) {
   EXPECT_GT(averages.at(0).at("friction_dry_mean").get<double>(), 0.29);
 }
 
+TEST_F(StudyVerbs, TheTableHasThePlacesOfAToolAndTrappedOil) {
+  const std::string plain = run_tabor(sweep()).out;
+  EXPECT_THAT(plain, testing::Not(HasSubstr("places")));
+  put_bytes(folder_ / "tool.toml",
+            bytes_of(folder_ / "study.toml") +
+                "[lubricant]\ntrapped = true\n"
+                "[contact]\ntool = \"ground:Sa=0.1um,groove-length=20um\"\ntool_places = 2\n");
+  const Outcome outcome = run_tabor({"sweep", file("tool.toml"), "-o", file("with_tool")});
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, testing::ContainsRegex("trapped oil carries +dry, places +wet, places"));
+  EXPECT_THAT(outcome.out, testing::ContainsRegex("[0-9] ± [0-9.e-]+ % +± 0"));
+  EXPECT_THAT(outcome.out, HasSubstr("of places: over the places of the tool."));
+}
+
 TEST_F(StudyVerbs, SweepAgainComputesNothing) {
   run_tabor(sweep());
   const io::Json again = json_of(sweep());

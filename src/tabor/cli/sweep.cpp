@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <ostream>
 
@@ -65,13 +66,63 @@ std::string with_deviation(const study::Mean& mean) {
                                              : text + " ± " + plain(mean.standard_deviation, 2);
 }
 
+/// "5.2 ± 0.4 %"
+std::string share_with_deviation(const study::Mean& share) {
+  const study::Mean in_percent{share.n, 100 * share.mean, 100 * share.standard_deviation};
+  return std::isnan(share.mean) ? "-" : with_deviation(in_percent) + " %";
+}
+
+/// A column of the table of averages.
+struct AverageColumn {
+  std::string title;
+  std::function<std::string(const study::Average&)> cell;
+};
+
+/// Columns that only some studies have: of oil that flows, of trapped oil, of places of a tool.
+std::vector<AverageColumn> further_columns(const study::Study& study,
+                                           const std::vector<study::Average>& averages) {
+  const auto any = [&](const auto& has) {
+    return std::any_of(averages.begin(), averages.end(), has);
+  };
+  std::vector<AverageColumn> columns;
+  if (study.flows()) {
+    columns.push_back({"speed", [](const study::Average& one) {
+                         return one.fluid ? si(one.fluid->sliding_speed, "m/s") : "-";
+                       }});
+    columns.push_back({"oil carries", [](const study::Average& one) {
+                         return one.fluid ? share_with_deviation(one.fluid->load_share) : "-";
+                       }});
+    columns.push_back({"friction mixed", [](const study::Average& one) {
+                         return one.fluid ? with_deviation(one.fluid->friction_mixed) : "-";
+                       }});
+  }
+  if (any([](const study::Average& one) { return one.liquid_load_share.has_value(); })) {
+    columns.push_back({"trapped oil carries", [](const study::Average& one) {
+                         return one.liquid_load_share ? share_with_deviation(*one.liquid_load_share)
+                                                      : "-";
+                       }});
+  }
+  if (any([](const study::Average& one) { return one.tool_spread.has_value(); })) {
+    const auto of_places = [](double cases::ToolSpread::*value) {
+      return [value](const study::Average& one) {
+        return one.tool_spread ? "± " + plain(*one.tool_spread.*value, 2) : "-";
+      };
+    };
+    columns.push_back({"dry, places", of_places(&cases::ToolSpread::friction_dry)});
+    columns.push_back({"wet, places", of_places(&cases::ToolSpread::friction_lubricated)});
+  }
+  if (any([](const study::Average& one) { return !one.left_out.empty(); })) {
+    columns.push_back(
+        {study::kLeftOutHeading, [](const study::Average& one) { return one.left_out; }});
+  }
+  return columns;
+}
+
 std::string averages_text(const study::Study& study, const std::vector<study::Average>& averages) {
+  const std::vector<AverageColumn> further = further_columns(study, averages);
   std::vector<std::string> titles = {"group", "pressure",     "lubricant",
                                      "n",     "friction dry", "friction wet"};
-  if (study.flows()) titles.insert(titles.end(), {"speed", "oil carries", "friction mixed"});
-  const bool leaves_out = std::any_of(averages.begin(), averages.end(),
-                                      [](const auto& one) { return !one.left_out.empty(); });
-  if (leaves_out) titles.emplace_back(study::kLeftOutHeading);
+  for (const AverageColumn& column : further) titles.push_back(column.title);
   Table table(titles);
   for (const study::Average& one : averages) {
     std::vector<std::string> cells = {one.group,
@@ -80,15 +131,13 @@ std::string averages_text(const study::Study& study, const std::vector<study::Av
                                       std::to_string(one.n),
                                       with_deviation(one.friction_dry),
                                       with_deviation(one.friction_lubricated)};
-    if (one.fluid) {
-      cells.insert(cells.end(),
-                   {si(one.fluid->sliding_speed, "m/s"), with_deviation(one.fluid->load_share),
-                    with_deviation(one.fluid->friction_mixed)});
-    }
-    if (leaves_out) cells.push_back(one.left_out);
+    for (const AverageColumn& column : further) cells.push_back(column.cell(one));
     table.row(cells);
   }
-  return table.text() + "± is the standard deviation over n scans.\n";
+  const bool has_places = std::any_of(averages.begin(), averages.end(),
+                                      [](const auto& one) { return one.tool_spread.has_value(); });
+  return table.text() + "± is the standard deviation over n scans" +
+         (has_places ? "; of places: over the places of the tool.\n" : ".\n");
 }
 
 io::Json curves_json(const std::vector<study::GroupCurve>& curves) {
