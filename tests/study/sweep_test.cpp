@@ -209,6 +209,7 @@ TEST(Sweep, AScanThatFailsIsRecordedAndTheRestGoesOn) {
   EXPECT_EQ(outcome.n_done, 8u);
   EXPECT_EQ(outcome.n_failed, 4u);
   ASSERT_EQ(outcome.failures.size(), 2u);
+  EXPECT_THAT(outcome.failures[0], HasSubstr(" under 5 MPa: "));
   EXPECT_THAT(outcome.failures[0],
               HasSubstr("got 1 missing pixel; expected a height at every pixel"));
   EXPECT_THAT(outcome.failures[0], HasSubstr("fill=harmonic"));

@@ -202,7 +202,8 @@ std::vector<std::string> failures_in(const std::vector<Row>& rows) {
   std::vector<std::string> failures;
   for (const Row& row : rows) {
     if (row.failed()) {
-      failures.push_back(fmt::format("{} {} Pa: {}", row.scan, row.mean_pressure, row.error));
+      failures.push_back(
+          fmt::format("{} under {}: {}", row.scan, format_si(row.mean_pressure, "Pa"), row.error));
     }
   }
   failures.erase(std::unique(failures.begin(), failures.end()), failures.end());
