@@ -86,10 +86,14 @@ class Docs(unittest.TestCase):
 
     def test_the_version_is_that_of_the_build(self):
         tree = {"CMakeLists.txt": "project(tabor VERSION 1.2.3 LANGUAGES CXX)\n", "CITATION.cff": "version: 1.2.3\n",
-                "CHANGELOG.md": "# Changelog\n\n## 1.2.3\n\n## 1.2.2\n"}
+                "CHANGELOG.md": "# Changelog\n\n## 1.2.3\n\n## 1.2.2\n", "debian/changelog": "tabor (1.2.3-1) UNRELEASED; urgency=medium\n",
+                "packaging/conda/recipe.yaml": "context:\n  version: 1.2.3\n", "debian/control": "Package: libtabor1.2\n",
+                "docs/README.md": "[theory](theory.md) [install](install.md)\n", "docs/install.md": "`libtabor1.2`\n"}
         self.assert_accepted(tree)
         self.assert_rejected("CITATION.cff: has version 1.2.2; CMakeLists.txt has 1.2.3", {**tree, "CITATION.cff": "version: 1.2.2\n"})
         self.assert_rejected("CHANGELOG.md: has version -", {**tree, "CHANGELOG.md": "# Changelog\n"})
+        self.assert_rejected("debian/changelog: has version 1.2.2", {**tree, "debian/changelog": "tabor (1.2.2-1) UNRELEASED\n"})
+        self.assert_rejected("debian/control: has libtabor1.1;", {**tree, "debian/control": "Package: libtabor1.1\nDepends: libtabor1.2\n"})
 
     def test_paths_of_a_machine_are_found(self):
         self.assert_rejected("docs/theory.md:3: path of a machine", self.page("It lies in /" + "home/somebody."))
