@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import threading
 import warnings
 from collections.abc import Iterable
 from typing import Any
@@ -13,6 +14,7 @@ from ._records import Warning
 _PACKAGE = os.path.dirname(__file__) + os.sep
 _told: set[str] = set()  #: codes that were told under these filters
 _filters: tuple[Any, list[Any]] = (None, [])  #: the list of Python's filters, and what was in it
+_silent = threading.local()  #: .here: True on threads whose doubts are shown otherwise
 
 
 class Doubt(UserWarning):
@@ -42,9 +44,16 @@ def _level_of_user() -> int:
     return level
 
 
+def tell_none_here() -> None:
+    """Ends the warnings of this thread: a page shows its doubts beside the numbers."""
+    _silent.here = True
+
+
 def tell(found: Iterable[Warning]) -> None:
     """Gives doubts that were not told yet to ``warnings.warn``."""
     global _filters
+    if getattr(_silent, "here", False):
+        return
     if _filters[0] is not warnings.filters or _filters[1] != warnings.filters:
         _filters = warnings.filters, list(warnings.filters)
         _told.clear()

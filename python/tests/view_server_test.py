@@ -10,6 +10,7 @@ import sys
 import threading
 import time
 import urllib.parse
+import warnings
 
 import pytest
 
@@ -196,6 +197,21 @@ def test_a_computation_of_the_package_stops(levelled):
         assert worker.stop() and worker.wait(60) and not done
     finally:
         worker.close()
+
+
+def test_doubts_of_what_the_page_computes_are_no_warnings(levelled):
+    """Not even where the user makes errors of them: the page shows them."""
+    found = []
+    worker = Worker(lambda stage, share: None)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", tb.Doubt)
+        try:
+            worker.ask(lambda told: found.append(tb.contact(levelled, "7 MPa", "aluminium-6016")))
+            assert worker.wait(60) and found and any(one.kind == "doubt" for one in found[0].warnings)
+        finally:
+            worker.close()
+        with pytest.raises(tb.Doubt):
+            tb.contact(levelled, "7 MPa", "aluminium-6016")
 
 
 def started(*words, program=None):

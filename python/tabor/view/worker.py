@@ -7,6 +7,8 @@ import traceback
 from collections.abc import Callable
 from typing import Protocol
 
+from .._doubts import tell_none_here
+
 
 class Stopped(Exception):
     """Raised out of a computation that a new one replaced, or that the stop button ended."""
@@ -65,6 +67,7 @@ class Worker:
             return self._change.wait_for(lambda: self._next is None and not self._is_running, seconds)
 
     def _run(self) -> None:
+        tell_none_here()
         while (taken := self._taken()) is not None:
             task, number = taken
             try:
