@@ -148,7 +148,8 @@ TEST_F(LubricantVerbs, FrictionSaysWhereTheTimeWent) {
 }
 
 TEST_F(LubricantVerbs, FrictionSaysHowFarDropletsAreFromTheirLimit) {
-  const Words droplets = friction("2MPa,7MPa", "0.45g/m^2,0.9g/m^2") + Words{"--droplet", "2um"};
+  make_scan("128");
+  const Words droplets = friction("2MPa,7MPa", "0.01g/m^2,0.05g/m^2") + Words{"--droplet", "2um"};
   const io::Json of_droplets = json_of(droplets);
   const io::Json of_limit = json_of(droplets + Words{"--model", "limit"});
   double largest = 0;
