@@ -8,8 +8,8 @@
 namespace tabor::deposition::testing {
 
 /// How a surface comes to have many pixels of the same height.
-enum class TiedKind { steps, terraces, after_rain, plain, comb, line };
-inline constexpr int kTiedKinds = 6;
+enum class TiedKind { steps, terraces, after_rain, plain, comb, line, mirrored };
+inline constexpr int kTiedKinds = 7;
 
 /// Numbers drawn one after the other.
 class Draw {
@@ -34,6 +34,7 @@ inline Height height_of(TiedKind kind, Pixel x, Pixel y, Height n_steps, Draw& d
     case TiedKind::comb:
       return x % 2 == 0 && y != 2 ? n_steps : draw.below(3);
     case TiedKind::after_rain:
+    case TiedKind::mirrored:
       return draw.below(1000);
     default:
       return draw.below(n_steps);
@@ -57,6 +58,23 @@ inline void rain_and_freeze(Terrain& terrain, Draw& draw) {
   }
 }
 
+/// Four mirror images of a surface: of every saddle there are two or four, and what meets over
+/// them meets over all.
+inline void mirror(Terrain& terrain) {
+  Terrain whole = terrain;
+  whole.nx = 2 * terrain.nx;
+  whole.ny = 2 * terrain.ny;
+  whole.height.clear();
+  for (Pixel y = 0; y < whole.ny; ++y) {
+    for (Pixel x = 0; x < whole.nx; ++x) {
+      const Pixel row = std::min(y, whole.ny - 1 - y);
+      const Pixel column = std::min(x, whole.nx - 1 - x);
+      whole.height.push_back(terrain.height[static_cast<std::size_t>(row * terrain.nx + column)]);
+    }
+  }
+  terrain = whole;
+}
+
 /// A small surface full of ties, drawn from one number.
 inline Terrain tied_terrain(std::uint64_t number, Pixel largest_side) {
   Draw draw(number, 78);
@@ -65,12 +83,17 @@ inline Terrain tied_terrain(std::uint64_t number, Pixel largest_side) {
   terrain.nx = 1 + draw.below(largest_side);
   terrain.ny = 1 + draw.below(largest_side);
   if (kind == TiedKind::line) (draw.below(2) == 0 ? terrain.nx : terrain.ny) = 1;
+  if (kind == TiedKind::mirrored) {
+    terrain.nx = (terrain.nx + 1) / 2;
+    terrain.ny = (terrain.ny + 1) / 2;
+  }
   terrain.edge = static_cast<Edge>(draw.below(3));
   const Height n_steps = 1 + draw.below(draw.below(2) == 0 ? 3 : 12);
   for (Pixel p = 0; p < terrain.size(); ++p) {
     terrain.height.push_back(height_of(kind, p % terrain.nx, p / terrain.nx, n_steps, draw));
   }
   if (kind == TiedKind::after_rain) rain_and_freeze(terrain, draw);
+  if (kind == TiedKind::mirrored) mirror(terrain);
   return terrain;
 }
 

@@ -143,9 +143,8 @@ TEST(TiedSurfaces, TakeAnyDoseOfAnyModelOnAnyEdge) {
   }
 }
 
-/// Places that droplets have looked at, per droplet and pixel, on a rough surface with the film of
-/// an earlier rain: pools all over it, flat, many of them full.
-double looks_on_flat_pools(Pixel side, double earlier_film) {
+/// Waves with noise, by the numbers of its pixels [m].
+Field rough_waves(Pixel side) {
   const CounterRandom random(5);
   Field height(side, side);
   for (Index y = 0; y < side; ++y) {
@@ -155,16 +154,26 @@ double looks_on_flat_pools(Pixel side, double earlier_film) {
                              std::cos(0.23 * static_cast<double>(y)));
     }
   }
-  const Grid grid{side, side, 1e-6 * side, 1e-6 * side};
-  Dose earlier{.mean_films = {earlier_film}, .model = Model::limit};
-  height += deposit(height, grid, earlier).front().thickness;
-  const Terrain terrain = quantise(height, Edge::closed);
+  return height;
+}
+
+/// Places that droplets have looked at, per droplet and pixel.
+double looks_on(const Terrain& terrain) {
   Pools pools(terrain, Ties::connected);
   const auto droplet = static_cast<Height>(std::llround(1e-7 / terrain.quantum));
   RainState last;
   rain_droplets(pools, droplet, Reading::conserving, 1, {Volume{5} * droplet * terrain.size()},
                 [&](std::size_t, const RainState& state) { last = state; }, {});
   return static_cast<double>(last.n_looks) / static_cast<double>(last.n_droplets + terrain.size());
+}
+
+/// On a rough surface with the film of an earlier rain: pools all over it, flat, many of them full.
+double looks_on_flat_pools(Pixel side, double earlier_film) {
+  Field height = rough_waves(side);
+  const Grid grid{side, side, 1e-6 * side, 1e-6 * side};
+  const Dose earlier{.mean_films = {earlier_film}, .model = Model::limit};
+  height += deposit(height, grid, earlier).front().thickness;
+  return looks_on(quantise(height, Edge::closed));
 }
 
 // A count, the same on every machine: as many looks per droplet on sixteen times as many pixels.
@@ -174,6 +183,16 @@ TEST(FlatPools, CostADropletAsMuchOnALargeSurfaceAsOnASmallOne) {
     const double many = looks_on_flat_pools(256, film);
     EXPECT_LT(many, 1.5 * few) << film;
     EXPECT_LT(many, 20) << film;
+  }
+}
+
+// Pools of mirror images meet over two or four saddles of equal height.
+TEST(MirroredSurfaces, CostADropletLittleMoreThanOneOfTheImages) {
+  for (const Edge edge : {Edge::closed, Edge::periodic}) {
+    Terrain terrain = quantise(rough_waves(128), edge);
+    const double one = looks_on(terrain);
+    mirror(terrain);
+    EXPECT_LT(looks_on(terrain), 2 * one);
   }
 }
 

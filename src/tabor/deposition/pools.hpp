@@ -107,6 +107,11 @@ class Pools {
   /// True where some of its children are not full; else it holds liquid, or did.
   bool waits(PoolId id) const { return growth(id).open_children > 0; }
 
+  /// Returns how many of the pools that meet where a full pool ends are not full.
+  std::int32_t n_open_siblings(PoolId full) const {
+    return growth((*this)[full].parent).open_children;
+  }
+
   /// Returns the only pixel over which a full pool that is not the last touches its neighbours;
   /// kSeveral if there are more.
   Pixel saddle(PoolId full) const {

@@ -12,6 +12,11 @@ bool Router::valid(const FlowPath& path) {
   return path.bound != kDry && pools_[pools_.owner(path.end)].level < path.bound;
 }
 
+bool Router::holds(Target at, const FlowPath& path) {
+  return valid(path) &&
+         (!is_cut(at) || n_open_[static_cast<std::size_t>(at)] == pools_.n_open_siblings(at));
+}
+
 void Router::prefetch(Target start) const {
   if (Slopes::is_pool(start)) {
     pools_.prefetch(start);
@@ -35,8 +40,12 @@ PoolId Router::follow(Target at) {
         return at;
       }
     }
-    if (const FlowPath path = slopes_.path_from(pools_, at); valid(path)) {
-      trail_.push_back({at, path.bound});
+    if (const FlowPath path = slopes_.path_from(pools_, at); holds(at, path)) {
+      if (is_cut(at)) {
+        record(at);
+      } else {
+        trail_.push_back({at, path.bound});
+      }
       at = path.end;
     } else if (!Slopes::is_pool(at)) {
       at = take_branch(at);
@@ -47,7 +56,17 @@ PoolId Router::follow(Target at) {
   }
 }
 
+/// Pools get new numbers: paths from cuts are found anew.
+void Router::forget_cuts() {
+  for (std::size_t id = 0; id < is_cut_.size(); ++id) {
+    if (is_cut_[id]) pools_.remember_overflow(static_cast<PoolId>(id), {});
+  }
+  is_cut_ = {};
+  n_open_ = {};
+}
+
 void Router::settle() {
+  forget_cuts();
   const std::vector<PoolId> renamed = pools_.renumber();
   slopes_.settle(pools_, renamed);
   saddles_.forget();
@@ -59,7 +78,16 @@ Router::Target Router::spill(PoolId full) {
     return slopes_.from(saddle);
   }
   record(full);
-  return toward(saddles_.drain_of_child(pools_[full].parent, full));
+  const Drain drain = saddles_.drain_of_child(pools_[full].parent, full);
+  if (is_cut_.empty()) {
+    is_cut_.resize(pools_.count(), false);
+    n_open_.resize(pools_.count());
+  }
+  is_cut_[static_cast<std::size_t>(full)] = true;
+  n_open_[static_cast<std::size_t>(full)] = pools_.n_open_siblings(full);
+  pools_.remember_overflow(full, {});  // until it is known where this one ends
+  trail_.push_back({full, drain.doubt});
+  return toward(drain.lowest);
 }
 
 /// The lowest branch as the levels stand. Under water all branches belong to one pool: that one.

@@ -119,9 +119,11 @@ void Saddle::unite(Place a, Place b) {
   heap_of(a).swap(heap_a);
 }
 
-Candidate Saddle::drain_of_child(PoolId child) {
+Drain Saddle::drain_of_child(PoolId child) {
   const std::size_t number = children_.holding(child);
-  return lowest_beside(places_[static_cast<std::size_t>(first_contact_[number])]);
+  const Place place = places_[static_cast<std::size_t>(first_contact_[number])];
+  const Candidate lowest = lowest_beside(place);
+  return {lowest, next_beside(place, lowest)};
 }
 
 /// Heights in the heap are those of before: none is lower now, and all wet by one pool are alike.
@@ -148,6 +150,34 @@ Candidate Saddle::lowest_beside(Place place) {
     std::push_heap(heap.begin(), heap.end(), is_after);
   }
   return lowest;
+}
+
+/// The height of the lowest place beside the region that is not wet by the same pool as the lowest
+/// of all, which has just been found. Those that are say the same for ever and are removed.
+Height Saddle::next_beside(Place place, const Candidate& lowest) {
+  Heap& heap = heap_of(place);
+  if (heap.empty()) return kNoRim;
+  std::pop_heap(heap.begin(), heap.end(), is_after);
+  heap.pop_back();
+  Height next = kNoRim;
+  while (next == kNoRim && !heap.empty()) {
+    ++n_looks_;
+    const Candidate now = candidate_at(pools_, heap.front().pixel);
+    const bool says_the_same =
+        now.pixel == lowest.pixel || (now.wet_by == lowest.wet_by && now.wet_by != kNoPool);
+    if (now.height == heap.front().height && !says_the_same) {
+      next = now.height;
+      break;
+    }
+    std::pop_heap(heap.begin(), heap.end(), is_after);
+    heap.pop_back();
+    if (says_the_same || now.height == height_) continue;  // or part of the region
+    heap.push_back(now);
+    std::push_heap(heap.begin(), heap.end(), is_after);
+  }
+  heap.push_back(lowest);
+  std::push_heap(heap.begin(), heap.end(), is_after);
+  return next;
 }
 
 Saddle& Saddles::at(PoolId above) {

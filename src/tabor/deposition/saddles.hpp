@@ -27,6 +27,13 @@ struct Candidate {
 /// Returns the candidate at a pixel for the present levels.
 Candidate candidate_at(Pools& pools, Pixel q);
 
+/// Lowest place beside a region of equal height. It stays the lowest while the region stays and
+/// while its own height, or that of the liquid over it, is below `doubt`.
+struct Drain {
+  Candidate lowest;
+  Height doubt = kNoRim;
+};
+
 /// Saddle of several pixels of one height. It knows its regions of equal height, made of these
 /// pixels and of the pools that are full up to there, and the place that each region drains to.
 ///
@@ -46,7 +53,7 @@ class Saddle {
   /// Return the lowest place beside the region of a pixel of the saddle, or of a child that is
   /// full.
   Candidate drain_of_pixel(Pixel p) { return lowest_beside(place_of(p)); }
-  Candidate drain_of_child(PoolId child);
+  Drain drain_of_child(PoolId child);
 
  private:
   using Place = std::int32_t;  ///< of a pixel among pixels_
@@ -63,6 +70,7 @@ class Saddle {
   void find_heaps();
   void unite(Place a, Place b);
   Candidate lowest_beside(Place place);
+  Height next_beside(Place place, const Candidate& lowest);
   Heap& heap_of(Place place) { return heaps_[static_cast<std::size_t>(regions_.root(place))]; }
 
   Pools& pools_;
@@ -87,7 +95,7 @@ class Saddles {
   /// Return where a droplet runs from the saddle where the children of `above` meet; the droplet is
   /// on one of its pixels, or in a child that is full.
   Candidate drain_of_pixel(PoolId above, Pixel p) { return at(above).drain_of_pixel(p); }
-  Candidate drain_of_child(PoolId above, PoolId child) { return at(above).drain_of_child(child); }
+  Drain drain_of_child(PoolId above, PoolId child) { return at(above).drain_of_child(child); }
 
   /// Discards all saddles; to be called when pools get new numbers.
   void forget();
