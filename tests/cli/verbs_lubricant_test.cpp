@@ -9,6 +9,8 @@
 namespace tabor::test {
 namespace {
 
+using testing::HasSubstr;
+
 class LubricantVerbs : public testing::Test {
  protected:
   void SetUp() override { make_scan("64"); }
