@@ -78,6 +78,8 @@ struct AverageColumn {
   std::function<std::string(const study::Average&)> cell;
 };
 
+bool has_places(const study::Average& average) { return average.tool_spread.has_value(); }
+
 /// Columns that only some studies have: of oil that flows, of trapped oil, of places of a tool.
 std::vector<AverageColumn> further_columns(const study::Study& study,
                                            const std::vector<study::Average>& averages) {
@@ -102,7 +104,7 @@ std::vector<AverageColumn> further_columns(const study::Study& study,
                                                       : "-";
                        }});
   }
-  if (any([](const study::Average& one) { return one.tool_spread.has_value(); })) {
+  if (any(has_places)) {
     const auto of_places = [](double cases::ToolSpread::*value) {
       return [value](const study::Average& one) {
         return one.tool_spread ? "± " + plain(*one.tool_spread.*value, 2) : "-";
@@ -134,10 +136,10 @@ std::string averages_text(const study::Study& study, const std::vector<study::Av
     for (const AverageColumn& column : further) cells.push_back(column.cell(one));
     table.row(cells);
   }
-  const bool has_places = std::any_of(averages.begin(), averages.end(),
-                                      [](const auto& one) { return one.tool_spread.has_value(); });
   return table.text() + "± is the standard deviation over n scans" +
-         (has_places ? "; of places: over the places of the tool.\n" : ".\n");
+         (std::any_of(averages.begin(), averages.end(), has_places)
+              ? "; of places: over the places of the tool.\n"
+              : ".\n");
 }
 
 io::Json curves_json(const std::vector<study::GroupCurve>& curves) {

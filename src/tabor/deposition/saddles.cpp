@@ -11,14 +11,16 @@ namespace {
 /// Order of a heap with the lowest on top.
 bool is_after(const Candidate& a, const Candidate& b) { return b.before(a); }
 
+/// True for two places of one pixel, or wet by one pool: they rise together.
+bool says_the_same(const Candidate& a, const Candidate& b) {
+  return a.pixel == b.pixel || (a.wet_by == b.wet_by && a.wet_by != kNoPool);
+}
+
 /// Keeps the first of the candidates that one pool wets: it stays first.
 void keep_one_a_pool(std::vector<Candidate>& candidates) {
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
     return a.wet_by != b.wet_by ? a.wet_by < b.wet_by : a.pixel < b.pixel;
   });
-  const auto says_the_same = [](const Candidate& a, const Candidate& b) {
-    return a.pixel == b.pixel || (a.wet_by == b.wet_by && a.wet_by != kNoPool);
-  };
   candidates.erase(std::unique(candidates.begin(), candidates.end(), says_the_same),
                    candidates.end());
 }
@@ -160,18 +162,17 @@ Height Saddle::next_beside(Place place, const Candidate& lowest) {
   std::pop_heap(heap.begin(), heap.end(), is_after);
   heap.pop_back();
   Height next = kNoRim;
-  while (next == kNoRim && !heap.empty()) {
+  while (!heap.empty()) {
     ++n_looks_;
     const Candidate now = candidate_at(pools_, heap.front().pixel);
-    const bool says_the_same =
-        now.pixel == lowest.pixel || (now.wet_by == lowest.wet_by && now.wet_by != kNoPool);
-    if (now.height == heap.front().height && !says_the_same) {
+    const bool is_another = !says_the_same(now, lowest);
+    if (now.height == heap.front().height && is_another) {
       next = now.height;
       break;
     }
     std::pop_heap(heap.begin(), heap.end(), is_after);
     heap.pop_back();
-    if (says_the_same || now.height == height_) continue;  // or part of the region
+    if (!is_another || now.height == height_) continue;  // the latter is part of the region
     heap.push_back(now);
     std::push_heap(heap.begin(), heap.end(), is_after);
   }
