@@ -158,11 +158,12 @@ Field rough_waves(Pixel side) {
 }
 
 /// Places that droplets have looked at, per droplet and pixel.
-double looks_on(const Terrain& terrain) {
+double looks_on(const Terrain& terrain, int droplets_per_pixel = 5) {
   Pools pools(terrain, Ties::connected);
   const auto droplet = static_cast<Height>(std::llround(1e-7 / terrain.quantum));
   RainState last;
-  rain_droplets(pools, droplet, Reading::conserving, 1, {Volume{5} * droplet * terrain.size()},
+  rain_droplets(pools, droplet, Reading::conserving, 1,
+                {Volume{droplets_per_pixel} * droplet * terrain.size()},
                 [&](std::size_t, const RainState& state) { last = state; }, {});
   return static_cast<double>(last.n_looks) / static_cast<double>(last.n_droplets + terrain.size());
 }
@@ -194,6 +195,22 @@ TEST(MirroredSurfaces, CostADropletLittleMoreThanOneOfTheImages) {
     mirror(terrain);
     EXPECT_LT(looks_on(terrain), 2 * one);
   }
+}
+
+// On a tilted surface one pool takes in the others one after the other, each a step further from
+// the pool that holds all.
+TEST(GrowingPool, CostsADropletAsMuchOnALargeSurfaceAsOnASmallOne) {
+  const auto looks_when_nearly_full = [](Pixel side) {
+    Field height = rough_waves(side);
+    for (Index x = 0; x < side; ++x) {
+      height.col(x) += 3e-6 * static_cast<double>(x) / static_cast<double>(side);
+    }
+    return looks_on(quantise(height, Edge::closed), 30);
+  };
+  const double few = looks_when_nearly_full(64);
+  const double many = looks_when_nearly_full(256);
+  EXPECT_LT(many, 1.5 * few);
+  EXPECT_LT(many, 10);
 }
 
 }  // namespace

@@ -126,6 +126,7 @@ void PoolBuilder::build() {
   const std::size_t n_most = 2 * count_minima(terrain) + 1;  // a merger unites two at least
   reserve_large_pages(to_.pools_, n_most);
   reserve_large_pages(to_.growth_, n_most);
+  reserve_large_pages(into_, n_most);
   if (terrain.edge == Edge::open) {
     pool(new_pool(kDry)).area = 1;  // of the ocean: a droplet raises it by its own volume
   }
@@ -142,6 +143,7 @@ void PoolBuilder::build() {
     begin = end;
   }
   to_.last_ = grown(pool_at(0));
+  into_ = {};
   forget_absorbed();
   go_on_or_throw();
   number_by_place();
@@ -152,18 +154,16 @@ void PoolBuilder::build() {
 }
 
 PoolId PoolBuilder::grown(PoolId id) {
-  while (pool(id).owner != id) {
-    pool(id).owner = pool(pool(id).owner).owner;
-    id = pool(id).owner;
-  }
+  const auto into = [this](PoolId of) -> PoolId& { return into_[static_cast<std::size_t>(of)]; };
+  while (into(id) != id) id = into(id) = into(into(id));
   return id;
 }
 
 PoolId PoolBuilder::new_pool(Height base) {
   const auto id = static_cast<PoolId>(to_.pools_.size());
   Pool& added = to_.pools_.emplace_back();
-  added.owner = id;
   added.level = base;
+  into_.push_back(id);
   to_.growth_.emplace_back();
   is_absorbed_.push_back(false);
   return id;
@@ -189,10 +189,13 @@ void PoolBuilder::prefetch_neighbours(const std::vector<Pixel>& ascending,
 void PoolBuilder::add(Pixel p) {
   const Height height = to_.height(p);
   meeting_.clear();
+  PoolId last = kNoPool;  // most neighbours are in one pool
   for_each_neighbour(to_.terrain(), p, [&](Pixel q) {
     const PoolId at = q == kOutside ? kOcean : pool_at(q);
-    const PoolId top = at == kNoPool ? kNoPool : grown(at);
-    if (top != kNoPool && std::find(meeting_.begin(), meeting_.end(), top) == meeting_.end()) {
+    if (at == kNoPool || at == last) return;
+    last = at;
+    const PoolId top = grown(at);
+    if (std::find(meeting_.begin(), meeting_.end(), top) == meeting_.end()) {
       meeting_.push_back(top);
     }
   });
@@ -222,7 +225,7 @@ PoolId PoolBuilder::merge(Height base) {
 void PoolBuilder::join(PoolId into, PoolId id, Height base) {
   Pool& joining = pool(id);
   joining.parent = into;
-  joining.owner = into;
+  into_[static_cast<std::size_t>(id)] = into;
   if (ties_ == Ties::connected && joining.level == base) {
     growth(into).open_children += growth(id).open_children;
     is_absorbed_[static_cast<std::size_t>(id)] = true;

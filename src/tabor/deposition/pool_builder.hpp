@@ -42,6 +42,7 @@ class PoolBuilder {
 
   Pools& to_;
   Ties ties_;
+  std::vector<PoolId> into_;       ///< per pool: itself, or a step towards what it has merged into
   std::vector<PoolId> meeting_;    ///< pools around the pixel being added
   std::vector<bool> is_absorbed_;  ///< per pool: turned out to be part of another
 };

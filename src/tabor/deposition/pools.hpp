@@ -87,9 +87,12 @@ class Pools {
   }
 
   /// Returns owner(id), or a full pool that has become part of its parent since: faster, as it does
-  /// not read the parent.
-  PoolId holder(PoolId id) const {
-    while ((*this)[id].owner != id) id = (*this)[id].owner;
+  /// not read the parent. Halves the path, as a pool that covers much has many others in a row.
+  PoolId holder(PoolId id) {
+    for (PoolId up = (*this)[id].owner; up != id; up = (*this)[id].owner) {
+      ++n_steps_;
+      id = pools_[static_cast<std::size_t>(id)].owner = (*this)[up].owner;
+    }
     return id;
   }
 
@@ -99,6 +102,9 @@ class Pools {
   /// Raises an active pool that is not full by `rise`, at most to its next stop; returns the
   /// volume.
   Volume raise(PoolId id, Height rise);
+
+  /// Returns the number of steps of holder() so far: the same on every machine.
+  std::int64_t n_steps() const { return n_steps_; }
 
   void remember_overflow(PoolId full, const FlowPath& path) {
     pools_[static_cast<std::size_t>(full)].overflow = path;
@@ -170,6 +176,7 @@ class Pools {
   std::vector<bool> is_rim_;  ///< per place in arcs_
   std::vector<Pixel> saddles_;  ///< saddles of several pixels: their number, then the pixels
   Volume beyond_ = 0;
+  std::int64_t n_steps_ = 0;
 };
 
 }  // namespace tabor::deposition

@@ -33,9 +33,9 @@ class Router {
   void prefetch(Target start) const;
   void prefetch_end(Target start) const;
 
-  /// Returns the number of places and branches visited so far: a measure of work that is the same
-  /// on every machine.
-  std::int64_t n_looks() const { return n_looks_ + saddles_.n_looks(); }
+  /// Returns the number of places, branches and pools visited so far: a measure of work that is the
+  /// same on every machine.
+  std::int64_t n_looks() const { return n_looks_ + saddles_.n_looks() + pools_.n_steps(); }
 
   /// Removes forks whose path no longer depends on the levels, to save memory. Pools get new
   /// numbers.
