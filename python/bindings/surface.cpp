@@ -12,6 +12,7 @@
 #include "tabor/cases/warnings.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/metrology/areal/parameters.hpp"
+#include "tabor/metrology/spectra/mean_spectrum.hpp"
 #include "tabor/metrology/spectra/psd.hpp"
 #include "tabor/scan/file.hpp"
 #include "tabor/scan/read_parameters.hpp"
@@ -215,10 +216,31 @@ nb::dict psd(const Topography& surface, const metrology::PsdOptions& options,
   all["x"] = row_of(spectra.x);
   all["y"] = row_of(spectra.y);
   all["radial"] = row_of(spectra.radial);
+  all["convention"] = std::string(metrology::name_of(spectra.convention));
   all["window"] = std::string(metrology::name_of(spectra.window));
   all["trusted"] = std::pair(record.trusted.shortest, record.trusted.longest);
   all["warnings"] = shown(record.warnings);
   return all;
+}
+
+/// (q, density, unit) of each spectrum -> (q, mean density, standard deviation, standard error,
+/// unit)
+using Densities = std::vector<std::tuple<std::vector<double>, std::vector<double>, std::string>>;
+using MeanRow = std::tuple<std::vector<double>, std::vector<double>, std::vector<double>,
+                           std::vector<double>, Text>;
+MeanRow mean_spectrum(const Densities& densities) {
+  std::vector<metrology::Spectrum> spectra(densities.size());
+  for (std::size_t i = 0; i < densities.size(); ++i) {
+    std::tie(spectra[i].q, spectra[i].density, spectra[i].unit) = densities[i];
+  }
+  const metrology::MeanSpectrum mean = metrology::mean_spectrum(spectra);
+  MeanRow row{mean.q, {}, {}, {}, mean.unit};
+  for (const Mean& one : mean.density) {
+    std::get<1>(row).push_back(one.mean);
+    std::get<2>(row).push_back(one.standard_deviation);
+    std::get<3>(row).push_back(one.standard_error);
+  }
+  return row;
 }
 
 ShownWarnings warnings_about(const Topography& surface) {
@@ -282,6 +304,7 @@ void bind_surface(nb::module_& module) {
       "digest_of",
       [](const Topography& one) { return topography::digest_of(one.height, one.grid); },
       "surface"_a);
+  module.def("mean_spectrum", &mean_spectrum, "spectra"_a);
   module.def("require_no_holes", &require_no_holes, "surface"_a);
   module.def("parameters", &parameters, "surface"_a, "progress"_a.none());
   module.def(

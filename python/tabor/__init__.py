@@ -33,7 +33,7 @@ from ._save import save
 from ._scans import Scans
 from ._section import Section
 from ._slide import Slide, slide
-from ._spectra import Spectra, Spectrum
+from ._spectra import MeanSpectra, MeanSpectrum, Spectra, Spectrum, mean_spectra
 from ._study import Results, Study
 from ._surface import Surface
 from ._tabor import version as __version__
@@ -43,10 +43,10 @@ from .view import view
 
 # Warning is not among them: it would take the place of Python's own.
 __all__ = ["Combination", "Contact", "DensityCurve", "Doubt", "Film", "FluidFilm", "Format", "Friction",
-           "FrictionEntry", "FrictionTable", "InputError", "InputFileNotFound", "InputIncomplete", "Lubricant", "Material", "Materials", "NameNotFound", "NotConverged", "OutputError", "Parameter",
+           "FrictionEntry", "FrictionTable", "InputError", "InputFileNotFound", "InputIncomplete", "Lubricant", "Material", "Materials", "MeanSpectra", "MeanSpectrum", "NameNotFound", "NotConverged", "OutputError", "Parameter",
            "Parameters", "Plateau", "Progress", "Report", "Results", "Scans", "Section", "Slide", "Solid", "Spectra",
            "Spectrum", "Study", "Surface", "Value", "Volume", "cite", "combine", "contact",
-           "density_curve", "ehl", "fluid_film", "formats", "friction", "generate", "load", "materials", "parameters", "rain",
+           "density_curve", "ehl", "fluid_film", "formats", "friction", "generate", "load", "materials", "mean_spectra", "parameters", "rain",
            "read", "report", "save", "set_threads", "show_versions", "slide", "view"]
 
 # Pickles and messages name classes where users find them.

@@ -338,7 +338,7 @@ class Surface(Shown, OnGrid, Operators, TreatmentSteps):
         tell(doubts)
         x, y, radial = (Spectrum(np.array(q), np.array(density), *rest)
                         for q, density, *rest in (found[axis] for axis in ("x", "y", "radial")))
-        return Spectra(x, y, radial, found["window"], doubts, found["trusted"])
+        return Spectra(x, y, radial, found["convention"], found["window"], doubts, found["trusted"])
 
     @typed
     def save(self, file: Path) -> None:

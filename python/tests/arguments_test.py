@@ -25,7 +25,7 @@ WRONG = [None, object(), True, 1.5, -1, 0, 2**70, float("nan"), float("inf"), 1j
 #: Classes that the package makes and a user does not.
 MADE_BY_TABOR = {"Combination", "Contact", "DensityCurve", "Doubt", "Film", "FluidFilm", "Format", "Friction", "FrictionEntry",
                  "InputError", "InputFileNotFound", "InputIncomplete", "OutputError",
-                 "Material", "Materials", "NameNotFound", "NotConverged", "Parameter", "Parameters", "Plateau", "Progress", "Report", "Section", "Slide", "Spectra", "Spectrum",
+                 "Material", "Materials", "MeanSpectra", "MeanSpectrum", "NameNotFound", "NotConverged", "Parameter", "Parameters", "Plateau", "Progress", "Report", "Section", "Slide", "Spectra", "Spectrum",
                  "Value", "Volume", "ehl.Key", "ehl.Limit", "ehl.Solution", "ehl.Sweep", "ehl.Template"}
 
 
@@ -38,7 +38,7 @@ def things():
     film = tb.rain(surface, "0.45 g/m^2")
     case = tb.ehl.squeeze(tb.ehl.template("squeeze"))
     return SimpleNamespace(surface=surface, solid=solid, contact=contact, film=film, friction=tb.friction(contact, film), case=case,
-                           oil=tb.Lubricant("0.1 Pa s"), curve=tb.density_curve(contact), psd=surface.psd(), section=surface.section((0, 0), (1e-5, 1e-5)), solved=case.solve(),
+                           oil=tb.Lubricant("0.1 Pa s"), curve=tb.density_curve(contact), psd=surface.psd(), mean=tb.mean_spectra([surface.psd()]), section=surface.section((0, 0), (1e-5, 1e-5)), solved=case.solve(),
                            combined=tb.combine(surface, surface, search=False),
                            flowing=tb.fluid_film(contact, film, tb.Lubricant("0.1 Pa s"), "1 mm/s"),
                            slid=tb.slide(surface, 5e7, solid, surface.dx, tool="ground:Sa=10nm", check=False),
@@ -132,13 +132,14 @@ def calls(folder):
         "Results": (tb.Results, {"folder": folder / "results"}),
         "Results.friction_table": (tb.Results(folder / "results").friction_table, {"group": None, "density": None, "keep": ()}),
         **{f"{name}.plot": (one.plot, {"ax": None}) for name, one in
-           {"Section": t.section, "Spectrum": t.psd.x, "Spectra": t.psd, "DensityCurve": t.curve}.items()},
+           {"Section": t.section, "Spectrum": t.psd.x, "Spectra": t.psd, "MeanSpectrum": t.mean.x, "DensityCurve": t.curve}.items()},
         "Film.plot": (t.film.plot, picture), "Combination.plot": (t.combined.plot, picture),
         **{f"{name}.plot": (one.plot, {"field": field, **picture}) for name, one, field in
            (("Contact", t.contact, "gap"), ("Friction", t.friction, "wet"), ("FluidFilm", t.flowing, "fill"))},
         "ehl.Sweep.plot": (t.swept.plot, {"field": "min_film_m", "ax": None}),
         "parameters": (tb.parameters, {"scans": [file, t.surface], "symbols": ["Sq"], "treatment": ["level=plane"], "fields": "{name}", "channel": None,
                                        "pixel": None, "unit": None, "z_scale": None, "override_unit": False}),
+        "mean_spectra": (tb.mean_spectra, {"spectra": [t.psd, t.psd]}),
         **{f"{name}.save": (one.save, {"file": folder / "c.h5", "fields": "all", "double": False}) for name, one in
            {"Contact": t.contact, "Film": t.film, "Friction": t.friction, "FluidFilm": t.flowing, "Slide": t.slid}.items()},
         "Combination.save": (t.combined.save, {"file": folder / "f.h5"}), "Parameters.save": (t.surface.parameters("Sq").save, {"file": folder / "p.json"}),

@@ -27,7 +27,7 @@ def results(rough, steel, tmp_path_factory):
                      density=["0.45 g/m^2", "0.9 g/m^2"]).run(tmp_path_factory.mktemp("study"))
     return {"Results": study, "FrictionTable": study.friction_table(group="a", keep=["flood"]), "Surface": contact.surface, "Contact": contact, "Film": film, "Friction": tb.friction(contact, film), "FluidFilm": slow,
             "DensityCurve": tb.density_curve(contact), "Parameters": contact.surface.parameters(["Sa", "hybrid"]), "Spectra": spectra,
-            "Spectrum": spectra.radial, "Section": contact.surface.section((0, 0), (2e-5, 1e-5)),
+            "Spectrum": spectra.radial, "MeanSpectrum": tb.mean_spectra([spectra, rough.psd()]).radial, "Section": contact.surface.section((0, 0), (2e-5, 1e-5)),
             "Combination": tb.combine(rough, rough, search=False),
             "Slide": tb.slide(rough, "10 MPa", steel, "3 um", step="1 um", tool="ground:Sa=10nm", check=False),
             "Solution": squeeze.solve(), "Solution of a point": words.solve(check=False),
@@ -40,7 +40,7 @@ def test_all_that_goes_to_xarray_is_here(results):
     assert with_it == {name for name in results if " " not in name}
 
 
-NAMES = ["Results", "FrictionTable", "Surface", "Contact", "Film", "Friction", "FluidFilm", "DensityCurve", "Parameters", "Spectra", "Spectrum", "Section",
+NAMES = ["Results", "FrictionTable", "Surface", "Contact", "Film", "Friction", "FluidFilm", "DensityCurve", "Parameters", "Spectra", "Spectrum", "MeanSpectrum", "Section",
          "Combination", "Slide", "Solution", "Solution of a point", "Sweep", "Sweep of words"]
 
 
