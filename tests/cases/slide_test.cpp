@@ -260,5 +260,17 @@ TEST(Slide, WarnsOfMaterialThatIsWornOff) {
               Contains("tool-envelope"));
 }
 
+// In whole pixels, of which the last step has what is left.
+TEST(Slide, EndsAtItsDistance) {
+  const auto slid = [](double distance, double step) {
+    return slide(test::small_sheet(), aluminium(), {.distance = distance, .step = step}, {});
+  };
+  const SlideResult odd = slid(9e-6, 4e-6);
+  EXPECT_EQ(odd.steps, 3U);
+  EXPECT_DOUBLE_EQ(odd.step, 4e-6);
+  EXPECT_NEAR(odd.states.back().distance, 9e-6, 1e-12);
+  EXPECT_NEAR(slid(3.4e-6, 2e-6).states.back().distance, 3e-6, 1e-12);
+}
+
 }  // namespace
 }  // namespace tabor::cases

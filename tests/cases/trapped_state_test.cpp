@@ -12,9 +12,11 @@ namespace {
 
 using testing::HasSubstr;
 
+constexpr double kPressure = 60e6;  // pockets under it hold oil
+
 CaseSettings aluminium() {
   CaseSettings settings;
-  settings.mean_pressures = {15e6};
+  settings.mean_pressures = {kPressure};
   settings.contact = test::aluminium();
   settings.film.lubricant_densities = {0.45e-3};
   settings.friction = {.shear_strength = 70e6, .boundary_shear_strength = 5e6};
@@ -56,7 +58,7 @@ TEST(TrappedOil, LeavesTheShareOfTheLoadToTheSolidsThatTheirPressureSays) {
   }
   const double load = state.contact.pressure.sum();
   EXPECT_GT(pressed.trapped.liquid.load_share, 0);
-  EXPECT_NEAR(load / static_cast<double>(touching.size()), 15e6, 1e-6);
+  EXPECT_NEAR(load / static_cast<double>(touching.size()) / kPressure, 1, 1e-12);
   EXPECT_NEAR(pressed.trapped.liquid.load_share, 1 - solids / load, 1e-9);
   EXPECT_EQ(pressed.trapped.liquid.max_pressure, state.liquid_pressure.maxCoeff());
 }
@@ -73,8 +75,8 @@ TEST(TrappedOil, ShearsTheSolidsAlone) {
     if (touching(i)) (film(i) > 0 ? wet : dry) += 1.0 / static_cast<double>(touching.size());
   }
   ASSERT_TRUE(record.trapped);
-  EXPECT_NEAR(record.trapped->friction_solid, 70e6 * dry / 15e6, 1e-12);
-  EXPECT_NEAR(record.trapped->friction_boundary, 5e6 * wet / 15e6, 1e-12);
+  EXPECT_NEAR(record.trapped->friction_solid, 70e6 * dry / kPressure, 1e-12);
+  EXPECT_NEAR(record.trapped->friction_boundary, 5e6 * wet / kPressure, 1e-12);
   EXPECT_DOUBLE_EQ(record.friction_lubricated,
                    record.trapped->friction_solid + record.trapped->friction_boundary);
   const FrictionRecord without = pressed.friction(settings, false);

@@ -4,6 +4,7 @@
 
 #include "run_tabor.hpp"
 #include "support/folder.hpp"
+#include "tabor/io/files/atomic_file.hpp"
 #include "tabor/io/hdf5/hdf5.hpp"
 
 namespace tabor::test {
@@ -316,6 +317,50 @@ TEST_F(LubricantVerbs, ShearStrengthMustBePositive) {
   Words words = friction("7MPa", "0.9g/m^2");
   words.back() = "0MPa";
   EXPECT_EQ(run_tabor(words).code, 3);
+}
+
+TEST_F(LubricantVerbs, OilThatHasRunOffFillsNoGap) {
+  const Words words = friction("100MPa", "0.1g/m^2,2g/m^2") + Words{"--edge", "open"};
+  const io::Json found = json_of(words);
+  const io::Json& few = found.at("states")[0];
+  const io::Json& much = found.at("states")[1];
+  EXPECT_LT(much.at("mean_film_m").get<double>(), 1.5e-6);  // of 2.2 um
+  EXPECT_LE(few.at("mean_film_m").get<double>(), much.at("mean_film_m").get<double>());
+  const Words closed = friction("100MPa", "2g/m^2");
+  EXPECT_NEAR(json_of(closed).at("states")[0].at("mean_film_m").get<double>(), 2.222e-6, 1e-9);
+}
+
+TEST_F(LubricantVerbs, FrictionIsWarnedOnceOfOneThing) {
+  const io::Json found = json_of(friction("7MPa", "0.45g/m^2"));
+  int n_clamp = 0;
+  for (const io::Json& one : found.at("warnings")) n_clamp += one.at("code") == "clamp" ? 1 : 0;
+  EXPECT_EQ(n_clamp, 1);
+}
+
+TEST_F(LubricantVerbs, TablesThatCannotBeMadeAreRejected) {
+  for (const Words& more : {Words{"--trapped"}, Words{"--model", "uniform"},
+                            Words{"--tool", "ground:Sa=0.1um", "--tool-places", "2"}}) {
+    const Outcome outcome =
+        run_tabor(friction("7MPa", "0.45g/m^2") + Words{"--density-curve"} + more);
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("--density-curve needs --model droplets or limit"));
+  }
+  EXPECT_EQ(run_tabor(friction("7MPa", "0g/m^2") + Words{"--density-curve"}).code, 2);
+}
+
+TEST_F(LubricantVerbs, FilesAreNamed) {
+  const Words words = friction("7MPa", "0.45g/m^2");
+  const Outcome none = run_tabor(words + Words{"-o", ""});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err, HasSubstr("--output: got ''; expected OUT.h5"));
+}
+
+TEST_F(LubricantVerbs, AToolWithoutItsPixelIsToBeConverted) {
+  io::write_file(file("tool.txt"), "1 2 3\n4 5 6\n");
+  const Outcome outcome =
+      run_tabor(friction("7MPa", "0.45g/m^2") + Words{"--tool", file("tool.txt")});
+  EXPECT_EQ(outcome.code, 3);
+  EXPECT_THAT(outcome.err, HasSubstr("convert it first: tabor convert TOOL OUT --pixel"));
 }
 
 }  // namespace

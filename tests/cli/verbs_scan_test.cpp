@@ -240,6 +240,8 @@ TEST_F(ScanVerbs, WarningsSpeakOfTheSurfaceAsItWasTreated) {
 TEST_F(ScanVerbs, ChannelsWithoutAUnitSayWhatMakesThemHeights) {
   put_bytes(folder_ / "plain.txt", "1 2 3\n4 7 6\n7 8 10\n");
   EXPECT_THAT(run_tabor({"info", file("plain.txt"), "--pixel", "1um", "--unit", "nm"}).out,
+              HasSubstr("[?], unit as given"));
+  EXPECT_THAT(run_tabor({"info", file("plain.txt"), "--pixel", "1um"}).out,
               HasSubstr("[?], a height with --unit or --z-scale only"));
 }
 

@@ -82,5 +82,21 @@ TEST_F(SlideVerb, WritesStatesSpectraAndTheSheet) {
   EXPECT_THAT(run_tabor({"cite", file}).out, HasSubstr("goddard1962"));
 }
 
+TEST_F(SlideVerb, SaysWhereItEndedIfThatIsAnotherPlace) {
+  const Outcome whole = run_tabor(words(kShort));
+  EXPECT_THAT(whole.out, HasSubstr("4 steps of 1 µm, displaced"));
+  const Outcome part = run_tabor(words({"--distance", "3.4um", "--step", "2um"}));
+  EXPECT_THAT(part.out, HasSubstr("2 steps of 2 µm to 3 µm (whole pixels)"));
+  const Outcome one = run_tabor(words({"--distance", "1um", "--step", "1um"}));
+  EXPECT_THAT(one.out, HasSubstr("1 step of 1 µm"));
+}
+
+TEST_F(SlideVerb, ProposesAWearCoefficientAsItTakesIt) {
+  const Outcome bare = run_tabor(words(kShort + Words{"--displaced", "archard:1e-15"}));
+  EXPECT_EQ(bare.code, 2);
+  EXPECT_THAT(bare.err, HasSubstr("write archard:1e-15/Pa"));
+  EXPECT_EQ(run_tabor(words(kShort + Words{"--displaced", "archard:1e-15/Pa"})).code, 0);
+}
+
 }  // namespace
 }  // namespace tabor::test

@@ -206,5 +206,14 @@ TEST_F(TableVerb, TakesAFileOfFriction) {
   EXPECT_EQ(result.at("numbers").size(), 4u);
 }
 
+TEST_F(TableVerb, OfNoProgramNeedsNoUnits) {
+  const Words csv{"table", file("results.h5"), "--for", "csv"};
+  const Outcome outcome = run_tabor(csv);
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_EQ(run_tabor(csv + Words{"--units", "m,s,kg"}).out.substr(0, 40),
+            outcome.out.substr(0, 40));
+  expect_one_line({"table", file("results.h5"), "--for", "abaqus"}, 2, "--units L,T,M is missing");
+}
+
 }  // namespace
 }  // namespace tabor::test

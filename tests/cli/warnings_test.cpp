@@ -313,7 +313,7 @@ TEST(FrictionOutput, MarksWhatATableRefusesAndNamesThePixel) {
                        "0.1g/m^2,20g/m^2", "--material", "aluminium-6016", "--model", "limit"};
   const std::string shown = run_tabor(words).out;
   EXPECT_THAT(shown, AllOf(HasSubstr("'tabor table' leaves out"), HasSubstr("flood\n"),
-                           HasSubstr("with pixels of 2 µm"), HasSubstr("with pixels of 4 µm")));
+                           HasSubstr("with pixels of 2 µm"), HasSubstr("of 4 µm")));
   const io::Json pixels = json_of(words).at("pixel_dependence");
   ASSERT_EQ(pixels.size(), 2u);
   EXPECT_EQ(pixels.at(1).at("coarse_lubricated_share"), 1.0);  // flooded on any pixel

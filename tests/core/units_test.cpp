@@ -282,5 +282,15 @@ TEST(FormatSi, KnowsThePrefixesFromFemtoToGigaAndStaysAtTheLast) {
   EXPECT_EQ(format_si(INFINITY, "Pa"), "inf Pa");
 }
 
+TEST(FormatSi, HasNoNegativeZero) { EXPECT_EQ(format_si(-0.0, "m"), "0 m"); }
+
+TEST(Percent, HasNoExponents) {
+  EXPECT_EQ(percent(0.02134), "2.13 %");
+  EXPECT_EQ(percent(0.997, 2), "100 %");
+  EXPECT_EQ(percent(1, 2), "100 %");
+  EXPECT_EQ(percent(18.08), "1808 %");
+  EXPECT_EQ(percent(0), "0 %");
+}
+
 }  // namespace
 }  // namespace tabor

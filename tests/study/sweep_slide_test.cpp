@@ -107,5 +107,15 @@ TEST(SweepSlide, SaysWithItsLineWhatDoesNotGoTogether) {
   EXPECT_THAT(message(text), HasSubstr("contact.tool"));
 }
 
+// A slide begins with the contact of its case: one number, warned of once.
+TEST(SweepSlide, IsWarnedOfWithItsCase) {
+  const ExampleStudy example;
+  example.write(with_slide());
+  for (const results::Finding& finding : example.run().findings) {
+    EXPECT_LE(finding.n_cases, 8U) << finding.code;
+    EXPECT_EQ(finding.n_all, 8U) << finding.code;
+  }
+}
+
 }  // namespace
 }  // namespace tabor::study

@@ -15,6 +15,7 @@
 #include "tabor/scan/file.hpp"
 #include "tabor/topography/levelling.hpp"
 #include "tabor/topography/treatment.hpp"
+#include "tabor/topography/warnings.hpp"
 
 namespace tabor::topography::test {
 
@@ -139,12 +140,32 @@ TEST(Spikes, BecomeHolesOrMedians) {
   EXPECT_EQ(((mended.height - rough.height).abs() > 0).count(), 5);
 }
 
+TEST(Spikes, AreCountedAmongHeightsAndNotAmongHoles) {
+  Topography rough = rough_surface(0.8, 3);
+  plant_spikes(rough, 5e-6);
+  rough.height.block(60, 60, 10, 10) = std::numeric_limits<double>::quiet_NaN();
+  const Topography despiked = apply({"despike=auto"}, rough);
+  EXPECT_THAT(despiked.history.back(), HasSubstr("5 of 65436 heights"));
+}
+
 std::vector<std::string> texts_about_spikes(const Topography& surface) {
   std::vector<std::string> found;
   for (const Warning& warning : surface.warnings) {
     if (warning.code == "spikes") found.push_back(warning.text);
   }
   return found;
+}
+
+TEST(Spikes, OfAScanAreNotThoseOfAPart) {
+  Topography rough = rough_surface(0.8, 3);
+  plant_spikes(rough, 5e-6);
+  look_at(rough);
+  ASSERT_EQ(texts_about_spikes(rough).size(), 1U);
+  EXPECT_THAT(texts_about_spikes(apply({"crop=0,0,100,100"}, rough)),
+              testing::ElementsAre(HasSubstr("3 spikes (0.03 % of pixels)")));
+  EXPECT_THAT(texts_about_spikes(apply({"crop=50,50,64,64"}, rough)), testing::IsEmpty());
+  // A filter hides spikes and does not remove them.
+  EXPECT_EQ(texts_about_spikes(apply({"lowpass=gauss:8um", "crop=50,50,64,64"}, rough)).size(), 1U);
 }
 
 /// The step that the warning advises.

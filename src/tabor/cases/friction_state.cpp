@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "tabor/cases/belonging.hpp"
 #include "tabor/cases/states.hpp"
 #include "tabor/cases/warnings.hpp"
@@ -16,7 +18,7 @@ FrictionRecord numbers_of(const ContactRecord& contact, const FilmRecord& film) 
   record.saturated_area_fraction = contact.summary.saturated_area_fraction;
   record.mean_gap = contact.summary.mean_gap;
   record.separation = contact.summary.separation;
-  record.mean_film = film.film.mean_film;
+  record.mean_film = film.mean_film_left();
   record.certificate = contact.convergence.certificate;
   record.contact_gap_error = contact.summary.contact_gap_error;
   record.converged = contact.convergence.converged();
@@ -128,9 +130,13 @@ friction::Estimate dry_friction(const ContactRecord& contact, double lubricated_
                                 const FrictionSettings& settings, Warnings& warnings) {
   const friction::Estimate estimate =
       estimate_of(contact.summary, lubricated_share, contact_settings, settings);
-  add(of_friction(touching_of(contact.summary, lubricated_share, contact_settings), estimate,
-                  spill_over_fraction, settings),
-      warnings);
+  const Warnings own = of_friction(touching_of(contact.summary, lubricated_share, contact_settings),
+                                   estimate, spill_over_fraction, settings);
+  std::erase_if(warnings, [&](const Warning& of_contact) {  // said of friction
+    return std::any_of(own.begin(), own.end(),
+                       [&](const Warning& one) { return one.code == of_contact.code; });
+  });
+  add(own, warnings);
   return estimate;
 }
 

@@ -77,6 +77,12 @@ struct FilmRecord {
   std::size_t peak_memory = 0;          ///< of the program so far [bytes]
   Warnings warnings;                    ///< its own
   std::vector<std::string> references;  ///< to cite; not stored
+
+  /// Returns the mean film [m] without what has run off open edges.
+  double mean_film_left() const {
+    const double dosed = film.deposited_volume + film.lost_volume;
+    return film.lost_volume > 0 ? film.mean_film * (film.deposited_volume / dosed) : film.mean_film;
+  }
 };
 const Columns<FilmRecord>& film_columns();
 

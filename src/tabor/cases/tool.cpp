@@ -43,9 +43,14 @@ topography::Topography read_tool(const ToolSettings& settings, const Observer& o
   if (!settings.sha256.empty() && file.sha256() != settings.sha256) {
     throw Error(*settings.tool + ": replaced or changed while it was in use; start again");
   }
-  topography::Topography tool = file.read();
-  tool.source = *settings.tool;
-  return tool;
+  try {
+    topography::Topography tool = file.read();
+    tool.source = *settings.tool;
+    return tool;
+  } catch (const IncompleteError&) {
+    reject(settings, "a file without its pixel size or unit", "a file that says them",
+           "convert it first: tabor convert TOOL OUT --pixel 0.67um --unit um");
+  }
 }
 
 /// The surface that is the tool, from a file or from memory.
@@ -55,6 +60,14 @@ topography::Topography scanned_tool(const ToolSettings& settings, const Observer
   topography::require_no_holes(tool, "tool " + *settings.tool,
                                "fill them: tabor convert TOOL OUT --fill harmonic");
   return tool;
+}
+
+topography::Topography generated_tool(const ToolSettings& settings, const Grid& sheet) {
+  try {
+    return synthesis::generate(synthesis::parse_recipe(*settings.tool), sheet);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("tool {}: {}", *settings.tool, error.what()));
+  }
 }
 
 /// Averages the tool onto the pixels of the sheet.
@@ -195,7 +208,7 @@ Tool make_tool(const ToolSettings& settings, const Grid& sheet, const Observer& 
   topography::Topography made =
       settings.surface || settings.is_scan()
           ? on_pixels_of(sheet, settings, scanned_tool(settings, observer), observer)
-          : synthesis::generate(synthesis::parse_recipe(*settings.tool), sheet);
+          : generated_tool(settings, sheet);
   if (settings.tool_lowpass) {
     made = topography::apply({"lowpass=" + *settings.tool_lowpass}, std::move(made), observer);
   }

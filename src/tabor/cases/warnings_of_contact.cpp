@@ -132,9 +132,9 @@ void warn_of_patches(const contact::State& state, const contact::Summary& summar
                         static_cast<double>(summary.n_patches);
   if (!(pixels < kFewPixels)) return;
   list.push_back({"resolution",
-                  fmt::format("Patches of {:.2g} pixels on average: the area depends on the "
-                              "resolution; <lowpass_scan> tells; <resolution_scan> tells",
-                              pixels),
+                  fmt::format("Patches of {} on average: the area depends on the resolution; "
+                              "<lowpass_scan> tells; <resolution_scan> tells",
+                              pixels == 1 ? "one pixel" : fmt::format("{:.2g} pixels", pixels)),
                   1 / pixels});
 }
 

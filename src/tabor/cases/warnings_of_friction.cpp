@@ -18,8 +18,6 @@ constexpr double kPixelChange = 0.2;
 /// Clean metals in vacuum seize beyond; between technical surfaces nobody measures more.
 constexpr double kLargestFriction = 2;
 
-std::string percent(double share) { return fmt::format("{:.3g} %", 100 * share); }
-
 /// The step that took short waves from the scan, "" if none did.
 std::string low_pass_of(const topography::Topography& surface) {
   for (const std::string& step : surface.history) {
@@ -67,7 +65,7 @@ Warnings of_film(const topography::Topography& surface, const deposition::Film& 
   if (const double least = film.thickness.minCoeff(); film.flooded || least > 0) {
     list.push_back({"flood",
                     fmt::format("A mean film of {} floods the surface. The highest point lies "
-                                "under {} of oil, so no contact is dry",
+                                "under {} of oil",
                                 format_si(film.mean_film, "m"), format_si(least, "m")),
                     least});
   }
@@ -75,9 +73,9 @@ Warnings of_film(const topography::Topography& surface, const deposition::Film& 
   if (film.n_droplets > 0 && film.n_droplets < n_pixels) {
     list.push_back(
         {"few-droplets",
-         fmt::format("{} droplets on {} pixels show chance; use <model=limit> or a smaller "
+         fmt::format("{} droplet{} on {} pixels show chance; use <model=limit> or a smaller "
                      "<droplet_height>",
-                     film.n_droplets, n_pixels),
+                     film.n_droplets, film.n_droplets == 1 ? "" : "s", n_pixels),
          1 / static_cast<double>(film.n_droplets)});
   }
   if (film.lost_volume > 0) {
@@ -96,9 +94,9 @@ Warnings of_friction(const friction::Contact& contact, const friction::Estimate&
   if (spill_over_fraction > kSpillOver) {
     list.push_back(
         {"spill-over",
-         fmt::format("{:.2g} % of the oil no longer fits when the surfaces close; the wet "
-                     "share assumes the oil stays where it was deposited",
-                     100 * spill_over_fraction),
+         fmt::format("{} of the oil no longer fits when the surfaces close; the wet share assumes "
+                     "the oil stays where it was deposited",
+                     percent(spill_over_fraction, 2)),
          spill_over_fraction});
   }
   if (contact.lubricated_share > kWetShare && settings.boundary_strength() == 0) {

@@ -36,7 +36,7 @@ struct Request {
 };
 
 /// The length whose cube and square all volumes and areas of a table are told in: tribologists know
-/// mm^3 and um^3 and no prefixes of m^3.
+/// mm^3 and µm^3 and no prefixes of m^3.
 struct LengthUnit {
   std::string name;
   double length = 0;  ///< [m]
@@ -52,7 +52,7 @@ struct LengthUnit {
 LengthUnit unit_for(const WearVolumes& wear) {
   constexpr double kMany = 1e6 * 1e-18;  // [m^3], a million um^3
   const bool is_large = std::max(wear.worn.value, wear.piled_up.value) >= kMany;
-  return is_large ? LengthUnit{"mm", 1e-3} : LengthUnit{"um", 1e-6};
+  return is_large ? LengthUnit{"mm", 1e-3} : LengthUnit{"µm", 1e-6};
 }
 
 std::vector<std::string> row_of(const std::string& name, const Volume& volume,
@@ -94,7 +94,7 @@ std::string text_of(const Request& request, const Scan& a, const Scan& b, const 
     table.row(row_of("piled up", c.wear->piled_up, unit));
     table.row(row_of("net, whole overlap", c.wear->net, unit));
     Facts noise;
-    noise.fact("noise", fmt::format("{} rms, correlated over {:.3g} um^2", si(c.wear->noise, "m"),
+    noise.fact("noise", fmt::format("{} rms, correlated over {:.3g} µm^2", si(c.wear->noise, "m"),
                                     c.wear->noise_area * 1e12));
     noise.fact("counted from", si(c.wear->threshold, "m") + " of the smoothed difference");
     noise.fact("noise floor",

@@ -150,6 +150,11 @@ void describe_pixels(const Solved& solved, const Grid& grid, Facts& facts) {
       pairs.begin(), pairs.end(),
       [](const PixelPair& a, const PixelPair& b) { return a.change() < b.change(); });
   if (most == pairs.end()) return;
+  if (!(most->change() > 0)) {
+    facts.fact("pixel", fmt::format("wet share the same with pixels of {} and of {}",
+                                    si(grid.dx(), "m"), si(solved.coarse.pixel_x, "m")));
+    return;
+  }
   const std::string where =
       pairs.size() == 1
           ? ""
@@ -287,9 +292,23 @@ std::string text_of(const Scan& scan, const Request& request, const Solved& solv
   return text + '\n' + time.text();
 }
 
+/// Rejects a curve that cannot be made. A warning does not advise the table that is printed.
+void check_tables(const Request& request, Context& context) {
+  if (request.density_curve && !cases::has_density_curve(request.settings)) {
+    throw UsageError(
+        "--density-curve needs --model droplets or limit, an oil density above zero and one place "
+        "of the tool, without --trapped, --fluid and --dry-below");
+  }
+  if (!request.resolution_scan) return;
+  context.spelling = [all = context.spelling](const Advice& advice) {
+    return advice.setting == "resolution_scan" ? std::string() : all(advice);
+  };
+}
+
 int show(Request request, Context& context) {
   request.settings.film.seed = context.seed_or_default();
   check_all(request.settings);
+  check_tables(request, context);
   find_tool(request.settings.contact, context);
   const Stopwatch watch;
   const Scan scan = read_scan(request.scan, context);

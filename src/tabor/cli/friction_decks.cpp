@@ -28,7 +28,8 @@ using forming::Program;
 struct Request {
   std::string results;
   Program program = Program::csv;
-  forming::UnitSystem units;
+  forming::UnitSystem units = forming::unit_system("m,s,kg");
+  bool has_units = false;
   study::FrictionTableChoice choice;
   int first_id = 1;
   std::optional<std::string> output;
@@ -162,6 +163,9 @@ FrictionTable table_for(const Request& request, Context& context) {
 }
 
 int show(const Request& request, Context& context) {
+  if (!request.has_units && request.program != Program::csv) {
+    throw UsageError("--units L,T,M is missing, such as mm,s,t (MPa): a deck carries no units");
+  }
   check_extension(request);
   const FrictionTable table = table_for(request, context);
   const std::string deck =
@@ -205,10 +209,12 @@ void declare_options(OptionSet& set, Request& request) {
       true;
   set.add({.flag = "--units",
            .placeholder = "L,T,M",
-           .help = "units of length, time and mass (or force) of the deck, e.g. mm,s,t for MPa",
-           .required = true,
+           .help =
+               "units of length, time and mass (or force) of the deck, e.g. mm,s,t for MPa; csv "
+               "does without [m,s,kg]",
            .assign = [&request](const std::string& words) {
              request.units = forming::unit_system(words);
+             request.has_units = true;
            }});
   set.text("--group", "NAME", "group of scans, if the study has several", request.choice.group);
   set.quantities("--density", "D[,D2,...]",
@@ -233,7 +239,7 @@ void declare_options(OptionSet& set, Request& request) {
 
 Verb table_verb() {
   return {.name = "table",
-          .arguments = "RESULTS --for PROGRAM --units L,T,M [options]",
+          .arguments = "RESULTS --for PROGRAM [--units L,T,M] [options]",
           .summary = "write friction as input for a forming code",
           .details =
               "The table gives friction against mean pressure, areal density of the lubricant "

@@ -49,14 +49,17 @@ io::Json channels_of(const FileInfo& file) {
   return channels;
 }
 
+/// `is_read`: its heights have been read, with the unit that was given.
 void describe(const FileInfo& file, const std::string& path, const std::string& instrument,
-              Facts& facts) {
+              bool is_read, Facts& facts) {
   facts.fact("file", path);
   facts.fact("format", file.format);
   facts.fact("instrument", instrument);
   for (const scan::Channel& channel : file.channels) {
     const bool is_unknown = channel.unit.empty();
+    const bool is_given = is_read && is_unknown && file.channels.size() == 1;
     const std::string remark = channel.is_height ? ""
+                               : is_given        ? ", unit as given"
                                : is_unknown      ? ", a height with --unit or --z-scale only"
                                                  : ", not a height";
     facts.fact(fmt::format("channel {}", channel.index),
@@ -97,7 +100,7 @@ std::string text_of(const Context& context, const Scan& scan, const FileInfo& fi
                     const SurfaceRecord& record) {
   const Grid& grid = record.grid;
   Facts facts;
-  describe(file, scan.path, scan.surface.instrument, facts);
+  describe(file, scan.path, scan.surface.instrument, true, facts);
   facts.fact("pixels", fmt::format("{} x {}", grid.nx, grid.ny));
   facts.fact("pixel", si(grid.dx(), "m") + " x " + si(grid.dy(), "m"));
   facts.fact("size", si(grid.lx, "m") + " x " + si(grid.ly, "m"));
@@ -139,7 +142,7 @@ Contents incomplete(const scan::ScanFile& scan_file, const std::string& path,
   }
   object["doubts"] = {problem};
   Facts facts;
-  describe(file, path, file.instrument, facts);
+  describe(file, path, file.instrument, false, facts);
   if (have_one_size(file.channels)) {
     object["nx"] = file.channels.front().nx;
     object["ny"] = file.channels.front().ny;

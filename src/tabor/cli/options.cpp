@@ -80,7 +80,13 @@ Option& OptionSet::toggle(const std::string& flag, const std::string& help, bool
 
 Option& OptionSet::text(const std::string& flag, const std::string& placeholder,
                         const std::string& help, std::optional<std::string>& target) {
-  return add({.flag = flag, .placeholder = placeholder, .help = help, .assign = [&](auto& word) {
+  return add({.flag = flag,
+              .placeholder = placeholder,
+              .help = help,
+              .assign = [&target, flag, placeholder](const std::string& word) {
+                if (word.empty()) {
+                  throw UsageError(fmt::format("{}: got ''; expected {}", flag, placeholder));
+                }
                 target = word;
               }});
 }

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -36,6 +37,22 @@ void check_all(const Request& request) {
   check(cases::objection(settings.friction, flag_of, settings.contact.material));
 }
 
+std::string steps_of(std::uint64_t n, double length) {
+  return fmt::format("{} {} of {}", n, n == 1 ? "step" : "steps", si(length, "m"));
+}
+
+/// The steps; then the distance where it is another than asked for, as steps are whole pixels.
+std::string way_of(const Request& request, const cases::SlideResult& result) {
+  constexpr double same = 0.01;  // of the distance
+  const std::string steps = steps_of(result.steps, result.step);
+  const double done = result.states.back().distance;
+  const std::optional<double> asked = request.sliding.distance;
+  if (!asked || result.steady.value_or(false) || std::abs(done - *asked) < same * *asked) {
+    return steps;
+  }
+  return fmt::format("{} to {} (whole pixels)", steps, si(done, "m"));
+}
+
 std::string text_of(const Request& request, const Scan& scan, const cases::SlideResult& result) {
   const cases::CaseSettings& settings = request.settings;
   Facts facts;
@@ -46,9 +63,9 @@ std::string text_of(const Request& request, const Scan& scan, const cases::Slide
     describe(settings.trapped, facts);
   }
   facts.fact("sliding",
-             fmt::format("along x under {}, {} steps of {}, displaced material {}",
-                         si(settings.mean_pressures.front(), "Pa"), result.steps,
-                         si(result.step, "m"), sliding::kDisplaced.of(request.sliding.displaced)));
+             fmt::format("along x under {}, {}, displaced material {}",
+                         si(settings.mean_pressures.front(), "Pa"), way_of(request, result),
+                         sliding::kDisplaced.of(request.sliding.displaced)));
   if (result.steady) facts.fact("steady", *result.steady ? "yes" : "no");
   if (request.after) facts.fact("sheet after", *request.after);
   const auto columns = cases::slide_columns(cases::parts_of(settings, request.sliding));
@@ -62,8 +79,13 @@ void take_wear(Option& option, cases::SlideSettings& sliding) {
   option.assign = [&sliding, of_word = option.assign](const std::string& value) {
     if (!value.starts_with(law)) return of_word(value);
     sliding.displaced = sliding::Displaced::near;
+    const std::string coefficient = value.substr(law.size());
+    if (const auto number = parse_number(coefficient)) {
+      throw InputError(fmt::format("--displaced {}: got a number without a unit; write {}{}/Pa",
+                                   value, law, coefficient));
+    }
     sliding.wear_coefficient =
-        parse_si(value.substr(law.size()), dimension::per_pressure, "--displaced archard:K");
+        parse_si(coefficient, dimension::per_pressure, "--displaced archard:K");
   };
 }
 
@@ -75,7 +97,7 @@ void tell(const cases::SlidePlan& plan, Context& context) {
   if (plan.gone_before > 0) {
     context.err << fmt::format("slide: goes on from {}\n", si(plan.gone_before, "m"));
   }
-  context.err << fmt::format("slide: {} steps of {}, about {}\n", plan.steps, si(plan.step, "m"),
+  context.err << fmt::format("slide: {}, about {}\n", steps_of(plan.steps, plan.step),
                              format_estimate(plan.seconds));
 }
 

@@ -78,7 +78,9 @@ struct AverageColumn {
   std::function<std::string(const study::Average&)> cell;
 };
 
-bool has_places(const study::Average& average) { return average.tool_spread.has_value(); }
+bool has_places(const study::Average& average) {
+  return average.tool_spread && std::isfinite(average.tool_spread->friction_dry);
+}
 
 /// Columns that only some studies have: of oil that flows, of trapped oil, of places of a tool.
 std::vector<AverageColumn> further_columns(const study::Study& study,

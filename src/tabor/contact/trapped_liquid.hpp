@@ -19,13 +19,13 @@ struct GapLiquid {
 /// Numbers of the liquid in a contact.
 struct LiquidSummary {
   Index n_pockets = 0;         ///< closed pockets that hold liquid
-  Index n_squeezed = 0;        ///< of these, with pressure in the liquid
+  Index n_squeezed = 0;        ///< of these, with pressure in the liquid that is left
   Index n_at_seal = 0;         ///< of these, at the pressure that opens their seal: they leak
   double load_share = 0;       ///< load that the liquid carries / load
   double max_pressure = 0;     ///< [Pa], largest liquid pressure
   double pocket_volume = 0;    ///< [m^3], liquid in pockets before closing
   double open_volume = 0;      ///< [m^3], liquid with a way out before closing
-  double leaked_volume = 0;    ///< [m^3], that left the pockets
+  double leaked_volume = 0;    ///< [m^3] at no pressure, that left the pockets
   double leaked_fraction = 0;  ///< leaked_volume / pocket_volume; 0 without pockets
   int seal_rounds = 0;         ///< solutions until no seal had to be lowered
   bool seals_settled = true;   ///< false: rounds ran out

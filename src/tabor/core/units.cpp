@@ -391,6 +391,7 @@ std::string format_si(double value, std::string_view si_unit, int significant_di
   constexpr std::array<std::string_view, 9> prefixes{"f", "p", "n", "µ", "m", "", "k", "M", "G"};
   constexpr std::ptrdiff_t plain = 5;
   std::ptrdiff_t step = 0;
+  if (value == 0) value = 0;  // not -0
   if (value != 0 && std::isfinite(value)) {
     step = static_cast<std::ptrdiff_t>(std::floor(std::log10(std::abs(value)) / 3 + 1e-12));
     step = std::clamp(step, -plain, std::ssize(prefixes) - 1 - plain);
@@ -408,7 +409,10 @@ std::string plain(double value, int digits) {
 }
 
 std::string percent(double fraction, int digits) {
-  return std::isnan(fraction) ? "-" : fmt::format("{:.{}g} %", 100 * fraction, digits);
+  if (std::isnan(fraction)) return "-";
+  const double value = 100 * fraction;
+  const bool is_long = std::abs(value) >= std::pow(10.0, digits) - 0.5;  // "1e+02" else
+  return is_long ? fmt::format("{:.0f} %", value) : fmt::format("{:.{}g} %", value, digits);
 }
 
 double in_g_per_m2(double lubricant_density) {

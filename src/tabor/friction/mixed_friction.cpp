@@ -68,11 +68,11 @@ Warnings warnings(const FluidFilmState& state, const FluidFilmProblem& problem) 
   if (state.convergence.failed()) {
     found.push_back(
         {"fluid-film",
-         fmt::format("The film is NOT CONVERGED ({}): the load balance is {:.1e} and the gap "
-                     "{:.1e}, but {:.0e} was wanted{}",
-                     name_of(state.convergence.status), state.load_error, state.gap_error,
-                     problem.tolerance,
-                     state.film.convergence.converged() ? "" : ", and oil is still moving"),
+         fmt::format("The film is NOT CONVERGED ({}){}: load balance {:.1e}, gap {:.1e}, wanted "
+                     "{:.0e}",
+                     name_of(state.convergence.status),
+                     state.film.convergence.converged() ? "" : ", oil is still moving",
+                     state.load_error, state.gap_error, problem.tolerance),
          std::max(state.load_error, state.gap_error)});
   }
   const double highest = state.film.pressure.maxCoeff();

@@ -89,6 +89,7 @@ std::vector<FrictionNumber> numbers_of_states(const io::Hdf5Reader& file, const 
   for (const std::string& name : file.children("/states")) {
     const std::string state = "/states/" + name;
     if (!file.has_attribute(state, "friction_dry")) reject_file(path, "a result without friction");
+    if (file.has_attribute(state, "friction_ploughing")) reject_file(path, "a result of sliding");
     const bool flows = file.has_attribute(state, "friction_mixed");
     if (flows && !speed) speed = speed_of_states(file);
     FrictionNumber number;

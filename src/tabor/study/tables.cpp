@@ -171,7 +171,17 @@ std::vector<results::Finding> findings_in(const std::vector<Row>& rows,
          .speed = row.fluid ? format_si(row.fluid->sliding_speed, "m/s") : std::string(),
          .warnings = row.warnings});
   }
-  cases.insert(cases.end(), of_slides.begin(), of_slides.end());
+  for (const results::Case& slide : of_slides) {
+    const auto pressed = std::find_if(cases.begin(), cases.end(), [&](const results::Case& one) {
+      return one.surface == slide.surface && one.pressure == slide.pressure &&
+             one.density == slide.density;
+    });
+    if (pressed == cases.end()) {
+      cases.push_back(slide);
+    } else {
+      add(slide.warnings, pressed->warnings);
+    }
+  }
   results::shorten_paths(cases);
   std::vector<results::Finding> findings = results::findings_of(cases);
   results::spell(spelling(), findings);

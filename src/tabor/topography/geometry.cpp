@@ -4,6 +4,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/topography/edges.hpp"
+#include "tabor/topography/warnings.hpp"
 
 namespace tabor::topography {
 namespace {
@@ -44,6 +45,7 @@ Topography crop(Topography topography, const PixelWindow& window) {
   topography.history.push_back(fmt::format("crop={},{},{},{}: {} of {} pixels", window.x0,
                                            window.y0, window.nx, window.ny, topography.grid.size(),
                                            grid.size()));
+  renew_spikes(topography);
   return topography;
 }
 

@@ -424,17 +424,18 @@ Topography remove_spikes(Topography topography, const SpikeRule& rule) {
     }
   }
   look_again(after, spikes, rule, topography.warnings);
+  const Index n_heights = spikes.size() - count_holes(topography);
   topography.height = std::move(after);
   if (n_spikes > 0) {
     topography.warnings.push_back(
         {.code = "despiked",
          .text = fmt::format("despike took {} spike{} out of {} heights", n_spikes,
-                             n_spikes == 1 ? "" : "s", spikes.size())});
+                             n_spikes == 1 ? "" : "s", n_heights)});
   }
   topography.history.push_back(fmt::format(
       "despike={},{},{}: {} of {} heights ({:.3g} %) were spikes and became {}{}", rule.threshold,
-      rule.window, rule.fill_with_median ? "median" : "hole", n_spikes, spikes.size(),
-      100 * static_cast<double>(n_spikes) / static_cast<double>(spikes.size()),
+      rule.window, rule.fill_with_median ? "median" : "hole", n_spikes, n_heights,
+      n_spikes == 0 ? 0 : 100 * static_cast<double>(n_spikes) / static_cast<double>(n_heights),
       rule.fill_with_median ? "the median around them" : "holes",
       n_spikes > 0 ? fmt::format("; the largest stood {:.4g} um out", 1e6 * largest) : ""));
   return topography;

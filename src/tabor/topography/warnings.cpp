@@ -155,9 +155,10 @@ void warn_of_holes(const Topography& topography, Warnings& list) {
   list.push_back(
       {.code = "missing-pixels",
        .text = fmt::format(
-           "{} of {} pixels are missing ({:.2g} %); <fill=harmonic> fills the holes", n_holes,
-           topography.grid.size(),
-           100 * static_cast<double>(n_holes) / static_cast<double>(topography.grid.size()))});
+           "{} of {} pixels {} missing ({}); <fill=harmonic> fills the holes", n_holes,
+           topography.grid.size(), n_holes == 1 ? "is" : "are",
+           percent(static_cast<double>(n_holes) / static_cast<double>(topography.grid.size()),
+                   2))});
 }
 
 void warn_of_quantum(double quantum, double rms, Warnings& list) {
@@ -175,10 +176,11 @@ void warn_of_spikes(const Field& height, Warnings& list) {
   if (spikes == 0) return;
   list.push_back({.code = "spikes",
                   .text = fmt::format(
-                      "The surface has {} spike{} ({:.2g} % of pixels), which change slopes and "
-                      "contact; <despike=auto> removes them",
-                      spikes, spikes == 1 ? "" : "s",
-                      100 * static_cast<double>(spikes) / static_cast<double>(height.size()))});
+                      "The surface has {} ({} of pixels), which {} slopes and contact; "
+                      "<despike=auto> removes {}",
+                      spikes == 1 ? "1 spike" : fmt::format("{} spikes", spikes),
+                      percent(static_cast<double>(spikes) / static_cast<double>(height.size()), 2),
+                      spikes == 1 ? "changes" : "change", spikes == 1 ? "it" : "them")});
 }
 
 /// Heights above their least-squares plane; as they are if they do not determine one. The plane of
@@ -278,6 +280,19 @@ Warnings warnings(const Topography& topography) {
 void look_at(Topography& topography) {
   look_at_edges(topography);
   for (Warning& warning : warnings(topography)) topography.warnings.push_back(std::move(warning));
+}
+
+void renew_spikes(Topography& topography) {
+  const auto hides = [](const std::string& step) {
+    return step.starts_with("lowpass=") || step.starts_with("highpass=") ||
+           step.starts_with("resample=");
+  };
+  const std::vector<std::string>& history = topography.history;
+  if (std::any_of(history.begin(), history.end(), hides)) return;
+  const auto is_spikes = [](const Warning& warning) { return warning.code == "spikes"; };
+  if (std::erase_if(topography.warnings, is_spikes) > 0) {
+    warn_of_spikes(topography.height, topography.warnings);
+  }
 }
 
 void renew_warnings(Topography& topography) {

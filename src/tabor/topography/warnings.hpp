@@ -18,6 +18,10 @@ void look_at(Topography& topography);
 /// belong to the measurement and stay; remove_spikes() ends the warnings about spikes.
 void renew_warnings(Topography& topography);
 
+/// Renews the warning about spikes, if there is one, for a part of a surface. A filter hides spikes
+/// without removing them: after one the warning stays.
+void renew_spikes(Topography& topography);
+
 /// Returns the step [m] of which all heights are multiples (up to a common offset); 0 if there is
 /// none or if it is below 2^-24 of their range.
 double height_quantum(const Field& height);

@@ -77,7 +77,7 @@ TEST(Warnings, NameTiltHolesPixelsAndSteps) {
 
   Field holes = noise(64, 64);
   holes(0, 0) = test::kNaN;
-  EXPECT_NE(all(map_of(holes)).find("1 of 4096 pixels are missing"), std::string::npos);
+  EXPECT_NE(all(map_of(holes)).find("1 of 4096 pixels is missing"), std::string::npos);
 
   topography::Topography oblong = map_of(noise(64, 64));
   oblong.grid.ly *= 2;
@@ -99,10 +99,10 @@ TEST(Warnings, ATreatmentDispelsThoseAboutTheHeightsItMends) {
   Field height = 1e-8 * noise(64, 37);
   for (Index x = 0; x < 37; ++x) height.col(x) += 1e-7 * static_cast<double>(x);
   height(20, 20) = test::kNaN;
-  EXPECT_THAT(warnings_after({}, height), ElementsAre(HasSubstr("1 of 2368 pixels are missing"),
+  EXPECT_THAT(warnings_after({}, height), ElementsAre(HasSubstr("1 of 2368 pixels is missing"),
                                                       HasSubstr("tilt"), "the unit is a guess"));
   EXPECT_THAT(warnings_after({"level=plane"}, height),
-              ElementsAre("the unit is a guess", HasSubstr("1 of 2368 pixels are missing")));
+              ElementsAre("the unit is a guess", HasSubstr("1 of 2368 pixels is missing")));
   EXPECT_THAT(warnings_after({"crop=0,0,32,64", "level=plane", "fill=harmonic"}, height),
               ElementsAre("the unit is a guess"));
 }

@@ -92,8 +92,15 @@ class Run {
   double dx() const { return surface_.grid.dx(); }
   double step() const { return static_cast<double>(pixels_) * dx(); }
   double pressure() const { return settings_.mean_pressures.front(); }
+  /// The distance in whole pixels, of which the last step may be shorter than the others.
+  Index pixels_to_slide() const { return static_cast<Index>(std::llround(distance_ / dx())); }
   std::uint64_t planned_steps() const {
-    return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(distance_ / step())));
+    const Index steps = (pixels_to_slide() + pixels_ - 1) / pixels_;
+    return static_cast<std::uint64_t>(std::max<Index>(1, steps));
+  }
+  Index pixels_of_next_step() const {
+    const auto slid = static_cast<Index>(std::llround(all_.distance / dx()));
+    return std::clamp<Index>(pixels_to_slide() - slid, 1, pixels_);
   }
 
   const topography::Topography& surface_;
@@ -231,7 +238,7 @@ SlideRecord Run::record() {
   one.friction_dry = dry_friction_of(one) + ploughing;
   one.highest_saturation_pressure = contact_.saturation_pressure.value_or(kNoValue);
   if (film_) {
-    one.mean_film = film_->film.mean_film;
+    one.mean_film = film_->mean_film_left();
     add_oil(one, ploughing);
   }
   if (has_squeezed()) {
@@ -359,8 +366,7 @@ void Run::find_step() {
   const sliding::Slider::Reached pressed = slider_.reached();
   auto pixels = static_cast<Index>(std::llround(
       sliding_.step ? *sliding_.step / dx() : 0.25 * mean_patch_length(slider_.touching())));
-  const auto most = static_cast<Index>(std::llround(distance_ / dx()));
-  pixels = std::clamp<Index>(pixels, 1, most);
+  pixels = std::clamp<Index>(pixels, 1, pixels_to_slide());
   while (true) {
     const double begin = watch_.seconds();
     const sliding::Ploughing step = slider_.advance(pixels, observer_);
@@ -427,7 +433,7 @@ void Run::advance_one() {
   }
   const Observer asked = [this](const Progress&) { return !asks_to_stop(observer_, {}); };
   const double begin = watch_.seconds();
-  const sliding::Ploughing step = slider_.advance(pixels_, asked);
+  const sliding::Ploughing step = slider_.advance(pixels_of_next_step(), asked);
   take(step);
   after_contact(step);
   if (!is_told_) tell_plan(watch_.seconds() - begin);
@@ -450,7 +456,7 @@ void Run::warn() {
   }
   dry_friction(contact, wet, 0, contact_, settings_.friction, result_.warnings);
   if (last.trapped) add(of_trapped(with_oil_), result_.warnings);
-  if (film_) add(of_film_in_gap(film_->film.mean_film, last.contact.mean_gap), result_.warnings);
+  if (film_) add(of_film_in_gap(film_->mean_film_left(), last.contact.mean_gap), result_.warnings);
 }
 
 /// Keeps a state where one is due, and tells whether sliding has become steady.

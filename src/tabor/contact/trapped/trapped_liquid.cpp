@@ -79,10 +79,29 @@ bool lower(const std::vector<double>& levels, const std::vector<double>& seals,
   return is_broken;
 }
 
+/// Volume between the surfaces over a pocket, over the area of a pixel [m].
+double gap_over(const Pockets& pockets, std::size_t k, const Field& gap) {
+  double sum = 0;
+  for (std::size_t j = pockets.first[k]; j < pockets.first[k + 1]; ++j) {
+    sum += std::max(gap.data()[pockets.pixels[j]], 0.0);
+  }
+  return sum;
+}
+
+/// A pocket whose gap has closed has lost all its oil: the solids carry what it carried.
+void empty_closed_pockets(const Pockets& pockets, SealedState& state, LiquidSummary& summary) {
+  for (std::size_t k = 0; k < pockets.size(); ++k) {
+    if (!(state.levels[k] > 0) || gap_over(pockets, k, state.contact.gap) > 0) continue;
+    state.levels[k] = 0;
+    summary.leaked_volume += pockets.volume[k];
+  }
+}
+
 /// What the pockets hold and carry.
-LiquidSummary summary_of(const SealedPockets& liquid, const SealedState& state, const Grid& grid) {
+LiquidSummary summary_of(const SealedPockets& liquid, SealedState& state, const Grid& grid) {
   const Pockets& pockets = liquid.pockets;
   LiquidSummary summary;
+  empty_closed_pockets(pockets, state, summary);
   summary.n_pockets = static_cast<Index>(pockets.size());
   double carried = 0;
   for (std::size_t k = 0; k < pockets.size(); ++k) {
@@ -92,16 +111,13 @@ LiquidSummary summary_of(const SealedPockets& liquid, const SealedState& state, 
     summary.max_pressure = std::max(summary.max_pressure, level);
     if (!(level > 0)) continue;
     ++summary.n_squeezed;
-    double gap = 0;
     for (std::size_t j = pockets.first[k]; j < pockets.first[k + 1]; ++j) {
-      const std::size_t i = pockets.pixels[j];
-      gap += std::max(state.contact.gap.data()[i], 0.0);
-      if (at_level(state.contact.pressure.data()[i], level)) carried += level;
+      if (at_level(state.contact.pressure.data()[pockets.pixels[j]], level)) carried += level;
     }
-    const double leaked = volume * (1 - level / liquid.bulk_modulus) - gap;
     if (level < (1 - kAboveSeal) * liquid.seals[k]) continue;
     ++summary.n_at_seal;
-    summary.leaked_volume += std::max(leaked, 0.0);
+    const double left = gap_over(pockets, k, state.contact.gap) / (1 - level / liquid.bulk_modulus);
+    summary.leaked_volume += std::max(volume - left, 0.0);
   }
   const double load = state.contact.mean_pressure * static_cast<double>(grid.size());
   summary.load_share = carried / load;
