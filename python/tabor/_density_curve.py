@@ -64,7 +64,7 @@ class DensityCurve(Shown):
         """Draws friction over the density; needs matplotlib. Returns the axes."""
         ax = ax or needs("matplotlib.pyplot", "plot()").gca()
         ax.semilogx(self.lubricant_density * 1e3, self.friction_lubricated, **style)
-        ax.set_xlabel("lubricant density [g/m^2]")
+        ax.set_xlabel("lubricant density [g/m²]")
         ax.set_ylabel("friction")
         return ax
 
@@ -83,10 +83,10 @@ class DensityCurve(Shown):
     def _lines(self) -> list[tuple[str, str]]:
         density, friction = 1e3 * self.lubricant_density, self.friction_lubricated
         lines = [("pressure", _tabor.format_si(self.mean_pressure, "Pa")),
-                 ("density", f"{density[0]:.4g} to {density[-1]:.4g} g/m^2, {density.size} points"),
+                 ("density", f"{density[0]:.4g} to {density[-1]:.4g} g/m², {density.size} points"),
                  ("friction", f"{self.friction_dry:.4g} dry, {friction.min():.4g} to {friction.max():.4g} with oil")]
         if self.plateau is not None:
-            lines.append(("plateau", f"{1e3 * self.plateau.first:.4g} to {1e3 * self.plateau.last:.4g} g/m^2"))
+            lines.append(("plateau", f"{1e3 * self.plateau.first:.4g} to {1e3 * self.plateau.last:.4g} g/m²"))
         return lines
 
 

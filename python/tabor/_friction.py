@@ -40,7 +40,7 @@ def film_settings(options: Mapping[str, Any], densities: Sequence[float]) -> _ta
 class Film(Record):
     """Oil as it was laid on a surface."""
 
-    _facts = (("density", "lubricant_density_g_per_m2", "g/m^2"), ("mean film", "mean_film_m", "m"),
+    _facts = (("density", "lubricant_density_g_per_m2", "g/m²"), ("mean film", "mean_film_m", "m"),
               ("wet", "wet_fraction", ""))
 
     surface: Surface  #: that it lies on

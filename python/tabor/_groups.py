@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
@@ -13,6 +14,8 @@ from ._records import Warning
 _SWITCHES = ("converged", "_valid", "flooded", "_at_bound", "_settled")
 #: Attributes that describe the file and not the result.
 _OF_THE_FILE = ("NX_class", "axes", "signal", "DIMENSION_LIST", "REFERENCE_LIST", "CLASS", "NAME")
+#: " (2 of 6 cases", which begins what a warning of several states ends in.
+_CASES = re.compile(r"( \((?:both|all \d+|\d+ of \d+) cases)(?=.*\)$)")
 #: What a curve runs over, where the file names no scale.
 _SCALES = ("time", "x", "place", "radius", "level")
 
@@ -57,6 +60,11 @@ def warnings_in(file: Any) -> tuple[Warning, ...]:
         said, _, code = text.rpartition(" [")
         found.append(Warning(code.removesuffix("]"), said, kind) if said else Warning("", text, kind))
     return tuple(found)
+
+
+def of_a_file(one: Warning) -> Warning:
+    """A warning of one state, whose text was gathered from all states: "(all 6 cases of the file, the worst shown)"."""
+    return one._replace(text=_CASES.sub(r"\1 of the file", one.text))
 
 
 def _dims_of(dataset: Any, group: Any, name: str) -> tuple[str, ...]:

@@ -62,6 +62,13 @@ def _with_code(warning: Any) -> str:
     return f"{warning.text} [{warning.code}]" if isinstance(warning, Warning) else str(warning)
 
 
+def with_unit(value: float, unit: str) -> str:
+    """A number as text: densities of oil in g/m² and masses in kg as they are, others in the multiple that suits them."""
+    if not unit:
+        return f"{value:.4g}"
+    return f"{value:.4g} {unit}" if unit in ("g/m²", "kg") else _tabor.format_si(value, unit)
+
+
 class Shown(Named):
     """Shows itself as headings and texts."""
 
@@ -127,10 +134,8 @@ class Record(Shown):
         self._write(file, self, fields=fields, double=double)
 
     def _lines(self) -> list[tuple[str, str]]:
-        lines = []
-        for heading, key, unit in self._facts:
-            value = self.values[key]
-            lines.append((heading, _tabor.format_si(value, unit) if unit else f"{value:.4g}"))
+        known = [one for one in self._facts if one[1] in self.values]  # a file may not hold all
+        lines = [(heading, with_unit(self.values[key], unit)) for heading, key, unit in known]
         return lines + [("warning", warning.text) for warning in self.warnings]
 
 

@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from . import _tabor
 from ._groups import columns_of, numbers_of, plain, texts_of, warnings_in
-from ._records import Warning
+from ._records import Warning, with_unit
 from ._sweep import Sweep
 from .ehl import Solution
 
@@ -18,7 +17,7 @@ def _facts(file: Any, values: Mapping[str, Any]) -> tuple[tuple[str, str], ...]:
     """Headings and numbers of a solution as the file says them."""
     columns = file["columns"]
     rows = zip(*(columns[name].asstr()[()] for name in ("key", "heading", "units")))
-    return tuple((str(heading), _tabor.format_si(values[key], unit) if unit else f"{values[key]:.4g}")
+    return tuple((str(heading), with_unit(values[key], unit))
                  for key, heading, unit in rows if heading and isinstance(values.get(key), (int, float)))
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from . import _tabor
 from ._contact import Contact, Solid
 from ._friction import Film, FluidFilm, Friction, Lubricant
-from ._groups import numbers_of, texts_of, warnings_in
+from ._groups import numbers_of, of_a_file, texts_of, warnings_in
 from ._guesses import Values
 from ._heights import Array
 from ._read import read
@@ -54,9 +54,9 @@ class Opened:
         return Solid(self.config.get("material") or None, **given)
 
     def warnings_of(self, numbers: Mapping[str, Any]) -> list[tuple[str, str, float]]:
-        """Warnings of the file that a state has the codes of."""
+        """Warnings that a state has the codes of; the file holds their texts for all states together."""
         codes = numbers.get("warning_codes", ())
-        return [(one.code, one.text, 0.0) for one in self.warnings if one.code in codes]
+        return [(one.code, of_a_file(one).text, 0.0) for one in self.warnings if one.code in codes]
 
     def shared(self, key: tuple[Any, ...], make: Callable[[], Any]) -> Any:
         """What several states have in common is made once."""

@@ -174,11 +174,19 @@ class Study:
         return Results(folder, outcome, n_contacts, tuple(warnings))
 
 
-def _number(cell: str) -> float | bool | str:
+#: Columns that stay texts, even where one is empty or looks like a number.
+_TEXTS = ("case_id", "scan", "group", "left_out")
+
+
+def _value(key: str, cell: str) -> float | bool | str:
+    """A cell as Python's own: texts, switches, whole numbers of counts, numbers; NaN where a number is missing."""
+    if key in _TEXTS:
+        return cell
     if cell in ("true", "false"):
         return cell == "true"
+    is_count = key == "n" or key.startswith("n_") or key == "tool_places"
     try:
-        return float(cell or "nan")
+        return int(cell) if is_count and cell else float(cell or "nan")
     except ValueError:
         return cell
 
@@ -205,7 +213,7 @@ class Results:
 
     def _rows(self, name: str) -> list[dict[str, float | bool | str]]:
         with open(self.folder / name, newline="", encoding="utf-8") as file:
-            return [{key: _number(cell) for key, cell in row.items()} for row in csv.DictReader(file)]
+            return [{key: _value(key, cell) for key, cell in row.items()} for row in csv.DictReader(file)]
 
     @property
     def rows(self) -> list[dict[str, float | bool | str]]:
@@ -242,7 +250,8 @@ class Results:
     @property
     def table(self) -> Any:
         """The rows as a DataFrame; needs pandas."""
-        return needs("pandas", "table").read_csv(self.folder / "results.csv")
+        read = needs("pandas", "table").read_csv
+        return read(self.folder / "results.csv", dtype={key: str for key in _TEXTS}, keep_default_na=False, na_values=[""])
 
     def to_xarray(self) -> Any:
         """The rows as a Dataset over ``scan``, pressure, density and, where oil flows, speed, by the names of the columns

@@ -207,6 +207,30 @@ def test_parameters_and_those_of_the_command_line(program, scan_file, tmp_path):
         given.save(tmp_path / "a.h5")
 
 
+def test_a_state_says_that_a_warning_was_gathered_from_all_states_of_its_file(tile, tmp_path):
+    """A file has the codes of each state, and texts of all states together."""
+    contacts = tb.contact(tile, ["2 MPa", "5 MPa", "7 MPa"], SOLID)
+    tb.save(tmp_path / "a.h5", contacts)
+    with h5py.File(tmp_path / "a.h5", "a") as file:
+        file.attrs["warnings"] = ["Steep. [steep]", "Edges add 8 % (all 3 cases, the worst shown) [clamp]", "Seams (1 of 3 cases: 7 MPa (2nd)) [seam-load]"]
+        file.attrs["warning_classes"] = ["doubt"] * 3
+        for state, codes in zip(file["states"].values(), (["steep", "clamp"], ["clamp"], ["clamp", "seam-load"])):
+            state.attrs["warning_codes"] = codes
+    first, second, third = ([str(one) for one in state.warnings] for state in tb.load(tmp_path / "a.h5"))
+    edges = "Edges add 8 % (all 3 cases of the file, the worst shown)"
+    assert (first, second, third) == (["Steep.", edges], [edges], [edges, "Seams (1 of 3 cases of the file: 7 MPa (2nd))"])
+    tb.save(tmp_path / "one.h5", contacts[0])
+    assert [str(one) for one in tb.load(tmp_path / "one.h5").warnings] == [str(one) for one in contacts[0].warnings]
+
+
+def test_what_a_file_does_not_hold_is_not_shown(contacts, films, tmp_path):
+    tb.friction(contacts[0], films[0]).save(tmp_path / "a.h5")
+    found = tb.load(tmp_path / "a.h5")
+    shown = repr(found.film).splitlines()
+    assert shown[:2] == ["Film", "  density    0.45 g/m²"] and not any("wet" in line for line in shown)
+    assert "pressure" in repr(found.contact) and "0.45 g/m²" in found.film._repr_html_()
+
+
 def test_a_study_by_its_folder_or_its_file(tile, tmp_path):
     given = tb.Study({"a": tile}, SOLID, pressure="7 MPa", density="0.9 g/m^2").run(tmp_path / "r")
     for name in ("r", "r/results.h5"):

@@ -39,6 +39,23 @@ def test_rows_are_those_of_single_calls_to_the_last_bit(folder, tmp_path):
     assert row[0]["friction_lubricated"] == one.lubricated and row[0]["friction_dry"] == one.dry
 
 
+def test_counts_are_whole_and_texts_stay_texts(folder, tmp_path):
+    """A group that looks like a number or like none, the empty text of a row that counts, and numbers that are missing."""
+    study = tb.Study({"007": folder / "before_1.h5", "NA": folder / "after_1.h5"}, "aluminium-6016", pressure="7 MPa", density="0.45 g/m^2",
+                     treatment=["level=plane"], trapped=True)
+    found = study.run(tmp_path / "r")
+    for row, group in zip(found.averages, ("007", "NA"), strict=True):
+        assert (row["group"], row["n"], row["left_out"]) == (group, 1, "") and type(row["n"]) is int
+        assert np.isnan(row["friction_dry_std"])
+    assert [(row["group"], type(row["n_pockets"]), type(row["friction_dry"])) for row in found.rows] == [("007", int, float), ("NA", int, float)]
+
+
+def test_texts_of_the_data_frame_stay_texts(folder, tmp_path):
+    pytest.importorskip("pandas")
+    study = tb.Study({"007": folder / "before_1.h5", "NA": folder / "after_1.h5"}, "aluminium-6016", pressure="7 MPa", treatment=["level=plane"])
+    assert list(study.run(tmp_path / "r").table["group"]) == ["007", "NA"]
+
+
 def test_edges_are_those_of_single_calls(folder, tmp_path):
     found = study_of(folder, edges="cut", density=0.0, pressure=7e6).run(tmp_path / "r", jobs=2)
     surface = tb.read(folder / "before_1.h5").level("plane")

@@ -1,5 +1,6 @@
 """What numbers are called and how they are shown: as the file says, else by their keys."""
 
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -8,8 +9,25 @@ import h5py
 import numpy as np
 
 from study_case import StudyCase
-from tabor.report import columns, page
+from tabor.report import columns, page, units
 from tabor.report.columns import Column
+
+SOURCE = Path(__file__).resolve().parents[2] / "src/tabor"
+
+
+def columns_of_the_program():
+    """{(key, unit)} of the columns whose keys end in a unit."""
+    texts = (path.read_text(encoding="utf-8") for path in (SOURCE / "cases").rglob("*.cpp"))
+    found = (re.findall(r'\{"([\w.]+_(?:Pa|N|K|kg|s|m\d?))",\s*"([^"_]*)"', text) for text in texts)
+    return {(key, units.signs(unit)) for pairs in found for key, unit in pairs}
+
+
+def settings_of_the_program():
+    """{(key, unit)}: a setting of each kind that has a unit, "x_per_Pa" of "1/Pa"."""
+    text = (SOURCE / "record/parameter.cpp").read_text(encoding="utf-8")
+    found = re.findall(r'\{dimension::\w+, "([^"]+)"\}', text)
+    endings = [unit.removeprefix("1").replace("/", "_per_").replace(" ", "_").replace("^", "").lstrip("_") for unit in found]
+    return {(f"x_{ending}", units.signs(unit)) for ending, unit in zip(endings, found)}
 
 
 class ByKeys(unittest.TestCase):
@@ -35,8 +53,29 @@ class ByKeys(unittest.TestCase):
             ("mean_gap_m", None, "mean gap", "–"),
             ("mean_gap_m", np.float64("nan"), "mean gap", "–"),
             ("area", "corrected", "area used for friction", "corrected"),
+            ("lost_volume_m3_per_m2", 0.0, "lost volume", "0 m³/m²"),
+            ("worn_volume_m3_per_m2", 3e-9, "worn volume", "3 nm³/nm²"),
+            ("lubricant_density_kg_per_m2", 0.00045, "lubricant density", "0.45 g/m²"),
+            ("contact_stiffness_Pa_per_m", 3e13, "contact stiffness", "30 MPa/µm"),
+            ("fit_q_max_rad_per_m", 2e6, "fit q max", "2 rad/µm"),
+            ("radial_c2d_m4", 2e-24, "radial c2d", "2 µm⁴"),
+            ("roller_mass_kg_per_m", 0.25, "roller mass", "0.25 kg/m"),
+            ("last_cutoff_per_m", 2e6, "last cutoff", "2 1/µm"),
         ):
             self.assertEqual((described[key].heading, described[key].show(value)), (name, text), key)
+
+    def test_every_key_of_the_program_is_read_with_its_unit(self):
+        known = columns_of_the_program()
+        self.assertLess({("worn_volume_m3_per_m2", "m"), ("friction_force_N_per_m", "N/m"), ("volume_per_width_m2", "m²")}, known)
+        for key, unit in known:
+            expected = "m³/m²" if key.endswith("_m3_per_m2") else unit
+            self.assertEqual(columns.Columns()[key].unit, expected, key)
+
+    def test_every_unit_of_a_setting_is_cut_off_as_a_whole(self):
+        known = settings_of_the_program()
+        self.assertLess({("x_Pa_per_m", "Pa/m"), ("x_per_Pa", "1/Pa"), ("x_kg_per_m2", "kg/m²")}, known)
+        for key, unit in known:
+            self.assertEqual((columns.words(key), columns.Columns()[key].unit), ("x", unit), key)
 
     def test_films_under_load_have_the_words_of_their_program(self):
         described = columns.Columns(is_ehl=True)
@@ -82,6 +121,16 @@ class ByTheFile(unittest.TestCase):
         self.assertEqual((described["volume"].heading, described["volume"].show(2e-12)), ("oil held", "0.002 mm³"))
         self.assertEqual(described["share"].show(0.5), "50 %")
         self.assertEqual(described["mean_gap_m"].heading, "mean gap")
+
+    def test_a_volume_over_an_area_is_a_length_only_under_a_heading_of_the_file(self):
+        def write(file):
+            rows = [("lost_volume_m3_per_m2", "", "m", ""), ("worn_volume_m3_per_m2", "worn", "m", "")]
+            for name, column in zip(("key", "heading", "units", "style"), zip(*rows)):
+                file[f"columns/{name}"] = list(column)
+
+        described = self.described(write)
+        shown = [(described[key].heading, described[key].show(0.0)) for key in ("lost_volume_m3_per_m2", "worn_volume_m3_per_m2")]
+        self.assertEqual(shown, [("lost volume", "0 m³/m²"), ("worn", "0 m")])
 
     def test_what_is_damaged_is_as_if_it_were_not_there(self):
         def numbers(file):

@@ -42,11 +42,15 @@ class Names(unittest.TestCase):
 
     def test_what_is_read_aloud_has_the_words_of_the_figures(self):
         said = page.spoken("μ = (A_real − A_lub)/A₀ · τ_y/P, dotted: P/p_sat of scans/A_real.x3p")
+        self.assertEqual(page.spoken("τ_b · A_wet/(A₀ P)"), "boundary shear strength · wet contact area/(A₀ P)")
         self.assertEqual(said, "μ = (contact area − lubricated contact area)/A₀ · shear strength/P, dotted: P/saturation pressure of scans/A_real.x3p")
 
     def test_indices_stand_below_the_line_and_files_keep_their_names(self):
         for text, shown in (
             ("μ = (A_real − A_lub)/A₀ · τ_y/P", "μ = (A<sub>real</sub> − A<sub>lub</sub>)/A₀ · τ<sub>y</sub>/P"),
+            ("μ = τ_y · A_dry/(A₀ P) + τ_b · A_wet/(A₀ P)",
+             "μ = τ<sub>y</sub> · A<sub>dry</sub>/(A₀ P) + τ<sub>b</sub> · A<sub>wet</sub>/(A₀ P)"),
+            ("A_b and p_dry", "A_b and p_dry"),
             ("tau_y/p_sat: <", "τ<sub>y</sub>/p<sub>sat</sub>: &lt;"),
             ("C1D along x", "C<sup>1D</sup> along x"),
             ("scans/p_y/A_real.x3p", "scans/p_y/A_real.x3p"),

@@ -51,6 +51,7 @@ class Slide(unittest.TestCase):
         for words in ("slid 10.72 µm", "Along the way, under 10 MPa", "pressed", "after 5.36 µm", "friction, oil is squeezed out", "of it ploughing",
                       "Spectra of the sheet before and after", "Change of the sheet: after 10.72 µm", "Section of the sheet before and after"):  # fmt: skip
             self.assertIn(words, self.page)
+        self.assertIn("0 m³/m²", re.search(r"<td[^>]*>lost volume</td>.*?</tr>", self.page)[0])
         names = {path.stem for path in (self.out / "figures").glob("*.svg")}
         self.assertLessEqual({"along_the_way", "slide_spectra", "change_after10.72um", "section_before_and_after", "sheet_after10.72um"}, names)
         # The heights of the page are those of the first contact alone.

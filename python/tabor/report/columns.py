@@ -11,10 +11,11 @@ from tabor.report import hdf, units
 
 BY_UNIT, UNSCALED, PERCENT, EXPONENT = "by_unit", "unscaled", "percent", "exponent"  # styles, as src/tabor/core/column.hpp has them
 
-# Endings of keys and their units. Longer endings first.
+# Endings of keys and their units; of those that fit, the longest counts.
 _UNITS = {
-    "_m_per_s": "m/s", "_N_per_m": "N/m", "_per_Pa": "1/Pa", "_Pa_s": "Pa s", "_kg_per_m3": "kg/m³", "_g_per_m2": "g/m²", "_J_per_m2": "J/m²",
-    "_bytes": "bytes", "_m3": "m³", "_m2": "m²", "_Pa": "Pa", "_kg": "kg", "_N": "N", "_m": "m", "_s": "s",
+    "_m3_per_m2": "m³/m²", "_m_per_s": "m/s", "_N_per_m": "N/m", "_Pa_per_m": "Pa/m", "_rad_per_m": "rad/m", "_kg_per_m": "kg/m", "_per_m": "1/m",
+    "_per_Pa": "1/Pa", "_Pa_s": "Pa s", "_kg_per_m3": "kg/m³", "_kg_per_m2": "kg/m²", "_g_per_m2": "g/m²", "_J_per_m2": "J/m²",
+    "_bytes": "bytes", "_m4": "m⁴", "_m3": "m³", "_m2": "m²", "_Pa": "Pa", "_kg": "kg", "_N": "N", "_K": "K", "_m": "m", "_s": "s",
 }  # fmt: skip
 _SWITCHES = ("converged", "dry_at_bound", "flooded", "gap_closing_at_turning", "load_path")  # ends of keys that are yes or no
 
@@ -99,9 +100,9 @@ class Columns(dict):
         return _TO_PRINT.sub(lambda found: _PRINTED[found[0]], text) if self._is_ehl else text
 
     def describe(self, key, heading="", unit="", style=""):
-        """Adds a column; what is empty is taken from its key."""
+        """Adds a column; what is empty is taken from its key, and without a heading the unit, too: a volume over an area is no length."""
         named = self.__missing__(key)
-        unit = units.signs(unit) or named.unit
+        unit = heading and units.signs(unit) or named.unit or units.signs(unit)
         self[key] = Column(key, heading or named.heading, unit, style.replace("-", "_") or _style(key, unit))
 
 
@@ -140,7 +141,7 @@ def _rows(node):
 
 
 def _ending(key):
-    return next((ending for ending in _UNITS if key.endswith(ending)), "")
+    return max((ending for ending in _UNITS if key.endswith(ending)), key=len, default="")
 
 
 def _unit(key):

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tabor.report import chart, style, units
+from tabor.report import chart, oil, style, units
 from tabor.report.table import Table, converged
 
 DENSITY = "lubricant_density_g_per_m2"
@@ -52,6 +52,13 @@ def lubricated(study, group, density):
     rows = _rows(study, group)
     rows = rows.where(rows.equal(DENSITY, density)) if rows else rows
     return _series(study, group, density, _by_pressure(rows), "friction_lubricated")
+
+
+def trapped_share(study, group, density):
+    """The share of the load that trapped oil carries."""
+    rows = _rows(study, group)
+    rows = rows.where(rows.equal(DENSITY, density)) if rows else rows
+    return _series(study, group, density, _by_pressure(rows), oil.TRAPPED)
 
 
 def densities(study):

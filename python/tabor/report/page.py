@@ -24,13 +24,16 @@ _NOTHING = {
 _PAGES = {"study": page_study, "single": page_single, "slide": page_slide, "ehl": page_ehl, "psd": page_spectra, "params": page_parameters}
 LARGEST = 9.8e6  # bytes of a page, without what its texts and tables take
 # A folder or file that is so called keeps its name.
-_LOWERED = re.compile(r"(?<![\w.-])(A|p|τ|tau)_(real|lub|sat|y)(?![\w-])(?!\.\w)(?!/(?!P\b|p_sat\b|A₀))")
+_LOWERED = re.compile(r"(?<![\w.-])(A|p|τ|tau)_(real|lub|sat|y|(?<=A_)(?:dry|wet)|(?<=τ_)b)(?![\w-])(?!\.\w)(?!/(?!P\b|p_sat\b|A₀|\(A₀))")
 _RAISED = re.compile(r"(?<![\w/.-])(C)([12]D)(?![\w-])(?!\.\w)")
 _SPOKEN = {
     ("A", "real"): "contact area",
     ("A", "lub"): "lubricated contact area",
+    ("A", "dry"): "dry contact area",
+    ("A", "wet"): "wet contact area",
     ("p", "sat"): "saturation pressure",
     ("τ", "y"): "shear strength",
+    ("τ", "b"): "boundary shear strength",
     ("tau", "y"): "shear strength",
 }
 SCREEN_PIXELS_PER_INCH = 115  # letters of the figures a little larger than on paper

@@ -1,7 +1,7 @@
 """Facts and tables of a single-scan result for the page."""
 
 
-from tabor.report import areas, hdf, refusals, units
+from tabor.report import areas, hdf, oil, refusals, units
 from tabor.report.columns import Columns
 from tabor.report.surface_numbers import amplitudes
 
@@ -57,7 +57,7 @@ def _length(facts, key):
     return units.length(facts[key]) if key in facts else "–"
 
 
-_ASKED = (*areas.KEYS, "friction_dry", "friction_lubricated", "friction_mixed")
+_ASKED = (*areas.KEYS, "friction_dry", "friction_lubricated", "friction_mixed", oil.TRAPPED, oil.FLOWING)
 _HIGHLIGHTS = (*areas.KEYS, "mean_film_m", *_ASKED[2:])
 
 
@@ -84,7 +84,7 @@ def answer(states, column=Columns(), marks=None):
         "caption": _answer_caption(states, area),
         "header": shown,
         "rows": lines,
-        "note": _left_out(len(pressures) - len(shown)),
+        "note": " ".join(filter(None, (_left_out(len(pressures) - len(shown)), oil.note([state.facts for state in states])))),
         "left_out": marks.notes(met),
     }
 
@@ -109,13 +109,15 @@ def evenly(count, most):
 
 def _questions(state, column, area):
     """(question, key, answer) of one state, as far as it has them."""
-    facts, oil = state.facts, f", {units.density(state.density)}" if state.density else ""
-    speed = facts.get("sliding_speed_m_per_s")
+    facts, amount = state.facts, f", {units.density(state.density)}" if state.density else ""
+    flow = f"{amount}, {units.si(facts.get('sliding_speed_m_per_s'), 'm/s')}"
     known = {
         column[area].heading: (area, areas.share),
         column["friction_dry"].heading: ("friction_dry", _three_digits),
-        f"friction{oil}": ("friction_lubricated" if oil else "", _three_digits),
-        f"friction while oil flows{oil}, {units.si(speed, 'm/s')}": ("friction_mixed", _three_digits),
+        f"friction{amount}": ("friction_lubricated" if amount else "", _three_digits),
+        f"friction while oil flows{flow}": ("friction_mixed", _three_digits),
+        f"trapped oil carries{amount}": (oil.TRAPPED if amount else "", areas.share),
+        f"oil that flows carries{flow}": (oil.FLOWING, areas.share),
     }
     return [(name, key, show(facts[key])) for name, (key, show) in known.items() if isinstance(facts.get(key), float)]
 

@@ -5,11 +5,12 @@ import math
 from tabor.report import page_single, units
 
 # What a reader wants to know of the way, by the keys of states.
-_ASKED = ("friction_dry", "friction_lubricated", "friction_lubricated_squeezed", "friction_ploughing", "contact_area_fraction_pixels", "lubricated_share",
-          "rms_height_m", "moved_volume_m3_per_m2")  # fmt: skip
+_ASKED = ("friction_dry", "friction_lubricated", "friction_lubricated_squeezed", "liquid_load_share", "friction_ploughing",
+          "contact_area_fraction_pixels", "lubricated_share", "rms_height_m", "moved_volume_m3_per_m2")  # fmt: skip
 _CALLED = {
     "friction_lubricated": "friction, oil stays on its pixels",
     "friction_lubricated_squeezed": "friction, oil is squeezed out",
+    "liquid_load_share": "trapped oil carries",
     "friction_ploughing": "of it ploughing",
     "moved_volume_m3_per_m2": "displaced so far, over the area",
 }

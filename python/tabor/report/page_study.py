@@ -3,7 +3,7 @@
 import numpy as np
 
 from tabor.report import friction_series as series_of
-from tabor.report import areas, refusals, units
+from tabor.report import areas, oil, refusals, units
 from tabor.report.figures import contact_area
 from tabor.report.page_single import MOST_COLUMNS, evenly
 from tabor.report.table import converged
@@ -63,7 +63,7 @@ def answer(study, marks=None):
         "header": [units.pressure(pressure) for pressure in shown],
         "rows": rows,
         "left_out": marks.notes(met),
-        "note": f"{' and '.join(left_out)} stand in the averages and results." if left_out else "",
+        "note": " ".join(filter(None, (f"{' and '.join(left_out)} stand in the averages and results." if left_out else "", oil.note(study.table.rows())))),
     }
 
 
@@ -76,8 +76,11 @@ def _lines(study, group, pressures):
     curves = {"friction dry": (refusals.DRY, series_of.dry(study, group))}
     for density in series_of.densities(study):
         curves[f"friction, {units.density(density)}"] = refusals.LUBRICATED, series_of.lubricated(study, group, density)
+        if f"{oil.TRAPPED}_mean" in study.averages:
+            curves[f"trapped oil carries, {units.density(density)}"] = oil.TRAPPED, series_of.trapped_share(study, group, density)
     for question, (key, series) in curves.items():
-        texts = [_with_spread(*numbers) for numbers in zip(series.mean, series.bar("std"))]
+        show = _share_with_spread if key == oil.TRAPPED else _with_spread
+        texts = [show(*numbers) for numbers in zip(series.mean, series.bar("std"))]
         cells = [(text, key, row) for text, row in zip(texts, series.rows)]
         found.append((f"{question}{name}", series.pressure, cells))
     found = [parts for parts in found if len(parts[1])]
@@ -91,6 +94,10 @@ def _marked(marks, text, key, row, met):
 def _with_spread(mean, spread):
     text = units.number(float(mean), 3)
     return text if not np.isfinite(spread) else f"{text} ± {units.number(float(spread), 2)}"
+
+
+def _share_with_spread(mean, spread):
+    return f"{_with_spread(100 * mean, 100 * spread)} %" if np.isfinite(mean) else units.number(float(mean))
 
 
 def _at(known, cells, pressure):
@@ -227,7 +234,7 @@ def _numbers(study, name, values):
 
 
 _PLACES = ("mean_pressure_Pa", "lubricant_density_g_per_m2", "sliding_speed_m_per_s")
-_MEANS = ("friction_dry", "friction_lubricated", "friction_mixed", "friction_viscous", "fluid_load_share")
+_MEANS = ("friction_dry", "friction_lubricated", "friction_mixed", "friction_viscous", "fluid_load_share", "liquid_load_share")
 
 
 def _averages(study, marks):

@@ -7,9 +7,13 @@ from tabor.report.errors import InputError
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""))
 _SMALL_PREFIXES = ((1e-3, "m"), (1e-6, "µ"), (1e-9, "n"))
-_WHOLE_UNITS = ("", "1", "SI", "%", "°", "kg", "K", "Pa s")  # shown without a prefix
+_WHOLE_UNITS = ("", "1", "SI", "%", "°", "kg", "kg/m", "K", "Pa s")  # shown without a prefix
 _METRES = ((1.0, "m"), (1e-3, "mm"), (1e-6, "µm"), (1e-9, "nm"))
-_POWERS = {"m": (1, "{0}"), "m²": (2, "{0}²"), "m³": (3, "{0}³"), "1/m": (-1, "1/{0}"), "1/m²": (-2, "1/{0}²"), "m³/m²": (1, "{0}³/{0}²")}
+_POWERS = {
+    "m": (1, "{0}"), "m²": (2, "{0}²"), "m³": (3, "{0}³"), "m⁴": (4, "{0}⁴"), "1/m": (-1, "1/{0}"), "rad/m": (-1, "rad/{0}"), "1/m²": (-2, "1/{0}²"),
+    "m³/m²": (1, "{0}³/{0}²"),
+}  # fmt: skip
+_USUAL = {"1/Pa": (1e9, "1/GPa"), "kg/m²": (1e3, "g/m²"), "Pa/m": (1e-12, "MPa/µm")}  # where one multiple suits all numbers
 _PRESSURES = {"pa": 1.0, "kpa": 1e3, "mpa": 1e6, "gpa": 1e9}
 
 
@@ -61,8 +65,8 @@ def signs(unit):
 def scale(largest, unit):
     """(factor from SI, unit with its prefix) in which `largest` [unit] reads well."""
     largest = abs(largest)
-    if unit == "1/Pa":
-        return 1e9, "1/GPa"
+    if unit in _USUAL:
+        return _USUAL[unit]
     if unit in _WHOLE_UNITS or not 0 < largest < math.inf:
         return 1.0, unit
     if unit in _POWERS:

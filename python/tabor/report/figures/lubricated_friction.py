@@ -5,11 +5,12 @@ import textwrap
 import numpy as np
 
 from tabor.report import friction_series as series_of
-from tabor.report import chart, style, units
+from tabor.report import chart, oil, style, units
 from tabor.report.figures import Drawn
 from tabor.report.output import table_text
 
 MAX_COLUMNS = 3
+_AT_REST = " μ = (A_real − A_lub)/A₀ · τ_y/P (dimensionless), in which contact pixels that hold lubricant do not shear"
 TITLE_WIDTH = 28  # characters over a panel of a third of the page
 
 
@@ -59,11 +60,15 @@ def _looks(study):
 
 
 def _caption(study, curves, error):
+    rows = study.table.rows()
     parts = [
-        "Friction coefficient μ = (A_real − A_lub)/A₀ · τ_y/P (dimensionless), in which contact pixels that hold "
-        "lubricant do not shear, mean over the scans of a group against the mean pressure P, for each areal "
-        "lubricant density; dashed: the same contacts dry. "
+        f"Friction coefficient{'' if oil.is_trapped(rows) else _AT_REST}, mean over the scans of a group against the mean pressure P, "
+        "for each areal lubricant density; dashed: the same contacts dry. "
     ]
+    if oil.is_trapped(rows):
+        parts.append(f"With oil, {oil.of_trapped(rows)}. ")
+    if oil.is_flowing(rows):
+        parts.append(f"The oil of these curves is at rest; while it flows, it carries {oil.span(oil.shares(rows, oil.FLOWING))}. ")
     if any((series.n > 1).any() for series in curves):
         parts.append(
             f"Error bars: {series_of.ERROR_NAMES[error]} over the n scans in the panel's title; none where n = 1. "
@@ -74,4 +79,4 @@ def _caption(study, curves, error):
         parts.append("Hollow diamonds: measured, with the error given in the measurement file. ")
     if any(len(series.loose_pressure) for series in curves):
         parts.append("Red rings: single cases that did not converge; no mean holds them. ")
-    return "".join(parts) + "As Figure 9 of Costagliola et al."
+    return "".join(parts).rstrip() + " As Figure 9 of Costagliola et al." * (not oil.is_trapped(rows))

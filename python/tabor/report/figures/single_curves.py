@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tabor.report import areas, chart, style, units
+from tabor.report import areas, chart, oil, style, units
 from tabor.report.figures import Drawn
 from tabor.report.friction_series import FRICTION, PRESSURE, rings
 from tabor.report.output import table_text
@@ -83,15 +83,26 @@ def _columns(states, area):
     return {key: [state.facts.get(key, "") for state in states] for key in keys}
 
 
+def _about_friction(rows):
+    if oil.is_trapped(rows):
+        return (
+            ", without oil (left), and friction coefficient (right): dashed dry, full lines with lubricant, darker for more of it. "
+            f"With oil, {oil.of_trapped(rows)}"
+        )
+    flowing = f". The oil of these curves is at rest; while it flows, it carries {oil.span(oil.shares(rows, oil.FLOWING))}"
+    return (
+        " (left), and friction coefficient μ = (A_real − A_lub)/A₀ · τ_y/P (right): dashed dry, full lines with "
+        "lubricant, darker for more of it. Contact that holds lubricant does not shear, or only with the strength "
+        "of its film: a curve lies below the dashed one as far as contact is wet. Amounts whose curves coincide "
+        "fill the same pockets; an amount whose curve lies far below the others stands above part of the contacts"
+        f"{flowing if oil.is_flowing(rows) else ''}"
+    )
+
+
 def _caption(single, panels, states, area):
     parts = [f"{areas.MEANINGS[area].capitalize()} of {single.title} against the mean pressure P"]
     if DRY in panels:
-        parts.append(
-            " (left), and friction coefficient μ = (A_real − A_lub)/A₀ · τ_y/P (right): dashed dry, full lines with "
-            "lubricant, darker for more of it. Contact that holds lubricant does not shear, or only with the strength "
-            "of its film: a curve lies below the dashed one as far as contact is wet. Amounts whose curves coincide "
-            "fill the same pockets; an amount whose curve lies far below the others stands above part of the contacts"
-        )
+        parts.append(_about_friction([state.facts for state in states]))
     parts.append(".")
     if not all(state.facts.get("converged", True) for state in states):
         parts.append(" Red rings: states that did not converge.")
