@@ -139,7 +139,8 @@ class MeanSpectra(Shown):
 def _mean(spectra: list[Spectrum]) -> MeanSpectrum | None:
     if not any(one.q.size for one in spectra):
         return None
-    q, density, deviation, error, unit = _tabor.mean_spectrum([(one.q, one.density, one.unit) for one in spectra])
+    rows = [(one.q.tolist(), one.density.tolist(), one.unit) for one in spectra]
+    q, density, deviation, error, unit = _tabor.mean_spectrum(rows)
     return MeanSpectrum(np.array(q), np.array(density), np.array(deviation), np.array(error), unit, len(spectra))
 
 
@@ -153,6 +154,11 @@ def mean_spectra(spectra: Iterable[Any]) -> MeanSpectra:
     Parameters
     ----------
     spectra : of each scan, as ``Surface.psd`` returns them.
+
+    Returns
+    -------
+    MeanSpectra
+        Means along x, along y and radial, each with the deviation between the spectra at each wavevector.
 
     Raises
     ------

@@ -195,9 +195,7 @@ void PoolBuilder::add(Pixel p) {
     if (at == kNoPool || at == last) return;
     last = at;
     const PoolId top = grown(at);
-    if (std::find(meeting_.begin(), meeting_.end(), top) == meeting_.end()) {
-      meeting_.push_back(top);
-    }
+    if (std::find(meeting_.begin(), meeting_.end(), top) == meeting_.end()) meeting_.push_back(top);
   });
   if (meeting_.empty()) {
     pool_at(p) = new_pool(height);
