@@ -2,6 +2,7 @@
 
 import pickle
 
+import numpy as np
 import pytest
 
 import tabor as tb
@@ -24,6 +25,16 @@ def test_what_the_library_refuses_is_a_value_error(rough, tmp_path):
         with pytest.raises(tb.InputError) as raised:
             call()
         assert isinstance(raised.value, ValueError) and isinstance(pickle.loads(pickle.dumps(raised.value)), tb.InputError)
+
+
+def test_advice_is_in_the_words_of_python():
+    none = tb.Surface(np.full((4, 4), np.nan), pixel="1 um")
+    for call, words in ((lambda: none.level("plane"), r"lower degree \(treat\('level=mean'\)\)"),
+                        (lambda: none.fill("harmonic"), "check the channel and the file"),
+                        (lambda: none.psd(), r"fill them first \(treat\('fill=harmonic'\)\)")):
+        with pytest.raises(tb.InputError, match=words) as raised:
+            call()
+        assert "--" not in str(raised.value)
 
 
 def test_what_cannot_be_written_is_an_os_error(rough, tmp_path):

@@ -49,7 +49,7 @@ class Slide(unittest.TestCase):
     def test_the_page_shows_the_way_and_the_sheet(self):
         self.assertEqual((self.done.returncode, self.done.stderr), (0, ""))
         for words in ("slid 10.72 µm", "Along the way, under 10 MPa", "pressed", "after 5.36 µm", "friction, oil is squeezed out", "of it ploughing",
-                      "Spectra of the sheet before and after", "Change of the sheet: after 10.72 µm", "Section of the sheet before and after"):  # fmt: skip
+                      "Spectra of the sheet before and after", "Change of the sheet: after 10.72 µm", "10 MPa, before sliding", "10 MPa, after 10.72 µm", "Section of the sheet before and after"):  # fmt: skip
             self.assertIn(words, self.page)
         self.assertIn("0 m³/m²", re.search(r"<td[^>]*>lost volume</td>.*?</tr>", self.page)[0])
         names = {path.stem for path in (self.out / "figures").glob("*.svg")}

@@ -25,7 +25,12 @@ class SlideState(SingleState):
         """'after 20 µm'"""
         return f"after {units.length(self.distance)}" if self.distance > 0 else "pressed"
 
-    label = pressure_text = name
+    label = name
+
+    @property
+    def pressure_text(self):
+        """'10 MPa, after 20 µm'"""
+        return f"{units.pressure(self.facts.get('mean_pressure_Pa'))}, {self.name if self.distance > 0 else 'before sliding'}"
 
     @property
     def pressure_label(self):
