@@ -197,6 +197,21 @@ TEST(MirroredSurfaces, CostADropletLittleMoreThanOneOfTheImages) {
   }
 }
 
+// Mirrored, a slope with pits has a saddle of two pixels between each pit and the next.
+TEST(MirroredSurfaces, CostADropletNoMoreWhereChainsOfPoolsAreFull) {
+  const auto looks_on_slope = [](Pixel side) {
+    Field height = rough_waves(side);
+    for (Index x = 0; x < side; ++x) height.col(x) += 0.1e-6 * static_cast<double>(x);
+    Terrain terrain = quantise(height, Edge::closed);
+    mirror(terrain);
+    return looks_on(terrain, 10);
+  };
+  const double few = looks_on_slope(64);
+  const double many = looks_on_slope(256);
+  EXPECT_LT(many, 2 * few);
+  EXPECT_LT(many, 10);
+}
+
 // On a tilted surface one pool takes in the others one after the other, each a step further from
 // the pool that holds all.
 TEST(GrowingPool, CostsADropletAsMuchOnALargeSurfaceAsOnASmallOne) {

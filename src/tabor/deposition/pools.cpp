@@ -78,6 +78,7 @@ bool Pools::fill_up(PoolId id) {
   Growth& of_parent = growth_[static_cast<std::size_t>(pool.parent)];
   parent.area += pool.area;
   --n_filling_;
+  if (of_parent.lowest < 0) changed_.push_back(pool.parent);
   if (--of_parent.open_children > 0) {
     if (of_parent.lowest < 0) closed_.push_back(id);
     return false;
@@ -122,6 +123,7 @@ std::vector<PoolId> Pools::renumber() {
   growth_.resize(static_cast<std::size_t>(n_kept));
   give_back_unused(growth_);
   closed_.clear();
+  changed_.clear();
   parallel_for(static_cast<Index>(sites_.size()), kBlock, [&](Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
       PoolId& pool = sites_[static_cast<std::size_t>(i)].pool;

@@ -113,11 +113,6 @@ class Pools {
   /// True where some of its children are not full; else it holds liquid, or did.
   bool waits(PoolId id) const { return growth(id).open_children > 0; }
 
-  /// Returns how many of the pools that meet where a full pool ends are not full.
-  std::int32_t n_open_siblings(PoolId full) const {
-    return growth((*this)[full].parent).open_children;
-  }
-
   /// Returns the only pixel over which a full pool that is not the last touches its neighbours;
   /// kSeveral if there are more.
   Pixel saddle(PoolId full) const {
@@ -128,6 +123,11 @@ class Pools {
 
   /// Returns the pools that have filled up to a saddle of several pixels since the last call.
   std::vector<PoolId> take_closed() { return std::exchange(closed_, {}); }
+
+  /// Returns the pools whose children meet over several pixels and of which one has become full
+  /// since the last call.
+  bool has_changed() const { return !changed_.empty(); }
+  std::vector<PoolId> take_changed() { return std::exchange(changed_, {}); }
 
   /// Returns the volume poured beyond all rims: run off an open edge, or lying flat above the
   /// highest pixel.
@@ -169,8 +169,9 @@ class Pools {
   PoolId last_ = kNoPool;  ///< the one that holds all others
   PoolId n_filling_ = 0;   ///< active pools that are not full, the ocean not counted
   std::vector<Pool> pools_;
-  std::vector<Growth> growth_;  ///< per pool
-  std::vector<PoolId> closed_;  ///< see take_closed()
+  std::vector<Growth> growth_;   ///< per pool
+  std::vector<PoolId> closed_;   ///< see take_closed()
+  std::vector<PoolId> changed_;  ///< see take_changed()
   std::vector<Site> sites_;
   std::vector<Height> arcs_;  ///< heights of the pixels of each pool alone, ascending, and its rim
   std::vector<bool> is_rim_;  ///< per place in arcs_

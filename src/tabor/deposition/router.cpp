@@ -12,11 +12,6 @@ bool Router::valid(const FlowPath& path) {
   return path.bound != kDry && pools_[pools_.owner(path.end)].level < path.bound;
 }
 
-bool Router::holds(Target at, const FlowPath& path) {
-  return valid(path) &&
-         (!is_cut(at) || n_open_[static_cast<std::size_t>(at)] == pools_.n_open_siblings(at));
-}
-
 void Router::prefetch(Target start) const {
   if (Slopes::is_pool(start)) {
     pools_.prefetch(start);
@@ -31,18 +26,28 @@ void Router::prefetch_end(Target start) const {
 }
 
 PoolId Router::follow(Target at) {
+  cuts_.follow_pools();
+  passed_.clear();
   while (true) {
     ++n_looks_;
     if (Slopes::is_pool(at)) {
       at = pools_.holder(at);
       if (!pools_[at].full()) {
         record(at);
+        cuts_.join(passed_);
         return at;
       }
     }
-    if (const FlowPath path = slopes_.path_from(pools_, at); holds(at, path)) {
-      if (is_cut(at)) {
+    const bool is_cut = Slopes::is_pool(at) && cuts_.has(at);
+    if (is_cut && valid(cuts_.whole(at))) {
+      record(at);
+      at = cuts_.whole(at).end;
+      continue;
+    }
+    if (const FlowPath path = slopes_.path_from(pools_, at); valid(path)) {
+      if (is_cut) {
         record(at);
+        passed_.push_back(at);
       } else {
         trail_.push_back({at, path.bound});
       }
@@ -56,17 +61,8 @@ PoolId Router::follow(Target at) {
   }
 }
 
-/// Pools get new numbers: paths from cuts are found anew.
-void Router::forget_cuts() {
-  for (std::size_t id = 0; id < is_cut_.size(); ++id) {
-    if (is_cut_[id]) pools_.remember_overflow(static_cast<PoolId>(id), {});
-  }
-  is_cut_ = {};
-  n_open_ = {};
-}
-
 void Router::settle() {
-  forget_cuts();
+  cuts_.forget();
   const std::vector<PoolId> renamed = pools_.renumber();
   slopes_.settle(pools_, renamed);
   saddles_.forget();
@@ -79,12 +75,8 @@ Router::Target Router::spill(PoolId full) {
   }
   record(full);
   const Drain drain = saddles_.drain_of_child(pools_[full].parent, full);
-  if (is_cut_.empty()) {
-    is_cut_.resize(pools_.count(), false);
-    n_open_.resize(pools_.count());
-  }
-  is_cut_[static_cast<std::size_t>(full)] = true;
-  n_open_[static_cast<std::size_t>(full)] = pools_.n_open_siblings(full);
+  cuts_.cut(full);
+  passed_.push_back(full);
   pools_.remember_overflow(full, {});  // until it is known where this one ends
   trail_.push_back({full, drain.doubt});
   return toward(drain.lowest);

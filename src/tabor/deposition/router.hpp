@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "tabor/deposition/cut_paths.hpp"
 #include "tabor/deposition/saddles.hpp"
 #include "tabor/deposition/slopes.hpp"
 
@@ -17,10 +18,10 @@ namespace tabor::deposition {
 /// the path is flooded only by a pool that also holds the end of the path, and a full pool on it
 /// does not change until it merges with the pool where the path ends. Where equal heights join
 /// several pools, their region may grow while that level stays: when another of them is full. Paths
-/// are cut there, and the path on from there holds as long as no more of them are full.
+/// are cut there (cut_paths.hpp).
 class Router {
  public:
-  explicit Router(Pools& pools) : pools_(pools), slopes_(pools), saddles_(pools) {}
+  explicit Router(Pools& pools) : pools_(pools), slopes_(pools), saddles_(pools), cuts_(pools) {}
 
   using Target = Slopes::Target;
 
@@ -47,12 +48,6 @@ class Router {
     Height bound = kNoRim;
   };
 
-  /// True for a full pool that spills over a saddle of several pixels, once it has.
-  bool is_cut(Target at) const {
-    return Slopes::is_pool(at) && !is_cut_.empty() && is_cut_[static_cast<std::size_t>(at)];
-  }
-  bool holds(Target at, const FlowPath& path);
-  void forget_cuts();
   PoolId follow(Target at);
   Target take_branch(Target fork);
   Target spill(PoolId full);
@@ -64,8 +59,8 @@ class Router {
   Slopes slopes_;
   Saddles saddles_;
   std::vector<Step> trail_;
-  std::vector<bool> is_cut_;          ///< per pool; empty until there is one
-  std::vector<std::int32_t> n_open_;  ///< per pool: if it is cut, its open siblings when it spilled
+  CutPaths cuts_;
+  std::vector<PoolId> passed_;  ///< cuts on the path of the droplet
   std::int64_t n_looks_ = 0;
 };
 
