@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "tabor/core/loops.hpp"
+#include "tabor/core/registers.hpp"
 #include "tabor/spectral/fft.hpp"
 
 namespace tabor::contact {
@@ -14,7 +15,7 @@ namespace {
 
 constexpr Index kRadius = 8;               // taper reaches zero this many pixels away
 constexpr Index kSide = 2 * kRadius - 1;   // pixels with a weight, along each axis
-constexpr Index kRowLength = 2 * kRadius;  // one vector register of floats; the last weight is zero
+constexpr Index kRowLength = 2 * kRadius;  // whole vector registers; the last weight is zero
 constexpr Index kKernelGrid = 64;          // cell on which the short kernel is computed
 constexpr Index kNone = -1;
 constexpr Index kPixelsPerBlock = 2048;  // of a thread: each pixel is work
@@ -38,13 +39,24 @@ Field stiffness_kernel(double dy, double dx, double modulus) {
 
 /// A row of the kernel, or of residuals under it; compilers leave the loop over plain floats
 /// scalar.
-using Lanes = float __attribute__((vector_size(kRowLength * sizeof(float))));
+constexpr std::size_t kParts = kRowLength / kFloatLanes;
+using Row = std::array<FloatLanes, kParts>;
 
-/// Sum over the lanes, halves by halves.
-float total(const Lanes& lanes) {
-  std::array<float, kRowLength> sums{};
-  std::memcpy(sums.data(), &lanes, sizeof lanes);
-  for (std::size_t half = kRowLength / 2; half > 0; half /= 2) {
+/// One by one: copied at once, a row goes through memory.
+FloatLanes load(const float* values) {
+  FloatLanes lanes;
+  std::memcpy(&lanes, values, sizeof lanes);
+  return lanes;
+}
+
+/// Sum over a row, halves by halves.
+float total(Row row) {
+  for (std::size_t half = kParts / 2; half > 0; half /= 2) {
+    for (std::size_t i = 0; i < half; ++i) row[i] += row[i + half];
+  }
+  std::array<float, kFloatLanes> sums{};
+  std::memcpy(sums.data(), row.data(), sizeof sums);
+  for (std::size_t half = kFloatLanes / 2; half > 0; half /= 2) {
     for (std::size_t i = 0; i < half; ++i) sums[i] += sums[i + half];
   }
   return sums[0];
@@ -70,15 +82,15 @@ double Preconditioner::plateau() const {
 }
 
 Preconditioner::Sums Preconditioner::sum_around(const float* corner, Index row_stride) const {
-  Lanes products{};
-  Lanes weights{};
+  Row products{};
+  Row weights{};
   for (Index j = 0; j < kSide; ++j) {
-    Lanes kernel;
-    Lanes residual;
-    std::memcpy(&kernel, kernel_.data() + j * kRowLength, sizeof kernel);
-    std::memcpy(&residual, corner + j * row_stride, sizeof residual);
-    products += kernel * residual;
-    weights += residual != 0.0F ? kernel : Lanes{};
+    for (std::size_t i = 0; i < kParts; ++i) {
+      const FloatLanes kernel = load(kernel_.data() + j * kRowLength + i * kFloatLanes);
+      const FloatLanes residual = load(corner + j * row_stride + i * kFloatLanes);
+      products[i] += kernel * residual;
+      weights[i] += residual != 0.0F ? kernel : FloatLanes{};
+    }
   }
   return {total(products), total(weights)};
 }

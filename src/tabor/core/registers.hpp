@@ -16,6 +16,8 @@ inline constexpr int kRegisterBytes = 16;
 /// Numbers of one register, for loops over several lists or lines side by side.
 inline constexpr int kLanes = kRegisterBytes / sizeof(double);
 using Lanes = double __attribute__((vector_size(kRegisterBytes)));
+inline constexpr int kFloatLanes = kRegisterBytes / sizeof(float);
+using FloatLanes = float __attribute__((vector_size(kRegisterBytes)));
 
 inline Lanes in_all_lanes(double value) { return Lanes{} + value; }
 
