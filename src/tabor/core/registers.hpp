@@ -1,6 +1,11 @@
 #pragma once
 
-// The vectors on which one instruction works.
+// The vectors on which one instruction works. Where this header is included, gcc warns of vectors
+// that it takes apart.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic warning "-Wvector-operation-performance"
+#endif
+
 namespace tabor {
 
 /// Bytes of a vector register of the processor that this is compiled for. Compilers take longer
