@@ -84,6 +84,7 @@ struct FilmRecord {
     return film.lost_volume > 0 ? film.mean_film * (film.deposited_volume / dosed) : film.mean_film;
   }
 };
+/// Columns of one film.
 const Columns<FilmRecord>& film_columns();
 
 /// One film in one contact, whose closed pockets carry load.
