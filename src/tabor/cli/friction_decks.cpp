@@ -28,8 +28,7 @@ using forming::Program;
 struct Request {
   std::string results;
   Program program = Program::csv;
-  forming::UnitSystem units = forming::unit_system("m,s,kg");
-  bool has_units = false;
+  std::optional<forming::UnitSystem> units;
   study::FrictionTableChoice choice;
   int first_id = 1;
   std::optional<std::string> output;
@@ -139,15 +138,15 @@ io::Json report_fits(const FrictionTable& table, Context& context) {
   return all;
 }
 
-std::string summary_of(const Request& request, const FrictionTable& table) {
+std::string summary_of(const Request& request, const forming::UnitSystem& units,
+                       const FrictionTable& table) {
   Facts facts;
   facts.fact("results", request.results);
   facts.fact("group", table.group);
   facts.fact("numbers", std::to_string(table.entries.size()));
   facts.fact("left out", reasons_of(table));
-  facts.fact("units",
-             fmt::format("{}: {}, {}, {}", request.units.words, request.units.pressure.name,
-                         request.units.speed.name, request.units.areal_density.name));
+  facts.fact("units", fmt::format("{}: {}, {}, {}", units.words, units.pressure.name,
+                                  units.speed.name, units.areal_density.name));
   facts.fact("written", *request.output);
   return facts.text();
 }
@@ -162,22 +161,26 @@ FrictionTable table_for(const Request& request, Context& context) {
   return table;
 }
 
+forming::UnitSystem units_of(const Request& request) {
+  if (request.units) return *request.units;
+  if (request.program == Program::csv) return forming::unit_system("m,s,kg");
+  throw UsageError("--units L,T,M is missing, such as mm,s,t (MPa): a deck carries no units");
+}
+
 int show(const Request& request, Context& context) {
-  if (!request.has_units && request.program != Program::csv) {
-    throw UsageError("--units L,T,M is missing, such as mm,s,t (MPa): a deck carries no units");
-  }
+  const forming::UnitSystem units = units_of(request);
   check_extension(request);
   const FrictionTable table = table_for(request, context);
   const std::string deck =
-      forming::deck_for(request.program, table, request.units, static_cast<int>(request.first_id));
+      forming::deck_for(request.program, table, units, static_cast<int>(request.first_id));
   warn_of_left_out(table, context);
   io::Json object = json_head(context);
   object.update({{"results", request.results},
                  {"for", forming::kPrograms.of(request.program)},
-                 {"units", request.units.words},
-                 {"pressure_unit", request.units.pressure.name},
-                 {"sliding_speed_unit", request.units.speed.name},
-                 {"lubricant_density_unit", request.units.areal_density.name},
+                 {"units", units.words},
+                 {"pressure_unit", units.pressure.name},
+                 {"sliding_speed_unit", units.speed.name},
+                 {"lubricant_density_unit", units.areal_density.name},
                  {"group", table.group},
                  {"numbers", json_of(table)},
                  {"left_out", left_out_json(table)}});
@@ -188,7 +191,7 @@ int show(const Request& request, Context& context) {
   } else {
     object["deck"] = deck;
   }
-  return finish(context, object, request.output ? summary_of(request, table) : deck);
+  return finish(context, object, request.output ? summary_of(request, units, table) : deck);
 }
 
 int id_of(const std::string& word) {
@@ -214,7 +217,6 @@ void declare_options(OptionSet& set, Request& request) {
                "does without [m,s,kg]",
            .assign = [&request](const std::string& words) {
              request.units = forming::unit_system(words);
-             request.has_units = true;
            }});
   set.text("--group", "NAME", "group of scans, if the study has several", request.choice.group);
   set.quantities("--density", "D[,D2,...]",

@@ -42,7 +42,7 @@ std::string steps_of(std::uint64_t n, double length) {
 }
 
 /// The steps; then the distance where it is another than asked for, as steps are whole pixels.
-std::string way_of(const Request& request, const cases::SlideResult& result) {
+std::string steps_and_end(const Request& request, const cases::SlideResult& result) {
   constexpr double same = 0.01;  // of the distance
   const std::string steps = steps_of(result.steps, result.step);
   const double done = result.states.back().distance;
@@ -64,7 +64,7 @@ std::string text_of(const Request& request, const Scan& scan, const cases::Slide
   }
   facts.fact("sliding",
              fmt::format("along x under {}, {}, displaced material {}",
-                         si(settings.mean_pressures.front(), "Pa"), way_of(request, result),
+                         si(settings.mean_pressures.front(), "Pa"), steps_and_end(request, result),
                          sliding::kDisplaced.of(request.sliding.displaced)));
   if (result.steady) facts.fact("steady", *result.steady ? "yes" : "no");
   if (request.after) facts.fact("sheet after", *request.after);
