@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <string>
-#include <string_view>
 
 #include "bindings.hpp"
 #include "tabor/core/error.hpp"
@@ -22,37 +20,21 @@ void take_errors(const nanobind::object& input, const nanobind::object& incomple
   output_error = nanobind::object(output).release().ptr();
 }
 
-/// The message, with options that the library advises in brackets, "(--fill harmonic)", as Python
-/// spells them: "(treat('fill=harmonic'))".
-std::string in_python(std::string text) {
-  constexpr std::string_view opening = " (--";
-  for (std::size_t at = text.find(opening); at != std::string::npos;
-       at = text.find(opening, at + 1)) {
-    const std::size_t end = text.find(')', at);
-    if (end == std::string::npos) break;
-    const std::size_t begin = at + opening.size();
-    const std::size_t space = std::min(text.find(' ', begin), end);
-    Advice advice{text.substr(begin, space - begin),
-                  space < end ? text.substr(space + 1, end - space - 1) : ""};
-    std::replace(advice.setting.begin(), advice.setting.end(), '-', '_');
-    const std::string words = spelled(advice);
-    text.replace(at, end + 1 - at, words.empty() ? "" : " (" + words + ")");
-  }
-  return text;
-}
+/// The message, with the settings that it advises as arguments: "pixel='0.67um'".
+std::string in_python(const Error& error) { return advised(error.what(), spelled); }
 
 /// What the library throws on purpose, as the exception that Python has for it.
 void translate(const std::exception_ptr& thrown, void*) {
   try {
     std::rethrow_exception(thrown);
   } catch (const IncompleteError& error) {
-    PyErr_SetString(incomplete_error, in_python(error.what()).c_str());
+    PyErr_SetString(incomplete_error, in_python(error).c_str());
   } catch (const InputError& error) {
-    PyErr_SetString(input_error, in_python(error.what()).c_str());
+    PyErr_SetString(input_error, in_python(error).c_str());
   } catch (const UsageError& error) {
     PyErr_SetString(input_error, error.what());
   } catch (const OutputError& error) {
-    PyErr_SetString(output_error, error.what());
+    PyErr_SetString(output_error, in_python(error).c_str());
   } catch (const Interrupted&) {
     PyErr_SetNone(PyExc_KeyboardInterrupt);
   } catch (const Error& error) {

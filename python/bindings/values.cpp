@@ -22,6 +22,7 @@
 #include "tabor/core/text.hpp"
 #include "tabor/core/version.hpp"
 #include "tabor/io/files/protection.hpp"
+#include "tabor/scan/read_parameters.hpp"
 #include "tabor/spectral/fft.hpp"
 #include "tabor/topography/treatment.hpp"
 
@@ -121,16 +122,37 @@ ShownWarnings shown(Warnings warnings) {
   return list;
 }
 
+namespace {
+
+/// Returns a setting of cases or of reading scans; null where there is none.
+const ParameterHead* parameter_of(std::string_view setting) {
+  if (const ParameterHead* const found = cases::find_parameter(setting)) return found;
+  for (const ParameterHead& one : scan::read_parameters()) {
+    if (one.name == setting) return &one;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
 std::string spelled(const Advice& advice) {
-  static const std::set<std::string_view> others = {"edges", "fit_max", "fit_min"};
+  static const std::set<std::string_view> others = {"edges",   "fit_max",    "fit_min",
+                                                    "density", "fields",     "group",
+                                                    "keep",    "tip_radius", "threshold"};
+  static const std::map<std::string_view, std::string> renamed = {{"no_register", "search=False"},
+                                                                  {"shift", "shift=(dx, dy)"}};
+  if (const auto found = renamed.find(advice.setting); found != renamed.end()) {
+    return found->second;
+  }
   for (const topography::StepDescription& step : topography::treatment_steps()) {
     if (step.name != advice.setting) continue;
     const std::string value = advice.value.empty() ? "..." : advice.value;
     return "treat('" + step.name + (step.argument.empty() ? "" : "=" + value) + "')";
   }
-  const bool is_known = cases::find_parameter(advice.setting) != nullptr;
-  if (!is_known && !others.contains(advice.setting)) return "";
+  const ParameterHead* const known = parameter_of(advice.setting);
+  if (known == nullptr && !others.contains(advice.setting)) return "";
   const std::string name = argument_of(advice.setting) + "=";
+  if (known != nullptr && known->kind == ValueKind::flag) return name + "True";
   return advice.value.empty() ? name : name + "'" + advice.value + "'";
 }
 

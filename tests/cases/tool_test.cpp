@@ -112,7 +112,7 @@ TEST(Tool, ThatDoesNotFitIsRejected) {
   };
   EXPECT_THAT(message(wave({64, 48, 96e-6, 72e-6}, 1e-6)), HasSubstr("--resample"));
   EXPECT_THAT(message(wave({64, 40, 64e-6, 40e-6}, 1e-6)), HasSubstr("40 rows"));
-  EXPECT_THAT(message(wave({32, 48, 32e-6, 48e-6}, 1e-6)), HasSubstr("--tool-repeats"));
+  EXPECT_THAT(message(wave({32, 48, 32e-6, 48e-6}, 1e-6)), HasSubstr("<tool_repeats>"));
   topography::Topography holed = wave(kGrid, 1e-6);
   holed.height(3, 4) = std::nan("");
   EXPECT_THAT(message(holed), HasSubstr("fill"));

@@ -27,7 +27,7 @@ TEST(SolveContact, RejectsHolesAndInfiniteHeights) {
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     Field height = wave(16, 0.01, true);
     height(3, 4) = bad;
-    EXPECT_THAT(rejection([&] { solve_unit(height, 0.01); }), HasSubstr("--fill harmonic"));
+    EXPECT_THAT(rejection([&] { solve_unit(height, 0.01); }), HasSubstr("<fill=harmonic>"));
   }
 }
 

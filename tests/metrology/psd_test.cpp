@@ -312,7 +312,7 @@ TEST(PowerSpectra, RejectHoles) {
     power_spectra(holed);
     FAIL() << "accepted holes";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("--fill harmonic"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("<fill=harmonic>"));
   }
 }
 

@@ -59,7 +59,7 @@ TEST(TipLimitedWavelength, RejectsATipWithoutARadius) {
   for (const double radius : {0.0, -1e-6, kHole}) {
     EXPECT_THAT(
         tabor::test::rejection([&] { tip_limited_wavelength(rough.height, kGrid, radius); }),
-        HasSubstr("--tip-radius"));
+        HasSubstr("<tip_radius=2um>"));
   }
 }
 

@@ -182,7 +182,7 @@ TEST(FrictionTable, AsksForAGroupWhereThereAreSeveral) {
   FrictionNumbers numbers = three_pressures();
   numbers.numbers[0].group = "after";
   EXPECT_THAT(message_of([&] { friction_table(numbers); }),
-              testing::AllOf(HasSubstr("after, before"), HasSubstr("--group")));
+              testing::AllOf(HasSubstr("after, before"), HasSubstr("<group>")));
   EXPECT_EQ(friction_table(numbers, {.group = "before"}).entries.size(), 2u);
   EXPECT_THAT(message_of([&] { friction_table(numbers, {.group = "befor"}); }),
               HasSubstr("did you mean 'before'"));
@@ -200,7 +200,7 @@ TEST(FrictionTable, SaysWhyNothingRemains) {
   FrictionNumbers numbers = three_pressures();
   for (FrictionNumber& number : numbers.numbers) number.codes = {"frictionless"};
   EXPECT_THAT(message_of([&] { friction_table(numbers); }),
-              testing::AllOf(HasSubstr("frictionless 3"), HasSubstr("--keep")));
+              testing::AllOf(HasSubstr("frictionless 3"), HasSubstr("<keep")));
 }
 
 TEST(ReadFriction, RejectsWhatIsNoResultOfFriction) {

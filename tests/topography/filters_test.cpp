@@ -108,7 +108,7 @@ TEST(HannFilter, NeedsASurfaceWithoutHoles) {
     low_pass(holed, parse_filter("hann:512/L"));
     FAIL() << "accepted holes";
   } catch (const InputError& error) {
-    EXPECT_THAT(error.what(), HasSubstr("--fill harmonic"));
+    EXPECT_THAT(error.what(), HasSubstr("<fill=harmonic>"));
   }
 }
 

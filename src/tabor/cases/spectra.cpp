@@ -57,7 +57,7 @@ GroupSpectra mean_of(const std::string& name, const std::vector<std::string>& sc
   for (std::size_t i = 0; i < records.size(); ++i) {
     if (!records[i]->spectra) {
       throw InputError("group " + name, scans[i] + " without a spectrum", "scans without holes",
-                       "add --fill harmonic");
+                       "<fill=harmonic> fills the holes");
     }
     heights.push_back(records[i]->spectra->rms_height);
   }

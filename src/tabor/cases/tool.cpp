@@ -108,7 +108,7 @@ void check_size(const Grid& sheet, const ToolSettings& settings, const Grid& too
   if (tool.nx >= sheet.nx || settings.tool_repeats) return;
   reject(settings, fmt::format("{} columns", tool.nx),
          fmt::format("at least as many as the sheet has, {}", sheet.nx),
-         "give a longer tool, or let it repeat (--tool-repeats)");
+         "give a longer tool, or let it repeat (<tool_repeats>)");
 }
 
 }  // namespace

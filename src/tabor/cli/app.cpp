@@ -146,7 +146,7 @@ int run(const std::vector<std::string>& args, std::ostream& out, std::ostream& e
   context.json = asks_for_json(args);  // an error is told as JSON even before options are read
   const auto complain = [&](const std::string& line, int code) {
     context.progress = nullptr;  // it ended with the verb
-    return fail(context, line, code);
+    return fail(context, context.spelled(line), code);
   };
   return guarded(complain, [&] { return dispatch(args, context, style); });
 }

@@ -149,12 +149,12 @@ std::vector<Solved> solve_each(const Request& request, Context& context) {
           try {
             all.push_back(solve(request, path, context));
           } catch (const InputError& error) {
+            const std::string problem = context.spelled(error.what());
             Solved failed{.path = path, .facts = {}, .object = {}};
-            failed.object = {{"scan", {{"path", path}, {"sha256", nullptr}}},
-                             {"failure", error.what()}};
+            failed.object = {{"scan", {{"path", path}, {"sha256", nullptr}}}, {"failure", problem}};
             failed.code = kInput;
             all.push_back(failed);
-            context.warn("not computed: " + std::string(error.what()));
+            context.warn("not computed: " + problem);
           }
           if (all.back().code == kInterrupted) return;
         }

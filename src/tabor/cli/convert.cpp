@@ -55,7 +55,7 @@ int convert_scan(const Request& request, Context& context) {
   Facts facts;
   describe(scan, facts);
   facts.fact("written", request.output);
-  const std::string note = scan::note_of(scan.surface, request.output);
+  const std::string note = context.spelled(scan::note_of(scan.surface, request.output));
   if (!note.empty()) {
     object["note"] = note;
     facts.fact("note", note);

@@ -168,7 +168,7 @@ Contents contents_of(const Request& request, const std::string& path, const Cont
     contents.warnings = scan.surface.warnings;
     return contents;
   } catch (const IncompleteError& error) {
-    return incomplete(scan_file, path, error.what(), observer);
+    return incomplete(scan_file, path, context.spelled(error.what()), observer);
   }
 }
 
@@ -178,8 +178,9 @@ Contents try_contents_of(const Request& request, const std::string& path, const 
   try {
     return contents_of(request, path, context, observer);
   } catch (const InputError& error) {
-    Contents failed{.path = path, .record = {}, .problem = error.what()};
-    failed.object = {{"scan", {{"path", path}, {"sha256", nullptr}}}, {"failure", error.what()}};
+    const std::string problem = context.spelled(error.what());
+    Contents failed{.path = path, .record = {}, .problem = problem};
+    failed.object = {{"scan", {{"path", path}, {"sha256", nullptr}}}, {"failure", problem}};
     return failed;
   }
 }

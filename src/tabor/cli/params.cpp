@@ -138,8 +138,9 @@ Measured try_measure(const Request& request, const std::string& file, const Cont
   } catch (const InputError& error) {
     Measured failed;
     failed.row.path = file;
-    failed.row.failure = error.what();
-    failed.object = {{"scan", {{"path", file}, {"sha256", nullptr}}}, {"failure", error.what()}};
+    failed.row.failure = context.spelled(error.what());
+    failed.object = {{"scan", {{"path", file}, {"sha256", nullptr}}},
+                     {"failure", failed.row.failure}};
     return failed;
   }
 }

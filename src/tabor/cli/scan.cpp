@@ -52,7 +52,7 @@ void declare_treatment(OptionSet& set, topography::Treatment& treatment) {
 /// With what is said of a file, and where that stands if it was not typed.
 scan::ReadOptions with_origin(scan::ReadOptions read, const Context& context) {
   for (const ParameterHead& one : scan::read_parameters()) {
-    if (context.has_default(one.option())) read.origin[one.option()] = context.defaults_file;
+    if (context.has_default(one.option())) read.origin[one.name] = context.defaults_file;
   }
   return read;
 }

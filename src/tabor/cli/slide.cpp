@@ -44,7 +44,7 @@ std::string steps_of(std::uint64_t n, double length) {
 /// The steps; then the distance where it is another than asked for, as steps are whole pixels.
 std::string steps_and_end(const Request& request, const cases::SlideResult& result) {
   constexpr double same = 0.01;  // of the distance
-  const std::string steps = steps_of(result.steps, result.step);
+  std::string steps = steps_of(result.steps, result.step);
   const double done = result.states.back().distance;
   const std::optional<double> asked = request.sliding.distance;
   if (!asked || result.steady.value_or(false) || std::abs(done - *asked) < same * *asked) {

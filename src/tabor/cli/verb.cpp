@@ -49,6 +49,10 @@ AdviceSpelling spelling_of(const OptionSet& set) {
   };
 }
 
+std::string Context::spelled(std::string_view message) const {
+  return spelling ? advised(message, spelling) : std::string(message);
+}
+
 bool Context::has_default(const std::string& flag) const {
   return std::any_of(defaults.begin(), defaults.end(),
                      [&](const auto& used) { return used.first == flag; });

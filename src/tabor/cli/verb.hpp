@@ -39,6 +39,8 @@ struct Context {
   /// Returns a finding as it appears on stderr, on one line of at most results::kLineWidth
   /// characters: "warning: ..." or, of information, "note: ...".
   static std::string line_of(const results::Finding& finding);
+  /// Returns what an error says, with the settings that it names as options of the verb.
+  std::string spelled(std::string_view message) const;
   /// True where a file of defaults gave this option.
   bool has_default(const std::string& flag) const;
 

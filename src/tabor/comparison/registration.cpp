@@ -175,7 +175,7 @@ class Refinement {
 [[noreturn]] void reject(const std::string& got, const std::string& expected) {
   throw InputError("registration of two scans", got, expected,
                    "check that both scans show the same place in the same orientation and are "
-                   "levelled, or give the shift (--shift) or none (--no-register)");
+                   "levelled, or give the shift (<shift>) or none (<no_register>)");
 }
 
 /// Heights without waves longer than an eighth of the smaller scan's shorter side, which nearly

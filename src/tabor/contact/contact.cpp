@@ -29,7 +29,7 @@ void check_maps(const elastic::ElasticOperator& elasticity, const Problem& probl
   }
   if (!all_finite(problem.height)) {
     throw InputError("contact", "a surface with holes or infinite heights",
-                     "a height at every pixel", "fill the holes first (--fill harmonic)");
+                     "a height at every pixel", "fill the holes first (<fill=harmonic>)");
   }
   const Field& caps = problem.bounds.upper_of_each;
   if (caps.size() > 0 && (caps.rows() != grid.ny || caps.cols() != grid.nx || !all_finite(caps) ||

@@ -30,7 +30,7 @@ Terrain quantise(const Field& height, Edge edge) {
   }
   if (!all_finite(height)) {
     throw InputError("surface to lubricate", "missing or infinite heights",
-                     "a height at every pixel", "fill the holes first (--fill harmonic)");
+                     "a height at every pixel", "fill the holes first (<fill=harmonic>)");
   }
   const double lowest = height.minCoeff();
   Terrain terrain;

@@ -37,7 +37,7 @@ Store::Store(const fs::path& directory, Use use)
     : Store(directory / "store", use,
             directory.string() +
                 ": another sweep works on these results; wait for it to end, give another -o, or "
-                "split one study with --shard i/n") {
+                "split one study with <shard=i/n>") {
   if (use == Use::alone) io::remove_all_leftovers(directory);
 }
 

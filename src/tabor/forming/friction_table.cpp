@@ -90,7 +90,7 @@ void require_two_pressures(const DensityLayer& layer) {
                                format_si(layer.rows.front().mean_pressure, "Pa"),
                                in_g_per_m2(layer.lubricant_density)),
                    "two pressures or more at each density",
-                   "compute more pressures, choose others by --density, or write --for csv");
+                   "compute more pressures, choose others by <density>, or write <for=csv>");
 }
 
 void require_two_pressures(const FrictionTable& table) {

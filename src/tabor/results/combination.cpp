@@ -89,10 +89,10 @@ std::vector<std::string> doubts_of(const Combination& c) {
                     100 * c.registration->runner_up));
   }
   if (const double share = share_of_holes(c); c.wear && share > much) {
-    doubts.push_back(fmt::format(
-        "{} of the overlap lies in or beside holes and is left out of the volumes. Fill small "
-        "holes with --fill harmonic",
-        percent(share)));
+    doubts.push_back(
+        fmt::format("{} of the overlap lies in or beside holes and is left out of the volumes; "
+                    "<fill=harmonic> fills small holes",
+                    percent(share)));
   }
   return doubts;
 }

@@ -35,7 +35,7 @@ struct ReadOptions {
   std::optional<std::string> unit;     ///< of the heights in the file: "um", "nm", ...
   std::optional<double> z_scale;       ///< [m] per count, for integer images
   bool override_unit = false;
-  /// Origin ("tabor.toml") of the options above that nobody typed ("--pixel"), for the warnings
+  /// Origin ("tabor.toml") of the options above that nobody typed ("pixel"), for the warnings
   /// about what they override.
   std::map<std::string, std::string> origin = {};
 };

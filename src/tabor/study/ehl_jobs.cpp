@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "tabor/core/advice.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/engine/checkpoint.hpp"
 #include "tabor/io/columns.hpp"
@@ -28,9 +29,8 @@ ehl::CaseResult solve_or_reject(const ehl::CaseSolver& solve, const EhlCase& one
     result.write = {};
     return result;
   } catch (const InputError& error) {
-    return {.status = ehl::CaseStatus::rejected,
-            .error = error.what(),
-            .warnings = {{"rejected", error.what()}}};
+    const std::string why = without_advice(error.what());  // of files that no key of a case reads
+    return {.status = ehl::CaseStatus::rejected, .error = why, .warnings = {{"rejected", why}}};
   }
 }
 
@@ -181,7 +181,7 @@ EhlStore::EhlStore(const fs::path& folder, engine::Store::Use use)
     : store_(folder, use,
              folder.string() +
                  ": another sweep keeps its cases there; wait for it to end, give another -o, or "
-                 "split one sweep with --shard i/n") {}
+                 "split one sweep with <shard=i/n>") {}
 
 EhlStore::~EhlStore() {
   if (store_.is_shared()) return;

@@ -6,12 +6,14 @@
 #include <string>
 #include <utility>
 
+#include "tabor/core/advice.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/engine/made_once.hpp"
 #include "tabor/study/friction_graph.hpp"
 #include "tabor/study/record.hpp"
 #include "tabor/study/slides.hpp"
+#include "tabor/study/study_keys.hpp"
 #include "tabor/study/task_file.hpp"
 #include "tabor/study/treated_scan.hpp"
 #include "tabor/study/wet_shares.hpp"
@@ -109,7 +111,7 @@ class FrictionInFolder : public FrictionStore,
     };
     job.record_failure = [&folder = folder_, task](const std::string& error) {
       StoredSlide failed;
-      failed.error = error;
+      failed.error = advised(error, spelling());
       write_slide(folder, task, failed);
     };
     return job;
@@ -230,7 +232,7 @@ class FrictionInFolder : public FrictionStore,
     };
     job.record_failure = [self = shared_from_this(), place](const std::string& error) {
       Row row;
-      row.error = error;
+      row.error = advised(error, spelling());
       self->store_row(place, std::move(row));
     };
   }

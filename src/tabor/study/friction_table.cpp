@@ -45,7 +45,7 @@ std::string chosen_group(const std::vector<FrictionNumber>& numbers,
   throw InputError(asked ? "--group" : "several groups of scans",
                    asked ? fmt::format("'{}'{}", *asked, suggestion(*asked, groups)) : "",
                    fmt::format("one of: {}", fmt::join(groups, ", ")),
-                   asked ? "" : "choose one by --group");
+                   asked ? "" : "choose one by <group>");
 }
 
 std::vector<FrictionNumber> of_group(const std::vector<FrictionNumber>& numbers,
@@ -225,8 +225,8 @@ FrictionTable friction_table(const FrictionNumbers& numbers, const FrictionTable
   throw InputError("friction table",
                    fmt::format("no number that can be trusted ({})", reasons_of(table)),
                    "one at least",
-                   "docs/warnings.md says what to do about each; --keep CODE keeps them all the "
-                   "same, --density 0g/m^2 takes dry friction");
+                   "docs/warnings.md says what to do about each; <keep=CODE> keeps them all the "
+                   "same, <density=0g/m^2> takes dry friction");
 }
 
 }  // namespace tabor::study

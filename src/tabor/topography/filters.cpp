@@ -81,7 +81,7 @@ Field hann_low_pass(const Field& height, const Grid& grid, FilterKind kind, doub
   if (height.hasNaN()) {
     throw InputError("Hann filter", fmt::format("{} missing heights", height.isNaN().count()),
                      "a surface without holes",
-                     "fill them first (--fill harmonic) or use gauss, which leaves holes out");
+                     "fill them first (<fill=harmonic>) or use gauss, which leaves holes out");
   }
   const double cutoff =
       (kind == FilterKind::hann_full ? 0.5 : 1.0) / wavelength;  // cycles per metre

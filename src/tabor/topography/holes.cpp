@@ -140,7 +140,7 @@ FillResult fill_holes(const Field& height, const Grid& grid, Fill fill, const Ob
   const Index n_missing = height.isNaN().count();
   if (n_missing == height.size()) {
     throw InputError("fill holes", "a surface of holes only", "at least one valid height",
-                     "check the channel (--channel) and the file");
+                     "check the channel (<channel>) and the file");
   }
   FillResult result;
   if (n_missing == 0) {

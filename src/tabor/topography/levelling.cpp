@@ -185,7 +185,7 @@ void check_determined(const NormalEquations& equations, int degree) {
         fmt::format("levelling by a polynomial of degree {}", degree),
         fmt::format("{} valid points that do not determine it", equations.n_valid),
         fmt::format("at least {} points not on one curve", equations.right.size()),
-        degree > 0 ? "use a lower degree (--level mean)" : "the surface has no valid point");
+        degree > 0 ? "use a lower degree (<level=mean>)" : "the surface has no valid point");
   }
 }
 

@@ -106,7 +106,7 @@ void check_size(const Topography& topography, Index nx, Index ny) {
   if ((nx > grid.nx || ny > grid.ny) && topography.height.hasNaN()) {
     throw InputError("resample to more pixels",
                      fmt::format("{} missing heights", count_holes(topography)),
-                     "a surface without holes", "fill them first (--fill harmonic)");
+                     "a surface without holes", "fill them first (<fill=harmonic>)");
   }
 }
 

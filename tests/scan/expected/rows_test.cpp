@@ -143,7 +143,7 @@ TEST(ExpectedNumbers, WithoutALateralScaleDoNotExist) {
   TABOR_NEEDS_SHARED_SCAN("afm_512_nm_matrix.txt");
   const std::string rejected =
       tabor::test::rejection([] { read(tabor::test::shared_scan("afm_512_nm_matrix.txt")); });
-  EXPECT_THAT(rejected, HasSubstr("--pixel"));
+  EXPECT_THAT(rejected, HasSubstr("<pixel"));
 }
 
 // What the list says beside numbers that it knows to be wrong.

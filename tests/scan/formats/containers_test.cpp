@@ -28,7 +28,7 @@ Field one_to_six() {
 
 TEST(Plux, LayersAreChannels) {
   const Folder folder;
-  EXPECT_NE(test::rejection(folder, test::two_layer_plux()).find("--channel 0"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, test::two_layer_plux()).find("<channel=0>"), std::string::npos);
   ReadOptions options;
   options.channel = "1";
   const topography::Topography map = test::read_bytes(folder, test::two_layer_plux(), options);
@@ -99,10 +99,10 @@ TEST(Datx, TruncatedOrWithFlippedBitsNeverBreaksTheProgram) {
 
 TEST(Tiff, CountsNeedPixelAndScale) {
   const Folder folder;
-  EXPECT_NE(test::rejection(folder, test::tiff()).find("--pixel"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, test::tiff()).find("<pixel"), std::string::npos);
   ReadOptions options;
   options.pixel_x = 1e-6;
-  EXPECT_NE(test::rejection(folder, test::tiff(), options).find("--z-scale"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, test::tiff(), options).find("<z_scale"), std::string::npos);
 }
 
 TEST(Tiff, EveryGreySampleTypeGivesItsCounts) {

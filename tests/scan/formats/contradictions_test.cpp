@@ -38,8 +38,8 @@ constexpr const char* kIncrement = "<Increment>1e-6</Increment>";
 
 TEST(X3pContradictions, APixelThatIsNotStatedIsAskedFor) {
   const Folder folder;
-  EXPECT_THAT(test::rejection(folder, x3p_with(kIncrement, "")), HasSubstr("--pixel"));
-  EXPECT_THAT(test::rejection(folder, x3p_with(kIncrement, "<Increment/>")), HasSubstr("--pixel"));
+  EXPECT_THAT(test::rejection(folder, x3p_with(kIncrement, "")), HasSubstr("<pixel"));
+  EXPECT_THAT(test::rejection(folder, x3p_with(kIncrement, "<Increment/>")), HasSubstr("<pixel"));
   ReadOptions options;
   options.pixel_x = 1e-6;
   EXPECT_DOUBLE_EQ(test::read_bytes(folder, x3p_with(kIncrement, ""), options).grid.dx(), 1e-6);
@@ -321,7 +321,7 @@ TEST(Absurd, PixelsThatNothingCanScanAreRejected) {
     EXPECT_THAT(test::rejection(folder, bytes), HasSubstr("from 1e-15 to 1e6 m")) << increment;
     ReadOptions options;
     options.pixel_x = *parse_number(increment);
-    EXPECT_THAT(test::rejection(folder, x3p_with(kIncrement, ""), options), HasSubstr("--pixel"))
+    EXPECT_THAT(test::rejection(folder, x3p_with(kIncrement, ""), options), HasSubstr("<pixel"))
         << increment;
   }
 }
@@ -410,7 +410,7 @@ TEST(InstrumentContradictions, WhatIsMissingButNotNeededIsNoReasonToReject) {
       "Zscale = 1e-9\nCompression = 0\n*\n1 2\n*\n*";
   EXPECT_EQ(test::rejection(folder, npl), "");
   const std::string no_length = replaced(test::bcr(), "xlength", "x_____h");
-  EXPECT_THAT(test::rejection(folder, no_length), HasSubstr("--pixel"));
+  EXPECT_THAT(test::rejection(folder, no_length), HasSubstr("<pixel"));
 }
 
 /// Names that no text format can hold as they are.

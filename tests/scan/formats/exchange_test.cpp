@@ -288,7 +288,7 @@ TEST(DigitalSurf, WrittenHeightsComeBackWithinHalfAStep) {
 }
 
 TEST_F(ZygoText, PointsNeedTheirUnit) {
-  EXPECT_THAT(test::rejection(folder, test::zygo_points()), HasSubstr("--unit"));
+  EXPECT_THAT(test::rejection(folder, test::zygo_points()), HasSubstr("<unit"));
   ReadOptions options;
   options.unit = "um";
   const topography::Topography map = test::read_bytes(folder, test::zygo_points(), options);
@@ -329,7 +329,7 @@ TEST_F(Picture, PngHasItsScaleAndHoles) {
             0.51 * range / 65534);
   EXPECT_DOUBLE_EQ(read_back.grid.dx(), map.grid.dx());
   EXPECT_DOUBLE_EQ(read_back.grid.dy(), map.grid.dy());
-  EXPECT_THAT(note_of(map, folder / "map.png"), HasSubstr("--z-scale"));
+  EXPECT_THAT(note_of(map, folder / "map.png"), HasSubstr("<z_scale"));
 }
 
 TEST_F(Picture, TiffHasSinglePrecisionAndHoles) {

@@ -60,7 +60,7 @@ TEST(Gwyddion, ChannelsOfAnAtomicForceMicroscopeAreListed) {
   }
   const FileInfo info = inspect(test::shared_scan("afm_10um_bruker.di"));
   EXPECT_EQ(info.channels.size(), 3u);
-  EXPECT_NE(test::rejection(test::shared_scan("afm_10um_bruker.di")).find("--channel 0"),
+  EXPECT_NE(test::rejection(test::shared_scan("afm_10um_bruker.di")).find("<channel=0>"),
             std::string::npos);
 }
 
@@ -202,7 +202,7 @@ TEST(Gwyddion, ASizeThatItInventsIsNotKnown) {
     put_converter(programs, converted(1e-9 * some_values(), 1, height, "m", "m"), "Topography");
     EXPECT_THAT(test::rejection(folder, kOfNoFormat),
                 testing::AllOf(testing::HasSubstr("no pixel size in the file"),
-                               testing::HasSubstr("--pixel")));
+                               testing::HasSubstr("<pixel")));
     const topography::Topography map = test::read_bytes(folder, kOfNoFormat, options);
     EXPECT_NEAR(map.grid.dx(), 2e-6, 1e-15);
     EXPECT_NEAR(map.grid.dy(), 2e-6, 1e-15);
@@ -235,7 +235,7 @@ TEST(Gwyddion, CountsOfPicturesAreThoseOfTheFile) {
   options.z_scale = 10e-9;
   for (const double share : {1.0, 1 / 255.0}) {  // of more than 8 bits, of 8
     put_converter(programs, converted(share * some_values(), 1, 0.75, "", ""), "Gray");
-    EXPECT_THAT(test::rejection(folder, kOfNoFormat), testing::HasSubstr("--pixel"));
+    EXPECT_THAT(test::rejection(folder, kOfNoFormat), testing::HasSubstr("<pixel"));
     EXPECT_TRUE(test::same_bits(test::read_bytes(folder, kOfNoFormat, options).height,
                                 10e-9 * some_values()));
   }

@@ -169,9 +169,9 @@ TEST(HeaderPixel, ThatNoneCanBeIsNamedAndMayBeOverridden) {
       const std::string bytes = header.bytes(pixel);
       EXPECT_THAT(test::rejection(folder, bytes),
                   AllOf(HasSubstr("got a pixel of"), HasSubstr(header.said),
-                        HasSubstr("--pixel 0.67um --override-unit")));
+                        HasSubstr("<pixel=0.67um> <override_unit>")));
       EXPECT_THAT(test::rejection(folder, bytes, options),
-                  AllOf(HasSubstr(header.said), HasSubstr("add --override-unit")));
+                  AllOf(HasSubstr(header.said), HasSubstr("add <override_unit>")));
       ASSERT_EQ(test::rejection(folder, bytes, overriding), "");
       const topography::Topography map = test::read_bytes(folder, bytes, overriding);
       EXPECT_NEAR(map.grid.dx(), 0.5e-6, 1e-15);

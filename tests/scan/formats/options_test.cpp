@@ -29,9 +29,9 @@ TEST(UserOptions, ContradictingTheFileIsRejectedUnlessOverridden) {
   ReadOptions options;
   options.pixel_x = 3e-6;
   options.unit = "um";
-  EXPECT_NE(test::rejection(folder, gsf("h"), options).find("--override-unit"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, gsf("h"), options).find("<override_unit"), std::string::npos);
   options.pixel_x.reset();
-  EXPECT_NE(test::rejection(folder, gsf("h"), options).find("--override-unit"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, gsf("h"), options).find("<override_unit"), std::string::npos);
   options.pixel_x = 3e-6;
   options.override_unit = true;
   const topography::Topography map = test::read_bytes(folder, gsf("h"), options);

@@ -87,10 +87,10 @@ TEST(Npy, KeepsHeightsButNeedsPixelAndUnit) {
   const Folder folder;
   const topography::Topography map = test::small_map();
   write(map, folder / "map.npy");
-  EXPECT_NE(test::rejection(folder / "map.npy").find("--pixel"), std::string::npos);
+  EXPECT_NE(test::rejection(folder / "map.npy").find("<pixel"), std::string::npos);
   ReadOptions options;
   options.pixel_x = 1e-6;
-  EXPECT_NE(test::rejection(folder / "map.npy", options).find("--unit"), std::string::npos);
+  EXPECT_NE(test::rejection(folder / "map.npy", options).find("<unit"), std::string::npos);
   options.unit = "m";
   EXPECT_TRUE(test::same_bits(read(folder / "map.npy", options).height, map.height));
 }

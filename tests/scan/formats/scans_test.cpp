@@ -48,11 +48,11 @@ TEST(SharedScans, AreAllReadOrRejectedForAReason) {
 TEST(SharedScans, WithoutUnitOrPixelNameTheFlag) {
   TABOR_NEEDS_SHARED_SCAN("tiny_xyz.txt");
   for (const char* file : {"tiny_xyz.txt", "tiny_matrix_nounit.txt", "nanovea_xyz1.txt"}) {
-    EXPECT_NE(test::rejection(test::shared_scan(file)).find("--unit"), std::string::npos) << file;
+    EXPECT_NE(test::rejection(test::shared_scan(file)).find("<unit"), std::string::npos) << file;
   }
-  EXPECT_NE(test::rejection(test::shared_scan("afm_512_nm_matrix.txt")).find("--pixel"),
+  EXPECT_NE(test::rejection(test::shared_scan("afm_512_nm_matrix.txt")).find("<pixel"),
             std::string::npos);
-  EXPECT_EQ(test::rejection(test::shared_scan("afm_512_nm_matrix.txt")).find("--unit"),
+  EXPECT_EQ(test::rejection(test::shared_scan("afm_512_nm_matrix.txt")).find("<unit"),
             std::string::npos);
 }
 

@@ -49,13 +49,13 @@ TEST(NovaText, ScaleDataIsAppliedWhereItIsNeeded) {
 TEST(NovaText, AStepOfZeroIsNoPixelAndANegativeOneIsNamed) {
   const Folder folder;
   EXPECT_THAT(test::rejection(folder, nova("0", "1", "no")),
-              AllOf(HasSubstr("no pixel size in the file (Scale X 0)"), HasSubstr("--pixel")));
+              AllOf(HasSubstr("no pixel size in the file (Scale X 0)"), HasSubstr("<pixel")));
   ReadOptions options;
   options.pixel_x = 1e-6;
   options.pixel_y = 0.25e-6;
   EXPECT_NEAR(test::read_bytes(folder, nova("0", "1", "no"), options).grid.dx(), 1e-6, 1e-15);
   EXPECT_THAT(test::rejection(folder, nova("-0.5", "1", "no"), options),
-              AllOf(HasSubstr("Scale X -0.5"), HasSubstr("--override-unit")));
+              AllOf(HasSubstr("Scale X -0.5"), HasSubstr("<override_unit")));
 }
 
 TEST(NovaText, WithoutAllItsNumbersIsRejected) {
@@ -131,7 +131,7 @@ TEST(GwyddionText, AWidthWithoutAUnitIsAskedFor) {
   const Folder folder;
   const std::string text = std::string("# Width: 4 px\n# Height: 3 px\n# Value units: nm\n");
   EXPECT_THAT(test::rejection(folder, text + kNumbers),
-              AllOf(HasSubstr("'4 px', no length"), HasSubstr("--pixel")));
+              AllOf(HasSubstr("'4 px', no length"), HasSubstr("<pixel")));
   ReadOptions options;
   options.pixel_x = 1e-6;
   EXPECT_NEAR(test::read_bytes(folder, text + kNumbers, options).grid.dx(), 1e-6, 1e-15);

@@ -18,11 +18,11 @@ Field matrix(Index ny, Index nx, std::initializer_list<double> values) {
 
 TEST(TextMatrix, WithoutUnitOrPixelIsRejectedNamingTheFlags) {
   const Folder folder;
-  EXPECT_NE(test::rejection(folder, "1 2\n3 4\n").find("--pixel 0.67um --unit um"),
+  EXPECT_NE(test::rejection(folder, "1 2\n3 4\n").find("<pixel=0.67um> <unit=um>"),
             std::string::npos);
   ReadOptions options;
   options.pixel_x = 1e-6;
-  EXPECT_NE(test::rejection(folder, "1 2\n3 4\n", options).find("--unit"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, "1 2\n3 4\n", options).find("<unit"), std::string::npos);
 }
 
 TEST(TextMatrix, TakesEveryUsualSeparatorAndLineEnd) {
@@ -247,7 +247,7 @@ TEST(TextMatrix, TakesNoUnitFromRemarksOnItsHeight) {
   for (const char* header : {"# Width (um): 4\n# Height (um): 3", "# Height[um] = 10",
                              "# height (px): 6", "# Height(512)", "# Height (512 lines)"}) {
     EXPECT_NE(test::rejection(folder, header + std::string("\n1 2 3 4\n5 6 7 9\n"), options)
-                  .find("--unit"),
+                  .find("<unit"),
               std::string::npos)
         << header;
   }

@@ -84,7 +84,7 @@ TEST(X3p, LayersAreChannels) {
   Parts parts;
   parts.size = "<SizeX>2</SizeX><SizeY>1</SizeY><SizeZ>2</SizeZ>";
   const std::string bytes = archive(parts, binary({1.0, 2.0, 3.0, 4.0}));
-  EXPECT_NE(test::rejection(folder, bytes).find("--channel"), std::string::npos);
+  EXPECT_NE(test::rejection(folder, bytes).find("<channel"), std::string::npos);
   ReadOptions options;
   options.channel = "layer 1";
   EXPECT_EQ(test::read_bytes(folder, bytes, options).height(0, 0), 3);

@@ -129,7 +129,7 @@ std::vector<Parameter> spectral_parameters(const topography::Topography& topogra
   const Wording by_spectrum{
       "_psd", std::string("; sum over the power spectrum, ") +
                   (topography.periodic ? "no window" : "Hann window along both axes")};
-  const std::string note = complete ? "" : "needs a surface without holes (--fill harmonic)";
+  const std::string note = complete ? "" : "needs a surface without holes";
   const SpectralMoments spectrum = complete ? spectrum_moments(topography) : no_moments();
   append_moments(spectrum, by_spectrum, note, found);
   append_summits(spectrum, by_spectrum, complete ? "needs a rough surface" : note, found);

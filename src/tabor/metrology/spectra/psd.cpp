@@ -63,7 +63,7 @@ void check_complete(const topography::Topography& topography) {
   const Index n_missing = topography::count_holes(topography);
   if (n_missing > 0) {
     throw InputError("power spectrum", fmt::format("{} missing heights", n_missing),
-                     "a surface without holes", "fill them first (--fill harmonic)");
+                     "a surface without holes", "fill them first (<fill=harmonic>)");
   }
   if (topography.grid.size() < 2) {
     throw InputError("power spectrum", "a single height", "at least two", "");

@@ -48,7 +48,7 @@ double pixel_of(const Grid& grid) {
 double tip_limited_wavelength(const Field& height, const Grid& grid, double tip_radius) {
   if (!(tip_radius > 0) || !std::isfinite(tip_radius)) {
     throw InputError("radius of the tip", fmt::format("{} m", tip_radius), "a positive length",
-                     "e.g. --tip-radius 2um");
+                     "e.g. <tip_radius=2um>");
   }
   const double limit = 0.5 / tip_radius;
   const Index most = (std::max(grid.nx, grid.ny) - 1) / 2;

@@ -94,8 +94,8 @@ void write_png(const topography::Topography& topography, const std::filesystem::
 std::string note_png(const topography::Topography& topography) {
   const double step = step_of(range_of(topography));
   return fmt::format(
-      "16 bits: heights in steps of {}; for programs that read counts --z-scale "
-      "{:.9g}um, pixel {:.9g} x {:.9g} um",
+      "16 bits: heights in steps of {}; for programs that read counts <z_scale={:.9g}um>, "
+      "pixel {:.9g} x {:.9g} um",
       format_si(step, "m"), step * 1e6, topography.grid.dx() * 1e6, topography.grid.dy() * 1e6);
 }
 

@@ -43,29 +43,35 @@ const Layer& named_layer(const Contents& contents, const Document& document,
     if (lower(layer.name) != lower(channel)) continue;
     if (found != nullptr) {
       reject(contents, "several channels named '" + channel + "': " + list(document), "one channel",
-             "give its number: --channel " + std::to_string(index_of(document, *found)));
+             fmt::format("give its number: <channel={}>", index_of(document, *found)));
     }
     found = &layer;
   }
   if (found == nullptr) {
     reject(contents, "no channel '" + channel + "'", "one of " + list(document),
-           "give its number or name with --channel");
+           "give its number or name with <channel>");
   }
   return *found;
 }
 
-std::string flag(const char* name, double metres) {
-  return fmt::format("{} {:g}um", name, metres * 1e6);
+std::string given_as(const char* name, double metres) {
+  return fmt::format("<{}={:g}um>", name, metres * 1e6);
 }
 
-/// " (--pixel and --override-unit stand in tabor.toml)": what was not typed of an override.
+/// A unit as its setting, unless what stands there is no word.
+std::string given_unit(const std::string& unit) {
+  const bool is_word = unit.find_first_of(" <>") == std::string::npos;
+  return is_word ? "<unit=" + unit + ">" : "unit '" + unit + "'";
+}
+
+/// " (<pixel> and <override_unit> stand in tabor.toml)": what was not typed of an override.
 std::string origin_of(const char* name, const ReadOptions& options) {
   std::string text;
   std::string file;
-  for (const char* each : {name, "--override-unit"}) {
+  for (const char* each : {name, "override_unit"}) {
     const auto found = options.origin.find(each);
     if (found == options.origin.end()) continue;
-    text += (text.empty() ? " (" : " and ") + std::string(each);
+    text += fmt::format("{}<{}>", text.empty() ? " (" : " and ", each);
     file = found->second;
   }
   if (text.empty()) return "";
@@ -85,13 +91,13 @@ double resolve_impossible(const Contents& contents, const std::string& got,
                           std::vector<std::string>& warnings) {
   if (given && options.override_unit) {
     warnings.push_back(fmt::format("pixel overridden: {:g} um instead of {}{}", *given * 1e6, got,
-                                   origin_of("--pixel", options)));
+                                   origin_of("pixel", options)));
     return *given;
   }
   reject(contents, got, "a positive length, from 1e-15 to 1e6 m",
-         given ? "add --override-unit, so that --pixel wins over the file"
-               : "export the file again, or give the pixel, for example --pixel 0.67um "
-                 "--override-unit");
+         given ? "add <override_unit>, so that <pixel> wins over the file"
+               : "export the file again, or give the pixel, for example <pixel=0.67um> "
+                 "<override_unit>");
 }
 
 /// The pixel along one axis.
@@ -102,11 +108,11 @@ double resolve_pixel(const Contents& contents, const Layer& layer, char axis,
   if (!own && !given) {
     ask(contents, layer.pixel_hint.empty() ? "no pixel size in the file" : layer.pixel_hint,
         "a pixel size",
-        std::string("add it, for example --pixel 0.67um") +
-            (layer.unit.empty() && !layer.is_count ? " --unit um" : ""));
+        std::string("add it, for example <pixel=0.67um>") +
+            (layer.unit.empty() && !layer.is_count ? " <unit=um>" : ""));
   }
   if (given && !is_pixel(*given)) {
-    reject(contents, fmt::format("--pixel {} m", *given), "a positive length, from 1e-15 to 1e6 m");
+    reject(contents, fmt::format("<pixel={}m>", *given), "a positive length, from 1e-15 to 1e6 m");
   }
   if (own && !is_pixel(*own)) {
     const std::string& said = axis == 'x' ? layer.said_x : layer.said_y;
@@ -117,30 +123,30 @@ double resolve_pixel(const Contents& contents, const Layer& layer, char axis,
   if (!own) return *given;
   if (std::abs(*given - *own) <= kSame * *own) return *own;
   if (!options.override_unit) {
-    reject(contents, flag("--pixel", *given),
+    reject(contents, given_as("pixel", *given),
            fmt::format("{:g} um along {}, which the file fixes", *own * 1e6, axis),
-           "drop --pixel, or add --override-unit if the file is wrong");
+           "drop <pixel>, or add <override_unit> if the file is wrong");
   }
   warnings.push_back(
       fmt::format("pixel along {} overridden: {:g} um instead of the file's {:g} um{}", axis,
-                  *given * 1e6, *own * 1e6, origin_of("--pixel", options)));
+                  *given * 1e6, *own * 1e6, origin_of("pixel", options)));
   return *given;
 }
 
 double factor_of_unit(const Contents& contents, const std::string& unit) {
   const auto factor = unit_factor(unit, dimension::length);
-  if (!factor) reject(contents, "--unit " + unit, "a length such as um or nm");
+  if (!factor) reject(contents, given_unit(unit), "a length such as um or nm");
   return *factor;
 }
 
-/// A count has no size of its own: only the user's --z-scale gives it one.
+/// A count has no size of its own: only the user's <z_scale> gives it one.
 double scale_of_counts(const Contents& contents, const ReadOptions& options) {
   if (!options.z_scale) {
     ask(contents, "counts without a height scale", "the height of one count",
-        "add it, for example --z-scale 1nm");
+        "add it, for example <z_scale=1nm>");
   }
   if (!(std::abs(*options.z_scale) > 0) || !std::isfinite(*options.z_scale)) {
-    reject(contents, fmt::format("--z-scale {}", *options.z_scale), "a length other than zero");
+    reject(contents, fmt::format("<z_scale={}m>", *options.z_scale), "a length other than zero");
   }
   return *options.z_scale;
 }
@@ -173,11 +179,11 @@ const Layer& choose_layer(const Contents& contents, const Document& document,
     if (count == 1) return *only;
     if (count > 1) {
       ask(contents, fmt::format("{} height channels: {}", count, list(document, suits)), "one",
-          fmt::format("choose it, for example --channel {}", index_of(document, *only)));
+          fmt::format("choose it, for example <channel={}>", index_of(document, *only)));
     }
   }
   ask(contents, "no channel whose unit is a length: " + list(document), "heights",
-      "choose one with --channel and --unit um --override-unit if it does hold heights");
+      "choose one with <channel> and <unit=um> <override_unit> if it does hold heights");
 }
 
 Grid resolve_grid(const Contents& contents, const Layer& layer, const ReadOptions& options,
@@ -193,7 +199,7 @@ Grid resolve_grid(const Contents& contents, const Layer& layer, const ReadOption
       !options.override_unit) {
     reject(contents, fmt::format("pixels {:g} times as high as wide", *given_y / *options.pixel_x),
            fmt::format("{:g} times, as the coordinates have them", ratio),
-           "give the pixel along x only, or add --override-unit");
+           "give the pixel along x only, or add <override_unit>");
   }
   const double dy = resolve_pixel(contents, layer, 'y', given_y, options, warnings);
   return {.nx = layer.nx,
@@ -206,13 +212,13 @@ double resolve_height_factor(const Contents& contents, const Layer& layer,
                              const ReadOptions& options, std::vector<std::string>& warnings) {
   const bool is_fixed = !layer.is_count && !layer.unit.empty();
   if (options.z_scale && is_fixed && !options.override_unit) {
-    reject(contents, flag("--z-scale", *options.z_scale), "heights whose scale the file fixes",
-           "drop --z-scale, or add --override-unit if the file is wrong");
+    reject(contents, given_as("z_scale", *options.z_scale), "heights whose scale the file fixes",
+           "drop <z_scale>, or add <override_unit> if the file is wrong");
   }
   if (options.z_scale) {
     if (is_fixed) {
-      warnings.push_back("height scale overridden: " + flag("--z-scale", *options.z_scale) +
-                         origin_of("--z-scale", options));
+      warnings.push_back("height scale overridden: " + given_as("z_scale", *options.z_scale) +
+                         origin_of("z_scale", options));
     }
     return scale_of_counts(contents, options);
   }
@@ -224,19 +230,19 @@ double resolve_height_factor(const Contents& contents, const Layer& layer,
     const double given = factor_of_unit(contents, *options.unit);
     if (layer.unit.empty()) return layer.scale * given;
     if (!options.override_unit) {
-      reject(contents, "--unit " + *options.unit, "'" + layer.unit + "', which the file fixes",
-             "drop --unit, or add --override-unit if the file is wrong");
+      reject(contents, given_unit(*options.unit), "'" + layer.unit + "', which the file fixes",
+             "drop <unit>, or add <override_unit> if the file is wrong");
     }
     warnings.push_back("height unit overridden: " + *options.unit + " instead of the file's '" +
-                       layer.unit + "'" + origin_of("--unit", options));
+                       layer.unit + "'" + origin_of("unit", options));
     return layer.scale * given;
   }
   if (own) return layer.scale * *own;
   if (layer.unit.empty()) {
-    ask(contents, "heights without a unit", "a unit", "add it, for example --unit um");
+    ask(contents, "heights without a unit", "a unit", "add it, for example <unit=um>");
   }
   reject(contents, "channel '" + layer.name + "' in '" + layer.unit + "'", "heights",
-         "choose another --channel, or give --unit with --override-unit if the file is wrong");
+         "choose another <channel>, or give <unit> with <override_unit> if the file is wrong");
 }
 
 }  // namespace tabor::scan::format

@@ -65,7 +65,7 @@ void write_stl(const topography::Topography& topography, const std::filesystem::
   const std::size_t n = count_triangles(topography.height);
   if (n == 0 || n > 0xFFFFFFFF) {
     throw InputError(file.string(), fmt::format("{} triangles", n), "1 to 4294967295",
-                     n == 0 ? "write a map of at least 2 x 2 pixels" : "use --resample");
+                     n == 0 ? "write a map of at least 2 x 2 pixels" : "use <resample>");
   }
   io::write_file(file, [&](const io::Append& append) {
     std::string head;
@@ -81,7 +81,7 @@ std::string note_stl(const topography::Topography& topography) {
   const double megabytes = static_cast<double>(n * kTriangleSize) / 1e6;
   constexpr double kLarge = 100;  // programs of mechanical design become slow
   return fmt::format("{} triangles in mm, {:.3g} MB{}", n, megabytes,
-                     megabytes > kLarge ? "; --resample makes the file smaller" : "");
+                     megabytes > kLarge ? "; <resample> makes the file smaller" : "");
 }
 
 }  // namespace tabor::scan::format

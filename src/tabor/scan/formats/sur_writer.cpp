@@ -87,7 +87,7 @@ void write_sur(const topography::Topography& topography, const std::filesystem::
   constexpr Index kMostPixels = 0x7FFFFFFF;
   if (topography.grid.size() > kMostPixels) {
     throw InputError(file.string(), "more than 2147483647 pixels", "fewer in a .sur file",
-                     "write .h5, or --resample");
+                     "write .h5, or use <resample>");
   }
   const float step = step_of(topography.height);
   const Counts counts = counts_of(topography.height, step);
