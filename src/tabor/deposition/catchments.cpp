@@ -101,8 +101,8 @@ void Catchments::join_sources() {
   }
 }
 
-/// The first pool that is not full that liquid from `pool` comes to, with path compression: as
-/// long as a pool is full and apart, what it spills into is full and apart too, or merges with it.
+/// With path compression: as long as a pool is full and apart, what it spills into is full and
+/// apart too, or merges with it.
 PoolId Catchments::overflow(PoolId pool) {
   passed_.clear();
   pool = pools_.owner(pool);

@@ -12,6 +12,12 @@ class Catchments {
  public:
   explicit Catchments(Pools& pools);
 
+  /// Number of pixels whose rain reaches this pool first.
+  struct Source {
+    PoolId pool;
+    std::int32_t area;
+  };
+
   /// Rains the same film [quanta] on every pixel. The result does not depend on the order of
   /// pouring, so that raining a film in parts is the same as raining it at once.
   void rain(Volume film);
@@ -19,22 +25,21 @@ class Catchments {
   /// Lets liquid that lies on the pixels [quanta] run into the pools, once and without rain before.
   void drain(const std::vector<Volume>& liquid);
 
+  /// Returns the first pool that is not full that liquid from `pool` comes to.
+  PoolId overflow(PoolId pool);
+
+  /// Returns all pixels by the pools that their rain reaches first.
+  const std::vector<Source>& sources() const { return sources_; }
+
  private:
   bool lower(Pixel a, Pixel b) const;
   Pixel downhill(Pixel p) const;
   void drain_all();
-  PoolId overflow(PoolId full);
   PoolId across_saddle(PoolId full);
   PoolId pour(PoolId first, Volume carried);
   void join_sources();
 
   Pools& pools_;
-  /// Number of pixels whose rain reaches this pool first.
-  struct Source {
-    PoolId pool;
-    std::int32_t area;
-  };
-
   std::vector<PoolId> drains_to_;   ///< per pixel: leaf pool, or kOcean
   std::vector<Source> sources_;     ///< of all pixels, each pool once after a rain
   std::vector<std::int32_t> area_;  ///< per pool: scratch of join_sources(), else zero

@@ -82,7 +82,7 @@ void deposit(const Field& height, const Grid& grid, const Dose& dose, const Film
 
 /// Returns, row by row, the first dose that wets each pixel of `where`: its place in
 /// dose.mean_films, at most 65535 that rise, or their number where none does and elsewhere. One run
-/// through all doses; no film is made. For droplets and their limit. Throws as deposit().
+/// through all doses; no film is made. For the limit of small droplets alone. Throws as deposit().
 std::vector<std::uint16_t> first_wetting_doses(const Field& height, const Grid& grid,
                                                const Dose& dose, const Mask& where,
                                                const Observer& observer = {});

@@ -54,6 +54,22 @@ Volume Pools::raise(PoolId id, Height rise) {
   return volume;
 }
 
+Volume Pools::volume_to(PoolId id, Height level) const {
+  const Pool& pool = (*this)[id];
+  Volume volume = -pool.remainder;
+  Volume area = pool.area;
+  Height reached = pool.level;
+  auto next = static_cast<std::size_t>(growth(id).next);
+  for (Height stop = pool.stop; stop != kNoRim; stop = arcs_[next]) {
+    const Height to = std::min(stop, level);
+    volume += (Volume{to} - reached) * area;
+    if (to == level || is_rim_[next]) return volume;
+    reached = stop;
+    for (; !is_rim_[next] && arcs_[next] == stop; ++next) ++area;
+  }
+  return volume + 1;
+}
+
 /// The pool `id` has risen to its stop, or begins: takes in the pixels there. If it is full then
 /// and the last of its siblings to be so, their parent begins (several times where arcs have no
 /// height, as they may with ordered ties).

@@ -103,6 +103,10 @@ class Pools {
   /// volume.
   Volume raise(PoolId id, Height rise);
 
+  /// Returns the volume that raises an active pool that is not full to `level`, or to its rim if
+  /// that is lower; above the highest pixel of a map without a rim, the least that floods it.
+  Volume volume_to(PoolId id, Height level) const;
+
   /// Returns the number of steps of holder() so far: the same on every machine.
   std::int64_t n_steps() const { return n_steps_; }
 
