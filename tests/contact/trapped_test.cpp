@@ -161,7 +161,7 @@ Field pitted() {
   return kUnitAmplitude / 9 * height;
 }
 
-TEST(TrappedLiquid, OfSeveralPocketsIsThatOfAGeneralSolver) {
+TEST(TrappedLiquid, OfSeveralPocketsIsThatOfAGeneralSolver) {  // slow with sanitizers
   const Field height = pitted();
   for (const double cap : {kNoSaturation, 4 * kUnitAmplitude}) {
     for (const double bulk_modulus : {kIncompressible, 2 * kUnitAmplitude}) {

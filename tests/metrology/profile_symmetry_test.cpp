@@ -35,7 +35,7 @@ std::vector<ProfileOptions> all_ways() {
 
 /// Turned by 180 degrees, mirrored along either axis and transposed (then x is y), a map has the
 /// same profiles.
-TEST(ProfileParameters, DoNotDependOnTheDirectionOfTheMap) {
+TEST(ProfileParameters, DoNotDependOnTheDirectionOfTheMap) {  // slow with sanitizers
   for (const std::pair<Index, Index>& shape :
        {std::pair<Index, Index>{80, 60}, {81, 60}, {80, 61}}) {
     const Index nx = shape.first, ny = shape.second;

@@ -231,7 +231,7 @@ bool is_warned_of_what_a_further_pass_takes(const Topography& once) {
   return true;
 }
 
-TEST(Spikes, LeftAreTakenByTheFurtherPassThatTheWarningNames) {
+TEST(Spikes, LeftAreTakenByTheFurtherPassThatTheWarningNames) {  // slow with sanitizers
   int n_warned = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     for (const double power : {2.0, 3.0, 4.0}) {
@@ -257,7 +257,7 @@ TEST(Spikes, LeftInMeasuredScansAreTakenByThatPass) {
   }
 }
 
-TEST(Spikes, LeftAreNoneWhereAWindowHasTakenThemAll) {
+TEST(Spikes, LeftAreNoneWhereAWindowHasTakenThemAll) {  // slow with sanitizers
   auto rough = rough_surface(0.8, 3);
   plant_spikes(rough, 5e-6);
   EXPECT_THAT(texts_about_spikes(apply({"despike=auto"}, rough)), testing::IsEmpty());
