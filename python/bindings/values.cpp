@@ -141,9 +141,8 @@ std::string spelled(const Advice& advice) {
                                                     "keep",    "tip_radius", "threshold"};
   static const std::map<std::string_view, std::string> renamed = {{"no_register", "search=False"},
                                                                   {"shift", "shift=(dx, dy)"}};
-  if (const auto found = renamed.find(advice.setting); found != renamed.end()) {
-    return found->second;
-  }
+  const auto found = renamed.find(advice.setting);
+  if (found != renamed.end()) return found->second;
   for (const topography::StepDescription& step : topography::treatment_steps()) {
     if (step.name != advice.setting) continue;
     const std::string value = advice.value.empty() ? "..." : advice.value;

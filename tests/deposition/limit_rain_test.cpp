@@ -4,10 +4,7 @@
 
 #include <cmath>
 #include <numeric>
-#include <utility>
-#include <vector>
 
-#include "tabor/core/error.hpp"
 #include "tabor/core/random.hpp"
 #include "tabor/deposition/deposition.hpp"
 #include "tabor/deposition/pools.hpp"
@@ -103,68 +100,6 @@ TEST(LimitFill, IsWhatRandomDropletsTendToAsTheyShrink) {
   };
   // The noise falls like the root of the number of droplets: 3.2 times for ten times as many.
   EXPECT_LT(distance(0.4e-9), distance(4e-9) / 2);
-}
-
-/// How many pixels another dose wets first than films of all doses, laid one by one, say.
-Index n_wrong(const Field& height, const Grid& grid, const Dose& dose, const Mask& where) {
-  const auto first = first_wetting_doses(height, grid, dose, where);
-  const std::vector<Film> films = deposit(height, grid, dose);
-  Index n = 0;
-  for (Index p = 0; p < height.size(); ++p) {
-    std::size_t expected = where.data()[p] ? 0 : films.size();
-    while (expected < films.size() && !(films[expected].thickness.data()[p] > 0)) ++expected;
-    n += first[static_cast<std::size_t>(p)] == expected ? 0 : 1;
-  }
-  return n;
-}
-
-TEST(FirstWettingDose, IsThatOfTheFirstFilmThatIsThere) {
-  const Field height = textured();
-  for (const Edge edge : {Edge::closed, Edge::periodic, Edge::open}) {
-    const Dose dose{.mean_films = {0, 1e-8, 1e-7, 1e-6, 2e-5}, .model = Model::limit, .edge = edge};
-    Mask where = Mask::Constant(height.rows(), height.cols(), true);
-    where(3, 5) = false;
-    EXPECT_EQ(n_wrong(height, kGrid, dose, where), 0) << name(edge);
-  }
-}
-
-TEST(FirstWettingDose, IsThatOfTheFirstFilmWhereHeightsAreEqual) {
-  const Grid grid{9, 7, 9e-6, 7e-6};
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
-    const CounterRandom random(seed);
-    const double n_levels = 2.0 + static_cast<double>(seed % 9);
-    const Field height = Field::NullaryExpr(grid.ny, grid.nx, [&](Index y, Index x) {
-      const auto place = static_cast<std::uint64_t>(y * grid.nx + x);
-      return 1e-7 * std::floor(n_levels * random.uniform(place));
-    });
-    Dose dose{.mean_films = {0, 0}, .model = Model::limit};
-    for (double film = 1e-9; film < 2e-6; film *= 1.0 + random.uniform(1000)) {
-      dose.mean_films.push_back(film);
-    }
-    const Mask where = Mask::NullaryExpr(grid.ny, grid.nx, [&](Index y, Index x) {
-      return random.uniform(static_cast<std::uint64_t>(2000 + y * grid.nx + x)) < 0.7;
-    });
-    for (const Edge edge : {Edge::closed, Edge::periodic, Edge::open}) {
-      dose.edge = edge;
-      EXPECT_EQ(n_wrong(height, grid, dose, where), 0) << seed << ' ' << name(edge);
-    }
-  }
-}
-
-TEST(FirstWettingDose, TakesRisingDosesOfTheLimitAlone) {
-  const Field height = textured();
-  const Mask where = Mask::Constant(height.rows(), height.cols(), true);
-  const auto find = [&](const Dose& dose, const Mask& pixels) {
-    return first_wetting_doses(height, kGrid, dose, pixels);
-  };
-  const auto limit = [](std::vector<double> films) {
-    return Dose{.mean_films = std::move(films), .model = Model::limit};
-  };
-  EXPECT_THROW(find(limit({2e-7, 1e-7}), where), InputError);
-  EXPECT_THROW(find({.mean_films = {1e-7}, .model = Model::droplets}, where), InputError);
-  EXPECT_THROW(find({.mean_films = {1e-7}, .model = Model::bottom_fill}, where), InputError);
-  EXPECT_THROW(find(limit({1e-7}), Mask::Constant(1, 1, true)), InputError);
-  EXPECT_THROW(find(limit(std::vector<double>(65536, 1e-7)), where), InputError);
 }
 
 }  // namespace

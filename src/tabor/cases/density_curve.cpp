@@ -85,8 +85,8 @@ WettingDoses wetting_doses(const topography::Topography& surface, const FilmSett
   film.lubricant_densities = densities_for(surface, settings);
   WettingDoses doses{film.lubricant_densities, {}};
   if (film.lubricant_densities.empty()) return doses;
-  doses.first =
-      deposition::first_wetting_doses(surface.height, surface.grid, dose_of(film), where, observer);
+  doses.first = deposition::first_wetting_doses(surface.height, surface.grid,
+                                                dose_of(film, surface), where, observer);
   return doses;
 }
 

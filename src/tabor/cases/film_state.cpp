@@ -27,7 +27,7 @@ FilmRecord record_of(const topography::Topography& surface, std::uint64_t digest
 
 }  // namespace
 
-deposition::Dose dose_of(const FilmSettings& settings) {
+deposition::Dose dose_of(const FilmSettings& settings, const topography::Topography& surface) {
   deposition::Dose dose;
   for (const double density : settings.lubricant_densities) {
     dose.mean_films.push_back(deposition::mean_film(density, settings.oil_density));
@@ -37,6 +37,7 @@ deposition::Dose dose_of(const FilmSettings& settings) {
   dose.reading = settings.reading;
   dose.edge = settings.edge;
   dose.seed = settings.seed;
+  dose.mirrored = surface.tiles > 1;
   return dose;
 }
 
@@ -50,7 +51,7 @@ void film_state(const topography::Topography& surface, const FilmSettings& setti
   const deposition::FilmSink sink = [&](deposition::Film&& film) {
     receive(record_of(surface, digest, std::move(film), settings));
   };
-  deposition::deposit(surface.height, grid, dose_of(settings), sink, observer);
+  deposition::deposit(surface.height, grid, dose_of(settings, surface), sink, observer);
 }
 
 std::vector<FilmRecord> film_state(const topography::Topography& surface,

@@ -59,8 +59,8 @@ void contact_states(elastic::ElasticOperator& elasticity, const topography::Topo
                     const std::function<void(ContactRecord&&)>& receive,
                     const Observer& observer = {});
 
-/// Returns the dose of a rain with these settings.
-deposition::Dose dose_of(const FilmSettings& settings);
+/// Returns the dose of a rain on the surface with these settings.
+deposition::Dose dose_of(const FilmSettings& settings, const topography::Topography& surface);
 
 /// Lays down the films of all densities in one rain, in rising order of density; `receive` gets
 /// each when it is complete, so that only one is in memory.

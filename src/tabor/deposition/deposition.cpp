@@ -12,6 +12,7 @@
 #include "tabor/core/watch.hpp"
 #include "tabor/deposition/doses.hpp"
 #include "tabor/deposition/film_measures.hpp"
+#include "tabor/deposition/images.hpp"
 #include "tabor/deposition/pool_builder.hpp"
 #include "tabor/deposition/rain.hpp"
 
@@ -162,7 +163,15 @@ void deposit(const Field& height, const Grid& grid, const Dose& dose, const Film
              const Observer& observer) {
   const Watch watch(observer, "pools");
   check(height, grid, dose);
-  Deposition(height, grid, dose, sink).run(observer);
+  if (!rains_on_one_image(height, dose)) {
+    Deposition(height, grid, dose, sink).run(observer);
+    return;
+  }
+  const Field image = first_image(height);
+  const Dose on_image = dose_of_image(dose);
+  const Grid grid_on_image = grid_of_image(grid);
+  const FilmSink mirror = [&](Film&& film) { sink(with_images(std::move(film), dose.edge)); };
+  Deposition(image, grid_on_image, on_image, mirror).run(observer);
 }
 
 std::vector<Film> deposit(const Field& height, const Grid& grid, const Dose& dose,

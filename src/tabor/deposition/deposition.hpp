@@ -47,6 +47,9 @@ struct Dose {
   Reading reading = Reading::conserving;
   Edge edge = Edge::closed;
   std::uint64_t seed = 1;  ///< chooses the start pixels (Model::droplets)
+  /// The map is 2 x 2 mirror images of its first quarter. Rain that stays falls on that quarter
+  /// alone, whose borders are walls, and the images get the same film.
+  bool mirrored = false;
 };
 
 /// Liquid on the surface at one dose, with the numbers that a user reads about it.

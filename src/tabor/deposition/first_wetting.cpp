@@ -10,10 +10,12 @@
 #include <vector>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/mirror_images.hpp"
 #include "tabor/core/watch.hpp"
 #include "tabor/deposition/catchments.hpp"
 #include "tabor/deposition/deposition.hpp"
 #include "tabor/deposition/doses.hpp"
+#include "tabor/deposition/images.hpp"
 
 namespace tabor::deposition {
 namespace {
@@ -217,6 +219,19 @@ class WettingRain {
   std::vector<std::vector<PoolId>> due_;  ///< per dose
 };
 
+/// Row by row the first dose that wets each pixel of `where`.
+std::vector<std::uint16_t> first_doses(const Field& height, const Dose& dose, const Mask& where,
+                                       const Observer& observer) {
+  Terrain terrain = quantise(height, dose.edge);
+  Pools pools(terrain, Ties::ordered);
+  terrain.height = {};
+  const std::vector<Volume> films = volumes(dose.mean_films, terrain, 1);
+  std::vector<std::uint16_t> first(static_cast<std::size_t>(height.size()),
+                                   static_cast<std::uint16_t>(films.size()));
+  WettingRain(pools, where, films).run(first, observer);
+  return first;
+}
+
 void check_rising(const Dose& dose) {
   if (dose.model != Model::limit ||
       !std::is_sorted(dose.mean_films.begin(), dose.mean_films.end())) {
@@ -243,13 +258,19 @@ std::vector<std::uint16_t> first_wetting_doses(const Field& height, const Grid& 
                      fmt::format("a map of {} x {}", where.cols(), where.rows()),
                      fmt::format("{} x {} as the heights", grid.nx, grid.ny), "");
   }
-  Terrain terrain = quantise(height, dose.edge);
-  Pools pools(terrain, Ties::ordered);
-  terrain.height = {};
-  const std::vector<Volume> films = volumes(dose.mean_films, terrain, 1);
-  std::vector<std::uint16_t> first(static_cast<std::size_t>(height.size()),
-                                   static_cast<std::uint16_t>(films.size()));
-  WettingRain(pools, where, films).run(first, observer);
+  if (!rains_on_one_image(height, dose)) return first_doses(height, dose, where, observer);
+  const Mask on_any_image =
+      where || where.rowwise().reverse() || where.colwise().reverse() || where.reverse();
+  const Index ny = grid.ny / 2;
+  const Index nx = grid.nx / 2;
+  const std::vector<std::uint16_t> of_image = first_doses(
+      first_image(height), dose_of_image(dose), on_any_image.topLeftCorner(ny, nx), observer);
+  using Doses = Eigen::Array<std::uint16_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  std::vector<std::uint16_t> first(static_cast<std::size_t>(height.size()));
+  Eigen::Map<Doses> all(first.data(), grid.ny, grid.nx);
+  all = mirror_images<Doses>(Eigen::Map<const Doses>(of_image.data(), ny, nx));
+  const auto none = static_cast<std::uint16_t>(dose.mean_films.size());
+  all = where.select(all, none);
   return first;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/mirror_images.hpp"
 #include "tabor/topography/edges.hpp"
 #include "tabor/topography/warnings.hpp"
 
@@ -67,10 +68,7 @@ Topography mirror(Topography topography) {
     throw InputError("mirror", fmt::format("a surface with edges={}", kEdges.of(*topography.edges)),
                      "a cut-out of a larger one", "say once what lies beyond the edges");
   }
-  const Field& z = topography.height;
-  Field tiled(2 * z.rows(), 2 * z.cols());
-  tiled << z, z.rowwise().reverse(), z.colwise().reverse(), z.reverse();
-  topography.height = std::move(tiled);
+  topography.height = mirror_images(topography.height);
   set_spacing(topography.grid, 2 * topography.grid.nx, 2 * topography.grid.ny);
   topography.periodic = true;
   topography.edges = Edges::cut;
