@@ -30,7 +30,7 @@ def test_what_the_library_refuses_is_a_value_error(rough, tmp_path):
 def test_advice_is_in_the_words_of_python():
     none = tb.Surface(np.full((4, 4), np.nan), pixel="1 um")
     for call, words in ((lambda: none.level("plane"), r"lower degree \(treat\('level=mean'\)\)"),
-                        (lambda: none.fill("harmonic"), "check the channel and the file"),
+                        (lambda: none.fill("harmonic"), r"check the channel \(channel=\) and the file"),
                         (lambda: none.psd(), r"fill them first \(treat\('fill=harmonic'\)\)")):
         with pytest.raises(tb.InputError, match=words) as raised:
             call()
@@ -48,3 +48,17 @@ def test_versions_are_shown(capsys):
     said = capsys.readouterr().out
     assert f"tabor       {tb.__version__}" in said and "numpy" in said and "Python" in said
     assert "transforms  FFTW 3." in said or "transforms  ducc0 " in said
+
+
+def test_what_reading_lacks_is_asked_for_as_an_argument(tmp_path):
+    np.save(tmp_path / "heights.npy", np.ones((4, 4)))
+    file = tmp_path / "heights.npy"
+    for settings, words in (({}, "pixel='0.67um' unit='um'"), ({"pixel": "1um"}, "unit='um'"),
+                            ({"pixel": "1um", "unit": "kg"}, "got unit='kg'; expected a length"),
+                            ({"channel": "topography"}, "its number or name with channel=")):
+        with pytest.raises(tb.InputError, match=words) as raised:
+            tb.read(file, **settings)
+        assert "--" not in str(raised.value)
+    tb.read(file, pixel="1um", unit="um").save(tmp_path / "heights.h5")
+    with pytest.raises(tb.InputError, match="drop pixel=, or add override_unit=True"):
+        tb.read(tmp_path / "heights.h5", pixel="2um")
