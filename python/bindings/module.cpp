@@ -20,8 +20,13 @@ void take_errors(const nanobind::object& input, const nanobind::object& incomple
   output_error = nanobind::object(output).release().ptr();
 }
 
-/// The message, with the settings that it advises as arguments: "pixel='0.67um'".
-std::string in_python(const Error& error) { return advised(error.what(), spelled); }
+/// The message, with the settings that it names as arguments: "step: got ...; add pixel='0.67um'".
+std::string in_python(const Error& error) {
+  std::string text = advised(error.what(), spelled);
+  const std::size_t end = text.find("=: ");
+  if (end < text.find(' ')) text.erase(end, 1);  // it begins with one
+  return text;
+}
 
 /// What the library throws on purpose, as the exception that Python has for it.
 void translate(const std::exception_ptr& thrown, void*) {

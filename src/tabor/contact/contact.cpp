@@ -60,7 +60,7 @@ void check_load(const Problem& problem, double mean_pressure) {
 void check(const elastic::ElasticOperator& elasticity, const Problem& problem) {
   check_maps(elasticity, problem);
   if (std::holds_alternative<Force>(problem.control) && elasticity.drops_mean()) {
-    throw InputError("force", "a surface that repeats without end", "one that ends: a free patch",
+    throw InputError("<force>", "a surface that repeats without end", "one that ends: a free patch",
                      "give a mean pressure");
   }
   if (const auto* separation = std::get_if<Separation>(&problem.control)) {
@@ -97,7 +97,7 @@ void require_reachable(const elastic::ElasticOperator& elasticity, const Field& 
                        const Bounds& bounds, double separation) {
   const double highest = extent_of(height).highest;
   if (!(separation < highest)) {
-    throw InputError("separation", format_si(separation, "m"),
+    throw InputError("<separation>", format_si(separation, "m"),
                      "less than the highest point, at " + format_si(highest, "m"),
                      "the flat does not touch the surface there");
   }
@@ -106,7 +106,7 @@ void require_reachable(const elastic::ElasticOperator& elasticity, const Field& 
   constexpr double rounding = 1e-12;  // of the range of heights
   if (!std::isfinite(separation) ||
       (is_bounded && !(separation - mean > rounding * (highest - mean)))) {
-    throw InputError("separation", format_si(separation, "m"),
+    throw InputError("<separation>", format_si(separation, "m"),
                      "more than the mean height, " + format_si(mean, "m"),
                      "an elastic surface that repeats is flat there, under any higher pressure");
   }

@@ -63,7 +63,7 @@ std::string lsdyna_deck(const FrictionTable& table, const UnitSystem& units, int
   std::size_t n_ids = layers.size();
   for (const DensityLayer& layer : layers) n_ids += layer.rows.size();
   if (first_id < 1 || n_ids > static_cast<std::size_t>(kLargestId - first_id)) {
-    throw InputError("--id", std::to_string(first_id), "a number from 1 to eight digits", "");
+    throw InputError("<id>", std::to_string(first_id), "a number from 1 to eight digits", "");
   }
   std::vector<std::string> head = head_of(table, units, "LS-DYNA");
   head.emplace_back(

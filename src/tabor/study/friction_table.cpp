@@ -42,7 +42,7 @@ std::string chosen_group(const std::vector<FrictionNumber>& numbers,
   if (!asked && groups.size() == 1) return groups.front();
   const bool is_there = asked && std::find(groups.begin(), groups.end(), *asked) != groups.end();
   if (is_there) return *asked;
-  throw InputError(asked ? "--group" : "several groups of scans",
+  throw InputError(asked ? "<group>" : "several groups of scans",
                    asked ? fmt::format("'{}'{}", *asked, suggestion(*asked, groups)) : "",
                    fmt::format("one of: {}", fmt::join(groups, ", ")),
                    asked ? "" : "choose one by <group>");
@@ -94,7 +94,7 @@ std::vector<FrictionNumber> at_density(const std::vector<FrictionNumber>& number
     there.insert(fmt::format("{} g/m^2", in_g_per_m2(other)));
   }
   if (!all.empty()) return all;
-  throw InputError("--density", fmt::format("{} g/m^2", in_g_per_m2(density)),
+  throw InputError("<density>", fmt::format("{} g/m^2", in_g_per_m2(density)),
                    fmt::format("0 g/m^2 (dry) or one of the result: {}", fmt::join(there, ", ")),
                    "");
 }
@@ -111,7 +111,7 @@ void check_codes(const std::vector<std::string>& codes) {
   const std::vector<std::string>& known = untrusted_codes();
   for (const std::string& code : codes) {
     if (std::find(known.begin(), known.end(), code) != known.end()) continue;
-    throw InputError("--keep", fmt::format("'{}'{}", code, suggestion(code, known)),
+    throw InputError("<keep>", fmt::format("'{}'{}", code, suggestion(code, known)),
                      fmt::format("{}", fmt::join(known, ", ")), "");
   }
 }

@@ -22,7 +22,7 @@ double distance_of(const SlideSettings& sliding, const Tool& tool, double dx) {
   const double most = kMostPixels * dx;
   const double distance = sliding.distance.value_or(std::min(kMostPasses * tool.grid.lx, most));
   if (distance >= 0.5 * dx && distance <= most) return distance;
-  throw InputError("distance", format_si(distance, "m"),
+  throw InputError("<distance>", format_si(distance, "m"),
                    fmt::format("one to {} pixels, {} to {}", kMostPixels, format_si(dx, "m"),
                                format_si(most, "m")),
                    "");

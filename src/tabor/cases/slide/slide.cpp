@@ -496,7 +496,7 @@ SlideResult Run::run() {
 SlideResult slide(const topography::Topography& surface, const CaseSettings& settings,
                   const SlideSettings& sliding, const SlideRun& run, const Observer& observer) {
   if (sliding.step && *sliding.step < 0.5 * surface.grid.dx()) {
-    throw InputError("step", format_si(*sliding.step, "m"),
+    throw InputError("<step>", format_si(*sliding.step, "m"),
                      "at least a pixel, " + format_si(surface.grid.dx(), "m"), "");
   }
   return Run(surface, settings, sliding, run, observer).run();
