@@ -35,17 +35,17 @@ TEST(MeanOf, OneValueHasNoError) {
   EXPECT_TRUE(std::isnan(mean_of({}).mean));
 }
 
-TEST(Averages, KeepGroupsApartInOrderOfAppearance) {
+TEST(Averages, KeepGroupsInOrderOfAppearanceAndPressuresRising) {
   const std::vector<Row> rows{row("B", 5, 0.1), row("A", 5, 0.4), row("B", 2, 0.2),
                               row("B", 5, 0.3)};
   const std::vector<Average> result = averages(rows);
   ASSERT_EQ(result.size(), 3u);
   EXPECT_EQ(result[0].group, "B");
-  EXPECT_EQ(result[0].mean_pressure, 5);
-  EXPECT_EQ(result[0].n, 2u);
-  EXPECT_DOUBLE_EQ(result[0].friction_dry.mean, 0.2);
-  EXPECT_DOUBLE_EQ(result[0].friction_lubricated.mean, 0.1);
-  EXPECT_EQ(result[1].mean_pressure, 2);
+  EXPECT_EQ(result[0].mean_pressure, 2);
+  EXPECT_EQ(result[1].mean_pressure, 5);
+  EXPECT_EQ(result[1].n, 2u);
+  EXPECT_DOUBLE_EQ(result[1].friction_dry.mean, 0.2);
+  EXPECT_DOUBLE_EQ(result[1].friction_lubricated.mean, 0.1);
   EXPECT_EQ(result[2].group, "A");
 }
 
@@ -99,12 +99,12 @@ TEST(Averages, KeepSpeedsApart) {
       averages({sliding(1, 0.25), sliding(0, 0.5), sliding(1, 0.75)});
   ASSERT_EQ(result.size(), 2u);
   ASSERT_TRUE(result[0].fluid.has_value());
-  EXPECT_EQ(result[0].fluid->sliding_speed, 1);
-  EXPECT_EQ(result[0].n, 2u);
+  EXPECT_EQ(result[0].fluid->sliding_speed, 0);
   EXPECT_DOUBLE_EQ(result[0].fluid->friction_mixed.mean, 0.5);
-  EXPECT_DOUBLE_EQ(result[0].fluid->friction_mixed.standard_error, 0.25);
-  EXPECT_EQ(result[1].fluid->sliding_speed, 0);
+  EXPECT_EQ(result[1].fluid->sliding_speed, 1);
+  EXPECT_EQ(result[1].n, 2u);
   EXPECT_DOUBLE_EQ(result[1].fluid->friction_mixed.mean, 0.5);
+  EXPECT_DOUBLE_EQ(result[1].fluid->friction_mixed.standard_error, 0.25);
 }
 
 TEST(AveragesCsv, AddsColumnsWhereTheOilFlows) {

@@ -96,6 +96,12 @@ io::Json json_of(const Context& context, const Scan& scan, const FileInfo& file,
   return object;
 }
 
+/// The rise of the plane; none where it is what rounding leaves of a levelled surface.
+std::string tilt_text(const SurfaceRecord& record) {
+  constexpr double rounding = 1e-9;  // of the rms height
+  return std::abs(record.tilt) <= rounding * record.rms ? "0 m" : si(record.tilt, "m");
+}
+
 std::string text_of(const Context& context, const Scan& scan, const FileInfo& file,
                     const SurfaceRecord& record) {
   const Grid& grid = record.grid;
@@ -111,7 +117,7 @@ std::string text_of(const Context& context, const Scan& scan, const FileInfo& fi
                                           percent(record.missing_fraction())));
   facts.fact("heights", si(record.min, "m") + " to " + si(record.max, "m"));
   facts.fact("rms height", si(record.rms, "m") + " about the mean");
-  if (!std::isnan(record.tilt)) facts.fact("tilt", si(record.tilt, "m") + " over both sides");
+  if (!std::isnan(record.tilt)) facts.fact("tilt", tilt_text(record) + " over both sides");
   if (!std::isnan(record.quantum)) facts.fact("height step", si(record.quantum, "m"));
   for (const std::string& text : warnings_about(scan, context)) facts.fact("warning", text);
   return facts.text();
@@ -208,7 +214,7 @@ std::string table_of(const std::vector<Contents>& all, const std::vector<std::st
                si(grid.dx(), "m") + (is_square ? "" : " x " + si(grid.dy(), "m")),
                si(record.rms, "m"),
                record.missing_pixels == 0 ? "none" : percent(record.missing_fraction()),
-               si(record.tilt, "m"), results::codes_text(all[i].warnings)});
+               tilt_text(record), results::codes_text(all[i].warnings)});
   }
   return table.text() + "Sq is taken about the mean. Tilt is the rise of the fitted plane.\n";
 }

@@ -1,7 +1,6 @@
 #include "tabor/study/averages.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <tuple>
@@ -24,27 +23,15 @@ Key key_of(const Row& row) {
   return {row.group, row.mean_pressure, row.lubricant_density, speed_of(row)};
 }
 
-template <typename Value>
-std::size_t position(std::vector<Value>& seen, const Value& value) {
-  const auto found = std::find(seen.begin(), seen.end(), value);
-  if (found != seen.end()) return static_cast<std::size_t>(found - seen.begin());
-  seen.push_back(value);
-  return seen.size() - 1;
-}
-
-/// The keys that occur, ordered by the first occurrence of group, then pressure, then density,
-/// then speed.
+/// The keys that occur: groups as they come first, in each rising pressure, then density, then
+/// speed, whatever the order of the rows, as those of a shard leave some out.
 std::vector<Key> ordered_keys(const std::vector<Row>& rows) {
   std::vector<std::string> groups;
-  std::vector<double> pressures;
-  std::vector<double> densities;
-  std::vector<double> speeds;
-  std::vector<std::pair<std::array<std::size_t, 4>, Key>> ranked;
+  std::vector<std::pair<std::size_t, Key>> ranked;
   for (const Row& row : rows) {
-    const std::array rank{position(groups, row.group), position(pressures, row.mean_pressure),
-                          position(densities, row.lubricant_density),
-                          position(speeds, speed_of(row))};
-    ranked.emplace_back(rank, key_of(row));
+    const auto found = std::find(groups.begin(), groups.end(), row.group);
+    ranked.emplace_back(found - groups.begin(), key_of(row));
+    if (found == groups.end()) groups.push_back(row.group);
   }
   std::sort(ranked.begin(), ranked.end());
   ranked.erase(std::unique(ranked.begin(), ranked.end()), ranked.end());
