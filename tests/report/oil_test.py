@@ -10,8 +10,8 @@ import numpy as np
 from study_case import StudyCase
 from synthetic_single import write_single
 from synthetic_study import Recipe
-from tabor.report import build, oil, page_single, page_study
-from tabor.report.figures import lubricated_friction, single_curves
+from tabor.report import build, oil, page_single, page_study, viewer
+from tabor.report.figures import lubricated_friction, single_curves, single_maps
 
 PLAIN = "(A_real − A_lub)/A₀"
 
@@ -53,6 +53,14 @@ class OfOneScan(unittest.TestCase):
             self.assertIn(text, caption)
         self.assertIn("Friction without a speed beside it is that of oil at rest.", answer["note"])
         self.assertEqual(dict(answer["rows"])["oil that flows carries, 0.9 g/m², 5 mm/s"], ["2 %", "13.1 %"])
+
+    def test_maps_of_the_contact_are_those_before_oil_carries_load(self):
+        for key, said in ((oil.TRAPPED, oil.BEFORE), (oil.FLOWING, oil.BEFORE), (None, "")):
+            source = self.opened(key)
+            self.assertEqual(viewer.of_single(source).of_contact, said)
+            captions = [figure.caption for figure in single_maps.draw(source)]
+            self.assertTrue(any(caption.startswith(f"Gap between the surfaces{said} (") for caption in captions))
+            self.assertTrue(any(caption.startswith(f"Real contact{said} (black)") for caption in captions))
 
     def test_oil_that_only_separates_needs_no_word(self):
         source = self.opened()

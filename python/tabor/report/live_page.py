@@ -47,7 +47,7 @@ class Live:
         for item in example.others(study, options, example.examples(study, options)):
             if room < largest or len(self.maps) == MOST_SCANS:
                 return
-            maps = viewer.of_example(item, f"maps_scan{item.scan.index:04d}")
+            maps = viewer.of_example(item, study.table.rows(), f"maps_scan{item.scan.index:04d}")
             data, pictures = viewer.encoded(maps, budget=room)
             size = _size(interactive.script_json(data), pictures)
             if size > room or data["left_out"]:
@@ -65,6 +65,7 @@ class Live:
             "title": maps.title,
             "group": maps.group,
             "heading": maps.heading,
+            "of_contact": maps.of_contact,
             "has_gap": any("gap" in choice.load for choice in maps.contacts),
             "panels": [_panel(panel, data) for panel in figures if panel != "section"],
             "contacts": [choice.label for choice in maps.contacts],
@@ -89,7 +90,7 @@ def _maps_of(source, options):
         example.check(source, options)
         shown = [item for item in example.examples(source, options) if item.height is not None]
         called = [f"maps_scan{item.scan.index:04d}" if options.all_scans else "maps" for item in shown]
-        return [viewer.of_example(item, name) for item, name in zip(shown, called)]
+        return [viewer.of_example(item, source.table.rows(), name) for item, name in zip(shown, called)]
     return []
 
 

@@ -7,6 +7,7 @@ from tabor.report import areas, units
 TRAPPED, FLOWING = "liquid_load_share", "fluid_load_share"
 FORMULA = "μ = τ_y · A_dry/(A₀ P) + τ_b · A_wet/(A₀ P)"  # docs/trapped_liquid.md
 _DENSITY = "lubricant_density_g_per_m2"
+BEFORE = " before oil carries load"  # after the name of a map of the contact that the solids make alone
 
 
 def shares(rows, key):
@@ -26,6 +27,16 @@ def is_trapped(rows):
 
 def is_flowing(rows):
     return any(FLOWING in row for row in rows)
+
+
+def carries(rows):
+    """True where oil carries load, in pockets or as it flows."""
+    return is_trapped(rows) or is_flowing(rows)
+
+
+def of_solids(facts):
+    """What stands after the name of a map of the contact, which the solids make alone: BEFORE where oil carries load."""
+    return BEFORE if carries([facts]) else ""
 
 
 def of_trapped(rows):

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from tabor.report import encoding, map_axes, names, units
+from tabor.report import encoding, map_axes, names, oil, units
 from tabor.report.example import richest_window, shores
 
 BUDGET = 7.6e6  # bytes of the maps of a page of at most 10 MB
@@ -47,6 +47,7 @@ class Maps:
     is_difference: bool = False  # heights about zero, not about their mean
     heading: str = "Height about the mean"
     group: str = ""  # of the scan of a study, where its title does not say it
+    of_contact: str = ""  # after "Contact" and "Gap": oil.BEFORE where oil carries load
 
 
 def of_single(single):
@@ -64,11 +65,13 @@ def of_single(single):
     file = names.in_a_file(single.title if single.combination else names.short([single.title])[single.title])
     maps = Maps("maps", single.title, file, single.pixel, height, [*contacts.values()], [*films.values()], chosen)
     maps.is_difference, maps.heading = single.is_difference, single.heading_of_heights
+    if single.kind != "slide" and oil.carries([state.facts for state in single.states]):
+        maps.of_contact = oil.BEFORE
     return maps
 
 
-def of_example(example, name="maps"):
-    """All states of the scan that a study's example shows, the example's own at first."""
+def of_example(example, rows, name="maps"):
+    """All states of the scan that a study's example shows, the example's own at first; `rows` are those of the study."""
     scan = example.scan
     contacts, films = scan.contacts(), [film for film in scan.films() if film.density > 0]
     chosen = [
@@ -88,6 +91,7 @@ def of_example(example, name="maps"):
         [Choice(units.density(item.density), {"film": item.thickness}) for item in films],
         tuple(chosen),
         group="" if scan.name.endswith(f"({scan.group})") else scan.group,
+        of_contact=oil.BEFORE if oil.carries(rows) else "",
     )
 
 
@@ -136,6 +140,7 @@ class _Encoder:
             "name": self.maps.name,
             "file": self.maps.file,
             "heading": self.maps.heading,
+            "of_contact": self.maps.of_contact,
             "size": [columns, rows],
             "pixel": list(self.maps.pixel),
             "step": self.step,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from tabor.report import map_axes, maps, style, units
+from tabor.report import map_axes, maps, oil, style, units
 from tabor.report.figures import Drawn
 
 
@@ -41,7 +41,7 @@ def _title(state, facts, pressure):
 def _caption(view, facts, scan_name, pressure):
     warning = "" if facts.get("converged", True) else "This state did not converge. "
     return (
-        f"Real contact (black) of {scan_name} under the mean pressure "
+        f"Real contact{oil.of_solids(facts)} (black) of {scan_name} under the mean pressure "
         f"{pressure}. {warning}{map_axes.ink_note(view)}"
         "The share in the title is the counted contact. As Figure 5 of Costagliola et al."
     )

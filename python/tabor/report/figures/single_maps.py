@@ -5,7 +5,7 @@ from functools import cached_property
 
 import numpy as np
 
-from tabor.report import hdf, map_axes, maps, names, section, style, units
+from tabor.report import hdf, map_axes, maps, names, oil, section, style, units
 from tabor.report.example import richest_window, shores
 from tabor.report.figures import Drawn, contact_map, topography
 
@@ -66,7 +66,7 @@ def _pressure(single, state):
         np.where(pressure > 0, pressure * 1e-6, np.nan),
         "pressure (MPa)",
         map_axes.PRESSURE_COLOURS,
-        "Contact pressure (MPa); white: no contact",
+        f"Contact pressure{oil.of_solids(state.facts)} (MPa); white: no contact",
         "white",
         state.pressure_label,
     )
@@ -93,7 +93,7 @@ def _gap(single, state):
         gap * factor,
         f"gap ({unit})",
         map_axes.GAP_COLOURS,
-        f"Gap between the surfaces ({unit})",
+        f"Gap between the surfaces{oil.of_solids(state.facts)} ({unit})",
         map_axes.HOLE,
         state.pressure_label,
     )

@@ -260,9 +260,9 @@ class Maps {
   }
 
   title(panel) {
-    const {contacts, films} = this.data, contact = contacts[this.contact], film = films[this.film];
+    const {contacts, films, of_contact: of} = this.data, contact = contacts[this.contact], film = films[this.film];
     const at = contact ? ` at ${contact.label}` : "", oil = film ? film.label : "";
-    return {height: this.data.heading, state: `Contact${at}${film ? ` with ${oil}` : ""}`, pressure: `Contact pressure${at}`, gap: `Gap${at}`,
+    return {height: this.data.heading, state: `Contact${of}${at}${film ? ` with ${oil}` : ""}`, pressure: `Contact pressure${of}${at}`, gap: `Gap${of}${at}`,
             film: `Lubricant, ${oil}`}[panel];
   }
 
