@@ -152,7 +152,9 @@ std::string spelled(const Advice& advice) {
   if (known == nullptr && !others.contains(advice.setting)) return "";
   const std::string name = argument_of(advice.setting) + "=";
   if (known != nullptr && known->kind == ValueKind::flag) return name + "True";
-  return advice.value.empty() ? name : name + "'" + advice.value + "'";
+  const bool is_number = parse_number(advice.value).has_value();
+  if (advice.value.empty() || is_number) return name + advice.value;
+  return name + "'" + advice.value + "'";
 }
 
 Warnings warnings_of(const WarningTexts& texts) {

@@ -360,7 +360,15 @@ TEST_F(LubricantVerbs, AToolWithoutItsPixelIsToBeConverted) {
   const Outcome outcome =
       run_tabor(friction("7MPa", "0.45g/m^2") + Words{"--tool", file("tool.txt")});
   EXPECT_EQ(outcome.code, 3);
-  EXPECT_THAT(outcome.err, HasSubstr("convert it first: tabor convert TOOL OUT --pixel"));
+  EXPECT_THAT(outcome.err, HasSubstr("no pixel size in the file"));
+  EXPECT_THAT(outcome.err, HasSubstr("--pixel 0.67um --unit um with 'tabor convert TOOL OUT'"));
+}
+
+TEST_F(LubricantVerbs, ACutOutCountsTheDropletsThatFell) {
+  Words words = {"lubricate", scan(), "--edges", "cut", "--density", "0.0001g/m^2", "--json"};
+  const Outcome outcome = run_tabor(words);
+  ASSERT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr(" on 4096 pixels show chance"));
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ TEST(DensityAnswer, SaysWhatIsThereWhereACurveHasNoEdge) {
       sentence_of(dry, {{1e-4, 0.001}}),
       HasSubstr("hardly any contact is wet up to 1.15 g/m^2; above 1.15 to 1.2 g/m^2 the oil "
                 "level reaches the contacts; 0.1 g/m^2 (0.1 % wet) lies there, where "
-                "friction is that without oil"));
+                "friction is nearly that without oil"));
   dry.plateau.reset();
   EXPECT_EQ(sentence_of(dry, {{9e-4, 0.2}}), "friction changes with the density throughout");
   EXPECT_FALSE(place_of(dry, 0.2));

@@ -91,7 +91,7 @@ def load(path, file, kind=None, state_kind=SingleState):
     """kind: a Single, or a class of one; state_kind: that of its states."""
     if "states" in file and "surface" not in file:
         raise InputError(
-            f"{path}: has numbers and no maps to draw; write it with --fields contact or --fields all"
+            f"{path}: has numbers and no maps to draw; write it with fields=contact or fields=all"
         )
     if "surface" not in file or "height" not in file["surface"]:
         raise InputError(f"{path}: holds neither a study (/scans) nor a scan (/surface/height)")

@@ -1,6 +1,11 @@
 #include "tabor/cases/ehl_surfaces.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
 #include "tabor/core/advice.hpp"
+#include "tabor/core/error.hpp"
 #include "tabor/scan/file.hpp"
 #include "tabor/synthesis/synthesis.hpp"
 #include "tabor/topography/holes.hpp"
@@ -13,12 +18,30 @@ using topography::Topography;
 
 constexpr const char* kHolesRemedy = "treatment = [\"fill=harmonic\", \"level=plane\"]";
 
+/// Reads a scan. A case names its channel; what else is missing must be in the file.
+Topography heights_in(const scan::ScanFile& file, const std::optional<std::string>& channel) {
+  scan::ReadOptions options;
+  options.channel = channel;
+  try {
+    return file.read(options);
+  } catch (const IncompleteError& error) {
+    const auto is_of_channel = [](const Advice& advice) { return advice.setting == "channel"; };
+    const std::vector<Advice> missing = advice_in(error.what());
+    if (std::all_of(missing.begin(), missing.end(), is_of_channel)) {
+      throw InputError(advised(error.what(), [](const Advice& advice) {
+        return fmt::format("roughness.channel = \"{}\"", advice.value);
+      }));
+    }
+    throw InputError(fmt::format("{} with 'tabor convert FILE OUT', and name OUT in the case",
+                                 advised(error.what(), as_option)));
+  }
+}
+
 ehl::Surface read(const ehl::NamedScan& named, const Observer& observer) {
   const scan::ScanFile file(named.file, observer);
-  scan::ReadOptions options;
-  options.channel = named.channel;
   const std::string sha256 = file.sha256();
-  const Topography scan = topography::apply(named.treatment, file.read(options), observer);
+  const Topography scan =
+      topography::apply(named.treatment, heights_in(file, named.channel), observer);
   ehl::Surface surface{.grid = scan.grid, .height = scan.height, .sha256 = sha256, .warnings = {}};
   for (const Warning& warning : scan.warnings) {
     surface.warnings.push_back(

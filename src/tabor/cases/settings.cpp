@@ -165,7 +165,7 @@ std::optional<Objection> objection(const FluidSettings& settings, const ContactS
   }
   if (auto found = objection_to_bounds(fluid_parameters(), settings)) {
     if (found->setting == "sliding_speed") {
-      found->remedy = "<mirror> or <flip> turns the scan to slide the other way";
+      found->remedy = "<flip=x> turns the scan to slide the other way";
     }
     return found;
   }

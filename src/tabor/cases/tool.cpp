@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "tabor/core/advice.hpp"
 #include "tabor/core/error.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/io/files/digest.hpp"
@@ -47,9 +48,9 @@ topography::Topography read_tool(const ToolSettings& settings, const Observer& o
     topography::Topography tool = file.read();
     tool.source = *settings.tool;
     return tool;
-  } catch (const IncompleteError&) {
-    reject(settings, "a file without its pixel size or unit", "a file that says them",
-           "convert it first: tabor convert TOOL OUT --pixel 0.67um --unit um");
+  } catch (const IncompleteError& error) {
+    throw IncompleteError(fmt::format("tool {} with 'tabor convert TOOL OUT', and give OUT",
+                                      advised(error.what(), as_option)));
   }
 }
 
@@ -103,7 +104,8 @@ void check_size(const Grid& sheet, const ToolSettings& settings, const Grid& too
   if (tool.ny != sheet.ny) {
     reject(settings, fmt::format("{} rows", tool.ny),
            fmt::format("as many as the sheet has, {}", sheet.ny),
-           "crop it first: tabor convert TOOL OUT --crop X,Y,NX,NY");
+           tool.ny > sheet.ny ? "crop it first: tabor convert TOOL OUT --crop X,Y,NX,NY"
+                              : "crop the sheet, or give a larger tool");
   }
   if (tool.nx >= sheet.nx || settings.tool_repeats) return;
   reject(settings, fmt::format("{} columns", tool.nx),

@@ -85,10 +85,13 @@ void warn_of_load_on_seams(const topography::Topography& surface, const contact:
   if (!(surface.tiles > 1)) return;
   const double share = load_on_seams(state.pressure, surface.tiles);
   if (!(share > kSeamLoad)) return;
+  const bool is_bent =
+      std::any_of(surface.history.begin(), surface.history.end(),
+                  [](const std::string& step) { return step.starts_with("level=poly"); });
   list.push_back({"seam-load",
                   fmt::format("Heights rise at the mirror seams: strips {1:.0f} % of a side wide "
-                              "carry {0:.3g} % of the load; <level=poly2> helps",
-                              100 * share, 100 * kEdgeBand),
+                              "carry {0:.3g} % of the load; {2} helps",
+                              100 * share, 100 * kEdgeBand, is_bent ? "<crop>" : "<level=poly2>"),
                   share});
 }
 

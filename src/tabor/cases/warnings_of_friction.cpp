@@ -69,14 +69,15 @@ Warnings of_film(const topography::Topography& surface, const deposition::Film& 
                                 format_si(film.mean_film, "m"), format_si(least, "m")),
                     least});
   }
-  const Index n_pixels = film.thickness.size();
-  if (film.n_droplets > 0 && film.n_droplets < n_pixels) {
+  const Index n_pixels = film.thickness.size() / film.n_images;
+  const std::int64_t n_droplets = film.n_droplets / film.n_images;
+  if (n_droplets > 0 && n_droplets < n_pixels) {
     list.push_back(
         {"few-droplets",
          fmt::format("{} droplet{} on {} pixels show chance; use <model=limit> or a smaller "
                      "<droplet_height>",
-                     film.n_droplets, film.n_droplets == 1 ? "" : "s", n_pixels),
-         1 / static_cast<double>(film.n_droplets)});
+                     n_droplets, n_droplets == 1 ? "" : "s", n_pixels),
+         1 / static_cast<double>(n_droplets)});
   }
   if (film.lost_volume > 0) {
     const double share = film.lost_volume / film.dosed_volume;

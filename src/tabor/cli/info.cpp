@@ -67,8 +67,9 @@ void describe(const FileInfo& file, const std::string& path, const std::string& 
   }
 }
 
-/// Returns the warnings, then information, with settings spelled as options of the verb.
-std::vector<std::string> warnings_about(const Scan& scan, const Context& context) {
+/// Returns the warnings, then information, with settings spelled as options of the verbs that treat
+/// a scan.
+std::vector<std::string> warnings_about(const Scan& scan) {
   std::vector<results::Finding> findings;
   for (const Warning& warning : scan.surface.warnings) {
     findings.emplace_back();
@@ -76,15 +77,14 @@ std::vector<std::string> warnings_about(const Scan& scan, const Context& context
     findings.back().text = warning.text;
   }
   results::put_doubts_first(findings);
-  results::spell(context.spelling, findings);
+  results::spell(as_option, findings);
   std::vector<std::string> texts;
   texts.reserve(findings.size());
   for (const results::Finding& finding : findings) texts.push_back(finding.text);
   return texts;
 }
 
-io::Json json_of(const Context& context, const Scan& scan, const FileInfo& file,
-                 const SurfaceRecord& record) {
+io::Json json_of(const Scan& scan, const FileInfo& file, const SurfaceRecord& record) {
   io::Json object;
   object["scan"] = {{"path", scan.path}, {"sha256", scan.sha256}};
   object.update({{"file", scan.path},
@@ -92,7 +92,7 @@ io::Json json_of(const Context& context, const Scan& scan, const FileInfo& file,
                  {"instrument", scan.surface.instrument},
                  {"channels", channels_of(file)}});
   object.update(io::json_of(cases::surface_columns(), record));
-  object.update({{"metadata", scan.surface.metadata}, {"doubts", warnings_about(scan, context)}});
+  object.update({{"metadata", scan.surface.metadata}, {"doubts", warnings_about(scan)}});
   return object;
 }
 
@@ -102,8 +102,7 @@ std::string tilt_text(const SurfaceRecord& record) {
   return std::abs(record.tilt) <= rounding * record.rms ? "0 m" : si(record.tilt, "m");
 }
 
-std::string text_of(const Context& context, const Scan& scan, const FileInfo& file,
-                    const SurfaceRecord& record) {
+std::string text_of(const Scan& scan, const FileInfo& file, const SurfaceRecord& record) {
   const Grid& grid = record.grid;
   Facts facts;
   describe(file, scan.path, scan.surface.instrument, true, facts);
@@ -119,7 +118,7 @@ std::string text_of(const Context& context, const Scan& scan, const FileInfo& fi
   facts.fact("rms height", si(record.rms, "m") + " about the mean");
   if (!std::isnan(record.tilt)) facts.fact("tilt", tilt_text(record) + " over both sides");
   if (!std::isnan(record.quantum)) facts.fact("height step", si(record.quantum, "m"));
-  for (const std::string& text : warnings_about(scan, context)) facts.fact("warning", text);
+  for (const std::string& text : warnings_about(scan)) facts.fact("warning", text);
   return facts.text();
 }
 
@@ -169,8 +168,8 @@ Contents contents_of(const Request& request, const std::string& path, const Cont
     const FileInfo file = scan_file.info();
     const Scan scan = read_scan(scan_file, one, context, observer);
     Contents contents{.path = path, .record = cases::summary_of(scan.surface)};
-    contents.object = json_of(context, scan, file, *contents.record);
-    contents.text = text_of(context, scan, file, *contents.record);
+    contents.object = json_of(scan, file, *contents.record);
+    contents.text = text_of(scan, file, *contents.record);
     contents.warnings = scan.surface.warnings;
     return contents;
   } catch (const IncompleteError& error) {

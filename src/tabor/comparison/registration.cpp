@@ -291,7 +291,11 @@ Registration register_scans(const topography::Topography& a, const topography::T
     }
   }
   const double moved_by = std::hypot(result.shift_x - start_x, result.shift_y - start_y);
-  if (!(moved_by <= 3 * coarse.pitch) || !(result.correlation >= options.smallest_correlation)) {
+  if (!(moved_by <= 3 * coarse.pitch)) {
+    reject(fmt::format("a shift that moved by {} while it was refined", format_si(moved_by, "m")),
+           "at most " + format_si(3 * coarse.pitch, "m"));
+  }
+  if (!(result.correlation >= options.smallest_correlation)) {
     reject(fmt::format("a correlation of {:.2f} at the best shift ({}, {})", result.correlation,
                        format_si(result.shift_x, "m"), format_si(result.shift_y, "m")),
            fmt::format("at least {}", options.smallest_correlation));

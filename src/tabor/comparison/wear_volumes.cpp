@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "tabor/comparison/changes.hpp"
@@ -63,7 +65,7 @@ Volume volume_of(const Region& region, const Noise& noise, double pixel_area) {
 
 WearVolumes wear_volumes(const Field& loss, const Grid& grid, double threshold) {
   if (!(threshold > 0) || !std::isfinite(threshold)) {
-    throw InputError("threshold of a change", std::to_string(threshold),
+    throw InputError("threshold of a change", fmt::format("{}", threshold),
                      "a positive number of standard deviations", "e.g. <threshold=4>");
   }
   const double pixel_area = grid.pixel_area();

@@ -102,6 +102,12 @@ std::string advised(std::string_view text, const AdviceSpelling& spelling) {
   return said;
 }
 
+std::string as_option(const Advice& advice) {
+  std::string option = "--" + advice.setting;
+  std::replace(option.begin(), option.end(), '_', '-');
+  return advice.value.empty() ? option : option + " " + advice.value;
+}
+
 std::string without_advice(std::string_view text) {
   return advised(text, [](const Advice&) { return std::string(); });
 }

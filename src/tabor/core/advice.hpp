@@ -27,6 +27,9 @@ std::vector<Advice> advice_in(std::string_view text);
 /// always stays.
 std::string advised(std::string_view text, const AdviceSpelling& spelling);
 
+/// Spells settings as options of the command line, whether a verb has them or not: "--level plane".
+std::string as_option(const Advice& advice);
+
 /// Returns the sentence without any advice.
 std::string without_advice(std::string_view text);
 

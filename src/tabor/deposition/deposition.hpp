@@ -60,6 +60,7 @@ struct Film {
   double deposited_volume = 0;  ///< on the surface [m^3]
   double lost_volume = 0;       ///< ran off open edges [m^3]
   std::int64_t n_droplets = 0;  ///< 0 for the models without droplets
+  int n_images = 1;             ///< that hold the same film: the rain fell on one of them
   Index n_pools = 0;            ///< 4-connected wet regions
   double wet_fraction = 0;      ///< share of pixels with thickness > 0
   double max_film = 0;          ///< [m]

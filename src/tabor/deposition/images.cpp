@@ -55,6 +55,7 @@ Film with_images(Film film, Edge edge) {
   film.dosed_volume *= n_images;
   film.deposited_volume *= n_images;
   film.n_droplets *= n_images;
+  film.n_images = n_images;
   measure(film, edge);
   return film;
 }

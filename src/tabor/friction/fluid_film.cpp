@@ -38,7 +38,7 @@ void check(const elastic::ElasticOperator& elasticity, const FluidFilmProblem& p
   }
   if (!(problem.sliding_speed >= 0 && std::isfinite(problem.sliding_speed))) {
     throw InputError("sliding speed", fmt::format("{} m/s", problem.sliding_speed), "zero or more",
-                     "mirror the scan to slide the other way");
+                     "flip the scan to slide the other way");
   }
   if (dry.pressure.rows() != grid.ny || dry.pressure.cols() != grid.nx) {
     throw InputError("fluid film: the dry contact is not on the grid of the elastic operator");

@@ -64,8 +64,9 @@ std::string place_text(Place place, const cases::Plateau& plateau,
                  ? fmt::format("{} below, where fewer pockets are full", lie)
                  : fmt::format("{} below, as single droplets miss pockets", lie);
     case Place::plateau:
-      return is_dry(plateau) ? fmt::format("{} there, where friction is that without oil", lie)
-                             : fmt::format("{} between, where the density hardly matters", lie);
+      return is_dry(plateau)
+                 ? fmt::format("{} there, where friction is nearly that without oil", lie)
+                 : fmt::format("{} between, where the density hardly matters", lie);
     case Place::beyond:
       return fmt::format("{} beyond, where oil covers more of the contacts", lie);
   }

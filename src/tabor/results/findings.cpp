@@ -198,8 +198,10 @@ std::string codes_text(const Warnings& warnings) {
 std::string shortened(const std::string& text, std::size_t limit) {
   constexpr std::string_view kMore = " ...";
   if (text.size() <= limit) return text;
-  const std::size_t end = text.rfind(' ', limit - kMore.size());
-  return text.substr(0, end == std::string::npos ? 0 : end) + std::string(kMore);
+  std::string remedy = text.substr(std::min(text.rfind("; "), text.size()));
+  if (remedy.size() > limit / 2) remedy.clear();  // what is wrong must be said, too
+  const std::size_t end = text.rfind(' ', limit - kMore.size() - remedy.size());
+  return text.substr(0, end == std::string::npos ? 0 : end) + std::string(kMore) + remedy;
 }
 
 std::string fitted(const std::string& text, std::size_t limit) {

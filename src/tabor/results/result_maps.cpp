@@ -204,7 +204,7 @@ InputError without_maps(const Hdf5Reader& reader, const fs::path& file) {
   list_data(reader, "/", names);
   if (reader.exists("/states") || names.empty()) {
     return {file.string(), "a file without maps", kExpected,
-            "write it with <fields=contact> or <fields=all>"};
+            "write it with fields=contact or fields=all"};
   }
   return {
       file.string(), fmt::format("a file without maps, with {}", fmt::join(names, ", ")), kExpected,

@@ -181,11 +181,12 @@ void check_determined(const NormalEquations& equations, int degree) {
   constexpr double smallest_ratio = 1e-12;
   const Eigen::VectorXd values = numerics::symmetric_eigenvalues(equations.matrix);
   if (equations.n_valid == 0 || values[0] <= smallest_ratio * values[values.size() - 1]) {
-    throw InputError(
-        fmt::format("levelling by a polynomial of degree {}", degree),
-        fmt::format("{} valid points that do not determine it", equations.n_valid),
-        fmt::format("at least {} points not on one curve", equations.right.size()),
-        degree > 0 ? "use a lower degree (<level=mean>)" : "the surface has no valid point");
+    throw InputError(fmt::format("levelling by a polynomial of degree {}", degree),
+                     fmt::format("{} valid points that do not determine it", equations.n_valid),
+                     fmt::format("at least {} points not on one curve", equations.right.size()),
+                     degree > 1    ? "use a lower degree (<level=plane>)"
+                     : degree == 1 ? "use a lower degree (<level=mean>)"
+                                   : "the surface has no valid point");
   }
 }
 

@@ -14,7 +14,8 @@ Index count_holes(const Topography& topography) { return topography.height.isNaN
 
 void require_no_holes(const Topography& topography, const std::string& name,
                       const std::string& remedy) {
-  const Index n = count_holes(topography);
+  const double copies = topography.tiles * topography.tiles;
+  const auto n = static_cast<Index>(static_cast<double>(count_holes(topography)) / copies);
   if (n == 0) return;
   throw InputError(name, fmt::format("{} missing pixel{}", n, n == 1 ? "" : "s"),
                    "a height at every pixel", remedy);

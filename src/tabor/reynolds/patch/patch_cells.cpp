@@ -36,7 +36,7 @@ void check(const PatchProblem& problem) {
   }
   if (!(problem.entrainment_speed >= 0 && std::isfinite(problem.entrainment_speed))) {
     throw InputError("speed", fmt::format("{} m/s", problem.entrainment_speed), "zero or more",
-                     "mirror the scan to slide the other way");
+                     "flip the scan to slide the other way");
   }
   if (!(problem.thinnest_film > 0)) {
     throw InputError("thinnest film", fmt::format("{} m", problem.thinnest_film), "more than zero",

@@ -60,7 +60,7 @@ std::string given_as(const char* name, double metres) {
 
 /// A unit as its setting, unless what stands there is no word.
 std::string given_unit(const std::string& unit) {
-  const bool is_word = unit.find_first_of(" <>") == std::string::npos;
+  const bool is_word = !unit.empty() && unit.find_first_of(" <>") == std::string::npos;
   return is_word ? "<unit=" + unit + ">" : "unit '" + unit + "'";
 }
 
@@ -112,7 +112,7 @@ double resolve_pixel(const Contents& contents, const Layer& layer, char axis,
             (layer.unit.empty() && !layer.is_count ? " <unit=um>" : ""));
   }
   if (given && !is_pixel(*given)) {
-    reject(contents, fmt::format("<pixel={}m>", *given), "a positive length, from 1e-15 to 1e6 m");
+    reject(contents, given_as("pixel", *given), "a positive length, from 1e-15 to 1e6 m");
   }
   if (own && !is_pixel(*own)) {
     const std::string& said = axis == 'x' ? layer.said_x : layer.said_y;
@@ -125,7 +125,7 @@ double resolve_pixel(const Contents& contents, const Layer& layer, char axis,
   if (!options.override_unit) {
     reject(contents, given_as("pixel", *given),
            fmt::format("{:g} um along {}, which the file fixes", *own * 1e6, axis),
-           "drop <pixel>, or add <override_unit> if the file is wrong");
+           "drop <pixel>; add <override_unit> if the file is wrong");
   }
   warnings.push_back(
       fmt::format("pixel along {} overridden: {:g} um instead of the file's {:g} um{}", axis,
@@ -146,7 +146,7 @@ double scale_of_counts(const Contents& contents, const ReadOptions& options) {
         "add it, for example <z_scale=1nm>");
   }
   if (!(std::abs(*options.z_scale) > 0) || !std::isfinite(*options.z_scale)) {
-    reject(contents, fmt::format("<z_scale={}m>", *options.z_scale), "a length other than zero");
+    reject(contents, given_as("z_scale", *options.z_scale), "a length other than zero");
   }
   return *options.z_scale;
 }
@@ -213,7 +213,7 @@ double resolve_height_factor(const Contents& contents, const Layer& layer,
   const bool is_fixed = !layer.is_count && !layer.unit.empty();
   if (options.z_scale && is_fixed && !options.override_unit) {
     reject(contents, given_as("z_scale", *options.z_scale), "heights whose scale the file fixes",
-           "drop <z_scale>, or add <override_unit> if the file is wrong");
+           "drop <z_scale>; add <override_unit> if the file is wrong");
   }
   if (options.z_scale) {
     if (is_fixed) {
@@ -231,7 +231,7 @@ double resolve_height_factor(const Contents& contents, const Layer& layer,
     if (layer.unit.empty()) return layer.scale * given;
     if (!options.override_unit) {
       reject(contents, given_unit(*options.unit), "'" + layer.unit + "', which the file fixes",
-             "drop <unit>, or add <override_unit> if the file is wrong");
+             "drop <unit>; add <override_unit> if the file is wrong");
     }
     warnings.push_back("height unit overridden: " + *options.unit + " instead of the file's '" +
                        layer.unit + "'" + origin_of("unit", options));
