@@ -5,7 +5,9 @@
 #include <fstream>
 
 #include "run_tabor.hpp"
+#include "support/container_files.hpp"
 #include "support/folder.hpp"
+#include "tabor/io/files/atomic_file.hpp"
 #include "tabor/io/hdf5/hdf5.hpp"
 
 namespace tabor::cli {
@@ -257,6 +259,18 @@ TEST_F(EhlPoint, TakesAScanAsRoughness) {
   EXPECT_NE(elsewhere["film_at_centre_m"], across["film_at_centre_m"]);
   const io::Json plane = json({"roughness.treatment=[\"lowpass=gauss:1mm\"]"});
   EXPECT_LT(plane["roughness_rms_m"], 0.1e-9);
+}
+
+TEST_F(EhlPoint, SaysWhatAScanOfRoughnessLacksInWordsOfTheCase) {
+  const std::string layers = folder_ / "layers.plux";
+  io::write_file(layers, test::two_layer_plux());
+  const Outcome several = run_tabor(ball({"roughness.file=" + layers}));
+  EXPECT_EQ(several.code, 3);
+  EXPECT_THAT(several.err, HasSubstr("for example roughness.channel = \"0\""));
+  const std::string numbers = folder_ / "numbers.txt";
+  io::write_file(numbers, "1 2 3\n4 5 6\n7 8 9\n");
+  EXPECT_THAT(run_tabor(ball({"roughness.file=" + numbers})).err,
+              HasSubstr("--pixel 0.67um --unit um with 'tabor convert FILE OUT', and name OUT"));
 }
 
 TEST_F(EhlPoint, GeneratesFinishesFromTheirSeed) {  // slow

@@ -87,6 +87,9 @@ TEST(Findings, FitTheirLineHoweverManyCasesAndHoweverLongTheText) {
   }
   EXPECT_EQ(shortened("one two three", 13), "one two three");
   EXPECT_EQ(shortened("one two three", 12), "one two ...");
+  EXPECT_EQ(shortened("got 0 'a', 1 'b', 2 'c'; choose one", 33),
+            "got 0 'a', 1 'b', ...; choose one");
+  EXPECT_EQ(shortened("got no value; a remedy longer than that", 20), "got no value; a ...");
 }
 
 TEST(Findings, FitTextsWithoutFoldersFirst) {
