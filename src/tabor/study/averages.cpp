@@ -159,7 +159,7 @@ Columns<Average> average_columns(const cases::FrictionParts& parts) {
     add_mean("friction_mixed", &FluidAverage::friction_mixed, fluid);
     columns = joined(columns, within(fluid, &Average::fluid));
   }
-  columns.push_back({"left_out", "", kLeftOutHeading, &Average::left_out});
+  columns.emplace_back("left_out", "", kLeftOutHeading, &Average::left_out);
   return columns;
 }
 
