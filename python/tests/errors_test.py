@@ -60,5 +60,5 @@ def test_what_reading_lacks_is_asked_for_as_an_argument(tmp_path):
             tb.read(file, **settings)
         assert "--" not in str(raised.value)
     tb.read(file, pixel="1um", unit="um").save(tmp_path / "heights.h5")
-    with pytest.raises(tb.InputError, match="drop pixel=, or add override_unit=True"):
+    with pytest.raises(tb.InputError, match="drop pixel=; add override_unit=True"):
         tb.read(tmp_path / "heights.h5", pixel="2um")

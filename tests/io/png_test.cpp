@@ -6,6 +6,7 @@
 
 #include "support/folder.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/core/resources.hpp"
 
 namespace tabor::io {
 namespace {
@@ -91,6 +92,18 @@ TEST(Png, RejectsEveryTruncation) {
     test::put_bytes(folder / "b.png", all.substr(0, size));
     EXPECT_THROW(read_png(folder / "b.png"), InputError) << size;
   }
+}
+
+TEST(Png, BelievesNoLengthThatTheFileCannotHave) {
+  const Folder folder;
+  write_png({2, 1, 1, {7, 9}}, folder / "a.png");
+  std::string bytes = test::bytes_of(folder / "a.png");
+  bytes.insert(bytes.find("IDAT") - 4,
+               std::string("\x44\x52\x00\x21tEXtTitle", 13));  // 1.1 GB of text
+  test::put_bytes(folder / "a.png", bytes);
+  const std::size_t before = peak_memory_bytes();
+  EXPECT_THROW(read_png(folder / "a.png"), InputError);
+  EXPECT_LT(peak_memory_bytes() - before, std::size_t{100} << 20);
 }
 
 TEST(Png, FullDiskLeavesNothing) {

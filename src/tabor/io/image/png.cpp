@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -38,9 +39,28 @@ using Stream = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 void ignore_warning(png_structp, png_const_charp) {}
 
+/// Deflate unpacks to at most so many times its size (zlib technical note).
+constexpr double kLargestRatio = 1032;
+
+/// What libpng may ask for at once to read a file of this size [bytes]: a chunk that states a
+/// length which the file cannot have is then skipped.
+std::size_t largest_block(const std::filesystem::path& file) {
+  constexpr double kOwn = 1e6;  // buffers of libpng and zlib themselves
+  return static_cast<std::size_t>(kOwn + kLargestRatio *
+                                             static_cast<double>(std::filesystem::file_size(file)));
+}
+
+png_voidp allocate(png_structp png, png_alloc_size_t size) {
+  return size <= *static_cast<const std::size_t*>(png_get_mem_ptr(png)) ? std::malloc(size)
+                                                                        : nullptr;
+}
+
+void release(png_structp, png_voidp block) { std::free(block); }
+
 struct Reader {
-  explicit Reader(std::string* name)
-      : png(png_create_read_struct(PNG_LIBPNG_VER_STRING, name, &throw_input, &ignore_warning)),
+  Reader(std::string* name, std::size_t* largest)
+      : png(png_create_read_struct_2(PNG_LIBPNG_VER_STRING, name, &throw_input, &ignore_warning,
+                                     largest, &allocate, &release)),
         info(png_create_info_struct(png)) {}
   ~Reader() { png_destroy_read_struct(&png, &info, nullptr); }
   Reader(const Reader&) = delete;
@@ -129,10 +149,8 @@ std::map<std::string, std::string> remarks_of(const Reader& reader) {
   return remarks;
 }
 
-/// Rejects sizes that the file's own bytes cannot hold: deflate unpacks to at most 1032 times its
-/// size (zlib technical note).
+/// Rejects sizes that the file's own bytes cannot hold.
 void check_size(const Reader& reader, const std::filesystem::path& file) {
-  constexpr double kLargestRatio = 1032;
   const auto nx = png_get_image_width(reader.png, reader.info);
   const auto ny = png_get_image_height(reader.png, reader.info);
   const double bytes =
@@ -178,7 +196,8 @@ GreyImage read_png(const std::filesystem::path& file) {
   const RegularFile opened(file);
   const Stream stream(::fdopen(::dup(opened.descriptor()), "rb"), &std::fclose);
   if (!stream) throw InputError(name + ": cannot be read: " + std::strerror(errno));
-  const Reader reader(&name);
+  std::size_t largest = largest_block(file);
+  const Reader reader(&name, &largest);
   png_init_io(reader.png, stream.get());
   png_read_info(reader.png, reader.info);
   check_size(reader, file);
