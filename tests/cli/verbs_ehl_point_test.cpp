@@ -86,10 +86,10 @@ TEST_F(EhlPoint, TouchingSolidsRubAsTheCaseSays) {  // slow
   ASSERT_GT(bare["contact_load_share"].get<double>(), 0.5);
   EXPECT_TRUE(bare["friction_solid"].is_null());
   EXPECT_TRUE(bare["friction_coefficient"].is_null());
-  EXPECT_THAT(io::to_text(bare["warnings"]), HasSubstr("frictionless"));
+  EXPECT_THAT(io::to_text(bare["warnings"]), HasSubstr("boundary-friction"));
   const io::Json smooth = with("asperities.friction_coefficient=0");  // said, so believed
   EXPECT_EQ(smooth["friction_solid"], 0);
-  EXPECT_THAT(io::to_text(smooth["warnings"]), Not(HasSubstr("frictionless")));
+  EXPECT_THAT(io::to_text(smooth["warnings"]), Not(HasSubstr("boundary-friction")));
   const io::Json rubbing = with("asperities.friction_coefficient=0.1");
   EXPECT_NEAR(rubbing["friction_solid"].get<double>(),
               0.1 * bare["contact_load_share"].get<double>(), 1e-9);

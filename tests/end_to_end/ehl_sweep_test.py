@@ -100,7 +100,7 @@ class SharedOut(EhlSweepTest):
             self.assertFalse((self.folder / "out.h5").exists())
         self.assertEqual(said["n_done"], N_CASES)
         _, said, err = self.results("out.h5", STRIBECK)
-        self.assertIn(f"{N_CASES} of {N_CASES} cases were done", err)
+        self.assertIn(f"{N_CASES} of {N_CASES} finished cases were found", err)
         self.assert_same("out.h5", said, STRIBECK)
         self.assertEqual(self.files(), ["ball.toml", "out.h5", "whole.h5"])
 

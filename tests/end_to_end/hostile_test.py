@@ -67,7 +67,7 @@ class Folder(Hostile):
 
     def hostile_environment(self, folder):
         return {**os.environ, "PYTHONPATH": f".:{folder}", "PYTHONHOME": str(folder), "PYTHONSTARTUP": "csv.py",
-                "PYTHONUSERBASE": str(folder), "PATH": f".::{os.environ['PATH']}"}
+                "PYTHONUSERBASE": str(folder), "PATH": f".::/usr/bin:{os.environ['PATH']}"}
 
     def report(self, program, folder, **options):
         result = os.path.relpath(self.generate("scan.h5", "edt", 24), folder)

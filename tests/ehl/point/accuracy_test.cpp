@@ -101,13 +101,13 @@ bool says(const PointResult& result, const std::string& words) {
 
 TEST(PointWarnings, SayHowFarGridAndDomainAreOff) {
   const PointResult coarse = solve_point(moes_case(1000, 0, 97));
-  EXPECT_TRUE(says(coarse, "more nodes"));
+  EXPECT_TRUE(says(coarse, "many nodes"));
   EXPECT_FALSE(says(coarse, "domain"));
   const PointResult light = solve_point(on_domain(5, 8));
   EXPECT_TRUE(says(light, "grid.domain = \"auto\""));
-  EXPECT_FALSE(says(light, "more nodes"));
+  EXPECT_FALSE(says(light, "many nodes"));
   const PointResult fine = solve_point(moes_case(100, 0, 129));
-  EXPECT_FALSE(says(fine, "more nodes") || says(fine, "grid.domain"));
+  EXPECT_FALSE(says(fine, "many nodes") || says(fine, "grid.domain"));
 }
 
 }  // namespace
