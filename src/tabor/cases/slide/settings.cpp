@@ -19,6 +19,10 @@ constexpr double kMostPixels = 1e5;  // of one distance: more take days, and the
 }  // namespace
 
 double distance_of(const SlideSettings& sliding, const Tool& tool, double dx) {
+  if (sliding.step && *sliding.step < 0.5 * dx) {
+    throw InputError("<step>", format_si(*sliding.step, "m"),
+                     "at least a pixel, " + format_si(dx, "m"), "");
+  }
   const double most = kMostPixels * dx;
   const double distance = sliding.distance.value_or(std::min(kMostPasses * tool.grid.lx, most));
   if (distance >= 0.5 * dx && distance <= most) return distance;

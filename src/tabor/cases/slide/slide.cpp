@@ -37,7 +37,7 @@ class Run {
         elasticity_(make_operator(settings.contact, surface.grid)),
         tool_(make_tool(settings.contact.tool, surface.grid, observer)),
         contact_(settings.contact),
-        distance_(distance_of(sliding, tool_, surface.grid.dx())),
+        distance_(distance_of(sliding, tool_, dx())),
         film_(rain()),
         slider_(*elasticity_, problem_of()),
         steadiness_(tool_.grid.lx) {
@@ -95,8 +95,7 @@ class Run {
   /// The distance in whole pixels, of which the last step may be shorter than the others.
   Index pixels_to_slide() const { return static_cast<Index>(std::llround(distance_ / dx())); }
   std::uint64_t planned_steps() const {
-    const Index steps = (pixels_to_slide() + pixels_ - 1) / pixels_;
-    return static_cast<std::uint64_t>(std::max<Index>(1, steps));
+    return static_cast<std::uint64_t>((pixels_to_slide() + pixels_ - 1) / pixels_);
   }
   Index pixels_of_next_step() const {
     const auto slid = static_cast<Index>(std::llround(all_.distance / dx()));
@@ -140,7 +139,7 @@ sliding::Problem Run::problem_of() const {
                            .saturation_pressure = settings_.contact.pressure_cap(),
                            .hardening = sliding_.hardening.value_or(0),
                            .displaced = sliding_.displaced,
-                           .reach = std::max(sliding_.reach, 2 * surface_.grid.dx()),
+                           .reach = std::max(sliding_.reach, 2 * dx()),
                            .wear_coefficient = sliding_.wear_coefficient.value_or(0),
                            .tolerance = settings_.contact.tolerance};
   if (film_ && settings_.trapped.is_asked()) {
@@ -495,10 +494,6 @@ SlideResult Run::run() {
 
 SlideResult slide(const topography::Topography& surface, const CaseSettings& settings,
                   const SlideSettings& sliding, const SlideRun& run, const Observer& observer) {
-  if (sliding.step && *sliding.step < 0.5 * surface.grid.dx()) {
-    throw InputError("<step>", format_si(*sliding.step, "m"),
-                     "at least a pixel, " + format_si(surface.grid.dx(), "m"), "");
-  }
   return Run(surface, settings, sliding, run, observer).run();
 }
 

@@ -78,7 +78,7 @@ struct SlideRecord {
 };
 
 /// Returns the distance in force, at most [m], over pixels of this length. Throws InputError for
-/// one below a pixel, or out of all proportion.
+/// one below a pixel, or out of all proportion, and for steps below a pixel.
 double distance_of(const SlideSettings& sliding, const Tool& tool, double dx);
 
 /// Parts of a slide that not every one has, and their columns.
