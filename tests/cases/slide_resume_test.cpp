@@ -8,8 +8,10 @@
 #include "cases/small_sheet.hpp"
 #include "support/folder.hpp"
 #include "support/rejection.hpp"
+#include "support/stopping.hpp"
 #include "tabor/cases/slide/slide.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/core/watch.hpp"
 
 namespace tabor::cases {
 namespace {
@@ -38,8 +40,10 @@ struct Outcome {
   bool stopped = false;
 };
 
-/// Slides until the observer is asked for the n-th time; 0: to the end.
-Outcome slid(const SlidingRun& run, const std::filesystem::path& folder, int n_questions = 0) {
+/// Slides until the observer is asked for the n-th time after the first step; 0: to the end. Every
+/// loop asks it, as under a watch that never waits.
+Outcome slid(const SlidingRun& run, const std::filesystem::path& folder, int n_questions = 0,
+             double checkpoint_period = 1e9) {
   Outcome outcome;
   const SlideParts parts = parts_of(run.settings, run.sliding);
   const SlideRun wanted{
@@ -51,12 +55,15 @@ Outcome slid(const SlidingRun& run, const std::filesystem::path& folder, int n_q
           },
       .wants_maps = true,
       .checkpoint = folder,
-      .checkpoint_period = 0};
+      .checkpoint_period = checkpoint_period};
   int n_asked = 0;
-  const auto observer = [&](const Progress&) {
-    return n_questions == 0 || ++n_asked < n_questions;
+  const Observer observer = [&](const Progress& progress) {
+    if (n_asked > 0 || progress.stage.starts_with("slide,")) ++n_asked;
+    return n_questions == 0 || n_asked < n_questions;
   };
+  const test::EveryQuestion every;
   try {
+    const Watch watch(observer, "");
     outcome.after =
         slide(test::small_sheet(), run.settings, run.sliding, wanted, observer).after.height;
   } catch (const Interrupted&) {
@@ -99,24 +106,29 @@ void expect_same(const Outcome& found, const Outcome& expected) {
   }
 }
 
-/// Stops a run again and again, each time a little later, until it ends.
-void expect_to_go_on(const SlidingRun& run) {
+/// Stops a run again and again, each time a little later, until it ends. It saves itself before
+/// each step, or, with a long period, only when it is stopped.
+void expect_to_go_on(const SlidingRun& run, double checkpoint_period = 1e9) {
   const Outcome whole = slid(run, {});
   ASSERT_FALSE(whole.stopped);
   EXPECT_EQ(whole.maps.size(), 3U);  // both ends, and the one that was asked for
   const test::Folder folder;
   int n_stops = 0;
   Outcome found;
-  for (int n_questions = 10; n_questions < 1000; n_questions += 6, ++n_stops) {
-    found = slid(run, folder / "run", n_questions);
+  for (int n_questions = 1; n_questions < 100000; n_questions += 1 + n_questions / 5, ++n_stops) {
+    found = slid(run, folder / "run", n_questions, checkpoint_period);
     if (!found.stopped) break;
+    ASSERT_TRUE(std::filesystem::exists(folder / "run/slide.h5")) << n_questions;
   }
-  EXPECT_GE(n_stops, 2);
+  EXPECT_GE(n_stops, 5);
   expect_same(found, whole);
   EXPECT_EQ(folder.n_files(), 0U);
 }
 
-TEST(SlideCheckpoint, LetsAStoppedRunGoOnWithTheSameBits) { expect_to_go_on({}); }
+TEST(SlideCheckpoint, LetsAStoppedRunGoOnWithTheSameBits) {
+  expect_to_go_on({});
+  expect_to_go_on({}, 0);
+}
 
 TEST(SlideCheckpoint, LetsOneOnASheetThatHardensGoOn) {
   SlidingRun run;

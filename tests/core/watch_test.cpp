@@ -105,6 +105,20 @@ TEST(Watch, IsOfItsThreadAlone) {
   EXPECT_EQ(asked, 1);
 }
 
+TEST(Unwatched, LetsWorkEndWhoeverSaidStop) {
+  bool goes_on = true;
+  const Observer observer = [&](const Progress&) { return goes_on; };
+  const Watch watch(observer, "slide");
+  goes_on = false;
+  pass_time();
+  {
+    const Unwatched saving;
+    EXPECT_NO_THROW(go_on_or_throw());
+    EXPECT_THROW(Watch(observer, "within"), Interrupted);
+  }
+  EXPECT_THROW(go_on_or_throw(), Interrupted);
+}
+
 TEST(Watch, OfNobodyLeavesTheWordToTheOneAround) {
   int asked = 0;
   const Observer observer = [&](const Progress&) { return ++asked > 0; };

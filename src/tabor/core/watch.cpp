@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <limits>
+#include <utility>
 
 #include "tabor/core/error.hpp"
 
@@ -28,6 +29,10 @@ Watch::Watch(const Observer& observer, std::string_view stage)
 }
 
 Watch::~Watch() { innermost = outer_; }
+
+Unwatched::Unwatched() : outer_(std::exchange(innermost, nullptr)) {}
+
+Unwatched::~Unwatched() { innermost = outer_; }
 
 void Watch::tell(double fraction) {
   fraction_ = fraction;

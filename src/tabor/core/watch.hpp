@@ -40,6 +40,19 @@ class Watch {
   Watch* outer_;
 };
 
+/// Lets no watch stop the computation while this object lives: for work that must not end halfway,
+/// such as saving what was reached before a watch said stop. A watch within it works as ever.
+class Unwatched {
+ public:
+  Unwatched();
+  ~Unwatched();
+  Unwatched(const Unwatched&) = delete;
+  Unwatched& operator=(const Unwatched&) = delete;
+
+ private:
+  Watch* outer_;
+};
+
 /// Runs `work` under a watch. Returns false, without an exception, if the observer stopped it; an
 /// outer watch ends the work by Interrupted.
 template <typename Work>

@@ -14,6 +14,7 @@
 #include "tabor/core/error.hpp"
 #include "tabor/core/resources.hpp"
 #include "tabor/core/units.hpp"
+#include "tabor/core/watch.hpp"
 #include "tabor/friction/wet_contact.hpp"
 #include "tabor/metrology/areal/parameters.hpp"
 #include "tabor/sliding/squeezed.hpp"
@@ -155,7 +156,7 @@ std::optional<FilmRecord> Run::rain() const {
   return film_state(surface_, settings_.film, observer_).front();
 }
 
-/// Adds up a step.
+/// Adds up a step, and lets its contact squeeze oil out.
 void Run::take(const sliding::Ploughing& step) {
   since_ += step;
   all_ += step;
@@ -163,6 +164,7 @@ void Run::take(const sliding::Ploughing& step) {
                slider_.displacing().convergence.converged();
   if (step.distance > 0) ++result_.steps;
   if (sliding_.hardening) contact_.saturation_pressure = slider_.highest_cap();
+  after_contact(step);
 }
 
 /// Squeezes oil out, and follows how steady sliding is.
@@ -373,7 +375,6 @@ void Run::find_step() {
     if (sliding_.step || is_fine || pixels == 1) {
       pixels_ = pixels;
       take(step);
-      after_contact(step);
       return tell_plan(watch_.seconds() - begin);
     }
     slider_.go_on_from(pressed);
@@ -395,7 +396,6 @@ void Run::tell_plan(double seconds_of_a_step) {
 void Run::begin() {
   const sliding::Ploughing pressed = slider_.press(observer_);
   take(pressed);
-  after_contact(pressed);
   keep_state();
   find_step();
 }
@@ -434,7 +434,6 @@ void Run::advance_one() {
   const double begin = watch_.seconds();
   const sliding::Ploughing step = slider_.advance(pixels_of_next_step(), asked);
   take(step);
-  after_contact(step);
   if (!is_told_) tell_plan(watch_.seconds() - begin);
 }
 
@@ -473,6 +472,7 @@ SlideResult Run::run() {
     look();
   }
   while (!ends()) {
+    const Unwatched step;  // it ends whole, or asks the observer itself and changes nothing
     if (checkpoint_) save_if_due();
     advance();
     look();
