@@ -49,6 +49,17 @@ TEST(PatchFilm, StopsAtAnyQuestion) {
       [&](const Observer& observer) { return steady_film(problem, oil, observer).convergence; });
 }
 
+TEST(PatchFilm, IsFoundInFewProducts) {
+  const PatchProblem problem = rough_patch(64, 0.6e-6);
+  const Field oil = Field::Constant(64, 64, 0.6 * problem.gap.mean());
+  const PatchFilm film = steady_film(problem, oil);
+  ASSERT_TRUE(film.convergence.converged());
+  RecordProperty("iterations", film.convergence.iterations);
+  RecordProperty("products", film.convergence.operator_applications);
+  EXPECT_LT(film.convergence.iterations, 200);              // each step begins with the cells of
+  EXPECT_LT(film.convergence.operator_applications, 1000);  // the last, in the units of the last
+}
+
 TEST(PatchFilm, FindsTheCavityOfThePocket) {
   const PatchProblem problem =
       bearing(4000, 1e5, [](double x) { return x > 4e-3 && x < 8e-3 ? 2e-6 : 1e-6; });

@@ -156,30 +156,24 @@ void smooth_from_zero(const CouplingMatrix& matrix, const std::vector<std::int32
   }
 }
 
-void smooth_forward(const CouplingMatrix& matrix, const VectorXd& right, VectorXd& x) {
-  for (Index node = 0; node < matrix.size(); ++node) {
-    double total = right[node];
-    for_neighbours(matrix, node,
-                   [&](std::int32_t other, double coupling) { total += coupling * x[other]; });
-    x[node] = total / matrix.diagonal[node];
-  }
+/// The x of one node that balances it.
+double relaxed(const CouplingMatrix& matrix, Index node, const VectorXd& right, const VectorXd& x) {
+  double total = right[node];
+  for_neighbours(matrix, node,
+                 [&](std::int32_t other, double coupling) { total += coupling * x[other]; });
+  return total / matrix.diagonal[node];
 }
 
-void smooth_backward(const CouplingMatrix& matrix, const VectorXd& right, VectorXd& x) {
-  for (Index node = matrix.size() - 1; node >= 0; --node) {
-    double total = right[node];
-    for_neighbours(matrix, node,
-                   [&](std::int32_t other, double coupling) { total += coupling * x[other]; });
-    x[node] = total / matrix.diagonal[node];
-  }
-}
-
-Eigen::MatrixXd dense(const CouplingMatrix& matrix) {
-  Eigen::MatrixXd full = matrix.diagonal.asDiagonal();
+Eigen::SparseMatrix<double> sparse(const CouplingMatrix& matrix) {
+  std::vector<Eigen::Triplet<double>> entries;
   for (Index node = 0; node < matrix.size(); ++node) {
-    for_neighbours(matrix, node,
-                   [&](std::int32_t other, double coupling) { full(node, other) -= coupling; });
+    entries.emplace_back(node, node, matrix.diagonal[node]);
+    for_neighbours(matrix, node, [&](std::int32_t other, double coupling) {
+      entries.emplace_back(node, other, -coupling);
+    });
   }
+  Eigen::SparseMatrix<double> full(matrix.size(), matrix.size());
+  full.setFromTriplets(entries.begin(), entries.end());
   return full;
 }
 
@@ -193,6 +187,14 @@ void CouplingMatrix::multiply(const VectorXd& x, VectorXd& y) const {
                    [&](std::int32_t other, double value) { total -= value * x[other]; });
     y[node] = total;
   }
+}
+
+void CouplingMatrix::relax_forward(const VectorXd& right, VectorXd& x) const {
+  for (Index node = 0; node < size(); ++node) x[node] = relaxed(*this, node, right, x);
+}
+
+void CouplingMatrix::relax_backward(const VectorXd& right, VectorXd& x) const {
+  for (Index node = size() - 1; node >= 0; --node) x[node] = relaxed(*this, node, right, x);
 }
 
 AggregationMultigrid::AggregationMultigrid(CouplingMatrix matrix) {
@@ -210,8 +212,7 @@ AggregationMultigrid::AggregationMultigrid(CouplingMatrix matrix) {
     levels_.back().coarse = std::move(both);
     add_level(coarsened(between, second));
   }
-  const CouplingMatrix& last = levels_.back().matrix;
-  if (last.size() > 0 && last.size() <= kCoarsestSize) coarsest_.compute(dense(last));
+  if (levels_.back().matrix.size() > 0) coarsest_.compute(sparse(levels_.back().matrix));
 }
 
 void AggregationMultigrid::add_level(CouplingMatrix matrix) {
@@ -224,15 +225,7 @@ void AggregationMultigrid::cycle(std::size_t number, const VectorXd& r, VectorXd
   const Index n = level.matrix.size();
   if (n == 0) return;
   if (level.coarse.empty()) {
-    if (n <= kCoarsestSize) {
-      z = coarsest_.solve(r);
-      return;
-    }
-    z.setZero(n);
-    for (int sweep = 0; sweep < 10; ++sweep) {
-      smooth_forward(level.matrix, r, z);
-      smooth_backward(level.matrix, r, z);
-    }
+    z = coarsest_.solve(r);
     return;
   }
   Level& next = levels_[number + 1];
@@ -247,7 +240,7 @@ void AggregationMultigrid::cycle(std::size_t number, const VectorXd& r, VectorXd
     next.solution += next.second_solution;
   }
   for (Index i = 0; i < n; ++i) z[i] += next.solution[level.coarse[at(i)]];
-  smooth_backward(level.matrix, r, z);
+  level.matrix.relax_backward(r, z);
 }
 
 void AggregationMultigrid::apply(const VectorXd& r, VectorXd& z) { cycle(0, r, z); }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
+#include <Eigen/SparseLU>
 
 #include <cstdint>
 #include <vector>
@@ -19,13 +19,16 @@ struct CouplingMatrix {
 
   Eigen::Index size() const { return diagonal.size(); }
   void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;
+  /// Gauss-Seidel on A x = right, once through the nodes from the first, or from the last.
+  void relax_forward(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
+  void relax_backward(const Eigen::VectorXd& right, Eigen::VectorXd& x) const;
 };
 
 /// Preconditions by one cycle of algebraic multigrid. Nodes are joined in two rounds of pairs along
 /// their strongest couplings, so that coarse nodes follow the conductances wherever they jump;
 /// corrections are constant on each (Notay 2010, Electronic Transactions on Numerical Analysis 37,
 /// 123; 2012, doi:10.1137/110835347). W cycles, one Gauss-Seidel sweep forward before and one
-/// backward after.
+/// backward after; the last level is factored.
 class AggregationMultigrid {
  public:
   explicit AggregationMultigrid(CouplingMatrix matrix);
@@ -47,7 +50,7 @@ class AggregationMultigrid {
   void cycle(std::size_t level, const Eigen::VectorXd& r, Eigen::VectorXd& z);
 
   std::vector<Level> levels_;
-  Eigen::PartialPivLU<Eigen::MatrixXd> coarsest_;
+  Eigen::SparseLU<Eigen::SparseMatrix<double>> coarsest_;
 };
 
 }  // namespace tabor::reynolds

@@ -9,6 +9,9 @@ namespace {
 
 using Eigen::VectorXd;
 
+constexpr int kUnitSweeps = 3;
+constexpr double kInflow = 1e-6;  // flow over an even conductance that would drive a pressure of 1
+
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 struct Link {
@@ -85,17 +88,44 @@ class Rows {
   CouplingMatrix matrix_;
 };
 
+/// Brings the units nearer to the pressures that an even inflow would raise. They stay positive, as
+/// all couplings are.
+void improve(const CouplingMatrix& matrix, VectorXd& unit) {
+  if (matrix.size() == 0) return;
+  const double inflow = kInflow * matrix.diagonal.mean();
+  const VectorXd even = VectorXd::Constant(matrix.size(), inflow);
+  for (int sweep = 0; sweep < kUnitSweeps; ++sweep) {
+    matrix.relax_forward(even, unit);
+    matrix.relax_backward(even, unit);
+  }
+}
+
+/// Measures each unknown in its unit.
+void scale(CouplingMatrix& matrix, const VectorXd& unit) {
+  matrix.diagonal.array() *= unit.array();
+  for (std::size_t k = 0; k < matrix.coupling.size(); ++k) {
+    matrix.coupling[k] *= unit[matrix.neighbour[k]];
+  }
+}
+
 }  // namespace
 
-FullCells::FullCells(const PatchCells& cells, const std::vector<CellKind>& kinds, double time)
-    : multigrid_(matrix_of(cells, kinds, time)) {}
+FullCells::FullCells(const PatchCells& cells, const std::vector<CellKind>& kinds, double time,
+                     Field& unit)
+    : multigrid_(matrix_of(cells, kinds, time, unit)) {}
 
 CouplingMatrix FullCells::matrix_of(const PatchCells& cells, const std::vector<CellKind>& kinds,
-                                    double time) {
+                                    double time, Field& unit) {
   for (Index cell = 0; cell < cells.size(); ++cell) {
     if (kinds[at(cell)] == CellKind::full) cell_.push_back(static_cast<std::int32_t>(cell));
   }
-  return Rows(cells, kinds, time, cell_).take();
+  CouplingMatrix matrix = Rows(cells, kinds, time, cell_).take();
+  unit_.resize(count());
+  for (Index i = 0; i < count(); ++i) unit_[i] = unit.data()[cell(i)];
+  improve(matrix, unit_);
+  for (Index i = 0; i < count(); ++i) unit.data()[cell(i)] = unit_[i];
+  scale(matrix, unit_);
+  return matrix;
 }
 
 void FullCells::apply(const VectorXd& x, VectorXd& y) {
@@ -105,10 +135,17 @@ void FullCells::apply(const VectorXd& x, VectorXd& y) {
 
 bool FullCells::solve(const VectorXd& right, double tolerance, int max_products, VectorXd& x,
                       const std::function<void()>& tick) {
+  x.setZero(count());
+  const bool is_solved = iterate(right, tolerance, max_products, x, tick);
+  x.array() *= unit_.array();
+  return is_solved;
+}
+
+/// Adds to x, in its units, what leaves no more than the tolerance of r.
+bool FullCells::iterate(VectorXd r, double tolerance, int max_products, VectorXd& x,
+                        const std::function<void()>& tick) {
   const Index n = count();
   VectorXd image(n);
-  apply(x, image);
-  VectorXd r = right - image;
   const VectorXd shadow = r;
   VectorXd p = VectorXd::Zero(n);
   VectorXd v = p;

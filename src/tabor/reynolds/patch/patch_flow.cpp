@@ -130,8 +130,7 @@ void slide(const PatchProblem& problem, const PatchCells& cells, const Component
   const double crossing = problem.grid.lx / problem.entrainment_speed;  // [s]
   double length = kFirstStep;
   for (int step = 1; step <= kMaxSteps; ++step) {
-    PatchFilm next =
-        advance(cells, components, film.oil, length * crossing, film.pressure, observer);
+    PatchFilm next = advance(cells, components, film.oil, length * crossing, film, observer);
     add_work(film, next);
     if (next.convergence.status == Status::stalled) {
       length /= 4;
@@ -162,6 +161,7 @@ void slide_from(const PatchProblem& problem, const Field& oil, const PatchFilm* 
   if (guess) {
     add_work(*guess, film);
     film.pressure = sampled(guess->pressure, cells.ny, cells.nx);
+    if (guess->unit.size() > 0) film.unit = sampled(guess->unit, cells.ny, cells.nx);
     redistribute(cells, components, sampled(guess->fill, cells.ny, cells.nx), film.oil.volume);
   }
   slide(problem, cells, components, observer, film);

@@ -18,8 +18,9 @@ constexpr int kMaxProducts = 400;
 constexpr double kRoughTolerance = 1e-4;  // of the flows, while many cells still change sides
 constexpr double kFairTolerance = 1e-6;   // while few do
 constexpr double kTolerance = 1e-11;
-constexpr double kOverfill = 1e-6;  // a fill above 1 by less is what the solver leaves
-constexpr double kNearlyFull = 0.9;
+constexpr double kCloser = 0.01;     // where no fewer cells change sides than before
+constexpr double kOverfill = 1e-6;   // a fill above 1 by less is what the solver leaves
+constexpr double kNearlyFull = 0.9;  // so full is a cell at first, where no film was before
 // Sets of cells fit if at most one cell in so many still changes sides, which the pressure does not
 // feel by more than this.
 constexpr Index kFewChanges = 20000;
@@ -32,13 +33,14 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 class Step {
  public:
   Step(const PatchCells& cells, const Components& components, const PatchOil& oil, double time,
-       const Observer& observer)
+       const Field& unit, const Observer& observer)
       : cells_(cells),
         components_(components),
         oil_(oil),
         time_(time),
         observer_(observer),
         balance_(cells, oil, time),
+        unit_(unit.size() > 0 ? unit : Field::Ones(cells.ny, cells.nx)),
         overfull_(at(components.count()), false) {
     find_overfull_components();
   }
@@ -47,6 +49,7 @@ class Step {
     choose_first_kinds(guess);
     PatchFilm film;
     double tolerance = kRoughTolerance;
+    Index last_changes = cells_.size();
     bool settled = false;
     bool balanced = false;
     film.convergence.tolerance = kTolerance;
@@ -62,7 +65,9 @@ class Step {
       settled = quiet && tolerance == kTolerance;
       if (settled && changes > 0) balanced = solve_pressures(kTolerance, film.convergence);
       if (changes <= cells_.size() / 10000) tolerance = std::min(tolerance, kFairTolerance);
-      if (quiet) tolerance = kTolerance;
+      if (changes >= last_changes) tolerance *= kCloser;
+      tolerance = quiet ? kTolerance : std::max(tolerance, kTolerance);
+      last_changes = changes;
     }
     if (!settled) balanced = solve_pressures(kTolerance, film.convergence);
     film.convergence.status = !balanced ? Status::stalled
@@ -77,7 +82,7 @@ class Step {
     for (Index cell = 0; cell < cells_.size(); ++cell) {
       if (!cells_.is_open(cell)) continue;
       const bool full = (guessed && guess.data()[cell] > 0) ||
-                        balance_.oil(cell) >= kNearlyFull * balance_.gap(cell);
+                        balance_.oil(cell) >= (guessed ? 1 : kNearlyFull) * balance_.gap(cell);
       balance_.set_kind(cell, full ? CellKind::full : CellKind::starved);
       if (balance_.is_reservoir(cell)) {
         balance_.pin(cell, cells_.reservoir_pressure);
@@ -145,9 +150,9 @@ class Step {
   }
 
   bool solve_pressures(double tolerance, Convergence& convergence) {
-    FullCells system(cells_, balance_.kinds(), time_);
+    FullCells system(cells_, balance_.kinds(), time_, unit_);
     VectorXd r;
-    VectorXd step(system.count());
+    VectorXd step;
     double rounding = 0;
     bool solved = false;
     for (int round = 0; round < 8 && !solved; ++round) {
@@ -157,7 +162,6 @@ class Step {
       convergence.certificate = flows > 0 ? r.norm() / flows : 0;
       solved = r.norm() <= goal;
       if (solved) break;
-      step.setZero();
       const double target = std::max(goal / 2, 1e-6 * r.norm());
       const bool went_well = system.solve(
           r, target, kMaxProducts, step, [&] { report_progress(observer_, "film", std::nan("")); });
@@ -224,6 +228,7 @@ class Step {
     film.mean_pressure = sum(film.pressure) / static_cast<double>(balance_.pressures().size());
     film.dissipation = balance_.dissipation();
     film.steps = 1;
+    film.unit = std::move(unit_);
     return film;
   }
 
@@ -233,14 +238,15 @@ class Step {
   double time_;
   const Observer& observer_;
   PatchBalance balance_;
+  Field unit_;
   std::vector<bool> overfull_;  // connected components with no less oil than they hold
 };
 
 }  // namespace
 
 PatchFilm advance(const PatchCells& cells, const Components& components, const PatchOil& oil,
-                  double time, const Field& guess, const Observer& observer) {
-  return Step(cells, components, oil, time, observer).run(guess);
+                  double time, const PatchFilm& guess, const Observer& observer) {
+  return Step(cells, components, oil, time, guess.unit, observer).run(guess.pressure);
 }
 
 }  // namespace tabor::reynolds

@@ -11,6 +11,7 @@ struct PatchFilm {
   Field pressure;            ///< p [Pa], >= 0; 0 at solid cells and where the gap is not full
   Field fill;                ///< theta, 0..1; 0 at solid cells
   PatchOil oil;              ///< where the oil is
+  Field unit;                ///< of the pressure of each cell, in which the next step is solved
   double mean_pressure = 0;  ///< [Pa], over the whole patch
   double dissipation = 0;    ///< of the flow that pressure drives [W/m^2], over the whole patch
   int steps = 0;             ///< in time
@@ -34,8 +35,8 @@ struct PatchFilm {
 /// moves over faces only, so its volume is conserved to round-off. The widest place of each
 /// connected component of the gap is its vent: where the pressure there would exceed vent_pressure,
 /// oil leaves and is counted as `outside`. `oil` must be settled in the components of these cells.
-/// A `guess` of the pressure (or an empty field) saves iterations. Throws Interrupted.
+/// The pressure and the unit of a `guess` (or empty fields) save iterations. Throws Interrupted.
 PatchFilm advance(const PatchCells& cells, const Components& components, const PatchOil& oil,
-                  double time, const Field& guess, const Observer& observer = {});
+                  double time, const PatchFilm& guess, const Observer& observer = {});
 
 }  // namespace tabor::reynolds
