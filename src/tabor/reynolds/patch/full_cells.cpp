@@ -10,7 +10,7 @@ namespace {
 using Eigen::VectorXd;
 
 constexpr int kUnitSweeps = 3;
-constexpr double kInflow = 1e-6;  // flow over an even conductance that would drive a pressure of 1
+constexpr double kInflow = 1e-6;  // into a cell, over what a pressure of 1 drives out of a mean one
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 

@@ -18,9 +18,8 @@ constexpr int kMaxProducts = 400;
 constexpr double kRoughTolerance = 1e-4;  // of the flows, while many cells still change sides
 constexpr double kFairTolerance = 1e-6;   // while few do
 constexpr double kTolerance = 1e-11;
-constexpr double kCloser = 0.01;     // where no fewer cells change sides than before
-constexpr double kOverfill = 1e-6;   // a fill above 1 by less is what the solver leaves
-constexpr double kNearlyFull = 0.9;  // so full is a cell at first, where no film was before
+constexpr double kCloser = 0.01;    // where no fewer cells change sides than before
+constexpr double kOverfill = 1e-6;  // a fill above 1 by less is what the solver leaves
 // Sets of cells fit if at most one cell in so many still changes sides, which the pressure does not
 // feel by more than this.
 constexpr Index kFewChanges = 20000;
@@ -81,8 +80,8 @@ class Step {
     const bool guessed = guess.size() == balance_.pressures().size();
     for (Index cell = 0; cell < cells_.size(); ++cell) {
       if (!cells_.is_open(cell)) continue;
-      const bool full = (guessed && guess.data()[cell] > 0) ||
-                        balance_.oil(cell) >= (guessed ? 1 : kNearlyFull) * balance_.gap(cell);
+      const bool full =
+          (guessed && guess.data()[cell] > 0) || balance_.oil(cell) >= balance_.gap(cell);
       balance_.set_kind(cell, full ? CellKind::full : CellKind::starved);
       if (balance_.is_reservoir(cell)) {
         balance_.pin(cell, cells_.reservoir_pressure);
