@@ -224,6 +224,22 @@ TEST(FluidFilm, SaysWhenItDidNotConverge) {
   EXPECT_GE(state.convergence.certificate, std::abs(state.load_error));
 }
 
+TEST(FluidFilm, TellsHowFarTheSharedLoadIs) {
+  const Case at = pressed(bumps(32), 20e6, 0.6e-6, 1.0);
+  std::vector<double> certificates;
+  const Observer observer = [&](const Progress& progress) {
+    EXPECT_TRUE(std::isnan(progress.fraction));
+    if (progress.convergence == nullptr) return true;
+    EXPECT_EQ(progress.convergence->tolerance, at.problem.tolerance);
+    const double one = progress.convergence->certificate;
+    if (certificates.empty() || certificates.back() != one) certificates.push_back(one);
+    return true;
+  };
+  const FluidFilmState state = solve_fluid_film(*at.elasticity, at.problem, at.dry, observer);
+  ASSERT_TRUE(state.convergence.converged());
+  EXPECT_EQ(static_cast<int>(certificates.size()), state.convergence.iterations - 1);
+}
+
 TEST(FluidFilm, StopsAtAnyQuestion) {
   const Case at = pressed(bumps(32), 20e6, 0.6e-6, 1.0);
   test::expect_to_stop_at_once([&](const Observer& observer) {

@@ -65,6 +65,7 @@ class Solver {
   void run(FluidFilmState& state) {
     LoadSearch search;
     Convergence& convergence = state.convergence;
+    if (observer_) told_ = [&](const Progress& inner) { return tells(inner, convergence); };
     do {
       flow(state);
       if (!convergence.failed() || convergence.iterations >= problem_.max_evaluations) return;
@@ -87,6 +88,13 @@ class Solver {
   }
 
  private:
+  /// Contacts and films within tell how far the shared load is, not how far they are themselves.
+  bool tells(const Progress& inner, const Convergence& convergence) const {
+    const bool is_measured = std::isfinite(convergence.certificate);
+    return !asks_to_stop(
+        observer_, {.stage = inner.stage, .convergence = is_measured ? &convergence : nullptr});
+  }
+
   bool load_fits(const FluidFilmState& state) const {
     return std::abs(state.load_error) <= problem_.tolerance;
   }
@@ -100,7 +108,7 @@ class Solver {
       contact::Problem solids = problem_.contact;
       solids.height = height;
       solids.control = contact::MeanPressure{state.solid_pressure};
-      state.contact = contact::solve(elasticity_, solids, contact::Solver::fast, observer_);
+      state.contact = contact::solve(elasticity_, solids, contact::Solver::fast, told_);
       if (state.contact.convergence.stopped()) state.convergence.status = Status::stopped;
       state.contact.displacement += deflection_;
       return;
@@ -124,8 +132,8 @@ class Solver {
     // Elsewhere the oil starts from its deposit again: where it went before must not matter.
     const bool has_guess = state.convergence.iterations > 1 && load_fits(state);
     const reynolds::PatchProblem patch = patch_of(state);
-    state.film = has_guess ? steady_film(patch, problem_.film, state.film, observer_)
-                           : steady_film(patch, problem_.film, observer_);
+    state.film = has_guess ? steady_film(patch, problem_.film, state.film, told_)
+                           : steady_film(patch, problem_.film, told_);
     if (state.film.convergence.stopped()) {
       state.convergence.status = Status::stopped;
       return;
@@ -220,6 +228,7 @@ class Solver {
   elastic::ElasticOperator& elasticity_;
   const FluidFilmProblem& problem_;
   const Observer& observer_;
+  Observer told_;  // what contacts and films are given in its place
   double load_;
   double roughness_;
   Field felt_;        // the fluid's pressure that the surface has given way to [Pa]

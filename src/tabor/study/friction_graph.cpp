@@ -253,11 +253,12 @@ std::size_t FrictionGraph::add_wet_shares(std::size_t pressure) {
 
 std::size_t FrictionGraph::add_oil(const FrictionPlace& place) {
   const bool flows = place.kind == FrictionJob::fluid;
-  engine::Job job = job_of(place, [shared = shared_, place, flows](const engine::Monitor& monitor) {
-    flows ? shared->solve_flow(place, monitor) : shared->solve_trapped(place, monitor);
-  });
-  job.restarts = flows;  // with a contact within each step of the film
-  return add(std::move(job), {contacts_[place.contact], film_});
+  return add(job_of(place,
+                    [shared = shared_, place, flows](const engine::Monitor& monitor) {
+                      flows ? shared->solve_flow(place, monitor)
+                            : shared->solve_trapped(place, monitor);
+                    }),
+             {contacts_[place.contact], film_});
 }
 
 std::vector<std::size_t> FrictionGraph::add_frictions(std::size_t pressure) {
