@@ -1,5 +1,7 @@
 #include "tabor/study/case.hpp"
 
+#include <gmock/gmock.h>
+
 #include <functional>
 #include <set>
 
@@ -9,6 +11,8 @@ namespace tabor::study {
 namespace {
 
 using test::ExampleStudy;
+using testing::HasSubstr;
+using testing::Not;
 
 /// The same files for all keys of a test: written twice they hold two dates.
 Study example() {
@@ -61,6 +65,20 @@ TEST(Tasks, TextOfACaseWithoutFlowIsWhatItWasBeforeOilCouldFlow) {
             "tabor case 5\nscan = 3:one\ngroup = 3:all\ncontact = 1:c\nfilm = 1:f\n"
             "lubricant_density_kg_per_m2 = 0.00089999999999999998\n"
             "shear_strength_Pa = 70000000\narea = 9:corrected\n");
+}
+
+TEST(Tasks, FilmsOnMirrorImagesAloneKnowWhichRainFell) {
+  const auto text = [](const topography::Treatment& steps) {
+    Study study;
+    study.treatment = steps;
+    engine::Task surface;
+    surface.key = "s";
+    return film_task(study, surface).text;
+  };
+  EXPECT_THAT(text({"level=plane", "edges=tile"}), Not(HasSubstr("image")));
+  for (const char* step : {"mirror", "edges=cut", "recipe=part"}) {
+    EXPECT_THAT(text({"level=plane", step}), HasSubstr("image_algorithms = 2\n")) << step;
+  }
 }
 
 cases::FluidSettings flowing(double viscosity, std::optional<double> pressure_viscosity = {},

@@ -233,5 +233,14 @@ TEST(Edges, AreSaidOnce) {
   EXPECT_EQ(edges_of({"level=plane", "mirror"}), std::nullopt);
 }
 
+TEST(Edges, SayWhichStepsMirror) {
+  for (const Treatment& steps :
+       {Treatment{"level=plane", "mirror"}, {"edges=cut"}, {"recipe=part"}}) {
+    EXPECT_TRUE(mirrors(steps)) << steps.back();
+  }
+  EXPECT_FALSE(mirrors({"level=plane", "edges=tile"}));
+  EXPECT_FALSE(mirrors({}));
+}
+
 }  // namespace
 }  // namespace tabor::topography::test

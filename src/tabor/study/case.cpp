@@ -104,6 +104,12 @@ std::string text_of(const Parameters<Settings>& parameters, const Settings& sett
   return text_of(some, settings);
 }
 
+/// Says which rain falls on mirror images; nothing for surfaces without.
+std::string line_of_images(const Study& study) {
+  if (!topography::mirrors(study.treatment)) return "";
+  return engine::text_line("image_algorithms", kImageAlgorithms);
+}
+
 }  // namespace
 
 engine::Task surface_task(const Study& study, const Scan& scan, const std::string& scan_sha256) {
@@ -132,8 +138,8 @@ engine::Task contact_task(const Study& study, const engine::Task& surface, doubl
 
 engine::Task film_task(const Study& study, const engine::Task& surface) {
   const cases::FilmSettings& lubricant = study.settings.film;
-  std::string body =
-      engine::text_line("surface", surface.key) + text_of(cases::film_parameters(), lubricant);
+  std::string body = engine::text_line("surface", surface.key) +
+                     text_of(cases::film_parameters(), lubricant) + line_of_images(study);
   for (const double density : lubricant.lubricant_densities) {
     body += engine::text_line("lubricant_density_kg_per_m2", density);
   }
@@ -176,7 +182,7 @@ engine::Task slide_task(const Study& study, const engine::Task& surface, double 
                      text_of(cases::slide_parameters(), *study.slide);
   if (lubricant_density > 0) {
     body += engine::text_line("lubricant_density_kg_per_m2", lubricant_density) +
-            text_of(cases::film_parameters(), one.film);
+            text_of(cases::film_parameters(), one.film) + line_of_images(study);
     if (one.trapped.is_asked()) body += text_of(cases::trapped_parameters(), one.trapped);
   }
   return task_of(kSlideKind, "json", body);

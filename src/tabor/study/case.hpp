@@ -13,7 +13,8 @@ namespace tabor::study {
 /// Version of the algorithms, part of the texts. Raise it when the same text gives other numbers
 /// than before.
 inline constexpr int kAlgorithms = 5;
-inline constexpr int kFluidAlgorithms = 1;      ///< the same for films that flow alone
+inline constexpr int kImageAlgorithms = 2;      ///< the same for films on mirror images alone
+inline constexpr int kFluidAlgorithms = 2;      ///< the same for films that flow alone
 inline constexpr int kTrappedAlgorithms = 1;    ///< the same for trapped oil alone
 inline constexpr int kSlideAlgorithms = 1;      ///< the same for slides alone
 inline constexpr int kWetSharesAlgorithms = 2;  ///< the same for wet shares over the density alone

@@ -261,10 +261,8 @@ Treatment expanded(const Treatment& treatment) {
 
 std::optional<Edges> edges_of(const Treatment& treatment) {
   std::optional<Edges> said;
-  bool is_mirrored = false;
   for (const std::string& step : expanded(treatment)) {
     const auto [name, argument] = split_step(step);
-    is_mirrored = is_mirrored || name == "mirror";
     if (name != "edges") continue;
     const std::optional<Edges> edges = kEdges.find(argument);
     if (said && edges != said) {
@@ -273,11 +271,19 @@ std::optional<Edges> edges_of(const Treatment& treatment) {
     }
     said = edges;
   }
-  if (said && is_mirrored && said != Edges::cut) {
+  if (said && said != Edges::cut && mirrors(treatment)) {
     throw InputError("edges", fmt::format("'{}' with mirror", kEdges.of(*said)),
                      "'cut' with mirror, which is the same", "");
   }
   return said;
+}
+
+bool mirrors(const Treatment& treatment) {
+  const Treatment steps = expanded(treatment);
+  return std::any_of(steps.begin(), steps.end(), [](const std::string& step) {
+    const auto [name, argument] = split_step(step);
+    return name == "mirror" || (name == "edges" && argument == kEdges.of(Edges::cut));
+  });
 }
 
 void check(const Treatment& treatment) {

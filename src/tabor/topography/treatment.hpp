@@ -38,6 +38,9 @@ void check(const Treatment& treatment);
 /// contradict it.
 std::optional<Edges> edges_of(const Treatment& treatment);
 
+/// True if a step adds mirror images.
+bool mirrors(const Treatment& treatment);
+
 /// Applies the steps in order; each leaves a line in `history` with its numbers. Warnings about the
 /// heights are found anew for the result.
 Topography apply(const Treatment& treatment, Topography topography, const Observer& observer = {});
