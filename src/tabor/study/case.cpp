@@ -49,6 +49,7 @@ void add_pressure(const Study& study, const Scan& scan, double pressure, ScanTas
   for (std::size_t i = 0; i < conditions.size(); ++i) {
     const Condition& condition = conditions[i];
     std::vector<engine::Task> oil;
+    oil.reserve(trapped.size());
     for (const std::vector<engine::Task>& at_place : trapped) oil.push_back(at_place[i]);
     if (study.flows()) fluids.push_back(fluid_task(study, contacts.front(), tasks.film, condition));
     cases.push_back(case_task(study, scan, contacts, tasks.film, study.lubricant_density(condition),
