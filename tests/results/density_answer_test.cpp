@@ -38,7 +38,7 @@ TEST(DensityAnswer, DecidesByTheWetShareAndNotByTheDensity) {
   const std::string sentence = sentence_of(curve(), {{1.3e-3, 0.195}, {1e-4, 0.15}});
   EXPECT_THAT(sentence, HasSubstr("1.3 g/m^2 (19.5 % wet) lies between"));
   EXPECT_THAT(sentence,
-              HasSubstr("0.1 g/m^2 (15 % wet) lies below, as single droplets miss pockets"));
+              HasSubstr("0.1 g/m^2 (15 % wet) wets less, as single droplets miss pockets"));
   EXPECT_EQ(place_of(curve(), 1 - 0.8 * 1.0101), Place::below);
   EXPECT_EQ(place_of(curve(), 1 - 0.8 * 1.0099), Place::plateau);
   EXPECT_EQ(place_of(curve(), 1 - 0.8 * 0.9901), Place::plateau);

@@ -84,7 +84,8 @@ std::string expected_word(const DensityCurve& curve, double wet) {
 
 bool says(const std::string& clause, const std::string& word) {
   return clause.find(' ' + word + ',') != std::string::npos ||
-         (word == "between" && clause.find(" there,") != std::string::npos);
+         (word == "between" && clause.find(" there,") != std::string::npos) ||
+         (word == "below" && clause.find(" less,") != std::string::npos);
 }
 
 TEST(DensityWords, AgreeWithTheWetSharesInTheTable) {

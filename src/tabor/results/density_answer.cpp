@@ -62,7 +62,8 @@ std::string place_text(Place place, const cases::Plateau& plateau,
     case Place::below:
       return there.front().lubricant_density < plateau.first
                  ? fmt::format("{} below, where fewer pockets are full", lie)
-                 : fmt::format("{} below, as single droplets miss pockets", lie);
+                 : fmt::format("{} less, as single droplets miss pockets",
+                               there.size() == 1 ? "wets" : "wet");
     case Place::plateau:
       return is_dry(plateau)
                  ? fmt::format("{} there, where friction is nearly that without oil", lie)
