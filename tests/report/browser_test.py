@@ -335,7 +335,7 @@ class Quickstart(InBrowser):
         sentences = list(dict.fromkeys(self.texts("#answers li")))
         places = self.table("table.places")
         self.assertEqual(len(sentences), 3)
-        words = {"below": "below", "between": "plateau", "there": "plateau", "beyond": "beyond"}
+        words = {"below": "below", "less": "below", "between": "plateau", "there": "plateau", "beyond": "beyond"}
         n_words = 0
         for sentence in sentences:
             pressure, text = re.match(r"At (\d+ MPa): (.*)", sentence).groups()
@@ -347,7 +347,7 @@ class Quickstart(InBrowser):
             edge = re.search(r"above (\S+ to \S+ g/m²)", text)
             self.assertEqual(places["plateau ends in"][pressure], edge.group(1))
             for clause in text.split("; "):
-                word = re.search(r"\blies? (\w+),", clause)
+                word = re.search(r"\b(?:lies?|wets?) (\w+),", clause)
                 for density, share in re.findall(r"(\S+) g/m² \((\S+) % wet\)", clause):
                     droplets = ", single droplets" if "single droplets" in clause else ""
                     self.assertEqual(places[f"{density} g/m²"][pressure], f"{words[word.group(1)]} ({share} %){droplets}")
