@@ -116,7 +116,7 @@ def places_table(places, group_names):
             lying = asked.where(asked.equal(DENSITY, density))
             texts = [_at(lying, pressure, _place) for pressure in shown]
             firsts = [_at(edges, pressure, lambda row: row[EDGES[0]]) for pressure in shown]
-            texts = [f"{text}, single droplets" if text.startswith("below") and density > first else text
+            texts = [f"less wet{text.removeprefix('below')}, single droplets" if text.startswith("below") and density > first else text
                      for text, first in zip(texts, firsts)]
             rows.append((f"{units.density(density)}{name}", texts))
         rows.append((f"plateau ends in{name}", [_at(edges, pressure, _end) for pressure in shown]))

@@ -472,7 +472,7 @@ SlideResult Run::run() {
     look();
   }
   while (!ends()) {
-    const Unwatched step;  // it ends whole, or asks the observer itself and changes nothing
+    const Unwatched whole_step;  // it ends whole, or asks the observer itself and changes nothing
     if (checkpoint_) save_if_due();
     advance();
     look();

@@ -11,7 +11,7 @@ struct PatchFilm {
   Field pressure;            ///< p [Pa], >= 0; 0 at solid cells and where the gap is not full
   Field fill;                ///< theta, 0..1; 0 at solid cells
   PatchOil oil;              ///< where the oil is
-  Field unit;                ///< of the pressure of each cell, in which the next step is solved
+  Field unit;                ///< [Pa] in which the next step measures the pressure of each cell
   double mean_pressure = 0;  ///< [Pa], over the whole patch
   double dissipation = 0;    ///< of the flow that pressure drives [W/m^2], over the whole patch
   int steps = 0;             ///< in time
