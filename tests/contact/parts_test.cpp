@@ -102,7 +102,7 @@ TEST(CandidateSet, LeavesOutNothingThatMatters) {
 
 TEST(Preconditioner, DirectSumsArePositiveDefiniteOnAnySet) {
   const Grid grid{48, 40, 1.0, 0.9};
-  const Preconditioner preconditioner(grid, 1.0, true);
+  const Preconditioner preconditioner(grid, 1.0, elastic::Border::repeats);
   const CounterRandom random(9);
   for (std::uint64_t trial = 0; trial < 20; ++trial) {
     FieldF residual = FieldF::Zero(40, 48);
@@ -126,7 +126,7 @@ TEST(Preconditioner, DirectSumsArePositiveDefiniteOnAnySet) {
 
 TEST(Preconditioner, RowSumsAreTheAnswerToAConstant) {
   const Grid grid{40, 40, 1.0, 1.0};
-  const Preconditioner preconditioner(grid, 1.0, true);
+  const Preconditioner preconditioner(grid, 1.0, elastic::Border::repeats);
   FieldF residual = FieldF::Zero(40, 40);
   const PixelList set{3, 4, 5, 44, 820, 821, 860};
   for (const std::uint32_t pixel : set) residual(pixel) = 2.0F;
@@ -142,8 +142,8 @@ TEST(Preconditioner, RowSumsAreTheAnswerToAConstant) {
 TEST(LongWaves, CompleteThePreconditionerToTheInverseOfTheOperatorOnLongWaves) {
   constexpr Index n = 256;
   const Grid grid{n, n, 1.0, 1.0};
-  const Preconditioner preconditioner(grid, 1.0, true);
-  LongWaves long_waves(grid, 1.0, preconditioner.plateau(), true);
+  const Preconditioner preconditioner(grid, 1.0, elastic::Border::repeats);
+  LongWaves long_waves(grid, 1.0, preconditioner.plateau(), elastic::Border::repeats);
   PixelList everywhere(n * n);
   std::iota(everywhere.begin(), everywhere.end(), 0U);
   for (const int k : {1, 2}) {  // waves of many blocks
@@ -171,7 +171,7 @@ TEST(LongWaves, CompleteThePreconditionerToTheInverseOfTheOperatorOnLongWaves) {
 
 TEST(LongWaves, LeaveAloneWhatBoundsHold) {
   const Grid grid{64, 64, 1.0, 1.0};
-  LongWaves long_waves(grid, 1.0, 10.0, true);
+  LongWaves long_waves(grid, 1.0, 10.0, elastic::Border::repeats);
   std::vector<float> direction{1.0F, 2.0F};
   long_waves.start_anew();
   long_waves.correct({100, 2000}, {5.0F, 5.0F}, {0.0F, 0.0F}, {1.0F, 2.0F},
@@ -181,7 +181,7 @@ TEST(LongWaves, LeaveAloneWhatBoundsHold) {
 
 TEST(Preconditioner, SumsAcrossTheEdgesOfAPeriodicCell) {
   const Grid grid{40, 40, 1.0, 1.0};
-  const Preconditioner preconditioner(grid, 1.0, true);
+  const Preconditioner preconditioner(grid, 1.0, elastic::Border::repeats);
   const auto response = [&](Index y, Index x) {
     FieldF residual = FieldF::Zero(40, 40);
     residual(y, x) = 1;

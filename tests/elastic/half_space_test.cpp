@@ -11,6 +11,7 @@
 #include "support/validation.hpp"
 #include "support/worst.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/core/mirror_images.hpp"
 
 namespace tabor::elastic {
 namespace {
@@ -155,6 +156,53 @@ TEST(PeriodicHalfSpace, CommutesWithTranslation) {
   const Field expected = shifted(applied(*elasticity, pressure));
   EXPECT_LE((applied(*elasticity, shifted(pressure)) - expected).abs().maxCoeff(),
             1e-12 * expected.abs().maxCoeff());
+}
+
+TEST(MirroredHalfSpace, IsThePeriodicOneOfItsImages) {
+  for (const auto& [ny, nx] : {std::pair<Index, Index>{12, 20}, {9, 7}, {1, 5}}) {
+    const Grid whole{2 * nx, 2 * ny, 3e-6, 2e-6};
+    const auto periodic = make_periodic(whole, kModulus);
+    ElasticOperator* const mirrored = periodic->of_image();
+    ASSERT_NE(mirrored, nullptr);
+    EXPECT_EQ(mirrored->border(), Border::mirrors);
+    EXPECT_EQ(mirrored->of_image(), nullptr);
+    const Field image = Field::Random(ny, nx);
+    const Field expected = applied(*periodic, mirror_images(image));
+    const double most = expected.abs().maxCoeff();
+    EXPECT_LE((mirror_images(applied(*mirrored, image)) - expected).abs().maxCoeff(), 1e-13 * most);
+
+    FieldF single;
+    mirrored->apply(image.cast<float>().eval(), single);
+    EXPECT_LE((mirror_images<Field>(single.cast<double>()) - expected).abs().maxCoeff(),
+              1e-5 * most);
+
+    Field back;
+    ASSERT_TRUE(mirrored->apply_inverse(expected.topLeftCorner(ny, nx), back));
+    EXPECT_LE((back - (image - image.mean())).abs().maxCoeff(), 1e-12);
+  }
+}
+
+TEST(MirroredHalfSpace, LiesOnGridsOfTheSameExtent) {
+  const Grid grid{24, 16, 3e-6, 2e-6};
+  const auto coarse = make_mirrored(grid, kModulus)->on_grid({12, 8, 3e-6, 2e-6});
+  const Field image = Field::Random(8, 12);
+  const Field expected =
+      applied(*make_periodic({24, 16, 6e-6, 4e-6}, kModulus), mirror_images(image));
+  EXPECT_LE((mirror_images(applied(*coarse, image)) - expected).abs().maxCoeff(),
+            1e-13 * expected.abs().maxCoeff());
+}
+
+TEST(MirroredHalfSpace, IsOnlyThereWhereImagesCanBe) {
+  EXPECT_EQ(make_periodic({5, 4, 1e-6, 1e-6}, kModulus)->of_image(), nullptr);
+  EXPECT_EQ(make_free({4, 4, 1e-6, 1e-6}, kModulus)->of_image(), nullptr);
+}
+
+TEST(MirroredHalfSpace, CountsItsTransformsAsThoseOfThePeriodicOne) {
+  const auto periodic = make_periodic({64, 64, 1e-6, 1e-6}, kModulus);
+  ASSERT_EQ(periodic->fft_seconds(), 0);
+  applied(*periodic->of_image(), Field::Random(32, 32));
+  EXPECT_GT(periodic->fft_seconds(), 0);
+  EXPECT_EQ(periodic->fft_seconds(), periodic->of_image()->fft_seconds());
 }
 
 TEST(FreeHalfSpace, IsTheDirectSumOfLovesCoefficients) {

@@ -48,6 +48,12 @@ TEST(BracketedSecant, StaysInTheBracketOfCurvedAndFlatFunctions) {
   EXPECT_LT(far.n_values, 60);
 }
 
+TEST(BracketedSecant, LeavesAPlaceWhereTheFunctionIsFlat) {
+  const Found found = search([](double x) { return std::min(1e-3, x); }, 5, 1);
+  EXPECT_NEAR(found.place, 0, 1e-8);
+  EXPECT_LT(found.n_values, 60);
+}
+
 TEST(BracketedSecant, EndsAtAJump) {
   const Found found = search([](double x) { return x < 0.3 ? -1.0 : 1.0; }, 0, 1);
   EXPECT_NEAR(found.place, 0.3, 1e-8);

@@ -13,6 +13,7 @@
 #include "support/folder.hpp"
 #include "support/validation.hpp"
 #include "tabor/core/error.hpp"
+#include "tabor/core/mirror_images.hpp"
 #include "tabor/core/parallel.hpp"
 
 namespace tabor::spectral {
@@ -70,7 +71,7 @@ TEST_P(Sizes, PaddedConvolutionIsTheDirectSum) {
   const Field values = even_spectrum(2 * ny, 2 * nx, kernel);
   const Field map = Field::Random(ny, nx);
   Field result(ny, nx);
-  Convolution<double>(ny, nx, Convolution<double>::Padding::zero)
+  Convolution<double>(ny, nx, Padding::zero)
       .apply(
           map.data(),
           [&](Index kx, std::span<double> out) {
@@ -88,6 +89,30 @@ TEST_P(Sizes, PaddedConvolutionIsTheDirectSum) {
       EXPECT_NEAR(result(y, x), expected, 1e-13 * static_cast<double>(nx * ny));
     }
   }
+}
+
+template <typename Real, typename Map>
+void expect_mirrored_convolution_is_that_of_the_images(Index ny, Index nx, double tolerance) {
+  const auto factor = [](Index kx, Index ky) {
+    return 1 / (1 + 0.3 * static_cast<double>(kx * kx) + static_cast<double>(ky));
+  };
+  const auto multiplier = [&](Index kx, std::span<Real> out) {
+    for (std::size_t ky = 0; ky < out.size(); ++ky) {
+      out[ky] = static_cast<Real>(factor(kx, static_cast<Index>(ky)));
+    }
+  };
+  const Map map = Map::Random(ny, nx);
+  Map all = mirror_images(map);
+  Convolution<Real>(2 * ny, 2 * nx).apply(all.data(), multiplier, all.data());
+  Map one = map;
+  Convolution<Real>(ny, nx, Padding::mirror).apply(one.data(), multiplier, one.data());
+  EXPECT_LE((all - mirror_images(one)).abs().maxCoeff(), tolerance);
+}
+
+TEST_P(Sizes, MirroredConvolutionIsThatOfTheImages) {
+  const auto [ny, nx] = GetParam();
+  expect_mirrored_convolution_is_that_of_the_images<double, Field>(ny, nx, 1e-14);
+  expect_mirrored_convolution_is_that_of_the_images<float, FieldF>(ny, nx, 1e-5);
 }
 
 INSTANTIATE_TEST_SUITE_P(

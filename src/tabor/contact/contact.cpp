@@ -6,6 +6,7 @@
 #include <limits>
 #include <variant>
 
+#include "tabor/contact/images.hpp"
 #include "tabor/contact/load_problem.hpp"
 #include "tabor/contact/separation.hpp"
 #include "tabor/core/error.hpp"
@@ -91,6 +92,19 @@ State solve_near_zero(elastic::ElasticOperator& elasticity, const Problem& probl
              : solve_load(elasticity, under, solver, observer);
 }
 
+/// Solves a checked problem wherever its heights lie.
+State solve_map(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
+                const Observer& observer) {
+  const double offset = offset_of(problem.height);
+  if (offset == 0) return solve_near_zero(elasticity, problem, solver, observer);
+  Problem near_zero = problem;
+  near_zero.height -= offset;
+  if (auto* separation = std::get_if<Separation>(&near_zero.control)) separation->value -= offset;
+  State state = solve_near_zero(elasticity, near_zero, solver, observer);
+  state.separation += offset;
+  return state;
+}
+
 }  // namespace
 
 void require_reachable(const elastic::ElasticOperator& elasticity, const Field& height,
@@ -121,14 +135,12 @@ double prescribed_pressure(const Problem& problem, const Grid& grid) {
 State solve(elastic::ElasticOperator& elasticity, const Problem& problem, Solver solver,
             const Observer& observer) {
   check(elasticity, problem);
-  const double offset = offset_of(problem.height);
-  if (offset == 0) return solve_near_zero(elasticity, problem, solver, observer);
-  Problem near_zero = problem;
-  near_zero.height -= offset;
-  if (auto* separation = std::get_if<Separation>(&near_zero.control)) separation->value -= offset;
-  State state = solve_near_zero(elasticity, near_zero, solver, observer);
-  state.separation += offset;
-  return state;
+  if (elastic::ElasticOperator* const of_image = elasticity.of_image()) {
+    if (const auto image = problem_of_image(problem)) {
+      return with_images(solve_map(*of_image, *image, solver, observer));
+    }
+  }
+  return solve_map(elasticity, problem, solver, observer);
 }
 
 Field unloaded_height(const Field& height, const State& state) {

@@ -5,6 +5,7 @@
 
 #include "tabor/core/loops.hpp"
 #include "tabor/core/rows.hpp"
+#include "tabor/elastic/padding.hpp"
 
 namespace tabor::contact {
 namespace {
@@ -33,16 +34,15 @@ Index slot(Index dy, Index dx) { return 3 * (dy + 1) + dx + 1; }
 
 }  // namespace
 
-LongWaves::LongWaves(const Grid& grid, double effective_modulus, double plateau, bool wraps)
+LongWaves::LongWaves(const Grid& grid, double effective_modulus, double plateau,
+                     elastic::Border border)
     : grid_(grid),
       blocks_y_(block_count(grid.ny)),
       blocks_x_(block_count(grid.nx)),
-      rows_(neighbours(grid.ny, blocks_y_, wraps)),
-      columns_(neighbours(grid.nx, blocks_x_, wraps)),
-      convolution_(blocks_y_, blocks_x_,
-                   wraps ? spectral::Convolution<float>::Padding::none
-                         : spectral::Convolution<float>::Padding::zero) {
-  const Index extent = wraps ? 1 : 2;
+      rows_(neighbours(grid.ny, blocks_y_, border == elastic::Border::repeats)),
+      columns_(neighbours(grid.nx, blocks_x_, border == elastic::Border::repeats)),
+      convolution_(blocks_y_, blocks_x_, elastic::padding_of(border)) {
+  const Index extent = border == elastic::Border::repeats ? 1 : 2;  // of zeros or images
   const Index ny = extent * blocks_y_;
   const Index nx = extent * blocks_x_;
   const auto cells = static_cast<double>(extent * extent * blocks_y_ * blocks_x_);
@@ -64,7 +64,7 @@ LongWaves::LongWaves(const Grid& grid, double effective_modulus, double plateau,
 }
 
 std::vector<LongWaves::Neighbours> LongWaves::neighbours(Index n_pixels, Index n_blocks,
-                                                         bool wraps) {
+                                                         bool repeats) {
   std::vector<Neighbours> list(static_cast<std::size_t>(n_pixels));
   for_each(n_pixels, [&](Index pixel) {
     Neighbours& found = list[static_cast<std::size_t>(pixel)];
@@ -73,7 +73,7 @@ std::vector<LongWaves::Neighbours> LongWaves::neighbours(Index n_pixels, Index n
                             0.5;
     const auto lower = static_cast<Index>(std::floor(position));
     const auto weight = static_cast<float>(position - std::floor(position));
-    if (wraps) {
+    if (repeats) {
       found = {(lower + n_blocks) % n_blocks, (lower + 1) % n_blocks, weight};
     } else {
       const Index inside = std::clamp<Index>(lower, 0, n_blocks - 2);

@@ -4,6 +4,7 @@
 
 #include "tabor/contact/preconditioner.hpp"
 #include "tabor/core/types.hpp"
+#include "tabor/elastic/border.hpp"
 #include "tabor/spectral/fft.hpp"
 
 namespace tabor::contact {
@@ -20,9 +21,9 @@ namespace tabor::contact {
 /// conjugate gradients in the inner product of K = P^T m P, in which I + S_c K is symmetric.
 class LongWaves {
  public:
-  /// Prepares the blocks of a grid. plateau: value of M at long waves [Pa/m]; wraps: the grid is a
-  /// periodic cell.
-  LongWaves(const Grid& grid, double effective_modulus, double plateau, bool wraps);
+  /// Prepares the blocks of a grid. plateau: value of M at long waves [Pa/m]; border: what lies
+  /// beyond the grid.
+  LongWaves(const Grid& grid, double effective_modulus, double plateau, elastic::Border border);
 
   /// True unless the grid has only a few blocks, on which nothing is left to correct.
   bool useful() const { return blocks_y_ >= kLeastBlocks && blocks_x_ >= kLeastBlocks; }
@@ -52,7 +53,7 @@ class LongWaves {
     float weight;  // of the upper one
   };
 
-  static std::vector<Neighbours> neighbours(Index n_pixels, Index n_blocks, bool wraps);
+  static std::vector<Neighbours> neighbours(Index n_pixels, Index n_blocks, bool repeats);
   void gather(const PixelList& set, const std::vector<float>& stiffness,
               const std::vector<float>& moved, const std::vector<float>& compact);
   void gather_row(const PixelList& set, const std::vector<float>& stiffness,

@@ -64,8 +64,8 @@ float total(Row row) {
 
 }  // namespace
 
-Preconditioner::Preconditioner(const Grid& grid, double effective_modulus, bool wraps)
-    : grid_(grid), wraps_(wraps), kernel_(kSide * kRowLength, 0.0F) {
+Preconditioner::Preconditioner(const Grid& grid, double effective_modulus, elastic::Border border)
+    : grid_(grid), border_(border), kernel_(kSide * kRowLength, 0.0F) {
   const Field kernel = stiffness_kernel(grid.dy(), grid.dx(), effective_modulus);
   diagonal_ = kernel(0, 0);
   for (Index y = 1 - kRadius; y < kRadius; ++y) {
@@ -112,9 +112,17 @@ Preconditioner::Sums Preconditioner::sum_at_edge(const FieldF& residual, Index y
   return sum_around(around.data(), kRowLength);
 }
 
-/// Where pixel k of n lies: on the other side if the grid wraps, else nowhere if it is outside.
+/// Where pixel k of n lies if it is outside: on the other side, at its mirror image or nowhere.
 Index Preconditioner::pixel_or_none(Index k, Index n) const {
-  if (wraps_) return ((k % n) + n) % n;
+  const auto wrapped = [k](Index period) { return ((k % period) + period) % period; };
+  switch (border_) {
+    case elastic::Border::repeats:
+      return wrapped(n);
+    case elastic::Border::mirrors:
+      return std::min(wrapped(2 * n), 2 * n - 1 - wrapped(2 * n));
+    case elastic::Border::ends:
+      break;
+  }
   return k < 0 || k >= n ? kNone : k;
 }
 

@@ -4,6 +4,7 @@
 
 #include "tabor/core/loops.hpp"
 #include "tabor/core/types.hpp"
+#include "tabor/elastic/border.hpp"
 
 namespace tabor::contact {
 
@@ -13,8 +14,8 @@ namespace tabor::contact {
 /// contact pixels alone. LongWaves adds what the taper cuts off.
 class Preconditioner {
  public:
-  /// Computes the kernel. wraps: neighbours continue across the edges (periodic cell).
-  Preconditioner(const Grid& grid, double effective_modulus, bool wraps);
+  /// Computes the kernel. border: where the neighbours of pixels at the border are.
+  Preconditioner(const Grid& grid, double effective_modulus, elastic::Border border);
 
   /// Computes out[k] = sum over the set of kernel * residual at pixel set[k], row_sums[k] = sum
   /// over the set of the kernel. `residual` has shape (ny, nx) and is zero off the set; a pixel of
@@ -37,7 +38,7 @@ class Preconditioner {
   Index pixel_or_none(Index k, Index n) const;
 
   Grid grid_;
-  bool wraps_;
+  elastic::Border border_;
   double diagonal_ = 0;        // [Pa/m]
   std::vector<float> kernel_;  // [Pa/m], (2 r - 1) rows of kRowLength, zero-padded
 };

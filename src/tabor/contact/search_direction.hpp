@@ -26,9 +26,9 @@ inline constexpr int kPatience = 300;          ///< iterations without a better 
 class SearchDirection {
  public:
   explicit SearchDirection(const elastic::ElasticOperator& elasticity)
-      : preconditioner_(elasticity.grid(), elasticity.effective_modulus(), elasticity.drops_mean()),
+      : preconditioner_(elasticity.grid(), elasticity.effective_modulus(), elasticity.border()),
         long_waves_(elasticity.grid(), elasticity.effective_modulus(), preconditioner_.plateau(),
-                    elasticity.drops_mean()) {}
+                    elasticity.border()) {}
 
   /// Stiffness of a lone pixel [Pa/m].
   double diagonal() const { return preconditioner_.diagonal(); }

@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "tabor/contact/images.hpp"
 #include "tabor/contact/preconditioner.hpp"
 #include "tabor/core/loops.hpp"
 #include "tabor/numerics/conjugate_gradients.hpp"
@@ -25,7 +26,7 @@ class Restricted {
   Restricted(elastic::ElasticOperator& elasticity, const PixelList& set)
       : elasticity_(elasticity),
         set_(set),
-        preconditioner_(elasticity.grid(), elasticity.effective_modulus(), elasticity.drops_mean()),
+        preconditioner_(elasticity.grid(), elasticity.effective_modulus(), elasticity.border()),
         pressure_(Field::Zero(elasticity.grid().ny, elasticity.grid().nx)),
         residual_(FieldF::Zero(elasticity.grid().ny, elasticity.grid().nx)) {}
 
@@ -71,6 +72,11 @@ class Restricted {
 
 Stiffness contact_stiffness(elastic::ElasticOperator& elasticity, const State& state,
                             double saturation_pressure, double tolerance) {
+  if (elastic::ElasticOperator* const of_image = elasticity.of_image()) {
+    if (const auto image = state_of_image(state)) {
+      return contact_stiffness(*of_image, *image, saturation_pressure, tolerance);
+    }
+  }
   const PixelList set = free_pixels(state, saturation_pressure);
   Stiffness stiffness;
   stiffness.convergence = exact(tolerance);

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "tabor/core/error.hpp"
+#include "tabor/core/mirror_images.hpp"
 #include "tabor/core/resources.hpp"
 #include "tabor/core/units.hpp"
 #include "tabor/core/watch.hpp"

@@ -9,10 +9,6 @@ namespace tabor::deposition {
 /// of images, it is, and liquid runs downhill and stays.
 bool rains_on_one_image(const Field& height, const Dose& dose);
 
-/// Returns the first quarter of a map, of which the others are mirror images.
-Field first_image(const Field& map);
-Grid grid_of_image(const Grid& grid);
-
 /// Returns the dose for one image: the seams to the others are walls, as nothing crosses them.
 Dose dose_of_image(Dose dose);
 

@@ -10,6 +10,7 @@
 
 #include "tabor/core/error.hpp"
 #include "tabor/core/resources.hpp"
+#include "tabor/elastic/padding.hpp"
 #include "tabor/spectral/fft.hpp"
 
 namespace tabor::elastic {
@@ -19,11 +20,12 @@ namespace {
 /// precision used last only: solvers change it a few times per solution.
 class ConvolutionOperator : public ElasticOperator {
  public:
-  ConvolutionOperator(const Grid& grid, double effective_modulus, bool padded)
-      : grid_(grid), effective_modulus_(effective_modulus), padded_(padded) {}
+  ConvolutionOperator(const Grid& grid, double effective_modulus, Border border)
+      : grid_(grid), effective_modulus_(effective_modulus), border_(border) {}
 
   const Grid& grid() const override { return grid_; }
   double effective_modulus() const override { return effective_modulus_; }
+  Border border() const override { return border_; }
   double fft_seconds() const override { return fft_seconds_; }
 
   void apply(const Field& pressure, Field& displacement) override {
@@ -60,8 +62,7 @@ class ConvolutionOperator : public ElasticOperator {
            const spectral::Multiplier<Real>& values, Map& out) {
     const Stopwatch watch;
     if (!convolution) {
-      using Pad = typename spectral::Convolution<Real>::Padding;
-      convolution.emplace(grid_.ny, grid_.nx, padded_ ? Pad::zero : Pad::none);
+      convolution.emplace(grid_.ny, grid_.nx, padding_of(border_));
     }
     out.resize(grid_.ny, grid_.nx);
     convolution->apply(in.data(), values, out.data());
@@ -70,19 +71,36 @@ class ConvolutionOperator : public ElasticOperator {
 
   Grid grid_;
   double effective_modulus_;  // E* [Pa]
-  bool padded_;
+  Border border_;
   double fft_seconds_ = 0;
   std::optional<spectral::Convolution<double>> double_;
   std::optional<spectral::Convolution<float>> single_;
 };
 
+/// Half-space under a pressure that repeats with the map, or with 2 x 2 mirror images of it.
 class PeriodicHalfSpace final : public ConvolutionOperator {
  public:
-  PeriodicHalfSpace(const Grid& grid, double effective_modulus)
-      : ConvolutionOperator(grid, effective_modulus, false) {}
-  bool drops_mean() const override { return true; }
+  PeriodicHalfSpace(const Grid& grid, double effective_modulus, Border border)
+      : ConvolutionOperator(grid, effective_modulus, border),
+        images_(border == Border::mirrors ? 2 : 1) {}
+
   std::unique_ptr<ElasticOperator> on_grid(const Grid& grid) const override {
-    return make_periodic(grid, effective_modulus());
+    return std::make_unique<PeriodicHalfSpace>(grid, effective_modulus(), border());
+  }
+  ElasticOperator* of_image() override {
+    if (border() == Border::mirrors || grid().nx % 2 != 0 || grid().ny % 2 != 0) return nullptr;
+    if (!image_) {
+      const Grid image{grid().nx / 2, grid().ny / 2, grid().lx / 2, grid().ly / 2};
+      image_ = make_mirrored(image, effective_modulus());
+    }
+    return image_.get();
+  }
+  double fft_seconds() const override {
+    return ConvolutionOperator::fft_seconds() + (image_ ? image_->fft_seconds() : 0);
+  }
+  void free_memory() override {
+    ConvolutionOperator::free_memory();
+    if (image_) image_->free_memory();
   }
   bool apply_inverse(const Field& displacement, Field& pressure) override {
     convolve(
@@ -104,8 +122,9 @@ class PeriodicHalfSpace final : public ConvolutionOperator {
   /// 2 / (E* |q|), 0 for q = 0.
   template <typename Real>
   void compliance(Index kx, std::span<Real> values) const {
-    const double qx = spectral::wavevector(kx, grid().nx, grid().lx);
-    const double dqy = 2 * std::numbers::pi / grid().ly;
+    const double period = static_cast<double>(images_);
+    const double qx = spectral::wavevector(kx, images_ * grid().nx, period * grid().lx);
+    const double dqy = 2 * std::numbers::pi / (period * grid().ly);
     const auto qx2 = static_cast<Real>(qx * qx);
     const auto dqy2 = static_cast<Real>(dqy * dqy);
     const auto twice_compliance = static_cast<Real>(2 / effective_modulus());
@@ -115,18 +134,20 @@ class PeriodicHalfSpace final : public ConvolutionOperator {
     }
     if (kx == 0) values[0] = 0;
   }
+
+  Index images_;  // along each side of the cell that repeats
+  std::unique_ptr<ElasticOperator> image_;
 };
 
 class FreeHalfSpace final : public ConvolutionOperator {
  public:
   FreeHalfSpace(const Grid& grid, double effective_modulus)
-      : ConvolutionOperator(grid, effective_modulus, true),
+      : ConvolutionOperator(grid, effective_modulus, Border::ends),
         spectrum_(spectral::even_spectrum(2 * grid.ny, 2 * grid.nx, [&](Index y, Index x) {
           return love_coefficient(static_cast<double>(x) * grid.dx(),
                                   static_cast<double>(y) * grid.dy(), grid.dx(), grid.dy(),
                                   effective_modulus);
         })) {}
-  bool drops_mean() const override { return false; }
   std::unique_ptr<ElasticOperator> on_grid(const Grid& grid) const override {
     return make_free(grid, effective_modulus());
   }
@@ -176,7 +197,12 @@ double love_coefficient(double x, double y, double dx, double dy, double effecti
 
 std::unique_ptr<ElasticOperator> make_periodic(const Grid& grid, double effective_modulus) {
   check(grid, effective_modulus);
-  return std::make_unique<PeriodicHalfSpace>(grid, effective_modulus);
+  return std::make_unique<PeriodicHalfSpace>(grid, effective_modulus, Border::repeats);
+}
+
+std::unique_ptr<ElasticOperator> make_mirrored(const Grid& grid, double effective_modulus) {
+  check(grid, effective_modulus);
+  return std::make_unique<PeriodicHalfSpace>(grid, effective_modulus, Border::mirrors);
 }
 
 std::unique_ptr<ElasticOperator> make_free(const Grid& grid, double effective_modulus) {

@@ -99,7 +99,7 @@ class LineOperator final : public ElasticOperator {
 
   const Grid& grid() const override { return grid_; }
   double effective_modulus() const override { return line_.effective_modulus(); }
-  bool drops_mean() const override { return false; }
+  Border border() const override { return Border::ends; }
   double fft_seconds() const override { return fft_seconds_; }
   std::unique_ptr<ElasticOperator> on_grid(const Grid& grid) const override {
     return make_line(grid, effective_modulus());

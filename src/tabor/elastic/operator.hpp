@@ -3,7 +3,9 @@
 #include <memory>
 
 #include "tabor/core/types.hpp"
+#include "tabor/elastic/border.hpp"
 
+// Defines the interface of elastic operators.
 namespace tabor::elastic {
 
 /// A linear map from surface pressure to normal surface displacement of a half-space; symmetric and
@@ -30,8 +32,15 @@ class ElasticOperator {
   /// false where the operator has no such inverse (free half-space).
   virtual bool apply_inverse(const Field& displacement, Field& pressure) = 0;
 
-  /// True if a uniform pressure displaces nothing (periodic half-space, mean mode dropped).
-  virtual bool drops_mean() const = 0;
+  virtual Border border() const = 0;
+  /// True if a uniform pressure displaces nothing: the mean mode of a half-space loaded everywhere
+  /// is dropped.
+  bool drops_mean() const { return border() != Border::ends; }
+
+  /// Returns the operator of the first quarter of maps that consist of 2 x 2 mirror images, made at
+  /// the first call; null where there is none. It belongs to this one, and its transforms count as
+  /// this one's.
+  virtual ElasticOperator* of_image() { return nullptr; }
 
   /// Gives back what apply() holds for its next call.
   virtual void free_memory() {}

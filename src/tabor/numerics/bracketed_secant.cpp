@@ -16,10 +16,15 @@ double BracketedSecant::next(double place, double value) {
   if (value == 0) return place;
   const Point latest{place, value};
   learn_slope(latest);
+  const double before = previous_ ? place - previous_->place : 0;
+  const bool is_flat = previous_ && std::abs(value) > 0.5 * std::abs(previous_->value);
   previous_ = latest;
   (value < 0 ? low_ : high_) = latest;
-  const double step = -value / slope_;
-  if (!low_ || !high_) return place + std::clamp(step, -longest_step_, longest_step_);
+  double step = -value / slope_;
+  if (!low_ || !high_) {
+    if (is_flat) step = std::copysign(std::max(std::abs(step), 2 * std::abs(before)), step);
+    return place + std::clamp(step, -longest_step_, longest_step_);
+  }
   constexpr int patience = 2;  // a secant may narrow the bracket from one side for so many steps
   const double width = high_->place - low_->place;
   if (width_ == 0 || width <= 0.5 * width_) {

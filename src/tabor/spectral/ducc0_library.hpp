@@ -239,6 +239,12 @@ class ColumnBlock {
     }
   }
 
+  /// Begins columns whose values come from column() and pack() alone.
+  void begin_whole() {
+    n_loaded_ = n_;
+    make_columns();
+  }
+
   /// Transforms a bundle; values that were not loaded are zero.
   void forward(Index bundle) {
     std::fill(values(bundle) + n_loaded_, values(bundle) + n_, Value(Vector(0), Vector(0)));
@@ -260,24 +266,26 @@ class ColumnBlock {
 
   /// Makes column() valid for the columns of a bundle, and pack() ends that.
   void unpack(Index bundle) {
-    if (columns_.data() == nullptr) columns_ = Buffer<Complex, Real>(n_ * kTogether);
+    make_columns();
     const Value* const value = values(bundle);
+    Complex* const columns = column(bundle * kTogether);
     for (Index y = 0; y < n_; ++y) {
       for (Index i = 0; i < kTogether; ++i) {
-        column(i)[y] = {Lanes::get(value[y].r, i), Lanes::get(value[y].i, i)};
+        columns[i * n_ + y] = {Lanes::get(value[y].r, i), Lanes::get(value[y].i, i)};
       }
     }
   }
   void pack(Index bundle) {
     Value* const value = values(bundle);
+    const Complex* const columns = column(bundle * kTogether);
     for (Index y = 0; y < n_; ++y) {
       for (Index i = 0; i < kTogether; ++i) {
-        Lanes::set(value[y].r, i, column(i)[y].real());
-        Lanes::set(value[y].i, i, column(i)[y].imag());
+        Lanes::set(value[y].r, i, columns[i * n_ + y].real());
+        Lanes::set(value[y].i, i, columns[i * n_ + y].imag());
       }
     }
   }
-  Complex* column(Index x) { return columns_.data() + x % kTogether * n_; }
+  Complex* column(Index x) { return columns_.data() + x * n_; }
 
  private:
   using Lanes = VectorOf<Real>;
@@ -287,6 +295,12 @@ class ColumnBlock {
 
   Index n_bundles() const { return (n_columns_ + kTogether - 1) / kTogether; }
   Value* values(Index bundle) { return values_.data() + bundle * stride_; }
+  void make_columns() {
+    if (columns_.data() != nullptr) return;
+    const Index n = n_ * n_bundles() * kTogether;
+    columns_ = Buffer<Complex, Real>(n);
+    std::fill_n(columns_.data(), n, Complex(0));
+  }
   Value* scratch() { return values_.data() + n_bundles() * stride_; }
 
   static Value joined(const Complex* row, Index count) {
@@ -307,7 +321,7 @@ class ColumnBlock {
   Index n_loaded_ = 0;
   Index stride_;
   Buffer<Value, Real> values_;
-  Buffer<Complex, Real> columns_;  // of one bundle, made when it is first unpacked
+  Buffer<Complex, Real> columns_;  // one by one, made when column() is first needed
 };
 
 }  // namespace tabor::spectral

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "tabor/core/parallel.hpp"
+#include "tabor/spectral/mirrored.hpp"
 #include "tabor/spectral/transform_library.hpp"
 
 namespace tabor::spectral {
@@ -73,23 +74,72 @@ void RealFft2d<Real>::inverse(Complex* spectrum, Real* map) const {
 }
 
 template <typename Real>
-struct Convolution<Real>::State {
-  State(Index rows_count, Index columns_count, Index factor)
-      : ny(rows_count),
-        nx(columns_count),
-        rows(columns_count * factor),
-        columns(rows_count * factor),
-        spectrum(rows_count * rows.n_frequencies()) {}
-  Index ny;
-  Index nx;
-  RowTransform<Real> rows;
-  ColumnTransform<Real> columns;
-  Buffer<std::complex<Real>, Real> spectrum;
+class Convolution<Real>::State {
+ public:
+  virtual ~State() = default;
+  virtual void apply(const Real* in, const Multiplier<Real>& multiplier, Real* out) = 0;
+};
+
+/// The map with itself or with zeros beyond its borders: `factor` times its size.
+template <typename Real>
+class Convolution<Real>::Padded final : public State {
+ public:
+  Padded(Index ny, Index nx, Index factor)
+      : ny_(ny),
+        nx_(nx),
+        rows_(nx * factor),
+        columns_(ny * factor),
+        spectrum_(ny * rows_.n_frequencies()) {}
+
+  void apply(const Real* in, const Multiplier<Real>& multiplier, Real* out) override {
+    rows_forward(rows_, in, ny_, nx_, spectrum_.data());
+    const Index n = columns_.n();
+    const auto n_factors = static_cast<std::size_t>(n / 2 + 1);
+    for_each_column_bundle(
+        columns_, spectrum_.data(), ny_, rows_.n_frequencies(),
+        [&](ColumnBlock<Real>& block, Index bundle, Index kx, Index count) {
+          thread_local std::vector<Real> factors;
+          factors.resize(n_factors * static_cast<std::size_t>(ColumnBlock<Real>::kTogether));
+          for (Index i = 0; i < count; ++i) {
+            multiplier(kx + i,
+                       {factors.data() + static_cast<std::size_t>(i) * n_factors, n_factors});
+          }
+          block.forward(bundle);
+          block.multiply(bundle, factors.data());
+          block.inverse(bundle);
+        });
+    const Real scale = Real(1) / static_cast<Real>(n * rows_.n());
+    rows_inverse(rows_, spectrum_.data(), ny_, nx_, scale, out);
+  }
+
+ private:
+  Index ny_;
+  Index nx_;
+  RowTransform<Real> rows_;
+  ColumnTransform<Real> columns_;
+  Buffer<std::complex<Real>, Real> spectrum_;
 };
 
 template <typename Real>
-Convolution<Real>::Convolution(Index ny, Index nx, Padding padding)
-    : state_(std::make_unique<State>(ny, nx, padding == Padding::zero ? 2 : 1)) {}
+class Convolution<Real>::Mirrored final : public State {
+ public:
+  Mirrored(Index ny, Index nx) : convolution_(ny, nx) {}
+  void apply(const Real* in, const Multiplier<Real>& multiplier, Real* out) override {
+    convolution_.apply(in, multiplier, out);
+  }
+
+ private:
+  MirroredConvolution<Real> convolution_;
+};
+
+template <typename Real>
+Convolution<Real>::Convolution(Index ny, Index nx, Padding padding) {
+  if (padding == Padding::mirror) {
+    state_ = std::make_unique<Mirrored>(ny, nx);
+  } else {
+    state_ = std::make_unique<Padded>(ny, nx, padding == Padding::zero ? 2 : 1);
+  }
+}
 template <typename Real>
 Convolution<Real>::~Convolution() = default;
 template <typename Real>
@@ -99,24 +149,7 @@ Convolution<Real>& Convolution<Real>::operator=(Convolution&&) noexcept = defaul
 
 template <typename Real>
 void Convolution<Real>::apply(const Real* in, const Multiplier<Real>& multiplier, Real* out) {
-  State& s = *state_;
-  rows_forward(s.rows, in, s.ny, s.nx, s.spectrum.data());
-  const Index n = s.columns.n();
-  const auto n_factors = static_cast<std::size_t>(n / 2 + 1);
-  for_each_column_bundle(
-      s.columns, s.spectrum.data(), s.ny, s.rows.n_frequencies(),
-      [&](ColumnBlock<Real>& block, Index bundle, Index kx, Index count) {
-        thread_local std::vector<Real> factors;
-        factors.resize(n_factors * static_cast<std::size_t>(ColumnBlock<Real>::kTogether));
-        for (Index i = 0; i < count; ++i) {
-          multiplier(kx + i, {factors.data() + static_cast<std::size_t>(i) * n_factors, n_factors});
-        }
-        block.forward(bundle);
-        block.multiply(bundle, factors.data());
-        block.inverse(bundle);
-      });
-  const Real scale = Real(1) / static_cast<Real>(n * s.rows.n());
-  rows_inverse(s.rows, s.spectrum.data(), s.ny, s.nx, scale, out);
+  state_->apply(in, multiplier, out);
 }
 
 template class RealFft2d<float>;

@@ -23,8 +23,8 @@ Index largest_prime_factor(Index n);
 /// k / length for k <= n/2, 2 pi (k - n) / length above.
 double wavevector(Index k, Index n, double length);
 
-/// Fills values[ky], ky = 0 .. ny/2, with the factor of frequency (kx, ky); the factor of (kx, -ky)
-/// is the same. Called from several threads.
+/// Fills values[ky], ky = 0, 1, ... up to ny/2, with the factor of frequency (kx, ky); the factor
+/// of (kx, -ky) is the same. Called from several threads.
 template <typename Real>
 using Multiplier = std::function<void(Index kx, std::span<Real> values)>;
 
@@ -57,15 +57,18 @@ class RealFft2d {
   std::unique_ptr<Plans> plans_;
 };
 
+/// What lies beyond a map that is convolved.
+enum class Padding { none, zero, mirror };  // none: the map repeats
+
 /// Convolves maps by a real, ky-symmetric spectral multiplier, in one sweep over the columns: out =
-/// F^-1 [ multiplier F [in] ]. With padding, the map is the top left (ny, nx) corner of a zero map
-/// of shape (2 ny, 2 nx), of which the same corner is returned: a non-periodic convolution. Scratch
-/// memory is (nx/2 + 1) * ny complex values (twice that with padding).
+/// F^-1 [ multiplier F [in] ]. Padded with zeros, the map is the top left (ny, nx) corner of a zero
+/// map of shape (2 ny, 2 nx), of which the same corner is returned: a non-periodic convolution.
+/// Padded with mirror images, it is the corner of 2 x 2 of them instead, of whose spectrum the
+/// multiplier is asked for 0 <= kx < nx, 0 <= ky < ny. Scratch memory is (nx/2 + 1) * ny complex
+/// values (twice that with zeros).
 template <typename Real>
 class Convolution {
  public:
-  enum class Padding { none, zero };
-
   Convolution(Index ny, Index nx, Padding padding = Padding::none);
   ~Convolution();
   Convolution(Convolution&&) noexcept;
@@ -76,7 +79,9 @@ class Convolution {
   void apply(const Real* in, const Multiplier<Real>& multiplier, Real* out);
 
  private:
-  struct State;
+  class State;
+  class Padded;
+  class Mirrored;
   std::unique_ptr<State> state_;
 };
 

@@ -203,6 +203,9 @@ class ColumnBlock {
     }
   }
 
+  /// Begins columns whose values come from column() and pack() alone.
+  void begin_whole() { n_loaded_ = transform_->n(); }
+
   /// Transforms a bundle; values that were not loaded are zero.
   void forward(Index bundle) {
     std::fill(column(bundle) + n_loaded_, column(bundle) + transform_->n(), Complex(0));
